@@ -1,0 +1,46 @@
+# Everything a machine needs beyond Python 3.11 and make is installed from PyPI into .venv by these targets.
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+READY := $(VENV)/.ready
+PYTEST := $(BIN)/python -m pytest -q
+
+.PHONY: demo test check check-full format lint types bench clean
+
+$(READY): pyproject.toml
+	$(PYTHON) -c 'import sys; sys.exit("gearlink needs Python 3.11 or newer" if sys.version_info < (3, 11) else 0)'
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
+	mkdir -p .types/gearlink
+	ln -sfn ../../core .types/gearlink/core
+	ln -sfn ../../cli .types/gearlink/cli
+	ln -sfn ../../designs .types/gearlink/designs
+	touch $(READY)
+
+demo: $(READY)
+	$(BIN)/gearlink synth dwell designs/candy_feed.yaml
+	$(BIN)/gearlink cam designs/ty460.yaml --plot
+
+test: $(READY)
+	$(PYTEST)
+	$(PYTEST) --doctest-modules --pyargs gearlink.core
+
+check: lint types test
+
+check-full: lint types $(READY)
+	$(PYTEST) -m 'slow or not slow'
+	$(PYTEST) --doctest-modules --pyargs gearlink.core
+
+lint: $(READY)
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+
+types: $(READY)
+	$(BIN)/mypy
+
+format: $(READY)
+	$(BIN)/ruff format .
+	$(BIN)/ruff check --fix .
+
+clean:
+	rm -rf $(VENV) .types build *.egg-info .pytest_cache .mypy_cache .ruff_cache .hypothesis

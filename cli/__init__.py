@@ -1,0 +1,1 @@
+"""The command line: reading of design files, commands, renderers, plots."""

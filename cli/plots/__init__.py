@@ -1,0 +1,1 @@
+"""One figure module per kind of design."""

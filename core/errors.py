@@ -1,0 +1,34 @@
+"""The exceptions of gearlink: everything the program raises on purpose is a GearlinkError."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+
+class GearlinkError(Exception):
+    """Base of every error that is the user's to mend."""
+
+
+class NoSolution(GearlinkError):
+    """No mechanism exists for the given numbers.
+
+    `message` names the value, the limit and the remedy. `key` is the dotted path of the design file's key to
+    change; kernels, which know no design files, leave it empty and the design class adds it with `at_key`.
+    """
+
+    def __init__(self, message: str, *, key: str = "") -> None:
+        super().__init__(message)
+        self.message = message
+        self.key = key
+
+
+@contextmanager
+def at_key(key: str) -> Iterator[None]:
+    """Give a NoSolution raised inside the block the design file's key, where it has none yet."""
+    try:
+        yield
+    except NoSolution as error:
+        if not error.key:
+            error.key = key
+        raise

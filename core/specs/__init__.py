@@ -1,0 +1,1 @@
+"""The input of each kind of design as a strict, frozen model."""

@@ -1,0 +1,1 @@
+"""Worked designs, one file each; also the templates of `gearlink new`."""
