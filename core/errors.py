@@ -17,10 +17,18 @@ class NoSolution(GearlinkError):
     change; kernels, which know no design files, leave it empty and the design class adds it with `at_key`.
     """
 
+    code = "GL112"
+
     def __init__(self, message: str, *, key: str = "") -> None:
         super().__init__(message)
         self.message = message
         self.key = key
+
+
+class MissingSection(NoSolution):
+    """The command needs a section that the design file does not have."""
+
+    code = "GL113"
 
 
 @contextmanager

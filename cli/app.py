@@ -1,0 +1,138 @@
+"""The command tree. Each command imports what it runs when it runs."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from gearlink.cli.exit_codes import ExitCode
+from gearlink.cli.options import Format, Options, PlotFormat
+
+_HELP = """Design calculator for the mechanisms of printing machines.
+
+A design is a YAML file; `gearlink analyze FILE` says all there is to say of it.
+Exit status: 0 all checks pass, 1 a check fails, 2 the input is wrong or no such mechanism exists, 3 a fault.
+"""
+
+app = typer.Typer(
+    help=_HELP, no_args_is_help=True, pretty_exceptions_enable=False, rich_markup_mode=None, name="gearlink"
+)
+synth = typer.Typer(
+    help="Size a three-gear four-bar for an output motion.", no_args_is_help=True, rich_markup_mode=None
+)
+app.add_typer(synth, name="synth")
+
+Spec = Annotated[str, typer.Argument(metavar="SPEC", help="design file, or - for standard input")]
+FormatOption = Annotated[Format, typer.Option("--format", "-f", help="how results are printed")]
+PlotOption = Annotated[bool, typer.Option("--plot", help="write NAME-COMMAND.png")]
+PlotFormatOption = Annotated[PlotFormat, typer.Option("--plot-format", help="kind of picture")]
+OutOption = Annotated[Path, typer.Option("--out", metavar="DIR", help="folder for files that are written")]
+SetOption = Annotated[list[str], typer.Option("--set", metavar="PATH=VALUE", help="override a key (repeatable)")]
+QuantityOption = Annotated[list[str], typer.Option("--quantity", metavar="NAME", help="print this alone (repeatable)")]
+TableOption = Annotated[list[str], typer.Option("--table", metavar="NAME", help="add a table (repeatable)")]
+SamplesOption = Annotated[int | None, typer.Option("--samples", min=2, max=10_000_000, help="rows per turn or stroke")]
+StrictOption = Annotated[bool, typer.Option("--strict", help="a warning counts as a failure")]
+NoColorOption = Annotated[bool, typer.Option("--no-color", help="no colours, as with NO_COLOR=1")]
+QuietOption = Annotated[bool, typer.Option("--quiet", "-q", help="no talk on standard error")]
+
+
+def _design_command(command: str, words: str) -> Callable[..., None]:
+    """A Typer command that runs `command` on one design file."""
+
+    def run(
+        spec: Spec,
+        format: FormatOption = Format.TABLE,
+        plot: PlotOption = False,
+        plot_format: PlotFormatOption = PlotFormat.PNG,
+        out: OutOption = Path(),
+        set_: SetOption = [],  # noqa: B006 - Typer copies it
+        quantity: QuantityOption = [],  # noqa: B006
+        table: TableOption = [],  # noqa: B006
+        samples: SamplesOption = None,
+        strict: StrictOption = False,
+        no_color: NoColorOption = False,
+        quiet: QuietOption = False,
+    ) -> None:
+        from gearlink.cli.run import run_design
+
+        options = Options(
+            format=format,
+            plot=plot,
+            plot_format=plot_format,
+            out=out,
+            overrides=tuple(set_),
+            quantities=tuple(quantity),
+            tables=tuple(table),
+            samples=samples,
+            strict=strict,
+            color=not no_color,
+            quiet=quiet,
+        )
+        raise typer.Exit(run_design(command, spec, options))
+
+    run.__doc__ = f"{words}\n\nExample: gearlink {command} design.yaml --format json"
+    return run
+
+
+_DESIGN_COMMANDS = {
+    "analyze": "Full analysis of a design: kinematics over a turn, dwells, all checks.",
+    "gear": "Gear pairs: a gear-pair design, or the pairs inside a press or a gear-linkage.",
+    "crank": "Crank length from the stroke of a slider-crank.",
+    "press": "Flatbed press: both chains, 12 positions, velocities, synchronous zone.",
+    "cam": "The cams of a design: follower motion, profiles, pressure angle, curvature.",
+}
+_SYNTH_COMMANDS = {
+    "dwell": "Size the linkage for a dwell over a given crank angle.",
+    "back-step": "Size the linkage for a back-step.",
+    "variable-speed": "Size the linkage for an output speed that swings between two values.",
+    "momentary-dwell": "Size the frame for one momentary standstill per turn.",
+}
+for _name, _words in _DESIGN_COMMANDS.items():
+    app.command(_name)(_design_command(_name, _words))
+for _name, _words in _SYNTH_COMMANDS.items():
+    synth.command(_name)(_design_command(f"synth {_name}", _words))
+
+
+@app.callback(invoke_without_command=True)
+def _root(
+    version: Annotated[bool, typer.Option("--version", "-V", help="show the version and leave")] = False,
+) -> None:
+    if version:
+        from gearlink.core.version import VERSION
+
+        typer.echo(f"gearlink {VERSION}")
+        raise typer.Exit
+
+
+def invoke(arguments: list[str]) -> int:
+    """Run the command line and give its exit status."""
+    try:
+        status = app(args=arguments, standalone_mode=False)
+    except typer.Exit as end:
+        return int(end.exit_code)
+    except typer.Abort:
+        return ExitCode.INTERRUPTED
+    except typer.TyperException as wrong:
+        return _usage_error(wrong, arguments)
+    return int(status or 0)
+
+
+def _usage_error(wrong: typer.TyperException, arguments: list[str]) -> int:
+    if not _wants_json(arguments):
+        wrong.show(file=sys.stderr)
+        return ExitCode.WRONG_INPUT
+    from gearlink.cli.diagnostics import Diagnostic
+    from gearlink.cli.render.errors import errors_as_json
+
+    message = wrong.format_message()
+    print(errors_as_json([Diagnostic("GL115", message, file="<command line>", line=1, column=1, key="")]))
+    return ExitCode.WRONG_INPUT
+
+
+def _wants_json(arguments: list[str]) -> bool:
+    following = dict(zip(arguments, [*arguments[1:], ""], strict=True))
+    return "--format=json" in arguments or "json" in (following.get("--format"), following.get("-f"))

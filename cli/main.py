@@ -1,0 +1,61 @@
+"""The entry point: the quick answers, the mapping of every end to an exit status."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+from gearlink.cli.exit_codes import ExitCode
+
+
+def main() -> None:
+    """Run gearlink on the process's arguments and leave with its exit status."""
+    arguments = sys.argv[1:]
+    if arguments in (["--version"], ["-V"]):
+        from gearlink.core.version import VERSION
+
+        print(f"gearlink {VERSION}")
+        return
+    sys.exit(run(arguments))
+
+
+def run(arguments: list[str]) -> int:
+    """Exit status of a command line; every way out is mapped here, and none shows a traceback."""
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="replace")
+    try:
+        from gearlink.cli.app import invoke
+
+        status = invoke(arguments)
+        sys.stdout.flush()
+        return status
+    except KeyboardInterrupt:
+        print("interrupted", file=sys.stderr)
+        return ExitCode.INTERRUPTED
+    except BrokenPipeError:
+        # The reader had enough. Point stdout elsewhere so that the interpreter's last flush finds it open.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return ExitCode.OK
+    except Exception as fault:
+        return _fault(fault)
+
+
+def _fault(fault: Exception) -> int:
+    if isinstance(fault, OSError):
+        print(f"error: {fault.strerror or fault}", file=sys.stderr)
+        return ExitCode.WRONG_INPUT
+    if os.environ.get("GEARLINK_TRACEBACK"):
+        import traceback
+
+        traceback.print_exception(fault)
+    print(
+        f"gearlink: fault of the program: {type(fault).__name__}: {fault}\n"
+        "  Please report it with the design file; GEARLINK_TRACEBACK=1 shows where it arose.",
+        file=sys.stderr,
+    )
+    return ExitCode.FAULT
+
+
+if __name__ == "__main__":
+    main()

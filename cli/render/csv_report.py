@@ -1,0 +1,42 @@
+"""Reports as CSV at full precision: one block per part, blocks separated by an empty line."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterable, Iterator
+
+from gearlink.core.report import Report
+
+
+def as_csv(report: Report) -> str:
+    """The report as CSV: quantities, checks and tables, each with its own header row."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    for number, block in enumerate(_blocks(report)):
+        if number:
+            text.write("\n")
+        writer.writerows(block)
+    return text.getvalue()
+
+
+def _blocks(report: Report) -> Iterator[Iterable[Iterable[object]]]:
+    if report.quantities:
+        yield [
+            ("quantity", "symbol", "unit", "value"),
+            *(
+                (q.name, q.symbol, q.unit, *(q.value if isinstance(q.value, list) else [q.value]))
+                for q in report.quantities
+            ),
+        ]
+    if report.checks:
+        yield [
+            ("code", "check", "status", "value", "limit", "unit", "message"),
+            *((c.code, c.name, c.status, c.value, c.limit, c.unit, c.message) for c in report.checks),
+        ]
+    for table in report.tables:
+        heads = [
+            f"{column} [{unit}]" if unit != "1" else column
+            for column, unit in zip(table.columns, table.units, strict=True)
+        ]
+        yield [heads, *table.rows()]

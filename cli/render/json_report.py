@@ -1,0 +1,42 @@
+"""Reports as JSON: shortest round-trip doubles, in the units of the design files."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from gearlink.core.report import Report
+
+FORMAT = 1
+
+
+def as_plain(report: Report) -> dict[str, Any]:
+    """The report as plain dictionaries and lists."""
+    return {
+        "gearlink": FORMAT,
+        "kind": report.kind,
+        "name": report.name,
+        "command": report.command,
+        "ok": report.ok,
+        "quantities": {q.name: {"value": q.value, "unit": q.unit, "symbol": q.symbol} for q in report.quantities},
+        "checks": [
+            {
+                "code": c.code,
+                "name": c.name,
+                "status": c.status,
+                "value": c.value,
+                "limit": c.limit,
+                "unit": c.unit,
+                "message": c.message,
+            }
+            for c in report.checks
+        ],
+        "tables": {
+            t.name: {"columns": list(t.columns), "units": list(t.units), "rows": t.rows()} for t in report.tables
+        },
+    }
+
+
+def as_json(report: Report) -> str:
+    """The report as JSON text."""
+    return json.dumps(as_plain(report), ensure_ascii=False, allow_nan=False)

@@ -1,0 +1,35 @@
+"""Reports as Markdown at full precision."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from gearlink.core.report import Report
+
+
+def as_markdown(report: Report) -> str:
+    """The report as Markdown: a heading, then quantities, checks and tables."""
+    parts = [f"# {report.name}: {report.command}"]
+    if report.quantities:
+        rows = [(f"`{q.name}`", q.symbol, text_of(q.value), q.unit, q.words) for q in report.quantities]
+        parts.append(_table(("quantity", "symbol", "value", "unit", "meaning"), rows))
+    if report.checks:
+        checks = [(c.status, c.code, c.name, c.message) for c in report.checks]
+        parts.append(_table(("status", "code", "check", "finding"), checks))
+    for table in report.tables:
+        heads = [f"{column} [{unit}]" for column, unit in zip(table.columns, table.units, strict=True)]
+        parts.append(f"## {table.name}\n\n" + _table(heads, ([text_of(item) for item in row] for row in table.rows())))
+    return "\n\n".join(parts)
+
+
+def text_of(value: object) -> str:
+    """A value at full precision; the members of a pair or list side by side."""
+    if isinstance(value, list):
+        return " ".join(text_of(item) for item in value)
+    return "" if value is None else repr(value) if isinstance(value, float) else str(value)
+
+
+def _table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    lines = ["| " + " | ".join(heads) + " |", "|" + " --- |" * len(heads)]
+    lines += ["| " + " | ".join(cell.replace("|", "\\|") for cell in row) + " |" for row in rows]
+    return "\n".join(lines)

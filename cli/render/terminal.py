@@ -1,0 +1,136 @@
+"""Reports on the terminal: values to seven digits, tables thinned and folded so that they fit the width."""
+
+from __future__ import annotations
+
+import math
+import sys
+from collections.abc import Sequence
+
+from rich import box
+from rich.console import Console
+from rich.table import Table as Grid
+from rich.text import Text
+
+from gearlink.cli.options import Options
+from gearlink.core.report import Check, Quantity, Report, Table
+
+_MOST_ROWS = 40
+_STYLE = {"pass": "green", "warn": "yellow", "fail": "bold red"}
+_WIDE = 110
+
+
+def show(report: Report, options: Options) -> None:
+    """Print a report: heading, quantities, tables, checks, verdict."""
+    console = _console(options)
+    console.print(Text(f"{report.name}: {report.command} ({report.kind})", style="bold"))
+    if report.quantities:
+        console.print(_quantities(report.quantities, console))
+    for table in report.tables:
+        _show_table(table, console)
+    if report.checks:
+        console.print(_checks(report.checks, console))
+    counts = {status: sum(c.status == status for c in report.checks) for status in ("fail", "warn", "pass")}
+    if report.checks:
+        verdict = ", ".join(f"{n} {status}" for status, n in counts.items() if n)
+        console.print(Text(f"checks: {verdict}", style=_STYLE[next(s for s, n in counts.items() if n)]))
+
+
+def _console(options: Options) -> Console:
+    # color_system=None also drops the bold codes, which NO_COLOR alone leaves in.
+    plain = not options.color or not sys.stdout.isatty() or "NO_COLOR" in _environment()
+    return Console(
+        file=sys.stdout,
+        color_system=None if plain else "auto",
+        highlight=False,
+        markup=False,
+        emoji=False,
+        soft_wrap=False,
+    )
+
+
+def _environment() -> dict[str, str]:
+    import os
+
+    return dict(os.environ)
+
+
+def _grid(console: Console) -> Grid:
+    ascii_only = not (console.encoding or "").lower().startswith("utf")
+    return Grid(box=box.ASCII2 if ascii_only else box.SIMPLE_HEAD, show_edge=False, pad_edge=False, safe_box=ascii_only)
+
+
+def number(value: object, digits: int = 7) -> str:
+    """A value to a few digits, as an engineer reads it.
+
+    Example
+        >>> number(38.85708906143053), number(40), number(None), number([1.0, 2.5])
+        ('38.85709', '40', '-', '1 2.5')
+    """
+    if value is None:
+        return "-"
+    if isinstance(value, list):
+        return " ".join(number(item, digits) for item in value)
+    if isinstance(value, float):
+        return f"{value:.{digits}g}" if abs(value) >= 1e-12 or value == 0 else f"{value:.1e}"
+    return str(value)
+
+
+def _quantities(quantities: Sequence[Quantity], console: Console) -> Grid:
+    grid = _grid(console)
+    wide = console.width >= _WIDE
+    for head in ("quantity", "symbol", "value", "unit", *(["meaning"] if wide else [])):
+        grid.add_column(
+            head, justify="right" if head == "value" else "left", overflow="fold", no_wrap=head == "quantity"
+        )
+    for q in quantities:
+        unit = "" if q.unit == "1" else q.unit
+        grid.add_row(q.name, q.symbol, number(q.value), unit, *([q.words] if wide else []))
+    return grid
+
+
+def _checks(checks: Sequence[Check], console: Console) -> Grid:
+    grid = _grid(console)
+    grid.add_column("check", no_wrap=True)
+    grid.add_column("code", no_wrap=True)
+    grid.add_column("status", no_wrap=True)
+    grid.add_column("finding", overflow="fold")
+    for c in sorted(checks, key=lambda check: list(_STYLE)[::-1].index(check.status)):
+        grid.add_row(c.name, c.code, Text(c.status, style=_STYLE[c.status]), c.message)
+    return grid
+
+
+def _show_table(table: Table, console: Console) -> None:
+    rows = table.rows()
+    step = max(1, math.ceil(len(rows) / _MOST_ROWS))
+    if step > 1:
+        step = next((s for s in (2, 5, 10, 15, 30) if s >= step), step)
+    cells = [[number(item, 6) for item in row] for row in rows[::step]]
+    thinned = f", every {step}th of {len(rows)} rows (all with --table {table.name} --format csv)" if step > 1 else ""
+    console.print(Text(f"\n{table.name}{thinned}", style="bold"))
+    for columns in _folds(table, cells, console.width):
+        grid = _grid(console)
+        for i in columns:
+            unit = "" if table.units[i] == "1" else f"\n{table.units[i]}"
+            grid.add_column(
+                table.columns[i].replace("_", "\n") + unit, justify="right", no_wrap=True, vertical="bottom"
+            )
+        for row in cells:
+            grid.add_row(*(row[i] for i in columns))
+        console.print(grid)
+
+
+def _folds(table: Table, cells: Sequence[Sequence[str]], width: int) -> list[list[int]]:
+    """Groups of columns that fit the width; the first column opens each group."""
+    need = [
+        max(len(part) for part in [*head.split("_"), unit, *(row[i] for row in cells)]) + 3
+        for i, (head, unit) in enumerate(zip(table.columns, table.units, strict=True))
+    ]
+    folds: list[list[int]] = [[0]]
+    used = need[0]
+    for i in range(1, len(need)):
+        if used + need[i] > width and len(folds[-1]) > 1:
+            folds.append([0])
+            used = need[0]
+        folds[-1].append(i)
+        used += need[i]
+    return folds

@@ -1,0 +1,128 @@
+"""One command on one design file: read, build the design, report, render, plot."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from difflib import get_close_matches
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from gearlink.cli.design_file import DesignFileError, LoadedFile, diagnose_no_solution, load, read_kind, validate
+from gearlink.cli.diagnostics import Diagnostic
+from gearlink.cli.exit_codes import ExitCode
+from gearlink.cli.files import CannotWrite
+from gearlink.cli.options import Format, Options
+from gearlink.cli.render.errors import show_errors
+from gearlink.core.design import UnknownName
+from gearlink.core.errors import NoSolution
+from gearlink.core.kinds import KINDS, Kind
+
+if TYPE_CHECKING:
+    from gearlink.core.design import Design
+    from gearlink.core.report import Report
+
+
+def run_design(command: str, source: str, options: Options) -> int:
+    """Run `command` on the design file `source`, print the result, and give the exit status."""
+    try:
+        design, report = evaluate(command, source, options)
+        if options.plot:
+            _plot(command, design, options)
+    except DesignFileError as error:
+        show_errors(error.diagnostics, options)
+        return ExitCode.WRONG_INPUT
+    except CannotWrite as error:
+        show_errors([Diagnostic("GL116", str(error), file=source, line=1, column=1, key="")], options)
+        return ExitCode.WRONG_INPUT
+    _print(report, options)
+    return exit_status(report, strict=options.strict)
+
+
+def evaluate(command: str, source: str, options: Options) -> tuple[Design, Report]:
+    """The design of a file and the report of a command on it.
+
+    Raises
+        DesignFileError - for everything that is wrong with the file, the command for it, or the mechanism
+    """
+    loaded = load(source, overrides=options.overrides)
+    kind = KINDS[read_kind(loaded, tuple(KINDS))]
+    require_command(loaded, kind, command)
+    spec = named(validate(loaded, kind.spec_model()), source)
+    return build(loaded, kind, command, spec, options)
+
+
+def build(loaded: LoadedFile, kind: Kind, command: str, spec: object, options: Options) -> tuple[Design, Report]:
+    """The design of a validated spec and its report; what the mechanism refuses becomes a located error."""
+    only = bool(options.tables) and options.format is Format.CSV
+    try:
+        design = kind.design(command, spec, options.samples)
+        report = design.report(command, quantities=options.quantities, tables=options.tables, only=only)
+    except NoSolution as error:
+        raise DesignFileError([diagnose_no_solution(loaded, error)]) from error
+    except UnknownName as error:
+        raise DesignFileError([_unknown_name(error)]) from error
+    return design, report
+
+
+def named(spec: object, source: str) -> object:
+    """The spec with the file's stem for a name where the file gives none."""
+    if "name" in spec.model_fields_set or source == "-":  # type: ignore[attr-defined]
+        return spec
+    return spec.model_copy(update={"name": Path(source).stem})  # type: ignore[attr-defined]
+
+
+def require_command(loaded: LoadedFile, kind: Kind, command: str) -> None:
+    """Refuse a command that this kind of design does not understand.
+
+    Raises
+        DesignFileError - naming the commands that it does understand
+    """
+    if command in kind.commands:
+        return
+    line, column, file = loaded.locate(("kind",))
+    message = f"`{command}` does not apply to a {kind.name}; this kind understands: {', '.join(kind.commands)}"
+    raise DesignFileError([Diagnostic("GL113", message, file=file, line=line, column=column, key="kind")])
+
+
+def exit_status(report: Report, *, strict: bool = False) -> int:
+    """0 where all checks pass, 1 where one fails (with `strict`, also where one warns)."""
+    bad = {"fail", "warn"} if strict else {"fail"}
+    return ExitCode.FINDING if any(check.status in bad for check in report.checks) else ExitCode.OK
+
+
+def _unknown_name(error: UnknownName) -> Diagnostic:
+    near: Sequence[str] = get_close_matches(error.name, error.known, n=3, cutoff=0.5)
+    remedy = f"nearest: {', '.join(near)}" if near else f"known: {', '.join(error.known)}"
+    return Diagnostic("GL115", str(error), file=f"<--{error.what}>", line=1, column=1, key=error.name, help=remedy)
+
+
+def _plot(command: str, design: Design, options: Options) -> None:
+    from gearlink.cli.plots.write import write_plot
+
+    path = write_plot(command, design, options)
+    if not options.quiet:
+        print(f"wrote {path}", file=sys.stderr)
+
+
+def _print(report: Report, options: Options) -> None:
+    if options.format is Format.JSON:
+        from gearlink.cli.render.json_report import as_json
+
+        print(as_json(report))
+    elif options.format is Format.CSV:
+        from gearlink.cli.render.csv_report import as_csv
+
+        sys.stdout.write(as_csv(report))
+    elif options.format is Format.MARKDOWN:
+        from gearlink.cli.render.markdown_report import as_markdown
+
+        print(as_markdown(report))
+    elif options.quantities:
+        from gearlink.cli.render.plain import as_lines
+
+        print(as_lines(report))
+    else:
+        from gearlink.cli.render.terminal import show
+
+        show(report, options)

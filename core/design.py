@@ -1,0 +1,120 @@
+"""What every kind of design shares: results by name, computed when asked for and never twice.
+
+A design's results are `functools.cached_property`s written in terms of each other, in mm and radians; the names
+are those of `gearlink.core.nomenclature`. Asking for one computes what it needs and nothing else. A design holds
+no other state, so there is no order in which things must be called.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+from gearlink.core.errors import GearlinkError
+from gearlink.core.nomenclature import term
+from gearlink.core.report import Check, Quantity, Report, Table, Value
+
+
+@dataclass(frozen=True, slots=True)
+class Outline:
+    """What a command shows of a design: names of quantities, checks and tables."""
+
+    quantities: tuple[str, ...] = ()
+    checks: tuple[str, ...] = ()
+    tables: tuple[str, ...] = ()
+
+
+class UnknownName(GearlinkError):
+    """A quantity or table was asked for that this design does not have."""
+
+    def __init__(self, what: str, name: str, known: Sequence[str]) -> None:
+        super().__init__(f"this design has no {what} named {name!r}")
+        self.what, self.name, self.known = what, name, tuple(known)
+
+
+class Design:
+    """Base of the design classes: `outlines` says what each command shows, `extra_tables` what can be added."""
+
+    kind: ClassVar[str]
+    outlines: ClassVar[dict[str, Outline]]
+    extra_tables: ClassVar[tuple[str, ...]] = ()
+
+    def __init__(self, spec: Any, samples: int | None = None) -> None:
+        self.spec = spec
+        self.samples = samples
+
+    def outline(self, command: str) -> Outline:
+        """The outline of a command."""
+        return self.outlines[command]
+
+    def quantity_names(self) -> tuple[str, ...]:
+        """Every quantity that any command shows, each once."""
+        return tuple(dict.fromkeys(name for command in self.outlines for name in self.outline(command).quantities))
+
+    def table_names(self) -> tuple[str, ...]:
+        """Every table that any command shows or that can be asked for."""
+        shown = [name for command in self.outlines for name in self.outline(command).tables]
+        return tuple(dict.fromkeys([*shown, *self.extra_tables]))
+
+    def raw(self, name: str) -> Any:
+        """The value of a quantity in mm and radians, or None where it does not apply."""
+        return getattr(self, name)
+
+    def quantity(self, name: str) -> Quantity | None:
+        """A quantity in the units of the design files; None where it does not apply to this design."""
+        if name not in self.quantity_names():
+            raise UnknownName("quantity", name, self.quantity_names())
+        value = self.raw(name)
+        if value is None:
+            return None
+        entry = term(name)
+        return Quantity(name, _in_unit(value, entry.unit), entry.unit, entry.symbol, entry.words)
+
+    def table(self, name: str) -> Table:
+        """A table by name, in the units of the design files."""
+        if name not in self.table_names():
+            raise UnknownName("table", name, self.table_names())
+        table: Table = getattr(self, f"table_{name}")()
+        return table
+
+    def check(self, name: str) -> list[Check]:
+        """The findings of a check by name; a check that does not apply to this design gives none."""
+        found: Check | Iterable[Check] = getattr(self, "check_" + name.replace("-", "_"))()
+        return [found] if isinstance(found, Check) else list(found)
+
+    def report(
+        self, command: str, *, quantities: Sequence[str] = (), tables: Sequence[str] = (), only: bool = False
+    ) -> Report:
+        """The report of a command.
+
+        Parameters
+            command : str - "synth dwell", "press", ...
+            quantities : names - give these alone, without checks and tables of the command
+            tables : names - tables to give besides those of the command
+            only : bool - give the named tables alone
+        Raises
+            UnknownName - for a name that the design does not have
+            NoSolution - where no mechanism exists
+        """
+        outline = Outline(tuple(quantities)) if quantities or only else self.outline(command)
+        asked = dict.fromkeys([*outline.tables, *tables])
+        found = [self.quantity(name) for name in outline.quantities]
+        return Report(
+            kind=self.kind,
+            name=self.spec.name,
+            command=command,
+            quantities=tuple(quantity for quantity in found if quantity is not None),
+            checks=tuple(check for name in outline.checks for check in self.check(name)),
+            tables=tuple(self.table(name) for name in asked),
+        )
+
+
+def _in_unit(value: Any, unit: str) -> Value:
+    """Radians to degrees where the unit asks for it; pairs and lists become lists."""
+    if isinstance(value, (list, tuple)):
+        return [_in_unit(item, unit) for item in value]  # type: ignore[misc]
+    if unit == "deg":
+        return math.degrees(value)
+    return value  # type: ignore[no-any-return]

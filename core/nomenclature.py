@@ -1,0 +1,145 @@
+"""The words of gearlink: every quantity's symbol, unit, meaning and source; law for code, tables and documents.
+
+Units are those of the design files; inside the engine an angle is in radians. Names follow ISO 21771 (gears) and
+VDI 2142/2143 (laws of motion, cams).
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from gearlink.core.errors import GearlinkError
+
+
+class Term(NamedTuple):
+    """Symbol, unit, meaning and source of a quantity."""
+
+    symbol: str
+    unit: str
+    words: str
+    source: str = ""
+
+
+_GEAR_LINKAGE = {
+    "i3": Term("i3", "1", "ratio of idler and output gear, -z3/z5", "thesis 4.1"),
+    "crank_teeth": Term("z1", "1", "teeth of the gear fixed to the crank"),
+    "idler_teeth": Term("z3", "1", "teeth of the idler"),
+    "output_teeth": Term("z5", "1", "teeth of the output gear"),
+    "frame_ratio": Term("d", "1", "frame length over crank length", "thesis (4-18), (4-20)"),
+    "crank_length": Term("l1", "mm", "crank"),
+    "coupler_length": Term("l2", "mm", "coupler, the centre distance of crank gear and idler"),
+    "rocker_length": Term("l3", "mm", "rocker, the centre distance of idler and output gear"),
+    "frame_length": Term("l4", "mm", "frame", "own closed form in place of thesis (4-26)..(4-33)"),
+    "mean_ratio": Term("I", "1", "net output turns per input turn", "thesis (4-1)"),
+    "speed_ratio_max": Term("(w5/w1)max", "1", "greatest output speed per input speed", "thesis (4-13)"),
+    "speed_ratio_min": Term("(w5/w1)min", "1", "least output speed per input speed", "thesis (4-13)"),
+    "motion": Term("", "1", "kind of output motion", "thesis 4.2.1"),
+    "dwell_crank_angles": Term("phi(1), phi(2)", "deg", "crank angles of zero output speed", "thesis (4-14)"),
+    "back_step_angle": Term("phi5(1)-phi5(2)", "deg", "back-step of the output", "thesis (4-16), (4-19)"),
+    "back_step_crank_angle": Term("phi12", "deg", "crank angle of the back-step", "thesis (4-15)"),
+    "dwell_angle": Term("phi13", "deg", "crank angle until the output regains its place", "own derivation"),
+    "dwell_angle_approximate": Term("1.5 phi12", "deg", "the thesis's approximation of phi13", "thesis (4-17)"),
+    "min_transmission_angle": Term("mu_min", "deg", "least transmission angle over the turn", "VDI 2142"),
+    "gear_gap": Term("s15", "mm", "tips of gears 1 and 5 at the closest", "own derivation"),
+    "nonuniformity": Term("delta", "1", "(max - min)/mean of the speed ratio", "thesis (4-20)"),
+    "tolerance_dwell_angle": Term("phi_tol", "deg", "longest crank angle with the output within +- the tolerance"),
+    "tolerance_dwell_start": Term("phi_L", "deg", "crank angle at which that interval starts"),
+    "acceleration_ratio_max": Term("(e5/w1^2)max", "1", "greatest output acceleration", "thesis (4-25)"),
+    "acceleration_ratio_min": Term("(e5/w1^2)min", "1", "least output acceleration", "thesis (4-25)"),
+}
+
+_GEAR_PAIR = {
+    "working_pressure_angle": Term("alpha_wt", "deg", "working pressure angle", "ISO 21771"),
+    "center_distance": Term("a_w", "mm", "centre distance", "ISO 21771"),
+    "reference_center_distance": Term("a", "mm", "reference centre distance m(z1+z2)/2", "ISO 21771"),
+    "shift_sum": Term("x1+x2", "1", "sum of the profile shift coefficients", "ISO 21771"),
+    "center_distance_modification": Term("y", "1", "(a_w - a)/m", "ISO 21771"),
+    "tip_shortening": Term("k", "1", "tip shortening coefficient, shift sum - y", "ISO 21771"),
+    "contact_ratio": Term("eps_alpha", "1", "transverse contact ratio (nominal)", "ISO 21771"),
+    "profile_shift": Term("x", "1", "profile shift coefficient", "ISO 21771"),
+    "reference_radius": Term("r", "mm", "reference radius m z/2", "ISO 21771"),
+    "base_radius": Term("r_b", "mm", "base radius", "ISO 21771"),
+    "working_radius": Term("r_w", "mm", "working pitch radius r_b/cos(alpha_wt)", "ISO 21771"),
+    "tip_radius": Term("r_a", "mm", "tip radius", "ISO 21771"),
+    "root_radius": Term("r_f", "mm", "root radius", "ISO 21771"),
+    "tooth_thickness": Term("s", "mm", "tooth thickness on the reference circle", "ISO 21771"),
+    "tip_pressure_angle": Term("alpha_a", "deg", "pressure angle at the tip", "ISO 21771"),
+    "tip_thickness": Term("s_a", "mm", "tooth thickness at the tip", "ISO 21771"),
+    "min_shift_no_undercut": Term("x_min", "1", "least shift without undercut (rack tool)", "ISO 21771"),
+    "span_measurement": Term("W_k", "mm", "span measurement over k teeth", "ISO 21771"),
+    "span_teeth": Term("k", "1", "teeth spanned", "ISO 21771"),
+    "specific_sliding": Term("zeta", "1", "specific sliding at the root end of the active flank", "ISO 21771"),
+}
+
+_SLIDER_CRANK = {
+    "quick_return_ratio": Term("K", "1", "time of the forward over the return stroke", "VDI 2142"),
+    "dead_center_extended": Term("theta_e", "deg", "crank direction from the slide line, stretched: asin(e/(L+r))"),
+    "dead_center_folded": Term("theta_f", "deg", "crank direction from the slide line, folded: asin(e/(L-r))"),
+    "max_stroke": Term("S_max", "mm", "largest stroke of this rod and offset, 2 sqrt(L(L-|e|))", "own derivation"),
+}
+
+_PRESS = {
+    "initial_crank_angle": Term("phi_AB0", "deg", "direction of AB at the start position", "TY-460 report 2.2"),
+    "sync_start": Term("phi_s", "deg", "input angle at which the synchronous zone starts", "TY-460 report 3.2"),
+    "sync_end": Term("phi_e", "deg", "input angle at which the synchronous zone ends", "TY-460 report 3.2"),
+    "cam_sync_start": Term("theta_s", "deg", "cam angle at the start of the zone", "TY-460 report 3.2"),
+    "cam_sync_end": Term("theta_e", "deg", "cam angle at the end of the zone", "TY-460 report 3.2"),
+    "compensation": Term("h0", "mm", "bed displacement made good by the cam in the zone", "TY-460 report 3.3"),
+    "min_transmission_angle_bed": Term("mu_ABCD", "deg", "least transmission angle of the bed chain", "VDI 2142"),
+    "min_transmission_angle_cylinder": Term("mu_GHMN", "deg", "least transmission angle of the cylinder chain"),
+    "end_slope": Term("k1", "mm/rad", "slope of the lift at the end of the zone", "TY-460 report 3.3, mended"),
+    "transition_rise": Term("dx", "mm", "rise over the transition", "TY-460 report 3.3"),
+    "follower_stroke": Term("h", "mm", "stroke of the follower", "TY-460 report 3.3"),
+    "return_end": Term("theta_r", "deg", "cam angle at which the return ends"),
+    "roller_center_distance": Term("L_s1s2", "mm", "distance of the two roller centres", "TY-460 report 3.6"),
+}
+
+_CAM = {
+    "max_pressure_angle": Term("alpha_max", "deg", "greatest pressure angle (magnitude)", "VDI 2142"),
+    "min_curvature_radius": Term("rho_min", "mm", "least convex curvature radius of the pitch curve", "VDI 2142"),
+    "max_radius": Term("r_max", "mm", "largest radius"),
+    "min_radius": Term("r_min", "mm", "smallest radius"),
+}
+
+_GRIPPER = {
+    "handover_speed": Term("v_F", "mm/s", "gripper speed at the handover", "swing-gripper paper 2"),
+    "handover_mismatch": Term("dv", "mm/s", "gripper speed less the cylinder's surface speed"),
+    "total_swing": Term("beta_T", "deg", "total swing of the gripper arm", "swing-gripper paper 2"),
+    "lift_off_speed": Term("n*", "sheets/h", "speed at which a roller leaves its cam", "own derivation"),
+}
+
+_SWING = {
+    "energy_parameter": Term("N", "1", "energy parameter of the unloader", "wide-swing dissertation (6), (11)"),
+    "velocity_peak": Term("B", "1", "peak of the velocity invariant", "wide-swing dissertation (8), (13)"),
+    "acceleration_peak": Term("C", "1", "peak of the acceleration invariant", "wide-swing dissertation (10), (15)"),
+    "min_pivot_ratio": Term("lambda_min", "1", "least pivot ratio that lets the device turn", "dissertation (3), (4)"),
+    "force": Term("P", "N", "force of the pneumatic device", "wide-swing dissertation (6)"),
+    "spring_rate": Term("c_s", "N/mm", "rate of the spring", "wide-swing dissertation (11)"),
+    "rocker_radius": Term("r", "mm", "rocker radius to the roller", "wide-swing dissertation (18), (24)"),
+    "profile_correction": Term("xi", "deg", "angular correction of the profile at the end", "dissertation (19), (25)"),
+    "phase_angle": Term("Phi", "deg", "phase angle of the run-up on the cam", "dissertation (21), (22), (25)"),
+    "start_curvature_radius": Term("R0", "mm", "pitch curvature radius at the start", "dissertation (23), exact"),
+    "transition_zone": Term("dk", "1", "half-width of the contact change at mid-swing", "own derivation"),
+}
+
+TERMS: dict[str, Term] = {
+    **_GEAR_LINKAGE,
+    **_GEAR_PAIR,
+    **_SLIDER_CRANK,
+    **_PRESS,
+    **_CAM,
+    **_GRIPPER,
+    **_SWING,
+}
+
+
+def term(name: str) -> Term:
+    """The entry of a quantity; in a name that carries its mesh, `crank_idler.contact_ratio`, the last part counts.
+
+    Raises
+        GearlinkError - for a name without an entry
+    """
+    try:
+        return TERMS[name.rpartition(".")[2]]
+    except KeyError:
+        raise GearlinkError(f"no nomenclature entry for {name!r}") from None

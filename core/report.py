@@ -1,0 +1,88 @@
+"""The result of a command as plain data: quantities with unit and symbol, checks with code and limit, tables."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Literal
+
+Value = float | int | str | list[float] | list[int]
+Status = Literal["pass", "warn", "fail"]
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """A named result in the unit of the design files (mm, deg, ...)."""
+
+    name: str
+    value: Value
+    unit: str
+    symbol: str
+    words: str
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """One finding: `status` follows from comparing `value` with `limit`; the message says what would mend it."""
+
+    code: str
+    name: str
+    status: Status
+    message: str
+    value: float | None = None
+    limit: float | None = None
+    unit: str = "1"
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """Columns of equal length; `data[i]` belongs to `columns[i]` and is given in `units[i]`."""
+
+    name: str
+    columns: tuple[str, ...]
+    units: tuple[str, ...]
+    data: tuple[Sequence[float | str | None], ...]
+
+    def rows(self) -> list[list[float | str | None]]:
+        """The table turned into rows; None where a value does not exist (infinite or not a number)."""
+        columns = [column.tolist() if hasattr(column, "tolist") else column for column in self.data]
+        return [[_finite(item) for item in row] for row in zip(*columns, strict=True)]
+
+
+@dataclass(frozen=True, slots=True)
+class Report:
+    """All that a command says about one design."""
+
+    kind: str
+    name: str
+    command: str
+    quantities: tuple[Quantity, ...] = ()
+    checks: tuple[Check, ...] = ()
+    tables: tuple[Table, ...] = field(default=())
+
+    @property
+    def ok(self) -> bool:
+        """False where a check fails."""
+        return all(check.status != "fail" for check in self.checks)
+
+
+def _finite(item: float | str | None) -> float | str | None:
+    return None if isinstance(item, float) and not math.isfinite(item) else item
+
+
+def below(code: str, name: str, value: float, limit: float, warn: float, unit: str, subject: str, remedy: str) -> Check:
+    """Check that fails where `value` < `limit` and warns where it is below `warn`.
+
+    Example
+        >>> below("GL303", "transmission-angle", 42.0, 40.0, 45.0, "deg", "least angle", "lengthen l4").status
+        'warn'
+    """
+    status: Status = "fail" if value < limit else "warn" if value < warn else "pass"
+    text = f"{subject} is {value:.6g} {unit}".removesuffix(" 1")
+    bound = f"{limit:g} {unit}".removesuffix(" 1")
+    if status == "fail":
+        text += f", below the limit {bound}: {remedy}"
+    elif status == "warn":
+        text += f", little above the limit {bound}: {remedy}"
+    return Check(code, name, status, text, value, limit, unit)
