@@ -84,6 +84,7 @@ class FourBar:
         Example
             >>> FourBar(50.0, 45.0, 48.0, 20.0).kind(), FourBar(40.0, 90.0, 40.0, 90.0).kind()
             ('drag-link', 'change-point')
+
         Source
             own derivation; the rule is F. Grashof's
         """
@@ -122,6 +123,7 @@ class FourBar:
             >>> low, high = FourBar(150.0, 160.0, 100.0, 300.0).crank_range()
             >>> low, round(high, 9)
             (0.0, 1.048480077)
+
         Source
             own derivation: the roots of P and Q in the half angle
         """
@@ -143,6 +145,7 @@ class FourBar:
         Example
             >>> [round(math.degrees(g), 3) for g in FourBar(16.0, 50.0, 100.0, 122.83941479).transmission_extremes()]
             [83.775, 132.655]
+
         Source
             thesis (4-3)
         """
@@ -164,6 +167,7 @@ class FourBar:
         Example
             >>> round(math.degrees(FourBar(16.0, 50.0, 100.0, 122.83941479).min_transmission_angle()), 3)
             47.345
+
         Source
             thesis 4.2 (transmission angle)
         """
@@ -185,6 +189,7 @@ class FourBar:
         Example
             >>> FourBar(50.0, 45.0, 48.0, 20.0).inverse()
             FourBar(crank=48.0, coupler=45.0, rocker=50.0, frame=20.0, assembly=-1)
+
         Source
             own derivation: exchange symmetry of the loop equation
         """
@@ -261,6 +266,7 @@ def solve(
         >>> state = solve(FourBar(18.0, 50.0, 100.0, 121.4), math.radians(45.0), order=1)
         >>> round(math.degrees(state.rocker_angle), 9), round(state.rocker_velocity, 9)
         (146.168778216, -0.044209716)
+
     Source
         thesis (4-3), (4-4); swing-gripper paper (5)-(7) with the sign of l3 cos theta3 put right; rates: own
         derivation from the angles of the triangle BCD
@@ -294,6 +300,7 @@ def solve_inverse(
         >>> drag = FourBar(50.0, 45.0, 48.0, 20.0)
         >>> round(solve_inverse(drag, solve(drag, 12.5).rocker_angle).crank_angle, 12)
         12.5
+
     Source
         own derivation: exchange symmetry of the loop equation
     """
@@ -344,7 +351,7 @@ def _solve(
     g_1 = 2.0 * a_0 / r
     w_g = s * g_1
     w_c = 0.5 + f * m + w_g * h
-    w_b = w_c - w_g
+    w_b = 0.5 + f * m - w_g * (0.5 - 0.5 * e * m)
     result += (velocity * w_b, velocity * w_c)
     if order == 1:
         return result
