@@ -144,7 +144,7 @@ class FourBar:
             NoSolution - when the crank does not turn fully
         Example
             >>> [round(math.degrees(g), 3) for g in FourBar(16.0, 50.0, 100.0, 122.83941479).transmission_extremes()]
-            [83.775, 132.655]
+            [83.769, 132.659]
 
         Source
             thesis (4-3)
@@ -166,7 +166,7 @@ class FourBar:
             NoSolution - when the crank does not turn fully
         Example
             >>> round(math.degrees(FourBar(16.0, 50.0, 100.0, 122.83941479).min_transmission_angle()), 3)
-            47.345
+            47.341
 
         Source
             thesis 4.2 (transmission angle)

@@ -8,7 +8,7 @@ asked for.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,9 +20,11 @@ from gearlink.core.fourbar import FourBar
 Array = NDArray[np.float64]
 
 BLOCK = 8192
-_NOT_ASKED: Array = np.empty(0)
-_NOT_ASKED.flags.writeable = False
 _SCRATCH = 12
+
+
+def _not_asked() -> Array:
+    return np.empty(0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,12 +37,12 @@ class FourBarSweep:
     coupler_angle: Array
     rocker_angle: Array
     transmission_angle: Array
-    coupler_velocity: Array = _NOT_ASKED
-    rocker_velocity: Array = _NOT_ASKED
-    coupler_acceleration: Array = _NOT_ASKED
-    rocker_acceleration: Array = _NOT_ASKED
-    coupler_jerk: Array = _NOT_ASKED
-    rocker_jerk: Array = _NOT_ASKED
+    coupler_velocity: Array = field(default_factory=_not_asked)
+    rocker_velocity: Array = field(default_factory=_not_asked)
+    coupler_acceleration: Array = field(default_factory=_not_asked)
+    rocker_acceleration: Array = field(default_factory=_not_asked)
+    coupler_jerk: Array = field(default_factory=_not_asked)
+    rocker_jerk: Array = field(default_factory=_not_asked)
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,12 +52,12 @@ class FourBarInverseSweep:
     crank_angle: Array
     coupler_angle: Array
     transmission_angle: Array
-    crank_velocity: Array = _NOT_ASKED
-    coupler_velocity: Array = _NOT_ASKED
-    crank_acceleration: Array = _NOT_ASKED
-    coupler_acceleration: Array = _NOT_ASKED
-    crank_jerk: Array = _NOT_ASKED
-    coupler_jerk: Array = _NOT_ASKED
+    crank_velocity: Array = field(default_factory=_not_asked)
+    coupler_velocity: Array = field(default_factory=_not_asked)
+    crank_acceleration: Array = field(default_factory=_not_asked)
+    coupler_acceleration: Array = field(default_factory=_not_asked)
+    crank_jerk: Array = field(default_factory=_not_asked)
+    coupler_jerk: Array = field(default_factory=_not_asked)
 
 
 def solve(
