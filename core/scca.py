@@ -1,39 +1,15 @@
-"""Rises of the SCCA family (sine, constant, cosine acceleration and a stretch of constant velocity).
-
-A symmetric motion law is known from its first half: a `Piece` gives the integral of the rise, the rise and its
-first three derivatives up to the piece's end. The same code serves a float and a float64 array.
-"""
+"""First half of the SCCA laws: sine, constant and cosine acceleration, then constant velocity."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any, TypeAlias
 
 from gearlink.core.errors import NoSolution
+from gearlink.core.first_half import FirstHalf, Piece
 
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
-    type Value = float | NDArray[np.float64]
-
-# Derivatives are counted from -1 (the integral of the rise, wanted where a velocity follows the law) to 3.
-type Piece = Callable[[Any, int, int], tuple[Any, ...]]
-
-
-@dataclass(frozen=True, slots=True)
-class FirstHalf:
-    """The first half of a symmetric law: its pieces with their ends, and its peak values."""
-
-    pieces: tuple[tuple[float, Piece], ...]
-    peak_velocity: float
-    peak_acceleration: float
-    interior_jerk: float
-    peak_power: float
-    end_jumps: bool = False
-    middle_jumps: bool = False
+_Parts: TypeAlias = tuple[Callable[[], Any], ...]
 
 
 def scca(a: float, b: float, c: float, d: float) -> FirstHalf:
@@ -53,6 +29,7 @@ def scca(a: float, b: float, c: float, d: float) -> FirstHalf:
     Example
         >>> round(scca(0.25, 0.5, 0.25, 0.0).peak_acceleration, 12)
         4.888123762813
+
     Source
         own derivation: the acceleration integrated piece by piece
     """
@@ -97,9 +74,7 @@ def _peak_power(peak: float, before: float, gain: float) -> float:
     return peak * math.sqrt((1.0 - sine) * (1.0 + sine)) * (before + gain * sine)
 
 
-def _pieces(
-    a: float, b: float, c: float, d: float, peak: float, cruise: float
-) -> tuple[tuple[float, Piece], ...]:
+def _pieces(a: float, b: float, c: float, d: float, peak: float, cruise: float) -> tuple[tuple[float, Piece], ...]:
     end_sine, end_constant, end_cosine = a / 2.0, (a + b) / 2.0, (1.0 - d) / 2.0
     found: list[tuple[float, Piece]] = []
     start = (0.0, 0.0, 0.0)
@@ -123,10 +98,15 @@ def _pieces(
         w, r = c / 2.0, c / math.pi
         area_cosine += rise_cosine * w - cruise * w * w / 2.0 + peak * r**3 * (math.pi**2 / 8.0 - 1.0)
         found.append((end_cosine, _cosine_piece(c, peak, end_cosine, area_cosine, rise_cosine, cruise)))
-    # Measured from the middle, so that the rise is 1/2 there to the last bit.
-    area_middle = area_cosine + d / 4.0 - cruise * d * d / 8.0
-    found.append((0.5, _parabola(0.5, (area_middle, 0.5, cruise, 0.0))))
+    if d > 0.0 or c == 0.0:
+        # Measured from the middle, so that the rise is 1/2 there to the last bit.
+        area_middle = area_cosine + d / 4.0 - cruise * d * d / 8.0
+        found.append((0.5, _parabola(0.5, (area_middle, 0.5, cruise, 0.0 if d > 0.0 else peak))))
     return tuple(found)
+
+
+def _asked(parts: _Parts, low: int, high: int) -> tuple[Any, ...]:
+    return tuple(part() for part in parts[low + 1 : high + 2])
 
 
 def _sine_piece(a: float, peak: float) -> Piece:
@@ -134,15 +114,15 @@ def _sine_piece(a: float, peak: float) -> Piece:
 
     def piece(x: Any, low: int, high: int) -> tuple[Any, ...]:
         z = x / r
-        half = sin(0.5 * z)
-        parts = (
+        half = _sin(0.5 * z)
+        parts: _Parts = (
             lambda: peak * r**3 * _square_excess(z),
             lambda: peak * r * r * _sine_defect(z),
             lambda: 2.0 * peak * r * half * half,
-            lambda: peak * sin(z),
+            lambda: peak * _sin(z),
             lambda: peak / r * (1.0 - 2.0 * half * half),
         )
-        return tuple(part() for part in parts[low + 1 : high + 2])
+        return _asked(parts, low, high)
 
     return piece
 
@@ -152,14 +132,14 @@ def _parabola(origin: float, at_origin: tuple[float, float, float, float]) -> Pi
 
     def piece(x: Any, low: int, high: int) -> tuple[Any, ...]:
         t = x - origin
-        parts = (
+        parts: _Parts = (
             lambda: area + t * (rise + t * (0.5 * velocity + t * (acceleration / 6.0))),
             lambda: rise + t * (velocity + t * (0.5 * acceleration)),
             lambda: velocity + t * acceleration,
             lambda: acceleration + 0.0 * t,
-            lambda: 0.0 * t,
+            lambda: 0.0 * t + 0.0,
         )
-        return tuple(part() for part in parts[low + 1 : high + 2])
+        return _asked(parts, low, high)
 
     return piece
 
@@ -169,15 +149,15 @@ def _harmonic_piece(c: float, peak: float) -> Piece:
 
     def piece(x: Any, low: int, high: int) -> tuple[Any, ...]:
         z = x / r
-        half = sin(0.5 * z)
-        parts = (
+        half = _sin(0.5 * z)
+        parts: _Parts = (
             lambda: peak * r**3 * _sine_defect(z),
             lambda: 2.0 * peak * r * r * half * half,
-            lambda: peak * r * sin(z),
+            lambda: peak * r * _sin(z),
             lambda: peak * (1.0 - 2.0 * half * half),
-            lambda: -peak / r * sin(z),
+            lambda: -peak / r * _sin(z),
         )
-        return tuple(part() for part in parts[low + 1 : high + 2])
+        return _asked(parts, low, high)
 
     return piece
 
@@ -188,20 +168,20 @@ def _cosine_piece(c: float, peak: float, end: float, area: float, rise: float, v
     def piece(x: Any, low: int, high: int) -> tuple[Any, ...]:
         w = end - x
         z = w / r
-        half = sin(0.5 * z)
-        parts = (
+        half = _sin(0.5 * z)
+        parts: _Parts = (
             lambda: area - w * (rise - 0.5 * velocity * w) - peak * r**3 * _square_excess(z),
             lambda: rise - velocity * w + peak * r * r * _sine_defect(z),
             lambda: velocity - 2.0 * peak * r * half * half,
-            lambda: peak * sin(z),
+            lambda: peak * _sin(z),
             lambda: -peak / r * (1.0 - 2.0 * half * half),
         )
-        return tuple(part() for part in parts[low + 1 : high + 2])
+        return _asked(parts, low, high)
 
     return piece
 
 
-def sin(x: Any) -> Any:
+def _sin(x: Any) -> Any:
     """Sine of a float (by math) or of an array (by numpy, imported only then)."""
     if isinstance(x, float):
         return math.sin(x)
@@ -213,7 +193,7 @@ def sin(x: Any) -> Any:
 def _sine_defect(z: Any) -> Any:
     """z - sin z without cancellation."""
     return _near_zero(
-        z, 1.0, lambda z: z**3 / 6.0, (20.0, 42.0, 72.0, 110.0, 156.0, 210.0, 272.0), lambda z: z - sin(z)
+        z, 1.0, lambda z: z**3 / 6.0, (20.0, 42.0, 72.0, 110.0, 156.0, 210.0, 272.0), lambda z: z - _sin(z)
     )
 
 
@@ -224,7 +204,7 @@ def _square_excess(z: Any) -> Any:
         1.0,
         lambda z: z**4 / 24.0,
         (30.0, 56.0, 90.0, 132.0, 182.0, 240.0, 306.0),
-        lambda z: 0.5 * z * z - 2.0 * sin(0.5 * z) ** 2,
+        lambda z: 0.5 * z * z - 2.0 * _sin(0.5 * z) ** 2,
     )
 
 
