@@ -1,0 +1,349 @@
+"""Disc cams with a roller follower: pitch curve, profile, pressure angle and curvature.
+
+One formulation serves oscillating and translating followers. The cam axis is the origin; the plane is the complex
+plane; primes are derivatives with respect to the cam angle phi >= 0; eps = +1 for a cam that turns
+counter-clockwise, -1 for clockwise. World rates of the pitch curve: D1 = B' - i eps B, D2 = B'' - 2 i eps B' - B.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gearlink.core.errors import NoSolution
+
+Reals: TypeAlias = NDArray[np.float64]
+Points: TypeAlias = NDArray[np.complex128]
+
+# The intermediate arrays of a block stay in the cache.
+_BLOCK = 8192
+
+
+@dataclass(frozen=True, slots=True)
+class RollerPath:
+    """The roller centre in the world, moved by the follower law.
+
+    Attributes
+        position, first, second : complex arrays [mm] - B, B', B'' (derivatives by the cam angle)
+        direction : complex array or scalar - unit vector u of the follower's motion
+    """
+
+    position: Points
+    first: Points
+    second: Points
+    direction: Points
+
+
+@dataclass(frozen=True, slots=True)
+class CamProfile:
+    """A cam over its angle; points stand in the cam's own frame, which is the world's at cam angle 0.
+
+    Attributes
+        cam_angle : (N,) array [rad]
+        pitch, profile : (N,) complex arrays [mm] - roller centre and contact point
+        pressure_angle : (N,) array [rad] - signed
+        curvature : (N,) array [1/mm] - of the pitch curve, positive where convex
+        roller_radius : float [mm]
+        flank : +1 for the flank towards the cam axis, -1 for the far flank of a groove
+    """
+
+    cam_angle: Reals
+    pitch: Points
+    profile: Points
+    pressure_angle: Reals
+    curvature: Reals
+    roller_radius: float
+    flank: int = 1
+
+    @property
+    def curvature_radius(self) -> Reals:
+        """Radius of curvature of the pitch curve [mm], positive where convex, inf where it is straight."""
+        return _inverse(self.curvature)
+
+    @property
+    def profile_curvature(self) -> Reals:
+        """Curvature of the profile [1/mm], kappa/(1 - flank r_g kappa), inf at a cusp."""
+        return self.curvature * _inverse(1.0 - self.flank * self.roller_radius * self.curvature)
+
+
+def _inverse(value: Reals) -> Reals:
+    return np.divide(1.0, value, out=np.full(value.shape, math.inf), where=value != 0.0)
+
+
+def oscillating(pivot: complex, arm: float, angle: ArrayLike, first: ArrayLike, second: ArrayLike = 0.0) -> RollerPath:
+    """Path of a roller on a rocking arm.
+
+    B = A + l e^(i psi),  B' = i l psi' e^(i psi),  B'' = l (i psi'' - psi'^2) e^(i psi)
+
+    Parameters
+        pivot : complex [mm] - A, seen from the cam axis
+        arm : float [mm] - l, from the pivot to the roller centre
+        angle : (N,) array [rad] - psi, direction of the arm from the pivot, counter-clockwise positive
+        first, second : (N,) arrays - psi', psi'' by the cam angle; the second serves the curvature only
+    Returns
+        path : RollerPath - its direction is i e^(i psi)
+    Example
+        >>> oscillating(200.0, 50.0, [0.0], [0.1]).first
+        array([0.+5.j])
+
+    Source
+        own derivation
+    """
+    psi, psi1, psi2 = np.broadcast_arrays(*(np.asarray(a, dtype=float) for a in (angle, first, second)))
+    e = np.empty(psi.shape, dtype=complex)
+    e.real, e.imag = np.cos(psi), np.sin(psi)
+    along = 1j * e
+    return RollerPath(pivot + arm * e, (arm * psi1) * along, arm * (psi2 * along - psi1 * psi1 * e), along)
+
+
+def translating(
+    displacement: ArrayLike,
+    first: ArrayLike,
+    second: ArrayLike = 0.0,
+    *,
+    direction: complex = 1.0,
+    offset: float = 0.0,
+) -> RollerPath:
+    """Path of a roller on a slide.
+
+    B = u (y - i e),  B' = u y',  B'' = u y''
+
+    Parameters
+        displacement : (N,) array [mm] - y, of the roller centre along the travel from the foot of the
+            perpendicular out of the cam axis: sqrt(r_p^2 - e^2) + lift (see start_displacement)
+        first, second : (N,) arrays [mm/rad, mm/rad^2] - y', y''; the second serves the curvature only
+        direction : complex - u, unit vector of the travel (1 along +x, -1 along -x, 1j along +y)
+        offset : float [mm] - e, how far the line of travel passes the cam axis on the right of u
+    Returns
+        path : RollerPath
+    Raises
+        NoSolution - direction is not a unit vector
+    Example
+        >>> translating([90.0], [0.0], direction=1j, offset=10.0).position
+        array([10.+90.j])
+
+    Source
+        own derivation
+    """
+    if not abs(abs(direction) - 1.0) <= 1e-9:
+        raise NoSolution(f"direction of travel {direction} has length {abs(direction):.9g}: give a unit vector")
+    u = complex(direction) / abs(direction)
+    y, y1, y2 = np.broadcast_arrays(*(np.asarray(a, dtype=float) for a in (displacement, first, second)))
+    return RollerPath(u * (y - 1j * offset), u * y1, u * y2, np.broadcast_to(np.complex128(u), y.shape))
+
+
+def start_displacement(prime_radius: float, offset: float = 0.0) -> float:
+    """Displacement of a slide at zero lift, sqrt(r_p^2 - e^2).
+
+    Parameters
+        prime_radius : float [mm] - r_p, of the prime circle (base circle of the pitch curve)
+        offset : float [mm] - e
+    Returns
+        displacement : float [mm]
+    Raises
+        NoSolution - |e| >= r_p
+    Example
+        >>> start_displacement(50.0, 30.0)
+        40.0
+
+    Source
+        own derivation
+    """
+    if not abs(offset) < prime_radius:
+        raise NoSolution(
+            f"offset {offset:.9g} mm reaches past the prime circle of {prime_radius:.9g} mm: "
+            f"keep it below {prime_radius:.9g} mm or enlarge the base radius"
+        )
+    return math.sqrt((prime_radius - offset) * (prime_radius + offset))
+
+
+def pitch_points(cam_angle: ArrayLike, path: RollerPath, *, sense: int) -> Points:
+    """Pitch curve in the cam's frame.
+
+    P = e^(-i eps phi) B
+
+    Parameters
+        cam_angle : (N,) array [rad] - phi, angle turned by the cam, growing for either sense
+        path : RollerPath - at these angles
+        sense : +1 or -1 - eps
+    Returns
+        points : (N,) complex array [mm]
+    Example
+        >>> pitch_points([0.0], translating([90.0], [0.0]), sense=1)
+        array([90.+0.j])
+
+    Source
+        own derivation
+    """
+    return _back_turn(cam_angle, sense) * path.position
+
+
+def profile_points(
+    cam_angle: ArrayLike, path: RollerPath, *, sense: int, roller_radius: float, flank: int = 1
+) -> Points:
+    """Cam profile in the cam's frame: the point that the roller touches.
+
+    C = e^(-i eps phi) (B + r_g N),  N = -i eps D1/|D1|
+
+    Parameters
+        cam_angle, path, sense : as of pitch_points
+        roller_radius : float [mm] - r_g
+        flank : +1 for the flank towards the cam axis, -1 for the far flank of a groove cam
+    Returns
+        points : (N,) complex array [mm]
+    Raises
+        NoSolution - the pitch curve stands still (D1 = 0)
+    Example
+        >>> profile_points([0.0], translating([90.0], [0.0]), sense=1, roller_radius=25.0).real
+        array([65.])
+
+    Source
+        own derivation: envelope of the roller
+    """
+    d1, speed = _pitch_rate(cam_angle, path, sense)
+    reach = (flank * sense * roller_radius) / speed
+    return _back_turn(cam_angle, sense) * (path.position - 1j * reach * d1)
+
+
+def pressure_angle(cam_angle: ArrayLike, path: RollerPath, *, sense: int) -> Reals:
+    """Angle between the follower's motion and the common normal at the contact.
+
+    tan alpha = Im(q/u)/Re(q/u),  q = i B' + eps B
+
+    Parameters
+        cam_angle, path, sense : as of pitch_points
+    Returns
+        alpha : (N,) array [rad] - in (-pi/2, pi/2); translating: tan alpha = (eps y' - e)/y
+    Raises
+        NoSolution - Re(q/u) vanishes or changes sign: the roller passes the relative pole
+    Example
+        >>> pressure_angle([0.0], translating([40.0], [30.0]), sense=1).round(6)
+        array([0.643501])
+
+    Source
+        own derivation: the normal passes through the relative pole of cam and follower
+    """
+    lever = _lever(path, sense)
+    _check_lever(cam_angle, lever.real)
+    return np.arctan(lever.imag / lever.real)
+
+
+def _lever(path: RollerPath, sense: int) -> Points:
+    q: Points = 1j * path.first + sense * path.position
+    lever: Points = q * np.conj(path.direction)
+    return lever
+
+
+def _check_lever(cam_angle: ArrayLike, across: Reals) -> None:
+    if across.size and not (across.min() > 0.0 or across.max() < 0.0):
+        place = _angle_at(cam_angle, across.shape, int(np.argmin(np.abs(across))))
+        raise NoSolution(
+            f"the roller passes the relative pole near cam angle {place:.6g} deg (pressure angle 90 deg): "
+            "enlarge the base circle or lengthen the rise"
+        )
+
+
+def curvature(cam_angle: ArrayLike, path: RollerPath, *, sense: int) -> Reals:
+    """Curvature of the pitch curve, positive where convex.
+
+    kappa = -eps Im(conj(D1) D2)/|D1|^3
+
+    Parameters
+        cam_angle, path, sense : as of pitch_points; the path must carry its second derivative
+    Returns
+        kappa : (N,) array [1/mm] - the profile's is kappa/(1 - flank r_g kappa)
+    Raises
+        NoSolution - the pitch curve stands still (D1 = 0)
+    Example
+        >>> curvature([0.0], translating([90.0], [0.0]), sense=1)
+        array([0.01111111])
+
+    Source
+        own derivation
+    """
+    d1, speed = _pitch_rate(cam_angle, path, sense)
+    return _curvature(path, sense, d1, speed)
+
+
+def _curvature(path: RollerPath, sense: int, d1: Points, speed: Reals) -> Reals:
+    d2 = path.second - (2j * sense) * path.first - path.position
+    bend: Reals = (-sense * (d1.real * d2.imag - d1.imag * d2.real)) / (speed * speed * speed)
+    return bend
+
+
+def profile(cam_angle: ArrayLike, path: RollerPath, *, sense: int, roller_radius: float, flank: int = 1) -> CamProfile:
+    """Pitch curve, profile, pressure angle and curvature of a cam in one pass.
+
+    Parameters
+        cam_angle, path, sense, roller_radius, flank : as of profile_points
+    Returns
+        cam : CamProfile
+    Raises
+        NoSolution - the pitch curve stands still, or the roller passes the relative pole
+    Notes
+        Works in blocks of 8192 angles. Where one result is wanted, its own function computes only that.
+    Example
+        >>> profile([0.0], translating([90.0], [0.0]), sense=1, roller_radius=25.0).curvature_radius
+        array([90.])
+
+    Source
+        own derivation
+    """
+    phi = np.asarray(cam_angle, dtype=float)
+    shape = np.broadcast_shapes(phi.shape, path.position.shape)
+    phi, flat = np.broadcast_to(phi, shape).ravel(), _flattened(path, shape)
+    pitch, contact, lever = (np.empty(phi.size, dtype=complex) for _ in range(3))
+    bend = np.empty(phi.size)
+    for start in range(0, phi.size, _BLOCK):
+        block = slice(start, start + _BLOCK)
+        part = RollerPath(flat.position[block], flat.first[block], flat.second[block], flat.direction[block])
+        d1, speed = _pitch_rate(phi[block], part, sense)
+        turn = _back_turn(phi[block], sense)
+        pitch[block] = turn * part.position
+        contact[block] = pitch[block] - turn * d1 * (1j * (flank * sense * roller_radius) / speed)
+        bend[block] = _curvature(part, sense, d1, speed)
+        lever[block] = _lever(part, sense)
+    _check_lever(phi, lever.real)
+    return CamProfile(
+        cam_angle=phi.reshape(shape),
+        pitch=pitch.reshape(shape),
+        profile=contact.reshape(shape),
+        pressure_angle=np.arctan(lever.imag / lever.real).reshape(shape),
+        curvature=bend.reshape(shape),
+        roller_radius=roller_radius,
+        flank=flank,
+    )
+
+
+def _flattened(path: RollerPath, shape: tuple[int, ...]) -> RollerPath:
+    parts = (path.position, path.first, path.second, path.direction)
+    return RollerPath(*(np.broadcast_to(part, shape).ravel() for part in parts))
+
+
+def _back_turn(cam_angle: ArrayLike, sense: int) -> Points:
+    phi = np.asarray(cam_angle, dtype=float)
+    turn = np.empty(phi.shape, dtype=complex)
+    turn.real = np.cos(phi)
+    turn.imag = -sense * np.sin(phi)
+    return turn
+
+
+def _pitch_rate(cam_angle: ArrayLike, path: RollerPath, sense: int) -> tuple[Points, Reals]:
+    d1 = path.first - (1j * sense) * path.position
+    speed = np.abs(d1)
+    still = speed <= 1e-13 * np.abs(path.position)
+    if still.any():
+        place = _angle_at(cam_angle, speed.shape, int(np.argmax(still)))
+        raise NoSolution(
+            f"the pitch curve stands still at cam angle {place:.6g} deg: the follower moves with the cam; "
+            "enlarge the base circle or change the law"
+        )
+    return d1, speed
+
+
+def _angle_at(cam_angle: ArrayLike, shape: tuple[int, ...], index: int) -> float:
+    return math.degrees(float(np.broadcast_to(np.asarray(cam_angle, dtype=float), shape).ravel()[index]))
