@@ -3,15 +3,6 @@
 Frame of all four-bar modules: crank pivot A = (0, 0), rocker pivot D = (d, 0), crank a = AB, coupler b = BC,
 rocker c = CD, frame d = AD. The crank angle phi, the coupler angle (direction B->C) and the rocker angle
 (direction D->C) count counter-clockwise from A->D.
-
-With n = |BD| and the half crank angle, everything follows from three sums of non-negative terms,
-
-    n^2           = (d-a)^2 cos^2(phi/2) + (d+a)^2 sin^2(phi/2)
-    P = (b+c)^2 - n^2 = P_0 cos^2(phi/2) + P_pi sin^2(phi/2)      P >= 0: the linkage reaches
-    Q = n^2 - (b-c)^2 = Q_0 cos^2(phi/2) + Q_pi sin^2(phi/2)      Q >= 0: the linkage folds
-
-whose end values are products of correctly rounded sums of the four lengths. So a dead centre on the line of
-the frame, and a change point, cost no digits.
 """
 
 from __future__ import annotations
@@ -20,6 +11,7 @@ import math
 from dataclasses import dataclass, field
 
 from gearlink.core.errors import NoSolution
+from gearlink.core.fourbar_loop import Reading, closes_somewhere, closing_range, make_reading, never_closes, solve_loop
 
 _CHANGE_POINT_ULPS = 4.0
 
@@ -45,15 +37,7 @@ class FourBar:
     rocker: float
     frame: float
     assembly: int = 1
-    # End values at phi = 0 and pi of n^2, P and Q, then b^2 - c^2 and (a^2 - d^2)/2.
-    n_0: float = field(init=False, repr=False, compare=False)
-    n_pi: float = field(init=False, repr=False, compare=False)
-    p_0: float = field(init=False, repr=False, compare=False)
-    p_pi: float = field(init=False, repr=False, compare=False)
-    q_0: float = field(init=False, repr=False, compare=False)
-    q_pi: float = field(init=False, repr=False, compare=False)
-    e: float = field(init=False, repr=False, compare=False)
-    f: float = field(init=False, repr=False, compare=False)
+    reading: Reading = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         a, b, c, d = self.crank, self.coupler, self.rocker, self.frame
@@ -62,15 +46,7 @@ class FourBar:
                 raise NoSolution(f"{name} length is {length:g} mm; it must be positive and finite")
         if self.assembly not in (1, -1):
             raise NoSolution(f"assembly is {self.assembly!r}; it must be +1 or -1")
-        keep = object.__setattr__
-        keep(self, "n_0", (d - a) ** 2)
-        keep(self, "n_pi", (d + a) ** 2)
-        keep(self, "p_0", math.fsum((a, b, c, -d)) * math.fsum((-a, b, c, d)))
-        keep(self, "p_pi", math.fsum((-a, b, c, -d)) * math.fsum((a, b, c, d)))
-        keep(self, "q_0", math.fsum((-a, -b, c, d)) * math.fsum((-a, b, -c, d)))
-        keep(self, "q_pi", math.fsum((a, -b, c, d)) * math.fsum((a, b, -c, d)))
-        keep(self, "e", (b - c) * (b + c))
-        keep(self, "f", 0.5 * (a - d) * (a + d))
+        object.__setattr__(self, "reading", make_reading(a, b, c, d, self.assembly))
 
     def kind(self) -> str:
         """Class of the linkage by Grashof's rule.
@@ -107,7 +83,7 @@ class FourBar:
             >>> FourBar(18.0, 50.0, 100.0, 121.4).turns_fully(), FourBar(100.0, 50.0, 18.0, 121.4).turns_fully()
             (True, False)
         """
-        return min(self.p_0, self.p_pi, self.q_0, self.q_pi) >= 0.0
+        return min(self.reading.p_0, self.reading.p_pi, self.reading.q_0, self.reading.q_pi) >= 0.0
 
     def crank_range(self) -> tuple[float, float]:
         """Crank angles, measured either way from the frame, between which the linkage closes.
@@ -127,11 +103,9 @@ class FourBar:
         Source
             own derivation: the roots of P and Q in the half angle
         """
-        if self.p_0 < 0.0 or self.q_pi < 0.0:
-            raise NoSolution(_never_closes(self))
-        low = 2.0 * math.atan2(math.sqrt(-self.q_0), math.sqrt(self.q_pi)) if self.q_0 < 0.0 else 0.0
-        high = 2.0 * math.atan2(math.sqrt(self.p_0), math.sqrt(-self.p_pi)) if self.p_pi < 0.0 else math.pi
-        return low, high
+        if self.kind() == "impossible":
+            raise NoSolution(f"the four-bar {never_closes(self.reading)}")
+        return closing_range(self.reading)
 
     def transmission_extremes(self) -> tuple[float, float]:
         """Transmission angle BCD at crank angles 0 and pi; between them it runs monotonically.
@@ -151,8 +125,8 @@ class FourBar:
         """
         if not self.turns_fully():
             raise NoSolution(_not_turning(self))
-        at_0 = 2.0 * math.atan2(math.sqrt(self.q_0), math.sqrt(self.p_0))
-        at_pi = 2.0 * math.atan2(math.sqrt(self.q_pi), math.sqrt(self.p_pi))
+        at_0 = 2.0 * math.atan2(math.sqrt(self.reading.q_0), math.sqrt(self.reading.p_0))
+        at_pi = 2.0 * math.atan2(math.sqrt(self.reading.q_pi), math.sqrt(self.reading.p_pi))
         return at_0, at_pi
 
     def min_transmission_angle(self) -> float:
@@ -271,7 +245,7 @@ def solve(
         thesis (4-3), (4-4); swing-gripper paper (5)-(7) with the sign of l3 cos theta3 put right; rates: own
         derivation from the angles of the triangle BCD
     """
-    return FourBarState(*_solve(linkage, crank_angle, order, velocity, acceleration, jerk))
+    return FourBarState(*solve_loop(linkage.reading, crank_angle, order, (velocity, acceleration, jerk)))
 
 
 def solve_inverse(
@@ -304,128 +278,33 @@ def solve_inverse(
     Source
         own derivation: exchange symmetry of the loop equation
     """
-    rates = _solve(linkage.inverse(), rocker_angle + math.pi, order, velocity, acceleration, jerk, driver="rocker")
-    coupler, rest, crank = rates[0], rates[2:], rates[1] + math.pi
-    swapped = [rest[0]]
-    for i in range(1, len(rest), 2):
-        swapped += (rest[i + 1], rest[i])
-    return FourBarInverseState(crank, coupler, *swapped)
+    motion = (velocity, acceleration, jerk)
+    coupler, crank, transmission, *rates = solve_loop(inverse_reading(linkage), rocker_angle, order, motion)
+    for i in range(0, len(rates), 2):
+        rates[i], rates[i + 1] = rates[i + 1], rates[i]
+    return FourBarInverseState(crank + math.pi, coupler, transmission, *rates)
 
 
-def _solve(
-    linkage: FourBar,
-    phi: float,
-    order: int,
-    velocity: float,
-    acceleration: float,
-    jerk: float,
-    driver: str = "crank",
-) -> list[float]:
-    """Coupler, rocker and transmission angle, then pairs (coupler, rocker) of rates up to the order."""
-    if not math.isfinite(phi):
-        raise NoSolution(f"{driver} angle is {phi!r}; it must be finite")
-    a, d, s = linkage.crank, linkage.frame, linkage.assembly
-    sin_half, cos_half = math.sin(0.5 * phi), math.cos(0.5 * phi)
-    ss, cc = sin_half * sin_half, cos_half * cos_half
-    n2 = linkage.n_0 * cc + linkage.n_pi * ss
-    p = linkage.p_0 * cc + linkage.p_pi * ss
-    q = linkage.q_0 * cc + linkage.q_pi * ss
-    pq = p * q
-    if not (pq > 0.0 or (pq == 0.0 and order == 0 and n2 > 0.0)):
-        raise NoSolution(_why_not(linkage, phi, p, q, driver))
-    r = math.sqrt(pq)
-    sin_phi = 2.0 * sin_half * cos_half
-    if d >= a:
-        nu = math.atan2(-a * sin_phi, (d - a) * cc + (d + a) * ss)
-    else:
-        nu = phi - math.pi + math.atan2(d * sin_phi, (a - d) * cc + (a + d) * ss)
-    e, z = linkage.e, 0.5 * (p - q)
-    result = [nu + s * math.atan2(r, e + n2), nu + s * math.atan2(r, e - n2), math.atan2(r, z)]
-    if order == 0:
-        return result
-    # nu, the signed gamma = g and the share h of g in the rocker, rocker' = nu' + s g' h, each differentiated.
-    ad, m = a * d, 1.0 / n2
-    f = linkage.f
-    a_0 = ad * sin_phi
-    h = 0.5 + 0.5 * e * m
-    g_1 = 2.0 * a_0 / r
-    w_g = s * g_1
-    w_c = 0.5 + f * m + w_g * h
-    w_b = 0.5 + f * m - w_g * (0.5 - 0.5 * e * m)
-    result += (velocity * w_b, velocity * w_c)
-    if order == 1:
-        return result
-    a_1 = ad * (cc - ss)
-    am = a_0 * m * m
-    h_1 = -e * am
-    g_2 = (2.0 * a_1 - g_1 * g_1 * z) / r
-    e_g = s * g_2
-    nu_2 = -2.0 * f * am
-    e_c = nu_2 + e_g * h + w_g * h_1
-    e_b = e_c - e_g
-    v2 = velocity * velocity
-    result += (v2 * e_b + acceleration * w_b, v2 * e_c + acceleration * w_c)
-    if order == 2:
-        return result
-    am_1 = (a_1 - 4.0 * a_0 * a_0 * m) * m * m
-    j_g = s * (2.0 * a_0 * (g_1 * g_1 - 1.0) - 3.0 * g_1 * g_2 * z) / r
-    j_c = -2.0 * f * am_1 + j_g * h + 2.0 * e_g * h_1 - w_g * e * am_1
-    j_b = j_c - j_g
-    v3, va = v2 * velocity, 3.0 * velocity * acceleration
-    result += (v3 * j_b + va * e_b + jerk * w_b, v3 * j_c + va * e_c + jerk * w_c)
-    return result
+def inverse_reading(linkage: FourBar) -> Reading:
+    """Constants of the loop with the rocker driving, D the origin and A at (-d, 0): no angle is shifted.
 
+    Example
+        >>> inverse_reading(FourBar(50.0, 45.0, 48.0, 20.0))[:5]
+        (48.0, 45.0, 50.0, -20.0, -1)
 
-def _why_not(linkage: FourBar, phi: float, p: float, q: float, driver: str) -> str:
-    """Why the linkage has no position, or no rates, at this angle of its driving link, and what to change."""
-    a, b, c, d = linkage.crank, linkage.coupler, linkage.rocker, linkage.frame
-    if driver == "rocker":
-        phi, ends, far = phi - math.pi, "AC", "crank"
-    else:
-        ends, far = "BD", "rocker"
-    n = math.sqrt(linkage.n_0 * math.cos(0.5 * phi) ** 2 + linkage.n_pi * math.sin(0.5 * phi) ** 2)
-    if driver == "rocker":
-        n = math.sqrt(linkage.n_0 * math.sin(0.5 * phi) ** 2 + linkage.n_pi * math.cos(0.5 * phi) ** 2)
-    where = f"at {driver} angle {math.degrees(phi):.9g} deg: |{ends}| = {n:.9g} mm"
-    limits = f"coupler and {far} span {abs(b - c):.9g} to {b + c:.9g} mm"
-    if p < 0.0 or q < 0.0:
-        if linkage.p_0 < 0.0 or linkage.q_pi < 0.0:
-            return f"the four-bar does not close {where}, {limits}; {_never_closes(linkage)}"
-        wrong = "too long" if p < 0.0 else "too short"
-        low, high = (math.degrees(x) for x in linkage.crank_range())
-        if driver == "rocker":
-            low, high = 180.0 - high, 180.0 - low
-        by = n - (b + c) if p < 0.0 else abs(b - c) - n
-        change = f"lengthen coupler or {far}" if p < 0.0 else f"bring coupler and {far} nearer to equal length"
-        return (
-            f"the four-bar does not close {where} is {wrong}, {limits}; keep the {driver} angle between "
-            f"{low:.9g} and {high:.9g} deg (either way from the frame), or {change} by {by:.3g} mm"
-        )
-    if b == c and n <= 0.0:
-        return f"{ends[0]} falls on {ends[1]} {where}: the position is not determined; make a and d, or b and c, differ"
-    return (
-        f"the four-bar stands in a dead point {where}, {limits}: coupler and {far} align and the rates are "
-        f"not determined; move the {driver} angle off it or change the lengths ({a:g}, {b:g}, {c:g}, {d:g} mm)"
-    )
-
-
-def _never_closes(linkage: FourBar) -> str:
-    """Message for four lengths that form no quadrilateral."""
-    longest = max(linkage.crank, linkage.coupler, linkage.rocker, linkage.frame)
-    others = math.fsum((linkage.crank, linkage.coupler, linkage.rocker, linkage.frame, -longest))
-    return (
-        f"it closes nowhere: the longest link {longest:.9g} mm must be shorter than the other three together, "
-        f"{others:.9g} mm"
-    )
+    Source
+        own derivation: exchange symmetry of the loop equation
+    """
+    return make_reading(linkage.rocker, linkage.coupler, linkage.crank, -linkage.frame, -linkage.assembly)
 
 
 def _not_turning(linkage: FourBar) -> str:
     """Message for a crank that is asked to turn fully and cannot."""
-    if linkage.p_0 < 0.0 or linkage.q_pi < 0.0:
-        return f"the crank does not turn fully: {_never_closes(linkage)}"
-    low, high = (math.degrees(x) for x in linkage.crank_range())
+    if not closes_somewhere(linkage.reading):
+        return f"the crank does not turn fully: the four-bar {never_closes(linkage.reading)}"
+    low, high = (math.degrees(x) for x in closing_range(linkage.reading))
     return (
-        f"the crank does not turn fully: the {linkage.kind()} {linkage.crank:g}, {linkage.coupler:g}, "
-        f"{linkage.rocker:g}, {linkage.frame:g} mm closes between {low:.9g} and {high:.9g} deg only; make the crank "
-        f"or the frame the shortest link, and shortest + longest less than the other two together"
+        f"the crank does not turn fully: the {linkage.kind()} of {linkage.crank:g}, {linkage.coupler:g}, "
+        f"{linkage.rocker:g}, {linkage.frame:g} mm closes between {low:.9g} and {high:.9g} deg only; make crank or "
+        f"frame the shortest link, and shortest + longest less than the other two together"
     )
