@@ -97,6 +97,29 @@ for _name, _words in _SYNTH_COMMANDS.items():
     synth.command(_name)(_design_command(f"synth {_name}", _words))
 
 
+@app.command("batch")
+def _batch(
+    places: Annotated[list[str], typer.Argument(metavar="DIR...", help="folders or design files")],
+    format: FormatOption = Format.TABLE,
+    plot: PlotOption = False,
+    plot_format: PlotFormatOption = PlotFormat.PNG,
+    out: OutOption = Path(),
+    strict: StrictOption = False,
+    no_color: NoColorOption = False,
+    quiet: QuietOption = False,
+) -> None:
+    """Every design file below the folders: each does what it asks for; one summary, one exit status.
+
+    Example: gearlink batch designs --format json
+    """
+    from gearlink.cli.batch import run_batch
+
+    options = Options(
+        format=format, plot=plot, plot_format=plot_format, out=out, strict=strict, color=not no_color, quiet=quiet
+    )
+    raise typer.Exit(run_batch(places, options))
+
+
 @app.callback(invoke_without_command=True)
 def _root(
     version: Annotated[bool, typer.Option("--version", "-V", help="show the version and leave")] = False,

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from enum import Enum
+from enum import StrEnum
 from pathlib import Path
 
 
-class Format(str, Enum):
+class Format(StrEnum):
     """How results are printed."""
 
     TABLE = "table"
@@ -16,7 +16,7 @@ class Format(str, Enum):
     MARKDOWN = "md"
 
 
-class PlotFormat(str, Enum):
+class PlotFormat(StrEnum):
     """How plots are written."""
 
     PNG = "png"

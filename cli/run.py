@@ -6,7 +6,7 @@ import sys
 from collections.abc import Sequence
 from difflib import get_close_matches
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.design_file import DesignFileError, LoadedFile, diagnose_no_solution, load, read_kind, validate
 from gearlink.cli.diagnostics import Diagnostic
@@ -45,14 +45,23 @@ def evaluate(command: str, source: str, options: Options) -> tuple[Design, Repor
     Raises
         DesignFileError - for everything that is wrong with the file, the command for it, or the mechanism
     """
-    loaded = load(source, overrides=options.overrides)
-    kind = KINDS[read_kind(loaded, tuple(KINDS))]
+    loaded, kind = open_design(source, options)
     require_command(loaded, kind, command)
-    spec = named(validate(loaded, kind.spec_model()), source)
-    return build(loaded, kind, command, spec, options)
+    return build(loaded, kind, command, read_spec(loaded, kind, source), options)
 
 
-def build(loaded: LoadedFile, kind: Kind, command: str, spec: object, options: Options) -> tuple[Design, Report]:
+def open_design(source: str, options: Options) -> tuple[LoadedFile, Kind]:
+    """The text of a design file as located data, and its kind."""
+    loaded = load(source, overrides=options.overrides)
+    return loaded, KINDS[read_kind(loaded, tuple(KINDS))]
+
+
+def read_spec(loaded: LoadedFile, kind: Kind, source: str) -> Any:
+    """The validated spec, named after the file where it names no design."""
+    return named(validate(loaded, kind.spec_model()), source)
+
+
+def build(loaded: LoadedFile, kind: Kind, command: str, spec: Any, options: Options) -> tuple[Design, Report]:
     """The design of a validated spec and its report; what the mechanism refuses becomes a located error."""
     only = bool(options.tables) and options.format is Format.CSV
     try:
@@ -65,11 +74,11 @@ def build(loaded: LoadedFile, kind: Kind, command: str, spec: object, options: O
     return design, report
 
 
-def named(spec: object, source: str) -> object:
+def named(spec: Any, source: str) -> Any:
     """The spec with the file's stem for a name where the file gives none."""
-    if "name" in spec.model_fields_set or source == "-":  # type: ignore[attr-defined]
+    if "name" in spec.model_fields_set or source == "-":
         return spec
-    return spec.model_copy(update={"name": Path(source).stem})  # type: ignore[attr-defined]
+    return spec.model_copy(update={"name": Path(source).stem})
 
 
 def require_command(loaded: LoadedFile, kind: Kind, command: str) -> None:

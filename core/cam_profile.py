@@ -71,7 +71,8 @@ class CamProfile:
 
 
 def _inverse(value: Reals) -> Reals:
-    return np.divide(1.0, value, out=np.full(value.shape, math.inf), where=value != 0.0)
+    inverse: Reals = np.divide(1.0, value, out=np.full(value.shape, math.inf), where=value != 0.0)
+    return inverse
 
 
 def oscillating(pivot: complex, arm: float, angle: ArrayLike, first: ArrayLike, second: ArrayLike = 0.0) -> RollerPath:
@@ -94,10 +95,11 @@ def oscillating(pivot: complex, arm: float, angle: ArrayLike, first: ArrayLike, 
         own derivation
     """
     psi, psi1, psi2 = np.broadcast_arrays(*(np.asarray(a, dtype=float) for a in (angle, first, second)))
-    e = np.empty(psi.shape, dtype=complex)
+    e: Points = np.empty(psi.shape, dtype=complex)
     e.real, e.imag = np.cos(psi), np.sin(psi)
-    along = 1j * e
-    return RollerPath(pivot + arm * e, (arm * psi1) * along, arm * (psi2 * along - psi1 * psi1 * e), along)
+    along: Points = 1j * e
+    second_rate: Points = arm * (psi2 * along - psi1 * psi1 * e)
+    return RollerPath(pivot + arm * e, (arm * psi1) * along, second_rate, along)
 
 
 def translating(

@@ -27,6 +27,7 @@ def bracketed_root(f: Callable[[float], float], low: float, high: float, *, tole
     Example
         >>> bracketed_root(lambda x: x * x - 2, 0.0, 2.0)
         1.4142135623730951
+
     Source
         T. R. Chandrupatla, Adv. Eng. Softw. 28 (1997) 145-149
     """
@@ -69,7 +70,8 @@ def sign_changes(values: Sequence[float]) -> list[int]:
         >>> sign_changes([1.0, -1.0, -2.0, 3.0])
         [0, 2]
     """
-    return [i for i in range(len(values) - 1) if values[i] == 0.0 or values[i] * values[i + 1] < 0.0]
+    pairs = enumerate(zip(values, values[1:], strict=False))  # not by their product, which may underflow to zero
+    return [i for i, (p, q) in pairs if p == 0.0 or p < 0.0 < q or p > 0.0 > q]
 
 
 def maximum(f: Callable[[float], float], low: float, high: float) -> tuple[float, float]:

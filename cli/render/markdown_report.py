@@ -12,13 +12,15 @@ def as_markdown(report: Report) -> str:
     parts = [f"# {report.name}: {report.command}"]
     if report.quantities:
         rows = [(f"`{q.name}`", q.symbol, text_of(q.value), q.unit, q.words) for q in report.quantities]
-        parts.append(_table(("quantity", "symbol", "value", "unit", "meaning"), rows))
+        parts.append(markdown_table(("quantity", "symbol", "value", "unit", "meaning"), rows))
     if report.checks:
         checks = [(c.status, c.code, c.name, c.message) for c in report.checks]
-        parts.append(_table(("status", "code", "check", "finding"), checks))
+        parts.append(markdown_table(("status", "code", "check", "finding"), checks))
     for table in report.tables:
         heads = [f"{column} [{unit}]" for column, unit in zip(table.columns, table.units, strict=True)]
-        parts.append(f"## {table.name}\n\n" + _table(heads, ([text_of(item) for item in row] for row in table.rows())))
+        parts.append(
+            f"## {table.name}\n\n" + markdown_table(heads, ([text_of(item) for item in row] for row in table.rows()))
+        )
     return "\n\n".join(parts)
 
 
@@ -29,7 +31,8 @@ def text_of(value: object) -> str:
     return "" if value is None else repr(value) if isinstance(value, float) else str(value)
 
 
-def _table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+def markdown_table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """A Markdown table."""
     lines = ["| " + " | ".join(heads) + " |", "|" + " --- |" * len(heads)]
     lines += ["| " + " | ".join(cell.replace("|", "\\|") for cell in row) + " |" for row in rows]
     return "\n".join(lines)

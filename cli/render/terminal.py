@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 import sys
 from collections.abc import Sequence
 
@@ -21,7 +22,7 @@ _WIDE = 110
 
 def show(report: Report, options: Options) -> None:
     """Print a report: heading, quantities, tables, checks, verdict."""
-    console = _console(options)
+    console = console_for(options)
     console.print(Text(f"{report.name}: {report.command} ({report.kind})", style="bold"))
     if report.quantities:
         console.print(_quantities(report.quantities, console))
@@ -35,9 +36,10 @@ def show(report: Report, options: Options) -> None:
         console.print(Text(f"checks: {verdict}", style=_STYLE[next(s for s, n in counts.items() if n)]))
 
 
-def _console(options: Options) -> Console:
+def console_for(options: Options) -> Console:
+    """A console on standard output that colours nothing unless a terminal shows it."""
     # color_system=None also drops the bold codes, which NO_COLOR alone leaves in.
-    plain = not options.color or not sys.stdout.isatty() or "NO_COLOR" in _environment()
+    plain = not options.color or not sys.stdout.isatty() or "NO_COLOR" in os.environ
     return Console(
         file=sys.stdout,
         color_system=None if plain else "auto",
@@ -48,13 +50,8 @@ def _console(options: Options) -> Console:
     )
 
 
-def _environment() -> dict[str, str]:
-    import os
-
-    return dict(os.environ)
-
-
-def _grid(console: Console) -> Grid:
+def grid_for(console: Console) -> Grid:
+    """An empty table in the house's form, in ASCII where the console knows no more."""
     ascii_only = not (console.encoding or "").lower().startswith("utf")
     return Grid(box=box.ASCII2 if ascii_only else box.SIMPLE_HEAD, show_edge=False, pad_edge=False, safe_box=ascii_only)
 
@@ -76,7 +73,7 @@ def number(value: object, digits: int = 7) -> str:
 
 
 def _quantities(quantities: Sequence[Quantity], console: Console) -> Grid:
-    grid = _grid(console)
+    grid = grid_for(console)
     wide = console.width >= _WIDE
     for head in ("quantity", "symbol", "value", "unit", *(["meaning"] if wide else [])):
         grid.add_column(
@@ -89,7 +86,7 @@ def _quantities(quantities: Sequence[Quantity], console: Console) -> Grid:
 
 
 def _checks(checks: Sequence[Check], console: Console) -> Grid:
-    grid = _grid(console)
+    grid = grid_for(console)
     grid.add_column("check", no_wrap=True)
     grid.add_column("code", no_wrap=True)
     grid.add_column("status", no_wrap=True)
@@ -108,7 +105,7 @@ def _show_table(table: Table, console: Console) -> None:
     thinned = f", every {step}th of {len(rows)} rows (all with --table {table.name} --format csv)" if step > 1 else ""
     console.print(Text(f"\n{table.name}{thinned}", style="bold"))
     for columns in _folds(table, cells, console.width):
-        grid = _grid(console)
+        grid = grid_for(console)
         for i in columns:
             unit = "" if table.units[i] == "1" else f"\n{table.units[i]}"
             grid.add_column(

@@ -100,3 +100,8 @@ class FlatbedPressSpec(DesignSpec):
     sync: Sync = Sync()
     cam: PressCam | None = None
     limits: PressLimits = PressLimits()
+
+    def commands(self) -> tuple[str, ...]:
+        """What the file asks for."""
+        gears = ("gear",) if self.input_gears is not None else ()
+        return ("press", "cam", *gears) if self.cam is not None else ("press", *gears)

@@ -37,3 +37,7 @@ class GearPairSpec(DesignSpec):
                 "GL106", "either center_distance or profile_shift is needed", {"key": "center_distance"}
             )
         return self
+
+    def commands(self) -> tuple[str, ...]:
+        """What the file asks for."""
+        return ("gear",)

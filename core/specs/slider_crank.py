@@ -16,3 +16,7 @@ class SliderCrankSpec(DesignSpec):
     stroke: Length = Field(description="stroke of the slider")
     rod: Length = Field(description="connecting rod")
     offset: SignedLength = Field(0.0, description="offset of the slide line from the crank's axis")
+
+    def commands(self) -> tuple[str, ...]:
+        """What the file asks for."""
+        return ("crank",)

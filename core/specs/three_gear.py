@@ -116,3 +116,14 @@ class ThreeGearSpec(DesignSpec):
     )
     limits: Limits = Limits()
     shafts: Shafts | None = None
+
+    def commands(self) -> tuple[str, ...]:
+        """What the file asks for: a synthesis per section, an analysis where the links are given."""
+        asked = {
+            "synth dwell": self.dwell,
+            "synth back-step": self.back_step,
+            "synth variable-speed": self.speed,
+            "synth momentary-dwell": self.momentary,
+            "analyze": self.links,
+        }
+        return tuple(command for command, section in asked.items() if section is not None) or ("analyze",)

@@ -1,0 +1,334 @@
+"""Smallest cams for a pressure-angle limit: prime circles of slides, admissible cam centres of rocking arms."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearlink.core.errors import NoSolution
+from gearlink.core.extremes import TURN, maximum_over
+
+Reals: TypeAlias = NDArray[np.float64]
+Points: TypeAlias = NDArray[np.complex128]
+Lift: TypeAlias = Callable[[Reals], tuple[Reals, Reals]]
+
+# Cutting planes converge quadratically; the example of the swing gripper takes four rounds.
+_ROUNDS = 60
+
+
+@dataclass(frozen=True, slots=True)
+class CamSize:
+    """A smallest cam.
+
+    Attributes
+        prime_radius : float [mm] - r_p, from the cam centre to the roller centre at the start
+        offset : float [mm] - of a slide's line of travel, 0 in line
+        cam_angle : float [rad] - where the limit is reached
+    """
+
+    prime_radius: float
+    offset: float
+    cam_angle: float
+
+
+@dataclass(frozen=True, slots=True)
+class CamCenter:
+    """The admissible cam centre nearest to the roller at the start.
+
+    Attributes
+        center : complex [mm] - O, in the frame of the pivot given
+        prime_radius : float [mm] - |B(start) - O|
+        cam_angles : (float, float) [rad] - where the pressure angle reaches its upper and its lower limit
+        margins : (float, float) [mm] - how far O lies inside these two limits (0: on the limit)
+    """
+
+    center: complex
+    prime_radius: float
+    cam_angles: tuple[float, float]
+    margins: tuple[float, float]
+
+
+def smallest_prime_circle(
+    lift: Lift,
+    max_pressure_angle: float,
+    *,
+    sense: int = 1,
+    offset: float = 0.0,
+    joints: Sequence[float] = (),
+    end: float = TURN,
+) -> CamSize:
+    """Smallest prime circle of a translating follower whose pressure angle keeps a limit.
+
+    y0 = max(|eps s' - e|/tan alpha_max - s),  r_p = sqrt(e^2 + y0^2)
+
+    Parameters
+        lift : function of cam angles [rad] - returns s [mm] and s' [mm/rad]
+        max_pressure_angle : float [rad] - in (0, pi/2), for either sign
+        sense : +1 or -1 - eps; matters with an offset only
+        offset : float [mm] - e, as of cam_profile.translating
+        joints : floats [rad] - ends of the phases of the law
+        end : float [rad] - the lift is given from 0 to here
+    Returns
+        size : CamSize
+    Raises
+        NoSolution - limit outside 0 to 90 deg; or a lift that needs no cam (y0 <= 0)
+    Example
+        >>> lift = lambda phi: (5.0 - 5.0 * np.cos(phi), 5.0 * np.sin(phi))
+        >>> round(smallest_prime_circle(lift, math.radians(45.0)).prime_radius, 9)
+        2.071067812
+
+    Source
+        own derivation from tan alpha = (eps s' - e)/(y0 + s)
+    """
+    slope = _checked_slope(max_pressure_angle)
+
+    def needed(phi: Reals) -> Reals:
+        s, s1 = lift(phi)
+        return np.abs(sense * s1 - offset) / slope - s
+
+    worst = maximum_over(needed, 0.0, end, joints=joints)
+    if not worst.value > 0.0:
+        raise NoSolution("the lift never comes near the pressure-angle limit: size the cam by its shaft and roller")
+    return CamSize(math.hypot(worst.value, offset), offset, worst.place)
+
+
+def smallest_offset_circle(
+    lift: Lift,
+    max_pressure_angle: float,
+    *,
+    sense: int = 1,
+    joints: Sequence[float] = (),
+    end: float = TURN,
+) -> CamSize:
+    """Smallest prime circle of a translating follower with the offset that allows it.
+
+    r_p = min over e of sqrt(e^2 + y0(e)^2): the point nearest to the roller of the half-planes
+    (y0 + s) tan alpha_max >= +-(eps s' - e)
+
+    Parameters
+        lift, max_pressure_angle, sense, joints, end : as of smallest_prime_circle
+    Returns
+        size : CamSize - its offset is positive where the cam axis lies on the left of the travel
+    Raises
+        NoSolution - as of smallest_prime_circle
+    Example
+        >>> lift = lambda phi: (5.0 - 5.0 * np.cos(phi), 5.0 * np.sin(phi))
+        >>> round(smallest_offset_circle(lift, math.radians(45.0)).offset, 6)
+        0.0
+
+    Source
+        own derivation: the half-planes are linear in (e, y0)
+    """
+    slope = _checked_slope(max_pressure_angle)
+
+    def planes(sign: int, phi: Reals) -> tuple[Points, Reals]:
+        s, s1 = lift(phi)
+        normal = np.full(s.shape, complex(sign, slope) / math.hypot(1.0, slope))
+        return normal, (sign * sense * s1 - s * slope) / math.hypot(1.0, slope)
+
+    found, places, _ = _nearest_admissible(planes, 0.0, 0.0, end, joints)
+    if not found.imag > 0.0:
+        raise NoSolution("the lift never comes near the pressure-angle limit: size the cam by its shaft and roller")
+    return CamSize(abs(found), found.real, places[0] if found.real >= 0.0 else places[1])
+
+
+def smallest_prime_circle_rocker(
+    law: Callable[[Reals], tuple[Reals, Reals]],
+    max_pressure_angle: float,
+    *,
+    pivot: complex,
+    arm: float,
+    sense: int,
+    side: int,
+    joints: Sequence[float] = (),
+    start: float = 0.0,
+    end: float = TURN,
+) -> CamCenter:
+    """Cam centre nearest to the roller of a rocking arm that keeps a pressure-angle limit.
+
+    z = (O - A) e^(-i psi) - l (1 - eps psi');  side Im z tan alpha_max +- Re z >= 0 for every cam angle
+
+    Parameters
+        law : function of cam angles [rad] - returns psi [rad] and psi' of the arm
+        max_pressure_angle : float [rad] - in (0, pi/2), for either sign
+        pivot, arm : complex, float [mm] - A and l, in any frame
+        sense : +1 or -1 - eps
+        side : +1 where the cam lies on the left of the arm (seen from the pivot to the roller), -1 on the right
+        joints : floats [rad] - ends of the phases of the law
+        start, end : float [rad] - range of cam angles; the prime circle is the one at start
+    Returns
+        best : CamCenter - the centre in the frame of the pivot
+    Raises
+        NoSolution - limit outside 0 to 90 deg; no centre keeps it
+    Notes
+        The limits are half-planes in O; their intersection is convex, and its point nearest to the roller is
+        found by cutting planes, each refined to the cam angle of the largest violation: exact to rounding.
+    Example
+        >>> rocking = lambda phi: (2.0 - 0.1 * np.cos(phi), 0.1 * np.sin(phi))
+        >>> best = smallest_prime_circle_rocker(
+        ...     rocking, math.radians(30.0), pivot=0j, arm=100.0, sense=1, side=1)
+        >>> round(best.prime_radius, 6) > 0.0
+        True
+
+    Source
+        own derivation: tan alpha = -Re z/Im z
+    """
+    slope = _checked_slope(max_pressure_angle)
+
+    def planes(sign: int, phi: Reals) -> tuple[Points, Reals]:
+        return _rocker_planes(law, slope, pivot, arm, sense, side, sign, phi)
+
+    psi, _ = law(np.array([start]))
+    roller = complex(pivot + arm * np.exp(1j * psi[0]))
+    center, places, margins = _nearest_admissible(planes, roller, start, end, joints)
+    return CamCenter(center, abs(roller - center), places, margins)
+
+
+def _rocker_planes(
+    law: Callable[[Reals], tuple[Reals, Reals]],
+    slope: float,
+    pivot: complex,
+    arm: float,
+    sense: int,
+    side: int,
+    sign: int,
+    phi: Reals,
+) -> tuple[Points, Reals]:
+    psi, psi1 = law(phi)
+    # side Im z tan a + sign Re z = Re(conj(n0) z) with n0 = sign + i side tan a
+    local = complex(sign, side * slope) / math.hypot(1.0, slope)
+    normal: Points = local * np.exp(1j * psi)
+    reach = arm * (1.0 - sense * psi1) * local.real
+    return normal, (np.conj(normal) * pivot).real + reach
+
+
+def admissible_centers(
+    law: Callable[[Reals], tuple[Reals, Reals]],
+    max_pressure_angle: float,
+    *,
+    pivot: complex,
+    arm: float,
+    sense: int,
+    side: int,
+    start: float = 0.0,
+    end: float = TURN,
+    samples: int = 1440,
+    within: float,
+) -> Points:
+    """Outline of the region of admissible cam centres, cut off at a distance from the pivot.
+
+    Parameters
+        law, max_pressure_angle, pivot, arm, sense, side, start, end : as of smallest_prime_circle_rocker
+        samples : int - cam angles whose half-planes are cut
+        within : float [mm] - the region reaches to infinity; it is clipped to a square of this half-width
+    Returns
+        corners : (N,) complex array [mm] - counter-clockwise, convex
+    Raises
+        NoSolution - nothing of the region lies within
+    Example
+        >>> corners = admissible_centers(
+        ...     lambda phi: (0.0 * phi, 0.0 * phi), math.radians(45.0),
+        ...     pivot=0j, arm=100.0, sense=1, side=1, within=200.0)
+        >>> [(round(c.real), round(c.imag)) for c in corners]
+        [(-100, 200), (100, 0), (200, 100), (200, 200)]
+
+    Source
+        own derivation
+    """
+    slope = _checked_slope(max_pressure_angle)
+    phi = np.linspace(start, end, samples)
+    parts = [_rocker_planes(law, slope, pivot, arm, sense, side, sign, phi) for sign in (1, -1)]
+    normals, limits = (np.concatenate(part) for part in zip(*parts, strict=True))
+    square = np.array([-1 - 1j, 1 - 1j, 1 + 1j, -1 + 1j], dtype=np.complex128)
+    corners: Points = np.asarray(pivot + within * square, dtype=np.complex128)
+    for _ in range(2 * samples):
+        short = limits - (np.conj(normals)[:, None] * corners[None, :]).real.min(axis=1)
+        worst = int(np.argmax(short))
+        if short[worst] <= 1e-12 * within:
+            first = int(np.lexsort((corners.imag, corners.real))[0])
+            return np.roll(corners, -first)
+        corners = _clipped(corners, complex(normals[worst]), float(limits[worst]))
+    return corners
+
+
+def _clipped(corners: Points, normal: complex, limit: float) -> Points:
+    inside = (normal.conjugate() * corners).real - limit
+    kept: list[complex] = []
+    for i, here in enumerate(inside):
+        previous = inside[i - 1]
+        if (previous < 0.0) != (here < 0.0):
+            share = previous / (previous - here)
+            kept.append(complex(corners[i - 1] + share * (corners[i] - corners[i - 1])))
+        if here >= 0.0:
+            kept.append(complex(corners[i]))
+    if len(kept) < 3:
+        raise NoSolution("no admissible cam centre lies within reach: raise the pressure-angle limit or the reach")
+    return np.array(kept)
+
+
+def _checked_slope(max_pressure_angle: float) -> float:
+    if not 0.0 < max_pressure_angle < math.pi / 2.0:
+        raise NoSolution(
+            f"max_pressure_angle = {math.degrees(max_pressure_angle):.6g} deg must lie between 0 and 90 deg: "
+            "30 deg is usual"
+        )
+    return math.tan(max_pressure_angle)
+
+
+_Planes: TypeAlias = Callable[[int, Reals], tuple[Points, Reals]]
+
+
+def _nearest_admissible(
+    planes: _Planes, target: complex, start: float, end: float, joints: Sequence[float]
+) -> tuple[complex, tuple[float, float], tuple[float, float]]:
+    """Point nearest to the target with Re(conj(n) p) >= c for both families of planes, by cutting planes."""
+    cuts: list[tuple[complex, float]] = []
+    point, scale = target, 1.0
+    for _ in range(_ROUNDS):
+        worst = [_largest_violation(planes, sign, point, start, end, joints) for sign in (1, -1)]
+        scale = max(scale, abs(point), *(abs(cut[1]) for _, _, cut in worst))
+        if max(worst[0][0], worst[1][0]) <= 1e-13 * scale:
+            break
+        cuts = [*cuts, *(cut for violation, _, cut in worst if violation > -1e-6 * scale)]
+        point = _nearest_point(cuts, target, scale)
+    places = (worst[0][1], worst[1][1])
+    return point, places, (max(0.0, -worst[0][0]), max(0.0, -worst[1][0]))
+
+
+def _largest_violation(
+    planes: _Planes, sign: int, point: complex, start: float, end: float, joints: Sequence[float]
+) -> tuple[float, float, tuple[complex, float]]:
+    def violation(phi: Reals) -> Reals:
+        normal, limit = planes(sign, phi)
+        short: Reals = limit - (np.conj(normal) * point).real
+        return short
+
+    top = maximum_over(violation, start, end, joints=joints)
+    normal, limit = planes(sign, np.array([top.place]))
+    return top.value, top.place, (complex(normal[0]), float(limit[0]))
+
+
+def _nearest_point(cuts: list[tuple[complex, float]], target: complex, scale: float) -> complex:
+    """Point of an intersection of half-planes nearest to a target: a foot on one, or a corner of two."""
+    normals, limits = np.array([n for n, _ in cuts]), np.array([c for _, c in cuts])
+    short = limits - (np.conj(normals) * target).real
+    candidates = [target, *(target + short * normals)]
+    for i, j in combinations(range(len(cuts)), 2):
+        cross = (normals[i].conjugate() * normals[j]).imag
+        if abs(cross) > 1e-12:
+            candidates.append(complex(1j * (limits[j] * normals[i] - limits[i] * normals[j]) / cross))
+    points = np.array(candidates)
+    missing = (limits[:, None] - (np.conj(normals)[:, None] * points[None, :]).real).max(axis=0)
+    feasible = points[missing <= 1e-13 * scale]
+    if feasible.size == 0:
+        raise NoSolution(
+            "no cam centre keeps the pressure angle within its limit for the whole turn: "
+            "raise the limit, lengthen the phases or reduce the swing"
+        )
+    return complex(feasible[int(np.argmin(np.abs(feasible - target)))])

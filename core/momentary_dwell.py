@@ -1,0 +1,196 @@
+"""Momentary dwell of the three-gear four-bar with any teeth: closed forms for frame and crank angle.
+
+The output stands still where A, the pole F of crank gear and idler (on BC, r1 from B) and the pole E of idler and
+output gear (on CD, r3 from C) lie on one line. The triangle CFE is isosceles; with its base angle beta, x = cos(beta),
+e = AB, S = r1 + 2 r3 + r5 and w = sqrt(e^2 - r1^2 + r1^2 x^2), signed,
+
+    AD^2 = (S x - w)^2 + r5^2 (1 - x^2)
+
+A dwell of just a moment is a stationary value of AD over beta. There w = e_t x: everything is rational in
+e_t = r1 (U -+ V)/(U +- V), U = sqrt(b (b + r5)), V = sqrt(r3 c), where the upper signs hold for a crank shorter than
+r1 (crank-rocker), the lower ones for a longer one (drag link).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from gearlink.core.errors import NoSolution
+from gearlink.core.fourbar import FourBar
+
+
+@dataclass(frozen=True, slots=True)
+class Tangency:
+    """Where the output just stops: the frame length [mm] of that, cosine and sine of beta, and e_t [mm]."""
+
+    frame: float
+    cos_beta: float
+    sin_beta: float
+    pole_offset: float
+
+
+def least_eccentricity(r1: float, r3: float, r5: float) -> float:
+    """Crank length down to which a momentary dwell exists; there the linkage stretches straight.
+
+    e_lo = r1 (U - V)/(U + V) = r1^2 S/(U + V)^2
+
+    Parameters
+        r1, r3, r5 : float [mm] - reference radii of crank gear, idler and output gear
+    Returns
+        e_lo : float [mm] - below r1
+    Example
+        >>> round(least_eccentricity(25.0, 25.0, 75.0), 12)
+        5.62870566386
+
+    Source
+        own derivation: cos(beta) = 1 in thesis (4-26)
+    """
+    u, v = _means(r1, r3, r5)
+    return r1 * r1 * (r1 + 2.0 * r3 + r5) / (u + v) ** 2
+
+
+def tangency(r1: float, r3: float, r5: float, eccentricity: float) -> Tangency | None:
+    """Frame length at which the output of given gears and crank just stops, None where no frame does that.
+
+    cos^2(beta) = (r1^2 - e^2)/(r1^2 - e_t^2),   d*^2 = (S - e_t)^2 cos^2(beta) + r5^2 sin^2(beta)
+
+    Parameters
+        r1, r3, r5 : float [mm] - reference radii
+        eccentricity : float [mm] - e = AB, crank length
+    Returns
+        tangency : Tangency or None - None for e <= e_lo, e = r1 and e >= r1^2/e_lo; for e > r1 the linkage is a
+            drag link if it turns at all
+    Notes
+        cos^2 and sin^2 come from products of differences of the lengths: no loss at either end of the range.
+    Example
+        >>> round(tangency(25.0, 25.0, 75.0, 18.0).frame, 12)
+        115.522215624713
+
+    Source
+        own derivation; replaces thesis (4-26)..(4-33), whose printed numbers have slips
+    """
+    e, e_lo = eccentricity, least_eccentricity(r1, r3, r5)
+    e_t = e_lo if e < r1 else r1 * (r1 / e_lo)
+    low, high = min(e_t, r1), max(e_t, r1)
+    if not low < e < high:
+        return None
+    span = (r1 - e_t) * (r1 + e_t)
+    cos_beta = math.sqrt((r1 - e) * (r1 + e) / span)
+    sin_beta = math.sqrt((e - e_t) * (e + e_t) / span)
+    frame = math.hypot((r1 + 2.0 * r3 + r5 - e_t) * cos_beta, r5 * sin_beta)
+    return Tangency(frame, cos_beta, sin_beta, e_t)
+
+
+def momentary_frame_length(r1: float, r3: float, r5: float, eccentricity: float) -> float:
+    """Frame length of the crank-rocker whose output stops just once a turn, without stepping back.
+
+    d*^2 = r5^2 + (r1^2 - e^2) {[(sqrt(r3 c) + sqrt(b (b + r5)))/r1]^2 - 1},   b = r1 + r3, c = r3 + r5
+
+    Parameters
+        r1, r3, r5 : float [mm] - reference radii of crank gear, idler and output gear
+        eccentricity : float [mm] - e, crank length, e_lo < e < r1
+    Returns
+        frame : float [mm]
+    Raises
+        NoSolution - for a crank outside (e_lo, r1): shorter ones never stop the output, longer ones always make
+            it step back
+    Example
+        >>> round(momentary_frame_length(25.0, 25.0, 75.0, 16.0), 12)
+        122.839414791868
+
+    Source
+        own derivation; thesis (4-26)..(4-33) solve the same task in steps
+    """
+    return _wanted(r1, r3, r5, eccentricity).frame
+
+
+def momentary_crank_angle(r1: float, r3: float, r5: float, eccentricity: float, assembly: int = 1) -> float:
+    """Crank angle at which the output of a momentary-dwell linkage stands still.
+
+    phi = arg(-e_lo x, -r1 s) - arg((S - e_lo) x, -r5 s),   x, s = cos(beta), sin(beta)
+
+    Parameters
+        r1, r3, r5, eccentricity : float [mm] - as in `momentary_frame_length`
+        assembly : +1 or -1 - the mirrored linkage stops at 2 pi - phi
+    Returns
+        phi : float [rad] - 0 <= phi < 2 pi
+    Raises
+        NoSolution - as `momentary_frame_length`
+    Notes
+        Full precision, where the search for a double root of the speed keeps half the digits.
+    Example
+        >>> round(math.degrees(momentary_crank_angle(25.0, 25.0, 75.0, 18.0)), 10)
+        284.240687259
+
+    Source
+        own derivation
+    """
+    found = _wanted(r1, r3, r5, eccentricity)
+    w = found.pole_offset * found.cos_beta
+    return crank_angle(r1, r5, (r1 + 2.0 * r3 + r5) * found.cos_beta, w, found.sin_beta, assembly)
+
+
+def momentary_linkage(r1: float, r3: float, r5: float, eccentricity: float, assembly: int = 1) -> FourBar:
+    """Four-bar with a momentary dwell: crank e, coupler r1 + r3, rocker r3 + r5, frame d*.
+
+    Raises
+        NoSolution - as `momentary_frame_length`
+    Example
+        >>> momentary_linkage(25.0, 25.0, 75.0, 16.0).kind()
+        'crank-rocker'
+
+    Source
+        own derivation
+    """
+    return FourBar(eccentricity, r1 + r3, r3 + r5, momentary_frame_length(r1, r3, r5, eccentricity), assembly)
+
+
+def crank_angle(r1: float, r5: float, reach: float, w: float, sin_beta: float, assembly: int) -> float:
+    """Crank angle of a standstill from its pole triangle: reach = S cos(beta), w = AF's part along the pole line.
+
+    Returns
+        phi : float [rad] - 0 <= phi < 2 pi
+
+    Source
+        own derivation: direction of AB less direction of AD, pole line as x axis
+    """
+    phi = math.atan2(-r1 * sin_beta, -w) - math.atan2(-r5 * sin_beta, reach - w)
+    return wrap(assembly * phi)
+
+
+def wrap(angle: float) -> float:
+    """Angle reduced to 0 <= angle < 2 pi.
+
+    Example
+        >>> wrap(-1e-20), wrap(7.0) == 7.0 - 2.0 * math.pi
+        (0.0, True)
+
+    Source
+        own derivation
+    """
+    turned = angle % (2.0 * math.pi)
+    return turned if turned < 2.0 * math.pi else 0.0
+
+
+def _means(r1: float, r3: float, r5: float) -> tuple[float, float]:
+    """U = sqrt(b (b + r5)) and V = sqrt(r3 c)."""
+    for name, radius in (("r1", r1), ("r3", r3), ("r5", r5)):
+        if not 0.0 < radius < math.inf:
+            raise NoSolution(f"the reference radius {name} is {radius:g} mm; it must be positive and finite")
+    b = r1 + r3
+    return math.sqrt(b * (b + r5)), math.sqrt(r3 * (r3 + r5))
+
+
+def _wanted(r1: float, r3: float, r5: float, eccentricity: float) -> Tangency:
+    """The tangency of a crank-rocker, or the refusal with its limits."""
+    found = tangency(r1, r3, r5, eccentricity) if eccentricity < r1 else None
+    if found is None:
+        low = least_eccentricity(r1, r3, r5)
+        what = "always makes the output step back" if eccentricity >= r1 else "never stops the output"
+        raise NoSolution(
+            f"a crank of {eccentricity:.9g} mm {what}, whatever the frame: for a momentary dwell it must lie "
+            f"between {low:.9g} and {r1:.9g} mm (the reference radius of the crank gear); choose it between them or "
+            "change the gears"
+        )
+    return found

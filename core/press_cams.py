@@ -1,0 +1,192 @@
+"""The compensation cam pair of a flatbed press: results, tables and checks of its main and return cam.
+
+Two rollers of the rack frame stand on a line through the cam axis, 180 deg apart, at a fixed distance; roller 1
+(main cam) on +x, roller 2 (return cam) on -x. The cam turns counter-clockwise with CD.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+from gearlink.core.compensation import Compensation, Joint
+from gearlink.core.report import Check, Table
+
+if TYPE_CHECKING:
+    from gearlink.core.cam_profile import Reals, RollerPath
+    from gearlink.core.disc_cam import DiscCam
+    from gearlink.core.specs.flatbed_press import FlatbedPressSpec, PressCam
+
+
+class PressCams:
+    """Mixed into the press design; reads its `follower`."""
+
+    spec: FlatbedPressSpec
+    samples: int | None
+
+    @property
+    def follower(self) -> Compensation:
+        """The lift of the follower; the design class gives it."""
+        raise NotImplementedError
+
+    @property
+    def _cam(self) -> PressCam:
+        assert self.spec.cam is not None, "the follower has asked for it"
+        return self.spec.cam
+
+    @property
+    def end_slope(self) -> float:
+        """Slope of the lift at the end of the zone [mm/rad]."""
+        return self.follower.end_slope
+
+    @property
+    def transition_rise(self) -> float:
+        """Rise over the transition [mm]."""
+        return self.follower.transition_rise
+
+    @property
+    def return_end(self) -> float:
+        """Cam angle at which the return ends [rad]."""
+        return self.follower.return_end
+
+    @property
+    def follower_stroke(self) -> float:
+        """Greatest less least lift [mm]."""
+        low, high = self.follower.lift_range
+        return high - low
+
+    @cached_property
+    def roller_center_distance(self) -> float:
+        """Distance of the two rollers [mm] that gives both cams the same largest radius.
+
+        L = 2 r_b + s_max + s_min; with s_min = 0 it is the report's 2 r_b + h
+
+        Source
+            TY-460 report 3.6
+        """
+        low, high = self.follower.lift_range
+        return 2.0 * self._cam.base_radius + high + low
+
+    @property
+    def max_radius(self) -> float:
+        """Largest radius of the main cam's profile [mm]: where the lift is greatest, the normal is radial."""
+        return self._cam.base_radius - self._cam.roller_radius + self.follower.lift_range[1]
+
+    @property
+    def min_radius(self) -> float:
+        """Smallest radius of the main cam's profile [mm]."""
+        return self._cam.base_radius - self._cam.roller_radius + self.follower.lift_range[0]
+
+    @property
+    def max_pressure_angle(self) -> float:
+        """Greatest pressure angle of the main cam [rad]."""
+        return self.main_cam.max_pressure_angle.value
+
+    @property
+    def min_curvature_radius(self) -> float:
+        """Least convex radius of the main cam's pitch curve [mm]."""
+        return self.main_cam.min_curvature_radius.value
+
+    @cached_property
+    def main_cam(self) -> DiscCam:
+        """The cam of roller 1: pitch radius r_b + s."""
+        return self._disc_cam("main cam", self._cam.base_radius)
+
+    @cached_property
+    def return_cam(self) -> DiscCam:
+        """The cam of roller 2: its centre stands at r_b + s - L on the same line."""
+        return self._disc_cam("return cam", self._cam.base_radius - self.roller_center_distance)
+
+    def _disc_cam(self, name: str, at_zero_lift: float) -> DiscCam:
+        from gearlink.core.cam_profile import translating
+        from gearlink.core.disc_cam import DiscCam
+
+        def path(theta: Reals, order: int) -> RollerPath:
+            lift = self.follower.evaluate(theta, order)[0]
+            return translating(at_zero_lift + lift.value, lift.first, lift.second if order > 1 else 0.0)
+
+        joints = tuple(segment.start for segment in self.follower.segments)
+        return DiscCam(name, path, 1, self._cam.roller_radius, joints)
+
+    @property
+    def _cam_degrees(self) -> Any:
+        import numpy as np
+
+        count = self.samples or 360
+        return np.arange(count) * (360.0 / count)
+
+    def table_follower(self) -> Table:
+        """Lift of the follower over the cam angle (TY-460 report 3.4)."""
+        import numpy as np
+
+        degrees = self._cam_degrees
+        lift, phases = self.follower.evaluate(np.radians(degrees), 2)
+        return Table(
+            "follower",
+            ("cam_angle", "lift", "velocity", "acceleration", "phase"),
+            ("deg", "mm", "mm/rad", "mm/rad^2", "1"),
+            (degrees, lift.value, lift.first, lift.second, phases),
+        )
+
+    def table_main_cam(self) -> Table:
+        """The main cam, point for point (TY-460 report 3.5)."""
+        return self.main_cam.table("main_cam", self._cam_degrees)
+
+    def table_return_cam(self) -> Table:
+        """The return cam, point for point (TY-460 report 3.6)."""
+        return self.return_cam.table("return_cam", self._cam_degrees)
+
+    def check_pressure_angle(self) -> Iterator[Check]:
+        """GL401 for both cams."""
+        from gearlink.core.cam_checks import pressure_angle_checks
+
+        remedy = "raise cam.base_radius or cam.return_angle"
+        yield from pressure_angle_checks((self.main_cam, self.return_cam), self.spec.limits.pressure_angle, remedy)
+
+    def check_cam_undercut(self) -> Iterator[Check]:
+        """GL402 for both cams."""
+        from gearlink.core.cam_checks import undercut_checks
+
+        yield from undercut_checks((self.main_cam, self.return_cam))
+
+    def check_velocity_step(self) -> Check:
+        """GL403 at every joint of the lift."""
+        return self._steps("GL403", "velocity-step", "velocity_step", "first", "mm/rad", "fail")
+
+    def check_acceleration_step(self) -> Check:
+        """GL404 at every joint of the lift."""
+        return self._steps("GL404", "acceleration-step", "acceleration_step", "second", "mm/rad^2", "warn")
+
+    def _steps(self, code: str, name: str, step: str, derivative: str, unit: str, bad: Any) -> Check:
+        from gearlink.core.cam_checks import step_check
+
+        joints = self.follower.joints
+        peak = max(
+            abs(float(getattr(segment.lift(angle, 2), derivative)))
+            for segment in self.follower.segments
+            for angle in (segment.start, 0.5 * (segment.start + segment.end), segment.end)
+        )
+        if name == "velocity-step":
+            remedy = "let the zone start where bed and cylinder have the same speed (leave sync.start out)"
+        else:
+            remedy = "a lead_in before the zone, transition quartic and return_law cycloidal take the jumps away"
+        return step_check(code, name, [(_joint(j), float(getattr(j, step))) for j in joints], peak, unit, bad, remedy)
+
+    def check_constant_sum(self) -> Check:
+        """GL405: the two pitch radii in contact add up to the roller distance at every cam angle."""
+        import numpy as np
+
+        theta = np.radians(np.arange(0.0, 360.0, 1.0))
+        radii = [np.abs(cam.points(theta)[0]) for cam in (self.main_cam, self.return_cam)]
+        off = float(np.abs(radii[0] + radii[1] - self.roller_center_distance).max())
+        limit = 1e-9 * self.roller_center_distance
+        text = f"the two pitch radii in contact add up to {self.roller_center_distance:.6g} mm within {off:.2g} mm"
+        if off > limit:
+            text += ": the return cam's roller would pass the cam axis; raise cam.base_radius"
+        return Check("GL405", "constant-sum", "fail" if off > limit else "pass", text, off, limit, "mm")
+
+
+def _joint(joint: Joint) -> str:
+    return f"{joint.before}/{joint.after} at {math.degrees(joint.cam_angle):.5g} deg"

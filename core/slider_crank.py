@@ -1,0 +1,316 @@
+"""The offset slider-crank: crank length from stroke, dead centres, position of the slider, with `math` alone.
+
+Frame: crank pivot D = (0, 0), crank pin E = r (cos psi, sin psi), slider F below on the line x = -e (the offset e
+is positive where the line passes to the left of D); the depth of the slider is h = -y_F.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+from gearlink.core.errors import NoSolution
+
+
+def max_stroke(rod: float, offset: float = 0.0) -> float:
+    """Stroke at which the crank could only just turn; a slider-crank's stroke stays below it.
+
+    S_max = 2 sqrt(L (L - |e|))
+
+    Parameters
+        rod : float [mm] - length L
+        offset : float [mm] - e, signed
+    Returns
+        stroke : float [mm]
+    Raises
+        NoSolution - when the offset is not smaller than the rod
+    Example
+        >>> round(max_stroke(520.0, 50.0), 6)
+        988.736568
+
+    Source
+        own derivation: crank L - |e| in `stroke`
+    """
+    _check_rod(rod, offset)
+    return 2.0 * math.sqrt(rod * (rod - abs(offset)))
+
+
+def crank_length(stroke: float, rod: float, offset: float = 0.0) -> float:
+    """Crank of the offset slider-crank that has a given stroke.
+
+    S = sqrt((L+r)^2 - e^2) - sqrt((L-r)^2 - e^2),  r = (S/2) sqrt((4 L^2 - 4 e^2 - S^2)/(4 L^2 - S^2))
+
+    Parameters
+        stroke : float [mm] - S, between 0 and max_stroke
+        rod : float [mm] - length L
+        offset : float [mm] - e, signed; |e| < L
+    Returns
+        crank : float [mm] - r < L - |e|
+    Raises
+        NoSolution - for a stroke that is not positive or not below max_stroke, or an offset beyond the rod
+    Notes
+        Squaring the equation twice also solves sqrt(A) + sqrt(B) = S; those roots lie beyond max_stroke.
+        The two radicands are formed as products (whichever form cancels less): a few ulp up to max_stroke,
+        where dr/dS goes to 0.
+    Example
+        >>> round(crank_length(310.0, 520.0, 50.0), 9)
+        154.211592039
+
+    Source
+        TY-460 report 2.1; the closed form is an own derivation
+    """
+    _check_stroke(stroke, rod, offset)
+    numerator, denominator = _radicands(stroke, rod, offset)
+    return stroke / 2.0 * math.sqrt(numerator / denominator)
+
+
+def stroke(crank: float, rod: float, offset: float = 0.0) -> float:
+    """Stroke of a slider-crank (inverse of crank_length).
+
+    S = P - Q = 4 L r/(P + Q),  P = sqrt((L+r)^2 - e^2),  Q = sqrt((L-r)^2 - e^2)
+
+    Parameters
+        crank, rod, offset : float [mm] - r, L, e (signed)
+    Returns
+        stroke : float [mm]
+    Raises
+        NoSolution - when the crank cannot make a full turn
+    Example
+        >>> stroke(crank_length(310.0, 520.0, 50.0), 520.0, 50.0)
+        310.0
+
+    Source
+        TY-460 report 2.1
+    """
+    far, near = _reaches(crank, rod, offset)
+    return 4.0 * rod * crank / (far + near)
+
+
+def dead_center_extended(crank: float, rod: float, offset: float = 0.0) -> float:
+    """Angle of the rod from the slide line where crank and rod are stretched.
+
+    asin(e/(L + r))
+
+    Parameters
+        crank, rod, offset : float [mm] - r, L, e (signed)
+    Returns
+        angle : float [rad] - of the sign of the offset; the crank's direction is -pi/2 less this angle
+    Raises
+        NoSolution - when the crank cannot make a full turn
+    Example
+        >>> round(math.degrees(dead_center_extended(154.21159203908383, 520.0, 50.0)), 9)
+        4.252999348
+
+    Source
+        TY-460 report 2.1
+    """
+    return math.atan2(offset, _reaches(crank, rod, offset)[0])
+
+
+def dead_center_folded(crank: float, rod: float, offset: float = 0.0) -> float:
+    """Angle of the rod from the slide line where crank and rod overlap.
+
+    asin(e/(L - r))
+
+    Parameters
+        crank, rod, offset : float [mm] - r, L, e (signed)
+    Returns
+        angle : float [rad] - of the sign of the offset; the crank's direction is pi/2 less this angle
+    Raises
+        NoSolution - when the crank cannot make a full turn
+    Example
+        >>> round(math.degrees(dead_center_folded(154.21159203908383, 520.0, 50.0)), 9)
+        7.856416254
+
+    Source
+        TY-460 report 2.1
+    """
+    return math.atan2(offset, _reaches(crank, rod, offset)[1])
+
+
+def quick_return_ratio(crank: float, rod: float, offset: float = 0.0) -> float:
+    """Crank angle of the stroke away from the crank pivot over that of the stroke back.
+
+    K = (180 + t)/(180 - t),  t = asin(e/(L - r)) - asin(e/(L + r))
+
+    Parameters
+        crank, rod, offset : float [mm] - r, L, e (signed)
+    Returns
+        K : float [1] - for a crank that turns counter-clockwise; 1/K for one that turns clockwise.
+        A negative offset, the mirror image, gives 1/K too
+    Raises
+        NoSolution - when the crank cannot make a full turn
+    Notes
+        t = atan(e S/(P Q + e^2)) takes no difference of angles.
+    Example
+        >>> round(quick_return_ratio(154.21159203908383, 520.0, 50.0), 9)
+        1.040855858
+
+    Source
+        own derivation
+    """
+    return _ratio(*_reaches(crank, rod, offset), stroke(crank, rod, offset), offset)
+
+
+@dataclass(frozen=True)
+class SliderCrank:
+    """Slider-crank of a given stroke, each value worked out when it is asked for.
+
+    P = 2 L r/S + S/2,  Q = 2 L r/S - S/2,  tan(extended) = e/P,  tan(folded) = e/Q
+
+    Parameters
+        stroke, rod, offset : float [mm] - S, L, e (signed)
+    Returns
+        Properties: crank_length, max_stroke [mm]; dead_center_extended, dead_center_folded [rad];
+        quick_return_ratio [1]; as the functions of these names
+    Raises
+        NoSolution - as crank_length
+    Notes
+        Near the largest stroke the crank hardly depends on the stroke, so that the folded dead centre cannot be
+        had from the rounded crank. Here Q comes from the stroke,
+        Q = (S_max^2 - S^2)(4 L^2 - S^2 + 4 L |e|)/(2 D (4 L r/S + S)), D = 4 L^2 - S^2.
+    Example
+        >>> SliderCrank(100.0, 200.0, 0.0).crank_length
+        50.0
+
+    Source
+        TY-460 report 2.1; own derivation
+    """
+
+    stroke: float
+    rod: float
+    offset: float = 0.0
+
+    def __post_init__(self) -> None:
+        _check_stroke(self.stroke, self.rod, self.offset)
+
+    @cached_property
+    def max_stroke(self) -> float:
+        """S_max = 2 sqrt(L (L - |e|)) [mm]."""
+        return max_stroke(self.rod, self.offset)
+
+    @cached_property
+    def crank_length(self) -> float:
+        """r = (S/2) sqrt((4 L^2 - 4 e^2 - S^2)/(4 L^2 - S^2)) [mm]."""
+        return crank_length(self.stroke, self.rod, self.offset)
+
+    @cached_property
+    def _far(self) -> float:
+        return 2.0 * self.rod * self.crank_length / self.stroke + self.stroke / 2.0
+
+    @cached_property
+    def _near(self) -> float:
+        s, rod = self.stroke, self.rod
+        square = (2.0 * rod - s) * (2.0 * rod + s)
+        left = (self.max_stroke - s) * (self.max_stroke + s)
+        return left * (1.0 + 4.0 * rod * abs(self.offset) / square) / (2.0 * (4.0 * rod * self.crank_length / s + s))
+
+    @cached_property
+    def dead_center_extended(self) -> float:
+        """asin(e/(L + r)) [rad]."""
+        return math.atan2(self.offset, self._far)
+
+    @cached_property
+    def dead_center_folded(self) -> float:
+        """asin(e/(L - r)) [rad]."""
+        return math.atan2(self.offset, self._near)
+
+    @cached_property
+    def quick_return_ratio(self) -> float:
+        """K = (180 + t)/(180 - t) [1], t = folded less extended dead centre."""
+        return _ratio(self._far, self._near, self.stroke, self.offset)
+
+
+def slider(psi: float, crank: float, rod: float, offset: float = 0.0, order: int = 0) -> tuple[float, ...]:
+    """Depth of the slider below the crank pivot, with derivatives with respect to the crank direction.
+
+    h = w - r sin(psi),  w = sqrt(L^2 - u^2),  u = r cos(psi) + e
+
+    Parameters
+        psi : float [rad] - direction of the crank from +x, counter-clockwise
+        crank, rod, offset : float [mm] - r, L, e (signed)
+        order : 0, 1 or 2 - derivatives wanted
+    Returns
+        h, h', h'' up to the order : tuple of floats [mm, mm/rad, mm/rad^2]
+    Raises
+        NoSolution - when the rod does not reach the slide line there, or just reaches it (derivatives)
+    Notes
+        Condition number of the derivatives: the rod's angle, L^2/w^2.
+    Example
+        >>> slider(-math.pi / 2, 50.0, 200.0, 0.0, 2)[::2]
+        (250.0, -62.5)
+
+    Source
+        TY-460 report 2.1; own derivation
+    """
+    cosine, sine = math.cos(psi), math.sin(psi)
+    u = crank * cosine + offset
+    square = (rod - u) * (rod + u)
+    if square < 0.0 or (square == 0.0 and order > 0):
+        raise NoSolution(not_reached(psi, crank, rod, offset))
+    w = math.sqrt(square)
+    depth = w - crank * sine
+    if order == 0:
+        return (depth,)
+    u1 = -crank * sine
+    w1 = -u * u1 / w
+    first = w1 - crank * cosine
+    if order == 1:
+        return depth, first
+    return depth, first, crank * sine - (u1 * u1 - u * crank * cosine + w1 * w1) / w
+
+
+def not_reached(psi: float, crank: float, rod: float, offset: float) -> str:
+    """Message for a crank position at which the rod does not reach the slide line."""
+    return (
+        f"rod {rod:.6g} mm does not reach the slide line at crank direction {math.degrees(psi):.6g} deg (crank "
+        f"{crank:.6g} mm, offset {offset:.6g} mm): a full turn needs a rod longer than {crank + abs(offset):.6g} mm"
+    )
+
+
+def _check_rod(rod: float, offset: float) -> None:
+    if not 0.0 < rod < math.inf:
+        raise NoSolution(f"rod {rod:g} mm: its length must be positive")
+    if not abs(offset) < rod:
+        raise NoSolution(f"offset {offset:.6g} mm: its magnitude must be below the rod length {rod:.6g} mm")
+
+
+def _check_stroke(stroke: float, rod: float, offset: float) -> None:
+    largest = max_stroke(rod, offset)
+    if not stroke > 0.0:
+        raise NoSolution(f"stroke {stroke:g} mm: it must be positive")
+    if not stroke < largest:
+        raise NoSolution(
+            f"stroke {stroke:.6g} mm is too long for rod {rod:.6g} mm and offset {offset:.6g} mm: it must stay below "
+            f"{largest:.9g} mm; shorten it, lengthen the rod or lessen the offset"
+        )
+
+
+def _radicands(stroke: float, rod: float, offset: float) -> tuple[float, float]:
+    """4 L^2 - 4 e^2 - S^2 and 4 L^2 - S^2, without loss of digits below max_stroke."""
+    e = abs(offset)
+    denominator = (2.0 * rod - stroke) * (2.0 * rod + stroke)
+    if 2.0 * e < rod:
+        return denominator - 4.0 * e * e, denominator
+    return 4.0 * (rod - e) * (rod + e) - stroke * stroke, denominator
+
+
+def _reaches(crank: float, rod: float, offset: float) -> tuple[float, float]:
+    """P and Q: depths of the slider at the dead centres."""
+    _check_rod(rod, offset)
+    e, difference = abs(offset), rod - crank
+    if not crank > 0.0:
+        raise NoSolution(f"crank {crank:g} mm: its length must be positive")
+    if not e <= difference:
+        raise NoSolution(
+            f"crank {crank:.6g} mm cannot make a full turn with rod {rod:.6g} mm and offset {offset:.6g} mm: "
+            f"it must not exceed rod less offset, {rod - e:.6g} mm"
+        )
+    total = rod + crank
+    return math.sqrt((total - e) * (total + e)), math.sqrt((difference - e) * (difference + e))
+
+
+def _ratio(far: float, near: float, stroke: float, offset: float) -> float:
+    t = math.atan2(offset * stroke, far * near + offset * offset)
+    return (math.pi + t) / (math.pi - t)

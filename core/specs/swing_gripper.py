@@ -1,0 +1,170 @@
+"""The design file of a swing gripper."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from gearlink.core.specs.common import (
+    AcuteAngle,
+    Angle,
+    Assembly,
+    DesignSpec,
+    Distance,
+    Length,
+    SignedLength,
+    Spec,
+)
+
+Phase = Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})]
+Point = Annotated[list[SignedLength], Field(min_length=2, max_length=2)]
+LawName = str | dict[str, Any]
+
+
+class Cylinder(Spec):
+    """The impression or transfer cylinder that takes the sheet over."""
+
+    radius: Length = Field(description="radius R of the cylinder")
+
+
+class Arm(Spec):
+    """The gripper arm EF, rigid with the output link ED."""
+
+    length: Length = Field(description="EF")
+    direction: Angle = Field(description="direction of EF at the bite")
+
+
+class Links(Spec):
+    """The linkage from the cam rocker to the gripper."""
+
+    input: Length = Field(description="AC, on the cam rocker")
+    coupler: Length = Field(description="CD")
+    output: Length = Field(description="ED, rigid with the gripper arm")
+
+
+class Pivots(Spec):
+    """The fixed pivots."""
+
+    input: Point = Field(description="A, pivot of the cam rocker")
+    output: Point = Field(description="E, pivot of the gripper")
+
+
+class Phases(Spec):
+    """The six phases of a turn; they add up to 360 deg."""
+
+    accelerate: Phase
+    constant: Phase
+    decelerate: Phase
+    far_dwell: Phase
+    return_: Phase = Field(alias="return")
+    near_dwell: Phase
+
+    @model_validator(mode="after")
+    def _whole_turn(self) -> Phases:
+        total = sum(self.lengths())
+        if abs(total - 360.0) > 1e-9:
+            raise PydanticCustomError(
+                "GL111",
+                "the six phases add up to {total} deg, not 360: change one of them by {off} deg",
+                {"total": f"{total:g}", "off": f"{360.0 - total:g}"},
+            )
+        return self
+
+    def lengths(self) -> tuple[float, ...]:
+        """The six lengths in their order [deg]."""
+        return (self.accelerate, self.constant, self.decelerate, self.far_dwell, self.return_, self.near_dwell)
+
+
+class Laws(Spec):
+    """The laws of motion of the three moving phases."""
+
+    accelerate: LawName = Field("velocity-345", description="rest-to-speed law")
+    decelerate: LawName = Field("half-cycloidal", description="rest-to-speed law, run backwards")
+    return_: LawName = Field("modified-sine", alias="return", description="rest-to-rest law")
+
+
+class Roller(Spec):
+    """A cam roller on its rocker."""
+
+    arm: Length = Field(description="rocker pivot A to roller centre")
+    angle: Angle = Field(description="from AC (main roller) or from the main roller's arm (return roller)")
+    radius: Length = Field(description="radius of the roller")
+
+
+class GripperCam(Spec):
+    """The cam pair on the cylinder's shaft."""
+
+    center: Point | None = Field(None, description="cam axis; left out: chosen by the section `size`")
+    sense: Assembly = Field(description="+1: cam turns counter-clockwise; -1: clockwise")
+    roller: Roller
+    return_roller: Roller | None = None
+    shaft_radius: Distance = Field(0.0, description="cam shaft; 0: not checked")
+
+
+class Size(Spec):
+    """How a cam centre that is left out is chosen: the smallest cam for a pressure angle."""
+
+    pressure_angle: Annotated[float, Field(gt=0, lt=90)] = Field(description="pressure angle not to be exceeded")
+
+
+class Inertia(Spec):
+    """Moments of inertia about the links' own axes, and the coupler's mass."""
+
+    input: Distance = Field(0.0, description="cam rocker about A, kg m^2")
+    output: Distance = Field(0.0, description="gripper about E, kg m^2")
+    coupler: Distance = Field(0.0, description="coupler about its centre of mass, kg m^2")
+    coupler_mass: Distance = Field(0.0, description="kg, at mid-length")
+    return_rocker: Distance = Field(0.0, description="return rocker about A, kg m^2")
+
+
+class ClosingSpring(Spec):
+    """The spring that pulls the two rockers together."""
+
+    torque: Length = Field(description="torque on each rocker, N m")
+    reserve: Distance = Field(0.0, description="least torque that must remain, N m")
+
+
+class GripperLimits(Spec):
+    """Limits of the checks."""
+
+    transmission_angle: AcuteAngle = Field(40.0, description="least transmission angle, at D and at C")
+    pressure_angle: AcuteAngle = Field(45.0, description="greatest pressure angle of the cams")
+
+
+class SwingGripperSpec(DesignSpec):
+    """Six-phase swing gripper with cam rocker, four-bar and cam pair."""
+
+    kind: Literal["swing-gripper"]
+    speed: Annotated[float, Field(gt=0, json_schema_extra={"unit": "sheets/h"})] = Field(description="sheets per hour")
+    cylinder: Cylinder
+    arm: Arm
+    links: Links
+    pivots: Pivots
+    output_direction: Angle = Field(description="direction of ED at the bite")
+    swing_sense: Assembly = Field(description="-1: the working stroke turns clockwise")
+    assembly: Assembly = Field(1, description="sign of sin(input angle - coupler angle); +1: C left of A->D")
+    phases: Phases
+    handover: Annotated[float, Field(gt=0, lt=360)] = Field(description="cylinder angle of the handover")
+    laws: Laws = Laws()
+    cam: GripperCam | None = None
+    size: Size | None = None
+    inertia: Inertia | None = None
+    spring: ClosingSpring | None = None
+    limits: GripperLimits = GripperLimits()
+
+    @model_validator(mode="after")
+    def _handover_at_speed(self) -> SwingGripperSpec:
+        start, end = self.phases.accelerate, self.phases.accelerate + self.phases.constant
+        if not start <= self.handover <= end:
+            raise PydanticCustomError(
+                "GL108",
+                "the handover at {at} deg lies outside the constant-speed phase: set it from {start} to {end} deg",
+                {"key": "handover", "at": f"{self.handover:g}", "start": f"{start:g}", "end": f"{end:g}"},
+            )
+        return self
+
+    def commands(self) -> tuple[str, ...]:
+        """What the file asks for."""
+        return ("gripper", "cam") if self.cam is not None else ("gripper",)

@@ -1,0 +1,243 @@
+"""Back-step and dwell of the symmetric three-gear four-bar (I = 1), exactly and in both directions.
+
+All of it follows from two numbers, n = 1 - i3 > 1 and h = phi12/2, half the crank angle of the back-step: around
+the crank angle 270 deg (90 deg in the mirrored assembly)
+
+    W(270 deg + y) = 1 - n k cos(y)/sqrt(1 - k^2 sin^2(y)),    1/k = sqrt(n^2 cos^2(h) + sin^2(h))
+
+Differences that vanish like h^3 (back-step, regained place) are formed from series or integrals, not from the
+angles themselves, so a design next to the momentary dwell keeps all its digits.
+"""
+
+from __future__ import annotations
+
+import math
+
+from gearlink.core.errors import NoSolution
+from gearlink.core.gear_linkage_synthesis import check_back_step_crank_angle, check_ratio
+from gearlink.core.roots import bracketed_root
+
+_SERIES_BELOW = 0.25  # tan h; the fifteenth term is then below 1e-17 of the first
+_INTEGRAL_BELOW = 0.2  # h [rad]; ten Gauss points over 4 h are then exact to rounding
+
+# Ten-point Gauss-Legendre rule on [-1, 1], positive half.
+GAUSS_NODES = (
+    0.14887433898163122,
+    0.4333953941292472,
+    0.6794095682990244,
+    0.8650633666889845,
+    0.9739065285171717,
+)
+GAUSS_WEIGHTS = (
+    0.29552422471475287,
+    0.26926671930999635,
+    0.21908636251598204,
+    0.1494513491505806,
+    0.06667134430868814,
+)
+
+
+def back_step_angle(i3: float, back_step_crank_angle: float) -> float:
+    """Angle by which the output turns back, as a magnitude.
+
+    |phi5(2) - phi5(1)| = 2 n atan(tan(h)/n) - 2 h,   n = 1 - i3,   h = phi12/2
+
+    Parameters
+        i3 : float - negative
+        back_step_crank_angle : float [rad] - phi12, 0 <= phi12 < pi
+    Returns
+        angle : float [rad] - 0 at phi12 = 0, below 2 tan(h) - 2 h and below -i3 pi
+    Raises
+        NoSolution - for i3 >= 0 or phi12 outside [0, pi)
+    Notes
+        A series in tan(h) for small h and an addition theorem for larger: some ulp everywhere, where the plain
+        formula keeps 1 ulp / h^2.
+    Example
+        >>> round(math.degrees(back_step_angle(-2.0, math.radians(120.0))), 12)
+        60.0
+
+    Source
+        thesis (4-19)
+    """
+    check_ratio(i3)
+    check_back_step_crank_angle(back_step_crank_angle)
+    return _back_step(i3 / (i3 - 1.0), 0.5 * back_step_crank_angle)
+
+
+def i3_for_back_step(back_step_angle: float, back_step_crank_angle: float) -> float:
+    """Gear ratio i3 that turns the output back by a wanted angle within a wanted crank angle.
+
+    2 n atan(tan(h)/n) - 2 h = angle   solved for   n = 1 - i3
+
+    Parameters
+        back_step_angle : float [rad] - magnitude, 0 < angle < 2 tan(h) - 2 h
+        back_step_crank_angle : float [rad] - phi12 = 2 h, 0 < phi12 < pi
+    Returns
+        i3 : float - negative
+    Raises
+        NoSolution - for an angle outside the range: i3 -> 0 and i3 -> -infinity are its ends
+    Notes
+        Bracketed root in (n - 1)/n, monotone; the condition number grows at the upper limit, where i3 -> -infinity.
+    Example
+        >>> round(i3_for_back_step(math.radians(20.0), math.radians(90.0)), 12)
+        -1.779808035671
+
+    Source
+        thesis (4-19), inverted; thesis figure 4-5
+    """
+    check_back_step_crank_angle(back_step_crank_angle)
+    h = 0.5 * back_step_crank_angle
+    limit = _back_step(1.0, h)
+    if not 0.0 < back_step_angle < limit:
+        raise NoSolution(
+            f"no gear ratio gives a back-step of {_deg(back_step_angle)} deg within {_deg(2.0 * h)} deg of the "
+            f"crank: the back-step must lie between 0 and {_deg(limit)} deg; reduce it or enlarge the crank angle"
+        )
+    v = bracketed_root(lambda v: _back_step(v, h) - back_step_angle, 0.0, 1.0)
+    return -v / (1.0 - v)
+
+
+def crank_angle_for_back_step(i3: float, back_step_angle: float) -> float:
+    """Crank angle phi12 for which the output of given gears turns back by a wanted angle.
+
+    Parameters
+        i3 : float - negative
+        back_step_angle : float [rad] - magnitude, 0 < angle < -i3 pi
+    Returns
+        phi12 : float [rad] - 0 < phi12 < pi
+    Raises
+        NoSolution - for an angle outside the range
+    Notes
+        Bracketed root of `back_step_angle`, which rises monotonically from 0 to -i3 pi.
+    Example
+        >>> round(math.degrees(crank_angle_for_back_step(-2.0, math.radians(60.0))), 9)
+        120.0
+
+    Source
+        thesis (4-19), inverted
+    """
+    check_ratio(i3)
+    limit = -i3 * math.pi
+    if not 0.0 < back_step_angle < limit:
+        raise NoSolution(
+            f"no frame length gives a back-step of {_deg(back_step_angle)} deg with i3 = {i3:.9g}: it must lie "
+            f"between 0 and -i3 * 180 = {_deg(limit)} deg; reduce it or take an idler of more teeth"
+        )
+    v = i3 / (i3 - 1.0)
+    return 2.0 * bracketed_root(lambda h: _back_step(v, h) - back_step_angle, 0.0, 0.5 * math.pi)
+
+
+def dwell_angle(i3: float, back_step_crank_angle: float) -> float:
+    """Crank angle phi13 from the start of the back-step to where the output regains its place, exactly.
+
+    n [asin(k sin(y)) + asin(k sin(h))] = h + y,   phi13 = y + h,   h = phi12/2
+
+    Parameters
+        i3 : float - negative
+        back_step_crank_angle : float [rad] - phi12, 0 <= phi12 < pi
+    Returns
+        phi13 : float [rad] - between phi12 and 2 phi12; 1.5 phi12 exactly for i3 = -2 and for phi12 -> 0
+    Raises
+        NoSolution - for i3 >= 0 or phi12 outside [0, pi)
+    Notes
+        Bracketed root of a function that falls monotonically from y = h on. The thesis takes 1.5 phi12
+        (4-17), which is within 3 % for phi12 <= 90 deg and i3 <= -1.
+    Example
+        >>> round(math.degrees(dwell_angle(-1.0, math.radians(90.0))), 10)
+        131.4096221093
+
+    Source
+        own derivation: thesis (4-16) set to zero; thesis (4-17) is its approximation
+    """
+    check_ratio(i3)
+    check_back_step_crank_angle(back_step_crank_angle)
+    h = 0.5 * back_step_crank_angle
+    if h == 0.0:
+        return 0.0
+    return h + bracketed_root(lambda y: _fallen(i3, h, y), h, min(3.0 * h, dwell_angle_limit(i3) - h))
+
+
+def dwell_angle_limit(i3: float) -> float:
+    """Upper limit of the dwell angle phi13, approached as phi12 -> pi and the frame ratio -> 1.
+
+    phi13 < 2 pi (1 - i3)/(2 - i3)
+
+    Example
+        >>> round(math.degrees(dwell_angle_limit(-1.0)), 9)
+        240.0
+
+    Source
+        own derivation
+    """
+    check_ratio(i3)
+    return 2.0 * math.pi * (1.0 - i3) / (2.0 - i3)
+
+
+def crank_angle_for_dwell(i3: float, dwell_angle: float) -> float:
+    """Crank angle of the back-step phi12 for which the dwell angle phi13 is met exactly.
+
+    Parameters
+        i3 : float - negative
+        dwell_angle : float [rad] - phi13, 0 < phi13 < 2 pi (1 - i3)/(2 - i3)
+    Returns
+        phi12 : float [rad] - between phi13/2 and phi13; about phi13/1.5
+    Raises
+        NoSolution - for a dwell angle outside the range
+    Notes
+        Bracketed root in h of the equation of `dwell_angle` with y = phi13 - h.
+    Example
+        >>> round(math.degrees(crank_angle_for_dwell(-1.8, math.radians(135.0))), 9)
+        90.30114714
+
+    Source
+        own derivation: thesis (4-16) set to zero
+    """
+    limit = dwell_angle_limit(i3)
+    if not 0.0 < dwell_angle < limit:
+        raise NoSolution(
+            f"the dwell angle {_deg(dwell_angle)} deg is out of reach with i3 = {i3:.9g}: it must lie above 0 and "
+            f"below 360 (1 - i3)/(2 - i3) = {_deg(limit)} deg; reduce it{_ratio_remedy(dwell_angle)}"
+        )
+    high = min(0.5 * dwell_angle, 0.5 * math.pi)
+    return 2.0 * bracketed_root(lambda h: _fallen(i3, h, dwell_angle - h), 0.25 * dwell_angle, high)
+
+
+def _back_step(v: float, h: float) -> float:
+    """Equation (4-19) in v = (n - 1)/n, 0 <= v <= 1 (1: i3 = -infinity), and h."""
+    t, x = math.tan(h), 1.0 - v
+    if t < _SERIES_BELOW:
+        log_x = math.log1p(-v) if v < 1.0 else -math.inf
+        terms = ((-1) ** j * t ** (2 * j + 1) / (2 * j + 1) * math.expm1(2 * j * log_x) for j in range(14, 0, -1))
+        return 2.0 * sum(terms)
+    # n atan(t/n) - atan(t) with the part (n - 1) drawn out of both terms
+    first = v * math.atan(t * x) / x if x > 0.0 else t
+    return 2.0 * (first - math.atan(v / (1.0 / t + x * t)))
+
+
+def _fallen(i3: float, h: float, y: float) -> float:
+    """How far the output at 270 deg + y stands below its place at 270 deg - h; zero at y = phi13 - h."""
+    n, rest = 1.0 - i3, i3 * (i3 - 2.0) * math.cos(h) ** 2
+    if h < _INTEGRAL_BELOW:
+        mean, half = 0.5 * (y - h), 0.5 * (y + h)
+        nodes = zip(GAUSS_NODES, GAUSS_WEIGHTS, strict=True)
+        return half * sum(w * (_reverse(i3, h, mean - half * x) + _reverse(i3, h, mean + half * x)) for x, w in nodes)
+    at_y = math.atan2(math.sin(y), math.sqrt(rest + math.cos(y) ** 2))
+    return n * (at_y + math.atan(math.tan(h) / n)) - h - y
+
+
+def _reverse(i3: float, h: float, y: float) -> float:
+    """Backward speed ratio -W at 270 deg + y, |y| < 90 deg, as a product that vanishes exactly at y = +-h."""
+    n, rest = 1.0 - i3, i3 * (i3 - 2.0)
+    root = math.sqrt(rest * math.cos(h) ** 2 + math.cos(y) ** 2)
+    return rest * math.sin(h - y) * math.sin(h + y) / (root * (root + n * math.cos(y)))
+
+
+def _deg(angle: float) -> str:
+    return f"{math.degrees(angle):.9g}"
+
+
+def _ratio_remedy(phi13: float) -> str:
+    """The i3 from which on a dwell angle is within reach, where there is one."""
+    if not 0.0 < phi13 < 2.0 * math.pi:
+        return ""
+    return f" or take -i3 above {2.0 * (phi13 - math.pi) / (2.0 * math.pi - phi13):.9g} (an idler of more teeth)"

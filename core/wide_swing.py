@@ -1,0 +1,502 @@
+"""Cams of wide-swing mechanisms: the twin-cam with external and the twin-rocker with internal profile.
+
+Both layouts obey one set of formulas. With sigma = +1 for the twin-cam (cam and rocker turn against each other)
+and -1 for the twin-rocker (they turn together), the signed radius ratio lambda = sigma r/a and rocker angle
+psi = sigma phi give the pitch curve w = e^{i theta} (-1 + lambda e^{i psi}); the twin-rocker's is -conj(w).
+Lengths inside are in centre distances; what leaves is in mm.
+
+About mid-swing the pitch curve is a cusp and all differences that vanish there are formed as products of
+    e = 1 - lambda A, A = 1 + dpsi/dtheta;  s = 1 - cos psi.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Literal, Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+from gearlink.core.errors import NoSolution
+from gearlink.core.periodic_quadrature import FloatArray
+from gearlink.core.roots import bracketed_root, maximum
+from gearlink.core.unloading import MiddleView
+
+ComplexArray = npt.NDArray[np.complex128]
+Layout = Literal["twin-cam", "twin-rocker"]
+
+
+class StrokeLaw(Protocol):
+    """What a cam needs of the rocker's law of motion; `ElasticLaw` has it."""
+
+    @property
+    def swing(self) -> float: ...
+    @property
+    def velocity_peak(self) -> float: ...
+    @property
+    def middle_jerk(self) -> float: ...
+    def middle_view(self, k: FloatArray) -> MiddleView: ...
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class CamPoints:
+    """Points of a cam in its own frame, origin on the cam axis, mid-swing on the x axis.
+
+    Fields
+        k : (N,) array - fraction of the stroke
+        cam_angle, polar_angle : (N,) arrays [rad] - theta = (k - 1/2) phi_ud, and Theta of the pitch point, both
+            from mid-swing
+        pitch, profile : (N,) complex arrays [mm] - roller centre and contact point
+        pressure_angle : (N,) array [rad]
+        curvature_radius : (N,) array [mm] - of the pitch curve, positive with the centre towards the cam axis,
+            infinite where straight
+        in_contact : (N,) bool array - False in the transition zone about mid-swing, where the profile point is cut
+            away by the slot that the roller needs there
+    """
+
+    k: FloatArray
+    cam_angle: FloatArray
+    polar_angle: FloatArray
+    pitch: ComplexArray
+    profile: ComplexArray
+    pressure_angle: FloatArray
+    curvature_radius: FloatArray
+    in_contact: npt.NDArray[np.bool_]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _State:
+    """The products e, s and the vector g = 1 - lambda A e^{i psi} from which the profile is made."""
+
+    k: FloatArray
+    theta: FloatArray
+    psi: FloatArray
+    a: FloatArray  # A = 1 + dpsi/dtheta
+    e: FloatArray
+    s: FloatArray
+    second: FloatArray  # d2 psi/dtheta2
+
+
+@dataclass(frozen=True)
+class WideSwingCam:
+    """One cam of a twin-cam or twin-rocker mechanism; every property is computed when it is read.
+
+    r = a/(B alpha + 1) external, a/(B alpha - 1) internal; z = e^{i theta}(-1 + lambda e^{i phi}) a, alpha = gamma/phi_ud
+
+    Parameters
+        layout : "twin-cam" (external profile) or "twin-rocker" (internal profile)
+        law : StrokeLaw - law of motion of the rocker
+        cycle_angle : float [rad] - phi_ud, cam angle of one stroke
+        center_distance, roller_radius : float [mm] - a, r_p
+        given_rocker_radius : float or None [mm] - in place of the r of (18) or (24)
+    Raises
+        NoSolution - for lengths that are not positive, a cycle angle outside (0, 360 deg], and a twin-rocker with
+            B alpha <= 1
+    Notes
+        With the r of (18), (24) the roller centre passes the velocity pole at mid-swing: the pressure angle is
+        zero there and the pitch curve has a cusp, rho - rho_mid = p t^2, tangential q t^3.
+    Example
+        >>> from gearlink.core.unloading import ElasticLaw, Pneumatic
+        >>> law = ElasticLaw(Pneumatic(2.5), math.radians(120))
+        >>> cam = WideSwingCam("twin-cam", law, math.radians(120), 200.0, 8.0)
+        >>> round(cam.rocker_radius, 9), round(math.degrees(cam.phase_angle), 9)
+        (74.41794958, 38.401731774)
+
+    Source
+        wide-swing dissertation (18) to (22), (24) to (26); cusp, transition zone and existence: own derivation
+    """
+
+    layout: Layout
+    law: StrokeLaw
+    cycle_angle: float
+    center_distance: float
+    roller_radius: float
+    given_rocker_radius: float | None = None
+
+    def __post_init__(self) -> None:
+        _require_lengths(self.center_distance, self.roller_radius, self.given_rocker_radius)
+        if not 0.0 < self.cycle_angle <= 2.0 * math.pi:
+            raise NoSolution(
+                f"cycle angle {math.degrees(self.cycle_angle):.6g} deg: one stroke needs more than 0 and "
+                "at most 360 deg of the cam"
+            )
+        if self.layout == "twin-rocker" and self.speed_ratio_peak <= 1.0:
+            limit = math.degrees(self.law.velocity_peak * self.law.swing)
+            raise NoSolution(
+                f"the rocker's peak speed is {self.speed_ratio_peak:.6g} of the cam's; a twin-rocker needs more "
+                f"than 1: reduce the cycle angle below {limit:.4g} deg or increase the swing"
+            )
+
+    @property
+    def sense(self) -> int:
+        """sigma: +1 where cam and rocker turn against each other (twin-cam), -1 where together (twin-rocker)."""
+        return 1 if self.layout == "twin-cam" else -1
+
+    @property
+    def speed_ratio(self) -> float:
+        """alpha = gamma/phi_ud, mean speed of the rocker over the cam's."""
+        return self.law.swing / self.cycle_angle
+
+    @property
+    def speed_ratio_peak(self) -> float:
+        """B alpha."""
+        return self.law.velocity_peak * self.speed_ratio
+
+    @property
+    def nominal_rocker_radius(self) -> float:
+        """r of (18) or (24) [mm]."""
+        return self.center_distance / (self.speed_ratio_peak + self.sense)
+
+    @property
+    def rocker_radius(self) -> float:
+        """r, from the rocker's pivot to the roller centre [mm]."""
+        return self.nominal_rocker_radius if self.given_rocker_radius is None else self.given_rocker_radius
+
+    @cached_property
+    def _ratio(self) -> float:
+        """Signed lambda = sigma r/a."""
+        return self.sense * self.rocker_radius / self.center_distance
+
+    @cached_property
+    def _middle_gap(self) -> float:
+        """e at mid-swing: 0 but for a given rocker radius."""
+        if self.given_rocker_radius is None:
+            return 0.0
+        return 1.0 - self.given_rocker_radius / self.nominal_rocker_radius
+
+    @cached_property
+    def middle_radius(self) -> float:
+        """Pitch radius at mid-swing, a - r external, a + r internal [mm]."""
+        return abs(1.0 - self._ratio) * self.center_distance
+
+    @cached_property
+    def end_radius(self) -> float:
+        """Pitch radius at the ends of the stroke [mm] (dissertation (20))."""
+        half = self._ratio * math.sin(0.5 * self.law.swing)
+        return self.center_distance * math.hypot(1.0 - self._ratio * math.cos(0.5 * self.law.swing), half)
+
+    @property
+    def min_radius(self) -> float:
+        """Least pitch radius [mm]."""
+        return min(self.middle_radius, self.end_radius)
+
+    @property
+    def max_radius(self) -> float:
+        """Largest pitch radius [mm]."""
+        return max(self.middle_radius, self.end_radius)
+
+    @cached_property
+    def profile_correction(self) -> float:
+        """xi at the end of the stroke, polar angle of the roller against the centre line [rad] ((19), (25))."""
+        half = 0.5 * self.law.swing
+        ratio = abs(self._ratio)
+        return math.atan2(ratio * math.sin(half), 1.0 - self._ratio * math.cos(half))
+
+    @cached_property
+    def largest_profile_correction(self) -> float:
+        """Largest xi of the stroke: asin lambda where the roller arm touches the pitch point's ray [rad]."""
+        ratio = self._ratio
+        if abs(ratio) < 1.0 and math.cos(0.5 * self.law.swing) < ratio:
+            return math.asin(abs(ratio))
+        return self.profile_correction
+
+    @property
+    def phase_angle(self) -> float:
+        """Phi = phi_ud/2 - xi, cam angle of the run-up profile [rad] ((21), (22))."""
+        return 0.5 * self.cycle_angle - self.profile_correction
+
+    @cached_property
+    def start_curvature_radius(self) -> float:
+        """R of the pitch curve at the start of the stroke, negative with its centre away from the cam axis [mm].
+
+        R0 = rho^2/(rho + lambda sin(gamma/2) psi''(0)/rho)
+        """
+        curvature = float(self._curvature(self._state(np.zeros(1)))[0])
+        return self.center_distance / curvature if curvature != 0.0 else math.inf
+
+    @cached_property
+    def cusp(self) -> tuple[float, float]:
+        """p and q of the pitch curve's cusp, rho - rho_mid = p t^2, tangential q t^3, t cam angle [mm, mm]."""
+        ratio, arm = self._ratio, abs(self._ratio)
+        third = self.law.swing * abs(self.law.middle_jerk) / self.cycle_angle**3
+        bracket = (1.0 + ratio) / ratio**2 + arm * third / (1.0 - ratio)
+        a = self.center_distance
+        return 0.5 * a * self.speed_ratio_peak, a * (1.0 - ratio) / 6.0 * bracket
+
+    @cached_property
+    def transition_zone(self) -> float:
+        """Part Dk of the stroke before mid-swing where the roller, in its slot, has left the profile.
+
+        Dk = (4/3) t_c/phi_ud, t_c = 3 q r_p/(4 p^2): the pitch curvature radius has fallen to r_p at t_c
+
+        Raises
+            NoSolution - where the pitch curve has a loop in place of the cusp (q <= 0)
+        Notes
+            Leading order in r_p/a; `contact_end` is the exact place.
+        """
+        p, q = self.cusp
+        if q <= 0.0:
+            raise NoSolution(self._loop_message(q))
+        return q * self.roller_radius / (p * p * self.cycle_angle)
+
+    @cached_property
+    def loop_margin(self) -> float:
+        """Least of (dTheta/dtheta) rho^2/(1 - cos phi) over the stroke: the profile exists where it is positive.
+
+        h = (1 - lambda) e/s + lambda (1 + A), at mid-swing 6 q lambda^2/rho_mid
+        """
+        if self._middle_gap != 0.0:
+            return math.inf if self._middle_gap > 0.0 else -math.inf
+        grid = np.linspace(0.0, 0.499, 257)
+        values = self._loop_measure(grid)
+        least = int(np.argmin(values))
+        low, high = float(grid[max(least - 1, 0)]), float(grid[min(least + 1, 256)])
+        inside = -maximum(lambda k: -float(self._loop_measure(np.array([k]))[0]), low, high)[1]
+        return min(inside, 6.0 * self.cusp[1] * self._ratio**2 / self.middle_radius)
+
+    def _loop_measure(self, k: FloatArray) -> FloatArray:
+        state = self._state(k)
+        result: FloatArray = (1.0 - self._ratio) * state.e / state.s + self._ratio * (1.0 + state.a)
+        return result
+
+    def _loop_message(self, value: float) -> str:
+        safe = math.degrees(0.5 * self.law.velocity_peak * self.law.swing)
+        return (
+            f"the pitch curve has a loop at mid-swing (measure {value:.4g}, must be above 0): reduce the cycle angle "
+            f"to {safe:.4g} deg or less, where the arm is no longer than the centre distance, or stretch the spring more"
+        )
+
+    def require_profile(self) -> None:
+        """Refuse a profile that does not exist.
+
+        Raises
+            NoSolution - for a rocker radius above that of (18), (24), a loop, or a phase angle that is not positive
+        Source
+            wide-swing dissertation (21), (22), (25); the loop condition: own derivation
+        """
+        if self._middle_gap < 0.0:
+            raise NoSolution(
+                f"rocker radius {self.rocker_radius:.6g} mm is above {self.nominal_rocker_radius:.6g} mm and the "
+                "pitch curve has a loop: restore that radius"
+            )
+        if self.loop_margin <= 0.0:
+            raise NoSolution(self._loop_message(self.loop_margin))
+        if self.phase_angle <= 0.0:
+            raise NoSolution(
+                f"phase angle {math.degrees(self.phase_angle):.4g} deg of the run-up is not above 0: "
+                f"increase the cycle angle above {math.degrees(2.0 * self.profile_correction):.4g} deg"
+            )
+
+    def require_hub(self, shaft_radius: float) -> None:
+        """Refuse a roller that reaches the shaft of the cam.
+
+        Parameters
+            shaft_radius : float [mm] - shaft or hub
+        Raises
+            NoSolution - with the centre distance that clears it
+        Source
+            own derivation
+        """
+        reach = self.min_radius - self.roller_radius
+        if reach <= shaft_radius:
+            needed = self.center_distance * (shaft_radius + self.roller_radius) / self.min_radius
+            raise NoSolution(
+                f"the roller comes within {reach:.4g} mm of the cam axis and the shaft's radius is "
+                f"{shaft_radius:.4g} mm: make the centre distance more than {needed:.4g} mm, or the roller smaller"
+            )
+
+    @cached_property
+    def max_pressure_angle(self) -> float:
+        """Largest magnitude of the pressure angle outside the transition zone [rad].
+
+        Raises
+            NoSolution - where the transition zone fills the stroke
+        """
+        last = self._zone_start()
+        grid = np.linspace(0.0, last, 129)
+        values = np.abs(self._pressure_angle(self._state(grid)))
+        return _refined_maximum(lambda k: np.abs(self._pressure_angle(self._state(k))), grid, values)
+
+    @cached_property
+    def min_curvature_radius(self) -> float:
+        """Least radius of the pitch curve where it bulges from the body, outside the transition zone [mm].
+
+        Raises
+            NoSolution - where the transition zone fills the stroke
+        Notes
+            Inside the zone the radius falls to zero at mid-swing whatever the design. Infinite where the curve
+            bulges nowhere outside it.
+        """
+        grid = np.linspace(0.0, self._zone_start(), 129)
+        values = self.sense * self._curvature(self._state(grid))
+        peak = _refined_maximum(lambda k: self.sense * self._curvature(self._state(k)), grid, values)
+        return self.center_distance / peak if peak > 0.0 else math.inf
+
+    def _zone_start(self) -> float:
+        if self.transition_zone >= 0.5:
+            raise NoSolution(
+                f"the transition zone is {self.transition_zone:.4g} of the stroke, more than its half: "
+                f"make the roller radius less than {0.5 * self.roller_radius / self.transition_zone:.4g} mm"
+            )
+        return 0.5 - self.transition_zone
+
+    @cached_property
+    def undercut_start(self) -> float:
+        """k where the pitch curvature radius falls to the roller radius.
+
+        Raises
+            NoSolution - where it is below the roller radius at the start already
+        """
+        limit = self.center_distance / self.roller_radius
+
+        def excess(k: float) -> float:
+            return self.sense * float(self._curvature(self._state(np.array([k])))[0]) - limit
+
+        if excess(0.0) >= 0.0:
+            raise NoSolution(
+                f"roller radius {self.roller_radius:.6g} mm: the pitch curve's radius at the start is "
+                f"{abs(self.start_curvature_radius):.6g} mm; make the roller smaller or the centre distance larger"
+            )
+        return bracketed_root(excess, 0.0, 0.5 - 1e-9)
+
+    @cached_property
+    def contact_end(self) -> float:
+        """k from which the slot of the roller at mid-swing has cut the profile away: exact end of the contact.
+
+        |z(k) + r_p n(k) - z(1/2)| = r_p
+
+        Raises
+            NoSolution - where the roller at mid-swing reaches the profile's start
+        """
+        middle = -(1.0 - self._ratio)
+        radius = self.roller_radius / self.center_distance
+
+        def clearance(k: float) -> float:
+            state = self._state(np.array([k]))
+            step = complex(self._pitch(state)[0]) - middle
+            normal = self.sense * complex(self._normal(state)[0])
+            return abs(step) ** 2 + 2.0 * radius * (step * normal.conjugate()).real
+
+        if clearance(0.0) <= 0.0:
+            raise NoSolution(
+                f"roller radius {self.roller_radius:.6g} mm: the roller at mid-swing covers the whole profile; "
+                "make it smaller or the centre distance larger"
+            )
+        return bracketed_root(clearance, 0.0, self.undercut_start)
+
+    def points(self, k: FloatArray) -> CamPoints:
+        """Pitch curve, profile, pressure angle and curvature at given fractions of the stroke.
+
+        z = e^{i theta}(-1 + lambda e^{i phi}), tan delta = (lambda A - cos phi)/sin phi
+        R = |1 - lambda A e^{i phi}|^3/(1 - lambda A (1 + A) cos phi + lambda^2 A^3 - lambda phi'' sin phi)
+
+        Parameters
+            k : (N,) array - fractions of the stroke, 0 to 1
+        Returns
+            points : CamPoints
+        Raises
+            NoSolution - for k outside 0 to 1, or a profile that does not exist
+        Notes
+            The body lies inside an external and outside an internal profile. k = 1/2 is taken as the end of the
+            run-up. Relative accuracy of the curvature about 1e-13 up to the cusp itself.
+        Example
+            >>> from gearlink.core.unloading import ElasticLaw, Pneumatic
+            >>> law = ElasticLaw(Pneumatic(2.5), math.radians(120))
+            >>> points = WideSwingCam("twin-cam", law, math.radians(120), 1.0, 0.04).points(np.array([0.25]))
+            >>> points.profile.round(9).tolist()
+            [(-0.724642568+0.156427799j)]
+
+        Source
+            wide-swing dissertation, chapter 3 and (26); curvature: own derivation
+        """
+        self.require_profile()
+        state = self._state(np.asarray(k, dtype=np.float64))
+        pitch = self._pitch(state)
+        profile = pitch + self.sense * self.roller_radius / self.center_distance * self._normal(state)
+        curvature = self._curvature(state)
+        with np.errstate(divide="ignore"):
+            radius = self.center_distance / curvature
+        return CamPoints(
+            k=state.k,
+            cam_angle=state.theta,
+            polar_angle=state.theta - self._correction(state),
+            pitch=self._placed(pitch),
+            profile=self._placed(profile),
+            pressure_angle=self._pressure_angle(state),
+            curvature_radius=radius,
+            in_contact=np.minimum(state.k, 1.0 - state.k) <= self.contact_end,
+        )
+
+    def _placed(self, w: ComplexArray) -> ComplexArray:
+        """From the common form to the layout's frame, in mm."""
+        return self.center_distance * (w if self.sense > 0 else -np.conj(w))
+
+    def _state(self, k: FloatArray) -> _State:
+        view = self.law.middle_view(k)
+        turn = self.sense * self.speed_ratio
+        return _State(
+            k=k,
+            theta=(k - 0.5) * self.cycle_angle,
+            psi=self.sense * view.angle,
+            a=1.0 + turn * view.velocity,
+            e=self._middle_gap + abs(self._ratio) * self.speed_ratio * view.deficit,
+            s=2.0 * np.sin(0.5 * view.angle) ** 2,
+            second=self.sense * self.law.swing / self.cycle_angle**2 * view.acceleration,
+        )
+
+    def _correction(self, state: _State) -> FloatArray:
+        ratio = self._ratio
+        return np.arctan2(ratio * np.sin(state.psi), (1.0 - ratio) + ratio * state.s)
+
+    def _pitch(self, state: _State) -> ComplexArray:
+        ratio = self._ratio
+        arm = -((1.0 - ratio) + ratio * state.s) + 1j * ratio * np.sin(state.psi)
+        result: ComplexArray = np.exp(1j * state.theta) * arm
+        return result
+
+    def _gradient(self, state: _State) -> ComplexArray:
+        """g = 1 - lambda A e^{i psi}, along the inward normal in the centre line's frame."""
+        pull = self._ratio * state.a
+        result: ComplexArray = (state.e + pull * state.s) - 1j * pull * np.sin(state.psi)
+        return result
+
+    def _normal(self, state: _State) -> ComplexArray:
+        """Unit normal with an inward radial part; at the cusp the limit of the run-up."""
+        g = self._gradient(state)
+        size = np.abs(g)
+        cusp = size == 0.0
+        unit = np.where(cusp, 1j * self.sense, g / np.where(cusp, 1.0, size))
+        result: ComplexArray = np.exp(1j * state.theta) * unit
+        return result
+
+    def _curvature(self, state: _State) -> FloatArray:
+        """Curvature times centre distance, positive with the centre towards the cam axis, infinite at the cusp."""
+        ratio, a = self._ratio, state.a
+        turn = state.e * (1.0 - ratio * a * a) + state.s * ratio * a * (1.0 + a)
+        turn = turn - ratio * state.second * np.sin(state.psi)
+        size = np.abs(self._gradient(state)) ** 3
+        cusp = size == 0.0
+        return np.where(cusp, self.sense * math.inf, turn / np.where(cusp, 1.0, size))
+
+    def _pressure_angle(self, state: _State) -> FloatArray:
+        sine = np.sin(self.sense * state.psi)
+        return np.arctan2((state.s - state.e) * np.where(sine < 0.0, -1.0, 1.0), np.abs(sine))
+
+
+def _require_lengths(center_distance: float, roller_radius: float, rocker_radius: float | None) -> None:
+    lengths = {"centre distance": center_distance, "roller radius": roller_radius}
+    if rocker_radius is not None:
+        lengths["rocker radius"] = rocker_radius
+    for name, value in lengths.items():
+        if not 0.0 < value < math.inf:
+            raise NoSolution(f"the {name} is {value:.6g} mm; it must be above 0")
+
+
+def _refined_maximum(f: Callable[[FloatArray], FloatArray], grid: FloatArray, values: FloatArray) -> float:
+    """Maximum of a smooth function from its samples, refined between the neighbours of the largest."""
+    best = int(np.argmax(values))
+    low, high = float(grid[max(best - 1, 0)]), float(grid[min(best + 1, len(grid) - 1)])
+    return maximum(lambda k: float(f(np.array([k]))[0]), low, high)[1]
