@@ -132,10 +132,10 @@ def smallest_offset_circle(
         normal = np.full(s.shape, complex(sign, slope) / math.hypot(1.0, slope))
         return normal, (sign * sense * s1 - s * slope) / math.hypot(1.0, slope)
 
-    found, places, _ = _nearest_admissible(planes, 0.0, 0.0, end, joints)
+    found, places, margins = _nearest_admissible(planes, 0.0, 0.0, end, joints)
     if not found.imag > 0.0:
         raise NoSolution("the lift never comes near the pressure-angle limit: size the cam by its shaft and roller")
-    return CamSize(abs(found), found.real, places[0] if found.real >= 0.0 else places[1])
+    return CamSize(abs(found), found.real, places[0] if margins[0] <= margins[1] else places[1])
 
 
 def smallest_prime_circle_rocker(
@@ -152,7 +152,7 @@ def smallest_prime_circle_rocker(
 ) -> CamCenter:
     """Cam centre nearest to the roller of a rocking arm that keeps a pressure-angle limit.
 
-    z = (O - A) e^(-i psi) - l (1 - eps psi');  side Im z tan alpha_max +- Re z >= 0 for every cam angle
+    z = (O - A) e^(-i psi) - l (1 - eps psi');  side (Im z tan alpha_max +- Re z) >= 0 for every cam angle
 
     Parameters
         law : function of cam angles [rad] - returns psi [rad] and psi' of the arm
@@ -201,8 +201,8 @@ def _rocker_planes(
     phi: Reals,
 ) -> tuple[Points, Reals]:
     psi, psi1 = law(phi)
-    # side Im z tan a + sign Re z = Re(conj(n0) z) with n0 = sign + i side tan a
-    local = complex(sign, side * slope) / math.hypot(1.0, slope)
+    # side (Im z tan a + sign Re z) = Re(conj(n0) z) with n0 = side (sign + i tan a); sign +1 is the upper limit
+    local = complex(side * sign, side * slope) / math.hypot(1.0, slope)
     normal: Points = local * np.exp(1j * psi)
     reach = arm * (1.0 - sense * psi1) * local.real
     return normal, (np.conj(normal) * pivot).real + reach
@@ -294,11 +294,13 @@ def _nearest_admissible(
         worst = [_largest_violation(planes, sign, point, start, end, joints) for sign in (1, -1)]
         scale = max(scale, abs(point), *(abs(cut[1]) for _, _, cut in worst))
         if max(worst[0][0], worst[1][0]) <= 1e-13 * scale:
-            break
+            places = (worst[0][1], worst[1][1])
+            return point, places, (max(0.0, -worst[0][0]), max(0.0, -worst[1][0]))
         cuts = [*cuts, *(cut for violation, _, cut in worst if violation > -1e-6 * scale)]
         point = _nearest_point(cuts, target, scale)
-    places = (worst[0][1], worst[1][1])
-    return point, places, (max(0.0, -worst[0][0]), max(0.0, -worst[1][0]))
+    raise NoSolution(
+        f"the admissible cam centre did not settle in {_ROUNDS} rounds: raise the pressure-angle limit a little"
+    )
 
 
 def _largest_violation(
