@@ -75,5 +75,10 @@ KINDS: dict[str, Kind] = {
             "flatbed_press:FlatbedPressSpec",
             {"press": _PRESS, "cam": _PRESS, "gear": _PRESS, "crank": _PRESS, "analyze": _PRESS},
         ),
+        Kind(
+            "swing-gripper",
+            "swing_gripper:SwingGripperSpec",
+            {"gripper": _GRIPPER, "cam": _GRIPPER, "analyze": _GRIPPER},
+        ),
     )
 }

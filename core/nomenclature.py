@@ -105,6 +105,10 @@ _GRIPPER = {
     "handover_speed": Term("v_F", "mm/s", "gripper speed at the handover", "swing-gripper paper 2"),
     "handover_mismatch": Term("dv", "mm/s", "gripper speed less the cylinder's surface speed"),
     "total_swing": Term("beta_T", "deg", "total swing of the gripper arm", "swing-gripper paper 2"),
+    "spring_torque": Term("T_s,min", "N m", "least spring torque that keeps both rollers on their cams"),
+    "newton_iterations": Term("", "1", "most Newton-Raphson steps at any position of the turn"),
+    "newton_agreement": Term("", "1", "largest difference of closed form and Newton-Raphson [rad]"),
+    "condition_number": Term("1/sin(mu)", "1", "largest condition number of the loop over the swing"),
     "lift_off_speed": Term("n*", "sheets/h", "speed at which a roller leaves its cam", "own derivation"),
 }
 

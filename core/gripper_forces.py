@@ -1,0 +1,112 @@
+"""Force closure of the swing gripper: inertia torque on the cam rocker, contact torques, lift-off speed.
+
+Rocker 1 (cam rocker with the linkage) and rocker 2 (return rocker) turn about A; a spring pulls them together
+with the torque T_s on each. All rates are in time (rad/s, rad/s^2); lengths in mm, inertia in kg m^2, torque in
+N m.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearlink.core.gripper_linkage import GripperLinkage, GripperMotion
+
+if TYPE_CHECKING:
+    from gearlink.core.specs.swing_gripper import Inertia
+
+Array = NDArray[np.float64]
+_M2 = 1e-6  # mm^2 in m^2
+
+
+@dataclass(frozen=True, slots=True)
+class Masses:
+    """Moments of inertia [kg m^2] and the coupler's mass [kg], its centre at mid-length."""
+
+    input: float
+    output: float
+    coupler: float
+    coupler_mass: float
+    return_rocker: float
+
+    @classmethod
+    def of(cls, inertia: Inertia) -> Masses:
+        """From the section of a design file."""
+        return cls(inertia.input, inertia.output, inertia.coupler, inertia.coupler_mass, inertia.return_rocker)
+
+
+def inertia_torque(linkage: GripperLinkage, motion: GripperMotion, masses: Masses, shaft_speed: float) -> Array:
+    """Torque that moves cam rocker and linkage, about A.
+
+    T_in = J_A a_1 + J_E a_4 k_4 + J_CD a_3 k_3 + m Re(conj(v_G/w_1) a_G),  k_i = w_i/w_1
+
+    Parameters
+        linkage : GripperLinkage
+        motion : GripperMotion - of order 2, derivatives by theta
+        masses : Masses
+        shaft_speed : float [rad/s] - Omega of the cylinder shaft
+    Returns
+        torque : (N,) array [N m] - positive in the sense of a growing rocker angle
+    Notes
+        The ratios k_i come from the geometry, so they exist in the dwells as well.
+    Source
+        own derivation: principle of virtual work
+    """
+    ratios = linkage.ratios(motion.beta)
+    k4 = 1.0 / ratios.crank_velocity
+    k3 = ratios.coupler_velocity / ratios.crank_velocity
+    square = shaft_speed * shaft_speed
+    e1, e3 = np.exp(1j * motion.input_angle), np.exp(1j * motion.coupler_angle)
+    arm, half = linkage.input, 0.5 * linkage.coupler
+    per_rocker = 1j * (arm * e1 + half * k3 * e3)
+    acceleration = arm * (1j * motion.input_acceleration - motion.input_velocity**2) * e1
+    acceleration += half * (1j * motion.coupler_acceleration - motion.coupler_velocity**2) * e3
+    translation = masses.coupler_mass * _M2 * np.real(np.conj(per_rocker) * acceleration)
+    turning = (
+        masses.input * motion.input_acceleration
+        + masses.output * motion.output_acceleration * k4
+        + masses.coupler * motion.coupler_acceleration * k3
+    )
+    torque: Array = square * (turning + translation)
+    return torque
+
+
+def contact_torques(spring: float, inertia: Array, return_inertia: Array, lift_sense: int) -> tuple[Array, Array]:
+    """Torques that press the main and the return roller to their cams [N m].
+
+    T_1 = T_s + s_c T_in,  T_2 = T_s - s_c J_2 psi_2''
+
+    Parameters
+        spring : float [N m] - T_s
+        inertia : (N,) array [N m] - T_in of rocker 1
+        return_inertia : (N,) array [N m] - J_2 psi_2'' of rocker 2
+        lift_sense : +1 or -1 - sign of the rocker's turn that lifts roller 1
+    Source
+        own derivation
+    """
+    return spring + lift_sense * inertia, spring - lift_sense * return_inertia
+
+
+def lift_off_speed(speed: float, spring: float, worst_main: float, worst_return: float) -> float:
+    """Speed at which the first roller leaves its cam.
+
+    n* = n sqrt(T_s/max(-s_c T_in)), likewise for roller 2: inertia grows with n^2, the spring's torque does not
+
+    Parameters
+        speed : float - n, any unit
+        spring : float [N m] - T_s
+        worst_main, worst_return : float [N m] - largest unloading inertia torque on roller 1 and 2 at n
+    Returns
+        speed : float - in the unit of n; inf where nothing unloads a roller
+    Example
+        >>> round(lift_off_speed(12000.0, 400.0, 287.6327, 10.0))
+        14151
+    Source
+        own derivation
+    """
+    worst = max(worst_main, worst_return)
+    return speed * math.sqrt(spring / worst) if worst > 0.0 else math.inf
