@@ -36,7 +36,7 @@ _SINES = np.array(
         (1.0, 0.0),
     ]
 )
-# pi/16 in three parts: with a whole number k of turns' sixteenths, k times the third is below 2^-150.
+# pi/16 in three parts: with a whole number k of turns' sixteenths, k times what the parts leave out is below 2^-145.
 _STEP = (0.19634954084936207, 7.654042494670958e-18, -1.8717311310739623e-34)
 _SIN_TERMS = (
     (-0.16666666666666666, -9.25185853854297e-18),
@@ -73,7 +73,7 @@ def two_product(x: Array, y: Array) -> Pair:
     Example
         >>> high, low = two_product(np.float64(0.1), np.float64(0.1))
         >>> float(low)
-        -9.020562075079397e-19
+        -8.326672684688674e-19
 
     Source
         T. J. Dekker, Numer. Math. 18 (1971) 224-242, with G. W. Veltkamp's splitting
@@ -123,13 +123,13 @@ def cos_sin(angle: Array) -> tuple[Pair, Pair]:
     angle = k pi/16 + rest, |rest| <= pi/32; Taylor's series of the rest, then the addition theorem
 
     Parameters
-        angle : array of any shape [rad] - up to about 1e6 in magnitude
+        angle : array of any shape [rad] - up to about 1e5 in magnitude
     Returns
-        cosine, sine : Pair of arrays - absolute error below 2^-102
+        cosine, sine : Pair of arrays - absolute error below 2^-104 (measured)
     Example
         >>> cosine, sine = cos_sin(np.array([1.0]))
         >>> float(sine.high[0]), float(sine.low[0])
-        (0.8414709848078965, 1.7635785553181728e-17)
+        (0.8414709848078965, 1.776845092935536e-18)
 
     Source
         own derivation
@@ -138,7 +138,7 @@ def cos_sin(angle: Array) -> tuple[Pair, Pair]:
     count = np.rint(angle / _STEP[0])
     rest = Pair(angle, np.zeros_like(angle))
     for part in _STEP:
-        rest = add(rest, two_product(-count, np.float64(part)))
+        rest = add(rest, two_product(-count, np.full_like(count, part)))
     cosine, sine = _short_cos_sin(rest)
     anchor_cos, anchor_sin = _anchor(count.astype(np.int64) + 8), _anchor(count.astype(np.int64))
     minus_sine = Pair(-anchor_sin.high, -anchor_sin.low)
@@ -167,7 +167,7 @@ def _short_cos_sin(x: Pair) -> tuple[Pair, Pair]:
 
 
 def _tail(y: Array, first: int) -> Array:
-    """-y^4... : the next four terms of the series, 1/first! on, divided by the power that stands before them."""
+    """The four terms of sine or cosine from x^first on, divided by x^first; y = x^2."""
     total = np.zeros_like(y)
     for n in range(first + 6, first - 1, -2):
         total = (-1.0 if n % 4 in (2, 3) else 1.0) / math.factorial(n) + y * total
