@@ -83,6 +83,7 @@ _DESIGN_COMMANDS = {
     "gear": "Gear pairs: a gear-pair design, or the pairs inside a press or a gear-linkage.",
     "crank": "Crank length from the stroke of a slider-crank.",
     "press": "Flatbed press: both chains, 12 positions, velocities, synchronous zone.",
+    "gripper": "Swing gripper: six-phase law, vector loop, handover, cams, force closure.",
     "cam": "The cams of a design: follower motion, profiles, pressure angle, curvature.",
 }
 _SYNTH_COMMANDS = {
