@@ -75,15 +75,17 @@ def solve_loop(reading: Reading, phi: float, order: int, motion: tuple[float, fl
     if not (pq > 0.0 or (pq == 0.0 and order == 0 and n2 > 0.0)):
         raise NoSolution(refusal(reading, phi, p, q))
     r, z = math.sqrt(pq), 0.5 * (p - q)
-    sin_phi = 2.0 * sin_half * cos_half
+    sin_phi, winding = 2.0 * sin_half * cos_half, 0.0
     if a > abs(d):
         # Wind with the crank: arg(D - B) = phi - pi + a part that stays within a quarter turn.
-        nu = (phi - math.pi if d > 0.0 else phi) + math.atan2(d * sin_phi, (a - d) * cc + (a + d) * ss)
+        winding = phi - math.pi if d > 0.0 else phi
+        nu = math.atan2(d * sin_phi, (a - d) * cc + (a + d) * ss)
     elif d > 0.0:
         nu = math.atan2(-a * sin_phi, (d - a) * cc + (d + a) * ss)
     else:
         nu = math.atan2(a * sin_phi, (a - d) * cc - (a + d) * ss)
-    result = [nu + s * math.atan2(r, e + n2), nu + s * math.atan2(r, e - n2), math.atan2(r, z)]
+    b, c = nu + s * math.atan2(r, e + n2), nu + s * math.atan2(r, e - n2)
+    result = [winding + b, winding + c, math.atan2(r, z)]
     if order > 0:
         result += _rates(reading, sin_phi, cc - ss, n2, r, z, order, motion)
     return result

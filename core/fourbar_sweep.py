@@ -252,11 +252,10 @@ def _write_angles(reading: Reading, phi: Array, rows: Scratch, out: Array) -> in
     """Coupler, rocker and transmission angle, continuous as in `fourbar_loop.solve_loop`."""
     t, tt, one, n, r, z, x, y, nu, *_ = rows
     a, d, s = reading.a, reading.d, float(reading.s)
+    winding: Array | float = 0.0
     if a > abs(d):
+        winding = phi - math.pi if d > 0.0 else phi
         _arg(2.0 * d, a - d, a + d, t, tt, x, nu)
-        np.add(nu, phi, out=nu)
-        if d > 0.0:
-            np.subtract(nu, math.pi, out=nu)
     else:
         side = math.copysign(1.0, d)
         _arg(-2.0 * a * side, (d - a) * side, (d + a) * side, t, tt, x, nu)
@@ -269,6 +268,7 @@ def _write_angles(reading: Reading, phi: Array, rows: Scratch, out: Array) -> in
     for i in (0, 1):
         np.multiply(out[i], s, out=out[i])
         np.add(out[i], nu, out=out[i])
+        np.add(out[i], winding, out=out[i])
     return 3
 
 
