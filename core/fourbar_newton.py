@@ -252,8 +252,8 @@ def _advance(linkage: FourBar, place: _Place, target: float) -> _Place:
     while phi != target:
         if abs(step) < _SMALLEST_STEP * max(1.0, abs(target)):
             raise NoSolution(
-                f"the motion ends at crank angle {math.degrees(phi):.9g} deg, where coupler and rocker align: it does "
-                f"not reach {math.degrees(target):.9g} deg; keep the crank within its range or change a length"
+                f"the motion ends at crank angle {math.degrees(phi):.9g} deg, where coupler and rocker align, on the "
+                f"way to {math.degrees(target):.9g} deg; keep the crank within its range or change a length"
             )
         there = target if abs(step) >= abs(target - phi) else phi + step
         start = _predict(linkage, phi, b, c, there - phi)

@@ -183,6 +183,16 @@ def test_no_digit_is_lost_at_a_dead_centre_on_the_line_of_the_frame(gap: float, 
         assert lead == pytest.approx(float(rate), rel=4 * EPS, abs=4 * EPS * abs(state.rocker_velocity))
 
 
+@pytest.mark.parametrize("phi", [1e-9, 1e-6, -1e-3, 0.5])
+def test_short_diagonal_keeps_its_digits(phi: float) -> None:
+    """B next to D with crank = frame and coupler = rocker: D - B must not come from a difference."""
+    linkage = FourBar(200.0, 150.0, 150.0, 200.0)
+    state, exact = solve(linkage, phi), oracle(linkage, phi, 0)
+    assert apart(state.coupler_angle, float(exact[0][0])) <= 2 * EPS
+    assert apart(state.rocker_angle, float(exact[1][0])) <= 2 * EPS
+    assert state.transmission_angle == pytest.approx(float(exact[1][0] - exact[0][0]), rel=4 * EPS)
+
+
 def test_paper_matrix_in_turned_axes() -> None:
     """The corrected determinant sin(theta3 - theta4) gives the same rates however the axes are turned."""
     state = solve(FourBar(120.0, 260.0, 150.0, 300.0), 1.125, 1)
