@@ -103,7 +103,7 @@ def span_measurement(module: float, teeth: int, shift: float, pressure_angle: fl
         W_k : float [mm] - for no backlash
     Example
         >>> round(span_measurement(2.0, 40, 0.0, math.radians(20.0), 5), 4)
-        27.6884
+        27.6896
 
     Source
         own derivation: k - 1 base pitches and the tooth thickness on the base circle

@@ -121,5 +121,6 @@ def _require_full_turn(crank: float, coupler: float, rocker: float, frame: float
     raise NoSolution(
         f"crank {crank:.6g} mm cannot turn fully between coupler {coupler:.6g}, rocker {rocker:.6g} and frame "
         f"{frame:.6g} mm: |frame - crank| = {abs(frame - crank):.6g} mm must exceed |coupler - rocker| = {least:.6g} "
-        f"mm, frame + crank = {frame + crank:.6g} mm must stay below coupler + rocker = {most:.6g} mm; shorten the crank"
+        f"mm, frame + crank = {frame + crank:.6g} mm must stay below coupler + rocker = {most:.6g} mm: "
+        "shorten the crank"
     )
