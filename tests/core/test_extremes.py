@@ -54,13 +54,15 @@ def test_short_segments_are_sampled_too() -> None:
 
 
 def test_the_higher_of_two_humps_between_samples() -> None:
-    # heights differ by 1e-9, less than the samples tell
+    # the lower hump stands on a sample, the higher by 1e-9 between two, whose values are 1e-6 lower
+    step = TURN / 2048.0
+
     def humps(x: np.ndarray) -> np.ndarray:
-        return np.maximum(np.cos(x - 1.0007), np.cos(x - 4.2) + 1e-9)
+        return np.maximum(np.cos(x - 300.0 * step), np.cos(x - 1300.5 * step) + 1e-9)
 
     top = maximum_over(humps)
     assert top.value == pytest.approx(1.0 + 1e-9, abs=4 * EPS)
-    assert top.place == pytest.approx(4.2, abs=PLACE)
+    assert top.place == pytest.approx(1300.5 * step, abs=PLACE)
 
 
 def test_plateau() -> None:

@@ -110,8 +110,10 @@ def test_the_far_flank_is_cut_where_the_curve_is_concave() -> None:
 
 
 def test_seam_of_a_closed_profile() -> None:
-    # the neck turned onto the seam at angle 0
+    # the neck turned onto the seam at angle 0; nothing is asked beyond the turn
     def points(t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        assert t.min() >= 0.0
+        assert t.max() <= TURN
         return cassini(25.0)(t + math.pi / 2.0 + 1e-4)
 
     found = undercut(points, 25.0)
