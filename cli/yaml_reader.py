@@ -18,14 +18,12 @@ from yaml import events as ev
 from gearlink.cli.diagnostics import DesignFileError, Diagnostic, Source
 from gearlink.cli.yaml_remedies import ODD, hidden_culprit, odd_character, odd_remedy, syntax_error
 
-try:
-    from yaml.cyaml import CParser as EventParser
-except ImportError:  # PyYAML was built without libyaml
-    from yaml import SafeLoader as EventParser  # type: ignore[assignment]
+EventParser: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+"""Only its events are used; the pure Python one serves where PyYAML was built without libyaml."""
 
 MAX_BYTES = 1 << 20
 MAX_DEPTH = 32
-MAX_NODES = 100_000
+MAX_NODES = 20_000
 
 Marks = dict[str | int, tuple[int, int, "Marks | None"]]
 """Of each key or list index: position of the key (for a list: the element), of the value, marks inside the value."""
@@ -36,7 +34,7 @@ _BOMS = (
     (b"\xff\xfe", "UTF-16"),
     (b"\xfe\xff", "UTF-16"),
 )
-_CONTROL = re.compile("[^\t\n\r\x20-\x7e\u00a0-\u2027\u202a-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+CONTROL = re.compile("[^\t\n\r\x20-\x7e\u00a0-\u2027\u202a-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 _DIRECTIVE = re.compile(r"(?:[ \t]*(?:#[^\r\n]*)?[\r\n]+)*+%")
 _NOTHING = re.compile(r"(?:\s++|#[^\r\n]*+)*+")
 _INTEGER = re.compile(r"[-+]?[0-9]+|0o[0-7]+|0x[0-9a-fA-F]+")
@@ -50,7 +48,7 @@ _WORDS: dict[str, Any] = {
     **dict.fromkeys(("-.inf", "-.Inf", "-.INF"), -math.inf),
 }
 _BASES = {"0o": 8, "0x": 16}
-_EXACT_DIGITS = 15
+_EXACT_LENGTH = 15
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,7 +98,7 @@ def decode(data: bytes, file: str) -> Source:
         at = len(data[: error.start].decode("utf-8"))
         message = f"not UTF-8: byte 0x{data[error.start]:02x}"
         raise _fatal(source, "GL102", message, at, help="save the file as UTF-8") from None
-    if control := _CONTROL.search(source.text):
+    if control := CONTROL.search(source.text):
         char = control[0]
         what = "a NUL byte" if char == "\0" else f"control character U+{ord(char):04X}"
         remedy = "save the file as UTF-8" if char == "\0" else "delete it"
@@ -112,7 +110,7 @@ def plain_value(text: str) -> Any:
     """The value of an unquoted scalar in the core schema of YAML 1.2.
 
     Notes
-        Integers beyond 15 digits become floats: no design holds them, and int() is quadratic in the digits.
+        Integers of more than 15 characters become floats: no design counts so far, and int() is quadratic.
     Example
         >>> [plain_value(text) for text in ("1e-6", "-.5", "010", "0o10", "40:20", "no", "~", "True")]
         [1e-06, -0.5, 10, 8, '40:20', 'no', None, True]
@@ -123,7 +121,7 @@ def plain_value(text: str) -> Any:
         return text
     if _INTEGER.fullmatch(text):
         base = _BASES.get(text[:2], 10)
-        if len(text) <= _EXACT_DIGITS:
+        if len(text) <= _EXACT_LENGTH:
             return int(text, base) if base == 10 else int(text[2:], base)
         return float(text) if base == 10 else _large(text[2:], base)
     return float(text) if _FLOAT.fullmatch(text) else text
@@ -203,14 +201,15 @@ class _Composer:
             ev.SequenceEndEvent: self._close,
         }
         while True:
-            event = parser.get_event()
+            event: Any = parser.get_event()
+            at = self.start + event.start_mark.index
             handler = handlers.get(type(event))
             if handler is not None:
-                handler(event, self.start + event.start_mark.index)
-            elif isinstance(event, ev.DocumentEndEvent):
-                self._nothing_after(self.start + event.start_mark.index)
+                handler(event, at)
+            elif type(event) is ev.DocumentEndEvent:
+                self._nothing_after(at)
                 break
-            elif event is None or isinstance(event, ev.StreamEndEvent):
+            elif type(event) is ev.StreamEndEvent:
                 break
         if self._wrong:
             raise DesignFileError([*self.duplicates, *self._wrong])
@@ -230,7 +229,7 @@ class _Composer:
             value = plain_value(text)
         else:
             value = text
-            if not text.isprintable() and (control := _CONTROL.search(text)):
+            if not text.isprintable() and (control := CONTROL.search(text)):
                 self._note(f"an escape for the control character U+{ord(control[0]):04X}", at, "leave it out")
         self._place(value, at, None, event.anchor, 1, 0)
 
@@ -301,7 +300,7 @@ class _Composer:
             path = format_path(self._path())
             remedy = "keep one of the two"
             self.duplicates.append(self.source.report("GL104", message, at, key=path, help=remedy))
-        elif not key.isascii() and (odd := ODD.search(key)):
+        elif not (key.isascii() and key.isprintable()) and (odd := ODD.search(key) or CONTROL.search(key)):
             plain = self.source.text.startswith(key, at)
             message = f"{odd_character(odd[0])} in a key"
             self._note(message, at + odd.start() if plain else at, odd_remedy(odd[0]))

@@ -79,6 +79,8 @@ def syntax_error(source: Source, base: int, error: YAMLError) -> Diagnostic:
     if "cannot start any token" in problem:
         sign = source.text[at : at + 1]
         return source.report("GL103", f"a value cannot begin with {sign!r}", at, help="put the text in quotes")
+    if "node content" in problem and at >= len(source.text.rstrip()):
+        return source.report("GL103", "the text ends where a value was expected", at, help="close the bracket")
     for pattern, message, remedy in _WORDING:
         if re.search(pattern, problem):
             return source.report("GL103", message, at, help=remedy)
