@@ -84,6 +84,7 @@ _DESIGN_COMMANDS = {
     "crank": "Crank length from the stroke of a slider-crank.",
     "press": "Flatbed press: both chains, 12 positions, velocities, synchronous zone.",
     "gripper": "Swing gripper: six-phase law, vector loop, handover, cams, force closure.",
+    "swing": "Wide-swing cam mechanism with unloading device: law, sizing, profile, balancing.",
     "cam": "The cams of a design: follower motion, profiles, pressure angle, curvature.",
 }
 _SYNTH_COMMANDS = {

@@ -40,7 +40,7 @@ def _load(place: str) -> Any:
 _THREE_GEAR = "three_gear_four_bar:ThreeGearFourBar"
 _PRESS = "flatbed_press:FlatbedPress"
 _GRIPPER = "swing_gripper:SwingGripper"
-_SWING = "wide_swing_cam:WideSwingCam"
+_SWING = "wide_swing_design:WideSwingDesign"
 
 KINDS: dict[str, Kind] = {
     kind.name: kind
@@ -80,5 +80,6 @@ KINDS: dict[str, Kind] = {
             "swing_gripper:SwingGripperSpec",
             {"gripper": _GRIPPER, "cam": _GRIPPER, "analyze": _GRIPPER},
         ),
+        Kind("wide-swing-cam", "wide_swing:WideSwingSpec", {"swing": _SWING, "cam": _SWING, "analyze": _SWING}),
     )
 }

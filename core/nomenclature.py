@@ -123,6 +123,9 @@ _SWING = {
     "profile_correction": Term("xi", "deg", "angular correction of the profile at the end", "dissertation (19), (25)"),
     "phase_angle": Term("Phi", "deg", "phase angle of the run-up on the cam", "dissertation (21), (22), (25)"),
     "start_curvature_radius": Term("R0", "mm", "pitch curvature radius at the start", "dissertation (23), exact"),
+    "iteration_energy_parameter": Term("N_it", "1", "N by the source's own iteration", "dissertation fig. 4"),
+    "iteration_passes": Term("", "1", "passes of that iteration"),
+    "iteration_error": Term("N_it/N - 1", "1", "relative error of that iteration"),
     "transition_zone": Term("dk", "1", "half-width of the contact change at mid-swing", "own derivation"),
 }
 

@@ -18,6 +18,9 @@ class Pneumatic(Spec):
     pivot_ratio: Ratio = Field(description="pivot distance over arm, above 1")
     arm: Length = Field(description="arm r_d on the rocker")
     extension_ratio: Annotated[float, Field(gt=1)] = Field(13 / 9, description="extended over retracted length, q")
+    residual: Annotated[float, Field(ge=0, le=1)] = Field(
+        0.0, description="share of the inertia torque that friction and force error leave at the design speed"
+    )
 
 
 class SpringDevice(Spec):
@@ -29,6 +32,9 @@ class SpringDevice(Spec):
     stretch_ratio: Distance = Field(description="mounting stretch at mid-swing over the stroke")
     closed_length: Length | None = Field(None, description="closed-coil length; then the pivot ratio is checked")
     end_fittings: Distance = Field(0.0, description="length of the end fittings")
+    residual: Annotated[float, Field(ge=0, le=1)] = Field(
+        0.0, description="share of the inertia torque that friction and force error leave at the design speed"
+    )
 
 
 class SwingCam(Spec):
@@ -36,6 +42,7 @@ class SwingCam(Spec):
 
     center_distance: Length = Field(description="cam axis to rocker axis")
     roller_radius: Length = Field(description="radius of the roller")
+    rocker_radius: Length | None = Field(None, description="rocker radius, in place of the one with no pressure angle")
     shaft_radius: Distance = Field(0.0, description="cam shaft; 0: not checked")
 
 
@@ -60,7 +67,13 @@ class WideSwingSpec(DesignSpec):
     speed: Annotated[float, Field(gt=0, json_schema_extra={"unit": "1/min"})] = Field(description="of the cam")
     inertia: Annotated[float, Field(gt=0)] = Field(description="on the rocker axis, kg m^2")
     unloader: Pneumatic | SpringDevice = Field(discriminator="type")
-    method: Literal["exact", "iteration"] = Field("exact", description="quadrature, or the source's own iteration")
+    operating_speed_min: Annotated[float, Field(gt=0, json_schema_extra={"unit": "1/min"})] | None = Field(
+        None, description="least speed at which the machine works; then the device is checked for harm there"
+    )
+    method: Literal["exact", "iteration"] = Field(
+        "exact", description="iteration: show the source's own iteration and its error beside the exact law"
+    )
+    iteration_steps: Annotated[int, Field(ge=1, le=100_000)] = Field(20, description="its steps per half stroke")
     cam: SwingCam | None = None
     limits: SwingLimits = SwingLimits()
 
