@@ -42,7 +42,8 @@ def midpoint_mean(f: Callable[[FloatArray], FloatArray], span: float, nodes: int
 
 
 def _midpoints(span: float, nodes: int) -> FloatArray:
-    return (np.arange(nodes) + 0.5) * (span / nodes)
+    points: FloatArray = (np.arange(nodes, dtype=np.float64) + 0.5) * (span / nodes)
+    return points
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -124,7 +125,7 @@ def _coefficients(values: FloatArray, mean: float) -> FloatArray:
     """Discrete cosine transform of midpoint values, cut where the terms are below rounding."""
     n = len(values)
     spectrum = np.fft.rfft(np.concatenate([values, values[::-1]]))[:n]
-    coefficients = (spectrum * np.exp(-0.5j * math.pi / n * np.arange(n))).real / n
+    coefficients: FloatArray = (spectrum * np.exp(-0.5j * math.pi / n * np.arange(n))).real / n
     coefficients[0] = mean
     significant = np.flatnonzero(np.abs(coefficients) > 1e-17 * abs(mean) * np.arange(1, n + 1))
     return coefficients[: significant[-1] + 1]

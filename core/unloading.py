@@ -15,6 +15,7 @@ from functools import cached_property
 from typing import overload
 
 import numpy as np
+import numpy.typing as npt
 
 from gearlink.core.elliptic import complete_integral, incomplete_integral, jacobi_sn_cn
 from gearlink.core.errors import NoSolution
@@ -115,8 +116,8 @@ class ElasticLaw:
         """k of the elliptic substitution."""
         return self.geometry.reach * self.geometry.half_sine / self.geometry.longest
 
-    def _slowness(self, sine: FloatArray, cosine: FloatArray) -> FloatArray:
-        """F(u) = gamma sqrt(N) |dk/du|."""
+    def slowness(self, sine: FloatArray, cosine: FloatArray) -> FloatArray:
+        """F(u) = gamma sqrt(N) |dk/du| from sin u and cos u of the pendulum angle, 0 at mid-swing."""
         g = self.geometry
         stretch = (g.longest + g.length(sine)) / (g.ratio * g.mean_force(sine))
         return np.sqrt(stretch) / np.hypot(g.half_cosine, g.half_sine * cosine)
@@ -124,7 +125,7 @@ class ElasticLaw:
     def _integrand(self, z: FloatArray) -> FloatArray:
         """F du/dz with z = 0 at the start of the stroke and K at mid-swing; du/dz = l/L."""
         cosine, sine = jacobi_sn_cn(z, self.modulus, self.modulus_complement)
-        return self._slowness(sine, cosine) * self.geometry.length(sine) / self.geometry.longest
+        return self.slowness(sine, cosine) * self.geometry.length(sine) / self.geometry.longest
 
     @cached_property
     def clock(self) -> CosineSeries:
@@ -264,7 +265,7 @@ class ElasticLaw:
     def invariants(self, k: FloatArray, order: int = 2) -> tuple[FloatArray, ...]:
         """The invariants of `evaluate` for an array of any shape."""
         sine, cosine, second = self._pendulum(k)
-        a = self._displacement(sine, cosine)
+        a = self.displacement(sine, cosine)
         odd = np.where(second, -1.0, 1.0)
         results = [np.where(second, 1.0 - a, a)]
         if order >= 1:
@@ -298,8 +299,8 @@ class ElasticLaw:
         deficit = spent / (self.velocity_peak + velocity)
         return MiddleView(2.0 * side * half, velocity, deficit, -side * self._acceleration(sine, cosine))
 
-    def _displacement(self, sine: FloatArray, cosine: FloatArray) -> FloatArray:
-        """a from whichever of the two ends of the half stroke keeps the digits."""
+    def displacement(self, sine: FloatArray, cosine: FloatArray) -> FloatArray:
+        """a in the first half from sin u and cos u, counted from the end of the half stroke that keeps the digits."""
         g = self.geometry
         s, c = g.half_sine * sine, np.hypot(g.half_cosine, g.half_sine * cosine)
         from_middle = 0.5 - 2.0 / self.swing * np.arctan2(s, c)
@@ -332,7 +333,7 @@ class ElasticLaw:
         change = g.force(sine) * bend + g.stiffness() * lever**2
         return -0.5 * self.energy_parameter * self.swing**2 * self._velocity(sine, cosine) * change
 
-    def _pendulum(self, k: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def _pendulum(self, k: FloatArray) -> tuple[FloatArray, FloatArray, npt.NDArray[np.bool_]]:
         """sin u, cos u of every k folded into the first half, and which k lay in the second."""
         k = np.asarray(k, dtype=np.float64).ravel()
         if not bool(np.all((k >= 0.0) & (k <= 1.0))):
@@ -355,7 +356,7 @@ class ElasticLaw:
         for _ in range(_NEWTON_STEPS):
             sine, cosine = (np.sin(angle), np.cos(angle)) if from_middle else (np.cos(angle), np.sin(angle))
             excess = self._time_of(angle, clock, from_middle=from_middle) - k * scale
-            step = excess / self._slowness(sine, cosine)
+            step = excess / self.slowness(sine, cosine)
             # a step past an end of the half stroke stops there; the next one starts from the end
             angle = np.clip(angle - step, 0.0, 0.5 * math.pi)
             # counted from mid-swing k itself is known to its last bit only
