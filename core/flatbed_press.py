@@ -11,12 +11,13 @@ from gearlink.core.compensation import Compensation
 from gearlink.core.design import Design, Outline
 from gearlink.core.errors import MissingSection, NoSolution, at_key
 from gearlink.core.fourbar import FourBar
-from gearlink.core.gear_checks import GEAR_CHECKS, GEAR_QUANTITIES, gear_check
+from gearlink.core.gear_checks import GEAR_CHECKS, GEAR_QUANTITIES, gear_check, gear_quantity
 from gearlink.core.gear_pair import GearPair
 from gearlink.core.press_cams import PressCams
 from gearlink.core.press_chains import BedChain, CylinderChain, difference
 from gearlink.core.report import Check, Table, below
-from gearlink.core.slider_crank_design import SLIDER_QUANTITIES, SliderCrank
+from gearlink.core.slider_crank import SliderCrank
+from gearlink.core.slider_crank_design import SLIDER_QUANTITIES
 from gearlink.core.synchronous_zone import equal_speed_angle, zone_end
 
 if TYPE_CHECKING:
@@ -76,13 +77,13 @@ class FlatbedPress(PressCams, Design):
     def slider_crank(self) -> SliderCrank:
         """D-E-F, whose slider makes half the bed's stroke."""
         bed = self.spec.bed
-        return SliderCrank(bed.stroke / 2.0, bed.rod, bed.offset)
+        with at_key("bed.stroke"):
+            return SliderCrank(bed.stroke / 2.0, bed.rod, bed.offset)
 
     @cached_property
     def crank_length(self) -> float:
         """DE [mm], from the stroke (TY-460 report 2.1)."""
-        with at_key("bed.stroke"):
-            return self.slider_crank.crank_length
+        return self.slider_crank.crank_length
 
     @cached_property
     def bed(self) -> BedChain:
@@ -178,7 +179,7 @@ class FlatbedPress(PressCams, Design):
     def raw(self, name: str) -> Any:
         """Quantities of the gear pair and the slider-crank are theirs, all others the press's own."""
         if name in GEAR_QUANTITIES:
-            return getattr(self.gear_pair, name)
+            return gear_quantity(self.gear_pair, name)
         if name in SLIDER_QUANTITIES:
             return getattr(self.slider_crank, name)
         return getattr(self, name)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from gearlink.core.design import Design, Outline
 from gearlink.core.errors import NoSolution, at_key
-from gearlink.core.gear_checks import GEAR_CHECKS, GEAR_QUANTITIES, gear_check
+from gearlink.core.gear_checks import GEAR_CHECKS, GEAR_QUANTITIES, gear_check, gear_quantity
 from gearlink.core.gear_pair import GearPair
 from gearlink.core.report import Check
 
@@ -61,7 +61,7 @@ class GearPairDesign(Design):
 
     def raw(self, name: str) -> Any:
         """Every quantity is the pair's."""
-        return getattr(self.gear_pair, name)
+        return gear_quantity(self.gear_pair, name)
 
     def check(self, name: str) -> list[Check]:
         """Every check is the pair's."""

@@ -11,7 +11,7 @@ from gearlink.core import gear_linkage, gear_linkage_dwells
 from gearlink.core.design import Design, Outline
 from gearlink.core.errors import MissingSection, at_key
 from gearlink.core.fourbar import FourBar
-from gearlink.core.gear_checks import GEAR_CHECKS, GEAR_QUANTITIES, gear_check
+from gearlink.core.gear_checks import GEAR_CHECKS, GEAR_QUANTITIES, gear_check, gear_quantity
 from gearlink.core.gear_linkage import Extremes, GearTrain
 from gearlink.core.gear_linkage_dwells import BackStep
 from gearlink.core.gear_pair import GearPair
@@ -254,7 +254,7 @@ class ThreeGearFourBar(Design):
     def raw(self, name: str) -> Any:
         """Names that carry their mesh are the gear pair's, all others the design's own."""
         mesh, _, quantity = name.rpartition(".")
-        return getattr(self.meshes[mesh], quantity) if mesh else getattr(self, name)
+        return gear_quantity(self.meshes[mesh], quantity) if mesh else getattr(self, name)
 
     def table_motion(self) -> Table:
         """Output angle, speed and acceleration, transmission angle over a turn of the crank."""

@@ -47,10 +47,18 @@ def show_batch(results: Sequence[Outcome], options: Options) -> None:
         return
     console = console_for(options)
     grid = grid_for(console)
-    for head, ratio in zip(_HEADS, (3, 2, None, 4), strict=True):
-        grid.add_column(head, overflow="fold", ratio=ratio)
-    grid.expand = True
-    for file, command, verdict, finding in rows:
-        grid.add_row(file, command, Text(verdict, style=_STYLE[verdict]), finding)
+    for head in _HEADS[:3]:
+        grid.add_column(head, no_wrap=head != "design", overflow="fold")
+    for file, command, verdict, _ in rows:
+        grid.add_row(file, command, Text(verdict, style=_STYLE[verdict]))
     console.print(grid)
-    console.print(Text(f"{len(results)} results: {counts}"))
+    for file, command, verdict, finding in rows:
+        if finding:
+            console.print(Text(f"\n{file} ({command or 'not read'}), {verdict}:", style="bold"))
+            console.print(Text(finding))
+    console.print(Text(f"\n{len(results)} results: {counts}", style=_STYLE[_worst(results)]))
+
+
+def _worst(results: Sequence[Outcome]) -> str:
+    order = list(_STYLE)
+    return order[max(order.index(outcome.verdict) for outcome in results)]

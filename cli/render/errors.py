@@ -22,4 +22,4 @@ def show_errors(diagnostics: Sequence[Diagnostic], options: Options) -> None:
         print(errors_as_json(diagnostics))
         return
     for diagnostic in diagnostics:
-        print(diagnostic.as_text(), file=sys.stderr)
+        print(diagnostic.as_text(sys.stderr.encoding or "utf-8"), file=sys.stderr)

@@ -15,7 +15,7 @@ from rich.text import Text
 from gearlink.cli.options import Options
 from gearlink.core.report import Check, Quantity, Report, Table
 
-_MOST_ROWS = 40
+_MOST_ROWS = 24
 _STYLE = {"pass": "green", "warn": "yellow", "fail": "bold red"}
 _WIDE = 110
 
@@ -28,8 +28,14 @@ def show(report: Report, options: Options) -> None:
         console.print(_quantities(report.quantities, console))
     for table in report.tables:
         _show_table(table, console)
-    if report.checks:
-        console.print(_checks(report.checks, console))
+    findings = [c for c in report.checks if c.status != "pass"]
+    if findings:
+        console.print()
+        console.print(_findings(findings, console))
+    passes = [c for c in report.checks if c.status == "pass"]
+    if passes:
+        console.print()
+        console.print(_passes(passes, console))
     counts = {status: sum(c.status == status for c in report.checks) for status in ("fail", "warn", "pass")}
     if report.checks:
         verdict = ", ".join(f"{n} {status}" for status, n in counts.items() if n)
@@ -85,15 +91,37 @@ def _quantities(quantities: Sequence[Quantity], console: Console) -> Grid:
     return grid
 
 
-def _checks(checks: Sequence[Check], console: Console) -> Grid:
+def _findings(checks: Sequence[Check], console: Console) -> Grid:
+    """Failures and warnings with their whole message, failures first."""
     grid = grid_for(console)
-    grid.add_column("check", no_wrap=True)
-    grid.add_column("code", no_wrap=True)
-    grid.add_column("status", no_wrap=True)
+    for head in ("check", "code", "status"):
+        grid.add_column(head, no_wrap=True)
     grid.add_column("finding", overflow="fold")
-    for c in sorted(checks, key=lambda check: list(_STYLE)[::-1].index(check.status)):
+    for c in sorted(checks, key=lambda check: check.status != "fail"):
         grid.add_row(c.name, c.code, Text(c.status, style=_STYLE[c.status]), c.message)
     return grid
+
+
+def _passes(checks: Sequence[Check], console: Console) -> Grid:
+    """Passed checks, a line per kind: how often, and the value nearest to its limit."""
+    grid = grid_for(console)
+    for head in ("passed", "code", "value", "limit", "unit"):
+        grid.add_column(head, justify="right" if head in ("value", "limit") else "left")
+    groups: dict[tuple[str, str], list[Check]] = {}
+    for c in checks:
+        groups.setdefault((c.name, c.code), []).append(c)
+    for (name, code), group in groups.items():
+        nearest = min(group, key=_room)
+        times = f" ({len(group)}x)" if len(group) > 1 else ""
+        unit = "" if nearest.unit == "1" else nearest.unit
+        grid.add_row(name + times, code, number(nearest.value, 5), number(nearest.limit, 5), unit)
+    return grid
+
+
+def _room(check: Check) -> float:
+    if check.value is None or check.limit is None:
+        return math.inf
+    return abs(check.value - check.limit)
 
 
 def _show_table(table: Table, console: Console) -> None:
@@ -101,7 +129,8 @@ def _show_table(table: Table, console: Console) -> None:
     step = max(1, math.ceil(len(rows) / _MOST_ROWS))
     if step > 1:
         step = next((s for s in (2, 5, 10, 15, 30) if s >= step), step)
-    cells = [[number(item, 6) for item in row] for row in rows[::step]]
+    noise = [_noise(column) for column in zip(*rows, strict=True)]
+    cells = [[number(_quiet(x, level), 6) for x, level in zip(row, noise, strict=True)] for row in rows[::step]]
     thinned = f", every {step}th of {len(rows)} rows (all with --table {table.name} --format csv)" if step > 1 else ""
     console.print(Text(f"\n{table.name}{thinned}", style="bold"))
     for columns in _folds(table, cells, console.width):
@@ -114,6 +143,15 @@ def _show_table(table: Table, console: Console) -> None:
         for row in cells:
             grid.add_row(*(row[i] for i in columns))
         console.print(grid)
+
+
+def _noise(column: Sequence[object]) -> float:
+    """Below this a value of a column is rounding of values that cancel, and shown as 0."""
+    return 1e-13 * max((abs(x) for x in column if isinstance(x, float)), default=0.0)
+
+
+def _quiet(value: object, level: float) -> object:
+    return 0.0 if isinstance(value, float) and abs(value) < level else value
 
 
 def _folds(table: Table, cells: Sequence[Sequence[str]], width: int) -> list[list[int]]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
+from pydantic_core import PydanticCustomError
 
 
 class Spec(BaseModel):
@@ -36,3 +37,13 @@ class GearLimits(Spec):
     undercut: Annotated[float, Field(ge=0)] = Field(0.05, description="profile shift below x_min that is let pass")
     tip_thickness: Annotated[float, Field(ge=0)] = Field(0.25, description="least tip thickness over the module")
     contact_ratio: Annotated[float, Field(gt=0)] = Field(1.1, description="least transverse contact ratio")
+
+
+def require_offset_below_rod(rod: float, offset: float, key: str) -> None:
+    """Refuse a slide line that the connecting rod cannot reach."""
+    if abs(offset) >= rod:
+        raise PydanticCustomError(
+            "GL111",
+            "offset {offset} mm is not below the rod's {rod} mm: lengthen the rod or bring the slide line nearer",
+            {"key": key, "offset": f"{offset:g}", "rod": f"{rod:g}"},
+        )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from gearlink.core.specs.common import (
     AcuteAngle,
@@ -17,6 +17,7 @@ from gearlink.core.specs.common import (
     PressureAngle,
     SignedLength,
     Spec,
+    require_offset_below_rod,
 )
 
 TurnAngle = Annotated[float, Field(ge=0, lt=360, json_schema_extra={"unit": "deg"})]
@@ -57,6 +58,11 @@ class Bed(Spec):
     crank_offset_angle: Angle = Field(description="angle CDE between the driven crank and the slider's crank")
     rod: Length = Field(description="connecting rod EF")
     offset: SignedLength = Field(0.0, description="offset e of the slide line from D")
+
+    @model_validator(mode="after")
+    def _reachable(self) -> Bed:
+        require_offset_below_rod(self.rod, self.offset, "offset")
+        return self
 
 
 class Sync(Spec):
