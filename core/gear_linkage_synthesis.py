@@ -200,7 +200,8 @@ def check_back_step_crank_angle(phi12: float) -> None:
     """Refuse a crank angle of the back-step outside [0, pi)."""
     if not 0.0 <= phi12 < math.pi:
         raise NoSolution(
-            f"the crank angle of the back-step is {math.degrees(phi12):.9g} deg; it must lie from 0 (momentary dwell) to below 180"
+            f"the crank angle of the back-step is {math.degrees(phi12):.9g} deg; it must lie from 0 (momentary "
+            "dwell) to below 180 deg"
         )
 
 

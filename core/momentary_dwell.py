@@ -30,37 +30,75 @@ class Tangency:
     pole_offset: float
 
 
-def least_eccentricity(r1: float, r3: float, r5: float) -> float:
-    """Crank length down to which a momentary dwell exists; there the linkage stretches straight.
+def tangency_range(r1: float, r3: float, r5: float) -> tuple[float, float]:
+    """Crank lengths between which some frame just stops the output, in crank-rocker or drag link.
 
-    e_lo = r1 (U - V)/(U + V) = r1^2 S/(U + V)^2
+    e_lo = r1 (U - V)/(U + V) = r1^2 S/(U + V)^2,   e_hi = r1^2/e_lo
 
     Parameters
         r1, r3, r5 : float [mm] - reference radii of crank gear, idler and output gear
     Returns
-        e_lo : float [mm] - below r1
+        e_lo, e_hi : float, float [mm] - below and above r1; at e_lo the linkage stretches straight
+    Raises
+        NoSolution - for a radius that is not positive and finite
     Example
-        >>> round(least_eccentricity(25.0, 25.0, 75.0), 12)
-        5.62870566386
+        >>> [round(e, 9) for e in tangency_range(25.0, 25.0, 75.0)]
+        [5.628705664, 111.037961003]
 
     Source
         own derivation: cos(beta) = 1 in thesis (4-26)
     """
-    u, v = _means(r1, r3, r5)
-    return r1 * r1 * (r1 + 2.0 * r3 + r5) / (u + v) ** 2
+    e_lo = r1 * r1 * (r1 + 2.0 * r3 + r5) / _pole_sum(r1, r3, r5) ** 2
+    return e_lo, r1 * (r1 / e_lo)
 
 
-def tangency(r1: float, r3: float, r5: float, eccentricity: float) -> Tangency | None:
-    """Frame length at which the output of given gears and crank just stops, None where no frame does that.
+def eccentricity_range(r1: float, r3: float, r5: float) -> tuple[float, float]:
+    """Crank lengths between which a crank-rocker with a momentary dwell exists.
+
+    e_lo < e < e_up,   e_up = r1 - 2 max(0, r1 - r5) r1^2/(U + V)^2
+
+    Parameters
+        r1, r3, r5 : float [mm] - reference radii of crank gear, idler and output gear
+    Returns
+        e_lo, e_up : float, float [mm] - at e_lo the linkage stretches straight, at e_up it folds
+    Raises
+        NoSolution - for a radius that is not positive and finite, and where the range is empty: an output gear
+            smaller than the crank gear with a small idler
+    Notes
+        e_up is the root of d* - e = r1 - r5 = |b - c|; the other root is -r1. For r5 >= r1 it is r1.
+    Example
+        >>> [round(e, 9) for e in eccentricity_range(25.0, 25.0, 75.0)]
+        [5.628705664, 25.0]
+        >>> [round(e, 9) for e in eccentricity_range(13.0, 5.0, 5.0)]
+        [6.294646736, 9.403059008]
+
+    Source
+        own derivation
+    """
+    low, _ = tangency_range(r1, r3, r5)
+    high = r1 - 2.0 * max(0.0, r1 - r5) * (r1 / _pole_sum(r1, r3, r5)) ** 2
+    if not low < high:
+        raise NoSolution(
+            f"gears of {2 * r1:.9g}, {2 * r3:.9g} and {2 * r5:.9g} mm reference diameter have no crank-rocker with a "
+            f"momentary dwell: the crank would have to be longer than {low:.9g} mm and shorter than {high:.9g} mm; "
+            "take a larger idler or an output gear not smaller than the crank gear"
+        )
+    return low, high
+
+
+def tangency(r1: float, r3: float, r5: float, eccentricity: float) -> Tangency:
+    """Frame length at which the output of given gears and crank just stops, in crank-rocker or drag link.
 
     cos^2(beta) = (r1^2 - e^2)/(r1^2 - e_t^2),   d*^2 = (S - e_t)^2 cos^2(beta) + r5^2 sin^2(beta)
 
     Parameters
         r1, r3, r5 : float [mm] - reference radii
-        eccentricity : float [mm] - e = AB, crank length
+        eccentricity : float [mm] - e = AB, crank length, e_lo < e < e_hi; the linkage is a crank-rocker for
+            e < r1 and a drag link, if it turns at all, for e > r1
     Returns
-        tangency : Tangency or None - None for e <= e_lo, e = r1 and e >= r1^2/e_lo; for e > r1 the linkage is a
-            drag link if it turns at all
+        tangency : Tangency
+    Raises
+        NoSolution - for a crank outside (e_lo, e_hi): there the output stops for no frame
     Notes
         cos^2 and sin^2 come from products of differences of the lengths: no loss at either end of the range.
     Example
@@ -68,13 +106,16 @@ def tangency(r1: float, r3: float, r5: float, eccentricity: float) -> Tangency |
         115.522215624713
 
     Source
-        own derivation; replaces thesis (4-26)..(4-33), whose printed numbers have slips
+        own derivation; replaces thesis (4-26)..(4-33), in whose printed example the numbers have slips
     """
-    e, e_lo = eccentricity, least_eccentricity(r1, r3, r5)
-    e_t = e_lo if e < r1 else r1 * (r1 / e_lo)
-    low, high = min(e_t, r1), max(e_t, r1)
-    if not low < e < high:
-        return None
+    e = eccentricity
+    e_lo, e_hi = tangency_range(r1, r3, r5)
+    if not e_lo < e < e_hi:
+        raise NoSolution(
+            f"a crank of {e:.9g} mm never stops the output, whatever the frame: it must lie between {e_lo:.9g} and "
+            f"{e_hi:.9g} mm; choose it between them or change the gears"
+        )
+    e_t = e_lo if e < r1 else e_hi
     span = (r1 - e_t) * (r1 + e_t)
     cos_beta = math.sqrt((r1 - e) * (r1 + e) / span)
     sin_beta = math.sqrt((e - e_t) * (e + e_t) / span)
@@ -89,12 +130,12 @@ def momentary_frame_length(r1: float, r3: float, r5: float, eccentricity: float)
 
     Parameters
         r1, r3, r5 : float [mm] - reference radii of crank gear, idler and output gear
-        eccentricity : float [mm] - e, crank length, e_lo < e < r1
+        eccentricity : float [mm] - e, crank length, within `eccentricity_range`
     Returns
         frame : float [mm]
     Raises
-        NoSolution - for a crank outside (e_lo, r1): shorter ones never stop the output, longer ones always make
-            it step back
+        NoSolution - for a crank outside the range: shorter ones never stop the output, ones from r1 on always make
+            it step back, and between e_up and r1 the linkage does not turn
     Example
         >>> round(momentary_frame_length(25.0, 25.0, 75.0, 16.0), 12)
         122.839414791868
@@ -173,24 +214,26 @@ def wrap(angle: float) -> float:
     return turned if turned < 2.0 * math.pi else 0.0
 
 
-def _means(r1: float, r3: float, r5: float) -> tuple[float, float]:
-    """U = sqrt(b (b + r5)) and V = sqrt(r3 c)."""
+def _pole_sum(r1: float, r3: float, r5: float) -> float:
+    """U + V = sqrt(b (b + r5)) + sqrt(r3 c)."""
     for name, radius in (("r1", r1), ("r3", r3), ("r5", r5)):
         if not 0.0 < radius < math.inf:
             raise NoSolution(f"the reference radius {name} is {radius:g} mm; it must be positive and finite")
     b = r1 + r3
-    return math.sqrt(b * (b + r5)), math.sqrt(r3 * (r3 + r5))
+    return math.sqrt(b * (b + r5)) + math.sqrt(r3 * (r3 + r5))
 
 
 def _wanted(r1: float, r3: float, r5: float, eccentricity: float) -> Tangency:
     """The tangency of a crank-rocker, or the refusal with its limits."""
-    found = tangency(r1, r3, r5, eccentricity) if eccentricity < r1 else None
-    if found is None:
-        low = least_eccentricity(r1, r3, r5)
-        what = "always makes the output step back" if eccentricity >= r1 else "never stops the output"
+    low, high = eccentricity_range(r1, r3, r5)
+    if not low < eccentricity < high:
+        what = "never stops the output, whatever the frame"
+        if eccentricity >= r1:
+            what = "always makes the output step back, whatever the frame"
+        elif eccentricity >= high:
+            what = "cannot turn with the frame of its momentary dwell"
         raise NoSolution(
-            f"a crank of {eccentricity:.9g} mm {what}, whatever the frame: for a momentary dwell it must lie "
-            f"between {low:.9g} and {r1:.9g} mm (the reference radius of the crank gear); choose it between them or "
-            "change the gears"
+            f"a crank of {eccentricity:.9g} mm {what}: for a momentary dwell of these gears it must lie between "
+            f"{low:.9g} and {high:.9g} mm; choose it between them or change the gears"
         )
-    return found
+    return tangency(r1, r3, r5, eccentricity)

@@ -14,27 +14,12 @@ from __future__ import annotations
 import math
 
 from gearlink.core.errors import NoSolution
+from gearlink.core.gauss_quadrature import integral
 from gearlink.core.gear_linkage_synthesis import check_back_step_crank_angle, check_ratio
 from gearlink.core.roots import bracketed_root
 
 _SERIES_BELOW = 0.25  # tan h; the fifteenth term is then below 1e-17 of the first
 _INTEGRAL_BELOW = 0.2  # h [rad]; ten Gauss points over 4 h are then exact to rounding
-
-# Ten-point Gauss-Legendre rule on [-1, 1], positive half.
-GAUSS_NODES = (
-    0.14887433898163122,
-    0.4333953941292472,
-    0.6794095682990244,
-    0.8650633666889845,
-    0.9739065285171717,
-)
-GAUSS_WEIGHTS = (
-    0.29552422471475287,
-    0.26926671930999635,
-    0.21908636251598204,
-    0.1494513491505806,
-    0.06667134430868814,
-)
 
 
 def back_step_angle(i3: float, back_step_crank_angle: float) -> float:
@@ -207,7 +192,7 @@ def _back_step(v: float, h: float) -> float:
     t, x = math.tan(h), 1.0 - v
     if t < _SERIES_BELOW:
         log_x = math.log1p(-v) if v < 1.0 else -math.inf
-        terms = ((-1) ** j * t ** (2 * j + 1) / (2 * j + 1) * math.expm1(2 * j * log_x) for j in range(14, 0, -1))
+        terms = ((-1.0) ** j * t ** (2 * j + 1) / (2 * j + 1) * math.expm1(2 * j * log_x) for j in range(14, 0, -1))
         return 2.0 * sum(terms)
     # n atan(t/n) - atan(t) with the part (n - 1) drawn out of both terms
     first = v * math.atan(t * x) / x if x > 0.0 else t
@@ -218,9 +203,7 @@ def _fallen(i3: float, h: float, y: float) -> float:
     """How far the output at 270 deg + y stands below its place at 270 deg - h; zero at y = phi13 - h."""
     n, rest = 1.0 - i3, i3 * (i3 - 2.0) * math.cos(h) ** 2
     if h < _INTEGRAL_BELOW:
-        mean, half = 0.5 * (y - h), 0.5 * (y + h)
-        nodes = zip(GAUSS_NODES, GAUSS_WEIGHTS, strict=True)
-        return half * sum(w * (_reverse(i3, h, mean - half * x) + _reverse(i3, h, mean + half * x)) for x, w in nodes)
+        return integral(lambda x: _reverse(i3, h, x), -h, y)
     at_y = math.atan2(math.sin(y), math.sqrt(rest + math.cos(y) ** 2))
     return n * (at_y + math.atan(math.tan(h) / n)) - h - y
 

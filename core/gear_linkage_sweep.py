@@ -1,0 +1,270 @@
+"""The three-gear four-bar over arrays: motion over a turn, and the closed forms of the synthesis for many designs."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gearlink.core import fourbar, fourbar_sweep
+from gearlink.core.errors import NoSolution
+from gearlink.core.fourbar import FourBar
+from gearlink.core.gauss_quadrature import GAUSS_NODES, GAUSS_WEIGHTS
+from gearlink.core.gear_linkage import GearTrain
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+_INTEGRAL_BELOW = 0.2  # h [rad], as in `gearlink.core.symmetric_back_step`
+_NODES = np.array([-x for x in reversed(GAUSS_NODES)] + list(GAUSS_NODES))
+_WEIGHTS = np.array([*reversed(GAUSS_WEIGHTS), *GAUSS_WEIGHTS])
+
+
+@dataclass(frozen=True, slots=True)
+class OutputMotion:
+    """Motion over crank angles, fields of their shape.
+
+    crank_angle [rad], output_angle [rad] (0 at crank angle 0, continuous), speed_ratio, acceleration_ratio [1/rad],
+    transmission_angle [rad] (0..pi/2)
+    """
+
+    crank_angle: Array
+    output_angle: Array
+    speed_ratio: Array
+    acceleration_ratio: Array
+    transmission_angle: Array
+
+
+@dataclass(frozen=True, slots=True)
+class MomentaryDwells:
+    """Momentary-dwell designs: frame length [mm], crank angle of the standstill [rad], both NaN where not `exists`."""
+
+    frame: Array
+    crank_angle: Array
+    exists: Mask
+
+
+@dataclass(frozen=True, slots=True)
+class DwellCrankAngles:
+    """Crank angles of the back-step phi12 [rad] for given dwell angles, NaN where not `exists`."""
+
+    back_step_crank_angle: Array
+    exists: Mask
+
+
+def turn(samples: int = 360) -> Array:
+    """Crank angles that divide the turn into equal steps, from 0.
+
+    Parameters
+        samples : int - at least 1
+    Returns
+        crank_angle : (samples,) array [rad]
+    Raises
+        NoSolution - for fewer than one sample
+    Example
+        >>> np.degrees(turn(4)).tolist()
+        [0.0, 90.0, 180.0, 270.0]
+
+    Source
+        own derivation
+    """
+    if samples < 1:
+        raise NoSolution(f"{samples} samples divide no turn; take at least 1")
+    angles: Array = np.arange(samples, dtype=np.float64) * (2.0 * math.pi / samples)
+    return angles
+
+
+def output_motion(linkage: FourBar, train: GearTrain, crank_angle: ArrayLike) -> OutputMotion:
+    """Output angle, speed and acceleration ratio and transmission angle over an array of crank angles.
+
+    phi5 = I phi + (1 - i2) i3 t2 + (1 - i3) t3, and its first and second derivative after phi
+
+    Parameters
+        linkage : FourBar
+        train : GearTrain
+        crank_angle : array of any shape [rad]
+    Returns
+        motion : OutputMotion
+    Raises
+        NoSolution - when the linkage does not close, or stands in a dead point, at one of the angles
+    Notes
+        Agrees with `gearlink.core.gear_linkage` to a few ulp times the condition number.
+    Example
+        >>> motion = output_motion(FourBar(18.0, 50.0, 100.0, 121.4), GearTrain(20, 20, 60), np.radians([0.0, 90.0]))
+        >>> np.round(motion.speed_ratio, 9).tolist()
+        [0.217279175, 0.724759]
+
+    Source
+        thesis (4-23)..(4-25)
+    """
+    phi = np.asarray(crank_angle, dtype=float)
+    state, start = fourbar_sweep.solve(linkage, phi, 2), fourbar.solve(linkage, 0.0)
+    p, q = train.coupler_share, train.rocker_share
+    coupler, rocker = state.coupler_angle - start.coupler_angle, state.rocker_angle - start.rocker_angle
+    return OutputMotion(
+        phi,
+        train.ratio * phi + p * coupler + q * rocker,
+        train.ratio + p * state.coupler_velocity + q * state.rocker_velocity,
+        p * state.coupler_acceleration + q * state.rocker_acceleration,
+        np.minimum(state.transmission_angle, math.pi - state.transmission_angle),
+    )
+
+
+def momentary_dwells(r1: ArrayLike, r3: ArrayLike, r5: ArrayLike, eccentricity: ArrayLike) -> MomentaryDwells:
+    """Frame length and crank angle of the momentary dwell for many gears and cranks.
+
+    d*^2 = (S - e_lo)^2 cos^2(beta) + r5^2 sin^2(beta),   cos^2(beta) = (r1^2 - e^2)/(r1^2 - e_lo^2)
+
+    Parameters
+        r1, r3, r5, eccentricity : arrays that broadcast [mm] - positive
+    Returns
+        dwells : MomentaryDwells - `exists` where a crank-rocker has one: e_lo < e < e_up as in
+            `momentary_dwell.eccentricity_range`; assembly +1
+    Raises
+        NoSolution - for a length that is not positive and finite
+    Example
+        >>> found = momentary_dwells(25.0, 25.0, 75.0, [5.0, 16.0, 18.0, 26.0])
+        >>> found.exists.tolist(), np.round(found.frame[1:3], 9).tolist()
+        ([False, True, True, False], [122.839414792, 115.522215625])
+
+    Source
+        own derivation; scalar form in `gearlink.core.momentary_dwell`
+    """
+    arrays = [np.asarray(x, dtype=float) for x in (r1, r3, r5, eccentricity)]
+    if not all(np.all((x > 0.0) & (x < np.inf)) for x in arrays):
+        raise NoSolution("radii and eccentricities must all be positive and finite")
+    r1, r3, r5, e = np.broadcast_arrays(*arrays)
+    b, s = r1 + r3, r1 + 2.0 * r3 + r5
+    share = (r1 / (np.sqrt(b * (b + r5)) + np.sqrt(r3 * (r3 + r5)))) ** 2
+    e_lo = share * s
+    exists = (e_lo < e) & (e < r1 - 2.0 * np.maximum(0.0, r1 - r5) * share)
+    e = np.where(exists, e, np.nan)
+    span = (r1 - e_lo) * (r1 + e_lo)
+    x, sine = np.sqrt((r1 - e) * (r1 + e) / span), np.sqrt((e - e_lo) * (e + e_lo) / span)
+    phi = np.arctan2(-r1 * sine, -e_lo * x) - np.arctan2(-r5 * sine, (s - e_lo) * x)
+    return MomentaryDwells(np.hypot((s - e_lo) * x, r5 * sine), phi % (2.0 * math.pi), exists)
+
+
+def dwell_angles(i3: ArrayLike, back_step_crank_angle: ArrayLike) -> Array:
+    """Dwell angle phi13 of the symmetric family (I = 1) for many ratios and crank angles of the back-step.
+
+    n [asin(k sin(y)) + asin(k sin(h))] = h + y,   phi13 = y + h,   h = phi12/2
+
+    Parameters
+        i3, back_step_crank_angle : arrays that broadcast [1, rad] - i3 < 0, 0 < phi12 < pi
+    Returns
+        dwell_angle : array [rad]
+    Raises
+        NoSolution - for a value outside its range
+    Notes
+        Newton steps kept inside the bracket [h, 3 h], all designs at once.
+    Example
+        >>> np.round(np.degrees(dwell_angles([-1.0, -2.0, -3.0], math.radians(90.0))), 9).tolist()
+        [131.409622109, 135.0, 136.359742972]
+
+    Source
+        own derivation; scalar form in `gearlink.core.symmetric_back_step`
+    """
+    ratio, h = _pair(i3, 0.5 * np.asarray(back_step_crank_angle, dtype=float))
+    if not np.all((h > 0.0) & (h < 0.5 * math.pi)):
+        raise NoSolution("crank angles of the back-step must lie above 0 and below 180 deg")
+    limit = 2.0 * math.pi * (1.0 - ratio) / (2.0 - ratio)
+    high = np.minimum(3.0 * h, limit - h)
+    y = _newton(lambda y: (-_fallen(ratio, h, y), _speed(ratio, h, y)), h, high, np.minimum(2.0 * h, high))
+    return y + h
+
+
+def crank_angles_for_dwell(i3: ArrayLike, dwell_angle: ArrayLike) -> DwellCrankAngles:
+    """Crank angle of the back-step phi12 that gives the dwell angle phi13, for many designs of the symmetric family.
+
+    Parameters
+        i3, dwell_angle : arrays that broadcast [1, rad] - i3 < 0
+    Returns
+        angles : DwellCrankAngles - `exists` where 0 < phi13 < 2 pi (1 - i3)/(2 - i3)
+    Raises
+        NoSolution - for a ratio that is not negative
+    Example
+        >>> found = crank_angles_for_dwell(-1.8, np.radians([135.0, 270.0]))
+        >>> np.round(np.degrees(found.back_step_crank_angle), 8).tolist(), found.exists.tolist()
+        ([90.30114714, nan], [True, False])
+
+    Source
+        own derivation; scalar form in `gearlink.core.symmetric_back_step`
+    """
+    ratio, asked = _pair(i3, dwell_angle)
+    exists = (asked > 0.0) & (asked < 2.0 * math.pi * (1.0 - ratio) / (2.0 - ratio))
+    phi13 = np.where(exists, asked, 0.5 * math.pi)
+    high = np.minimum(0.5 * phi13, 0.5 * math.pi)
+
+    def equation(h: Array) -> tuple[Array, Array]:
+        y = phi13 - h
+        return _fallen(ratio, h, y), _fallen_by_h(ratio, h, y) + _speed(ratio, h, y)
+
+    h = _newton(equation, 0.25 * phi13, high, np.minimum(phi13 / 3.0, high))
+    return DwellCrankAngles(np.where(exists, 2.0 * h, np.nan), exists)
+
+
+def _pair(i3: ArrayLike, angle: ArrayLike) -> tuple[Array, Array]:
+    """Ratios and angles, broadcast; ratios checked."""
+    ratio, phi = np.broadcast_arrays(np.asarray(i3, dtype=float), np.asarray(angle, dtype=float))
+    if not np.all((ratio > -np.inf) & (ratio < 0.0)):
+        raise NoSolution("i3 = -z3/z5 must be negative and finite in every design: external meshes")
+    return ratio, phi
+
+
+def _fallen(i3: Array, h: Array, y: Array) -> Array:
+    """How far the output at 270 deg + y stands below its place at 270 deg - h."""
+    n = 1.0 - i3
+    root = np.sqrt(i3 * (i3 - 2.0) * np.cos(h) ** 2 + np.cos(y) ** 2)
+    fallen = np.asarray(n * (np.arctan2(np.sin(y), root) + np.arctan(np.tan(h) / n)) - h - y)
+    small = h < _INTEGRAL_BELOW
+    if np.any(small):
+        fallen[small] = _fallen_by_integral(i3[small], h[small], y[small])
+    return fallen
+
+
+def _fallen_by_integral(i3: Array, h: Array, y: Array) -> Array:
+    """The same for small h, without its cancellation: the integral of the backward speed."""
+    i3, h, y = i3[:, None], h[:, None], y[:, None]
+    half, at = 0.5 * (y + h), 0.5 * (y - h) + 0.5 * (y + h) * _NODES
+    rest = i3 * (i3 - 2.0)
+    root = np.sqrt(rest * np.cos(h) ** 2 + np.cos(at) ** 2)
+    backward = rest * np.sin(h - at) * np.sin(h + at) / (root * (root + (1.0 - i3) * np.cos(at)))
+    result: Array = (half * backward) @ _WEIGHTS
+    return result
+
+
+def _speed(i3: Array, h: Array, y: Array) -> Array:
+    """Speed ratio W at 270 deg + y, the derivative of -`_fallen` after y."""
+    cos_y = np.cos(y)
+    speed: Array = 1.0 - (1.0 - i3) * cos_y / np.sqrt(i3 * (i3 - 2.0) * np.cos(h) ** 2 + cos_y**2)
+    return speed
+
+
+def _fallen_by_h(i3: Array, h: Array, y: Array) -> Array:
+    """Derivative of `_fallen` after h at constant y."""
+    n, rest = 1.0 - i3, i3 * (i3 - 2.0)
+    cos_h, sin_y = np.cos(h), np.sin(y)
+    square = rest * cos_h**2 + np.cos(y) ** 2
+    by_y = sin_y * rest * cos_h * np.sin(h) / (np.sqrt(square) * (square + sin_y**2))
+    slope: Array = n * (by_y + n / (n * n * cos_h**2 + np.sin(h) ** 2)) - 1.0
+    return slope
+
+
+def _newton(f: Callable[[Array], tuple[Array, Array]], low: Array, high: Array, x: Array) -> Array:
+    """Roots of rising functions with their slopes, f(low) <= 0 <= f(high); a step that leaves the bracket halves it."""
+    low, high = np.array(low), np.array(high)
+    for _ in range(100):
+        value, slope = f(x)
+        low, high = np.where(value < 0.0, x, low), np.where(value < 0.0, high, x)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            step = np.where(value == 0.0, 0.0, value / slope)
+        new = x - step
+        new = np.where((new >= low) & (new <= high), new, 0.5 * (low + high))
+        if np.all(np.abs(new - x) <= 1e-9 * np.abs(new)):  # the error is the square of the last step
+            return new
+        x = new
+    return x
