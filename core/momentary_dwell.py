@@ -30,15 +30,36 @@ class Tangency:
     pole_offset: float
 
 
-def tangency_range(r1: float, r3: float, r5: float) -> tuple[float, float]:
-    """Crank lengths between which some frame just stops the output, in crank-rocker or drag link.
+def least_eccentricity(r1: float, r3: float, r5: float) -> float:
+    """Crank length down to which a momentary dwell exists; there the linkage stretches straight.
 
-    e_lo = r1 (U - V)/(U + V) = r1^2 S/(U + V)^2,   e_hi = r1^2/e_lo
+    e_lo = r1 (U - V)/(U + V) = r1^2 S/(U + V)^2
 
     Parameters
         r1, r3, r5 : float [mm] - reference radii of crank gear, idler and output gear
     Returns
-        e_lo, e_hi : float, float [mm] - below and above r1; at e_lo the linkage stretches straight
+        e_lo : float [mm] - below r1
+    Raises
+        NoSolution - for a radius that is not positive and finite
+    Example
+        >>> round(least_eccentricity(25.0, 25.0, 75.0), 9)
+        5.628705664
+
+    Source
+        own derivation: cos(beta) = 1 in thesis (4-26)
+    """
+    return r1 * r1 * (r1 + 2.0 * r3 + r5) / _pole_sum(r1, r3, r5) ** 2
+
+
+def tangency_range(r1: float, r3: float, r5: float) -> tuple[float, float]:
+    """Crank lengths between which some frame just stops the output, in crank-rocker or drag link.
+
+    e_lo < e < e_hi,   e_hi = r1^2/e_lo
+
+    Parameters
+        r1, r3, r5 : float [mm] - reference radii of crank gear, idler and output gear
+    Returns
+        e_lo, e_hi : float, float [mm] - `least_eccentricity` and its counterpart above r1
     Raises
         NoSolution - for a radius that is not positive and finite
     Example
@@ -46,9 +67,9 @@ def tangency_range(r1: float, r3: float, r5: float) -> tuple[float, float]:
         [5.628705664, 111.037961003]
 
     Source
-        own derivation: cos(beta) = 1 in thesis (4-26)
+        own derivation: cos(beta) = 1 with either sign of the root
     """
-    e_lo = r1 * r1 * (r1 + 2.0 * r3 + r5) / _pole_sum(r1, r3, r5) ** 2
+    e_lo = least_eccentricity(r1, r3, r5)
     return e_lo, r1 * (r1 / e_lo)
 
 
@@ -75,7 +96,7 @@ def eccentricity_range(r1: float, r3: float, r5: float) -> tuple[float, float]:
     Source
         own derivation
     """
-    low, _ = tangency_range(r1, r3, r5)
+    low = least_eccentricity(r1, r3, r5)
     high = r1 - 2.0 * max(0.0, r1 - r5) * (r1 / _pole_sum(r1, r3, r5)) ** 2
     if not low < high:
         raise NoSolution(

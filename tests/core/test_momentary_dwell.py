@@ -18,6 +18,7 @@ from gearlink.core.gear_linkage import GearTrain, gear_gap, output_acceleration,
 from gearlink.core.gear_linkage_synthesis import momentary_frame_ratio, symmetric_linkage
 from gearlink.core.momentary_dwell import (
     eccentricity_range,
+    least_eccentricity,
     momentary_crank_angle,
     momentary_frame_length,
     momentary_linkage,
@@ -51,7 +52,7 @@ def test_published_example_3_mended():
     linkage = momentary_linkage(*EX3, 16.0)
     assert linkage.frame == pytest.approx(out["d"], rel=1e-15)
     assert math.degrees(momentary_crank_angle(*EX3, 16.0)) == pytest.approx(out["phi_dwell_deg"], rel=1e-15)
-    assert eccentricity_range(*EX3)[0] == pytest.approx(out["e_lo"], rel=1e-15)
+    assert least_eccentricity(*EX3) == pytest.approx(out["e_lo"], rel=1e-15)
     assert momentary_frame_length(*EX3, out["e_for_d_121_4"]) == pytest.approx(121.4, rel=1e-15)
     assert math.degrees(linkage.min_transmission_angle()) == pytest.approx(out["gamma_ext_deg"][2], rel=1e-15)
     assert speed_extremes(linkage, GearTrain(20, 20, 60)).greatest == pytest.approx(out["W_max"], abs=1e-14)
