@@ -68,7 +68,7 @@ class CosineSeries:
         return float(self.coefficients[0]) * self.span
 
     def integral(self, z: FloatArray) -> FloatArray:
-        """Integral from 0 to z, of small relative error also for small z."""
+        """Integral from 0 to z, of small relative error also for small z (times sum |f_j| over f(0))."""
         wave = np.arange(1, len(self.coefficients)) * (math.pi / self.span)
         weights = self.coefficients[1:] / wave
         result = np.empty_like(z)
@@ -114,18 +114,33 @@ def cosine_series(
         mean = math.fsum(values.tolist()) / nodes
         difference = abs(mean - before) / abs(mean)
         if difference <= _SETTLED:
-            return CosineSeries(span, _coefficients(values, mean), nodes, difference)
+            return CosineSeries(span, cosine_coefficients(values), nodes, difference)
     raise NoSolution(
         f"the integral over the stroke has not settled with {limit} nodes (last change {difference:.1e}); "
         "move the stroke away from the place where the reduced inertia vanishes"
     )
 
 
-def _coefficients(values: FloatArray, mean: float) -> FloatArray:
-    """Discrete cosine transform of midpoint values, cut where the terms are below rounding."""
+def cosine_coefficients(values: FloatArray) -> FloatArray:
+    """Coefficients of the cosine series through values at the midpoints of equal parts of the span.
+
+    f_j = (2/n) sum f(z_i) cos(pi j z_i/span), f_0 half of that
+
+    Parameters
+        values : (n,) array - f((i + 1/2) span/n)
+    Returns
+        coefficients : (m,) array - without the tail that is below rounding, m <= n
+    Example
+        >>> cosine_coefficients(np.array([3.0, 3.0, 3.0])).tolist()
+        [3.0]
+
+    Source
+        discrete cosine transform of the second kind
+    """
     n = len(values)
     spectrum = np.fft.rfft(np.concatenate([values, values[::-1]]))[:n]
     coefficients: FloatArray = (spectrum * np.exp(-0.5j * math.pi / n * np.arange(n))).real / n
-    coefficients[0] = mean
-    significant = np.flatnonzero(np.abs(coefficients) > 1e-17 * abs(mean) * np.arange(1, n + 1))
-    return coefficients[: significant[-1] + 1]
+    coefficients[0] = math.fsum(values.tolist()) / n
+    size = float(np.max(np.abs(values)))
+    significant = np.flatnonzero(np.abs(coefficients) > 1e-17 * size)
+    return coefficients[: int(significant[-1]) + 1] if len(significant) else coefficients[:1]

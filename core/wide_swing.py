@@ -1,44 +1,20 @@
-"""Cams of wide-swing mechanisms: the twin-cam with external and the twin-rocker with internal profile.
-
-Both layouts obey one set of formulas. With sigma = +1 for the twin-cam (cam and rocker turn against each other)
-and -1 for the twin-rocker (they turn together), the signed radius ratio lambda = sigma r/a and rocker angle
-psi = sigma phi give the pitch curve w = e^{i theta} (-1 + lambda e^{i psi}); the twin-rocker's is -conj(w).
-Lengths inside are in centre distances; what leaves is in mm.
-
-About mid-swing the pitch curve is a cusp and all differences that vanish there are formed as products of
-    e = 1 - lambda A, A = 1 + dpsi/dtheta;  s = 1 - cos psi.
-"""
+"""Cams of wide-swing mechanisms: the twin-cam with external and the twin-rocker with internal profile."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal, Protocol
+from typing import Literal
 
 import numpy as np
-import numpy.typing as npt
 
 from gearlink.core.errors import NoSolution
+from gearlink.core.extremes import maximum_over, minimum_over
 from gearlink.core.periodic_quadrature import FloatArray
-from gearlink.core.roots import bracketed_root, maximum
-from gearlink.core.unloading import MiddleView
+from gearlink.core.wide_swing_curve import ComplexArray, PitchCurve, StrokeLaw
 
-ComplexArray = npt.NDArray[np.complex128]
 Layout = Literal["twin-cam", "twin-rocker"]
-
-
-class StrokeLaw(Protocol):
-    """What a cam needs of the rocker's law of motion; `ElasticLaw` has it."""
-
-    @property
-    def swing(self) -> float: ...
-    @property
-    def velocity_peak(self) -> float: ...
-    @property
-    def middle_jerk(self) -> float: ...
-    def middle_view(self, k: FloatArray) -> MiddleView: ...
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -53,8 +29,6 @@ class CamPoints:
         pressure_angle : (N,) array [rad]
         curvature_radius : (N,) array [mm] - of the pitch curve, positive with the centre towards the cam axis,
             infinite where straight
-        in_contact : (N,) bool array - False in the transition zone about mid-swing, where the profile point is cut
-            away by the slot that the roller needs there
     """
 
     k: FloatArray
@@ -64,27 +38,13 @@ class CamPoints:
     profile: ComplexArray
     pressure_angle: FloatArray
     curvature_radius: FloatArray
-    in_contact: npt.NDArray[np.bool_]
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class _State:
-    """The products e, s and the vector g = 1 - lambda A e^{i psi} from which the profile is made."""
-
-    k: FloatArray
-    theta: FloatArray
-    psi: FloatArray
-    a: FloatArray  # A = 1 + dpsi/dtheta
-    e: FloatArray
-    s: FloatArray
-    second: FloatArray  # d2 psi/dtheta2
 
 
 @dataclass(frozen=True)
 class WideSwingCam:
     """One cam of a twin-cam or twin-rocker mechanism; every property is computed when it is read.
 
-    r = a/(B alpha + 1) external, a/(B alpha - 1) internal; z = e^{i theta}(-1 + lambda e^{i phi}) a, alpha = gamma/phi_ud
+    r = a/(B alpha + 1) external, a/(B alpha - 1) internal, alpha = gamma/phi_ud
 
     Parameters
         layout : "twin-cam" (external profile) or "twin-rocker" (internal profile)
@@ -103,7 +63,7 @@ class WideSwingCam:
         >>> law = ElasticLaw(Pneumatic(2.5), math.radians(120))
         >>> cam = WideSwingCam("twin-cam", law, math.radians(120), 200.0, 8.0)
         >>> round(cam.rocker_radius, 9), round(math.degrees(cam.phase_angle), 9)
-        (74.41794958, 38.401731774)
+        (74.417949578, 38.401731774)
 
     Source
         wide-swing dissertation (18) to (22), (24) to (26); cusp, transition zone and existence: own derivation
@@ -156,7 +116,7 @@ class WideSwingCam:
         return self.nominal_rocker_radius if self.given_rocker_radius is None else self.given_rocker_radius
 
     @cached_property
-    def _ratio(self) -> float:
+    def ratio(self) -> float:
         """Signed lambda = sigma r/a."""
         return self.sense * self.rocker_radius / self.center_distance
 
@@ -168,15 +128,20 @@ class WideSwingCam:
         return 1.0 - self.given_rocker_radius / self.nominal_rocker_radius
 
     @cached_property
+    def curve(self) -> PitchCurve:
+        """The pitch curve in centre distances."""
+        return PitchCurve(self.law, self.cycle_angle, self.sense, self.ratio, self._middle_gap)
+
+    @cached_property
     def middle_radius(self) -> float:
         """Pitch radius at mid-swing, a - r external, a + r internal [mm]."""
-        return abs(1.0 - self._ratio) * self.center_distance
+        return abs(1.0 - self.ratio) * self.center_distance
 
     @cached_property
     def end_radius(self) -> float:
         """Pitch radius at the ends of the stroke [mm] (dissertation (20))."""
-        half = self._ratio * math.sin(0.5 * self.law.swing)
-        return self.center_distance * math.hypot(1.0 - self._ratio * math.cos(0.5 * self.law.swing), half)
+        half = self.ratio * math.sin(0.5 * self.law.swing)
+        return self.center_distance * math.hypot(1.0 - self.ratio * math.cos(0.5 * self.law.swing), half)
 
     @property
     def min_radius(self) -> float:
@@ -192,13 +157,13 @@ class WideSwingCam:
     def profile_correction(self) -> float:
         """xi at the end of the stroke, polar angle of the roller against the centre line [rad] ((19), (25))."""
         half = 0.5 * self.law.swing
-        ratio = abs(self._ratio)
-        return math.atan2(ratio * math.sin(half), 1.0 - self._ratio * math.cos(half))
+        ratio = abs(self.ratio)
+        return math.atan2(ratio * math.sin(half), 1.0 - self.ratio * math.cos(half))
 
     @cached_property
     def largest_profile_correction(self) -> float:
         """Largest xi of the stroke: asin lambda where the roller arm touches the pitch point's ray [rad]."""
-        ratio = self._ratio
+        ratio = self.ratio
         if abs(ratio) < 1.0 and math.cos(0.5 * self.law.swing) < ratio:
             return math.asin(abs(ratio))
         return self.profile_correction
@@ -214,13 +179,13 @@ class WideSwingCam:
 
         R0 = rho^2/(rho + lambda sin(gamma/2) psi''(0)/rho)
         """
-        curvature = float(self._curvature(self._state(np.zeros(1)))[0])
+        curvature = float(self.curve.curvature(self.curve.state(np.zeros(1)))[0])
         return self.center_distance / curvature if curvature != 0.0 else math.inf
 
     @cached_property
     def cusp(self) -> tuple[float, float]:
         """p and q of the pitch curve's cusp, rho - rho_mid = p t^2, tangential q t^3, t cam angle [mm, mm]."""
-        ratio, arm = self._ratio, abs(self._ratio)
+        ratio, arm = self.ratio, abs(self.ratio)
         third = self.law.swing * abs(self.law.middle_jerk) / self.cycle_angle**3
         bracket = (1.0 + ratio) / ratio**2 + arm * third / (1.0 - ratio)
         a = self.center_distance
@@ -235,7 +200,7 @@ class WideSwingCam:
         Raises
             NoSolution - where the pitch curve has a loop in place of the cusp (q <= 0)
         Notes
-            Leading order in r_p/a; `contact_end` is the exact place.
+            Leading order in r_p/a; `wide_swing_contact.contact_end` is the exact place.
         """
         p, q = self.cusp
         if q <= 0.0:
@@ -250,23 +215,15 @@ class WideSwingCam:
         """
         if self._middle_gap != 0.0:
             return math.inf if self._middle_gap > 0.0 else -math.inf
-        grid = np.linspace(0.0, 0.499, 257)
-        values = self._loop_measure(grid)
-        least = int(np.argmin(values))
-        low, high = float(grid[max(least - 1, 0)]), float(grid[min(least + 1, 256)])
-        inside = -maximum(lambda k: -float(self._loop_measure(np.array([k]))[0]), low, high)[1]
-        return min(inside, 6.0 * self.cusp[1] * self._ratio**2 / self.middle_radius)
-
-    def _loop_measure(self, k: FloatArray) -> FloatArray:
-        state = self._state(k)
-        result: FloatArray = (1.0 - self._ratio) * state.e / state.s + self._ratio * (1.0 + state.a)
-        return result
+        inside = minimum_over(lambda k: self.curve.loop_measure(self.curve.state(k)), 0.0, 0.499, samples=256).value
+        return min(inside, 6.0 * self.cusp[1] * self.ratio**2 / self.middle_radius)
 
     def _loop_message(self, value: float) -> str:
         safe = math.degrees(0.5 * self.law.velocity_peak * self.law.swing)
         return (
             f"the pitch curve has a loop at mid-swing (measure {value:.4g}, must be above 0): reduce the cycle angle "
-            f"to {safe:.4g} deg or less, where the arm is no longer than the centre distance, or stretch the spring more"
+            f"to {safe:.4g} deg or less, where the arm is no longer than the centre distance, or increase the swing "
+            "or the spring's mounting stretch"
         )
 
     def require_profile(self) -> None:
@@ -315,10 +272,10 @@ class WideSwingCam:
         Raises
             NoSolution - where the transition zone fills the stroke
         """
-        last = self._zone_start()
-        grid = np.linspace(0.0, last, 129)
-        values = np.abs(self._pressure_angle(self._state(grid)))
-        return _refined_maximum(lambda k: np.abs(self._pressure_angle(self._state(k))), grid, values)
+        end = self.zone_start
+        return maximum_over(
+            lambda k: np.abs(self.curve.pressure_angle(self.curve.state(k))), 0.0, end, samples=128
+        ).value
 
     @cached_property
     def min_curvature_radius(self) -> float:
@@ -330,62 +287,25 @@ class WideSwingCam:
             Inside the zone the radius falls to zero at mid-swing whatever the design. Infinite where the curve
             bulges nowhere outside it.
         """
-        grid = np.linspace(0.0, self._zone_start(), 129)
-        values = self.sense * self._curvature(self._state(grid))
-        peak = _refined_maximum(lambda k: self.sense * self._curvature(self._state(k)), grid, values)
+        end = self.zone_start
+        peak = maximum_over(
+            lambda k: self.sense * self.curve.curvature(self.curve.state(k)), 0.0, end, samples=128
+        ).value
         return self.center_distance / peak if peak > 0.0 else math.inf
 
-    def _zone_start(self) -> float:
+    @property
+    def zone_start(self) -> float:
+        """k where the transition zone begins.
+
+        Raises
+            NoSolution - where the zone fills the stroke
+        """
         if self.transition_zone >= 0.5:
             raise NoSolution(
                 f"the transition zone is {self.transition_zone:.4g} of the stroke, more than its half: "
                 f"make the roller radius less than {0.5 * self.roller_radius / self.transition_zone:.4g} mm"
             )
         return 0.5 - self.transition_zone
-
-    @cached_property
-    def undercut_start(self) -> float:
-        """k where the pitch curvature radius falls to the roller radius.
-
-        Raises
-            NoSolution - where it is below the roller radius at the start already
-        """
-        limit = self.center_distance / self.roller_radius
-
-        def excess(k: float) -> float:
-            return self.sense * float(self._curvature(self._state(np.array([k])))[0]) - limit
-
-        if excess(0.0) >= 0.0:
-            raise NoSolution(
-                f"roller radius {self.roller_radius:.6g} mm: the pitch curve's radius at the start is "
-                f"{abs(self.start_curvature_radius):.6g} mm; make the roller smaller or the centre distance larger"
-            )
-        return bracketed_root(excess, 0.0, 0.5 - 1e-9)
-
-    @cached_property
-    def contact_end(self) -> float:
-        """k from which the slot of the roller at mid-swing has cut the profile away: exact end of the contact.
-
-        |z(k) + r_p n(k) - z(1/2)| = r_p
-
-        Raises
-            NoSolution - where the roller at mid-swing reaches the profile's start
-        """
-        middle = -(1.0 - self._ratio)
-        radius = self.roller_radius / self.center_distance
-
-        def clearance(k: float) -> float:
-            state = self._state(np.array([k]))
-            step = complex(self._pitch(state)[0]) - middle
-            normal = self.sense * complex(self._normal(state)[0])
-            return abs(step) ** 2 + 2.0 * radius * (step * normal.conjugate()).real
-
-        if clearance(0.0) <= 0.0:
-            raise NoSolution(
-                f"roller radius {self.roller_radius:.6g} mm: the roller at mid-swing covers the whole profile; "
-                "make it smaller or the centre distance larger"
-            )
-        return bracketed_root(clearance, 0.0, self.undercut_start)
 
     def points(self, k: FloatArray) -> CamPoints:
         """Pitch curve, profile, pressure angle and curvature at given fractions of the stroke.
@@ -401,7 +321,9 @@ class WideSwingCam:
             NoSolution - for k outside 0 to 1, or a profile that does not exist
         Notes
             The body lies inside an external and outside an internal profile. k = 1/2 is taken as the end of the
-            run-up. Relative accuracy of the curvature about 1e-13 up to the cusp itself.
+            run-up. The profile points between `wide_swing_contact.contact_end` and its mirror image are cut away
+            by the slot that the roller needs at mid-swing. The curvature keeps a relative accuracy of about 1e-13
+            up to the cusp itself.
         Example
             >>> from gearlink.core.unloading import ElasticLaw, Pneumatic
             >>> law = ElasticLaw(Pneumatic(2.5), math.radians(120))
@@ -413,77 +335,27 @@ class WideSwingCam:
             wide-swing dissertation, chapter 3 and (26); curvature: own derivation
         """
         self.require_profile()
-        state = self._state(np.asarray(k, dtype=np.float64))
-        pitch = self._pitch(state)
-        profile = pitch + self.sense * self.roller_radius / self.center_distance * self._normal(state)
-        curvature = self._curvature(state)
+        state = self.curve.state(np.asarray(k, dtype=np.float64))
+        pitch = self.curve.pitch(state)
+        profile = pitch + self.sense * self.roller_radius / self.center_distance * self.curve.normal(state)
+        curvature, place = self.curve.curvature(state), self.center_distance
         with np.errstate(divide="ignore"):
             radius = self.center_distance / curvature
         return CamPoints(
             k=state.k,
             cam_angle=state.theta,
-            polar_angle=state.theta - self._correction(state),
-            pitch=self._placed(pitch),
-            profile=self._placed(profile),
-            pressure_angle=self._pressure_angle(state),
+            polar_angle=state.theta - self.curve.correction(state),
+            pitch=place * _mirrored(pitch, self.sense),
+            profile=place * _mirrored(profile, self.sense),
+            pressure_angle=self.curve.pressure_angle(state),
             curvature_radius=radius,
-            in_contact=np.minimum(state.k, 1.0 - state.k) <= self.contact_end,
         )
 
-    def _placed(self, w: ComplexArray) -> ComplexArray:
-        """From the common form to the layout's frame, in mm."""
-        return self.center_distance * (w if self.sense > 0 else -np.conj(w))
 
-    def _state(self, k: FloatArray) -> _State:
-        view = self.law.middle_view(k)
-        turn = self.sense * self.speed_ratio
-        return _State(
-            k=k,
-            theta=(k - 0.5) * self.cycle_angle,
-            psi=self.sense * view.angle,
-            a=1.0 + turn * view.velocity,
-            e=self._middle_gap + abs(self._ratio) * self.speed_ratio * view.deficit,
-            s=2.0 * np.sin(0.5 * view.angle) ** 2,
-            second=self.sense * self.law.swing / self.cycle_angle**2 * view.acceleration,
-        )
-
-    def _correction(self, state: _State) -> FloatArray:
-        ratio = self._ratio
-        return np.arctan2(ratio * np.sin(state.psi), (1.0 - ratio) + ratio * state.s)
-
-    def _pitch(self, state: _State) -> ComplexArray:
-        ratio = self._ratio
-        arm = -((1.0 - ratio) + ratio * state.s) + 1j * ratio * np.sin(state.psi)
-        result: ComplexArray = np.exp(1j * state.theta) * arm
-        return result
-
-    def _gradient(self, state: _State) -> ComplexArray:
-        """g = 1 - lambda A e^{i psi}, along the inward normal in the centre line's frame."""
-        pull = self._ratio * state.a
-        result: ComplexArray = (state.e + pull * state.s) - 1j * pull * np.sin(state.psi)
-        return result
-
-    def _normal(self, state: _State) -> ComplexArray:
-        """Unit normal with an inward radial part; at the cusp the limit of the run-up."""
-        g = self._gradient(state)
-        size = np.abs(g)
-        cusp = size == 0.0
-        unit = np.where(cusp, 1j * self.sense, g / np.where(cusp, 1.0, size))
-        result: ComplexArray = np.exp(1j * state.theta) * unit
-        return result
-
-    def _curvature(self, state: _State) -> FloatArray:
-        """Curvature times centre distance, positive with the centre towards the cam axis, infinite at the cusp."""
-        ratio, a = self._ratio, state.a
-        turn = state.e * (1.0 - ratio * a * a) + state.s * ratio * a * (1.0 + a)
-        turn = turn - ratio * state.second * np.sin(state.psi)
-        size = np.abs(self._gradient(state)) ** 3
-        cusp = size == 0.0
-        return np.where(cusp, self.sense * math.inf, turn / np.where(cusp, 1.0, size))
-
-    def _pressure_angle(self, state: _State) -> FloatArray:
-        sine = np.sin(self.sense * state.psi)
-        return np.arctan2((state.s - state.e) * np.where(sine < 0.0, -1.0, 1.0), np.abs(sine))
+def _mirrored(w: ComplexArray, sense: int) -> ComplexArray:
+    """From the common form to the layout's own frame."""
+    result: ComplexArray = w if sense > 0 else -np.conj(w)
+    return result
 
 
 def _require_lengths(center_distance: float, roller_radius: float, rocker_radius: float | None) -> None:
@@ -493,10 +365,3 @@ def _require_lengths(center_distance: float, roller_radius: float, rocker_radius
     for name, value in lengths.items():
         if not 0.0 < value < math.inf:
             raise NoSolution(f"the {name} is {value:.6g} mm; it must be above 0")
-
-
-def _refined_maximum(f: Callable[[FloatArray], FloatArray], grid: FloatArray, values: FloatArray) -> float:
-    """Maximum of a smooth function from its samples, refined between the neighbours of the largest."""
-    best = int(np.argmax(values))
-    low, high = float(grid[max(best - 1, 0)]), float(grid[min(best + 1, len(grid) - 1)])
-    return maximum(lambda k: float(f(np.array([k]))[0]), low, high)[1]

@@ -34,9 +34,9 @@ def test_series_and_integral() -> None:
     exact = [4.0 / 3.0] + [8.0 / 3.0 * (-0.5) ** j for j in range(1, len(series.coefficients))]
     np.testing.assert_allclose(series.coefficients, exact, rtol=0, atol=4 * ULP)
     z = np.array([0.0, 1e-8, 1.0, 3.0, math.pi])
-    # antiderivative: (8/3) atan(tan(z/2)/3)
+    # antiderivative: (8/3) atan(tan(z/2)/3); at small z the terms add up to f(0), a ninth of their magnitudes
     np.testing.assert_allclose(
-        series.integral(z), 8.0 / 3.0 * np.arctan2(np.sin(z / 2), 3 * np.cos(z / 2)), rtol=8 * ULP
+        series.integral(z), 8.0 / 3.0 * np.arctan2(np.sin(z / 2), 3 * np.cos(z / 2)), rtol=18 * ULP
     )
 
 
