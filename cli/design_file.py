@@ -32,7 +32,6 @@ __all__ = [
     "parse",
     "parse_path",
     "read_kind",
-    "require_section",
     "validate",
 ]
 
@@ -171,25 +170,10 @@ def read_kind(loaded: LoadedFile, kinds: Sequence[str]) -> str:
     raise DesignFileError([*loaded.problems, loaded.report("GL109", f"no kind {shown}", ("kind",), help=remedy)])
 
 
-def require_section(loaded: LoadedFile, section: str, command: str) -> None:
-    """Refuse a file without a section that a command needs.
-
-    Raises
-        DesignFileError - GL113, at the section's parent
-    """
-    path = parse_path(section) or (section,)
-    node: Any = loaded.data
-    for step in path:
-        node = node.get(step) if isinstance(node, dict) else None
-    if node is None:
-        message = f"`{command}` needs the section '{section}'"
-        raise DesignFileError([loaded.report("GL113", message, path, help=f"add '{section}:' to the file")])
-
-
 def diagnose_no_solution(loaded: LoadedFile, error: NoSolution) -> Diagnostic:
     """What the engine refuses, at the key that it names or the nearest parent that the file has."""
     path = parse_path(error.key) or _ROOT
-    return loaded.report("GL112", error.message, path, key=error.key)
+    return loaded.report(error.code, error.message, path, key=error.key)
 
 
 def validate(loaded: LoadedFile, model: type[Model]) -> Model:

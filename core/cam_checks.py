@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from gearlink.core.report import Check, Status
+from gearlink.core.report import Check, Status, safely_below
 
 if TYPE_CHECKING:
     from gearlink.core.disc_cam import DiscCam
@@ -39,7 +39,7 @@ def undercut_checks(cams: Sequence[DiscCam]) -> Iterator[Check]:
                 f"{math.degrees(cut.cam_angle):.5g} deg: enlarge the base circle or take a smaller roller"
             )
         elif status != "pass":
-            text += f": take a roller of at most {0.8 * least.value:.4g} mm or enlarge the base circle"
+            text += f": take a roller of at most {safely_below(0.8 * least.value)} mm or enlarge the base circle"
         yield Check("GL402", "cam-undercut", status, text, share, 1.0)
 
 

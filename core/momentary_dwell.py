@@ -18,6 +18,7 @@ from dataclasses import dataclass
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.fourbar import FourBar
+from gearlink.core.roots import bracketed_root
 
 
 @dataclass(frozen=True, slots=True)
@@ -258,3 +259,36 @@ def _wanted(r1: float, r3: float, r5: float, eccentricity: float) -> Tangency:
             f"{low:.9g} and {high:.9g} mm; choose it between them or change the gears"
         )
     return tangency(r1, r3, r5, eccentricity)
+
+
+def crank_with_room(r1: float, r3: float, r5: float, distance: float) -> float | None:
+    """Longest crank of a momentary-dwell design that keeps B so far from D; None where none does.
+
+    d*(e) - e >= distance;   d* falls as e rises
+
+    Parameters
+        r1, r3, r5 : float [mm] - reference radii
+        distance : float [mm] - sum of the tip radii of gears 1 and 5 and the wanted gap
+    Returns
+        crank : float [mm] - to 1e-6 of r1, on the safe side
+    Example
+        >>> round(crank_with_room(25.0, 25.0, 75.0, 105.0), 3)
+        16.379
+
+    Source
+        own derivation
+    """
+    try:
+        low, high = eccentricity_range(r1, r3, r5)
+    except NoSolution:
+        return None
+    low, high = low + 1e-9 * (high - low), high - 1e-9 * (high - low)
+
+    def room(eccentricity: float) -> float:
+        return momentary_frame_length(r1, r3, r5, eccentricity) - eccentricity - distance
+
+    if room(low) < 0.0:
+        return None
+    if room(high) >= 0.0:
+        return high
+    return bracketed_root(room, low, high, tolerance=1e-7 * r1) - 1e-7 * r1

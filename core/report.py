@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Literal
 
@@ -86,3 +86,32 @@ def below(code: str, name: str, value: float, limit: float, warn: float, unit: s
     elif status == "warn":
         text += f", little above the limit {bound}: {remedy}"
     return Check(code, name, status, text, value, limit, unit)
+
+
+def safely_below(value: float, digits: int = 5) -> str:
+    """A recommended upper bound, rounded down to so many digits: applied as printed, it holds.
+
+    Example
+        >>> safely_below(16.41765), safely_below(0.000123456, 3)
+        ('16.417', '0.000123')
+    """
+    return _directed(value, digits, math.floor)
+
+
+def safely_above(value: float, digits: int = 5) -> str:
+    """A recommended lower bound, rounded up to so many digits: applied as printed, it holds.
+
+    Example
+        >>> safely_above(2.52430607), safely_above(3.0)
+        ('2.5244', '3')
+    """
+    return _directed(value, digits, math.ceil)
+
+
+def _directed(value: float, digits: int, way: Callable[[float], int]) -> str:
+    if value == 0.0 or not math.isfinite(value):
+        return f"{value:g}"
+    places = digits - 1 - math.floor(math.log10(abs(value)))
+    if places < 0:
+        return f"{way(value)}"
+    return f"{way(value * 10**places) / 10**places:.{digits}g}"

@@ -17,7 +17,8 @@ from gearlink.core.gear_linkage_dwells import BackStep
 from gearlink.core.gear_pair import GearPair
 from gearlink.core.idler_choice import idler_for_ratio
 from gearlink.core.interference import joint_to_crank_pivot
-from gearlink.core.report import Check, Status, Table, below
+from gearlink.core.momentary_dwell import crank_with_room
+from gearlink.core.report import Check, Status, Table, below, safely_above, safely_below
 
 if TYPE_CHECKING:
     from gearlink.core.specs.three_gear import ThreeGearSpec
@@ -298,11 +299,22 @@ class ThreeGearFourBar(Design):
         return Check("GL301", "gear-collision", "fail", f"{text}; {self._gap_remedy(limit - gap)}", gap, limit, "mm")
 
     def _gap_remedy(self, missing: float) -> str:
-        """What would give the gears room; the syntheses know more."""
-        return (
-            f"make frame less crank {missing:.4g} mm longer, or the crank and output gears "
-            f"{math.ceil(2.0 * missing / self.spec.gears.module)} teeth smaller together"
+        """What would give the gears room."""
+        module = self.spec.gears.module
+        words = (
+            f"make frame less crank {safely_above(missing)} mm longer, or the crank and output gears "
+            f"{math.ceil(2.0 * missing / module)} teeth smaller together"
         )
+        shorter = self._longest_crank_with_room()
+        if shorter is not None:
+            words += f"; a momentary dwell has room with a crank of at most {safely_below(shorter)} mm (synth momentary-dwell)"
+        return words
+
+    def _longest_crank_with_room(self) -> float | None:
+        """Longest crank of a momentary dwell with these gears that keeps gears 1 and 5 apart [mm]."""
+        module = self.spec.gears.module
+        r1, r3, r5 = (0.5 * module * teeth for teeth in (self.crank_teeth, self.idler_teeth, self.output_teeth))
+        return crank_with_room(r1, r3, r5, r1 + r5 + 2.0 * module + self.spec.limits.gear_gap)
 
     def check_shaft_clearance(self) -> Iterator[Check]:
         """GL302: idler against the input shaft, crank gear and idler against the output shaft."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from functools import cached_property
 from typing import Any
 
@@ -16,7 +16,7 @@ from gearlink.core.gear_linkage import GearTrain, gear_gap
 from gearlink.core.gear_linkage_dwells import BackStep
 from gearlink.core.idler_choice import GREATEST_IDLER, LEAST_IDLER, idler_for_ratio, smallest_idler
 from gearlink.core.momentary_dwell import momentary_crank_angle, momentary_linkage
-from gearlink.core.report import Check
+from gearlink.core.report import Check, safely_below
 from gearlink.core.three_gear_four_bar import CHECKS, QUANTITIES, ThreeGearFourBar
 
 _STANDSTILL = 1.5 * math.pi
@@ -278,37 +278,10 @@ class MomentaryDwellSynthesis(Synthesis):
         return [momentary_crank_angle(*self._radii(self.idler_teeth), self._eccentricity, self.spec.assembly)]
 
     def _gap_remedy(self, missing: float) -> str:
-        shorter = crank_with_room(*self._radii(self.idler_teeth), self._tips + self.spec.limits.gear_gap)
         words = super()._gap_remedy(missing)
+        shorter = self._longest_crank_with_room()
         return (
             words
             if shorter is None
-            else f"with an eccentricity of at most {shorter:.5g} mm they keep clear, or {words}"
+            else f"set momentary.eccentricity to at most {safely_below(shorter)} mm, or {words}"
         )
-
-    @property
-    def _tips(self) -> float:
-        gears = self.spec.gears
-        return gears.module * (gears.crank + gears.output + 4.0) / 2.0
-
-
-def crank_with_room(r1: float, r3: float, r5: float, tips: float) -> float | None:
-    """Longest crank of a momentary-dwell design whose gears 1 and 5 keep clear; None where none does.
-
-    d*(e) - e >= r_a1 + r_a5, and d* falls as e rises
-
-    Parameters
-        r1, r3, r5 : float [mm] - reference radii
-        tips : float [mm] - sum of the tip radii of gears 1 and 5 and the wanted gap
-    Source
-        own derivation
-    """
-    from gearlink.core.momentary_dwell import least_eccentricity, momentary_frame_length
-    from gearlink.core.roots import bracketed_root
-
-    low, high = least_eccentricity(r1, r3, r5), r1
-    low, high = low + 1e-9 * (high - low), high - 1e-9 * (high - low)
-    room: Callable[[float], float] = lambda e: momentary_frame_length(r1, r3, r5, e) - e - tips  # noqa: E731
-    if room(low) < 0.0:
-        return None
-    return high if room(high) >= 0.0 else bracketed_root(room, low, high, tolerance=1e-6 * r1)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from gearlink.core.design import Design, Outline
 from gearlink.core.errors import MissingSection, NoSolution, at_key
-from gearlink.core.report import Check, Status, Table
+from gearlink.core.report import Check, Status, Table, safely_above, safely_below
 
 if TYPE_CHECKING:
     from gearlink.core.specs.wide_swing import SwingCam, WideSwingSpec
@@ -292,7 +292,7 @@ class WideSwingDesign(Design):
         status: Status = "fail" if ratio < least else "pass"
         text = f"pivot ratio {ratio:g}, at least {least:.6g} is needed over a swing of {self.spec.swing:g} deg"
         if status == "fail":
-            text += f": increase unloader.pivot_ratio to at least {_up(least, 3):g}, or reduce the swing"
+            text += f": increase unloader.pivot_ratio to at least {safely_above(least)}, or reduce the swing"
         yield Check("GL504", "unloader-turnability", status, text, ratio, least)
 
     def check_balancing(self) -> Iterator[Check]:
@@ -346,7 +346,7 @@ class WideSwingDesign(Design):
             f"roller radius {roller:g} mm against the least curvature radius {least:.6g} mm outside the transition zone"
         )
         if status != "pass":
-            text += f": take a roller of at most {0.8 * least:.4g} mm or a larger cam.center_distance"
+            text += f": take a roller of at most {safely_below(0.8 * least)} mm or a larger cam.center_distance"
         yield Check("GL402", "cam-undercut", status, text, share, 1.0)
 
     def check_transition_zone(self) -> Check:
@@ -356,7 +356,7 @@ class WideSwingDesign(Design):
         if zone > limit:
             text += (
                 f", above the limit {limit:g}: take a roller of at most "
-                f"{self._section.roller_radius * limit / zone:.4g} mm or a larger cam.center_distance"
+                f"{safely_below(self._section.roller_radius * limit / zone)} mm or a larger cam.center_distance"
             )
         return Check("GL507", "transition-zone", "fail" if zone > limit else "pass", text, zone, limit)
 
@@ -371,11 +371,6 @@ class WideSwingDesign(Design):
             needed = section.center_distance * (section.shaft_radius + section.roller_radius) / self.cam.min_radius
             text = (
                 f"the roller comes {-room:.4g} mm into the cam shaft (radius {section.shaft_radius:g} mm): make "
-                f"cam.center_distance more than {needed:.4g} mm, or the roller smaller"
+                f"cam.center_distance more than {safely_above(needed)} mm, or the roller smaller"
             )
         yield Check("GL302", "shaft-clearance", "fail" if room <= 0.0 else "pass", text, room, 0.0, "mm")
-
-
-def _up(value: float, digits: int) -> float:
-    """Rounded up, so that a recommendation meets the limit."""
-    return math.ceil(value * 10**digits) / 10**digits

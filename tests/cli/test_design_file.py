@@ -31,7 +31,6 @@ from gearlink.cli.design_file import (
     parse,
     parse_path,
     read_kind,
-    require_section,
     validate,
 )
 from gearlink.cli.diagnostics import Diagnostic
@@ -231,17 +230,6 @@ def test_kind_given_twice_is_told_with_the_rest() -> None:
     with pytest.raises(DesignFileError) as caught:
         validate(loaded, Machine)
     assert [(d.code, d.line) for d in caught.value.diagnostics] == [("GL104", 2), ("GL105", 3)]
-
-
-def test_missing_section() -> None:
-    loaded = parse(b"kind: gear-pair\ngears: {module: 2}\ncam:\n", "f")
-    require_section(loaded, "gears", "cam")
-    for section in ("spring", "cam"):
-        with pytest.raises(DesignFileError) as caught:
-            require_section(loaded, section, "gripper")
-        found = caught.value.diagnostics[0]
-        assert (found.code, found.key) == ("GL113", section)
-        assert found.message == f"`gripper` needs the section '{section}'"
 
 
 def test_no_solution_points_at_the_nearest_parent_and_keeps_the_key() -> None:

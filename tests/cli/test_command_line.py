@@ -1,0 +1,248 @@
+"""The command line as a user meets it: options, formats, streams, exit status."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from gearlink.cli.exit_codes import ExitCode
+
+ROOT = Path(__file__).resolve().parents[2]
+CRANK = "kind: slider-crank\nstroke: 310\nrod: 520\noffset: 50\n"
+
+
+@pytest.fixture
+def crank(tmp_path: Path) -> Path:
+    path = tmp_path / "bed-drive.yaml"
+    path.write_text(CRANK)
+    return path
+
+
+def shell(*arguments: str, **options: Any) -> subprocess.CompletedProcess[bytes]:
+    command = [sys.executable, "-m", "gearlink.cli.main", *arguments]
+    return subprocess.run(command, capture_output=True, cwd=ROOT, check=False, **options)
+
+
+def test_version(gearlink: Any) -> None:
+    ended = gearlink("--version")
+    assert ended.status == 0
+    assert ended.out.startswith("gearlink ")
+
+
+def test_quantity_alone_prints_value_and_unit(gearlink: Any, crank: Path) -> None:
+    ended = gearlink("crank", crank, "--quantity", "crank_length")
+    assert ended.out == "154.21159203908383 mm\n" or abs(float(ended.out.split()[0]) - 154.21159203908383) < 1e-13 * 154
+    assert ended.out.split()[1] == "mm"
+    assert ended.err == ""
+
+
+def test_several_quantities_are_named(gearlink: Any, crank: Path) -> None:
+    ended = gearlink("crank", crank, "--quantity", "max_stroke", "--quantity", "quick_return_ratio")
+    assert [line.split(" = ")[0] for line in ended.out.splitlines()] == ["max_stroke", "quick_return_ratio"]
+
+
+def test_unknown_quantity_names_the_nearest(gearlink: Any, crank: Path) -> None:
+    ended = gearlink("crank", crank, "--quantity", "crank_lenght")
+    assert ended.status == ExitCode.WRONG_INPUT
+    assert "crank_length" in ended.err
+    assert ended.out == ""
+
+
+def test_name_is_the_files_stem(gearlink: Any, crank: Path) -> None:
+    assert gearlink("crank", crank, "--format", "json").json["name"] == "bed-drive"
+
+
+def test_set_overrides_a_key(gearlink: Any, crank: Path) -> None:
+    ended = gearlink("crank", crank, "--set", "offset=0", "--format", "json")
+    assert ended.json["quantities"]["crank_length"]["value"] == 155.0
+
+
+def test_wrong_set_is_located_there(gearlink: Any, crank: Path) -> None:
+    ended = gearlink("crank", crank, "--set", "rod=-1", "--format", "json")
+    assert ended.status == ExitCode.WRONG_INPUT
+    assert ended.json["errors"][0]["file"] == "<--set>"
+    assert ended.json["errors"][0]["key"] == "rod"
+
+
+def test_mistyped_key(gearlink: Any, crank: Path) -> None:
+    crank.write_text(CRANK.replace("stroke", "strok"))
+    ended = gearlink("crank", crank)
+    assert ended.status == ExitCode.WRONG_INPUT
+    assert f"{crank}:2:1: error GL105" in ended.err
+    assert "stroke" in ended.err
+    assert "^" in ended.err
+
+
+def test_standard_input() -> None:
+    done = shell("crank", "-", "--format", "json", input=CRANK.encode())
+    assert done.returncode == 0
+    assert json.loads(done.stdout)["quantities"]["crank_length"]["unit"] == "mm"
+
+
+def test_standard_input_in_errors() -> None:
+    done = shell("crank", "-", "--format", "json", input=b"kind: slider-crank\nrod: 3\n")
+    assert done.returncode == 2
+    assert json.loads(done.stdout)["errors"][0]["file"] == "<stdin>"
+
+
+def test_csv_blocks(gearlink: Any, designs: Path) -> None:
+    ended = gearlink("press", designs / "ty460.yaml", "--format", "csv")
+    blocks = [list(csv.reader(io.StringIO(block))) for block in ended.out.split("\n\n")]
+    assert [block[0][0] for block in blocks] == ["quantity", "code", "input_angle [deg]"]
+    assert len(blocks[2]) == 13
+
+
+def test_csv_of_one_table_is_that_table(gearlink: Any, designs: Path) -> None:
+    ended = gearlink("press", designs / "ty460.yaml", "--format", "csv", "--table", "positions", "--samples", "4")
+    rows = list(csv.reader(io.StringIO(ended.out)))
+    assert rows[0][0] == "input_angle [deg]"
+    assert [float(row[0]) for row in rows[1:]] == [0.0, 90.0, 180.0, 270.0]
+
+
+def test_markdown(gearlink: Any, crank: Path) -> None:
+    ended = gearlink("crank", crank, "--format", "md")
+    assert ended.out.startswith("# bed-drive: crank\n")
+    assert "| `crank_length` | l1 | 154.2115920390838" in ended.out
+
+
+def test_markdown_and_json_agree_to_the_last_digit(gearlink: Any, crank: Path) -> None:
+    value = gearlink("crank", crank, "--format", "json").json["quantities"]["max_stroke"]["value"]
+    assert repr(value) in gearlink("crank", crank, "--format", "md").out
+
+
+def test_added_table(gearlink: Any, designs: Path) -> None:
+    ended = gearlink("synth", "dwell", designs / "candy_feed.yaml", "--table", "motion", "--format", "json")
+    assert len(ended.json["tables"]["motion"]["rows"]) == 360
+
+
+def test_warning_counts_with_strict(gearlink: Any, designs: Path) -> None:
+    path = designs / "thesis_example_1.yaml"
+    assert gearlink("synth", "back-step", path).status == ExitCode.OK
+    assert gearlink("synth", "back-step", path, "--strict").status == ExitCode.FINDING
+
+
+def test_command_that_does_not_fit_the_kind(gearlink: Any, crank: Path) -> None:
+    ended = gearlink("press", crank)
+    assert ended.status == ExitCode.WRONG_INPUT
+    assert "crank" in ended.err
+
+
+def test_missing_section(gearlink: Any, designs: Path) -> None:
+    ended = gearlink("analyze", designs / "candy_feed.yaml", "--format", "json")
+    assert ended.status == ExitCode.WRONG_INPUT
+    assert ended.json["errors"][0]["code"] == "GL113"
+    assert ended.json["errors"][0]["key"] == "links"
+
+
+def test_wrong_option_in_json(gearlink: Any, crank: Path) -> None:
+    ended = gearlink("crank", crank, "--format", "json", "--nonsense")
+    assert ended.status == ExitCode.WRONG_INPUT
+    assert ended.json["errors"][0]["file"] == "<command line>"
+
+
+def test_missing_file(gearlink: Any) -> None:
+    ended = gearlink("crank", "nowhere.yaml")
+    assert ended.status == ExitCode.WRONG_INPUT
+    assert "GL101" in ended.err
+
+
+@pytest.mark.parametrize("width", [80, 160])
+@pytest.mark.parametrize(
+    ("command", "file"),
+    [
+        (("synth", "dwell"), "candy_feed.yaml"),
+        (("analyze",), "thesis_example_3_as_printed.yaml"),
+        (("press",), "ty460.yaml"),
+        (("cam",), "ty460.yaml"),
+        (("gear",), "ty460_input_gears.yaml"),
+    ],
+    ids=["synth", "analyze", "press", "cam", "gear"],
+)
+def test_tables_fit_the_width(
+    gearlink: Any, designs: Path, monkeypatch: pytest.MonkeyPatch, width: int, command: tuple[str, ...], file: str
+) -> None:
+    monkeypatch.setenv("COLUMNS", str(width))
+    ended = gearlink(*command, designs / file)
+    lines = ended.out.splitlines()
+    assert max(len(line.rstrip()) for line in lines) <= width
+    assert "…" not in ended.out
+    assert "\x1b" not in ended.out
+
+
+def test_ascii_terminal() -> None:
+    environment = {**os.environ, "PYTHONIOENCODING": "ascii", "PYTHONUTF8": "0"}
+    done = shell("synth", "dwell", "designs/candy_feed.yaml", env=environment)
+    assert done.returncode == 0
+    done.stdout.decode("ascii")
+
+
+def test_closed_pipe_is_no_error() -> None:
+    program = f"{sys.executable} -m gearlink.cli.main cam designs/ty460.yaml --format csv"
+    command = f"{program} | head -n 1; exit ${{PIPESTATUS[0]}}"
+    done = subprocess.run(["bash", "-c", command], capture_output=True, cwd=ROOT, check=False)
+    assert done.stderr == b""
+    assert done.returncode == 0
+
+
+def test_a_fault_is_said_in_one_line(gearlink: Any, crank: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def broken(*_: object) -> None:
+        raise ZeroDivisionError("planted")
+
+    monkeypatch.setattr("gearlink.cli.run.evaluate", broken)
+    ended = gearlink("crank", crank)
+    assert ended.status == ExitCode.FAULT
+    assert "ZeroDivisionError: planted" in ended.err
+    assert "Traceback" not in ended.err
+
+
+class TestBatch:
+    def test_one_broken_file_is_a_line(self, gearlink: Any, tmp_path: Path) -> None:
+        (tmp_path / "good.yaml").write_text(CRANK)
+        (tmp_path / "sub").mkdir()
+        (tmp_path / "sub" / "bad.yaml").write_text("kind: slider-crank\nrod: [\n")
+        ended = gearlink("batch", tmp_path, "--format", "json")
+        assert ended.status == ExitCode.WRONG_INPUT
+        results = {Path(d["file"]).name: d["result"] for d in ended.json["designs"]}
+        assert results == {"good.yaml": "pass", "bad.yaml": "error"}
+        assert ended.json["summary"]["pass"] == 1
+
+    def test_worst_status(self, gearlink: Any, designs: Path) -> None:
+        ended = gearlink("batch", designs / "thesis_example_2.yaml", designs / "thesis_example_3_as_printed.yaml")
+        assert ended.status == ExitCode.FINDING
+        assert "thesis_example_3_as_printed.yaml" in ended.out
+
+    def test_all_that_a_file_asks_for(self, gearlink: Any, designs: Path) -> None:
+        ended = gearlink("batch", designs / "ty460.yaml", "--format", "json")
+        assert [d["command"] for d in ended.json["designs"]] == ["press", "cam", "gear"]
+
+    def test_nothing_to_do_is_an_error(self, gearlink: Any, tmp_path: Path) -> None:
+        ended = gearlink("batch", tmp_path)
+        assert ended.status == ExitCode.WRONG_INPUT
+        assert "no design file" in ended.err
+
+    def test_fault_in_one_design_does_not_end_the_batch(
+        self, gearlink: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        for name in ("a", "b"):
+            (tmp_path / f"{name}.yaml").write_text(CRANK)
+        from gearlink.cli import batch
+
+        original = batch.build
+
+        def sometimes(loaded: Any, kind: Any, command: str, spec: Any, options: Any) -> Any:
+            if spec.name == "a":
+                raise ZeroDivisionError("planted")
+            return original(loaded, kind, command, spec, options)
+
+        monkeypatch.setattr(batch, "build", sometimes)
+        ended = gearlink("batch", tmp_path, "--format", "json")
+        assert ended.status == ExitCode.FAULT
+        assert [d["result"] for d in ended.json["designs"]] == ["fault", "pass"]

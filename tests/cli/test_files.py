@@ -1,0 +1,52 @@
+"""Result files are whole or absent."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from gearlink.cli.files import CannotWrite, safe_stem, write_atomically
+
+
+def test_written_whole(tmp_path: Path) -> None:
+    target = tmp_path / "new" / "a.txt"
+    write_atomically(target, lambda stream: stream.write(b"whole"))
+    assert target.read_bytes() == b"whole"
+    assert [p.name for p in target.parent.iterdir()] == ["a.txt"]
+
+
+def test_failure_leaves_the_old_file_and_nothing_else(tmp_path: Path) -> None:
+    target = tmp_path / "a.txt"
+    target.write_bytes(b"old")
+
+    def fail(stream: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    with pytest.raises(CannotWrite, match="No space left"):
+        write_atomically(target, fail)
+    assert target.read_bytes() == b"old"
+    assert [p.name for p in tmp_path.iterdir()] == ["a.txt"]
+
+
+def test_other_errors_leave_nothing_either(tmp_path: Path) -> None:
+    def fail(stream: object) -> None:
+        raise ValueError("planted")
+
+    with pytest.raises(ValueError, match="planted"):
+        write_atomically(tmp_path / "a.txt", fail)
+    assert not list(tmp_path.iterdir())
+
+
+def test_folder_in_the_way(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    with pytest.raises(CannotWrite, match="cannot write"):
+        write_atomically(tmp_path / "file" / "a.txt", lambda stream: stream.write(b""))
+
+
+@pytest.mark.parametrize(
+    ("name", "stem"),
+    [("TY-460", "TY-460"), ("../../etc/passwd", "etc-passwd"), ("a/b\\c", "a-b-c"), ("..", "design"), ("", "design")],
+)
+def test_a_name_never_decides_a_path(name: str, stem: str) -> None:
+    assert safe_stem(name) == stem

@@ -1,0 +1,46 @@
+"""What several test modules share."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from gearlink.cli.main import run
+
+ROOT = Path(__file__).resolve().parents[1]
+
+
+@dataclass(frozen=True)
+class Ended:
+    """How a command ended."""
+
+    status: int
+    out: str
+    err: str
+
+    @property
+    def json(self) -> Any:
+        return json.loads(self.out)
+
+
+@pytest.fixture
+def designs() -> Path:
+    return ROOT / "designs"
+
+
+@pytest.fixture
+def gearlink(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Any:
+    """Run a command line in this process: `gearlink("crank", path)`."""
+    monkeypatch.delenv("NO_COLOR", raising=False)
+
+    def call(*arguments: object) -> Ended:
+        capsys.readouterr()
+        status = run([str(argument) for argument in arguments])
+        captured = capsys.readouterr()
+        return Ended(int(status), captured.out, captured.err)
+
+    return call
