@@ -212,9 +212,9 @@ def test_failures_name_the_limit(arguments, words):
 
 
 def test_a_gear_without_involute_is_refused():
-    with pytest.raises(NoSolution, match="no involute is left to a gear of 12 teeth: .* raise"):
+    with pytest.raises(NoSolution, match=r"no involute is left to a gear of 12 teeth: .* raise"):
         ToothProfile(module=1.0, teeth=12, shift=0.0, pressure_angle=ALPHA, tip_radius=5.65)
-    with pytest.raises(NoSolution, match="no involute is left to a gear of 12 teeth: .* lower"):
+    with pytest.raises(NoSolution, match=r"no involute is left to a gear of 12 teeth: .* lower"):
         profile(12, 4.0)
 
 
