@@ -147,13 +147,17 @@ def invoke(arguments: list[str]) -> int:
 
 
 def _usage_error(wrong: typer.TyperException, arguments: list[str]) -> int:
+    message = wrong.format_message()
     if not _wants_json(arguments):
-        wrong.show(file=sys.stderr)
+        show = getattr(wrong, "show", None)  # errors of usage know the command's usage line
+        if show is not None:
+            show(file=sys.stderr)
+        else:
+            typer.echo(f"error: {message}", err=True)
         return ExitCode.WRONG_INPUT
     from gearlink.cli.diagnostics import Diagnostic
     from gearlink.cli.render.errors import errors_as_json
 
-    message = wrong.format_message()
     print(errors_as_json([Diagnostic("GL115", message, file="<command line>", line=1, column=1, key="")]))
     return ExitCode.WRONG_INPUT
 

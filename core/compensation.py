@@ -122,7 +122,8 @@ class Compensation:
         """
         if self.lead_in == 0.0:
             return 0.0
-        return self._zone_start.first * self.lead_in / 2.0 - self._zone_start.second * self.lead_in**2 / 12.0
+        start = self._zone_start
+        return float(start.first) * self.lead_in / 2.0 - float(start.second) * self.lead_in**2 / 12.0
 
     @cached_property
     def transition_rise(self) -> float:

@@ -14,7 +14,7 @@ from typing import Any, ClassVar
 
 from gearlink.core.errors import GearlinkError
 from gearlink.core.nomenclature import term
-from gearlink.core.report import Check, Quantity, Report, Table, Value
+from gearlink.core.report import Check, Quantity, Report, Table
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,14 +49,16 @@ class Design:
         """The outline of a command."""
         return self.outlines[command]
 
-    def quantity_names(self) -> tuple[str, ...]:
-        """Every quantity that any command shows, each once."""
-        return tuple(dict.fromkeys(name for command in self.outlines for name in self.outline(command).quantities))
+    @classmethod
+    def quantity_names(cls) -> tuple[str, ...]:
+        """Every quantity that can be asked for, each once."""
+        return tuple(dict.fromkeys(name for outline in cls.outlines.values() for name in outline.quantities))
 
-    def table_names(self) -> tuple[str, ...]:
+    @classmethod
+    def table_names(cls) -> tuple[str, ...]:
         """Every table that any command shows or that can be asked for."""
-        shown = [name for command in self.outlines for name in self.outline(command).tables]
-        return tuple(dict.fromkeys([*shown, *self.extra_tables]))
+        shown = [name for outline in cls.outlines.values() for name in outline.tables]
+        return tuple(dict.fromkeys([*shown, *cls.extra_tables]))
 
     def raw(self, name: str) -> Any:
         """The value of a quantity in mm and radians, or None where it does not apply."""
@@ -111,10 +113,8 @@ class Design:
         )
 
 
-def _in_unit(value: Any, unit: str) -> Value:
+def _in_unit(value: Any, unit: str) -> Any:
     """Radians to degrees where the unit asks for it; pairs and lists become lists."""
     if isinstance(value, (list, tuple)):
-        return [_in_unit(item, unit) for item in value]  # type: ignore[misc]
-    if unit == "deg":
-        return math.degrees(value)
-    return value  # type: ignore[no-any-return]
+        return [_in_unit(item, unit) for item in value]
+    return math.degrees(value) if unit == "deg" else value

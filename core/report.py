@@ -5,7 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Column: TypeAlias = Sequence[Any] | NDArray[Any]
 
 Value = float | int | str | list[float] | list[int]
 Status = Literal["pass", "warn", "fail"]
@@ -37,12 +42,12 @@ class Check:
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """Columns of equal length; `data[i]` belongs to `columns[i]` and is given in `units[i]`."""
+    """Columns of equal length, sequences or one-dimensional arrays; `data[i]` is `columns[i]` in `units[i]`."""
 
     name: str
     columns: tuple[str, ...]
     units: tuple[str, ...]
-    data: tuple[Sequence[float | str | None], ...]
+    data: tuple[Column, ...]
 
     def rows(self) -> list[list[float | str | None]]:
         """The table turned into rows; None where a value does not exist (infinite or not a number)."""

@@ -68,14 +68,18 @@ class ThreeGearFourBar(Design):
 
     @cached_property
     def idler_teeth(self) -> int:
-        """Teeth of the idler, given or from i3."""
+        """Teeth of the idler: given, from i3, or as the command chooses it."""
         gears = self.spec.gears
         if gears.idler is not None:
             return gears.idler
         if gears.i3 is None:
-            raise MissingSection("this command needs gears.idler (teeth) or gears.i3", key="gears.idler")
+            return self.chosen_idler()
         with at_key("gears.i3"):
             return idler_for_ratio(gears.i3, gears.output)
+
+    def chosen_idler(self) -> int:
+        """Teeth of an idler that the file leaves out; only a synthesis can choose one."""
+        raise MissingSection("this command needs gears.idler (teeth) or gears.i3", key="gears.idler")
 
     @property
     def crank_teeth(self) -> int:

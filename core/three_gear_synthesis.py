@@ -36,16 +36,8 @@ class Synthesis(ThreeGearFourBar):
             raise MissingSection(f"this synthesis needs the section {name}: {words}", key=name)
         return value
 
-    @cached_property
-    def idler_teeth(self) -> int:
-        """Teeth of the idler: given, from i3, or the smallest that keeps transmission angle and gear gap."""
-        gears = self.spec.gears
-        if gears.idler is not None or gears.i3 is not None:
-            return ThreeGearFourBar.idler_teeth.func(self)
-        return self.chosen_idler()
-
     def chosen_idler(self) -> int:
-        """The smallest idler that keeps the limits."""
+        """The smallest idler that keeps transmission angle and gear gap."""
         gears, limits = self.spec.gears, self.spec.limits
         try:
             return smallest_idler(
@@ -166,7 +158,8 @@ class BackStepFamily(SymmetricSynthesis):
         if self._phi12 == 0.0:
             return None
         angle = symmetric_back_step.back_step_angle(self.i3, self._phi12)
-        return BackStep(*self.dwell_crank_angles, self._phi12, angle)
+        start, end = self.dwell_crank_angles
+        return BackStep(start, end, self._phi12, angle)
 
     @cached_property
     def dwell_angle(self) -> float | None:

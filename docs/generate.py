@@ -1,0 +1,45 @@
+"""Writes docs/nomenclature.md from the engine's own nomenclature; run by `make docs`, checked by the tests."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from gearlink.core.kinds import KINDS
+from gearlink.core.nomenclature import TERMS
+
+TARGET = Path(__file__).parent / "nomenclature.md"
+_HEAD = """# Nomenclature
+
+Names are law: a quantity is called the same in design files, results, code and messages. Gears follow ISO 21771,
+laws of motion and cams VDI 2142 and VDI 2143. Units are those of design files and results; inside the engine an
+angle is in radians. This page is written by `make docs` from `core/nomenclature.py`.
+
+| name | symbol | unit | meaning | source | kinds |
+| --- | --- | --- | --- | --- | --- |
+"""
+
+
+def text() -> str:
+    """The page."""
+    kinds = _kinds_by_quantity()
+    rows = [
+        f"| `{name}` | {term.symbol} | {term.unit} | {term.words} | {term.source} | {', '.join(kinds.get(name, []))} |"
+        for name, term in sorted(TERMS.items())
+    ]
+    return _HEAD + "\n".join(row.replace("|max", "\\|max") for row in rows) + "\n"
+
+
+def _kinds_by_quantity() -> dict[str, list[str]]:
+    """For each quantity, the kinds that give it."""
+    found: dict[str, list[str]] = {}
+    for kind in KINDS.values():
+        names: dict[str, None] = {}
+        for command in kind.commands:
+            names.update(dict.fromkeys(kind.design_class(command).quantity_names()))
+        for name in dict.fromkeys(name.rpartition(".")[2] for name in names):
+            found.setdefault(name, []).append(kind.name)
+    return found
+
+
+if __name__ == "__main__":
+    TARGET.write_text(text())
