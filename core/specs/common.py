@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 from pydantic_core import PydanticCustomError
@@ -28,15 +28,39 @@ PressureAngle = Annotated[float, Field(gt=0, lt=45, json_schema_extra={"unit": "
 AcuteAngle = Annotated[float, Field(ge=0, lt=90, json_schema_extra={"unit": "deg"})]
 Teeth = Annotated[int, Field(ge=1, le=10_000, json_schema_extra={"unit": "teeth"})]
 Coefficient = Annotated[float, Field(gt=0, le=3, json_schema_extra={"unit": "1"})]
+Ratio = Annotated[float, Field(gt=0, json_schema_extra={"unit": "1"})]
+Share = Annotated[float, Field(ge=0, json_schema_extra={"unit": "1"})]
 Assembly = Literal[1, -1]
+
+
+class _LawNames:
+    """Tells editors the names of the motion laws; `gearlink.core.motion_laws.law` is what judges them."""
+
+    def __get_pydantic_json_schema__(self, core_schema: Any, handler: Any) -> dict[str, Any]:
+        from gearlink.core.motion_laws import REST_TO_REST, REST_TO_SPEED
+
+        short = ("half-345", "half-4567", "velocity-345", "velocity-4567")
+        four = {"type": "array", "items": {"type": "number"}, "minItems": 4, "maxItems": 4}
+        numbers = {"scca": four, "half-scca": four, "velocity-scca": four}
+        numbers |= {"quintic": {"type": "number"}, "septic": {"type": "number"}}
+        return {
+            "anyOf": [
+                {"enum": [*REST_TO_REST, *REST_TO_SPEED, *short]},
+                {"type": "string", "pattern": r"^(half-|velocity-)?mcv-[0-9.]+$"},
+                {"type": "object", "properties": numbers, "additionalProperties": False, "minProperties": 1},
+            ]
+        }
+
+
+MotionLaw = Annotated[str | dict[str, Any], _LawNames()]
 
 
 class GearLimits(Spec):
     """Limits of the gear checks."""
 
-    undercut: Annotated[float, Field(ge=0)] = Field(0.05, description="profile shift below x_min that is let pass")
-    tip_thickness: Annotated[float, Field(ge=0)] = Field(0.25, description="least tip thickness over the module")
-    contact_ratio: Annotated[float, Field(gt=0)] = Field(1.1, description="least transverse contact ratio")
+    undercut: Share = Field(0.05, description="profile shift below x_min that is let pass")
+    tip_thickness: Share = Field(0.25, description="least tip thickness over the module")
+    contact_ratio: Ratio = Field(1.1, description="least transverse contact ratio")
 
 
 def require_offset_below_rod(rod: float, offset: float, key: str) -> None:

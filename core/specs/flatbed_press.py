@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
@@ -14,13 +14,16 @@ from gearlink.core.specs.common import (
     Distance,
     GearLimits,
     Length,
+    MotionLaw,
     PressureAngle,
+    Ratio,
     SignedLength,
     Spec,
     require_offset_below_rod,
 )
 
 TurnAngle = Annotated[float, Field(ge=0, lt=360, json_schema_extra={"unit": "deg"})]
+PartOfTurn = Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})]
 
 
 class InputGears(Spec):
@@ -45,7 +48,7 @@ class Cylinder(Spec):
     """The cylinder chain."""
 
     radius: Length = Field(description="radius of the printing cylinder")
-    gear_ratio: Annotated[float, Field(gt=0)] = Field(1.0, description="cylinder turns per turn of MN")
+    gear_ratio: Ratio = Field(1.0, description="cylinder turns per turn of MN")
     double_crank: DoubleCrank
     initial_crank_angle: Angle = Field(description="angle of GH from the line G-N at the start")
 
@@ -82,10 +85,10 @@ class PressCam(Spec):
     transition: Literal["arc", "parabola", "quartic"] = Field(
         "quartic", description="how the end slope is brought to 0"
     )
-    lead_in: Annotated[float, Field(ge=0, lt=360)] = Field(0.0, description="cam angle before the zone; 0: none")
-    transition_end: Annotated[float, Field(gt=0, lt=360)] = Field(description="cam angle at which the lift is greatest")
-    return_angle: Annotated[float, Field(gt=0, lt=360)] = Field(description="cam angle of the return")
-    return_law: str | dict[str, Any] = Field("cycloidal", description="rest-to-rest law of the return")
+    lead_in: TurnAngle = Field(0.0, description="cam angle before the zone; 0: none")
+    transition_end: PartOfTurn = Field(description="cam angle at which the lift is greatest")
+    return_angle: PartOfTurn = Field(description="cam angle of the return")
+    return_law: MotionLaw = Field("cycloidal", description="rest-to-rest law of the return")
 
 
 class PressLimits(GearLimits):

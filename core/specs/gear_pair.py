@@ -9,7 +9,7 @@ from pydantic_core import PydanticCustomError
 
 from gearlink.core.specs.common import Coefficient, DesignSpec, GearLimits, Length, PressureAngle, Teeth
 
-Shift = Annotated[float, Field(ge=-5, le=5)]
+Shift = Annotated[float, Field(ge=-5, le=5, json_schema_extra={"unit": "1"})]
 
 
 class GearPairSpec(DesignSpec):
@@ -24,7 +24,9 @@ class GearPairSpec(DesignSpec):
     )
     pressure_angle: PressureAngle = Field(20.0, description="pressure angle of the reference profile")
     addendum: Coefficient = Field(1.0, description="addendum coefficient")
-    clearance: Annotated[float, Field(ge=0, le=1)] = Field(0.25, description="clearance coefficient")
+    clearance: Annotated[float, Field(ge=0, le=1, json_schema_extra={"unit": "1"})] = Field(
+        0.25, description="clearance coefficient"
+    )
     shift_split: Literal["equal"] | Shift = Field(
         "equal", description="how the shift sum is shared when center_distance is given: equal, or x1"
     )

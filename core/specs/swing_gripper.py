@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
@@ -14,13 +14,14 @@ from gearlink.core.specs.common import (
     DesignSpec,
     Distance,
     Length,
+    MotionLaw,
     SignedLength,
     Spec,
 )
 
+InertiaMoment = Annotated[float, Field(ge=0, json_schema_extra={"unit": "kg m^2"})]
 Phase = Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})]
 Point = Annotated[list[SignedLength], Field(min_length=2, max_length=2)]
-LawName = str | dict[str, Any]
 
 
 class Cylinder(Spec):
@@ -54,12 +55,12 @@ class Pivots(Spec):
 class Phases(Spec):
     """The six phases of a turn; they add up to 360 deg."""
 
-    accelerate: Phase
-    constant: Phase
-    decelerate: Phase
-    far_dwell: Phase
-    return_: Phase = Field(alias="return")
-    near_dwell: Phase
+    accelerate: Phase = Field(description="from the bite to the constant speed")
+    constant: Phase = Field(description="at the speed of the cylinder; the handover lies in it")
+    decelerate: Phase = Field(description="to the far dwell")
+    far_dwell: Phase = Field(description="rest at the far end")
+    return_: Phase = Field(alias="return", description="back to the bite")
+    near_dwell: Phase = Field(description="rest at the bite")
 
     @model_validator(mode="after")
     def _whole_turn(self) -> Phases:
@@ -80,9 +81,9 @@ class Phases(Spec):
 class Laws(Spec):
     """The laws of motion of the three moving phases."""
 
-    accelerate: LawName = Field("velocity-345", description="rest-to-speed law")
-    decelerate: LawName = Field("half-cycloidal", description="rest-to-speed law, run backwards")
-    return_: LawName = Field("modified-sine", alias="return", description="rest-to-rest law")
+    accelerate: MotionLaw = Field("velocity-345", description="rest-to-speed law")
+    decelerate: MotionLaw = Field("half-cycloidal", description="rest-to-speed law, run backwards")
+    return_: MotionLaw = Field("modified-sine", alias="return", description="rest-to-rest law")
 
 
 class Roller(Spec):
@@ -106,24 +107,32 @@ class GripperCam(Spec):
 class Size(Spec):
     """How a cam centre that is left out is chosen: the smallest cam for a pressure angle."""
 
-    pressure_angle: Annotated[float, Field(gt=0, lt=90)] = Field(description="pressure angle not to be exceeded")
+    pressure_angle: Annotated[float, Field(gt=0, lt=90, json_schema_extra={"unit": "deg"})] = Field(
+        description="pressure angle not to be exceeded"
+    )
 
 
 class Inertia(Spec):
     """Moments of inertia about the links' own axes, and the coupler's mass."""
 
-    input: Distance = Field(0.0, description="cam rocker about A, kg m^2")
-    output: Distance = Field(0.0, description="gripper about E, kg m^2")
-    coupler: Distance = Field(0.0, description="coupler about its centre of mass, kg m^2")
-    coupler_mass: Distance = Field(0.0, description="kg, at mid-length")
-    return_rocker: Distance = Field(0.0, description="return rocker about A, kg m^2")
+    input: InertiaMoment = Field(0.0, description="cam rocker about A")
+    output: InertiaMoment = Field(0.0, description="gripper about E")
+    coupler: InertiaMoment = Field(0.0, description="coupler about its centre of mass")
+    coupler_mass: Annotated[float, Field(ge=0, json_schema_extra={"unit": "kg"})] = Field(
+        0.0, description="mass of the coupler, its centre at mid-length"
+    )
+    return_rocker: InertiaMoment = Field(0.0, description="return rocker about A")
 
 
 class ClosingSpring(Spec):
     """The spring that pulls the two rockers together."""
 
-    torque: Length = Field(description="torque on each rocker, N m")
-    reserve: Distance = Field(0.0, description="least torque that must remain, N m")
+    torque: Annotated[float, Field(gt=0, json_schema_extra={"unit": "N m"})] = Field(
+        description="torque on each rocker"
+    )
+    reserve: Annotated[float, Field(ge=0, json_schema_extra={"unit": "N m"})] = Field(
+        0.0, description="least torque that must remain"
+    )
 
 
 class GripperLimits(Spec):
@@ -146,7 +155,7 @@ class SwingGripperSpec(DesignSpec):
     swing_sense: Assembly = Field(description="-1: the working stroke turns clockwise")
     assembly: Assembly = Field(1, description="sign of sin(input angle - coupler angle); +1: C left of A->D")
     phases: Phases
-    handover: Annotated[float, Field(gt=0, lt=360)] = Field(description="cylinder angle of the handover")
+    handover: Phase = Field(description="cylinder angle of the handover")
     laws: Laws = Laws()
     cam: GripperCam | None = None
     size: Size | None = None

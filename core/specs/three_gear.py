@@ -27,7 +27,9 @@ class Gears(Spec):
     crank: Teeth = Field(description="teeth of the gear fixed to the crank")
     idler: Teeth | None = Field(None, description="teeth of the idler; chosen by a synthesis when left out")
     output: Teeth = Field(description="teeth of the output gear on the rocker's axis")
-    i3: Annotated[float, Field(lt=0)] | None = Field(None, description="-idler/output, in place of idler")
+    i3: Annotated[float, Field(lt=0, json_schema_extra={"unit": "1"})] | None = Field(
+        None, description="-idler/output, in place of idler"
+    )
     pressure_angle: PressureAngle = Field(20.0, description="pressure angle of the reference profile")
 
     @model_validator(mode="after")
