@@ -17,7 +17,8 @@ def pressure_angle_checks(cams: Sequence[DiscCam], limit: float, remedy: str) ->
     for cam in cams:
         worst = cam.max_pressure_angle
         value = math.degrees(worst.value)
-        text = f"the pressure angle of the {cam.name} reaches {value:.6g} deg at cam angle {math.degrees(worst.place):.5g} deg"
+        place = f"cam angle {math.degrees(worst.place):.5g} deg"
+        text = f"the pressure angle of the {cam.name} reaches {value:.6g} deg at {place}"
         if value > limit:
             text += f", above the limit {limit:g} deg: {remedy}"
         yield Check("GL401", "pressure-angle", "fail" if value > limit else "pass", text, value, limit, "deg")
@@ -29,7 +30,10 @@ def undercut_checks(cams: Sequence[DiscCam]) -> Iterator[Check]:
         least, roller = cam.min_curvature_radius, cam.roller_radius
         share = roller / least.value
         place = f"cam angle {math.degrees(least.place):.5g} deg"
-        text = f"roller radius {roller:g} mm of the {cam.name} against the least curvature radius {least.value:.6g} mm at {place}"
+        text = (
+            f"roller radius {roller:g} mm of the {cam.name} against the least curvature radius {least.value:.6g} mm "
+            f"at {place}"
+        )
         status: Status = "fail" if share >= 1.0 else "warn" if share > 0.8 else "pass"
         if status == "pass" and cam.undercut.depth > 1e-9 * roller:
             cut = cam.undercut
@@ -53,7 +57,7 @@ def step_check(
         peak : float - largest magnitude of that derivative; a jump below 1e-5 of it is rounding of the input
         bad : 'warn' or 'fail' - what a jump means
     """
-    where, step = max(steps, key=lambda item: abs(item[1]))
+    step = max((jump for _, jump in steps), key=abs)
     quantity = name.removesuffix("-step")
     limit = 1e-5 * peak
     if abs(step) <= limit:

@@ -16,6 +16,7 @@ from typing import Any
 from gearlink.core.errors import NoSolution
 from gearlink.core.motion_laws import Law
 from gearlink.core.press_chains import BedChain, CylinderChain, Travel, difference
+from gearlink.core.report import safely_above, safely_below
 from gearlink.core.roots import maximum
 
 _TURN = 2.0 * math.pi
@@ -211,18 +212,15 @@ class Compensation:
         """
         begin, start, end = self.cam_sync_start - self.lead_in, self.cam_sync_start, self.cam_sync_end
         if not self.transition_end > end:
+            least = math.degrees(end)
+            remedy = f"set transition_end above {safely_above(least, 6)} deg" if end < _TURN else "shorten the zone"
             raise NoSolution(
                 f"the transition ends at cam angle {math.degrees(self.transition_end):.6g} deg, but the synchronous "
-                f"zone only at {math.degrees(end):.6g} deg: set transition_end above that",
+                f"zone only at {least:.6g} deg: {remedy}",
                 key="cam.transition_end",
             )
         if self.return_end > begin + _TURN:
-            most = math.degrees(begin + _TURN - self.transition_end)
-            raise NoSolution(
-                f"the return ends at cam angle {math.degrees(self.return_end):.6g} deg, after the next sheet begins "
-                f"at {math.degrees(begin + _TURN):.6g} deg: set return_angle to at most {most:.6g} deg",
-                key="cam.return_angle",
-            )
+            raise self._return_too_late(begin + _TURN)
         stretches = [
             Segment("sync", start, end, self._sync),
             Segment("transition", end, self.transition_end, self._transition),
@@ -232,6 +230,18 @@ class Compensation:
         if self.lead_in > 0.0:
             stretches.insert(0, Segment("lead-in", begin, start, self._lead_in))
         return tuple(stretches)
+
+    def _return_too_late(self, next_sheet: float) -> NoSolution:
+        """The return runs into the next sheet: shorten it, or the lead-in where that leaves no room at all."""
+        text = (
+            f"the return ends at cam angle {math.degrees(self.return_end):.6g} deg, after the next sheet begins at "
+            f"{math.degrees(next_sheet):.6g} deg"
+        )
+        most = math.degrees(next_sheet - self.transition_end)
+        if most > 0.0:
+            return NoSolution(f"{text}: set return_angle to at most {safely_below(most)} deg", key="cam.return_angle")
+        room = safely_below(math.degrees(self.cam_sync_start + _TURN - self.transition_end))
+        return NoSolution(f"{text}: lead_in and return_angle have {room} deg together", key="cam.lead_in")
 
     def evaluate(self, theta: Any, order: int = 2) -> tuple[Travel, list[str]]:
         """Lift at an array of cam angles, with `order` derivatives, and the phase of each.
@@ -304,6 +314,6 @@ def _powers(u: Any, order: int, terms: tuple[tuple[int, float], ...]) -> Travel:
     return Travel(value, first, sum(n * (n - 1) * c * u ** (n - 2) for n, c in terms if n > 1))
 
 
-def _at_rest(theta: Any, order: int) -> Travel:
+def _at_rest(theta: Any, _order: int) -> Travel:
     zero = 0.0 * theta
     return Travel(zero, zero, zero)

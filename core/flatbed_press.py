@@ -15,7 +15,7 @@ from gearlink.core.gear_checks import GEAR_CHECKS, GEAR_QUANTITIES, gear_check, 
 from gearlink.core.gear_pair import GearPair
 from gearlink.core.press_cams import PressCams
 from gearlink.core.press_chains import BedChain, CylinderChain, difference
-from gearlink.core.report import Check, Table, below
+from gearlink.core.report import Check, Table, below, safely_above
 from gearlink.core.slider_crank import SliderCrank
 from gearlink.core.slider_crank_design import SLIDER_QUANTITIES
 from gearlink.core.synchronous_zone import equal_speed_angle, zone_end
@@ -131,7 +131,11 @@ class FlatbedPress(PressCams, Design):
             return zone_end(self.cylinder, self.sync_start, self.spec.sync.length)
         if math.radians(given) <= self.sync_start:
             start = math.degrees(self.sync_start)
-            raise NoSolution(f"the zone ends at {given:g} deg, but starts at {start:.6g} deg", key="sync.end")
+            raise NoSolution(
+                f"the zone ends at input angle {given:g} deg, but starts at {start:.6g} deg: set sync.end above "
+                f"{safely_above(start, 6)} deg, or leave it out and give sync.length",
+                key="sync.end",
+            )
         return math.radians(given)
 
     @cached_property
@@ -165,7 +169,8 @@ class FlatbedPress(PressCams, Design):
             raise MissingSection("`gear` needs the section input_gears: module, horizontal_distance", key="input_gears")
         bed = self.spec.bed
         distance = math.hypot(gears.horizontal_distance, bed.offset - bed.double_crank.frame)
-        teeth = math.floor(distance / gears.module)
+        # A centre distance of whole teeth is not to lose one of them to the rounding of the quotient.
+        teeth = math.floor(distance / gears.module * (1.0 + 1e-12))
         if teeth < 1:
             raise NoSolution(
                 f"module {gears.module:g} mm leaves no tooth at the centre distance {distance:.6g} mm: make it smaller",
@@ -235,7 +240,8 @@ class FlatbedPress(PressCams, Design):
                 limit + 5.0,
                 "deg",
                 f"the least transmission angle of the {chain} chain",
-                f"bring coupler and rocker of {chain}.double_crank nearer to a right angle (shorter frame, longer coupler)",
+                f"bring coupler and rocker of {chain}.double_crank nearer to a right angle (shorter frame, longer "
+                "coupler)",
             )
 
     def check_sync_speed(self) -> Check:
@@ -264,7 +270,11 @@ class FlatbedPress(PressCams, Design):
                 0.0,
                 "mm",
             )
-        remedy = "set sync.length to the print length and a margin"
+        if self.spec.sync.end is None:
+            remedy = f"set sync.length to at least {asked:g} mm and a margin"
+        else:
+            needed = math.degrees(zone_end(self.cylinder, self.sync_start, asked))
+            remedy = f"set sync.end to at least {safely_above(needed, 6)} deg, or leave it out and give sync.length"
         return below("GL502", "sync-length", length, asked, asked, "mm", "the cylinder's travel in the zone", remedy)
 
     def check_register(self) -> Check:

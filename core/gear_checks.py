@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import Any, Protocol
 
 from gearlink.core.gear_pair import GearPair
-from gearlink.core.report import Check, Status, below
+from gearlink.core.report import Check, Status, below, safely_above
 
 GEAR_QUANTITIES = (
     "working_pressure_angle",
@@ -45,12 +45,13 @@ class Limits(Protocol):
 
 
 def gear_quantity(pair: GearPair, name: str) -> Any:
-    """A quantity of a pair, or None where the teeth have none: no sliding where a tip leaves the involute.
+    """A quantity of a pair, or None where the teeth have none: no bound of the sliding where a tip reaches the
+    mate's base tangent point.
 
     Notes
-        The check `involute-interference` fails there and says so.
+        The check `involute-interference` fails where it goes beyond and says so.
     """
-    if name == "specific_sliding" and min(pair.interference_margin) < 0.0:
+    if name == "specific_sliding" and min(pair.interference_margin) <= 0.0:
         return None
     return getattr(pair, name)
 
@@ -94,7 +95,7 @@ def _undercut(pair: GearPair, gear: int, margin: float, before: str) -> Check:
     status: Status = "pass" if x >= least else "warn" if x >= least - margin else "fail"
     text = f"{before}gear {gear + 1} ({pair.teeth[gear]} teeth) has x = {x:.6g}, undercut begins below {least:.6g}"
     if status != "pass":
-        text += f": raise its profile shift to {least:.4g} or take more teeth"
+        text += f": raise its profile shift to {safely_above(least, 4)} or take more teeth"
     return Check("GL201", "undercut", status, text, x - least, -margin)
 
 

@@ -61,8 +61,15 @@ class GearPairDesign(Design):
 
     def raw(self, name: str) -> Any:
         """Every quantity is the pair's."""
-        return gear_quantity(self.gear_pair, name)
+        with at_key(self._placed_by):
+            return gear_quantity(self.gear_pair, name)
 
     def check(self, name: str) -> list[Check]:
         """Every check is the pair's."""
-        return list(gear_check(name, self.gear_pair, self.spec.limits))
+        with at_key(self._placed_by):
+            return list(gear_check(name, self.gear_pair, self.spec.limits))
+
+    @property
+    def _placed_by(self) -> str:
+        """The key that decides whether the teeth have a flank left; the pair finds out when it is asked."""
+        return "center_distance" if self.spec.profile_shift is None else "profile_shift"

@@ -12,7 +12,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.compensation import Compensation, Joint
-from gearlink.core.report import Check, Table
+from gearlink.core.report import Check, Table, safely_above
 
 if TYPE_CHECKING:
     from gearlink.core.cam_profile import Reals, RollerPath
@@ -142,8 +142,32 @@ class PressCams:
         """GL401 for both cams."""
         from gearlink.core.cam_checks import pressure_angle_checks
 
-        remedy = "raise cam.base_radius or cam.return_angle"
-        yield from pressure_angle_checks((self.main_cam, self.return_cam), self.spec.limits.pressure_angle, remedy)
+        cams, limit = (self.main_cam, self.return_cam), self.spec.limits.pressure_angle
+        remedy = ""
+        if max(cam.max_pressure_angle.value for cam in cams) > math.radians(limit) > 0.0:
+            radius = safely_above(self._base_radius_for(math.radians(limit)))
+            remedy = f"set cam.base_radius to at least {radius} mm, or raise cam.return_angle"
+        yield from pressure_angle_checks(cams, limit, remedy)
+
+    def _base_radius_for(self, pressure_angle: float) -> float:
+        """Least base radius [mm] with which both cams keep a pressure angle.
+
+        r_b + s >= |s'|/tan(alpha)  and  r_b + s_max + s_min - s >= |s'|/tan(alpha)
+        """
+        import numpy as np
+
+        from gearlink.core.extremes import maximum_over
+
+        both = sum(self.follower.lift_range)
+
+        def needed(theta: Reals) -> Reals:
+            lift = self.follower.evaluate(theta, 1)[0]
+            nearer: Reals = np.minimum(lift.value, both - lift.value)
+            radius: Reals = np.abs(lift.first) / math.tan(pressure_angle) - nearer
+            return radius
+
+        joints = tuple(segment.start % (2.0 * math.pi) for segment in self.follower.segments)
+        return maximum_over(needed, joints=joints, samples=512).value
 
     def check_cam_undercut(self) -> Iterator[Check]:
         """GL402 for both cams."""

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.press_chains import BedChain, CylinderChain, difference
+from gearlink.core.report import safely_below
 from gearlink.core.roots import bracketed_root, maximum
 
 _TURN = 2.0 * math.pi
@@ -66,7 +67,8 @@ def zone_end(cylinder: CylinderChain, start: float, length: float) -> float:
     most = float(cylinder.travel(start + _TURN).value) - begin
     if length >= most:
         raise NoSolution(
-            f"the zone of {length:g} mm is not shorter than the cylinder's travel per sheet, {most:.6g} mm",
+            f"the zone of {length:g} mm is not shorter than the cylinder's travel per sheet, {most:.6g} mm: set "
+            f"sync.length below {safely_below(most)} mm",
             key="sync.length",
         )
     return bracketed_root(lambda phi: float(cylinder.travel(phi).value) - begin - length, start, start + _TURN)
@@ -97,6 +99,6 @@ def _shift_that_helps(bed: BedChain, cylinder: CylinderChain, end: float) -> str
         for sign in (1, -1):
             shifted = replace(cylinder, initial_angle=cylinder.initial_angle + math.radians(sign * degrees))
             if _first_root(bed, shifted, end) is not None:
-                value = math.degrees(shifted.initial_angle)
-                return f"they meet with initial_crank_angle {value:.6g} deg ({sign * degrees:+d} deg)"
+                value = math.degrees(math.remainder(shifted.initial_angle, _TURN))
+                return f"they meet with initial_crank_angle {value:.9g} deg ({sign * degrees:+d} deg)"
     return "no initial crank angle of the cylinder helps; change the cylinder's radius or the bed's stroke"

@@ -297,8 +297,8 @@ class ThreeGearFourBar(Design):
             return Check("GL301", "gear-collision", "pass", text, gap, limit, "mm")
         if gap < 0.0:
             text = (
-                f"gears 1 (crank) and 5 (output) collide by {-gap:.6g} mm: gear 1 travels with the crank pin, so AD - AB = "
-                f"{abs(self.frame_length - self.crank_length):.6g} mm counts, not AD"
+                f"gears 1 (crank) and 5 (output) collide by {-gap:.6g} mm: gear 1 travels with the crank pin, so "
+                f"AD - AB = {abs(self.frame_length - self.crank_length):.6g} mm counts, not AD"
             )
         return Check("GL301", "gear-collision", "fail", f"{text}; {self._gap_remedy(limit - gap)}", gap, limit, "mm")
 
@@ -311,7 +311,8 @@ class ThreeGearFourBar(Design):
         )
         shorter = self._longest_crank_with_room()
         if shorter is not None:
-            words += f"; a momentary dwell has room with a crank of at most {safely_below(shorter)} mm (synth momentary-dwell)"
+            most = safely_below(shorter)
+            words += f"; a momentary dwell has room with a crank of at most {most} mm (synth momentary-dwell)"
         return words
 
     def _longest_crank_with_room(self) -> float | None:
@@ -361,15 +362,14 @@ def _shaft(gear: str, shaft: str, distance: float, tip: float, radius: float | N
         status: Status = "fail" if room < 0.0 else "pass"
         text = f"{gear} keeps {room:.4g} mm from the {shaft} shaft (radius {radius:g} mm)"
         if status == "fail":
-            text = (
-                f"{gear} comes {-room:.4g} mm into the {shaft} shaft (radius {radius:g} mm): overhang the shaft, "
-                f"or make it thinner than {2.0 * max(distance - tip, 0.0):.4g} mm in diameter"
-            )
+            text = f"{gear} comes {-room:.4g} mm into the {shaft} shaft (radius {radius:g} mm): overhang the shaft"
+            if distance > tip:
+                text += f", or set shafts.{shaft}_radius to at most {safely_below(distance - tip)} mm"
         return Check("GL302", "shaft-clearance", status, text, room, 0.0, "mm")
     text = f"{gear} stays {room:.4g} mm from the axis of the {shaft} shaft"
     if room < 0.0:
         text = (
-            f"the tips of {gear} ({tip:.6g} mm) pass the axis of the {shaft} shaft, {distance:.6g} mm away: the shaft must "
-            f"be overhung, or name its radius in shafts.{shaft}_radius"
+            f"the tips of {gear} ({tip:.6g} mm) pass the axis of the {shaft} shaft, {distance:.6g} mm away: the shaft "
+            f"must be overhung, or name its radius in shafts.{shaft}_radius"
         )
     return Check("GL302", "shaft-clearance", "warn" if room < 0.0 else "pass", text, room, 0.0, "mm")

@@ -88,8 +88,13 @@ class SymmetricSynthesis(Synthesis):
         """Frame over crank that meets the task with a ratio i3."""
         raise NotImplementedError
 
-    def linkage_of(self, idler: int) -> FourBar:
-        """Links of the family for an idler."""
+    @cached_property
+    def train(self) -> GearTrain:
+        """The three gears; every closed form of the family asks for their ratio here."""
+        self._require_equal_gears()
+        return GearTrain(self.crank_teeth, self.idler_teeth, self.output_teeth)
+
+    def _require_equal_gears(self) -> None:
         gears = self.spec.gears
         if gears.crank != gears.output:
             raise NoSolution(
@@ -97,6 +102,11 @@ class SymmetricSynthesis(Synthesis):
                 f"must be equal; set output to {gears.crank}",
                 key="gears.output",
             )
+
+    def linkage_of(self, idler: int) -> FourBar:
+        """Links of the family for an idler."""
+        self._require_equal_gears()
+        gears = self.spec.gears
         ratio = self.frame_ratio_for(-idler / gears.output)
         return family.symmetric_linkage(ratio, gears.module * (gears.crank + idler) / 2.0, self.spec.assembly)
 
@@ -239,6 +249,7 @@ class VariableSpeedSynthesis(SymmetricSynthesis):
     @cached_property
     def dwell_crank_angles(self) -> list[float]:
         """None, or the one at 270 deg where the least speed is zero."""
+        self.linkage  # noqa: B018 - a band without a mechanism is refused here as well
         return [self._middle] if self.section("speed", "min, max").min == 0.0 else []
 
 
