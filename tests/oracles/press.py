@@ -156,7 +156,7 @@ def polynomial(conditions):
 
 def at(coefficients, u):
     """Value of a polynomial."""
-    return mp.polyval(list(coefficients)[::-1], u)
+    return mp.fsum(c * u**n for n, c in enumerate(coefficients))
 
 
 TY460 = Press((116.0, 100.0, 100.0, 37.0, 1), 177.0, 620.0, 520.0, 50.0, (100.0, 100.0, 95.0, 40.0, -1), 57.109, 140.0)
