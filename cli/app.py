@@ -9,8 +9,10 @@ from typing import Annotated
 
 import typer
 
+from gearlink.cli.batch_options import BatchFormat, BatchOptions, FailOn
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import Format, Options, PlotFormat
+from gearlink.cli.reference_commands import register
 
 _HELP = """Design calculator for the mechanisms of printing machines.
 
@@ -101,25 +103,47 @@ for _name, _words in _SYNTH_COMMANDS.items():
 
 @app.command("batch")
 def _batch(
-    places: Annotated[list[str], typer.Argument(metavar="DIR...", help="folders or design files")],
-    format: FormatOption = Format.TABLE,
-    plot: PlotOption = False,
+    places: Annotated[list[str], typer.Argument(metavar="DIR...", help="folders, design files or patterns")],
+    format: Annotated[BatchFormat, typer.Option("--format", "-f", help="form of the summary")] = BatchFormat.TABLE,
+    fail_on: Annotated[FailOn, typer.Option("--fail-on", help="what ends with status 1")] = FailOn.FAILURE,
+    out: Annotated[Path | None, typer.Option(metavar="DIR", help="write reports and tables of each design")] = None,
+    plot: Annotated[bool, typer.Option("--plot", help="with --out: draw each design as well")] = False,
     plot_format: PlotFormatOption = PlotFormat.PNG,
-    out: OutOption = Path(),
+    cache: Annotated[Path | None, typer.Option(metavar="DIR", help="keep results; skip unchanged designs")] = None,
+    shard: Annotated[str, typer.Option(metavar="I/N", help="the I-th of N shares of the files")] = "1/1",
+    jobs: Annotated[int, typer.Option("--jobs", "-j", min=0, help="processes; 0: as many as pay")] = 0,
+    set_: SetOption = [],  # noqa: B006 - Typer copies it
     strict: StrictOption = False,
     no_color: NoColorOption = False,
     quiet: QuietOption = False,
 ) -> None:
     """Every design file below the folders: each does what it asks for; one summary, one exit status.
 
-    Example: gearlink batch designs --format json
+    Example: gearlink batch designs --format junit > results.xml
     """
     from gearlink.cli.batch import run_batch
 
-    options = Options(
-        format=format, plot=plot, plot_format=plot_format, out=out, strict=strict, color=not no_color, quiet=quiet
+    design = Options(
+        plot=plot,
+        plot_format=plot_format,
+        overrides=tuple(set_),
+        strict=strict or fail_on is FailOn.WARNING,
+        color=not no_color,
+        quiet=quiet,
     )
-    raise typer.Exit(run_batch(places, options))
+    if plot and out is None:
+        raise typer.BadParameter("--plot of a batch needs --out DIR", param_hint="--plot")
+    raise typer.Exit(run_batch(places, BatchOptions(design, format, out, cache, _share(shard), jobs)))
+
+
+def _share(text: str) -> tuple[int, int]:
+    index, _, count = text.partition("/")
+    if index.isdecimal() and count.isdecimal() and 1 <= int(index) <= int(count):
+        return int(index), int(count)
+    raise typer.BadParameter(f"{text!r} is not I/N with 1 <= I <= N", param_hint="--shard")
+
+
+register(app)
 
 
 @app.callback(invoke_without_command=True)

@@ -1,18 +1,22 @@
-"""Every design file below some folders: each does what it asks for, one summary, the worst exit status."""
+"""Every design file below some folders: each does what it asks for, one summary, the worst exit status.
+
+A file's outcomes do not depend on the others: nothing that one design does can end the batch or change another.
+"""
 
 from __future__ import annotations
 
+import glob
 import sys
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from time import perf_counter
 
+from gearlink.cli.batch_options import BatchOptions
 from gearlink.cli.design_file import DesignFileError
 from gearlink.cli.diagnostics import Diagnostic
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite
-from gearlink.cli.options import Format, Options
 from gearlink.cli.run import build, exit_status, open_design, read_spec
 from gearlink.core.report import Report
 
@@ -30,6 +34,8 @@ class Outcome:
     status: int
     report: Report | None = None
     errors: tuple[Diagnostic, ...] = ()
+    seconds: float = 0.0
+    cached: bool = False
 
     @property
     def verdict(self) -> str:
@@ -37,7 +43,7 @@ class Outcome:
         if self.report is None:
             return "error" if self.status == ExitCode.WRONG_INPUT else "fault"
         found = {check.status for check in self.report.checks}
-        return "fail" if self.status != ExitCode.OK or "fail" in found else "warn" if "warn" in found else "pass"
+        return "fail" if "fail" in found else "warn" if "warn" in found else "pass"
 
     @property
     def finding(self) -> str:
@@ -51,7 +57,7 @@ class Outcome:
 
 
 def design_files(places: Sequence[str]) -> list[Path]:
-    """Design files named, or found below the folders named; sorted, each once.
+    """Design files named, matched by a pattern, or found below the folders named; each once, in a fixed order.
 
     Raises
         DesignFileError - for a place that does not exist, or folders without a design file
@@ -59,80 +65,97 @@ def design_files(places: Sequence[str]) -> list[Path]:
     found: dict[Path, None] = {}
     for place in places:
         path = Path(place)
-        if path.is_dir():
-            below = sorted(p for p in path.rglob("*") if p.suffix in _ENDINGS and p.is_file() and not _hidden(p, path))
-            found.update(dict.fromkeys(below))
-        elif path.exists():
-            found[path] = None
-        else:
-            raise DesignFileError([Diagnostic("GL101", "no such file or folder", file=place, line=1, column=1, key="")])
+        matched = [path] if path.exists() else sorted(Path(name) for name in glob.glob(place, recursive=True))
+        if not matched:
+            raise DesignFileError([Diagnostic("GL101", "no such file or folder", file=place)])
+        for match in matched:
+            found.update(dict.fromkeys(_below(match) if match.is_dir() else [match]))
     if not found:
         message = f"no design file ({', '.join(_ENDINGS)}) below"
-        raise DesignFileError([Diagnostic("GL101", message, file=", ".join(places), line=1, column=1, key="")])
+        raise DesignFileError([Diagnostic("GL101", message, file=", ".join(places))])
     return list(found)
 
 
-def _hidden(path: Path, root: Path) -> bool:
-    return any(part.startswith(".") for part in path.relative_to(root).parts)
+def _below(folder: Path) -> list[Path]:
+    candidates = (p for p in folder.rglob("*") if p.suffix in _ENDINGS and p.is_file())
+    return sorted(p for p in candidates if not any(part.startswith(".") for part in p.relative_to(folder).parts))
 
 
-def outcomes(path: Path, options: Options) -> Iterator[Outcome]:
+def outcomes(path: Path, options: BatchOptions) -> list[Outcome]:
     """What became of each command that a file asks for; nothing raised here ends a batch."""
+    if options.cache is None:
+        return list(_timed(_computed(path, options)))
+    from gearlink.cli.batch_cache import cached_outcomes
+
+    return cached_outcomes(path, options, lambda: list(_timed(_computed(path, options))))
+
+
+def _timed(results: Iterable[Outcome]) -> Iterator[Outcome]:
+    start = perf_counter()
+    for outcome in results:
+        now = perf_counter()
+        yield replace(outcome, seconds=now - start)
+        start = now
+
+
+def _computed(path: Path, options: BatchOptions) -> Iterator[Outcome]:
     file, kind_name, name, command = str(path), "", path.stem, ""
     try:
-        loaded, kind = open_design(file, options)
+        loaded, kind = open_design(file, options.design)
         kind_name = kind.name
         spec = read_spec(loaded, kind, file)
         name = spec.name
         for command in spec.commands():
             try:
-                design, report = build(loaded, kind, command, spec, options)
-                if options.plot:
-                    from gearlink.cli.plots.write import write_plot
+                design, report = build(loaded, kind, command, spec, options.design, with_tables=options.with_tables)
+                if options.out is not None:
+                    from gearlink.cli.batch_out import write_results
 
-                    write_plot(command, design, options)
-                yield Outcome(file, kind_name, name, command, exit_status(report, strict=options.strict), report)
+                    write_results(path, design, report, options)
+                yield Outcome(file, kind_name, name, command, exit_status(report, strict=options.design.strict), report)
             except DesignFileError as error:
                 yield _error(file, kind_name, name, command, error.diagnostics)
             except CannotWrite as error:
-                yield _error(file, kind_name, name, command, [_plain("GL116", str(error), file)])
+                yield _error(file, kind_name, name, command, [Diagnostic("GL116", str(error), file=file)])
     except DesignFileError as error:
         yield _error(file, kind_name, name, command, error.diagnostics)
     except Exception as fault:
         message = f"fault of the program: {type(fault).__name__}: {fault}"
-        yield Outcome(file, kind_name, name, command, ExitCode.FAULT, None, (_plain("GL199", message, file),))
-
-
-def _plain(code: str, message: str, file: str) -> Diagnostic:
-    return Diagnostic(code, message, file=file, line=1, column=1, key="")
+        fault_line = Diagnostic("GL199", message, file=file)
+        yield Outcome(file, kind_name, name, command, ExitCode.FAULT, None, (fault_line,))
 
 
 def _error(file: str, kind: str, name: str, command: str, errors: Sequence[Diagnostic]) -> Outcome:
     return Outcome(file, kind, name, command, ExitCode.WRONG_INPUT, None, tuple(errors))
 
 
-def run_batch(places: Sequence[str], options: Options) -> int:
-    """Run every design below the places, print the summary, give the worst exit status."""
+def run_batch(places: Sequence[str], options: BatchOptions) -> int:
+    """Run every design below the places, print the summary, give the worst exit status.
+
+    Notes
+        Interrupted, it shows what is finished and gives 130.
+    """
+    from gearlink.cli.batch_pool import run_files
+
     try:
-        files = design_files(places)
+        files = options.share_of(design_files(places))
     except DesignFileError as error:
         from gearlink.cli.render.errors import show_errors
 
-        show_errors(error.diagnostics, options)
+        show_errors(error.diagnostics, options.design)
         return ExitCode.WRONG_INPUT
-    results = [outcome for path in files for outcome in outcomes(path, options)]
-    if options.format is Format.JSON:
-        from gearlink.cli.render.batch_report import batch_as_json
+    results, interrupted = run_files(files, options)
+    results.sort(key=lambda outcome: outcome.file)
+    from gearlink.cli.render.batch_report import write_batch
 
-        sys.stdout.write(batch_as_json(results) + "\n")
-    else:
-        from gearlink.cli.render.batch_report import show_batch
+    write_batch(results, options, sys.stdout)
+    if interrupted:
+        print(f"interrupted after {len({r.file for r in results})} of {len(files)} files", file=sys.stderr)
+        return ExitCode.INTERRUPTED
+    return max((outcome.status for outcome in results), default=ExitCode.OK)
 
-        show_batch(results, options)
-    return max(outcome.status for outcome in results)
 
-
-def summary(results: Sequence[Outcome]) -> dict[str, Any]:
+def summary(results: Sequence[Outcome]) -> dict[str, int]:
     """How many designs came out how."""
     counts = dict.fromkeys(("pass", "warn", "fail", "error", "fault"), 0)
     for outcome in results:

@@ -61,12 +61,15 @@ def read_spec(loaded: LoadedFile, kind: Kind, source: str) -> Any:
     return named(validate(loaded, kind.spec_model()), source)
 
 
-def build(loaded: LoadedFile, kind: Kind, command: str, spec: Any, options: Options) -> tuple[Design, Report]:
+def build(
+    loaded: LoadedFile, kind: Kind, command: str, spec: Any, options: Options, *, with_tables: bool = True
+) -> tuple[Design, Report]:
     """The design of a validated spec and its report; what the mechanism refuses becomes a located error."""
     only = bool(options.tables) and options.format is Format.CSV
+    wanted = {"quantities": options.quantities, "tables": options.tables, "only": only, "with_tables": with_tables}
     try:
         design = kind.design(command, spec, options.samples)
-        report = design.report(command, quantities=options.quantities, tables=options.tables, only=only)
+        report = design.report(command, **wanted)  # type: ignore[arg-type]
     except NoSolution as error:
         raise DesignFileError([diagnose_no_solution(loaded, error)]) from error
     except UnknownName as error:

@@ -87,7 +87,13 @@ class Design:
         return [found] if isinstance(found, Check) else list(found)
 
     def report(
-        self, command: str, *, quantities: Sequence[str] = (), tables: Sequence[str] = (), only: bool = False
+        self,
+        command: str,
+        *,
+        quantities: Sequence[str] = (),
+        tables: Sequence[str] = (),
+        only: bool = False,
+        with_tables: bool = True,
     ) -> Report:
         """The report of a command.
 
@@ -96,12 +102,13 @@ class Design:
             quantities : names - give these alone, without checks and tables of the command
             tables : names - tables to give besides those of the command
             only : bool - give the named tables alone
+            with_tables : bool - False computes none of the command's own tables
         Raises
             UnknownName - for a name that the design does not have
             NoSolution - where no mechanism exists
         """
         outline = Outline(tuple(quantities)) if quantities or only else self.outline(command)
-        asked = dict.fromkeys([*outline.tables, *tables])
+        asked = dict.fromkeys([*(outline.tables if with_tables else ()), *tables])
         found = [self.quantity(name) for name in outline.quantities]
         return Report(
             kind=self.kind,

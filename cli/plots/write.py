@@ -28,8 +28,8 @@ def draw(command: str, design: Design) -> Figure:
     return made
 
 
-def write_plot(command: str, design: Design, options: Options) -> Path:
-    """Draw a design and write NAME-COMMAND.FORMAT into the folder of the options.
+def write_plot(command: str, design: Design, options: Options, *, stem: str = "") -> Path:
+    """Draw a design and write STEM-COMMAND.FORMAT into the folder of the options; the stem is its name by default.
 
     Raises
         CannotWrite - where the folder or the disk does not take the file
@@ -39,7 +39,7 @@ def write_plot(command: str, design: Design, options: Options) -> Path:
 
     ending = options.plot_format.value
     made = draw(command, design)
-    path = options.out / f"{safe_stem(design.spec.name)}-{command.replace(' ', '-')}.{ending}"
+    path = options.out / f"{stem or safe_stem(design.spec.name)}-{command.replace(' ', '-')}.{ending}"
 
     def write(stream: IO[bytes]) -> None:
         with matplotlib.rc_context({"svg.hashsalt": "gearlink", "svg.fonttype": "path", "pdf.fonttype": 42}):

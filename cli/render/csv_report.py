@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
-from gearlink.core.report import Report
+from gearlink.core.report import Report, Table
 
 
 def as_csv(report: Report) -> str:
@@ -35,8 +35,12 @@ def _blocks(report: Report) -> Iterator[Iterable[Iterable[object]]]:
             *((c.code, c.name, c.status, c.value, c.limit, c.unit, c.message) for c in report.checks),
         ]
     for table in report.tables:
-        heads = [
-            f"{column} [{unit}]" if unit != "1" else column
-            for column, unit in zip(table.columns, table.units, strict=True)
-        ]
-        yield [heads, *table.rows()]
+        yield table_rows(table)
+
+
+def table_rows(table: Table) -> list[Sequence[object]]:
+    """A table's header row, `column [unit]`, and its rows."""
+    heads = [
+        f"{column} [{unit}]" if unit != "1" else column for column, unit in zip(table.columns, table.units, strict=True)
+    ]
+    return [heads, *table.rows()]

@@ -1,0 +1,63 @@
+"""The options of `batch`."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from enum import StrEnum
+from pathlib import Path
+from typing import TypeVar
+
+from gearlink.cli.options import Options
+
+Item = TypeVar("Item")
+
+
+class BatchFormat(StrEnum):
+    """How the summary of a batch is printed."""
+
+    TABLE = "table"
+    JSON = "json"
+    JSONL = "jsonl"
+    CSV = "csv"
+    MARKDOWN = "md"
+    JUNIT = "junit"
+    SARIF = "sarif"
+    GITHUB = "github"
+
+
+class FailOn(StrEnum):
+    """What ends a batch with status 1."""
+
+    FAILURE = "failure"
+    WARNING = "warning"
+
+
+@dataclass(frozen=True, slots=True)
+class BatchOptions:
+    """What the user asked for; `design` holds what each design is run with.
+
+    `shard` is (i, n): the i-th of n shares of the files, counted from 1. `jobs` 0 lets the program choose.
+    """
+
+    design: Options = field(default_factory=Options)
+    format: BatchFormat = BatchFormat.TABLE
+    out: Path | None = None
+    cache: Path | None = None
+    shard: tuple[int, int] = (1, 1)
+    jobs: int = 0
+
+    @property
+    def with_tables(self) -> bool:
+        """Whether any output shows the designs' tables; else none is computed."""
+        return self.format in (BatchFormat.JSON, BatchFormat.JSONL) or self.out is not None
+
+    def share_of(self, items: Sequence[Item]) -> list[Item]:
+        """This shard's share; the shares of all shards are disjoint and make up the whole.
+
+        Example
+            >>> [BatchOptions(shard=(i, 3)).share_of("abcde") for i in (1, 2, 3)]
+            [['a', 'd'], ['b', 'e'], ['c']]
+        """
+        index, count = self.shard
+        return list(items[index - 1 :: count])
