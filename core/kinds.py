@@ -41,6 +41,7 @@ _THREE_GEAR = "three_gear_four_bar:ThreeGearFourBar"
 _PRESS = "flatbed_press:FlatbedPress"
 _GRIPPER = "swing_gripper:SwingGripper"
 _SWING = "wide_swing_design:WideSwingDesign"
+_MUTILATED = "mutilated_gear_dwell:MutilatedGearDwell"
 
 KINDS: dict[str, Kind] = {
     kind.name: kind
@@ -81,5 +82,15 @@ KINDS: dict[str, Kind] = {
             {"gripper": _GRIPPER, "cam": _GRIPPER, "analyze": _GRIPPER},
         ),
         Kind("wide-swing-cam", "wide_swing:WideSwingSpec", {"swing": _SWING, "cam": _SWING, "analyze": _SWING}),
+        Kind(
+            "gear-train-mobility",
+            "gear_train_mobility:GearTrainMobilitySpec",
+            {"analyze": "gear_train_mobility:GearTrainMobility"},
+        ),
+        Kind(
+            "mutilated-gear-dwell",
+            "mutilated_gear_dwell:MutilatedGearDwellSpec",
+            {"analyze": _MUTILATED, "gear": _MUTILATED},
+        ),
     )
 }

@@ -107,8 +107,11 @@ _GRIPPER = {
     "total_swing": Term("beta_T", "deg", "total swing of the gripper arm", "swing-gripper paper 2"),
     "spring_torque": Term("T_s,min", "N m", "least spring torque that keeps both rollers on their cams"),
     "newton_iterations": Term("", "1", "most Newton-Raphson steps at any position of the turn"),
-    "newton_agreement": Term("", "1", "largest difference of closed form and Newton-Raphson [rad]"),
+    "newton_agreement": Term("", "rad", "largest difference of closed form and Newton-Raphson", "own derivation"),
     "condition_number": Term("1/sin(mu)", "1", "largest condition number of the loop over the swing"),
+    "handover_center": Term("O_t", "mm", "cylinder axis whose pitch circle the tip meets on the line of centres"),
+    "cam_center": Term("O", "mm", "cam axis in the machine's frame"),
+    "closing_torque": Term("T_s", "N m", "torque of the closing spring on each rocker", "own derivation"),
     "lift_off_speed": Term("n*", "sheets/h", "speed at which a roller leaves its cam", "own derivation"),
 }
 
@@ -129,6 +132,30 @@ _SWING = {
     "transition_zone": Term("dk", "1", "half-width of the contact change at mid-swing", "own derivation"),
 }
 
+_MOBILITY = {
+    "link_count": Term("n", "1", "links, the frame among them"),
+    "linkage_mobility": Term("F0", "1", "degrees of freedom of the linkage alone", "thesis 2.1"),
+    "train_count": Term("", "1", "gear trains"),
+    "fixed_ends": Term("R", "1", "end gears fixed to a link, per train", "thesis 2.1"),
+    "mobility_changes": Term("dF", "1", "what each train adds, 1 - R", "thesis 2.1"),
+    "mobility": Term("F", "1", "degrees of freedom of the whole", "thesis 2.1"),
+}
+
+_MUTILATED = {
+    "cycle_turns": Term("i_r/g", "1", "input turns per output cycle", "own derivation"),
+    "motion_turns": Term("", "1", "input turns while the driven gear turns", "own derivation"),
+    "dwell_turns": Term("", "1", "input turns while it stands", "own derivation"),
+    "motion_share": Term("n g/Z_M", "1", "share of the cycle in motion", "own derivation"),
+    "dwell_share": Term("1 - n g/Z_M", "1", "share of the cycle at rest", "own derivation"),
+    "driven_turn": Term("n/Z_F", "1", "turns of the driven gear per group of teeth", "own derivation"),
+    "driven_speed_ratio": Term("Z_M/(Z_F i_r)", "1", "driven speed over input speed in motion", "own derivation"),
+    "cycles_to_repeat": Term("", "1", "cycles until the driven gear stands at the same place again"),
+    "start_crank_angle": Term("phi_0", "deg", "crank angle of the dwell"),
+    "rocker_swing": Term("", "deg", "swing of the rocker"),
+    "rocker_start_speed": Term("", "1", "rocker speed over input speed right after the start"),
+    "tip_fouling_margin": Term("", "mm", "room between the tips of planet and ring gear", "own derivation"),
+}
+
 TERMS: dict[str, Term] = {
     **_GEAR_LINKAGE,
     **_GEAR_PAIR,
@@ -137,6 +164,8 @@ TERMS: dict[str, Term] = {
     **_CAM,
     **_GRIPPER,
     **_SWING,
+    **_MOBILITY,
+    **_MUTILATED,
 }
 
 

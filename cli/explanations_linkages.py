@@ -1,0 +1,51 @@
+"""Texts of the codes that the smaller gear-linkages add."""
+
+from __future__ import annotations
+
+from gearlink.cli.explanations import Explanation
+
+LINKAGES: dict[str, Explanation] = {
+    "GL206": Explanation(
+        "tips foul in an internal mesh",
+        "The tips of planet and ring gear cut into each other where their tip circles cross, outside the contact.",
+        "The gears cannot turn, or cannot be put together.",
+        "Give the ring gear more teeth or the planet fewer: at 20 deg about 8 teeth of difference are needed.",
+        "z1 (inv alpha_a1 + delta_1) - z2 (inv alpha_a2 + delta_2) + (z2 - z1) inv alpha >= 0, delta the angles from "
+        "the line of centres to where the tip circles cross",
+        "own derivation",
+        ("tip-fouling",),
+        ("gears",),
+    ),
+    "GL308": Explanation(
+        "gear train does not fit the linkage",
+        "A gear in the middle of a train is fixed, neighbours do not sit on one link, or a centre distance is not the "
+        "link's length.",
+        "Gears stay in mesh only where one link keeps their distance; only the ends of a train may be fixed to links.",
+        "Put neighbours on two pins of one link, fix end gears only, and to a link that carries their pin.",
+        "dF = 3 (J - R) - 2 (J - R) - (J - 1) = 1 - R",
+        "thesis 2.1",
+        ("train-fit",),
+        ("trains", "links"),
+    ),
+    "GL309": Explanation(
+        "degrees of freedom are not those wanted",
+        "Linkage and trains together have another number of degrees of freedom than `mobility` asks for.",
+        "With none the mechanism is locked; with two it needs a second input.",
+        "Fix or free end gears: a train takes R - 1 degrees of freedom away.",
+        "F = F_linkage + sum(1 - R_i)",
+        "thesis 2.1",
+        ("mobility",),
+        ("mobility", "trains"),
+    ),
+    "GL310": Explanation(
+        "start with a shock, and what the model leaves out",
+        "A mutilated gear takes its mate to full speed at once (always a warning).",
+        "The model ends at the pitch circles: the cut tips of the first and last tooth and the locking arcs change "
+        "where exactly motion begins and ends, and the blow limits the speed.",
+        "Let the crank stand at a dead centre (leave start_angle out), keep the speed low, add entry cams.",
+        "speed ratio in motion Z_M/(Z_F i_r)",
+        "own derivation; thesis figure 2-6 gives no formula",
+        ("start-shock",),
+        ("start_angle", "reduction", "gears"),
+    ),
+}

@@ -1,0 +1,183 @@
+"""Long dwell by a mutilated gear: a wheel with groups of teeth turns a full gear now and then.
+
+Between reduction and driven gear the wheel carries g groups of n teeth on a pitch circle that has room for Z_M teeth.
+While a group passes, the driven gear (Z_F teeth) turns as in mesh with a full wheel; then it stands. The model knows
+pitch circles only: tip cuts of the first and the last tooth and the locking arcs are not in it.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+from gearlink.core.errors import NoSolution
+
+
+@dataclass(frozen=True)
+class MutilatedGear:
+    """Reduction, mutilated wheel and driven gear.
+
+    Parameters
+        reduction : float - i_r, input turns per turn of the wheel
+        full_teeth : int - Z_M, teeth that the wheel would have without gaps
+        group_teeth : int - n, teeth in a group
+        groups : int - g, groups evenly round the wheel
+        driven_teeth : int - Z_F
+        stops : int - locking arcs evenly round the driven gear
+    Raises
+        NoSolution - for numbers that are not positive, groups that fill the wheel, or stops that a group of teeth
+            does not lead back to
+    Example
+        >>> gear = MutilatedGear(6.0, 80, 20, 1, 20)
+        >>> gear.cycle_turns, gear.motion_turns, gear.dwell_turns
+        (6.0, 1.5, 4.5)
+
+    Source
+        thesis 2.2.2 (figure 2-6) gives the mechanism without a formula; own derivation
+    """
+
+    reduction: float
+    full_teeth: int
+    group_teeth: int
+    groups: int
+    driven_teeth: int
+    stops: int = 1
+
+    def __post_init__(self) -> None:
+        if not 0.0 < self.reduction < math.inf:
+            raise NoSolution(f"reduction is {self.reduction:g}; it must be positive and finite", key="reduction")
+        for name in ("full_teeth", "group_teeth", "groups", "driven_teeth", "stops"):
+            number = getattr(self, name)
+            if isinstance(number, bool) or not isinstance(number, int) or number < 1:
+                raise NoSolution(f"{name.replace('_', ' ')} is {number!r}; it must be a whole number, at least 1")
+        self._require_gaps()
+        self._require_locking()
+
+    def _require_gaps(self) -> None:
+        used = self.group_teeth * self.groups
+        if used < self.full_teeth:
+            return
+        most = (self.full_teeth - 1) // self.groups
+        remedy = f"at most {most} teeth in a group" if most else f"fewer than {self.full_teeth} groups"
+        raise NoSolution(
+            f"{self.groups} groups of {self.group_teeth} teeth fill the wheel of {self.full_teeth} teeth, so that the "
+            f"driven gear never stands: {remedy}, or more full teeth than {used}"
+        )
+
+    def _require_locking(self) -> None:
+        if self.group_teeth * self.stops % self.driven_teeth == 0:
+            return
+        needed = self.driven_teeth // math.gcd(self.driven_teeth, self.group_teeth)
+        step = self.driven_teeth // math.gcd(self.driven_teeth, self.stops)
+        raise NoSolution(
+            f"a group of {self.group_teeth} teeth turns the driven gear of {self.driven_teeth} by "
+            f"{self.group_teeth / self.driven_teeth:.6g} turn, which does not lead from one of its {self.stops} "
+            f"locking arcs to another: take {needed} stops, or a multiple of {step} teeth in a group"
+        )
+
+    @property
+    def cycle_turns(self) -> float:
+        """Input turns from the start of one motion to the start of the next, i_r/g.
+
+        Source
+            own derivation
+        """
+        return self.reduction / self.groups
+
+    @property
+    def motion_share(self) -> float:
+        """Share of the cycle in which the driven gear turns, n g/Z_M.
+
+        Source
+            own derivation
+        """
+        return self.group_teeth * self.groups / self.full_teeth
+
+    @property
+    def dwell_share(self) -> float:
+        """Share of the cycle in which it stands, 1 - n g/Z_M.
+
+        Source
+            own derivation
+        """
+        return (self.full_teeth - self.group_teeth * self.groups) / self.full_teeth
+
+    @property
+    def motion_turns(self) -> float:
+        """Input turns of the motion, i_r n/Z_M.
+
+        Source
+            own derivation
+        """
+        return self.reduction * self.group_teeth / self.full_teeth
+
+    @property
+    def dwell_turns(self) -> float:
+        """Input turns of the dwell, i_r/g - i_r n/Z_M.
+
+        Source
+            own derivation
+        """
+        return self.cycle_turns * self.dwell_share
+
+    @property
+    def driven_turn(self) -> float:
+        """Turns of the driven gear per group of teeth, n/Z_F.
+
+        Source
+            own derivation
+        """
+        return self.group_teeth / self.driven_teeth
+
+    @property
+    def speed_ratio(self) -> float:
+        """Speed of the driven gear over that of the input while it turns, Z_M/(Z_F i_r); pitch circles only.
+
+        Source
+            own derivation
+        """
+        return self.full_teeth / (self.driven_teeth * self.reduction)
+
+    @cached_property
+    def cycles_to_repeat(self) -> int:
+        """Cycles after which the driven gear stands at the same place again, Z_F/gcd(Z_F, n).
+
+        Source
+            own derivation
+        """
+        return self.driven_teeth // math.gcd(self.driven_teeth, self.group_teeth)
+
+    def driven_angle(self, input_angle: float) -> float:
+        """Angle of the driven gear, counted in its own sense; 0 where a motion starts at input angle 0.
+
+        psi = k n/Z_F 2 pi + min(speed_ratio * rest, n/Z_F 2 pi),   k whole cycles
+
+        Parameters
+            input_angle : float [rad] - any real angle
+        Returns
+            psi : float [rad]
+        Example
+            >>> gear = MutilatedGear(6.0, 80, 20, 1, 20)
+            >>> [round(gear.driven_angle(2.0 * math.pi * turns) / (2.0 * math.pi), 12) for turns in (0.75, 3.0, 6.75)]
+            [0.5, 1.0, 1.5]
+
+        Source
+            own derivation
+        """
+        cycles, rest = divmod(input_angle, 2.0 * math.pi * self.cycle_turns)
+        step = 2.0 * math.pi * self.driven_turn
+        return cycles * step + min(self.speed_ratio * rest, step)
+
+    def moves(self, input_angle: float) -> bool:
+        """Whether the driven gear turns at an input angle (its start counts, its end does not).
+
+        Example
+            >>> gear = MutilatedGear(6.0, 80, 20, 1, 20)
+            >>> [gear.moves(2.0 * math.pi * turns) for turns in (0.0, 1.4, 1.6)]
+            [True, True, False]
+
+        Source
+            own derivation
+        """
+        return input_angle % (2.0 * math.pi * self.cycle_turns) < 2.0 * math.pi * self.motion_turns

@@ -1,0 +1,93 @@
+"""The smaller gear-linkages at the command line: every worked design, its figure, the errors that a user can make.
+
+Tolerances: none of its own; numbers are tested beside the engine. Plotted data equal the tables they come from.
+"""
+
+from pathlib import Path
+
+import pytest
+
+from gearlink.cli.plots.write import draw
+from gearlink.core.kinds import KINDS
+
+WORKED = {
+    "gear-train-mobility": ["six_bar_two_trains"],
+    "mutilated-gear-dwell": ["mutilated_gear_press"],
+}
+PAIRS = [(kind, name) for kind, names in WORKED.items() for name in names]
+
+
+def design_of(path, command="analyze"):
+    from gearlink.cli.options import Options
+    from gearlink.cli.run import evaluate
+
+    return evaluate(command, str(path), Options())[0]
+
+
+@pytest.mark.parametrize(("kind", "name"), PAIRS)
+def test_worked_design(kind, name, gearlink, designs):
+    ended = gearlink("analyze", designs / f"{name}.yaml", "--format", "json")
+    assert ended.status == 0, ended.out
+    assert ended.json["kind"] == kind
+    assert ended.json["ok"]
+    assert ended.json["checks"]
+
+
+@pytest.mark.parametrize(("kind", "name"), PAIRS)
+def test_every_command_in_every_format(kind, name, gearlink, designs):
+    for command in KINDS[kind].commands:
+        for form in ("table", "csv", "md", "json"):
+            assert gearlink(*command.split(), designs / f"{name}.yaml", "--format", form).status == 0
+
+
+@pytest.mark.parametrize(("kind", "name"), PAIRS)
+def test_figures_are_written(kind, name, gearlink, designs, tmp_path):
+    for command in KINDS[kind].commands:
+        ended = gearlink(
+            *command.split(), designs / f"{name}.yaml", "--plot", "--plot-format", "svg", "--out", tmp_path
+        )
+        assert ended.status == 0
+    assert len(list(tmp_path.glob("*.svg"))) == len(KINDS[kind].commands)
+
+
+def test_batch_takes_them(gearlink, designs, tmp_path):
+    for _, name in PAIRS:
+        (tmp_path / f"{name}.yaml").write_text((designs / f"{name}.yaml").read_text())
+    assert gearlink("batch", tmp_path, "--format", "json").status == 0
+
+
+def wrong(gearlink, folder: Path, text: str, *arguments):
+    """The errors of a design file that cannot be computed."""
+    path = folder / "design.yaml"
+    path.write_text(text)
+    ended = gearlink("analyze", path, *arguments, "--format", "json")
+    assert ended.status == 2, ended.out
+    return ended.json["errors"]
+
+
+def test_mutilated_gear_that_does_not_come_to_a_lock(gearlink, tmp_path):
+    text = "kind: mutilated-gear-dwell\nreduction: 6\ngears: {module: 3, full_teeth: 80, group_teeth: 15, driven: 20}\n"
+    (error,) = wrong(gearlink, tmp_path, text)
+    assert (error["key"], error["line"]) == ("gears", 3)
+    assert "take 4 stops" in error["message"]
+
+
+def test_mobility_that_is_not_wanted_is_a_finding(gearlink, designs):
+    ended = gearlink("analyze", designs / "six_bar_two_trains.yaml", "--set", "mobility=2", "--format", "json")
+    assert ended.status == 1
+    assert [c["code"] for c in ended.json["checks"] if c["status"] == "fail"] == ["GL309"]
+
+
+def test_unknown_pin_is_located(gearlink, designs):
+    path = designs / "six_bar_two_trains.yaml"
+    ended = gearlink("analyze", path, "--set", "trains[0].gears[0].at=Z", "--format", "json")
+    assert ended.status == 2
+    assert ended.json["errors"][0]["key"] == "trains[0].gears[0].at"
+
+
+def test_mutilated_figure_shows_the_table(designs):
+    made = design_of(designs / "mutilated_gear_press.yaml")
+    figure = draw("analyze", made)
+    lines = {line.get_label(): line for axes in figure.subfigs[1].axes for line in axes.lines}
+    table = made.table("motion")
+    assert list(lines["rocker"].get_ydata()) == list(table.data[table.columns.index("rocker_speed_ratio")])
