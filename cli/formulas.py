@@ -1,0 +1,143 @@
+"""The formula of each quantity of `gearlink.core.nomenclature`, in its symbols, for `gearlink explain QUANTITY`.
+
+Where a name serves several kinds of design, each has its line. Names without an entry are inputs or counts.
+"""
+
+from __future__ import annotations
+
+_GEAR_LINKAGE = {
+    "i3": "i3 = -z3/z5",
+    "frame_ratio": "d = l4/l1; back-step: d = s cos(h) + sqrt(s^2 cos^2(h) + 1), s = sqrt(i3 (i3 - 2)), h = phi12/2; "
+    "speed band: d = q + sqrt(q^2 - 1), q = 2 (1 - i3)/delta",
+    "crank_length": "three gears, I = 1: l1 = l2/sqrt((1 + d^2)/2); "
+    "slider-crank and press: r = (S/2) sqrt((4 L^2 - 4 e^2 - S^2)/(4 L^2 - S^2)), S slider stroke, L rod, e offset",
+    "coupler_length": "l2 = m (z1 + z3)/2",
+    "rocker_length": "l3 = m (z3 + z5)/2",
+    "frame_length": "I = 1: l4 = d l1; momentary dwell: l4^2 = r5^2 + (r1^2 - e^2) {[(sqrt(r3 c) + sqrt(b (b + r5)))"
+    "/r1]^2 - 1}, b = r1 + r3, c = r3 + r5",
+    "mean_ratio": "I = z1/z5 for a crank-rocker, 1 for a drag link",
+    "speed_ratio_max": "greatest of W = w5/w1 = I + (1 - i2) i3 w2/w1 + (1 - i3) w3/w1; for I = 1 it is "
+    "1 + 2 (1 - i3) d/(d^2 + 1)",
+    "speed_ratio_min": "least of W = w5/w1 = I + (1 - i2) i3 w2/w1 + (1 - i3) w3/w1; for I = 1 it is "
+    "1 - 2 (1 - i3) d/(d^2 + 1)",
+    "motion": "no zero of the output speed: unidirectional; one: momentary-dwell; two: back-step",
+    "dwell_crank_angles": "W(phi) = 0; for I = 1: phi(1), phi(2) = 270 deg -+ phi12/2",
+    "back_step_angle": "|phi5(2) - phi5(1)|; for I = 1: 2 n atan(tan(h)/n) - 2 h, n = 1 - i3, h = phi12/2",
+    "back_step_crank_angle": "phi12 = phi(2) - phi(1); for I = 1: cos(phi12/2) = (d^2 - 1)/(2 d sqrt(i3 (i3 - 2)))",
+    "dwell_angle": "phi5(phi(1) + phi13) = phi5(phi(1)), solved exactly",
+    "dwell_angle_approximate": "1.5 phi12",
+    "min_transmission_angle": "mu = min(gamma, 180 deg - gamma), cos(gamma) = (l2^2 + l3^2 - n^2)/(2 l2 l3), n the "
+    "diagonal from the crank pin; the least over the turn",
+    "gear_gap": "s15 = |l4 - l1| - m (z1 + z5)/2 - 2 m",
+    "nonuniformity": "delta = (Wmax - Wmin)/I",
+    "tolerance_dwell_angle": "phi5(R) - phi5(L) = 2 tol and W(L) = W(R); with a back-step D > 2 tol: phi5(L) = phi5(R)",
+    "tolerance_dwell_start": "L of the tolerance dwell",
+    "acceleration_ratio_max": "greatest of e5/w1^2 = (1 - i2) i3 e2/w1^2 + (1 - i3) e3/w1^2; for I = 1 it is "
+    "2 (1 - i3) d/(d^2 - 1)",
+    "acceleration_ratio_min": "least of e5/w1^2 = (1 - i2) i3 e2/w1^2 + (1 - i3) e3/w1^2; for I = 1 it is "
+    "-2 (1 - i3) d/(d^2 - 1)",
+}
+
+_GEAR_PAIR = {
+    "working_pressure_angle": "cos(alpha_wt) = a cos(alpha)/a_w, or inv(alpha_wt) = inv(alpha) + 2 tan(alpha) "
+    "(x1 + x2)/(z1 + z2)",
+    "center_distance": "a_w = a + y m = a cos(alpha)/cos(alpha_wt)",
+    "reference_center_distance": "a = m (z1 + z2)/2",
+    "shift_sum": "x1 + x2 = (z1 + z2) (inv(alpha_wt) - inv(alpha))/(2 tan(alpha))",
+    "center_distance_modification": "y = (a_w - a)/m",
+    "tip_shortening": "k = x1 + x2 - y",
+    "contact_ratio": "eps_alpha = (z1 (tan(alpha_a1) - tan(alpha_wt)) + z2 (tan(alpha_a2) - tan(alpha_wt)))/(2 pi)",
+    "profile_shift": "given, or x1 = x2 = (x1 + x2)/2, or as shift_split says",
+    "reference_radius": "r = m z/2",
+    "base_radius": "r_b = r cos(alpha)",
+    "working_radius": "r_w = a_w z/(z1 + z2) = r_b/cos(alpha_wt)",
+    "tip_radius": "r_a = r + (h_a* + x - k) m",
+    "root_radius": "r_f = r - (h_a* + c* - x) m",
+    "tooth_thickness": "s = m (pi/2 + 2 x tan(alpha))",
+    "tip_pressure_angle": "cos(alpha_a) = r_b/r_a",
+    "tip_thickness": "s_a = r_a (s/r - 2 (inv(alpha_a) - inv(alpha)))",
+    "min_shift_no_undercut": "x_min = h_a* - z sin^2(alpha)/2",
+    "span_measurement": "W_k = m cos(alpha) (pi (k - 1/2) + z inv(alpha)) + 2 x m sin(alpha)",
+    "span_teeth": "k for which |sqrt(r_b^2 + (W_k/2)^2) - (r + x m)| is least",
+    "specific_sliding": "zeta = 1 - (w_mate rho_mate)/(w rho), contact at the mate's tip",
+}
+
+_SLIDER_CRANK = {
+    "quick_return_ratio": "K = (180 + t)/(180 - t), t = theta_f - theta_e in deg",
+    "dead_center_extended": "theta_e = asin(e/(L + r))",
+    "dead_center_folded": "theta_f = asin(e/(L - r))",
+    "max_stroke": "S_max = 2 sqrt(L (L - |e|))",
+}
+
+_PRESS = {
+    "initial_crank_angle": "D, E, F stretched: psi0 = -90 deg - asin(e/(EF + DE)), direction of DC psi0 + CDE; phi_AB0 "
+    "closes ABCD",
+    "sync_start": "p'(phi_s) = q'(phi_s): bed and cylinder equally fast",
+    "sync_end": "q(phi_e) = q(phi_s) + sync.length",
+    "cam_sync_start": "theta_s = angle turned by CD at phi_s",
+    "cam_sync_end": "theta_e = angle turned by CD at phi_e",
+    "compensation": "h0 = [p - q] at phi_e less [p - q] at phi_s, p travel of the bed, q of the cylinder",
+    "min_transmission_angle_bed": "least of min(gamma, 180 deg - gamma) over the turn of ABCD",
+    "min_transmission_angle_cylinder": "least of min(gamma, 180 deg - gamma) over the turn of GHMN",
+    "end_slope": "k1 = d(p - q)/d(theta) at theta_e, theta the cam angle (the report takes the input angle)",
+    "transition_rise": "T = transition end - theta_e; arc: T tan(atan(k1)/2) in mm over deg; parabola: k1 T/2; "
+    "quartic: k1 T/2 + a1 T^2/12, a1 second derivative of the zone at its end",
+    "follower_stroke": "h = s_max - s_min over the turn",
+    "return_end": "theta_r = transition_end + return_angle",
+    "roller_center_distance": "L_s1s2 = 2 r_b + s_max + s_min",
+}
+
+_CAM = {
+    "max_pressure_angle": "largest |alpha| over the turn, tan(alpha) = Im(q/u)/Re(q/u), q = i B' + eps B; wide-swing: "
+    "tan(delta) = (lambda A - cos phi)/sin phi, outside the transition zone",
+    "min_curvature_radius": "least 1/kappa where convex, kappa = -eps Im(conj(D1) D2)/|D1|^3 of the pitch curve "
+    "P = e^(-i eps phi) B",
+    "max_radius": "largest |C|, C = e^(-i eps phi) (B + r_g N) (profile); wide-swing: largest |P| (pitch curve)",
+    "min_radius": "least |C|, C = e^(-i eps phi) (B + r_g N) (profile); wide-swing: least |P| (pitch curve)",
+}
+
+_GRIPPER = {
+    "handover_speed": "v_F = l_EF beta'(handover) w, w speed of the cylinder shaft",
+    "handover_mismatch": "dv = v_F - R w",
+    "total_swing": "beta_T = (R/l_EF) (kappa_a D_a + D_c + kappa_d D_d), D phase lengths, kappa the laws' shares",
+    "spring_torque": "T_s,min = max(-s_c T_in, s_c J_2 psi_2'') + reserve, T_in = J_A a1 + J_E a4 k4 + J_CD a3 k3 + m "
+    "Re(conj(v_G/w1) a_G)",
+    "newton_agreement": "max |closed form - Newton-Raphson| of coupler and input angle over the turn",
+    "condition_number": "1/sin(mu) of the loop's Jacobian, largest over the swing",
+    "lift_off_speed": "n* = n sqrt(T_s/max(-s_c T_in)), likewise for the return roller; the lesser",
+}
+
+_SWING = {
+    "energy_parameter": "N = 2 P r_d T^2/(J gamma^2) (pneumatic), 2 c r_d^2 T^2/(J gamma^2) (spring); sqrt(N) = "
+    "(1/gamma) Int d(phi)/sqrt(E) over the swing, E available energy of the device",
+    "velocity_peak": "B = b(1/2) = sqrt(N E(mid-swing))",
+    "acceleration_peak": "C = max |c|, c = (N/2) lambda gamma X sin(phi)/l, X force and l length of the device",
+    "min_pivot_ratio": "cylinder: p + sqrt(p^2 - 1), p = (q^2 - cos(gamma/2))/(q^2 - 1); spring: 1 + (l_0 + l_k + "
+    "S_0)/r_d",
+    "force": "P = N J gamma^2/(2 r_d T^2)",
+    "spring_rate": "c_s = N J gamma^2/(2 r_d^2 T^2)",
+    "rocker_radius": "r = a/(B alpha + 1) (twin-cam), a/(B alpha - 1) (twin-rocker), alpha = gamma/phi_ud",
+    "profile_correction": "xi = angle at the cam axis between roller centre and centre line at the end of the stroke",
+    "phase_angle": "Phi = phi_ud/2 - xi",
+    "start_curvature_radius": "R0 = rho^2/(rho + lambda sin(gamma/2) psi''(0)/rho), in centre distances",
+    "iteration_energy_parameter": "a_{i+1} = a_i + (b_i + b_{i+1}) dk/2, N <- N (0.5/a(1/2))^e until a(1/2) = 0.5",
+    "iteration_error": "N_it/N - 1",
+    "transition_zone": "Dk = (4/3) t_c/phi_ud, t_c = 3 q r_p/(4 p^2)",
+}
+
+_MOBILITY = {
+    "linkage_mobility": "F0 = 3 (n - 1) - 2 g, n links, g joints (a pin of k links counts k - 1)",
+    "mobility_changes": "dF = 1 - R for each train, R its end gears that are fixed to a link",
+    "mobility": "F = F0 + sum of dF",
+}
+
+FORMULAS: dict[str, str] = {
+    **_GEAR_LINKAGE,
+    **_GEAR_PAIR,
+    **_SLIDER_CRANK,
+    **_PRESS,
+    **_CAM,
+    **_GRIPPER,
+    **_SWING,
+    **_MOBILITY,
+}
