@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import TypeAlias
@@ -17,8 +17,10 @@ Function: TypeAlias = Callable[[Reals], Reals]
 TURN = 2.0 * math.pi
 
 _POINTS = 17
+_UNIT = np.linspace(0.0, 1.0, _POINTS)
 # Where a function maps its argument through a phase table, one ulp may not be enough to stay inside.
 _INSIDE_ULPS = 16.0
+_MOST_CANDIDATES = 16
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,20 +45,33 @@ def maximum_over(
     Returns
         extreme : Extreme - value and place
     Notes
-        Each segment between joints is sampled, and every local maximum that could still be the largest is
-        enlarged eightfold again and again: exact to rounding at a smooth maximum (its place to about
-        sqrt(eps)) and at a kink.
+        All segments between joints are sampled in one call of f, and all local maxima that could still be the
+        largest are enlarged together, round the vertex of a parabola (64-fold) or, where that misses, between
+        the neighbours (8-fold): exact to rounding at a smooth maximum (its place to about sqrt(eps)) and at a
+        kink.
     Example
         >>> top = maximum_over(lambda x: np.cos(x - 1.0))
         >>> top.value, round(top.place, 6)
         (1.0, 1.0)
     """
     bounds = [start, *sorted(j for j in joints if start < j < end), end]
-    found = [
-        _of_segment(f, left, right, max(33, math.ceil(samples * (right - left) / (end - start)) + 1))
+    grids = [
+        _grid(left, right, max(33, math.ceil(samples * (right - left) / (end - start)) + 1))
         for left, right in pairwise(bounds)
     ]
-    return max(found, key=lambda extreme: extreme.value)
+    x = np.concatenate(grids)
+    v = f(x)
+    ends = dict(_ends(grids, bounds))
+    top = int(np.argmax(v))
+    best = Extreme(float(v[top]), ends.get(top, float(x[top])))
+    lefts, rights, offset = [], [], 0
+    for grid in grids:
+        part = v[offset : offset + grid.size]
+        for i in _promising(part, best.value):
+            lefts.append(float(grid[max(i - 1, 0)]))
+            rights.append(float(grid[min(i + 1, grid.size - 1)]))
+        offset += grid.size
+    return _enlarged(f, np.array(lefts), np.array(rights), best, 8.0 * math.ulp(max(abs(start), abs(end))))
 
 
 def minimum_over(
@@ -107,38 +122,63 @@ def least_convex_radius(
     return Extreme(1.0 / top.value if top.value > 0.0 else math.inf, top.place)
 
 
-def _of_segment(f: Function, left: float, right: float, samples: int) -> Extreme:
+def _grid(left: float, right: float, samples: int) -> Reals:
     inside = _INSIDE_ULPS * math.ulp(max(abs(left), abs(right)))
-    x = np.linspace(left + inside, right - inside, samples)
-    v = f(x)
-    first = int(np.argmax(v))
-    best = Extreme(float(v[first]), {0: left, samples - 1: right}.get(first, float(x[first])))
-    candidates = [best, *(_enlarged(f, x, i) for i in _promising(v))]
-    return max(candidates, key=lambda extreme: extreme.value)
+    return np.linspace(left + inside, right - inside, samples)
 
 
-def _promising(v: Reals) -> list[int]:
-    """Samples that top their neighbours and whose parabola may reach above the best sample."""
+def _ends(grids: Sequence[Reals], bounds: Sequence[float]) -> Iterator[tuple[int, float]]:
+    """Index of each segment's first and last sample in the whole, with the joint that it stands for."""
+    offset = 0
+    for grid, (left, right) in zip(grids, pairwise(bounds), strict=True):
+        yield offset, left
+        offset += grid.size
+        yield offset - 1, right
+
+
+def _promising(v: Reals, top: float) -> list[int]:
+    """Samples of a segment that top their neighbours and whose parabola may reach above the best sample of all."""
     before, after = np.concatenate(([v[1]], v[:-1])), np.concatenate((v[1:], [v[-2]]))
     bend = np.abs(before - 2.0 * v + after)
-    top = float(v.max())
     rounding = 8.0 * np.spacing(np.abs(v).max())
     chosen = (v >= before) & (v >= after) & (bend > rounding) & (v + bend >= top)
     order = np.flatnonzero(chosen)
-    return [int(i) for i in order[np.argsort(-v[order])][:8]]
+    return [int(i) for i in order[np.argsort(-v[order])][:_MOST_CANDIDATES]]
 
 
-def _enlarged(f: Function, x: Reals, index: int) -> Extreme:
-    left, right = float(x[max(index - 1, 0)]), float(x[min(index + 1, x.size - 1)])
-    finest = 8.0 * math.ulp(max(abs(float(x[0])), abs(float(x[-1]))))
-    best = Extreme(-math.inf, left)
-    while True:
-        fine = np.linspace(left, right, _POINTS)
-        v = f(fine)
-        i = int(np.argmax(v))
-        if v[i] > best.value:
-            best = Extreme(float(v[i]), float(fine[i]))
-        flat = float(v[i] - v.min()) <= 2.0 * math.ulp(float(v[i]))
-        if flat or right - left <= finest:
-            return best
-        left, right = float(fine[max(i - 1, 0)]), float(fine[min(i + 1, _POINTS - 1)])
+def _enlarged(f: Function, left: Reals, right: Reals, best: Extreme, finest: float) -> Extreme:
+    """The largest value within any of the brackets, or `best` where none is larger; `finest` ends a bracket."""
+    safe_left, safe_right = left, right
+    while left.size:
+        x = left[:, None] + (right - left)[:, None] * _UNIT
+        v = f(x.ravel()).reshape(x.shape)
+        rows, i = np.arange(left.size), np.argmax(v, axis=1)
+        peak, place = v[rows, i], x[rows, i]
+        row = int(np.argmax(peak))
+        if peak[row] > best.value:
+            best = Extreme(float(peak[row]), float(place[row]))
+        flat = peak - v.min(axis=1) <= 2.0 * np.spacing(np.abs(peak))
+        narrow = right - left <= finest
+        missed = ((i == 0) & (left > safe_left)) | ((i == _POINTS - 1) & (right < safe_right))
+        near = x[rows, np.maximum(i - 1, 0)], x[rows, np.minimum(i + 1, _POINTS - 1)]
+        vertex, half = _vertex(x, v, i)
+        next_left, next_right = np.maximum(vertex - half, near[0]), np.minimum(vertex + half, near[1])
+        # A miss puts the true maximum between the bracket and the safe one: step back and take that whole.
+        safe_left, safe_right = np.where(missed, safe_left, near[0]), np.where(missed, safe_right, near[1])
+        left = np.where(missed, safe_left, next_left)
+        right = np.where(missed, safe_right, next_right)
+        going = ~(narrow | (flat & ~missed))
+        left, right, safe_left, safe_right = (a[going] for a in (left, right, safe_left, safe_right))
+    return best
+
+
+def _vertex(x: Reals, v: Reals, i: NDArray[np.intp]) -> tuple[Reals, Reals]:
+    """Vertex of the parabola through the largest sample and its neighbours, and half of the next bracket."""
+    rows = np.arange(i.size)
+    middle = np.clip(i, 1, _POINTS - 2)
+    low, mid, high = v[rows, middle - 1], v[rows, middle], v[rows, middle + 1]
+    bend = low - 2.0 * mid + high
+    step = x[:, 1] - x[:, 0]
+    interior = (i == middle) & (bend < 0.0)
+    shift = np.divide(0.5 * (low - high), bend, out=np.zeros_like(bend), where=interior)
+    return x[rows, i] + shift * step, np.where(interior, 0.125 * step, step)
