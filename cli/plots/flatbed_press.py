@@ -1,0 +1,27 @@
+"""Figures of a flatbed cylinder press: one module per command."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+from gearlink.cli.plots import panels
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from gearlink.core.flatbed_press import FlatbedPress
+
+_MODULES = {
+    "press": "flatbed_press_motion",
+    "analyze": "flatbed_press_motion",
+    "cam": "flatbed_press_cam",
+    "gear": "flatbed_press_parts",
+    "crank": "flatbed_press_parts",
+}
+
+
+def draw(command: str, design: FlatbedPress) -> Figure:
+    """The figure of a command on a press."""
+    made: Figure = import_module(f"gearlink.cli.plots.{_MODULES[command]}").draw(command, design)
+    return panels.settled(made)
