@@ -105,7 +105,9 @@ def test_star_shaped_profile_needs_no_search_and_agrees_with_it():
     assert undercut(cam.points, cam.roller_radius).depth <= 1e-11
 
 
-@pytest.mark.parametrize(("share", "status"), [(0.5, "pass"), (0.799, "pass"), (0.801, "warn"), (1.0, "fail"), (2, "fail")])
+@pytest.mark.parametrize(
+    ("share", "status"), [(0.5, "pass"), (0.799, "pass"), (0.801, "warn"), (1.0, "fail"), (2, "fail")]
+)
 def test_roller_against_the_least_convex_radius(share, status):
     cam = eccentric(64.0, 2.0, 64.0 * share)  # a power of two: the curvature radius is exact
     (check,) = undercut_checks([cam])
@@ -122,7 +124,8 @@ def test_pressure_angle_against_its_limit(limit, status):
     (check,) = pressure_angle_checks([eccentric(60.0, 20.0, 15.0)], limit, "enlarge the base circle")
     assert (check.code, check.status, check.unit) == ("GL401", status, "deg")
     assert check.value == pytest.approx(math.degrees(math.asin(1.0 / 3.0)), rel=1e-13)
-    assert ("19.4712 deg" in check.message) and (("above the limit 19.4 deg: enlarge" in check.message) == (status == "fail"))
+    assert "19.4712 deg" in check.message
+    assert ("above the limit 19.4 deg: enlarge" in check.message) == (status == "fail")
 
 
 def test_steps_below_a_share_of_the_peak_are_rounding():

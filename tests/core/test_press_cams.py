@@ -1,8 +1,8 @@
 """The compensation cam pair: report, envelope, pressure angle and curvature by a second way, checks that mend.
 
 Tolerances
-* published (TY-460 report): the report's largest radius 79.925 and roller distance 194.925 carry its wrong rise 0.778; the
-  right rise makes both 0.340 mm larger.
+* published (TY-460 report): the report's largest radius 79.925 and roller distance 194.925 carry its wrong rise 0.778;
+  the right rise makes both 0.340 mm larger.
 * envelope: the roller's centre is one roller radius from the profile to 1e-13 mm of some 100 mm; a dense table of all
   other centres may come no nearer than 1e-9 mm (neighbouring rows touch to second order).
 * theory's own forms for pressure angle and curvature on the oracle's derivatives: 1e-11 relative.
@@ -165,7 +165,9 @@ def test_scale(name, k):
         assert status(small, name) == status(large, name)
 
 
-@pytest.mark.parametrize("case", [c for c in CONTRACT if c["command"] == "cam" and c["spec"]["kind"] == "flatbed-press"])
+@pytest.mark.parametrize(
+    "case", [c for c in CONTRACT if c["command"] == "cam" and c["spec"]["kind"] == "flatbed-press"]
+)
 def test_quantities_of_the_contract(case):
     design = FlatbedPress(FlatbedPressSpec.model_validate(case["spec"]))
     for name, wanted in case["quantities"].items():

@@ -226,12 +226,18 @@ def test_gear_ratio_multiplies_the_travel():
 )
 @pytest.mark.parametrize("chain", ["bed", "cylinder"])
 def test_only_drag_links_serve(chain, links, kind):
+    make, numbers = {"bed": (BedChain, (3.0, 150.0, 520.0, 50.0)), "cylinder": (CylinderChain, (1.0, 140.0, 1.0))}[
+        chain
+    ]
     with pytest.raises(NoSolution) as refusal:
-        if chain == "bed":
-            BedChain(FourBar(*links), 3.0, 150.0, 520.0, 50.0)
-        else:
-            CylinderChain(FourBar(*links), 1.0, 140.0, 1.0)
+        make(FourBar(*links), *numbers)
     assert refusal.value.key == f"{chain}.double_crank"
     longest, shortest = max(links), min(links)
-    for part in (chain, kind, f"{links[3]:g} mm", f"{longest + shortest:g} mm", f"{sum(links) - longest - shortest:g} mm"):
+    for part in (
+        chain,
+        kind,
+        f"{links[3]:g} mm",
+        f"{longest + shortest:g} mm",
+        f"{sum(links) - longest - shortest:g} mm",
+    ):
         assert part in refusal.value.message
