@@ -1,0 +1,21 @@
+"""Figures of a swing gripper: one module per command."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+from gearlink.cli.plots import panels
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from gearlink.core.swing_gripper import SwingGripper
+
+_MODULES = {"gripper": "swing_gripper_motion", "analyze": "swing_gripper_motion", "cam": "swing_gripper_cam"}
+
+
+def draw(command: str, design: SwingGripper) -> Figure:
+    """The figure of a command on a swing gripper."""
+    made: Figure = import_module(f"gearlink.cli.plots.{_MODULES[command]}").draw(command, design)
+    return panels.settled(made)
