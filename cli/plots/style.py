@@ -32,6 +32,19 @@ def figure(width: float, height: float, title: str) -> Figure:
     return made
 
 
+def settled(made: Figure) -> Figure:
+    """The figure with its panels placed for good, to the hundredth of a millimetre.
+
+    The solver of the constrained layout leaves last digits to chance, and an SVG names its clips after them.
+    """
+    made.draw_without_rendering()
+    made.set_layout_engine("none")
+    for axes in made.axes:
+        box = axes.get_position(original=True).bounds
+        axes.set_position(tuple(round(side, 5) for side in box))
+    return made
+
+
 def curves(axes: Axes, xlabel: str, ylabel: str) -> None:
     """A coordinate system for curves: grid, labels, light frame."""
     axes.set_xlabel(xlabel)
@@ -54,6 +67,8 @@ def drawing(axes: Axes, title: str = "") -> None:
     axes.set_title(title, fontsize=10)
     axes.tick_params(labelsize=7, colors=GREY)
     axes.set_xlabel("mm", fontsize=7, color=GREY)
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.get_offset_text().set(size=7, color=GREY)
     for spine in axes.spines.values():
         spine.set_color(LIGHT)
 
@@ -95,3 +110,33 @@ def arrow(axes: Axes, start: complex, vector: complex, color: str = RED) -> None
             arrowprops={"arrowstyle": "-|>", "color": color, "linewidth": 1.2, "shrinkA": 0, "shrinkB": 0},
             zorder=6,
         )
+
+
+def dimension(
+    axes: Axes,
+    start: complex,
+    end: complex,
+    words: str,
+    *,
+    from_points: Sequence[complex] = (),
+    shift: tuple[float, float] = (0, 3),
+    color: str = BLACK,
+) -> None:
+    """A dimension line with arrows at both ends, its words beside the middle, and extension lines from the points."""
+    for point, foot in zip(from_points, (start, end), strict=False):
+        axes.plot([point.real, foot.real], [point.imag, foot.imag], color=GREY, linewidth=0.6, zorder=1)
+    shape = {"arrowstyle": "<|-|>", "color": color, "linewidth": 0.9, "shrinkA": 0, "shrinkB": 0, "mutation_scale": 9}
+    axes.annotate("", (end.real, end.imag), (start.real, start.imag), arrowprops=shape, zorder=6)
+    axes.update_datalim([(start.real, start.imag), (end.real, end.imag)])
+    middle = (start + end) / 2.0
+    axes.annotate(
+        words,
+        (middle.real, middle.imag),
+        shift,
+        textcoords="offset points",
+        ha="center",
+        va="bottom" if shift[1] >= 0 else "top",
+        fontsize=8,
+        color=color,
+        zorder=7,
+    )
