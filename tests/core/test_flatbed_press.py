@@ -1,8 +1,9 @@
 """The flatbed press as a design: the report's numbers, positions by a second way, refusals, checks, laziness.
 
 Tolerances
-* published (TY-460 report): half a unit of the last printed digit where the report is right. Its working radius 144
-  copies the reference radius; r_a, s_a, alpha_a and eps follow from a y rounded to 0.57 and are missed by what that makes.
+* published (TY-460 report): half a unit of the last printed digit where the report is right. Its working radius
+  144 copies the reference radius; r_a, s_a, alpha_a and eps follow from a y rounded to 0.57 and are missed by what
+  that makes.
 * contract: 1e-11 relative, as it states itself.
 * positions against the oracle (cosine rule, 40 digits): 1e-12 of the peak of the column; transmission angles from the
   triangle's sides: 1e-11 deg.

@@ -1,8 +1,8 @@
 """Gear checks at their limits: one status on each side, the number that is named mends, no sliding without an involute.
 
 Tolerances: limits are met from both sides at 1e-9 of the datum; quantities themselves are held in test_gear_pair.py.
-Undercut begins at x_min = h_a* - z sin^2(alpha)/2; tip thickness and contact ratio fall as x grows, so the shifts at which
-they meet a limit are bracketed roots.
+Undercut begins at x_min = h_a* - z sin^2(alpha)/2; tip thickness and contact ratio fall as x grows, so the shifts at
+which they meet a limit are bracketed roots.
 """
 
 import math

@@ -8,11 +8,22 @@ by the linear equations of their ends.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, wraps
 
 import mpmath as mp
 
 DIGITS = 40
+
+
+def constant(method):
+    """A cached property worked out in all its digits, whatever the precision of whoever asks first."""
+
+    @wraps(method)
+    def with_all_digits(self):
+        with mp.workdps(DIGITS + 20):
+            return method(self)
+
+    return cached_property(with_all_digits)
 
 
 def rocker(links, phi):
@@ -75,7 +86,7 @@ class Press:
         }
         return {"kind": "flatbed-press", "speed": 4500.0, "cylinder": cylinder, "bed": bed, **sections}
 
-    @cached_property
+    @constant
     def crank(self):
         """Crank DE from the stroke of the slider, by bisection of the two dead centres' distance."""
         half, rod, e = mp.mpf(self.stroke) / 2, mp.mpf(self.rod), mp.mpf(self.offset)
@@ -83,9 +94,9 @@ class Press:
         def excess(x):
             return mp.sqrt((rod + x) ** 2 - e * e) - mp.sqrt((rod - x) ** 2 - e * e) - half
 
-        return mp.findroot(excess, (half / 4, rod - abs(e)), solver="anderson", tol=mp.mpf(10) ** -70)
+        return mp.findroot(excess, (half / 4, rod - abs(e)), solver="anderson")
 
-    @cached_property
+    @constant
     def crank_start(self):
         """Direction of AB at the start: of the two circles' meeting points the one of the assembly."""
         a, b, c, d, side = self.bed
@@ -125,7 +136,7 @@ class Press:
         """Input angle at a cam angle."""
         return mp.findroot(lambda phi: self.cam(phi) - cam, (guess, guess + mp.mpf("1e-4")))
 
-    @cached_property
+    @constant
     def equal_speed(self):
         """First equality of the speeds after the start, from a scan every degree."""
         before = None
