@@ -12,7 +12,7 @@ import pytest
 import yaml
 
 from gearlink.cli.options import Options, PlotFormat
-from gearlink.cli.plots.three_gear_four_bar import dwell_position, position
+from gearlink.cli.plots.three_gear_mechanism import dwell_position, position
 from gearlink.cli.plots.write import draw, write_plot
 from gearlink.core.kinds import KINDS
 
