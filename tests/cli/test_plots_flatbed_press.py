@@ -276,17 +276,15 @@ def test_every_command_draws(command: str) -> None:
 
 @pytest.mark.parametrize("name", ODD)
 def test_odd_designs_draw_without_warnings(name: str) -> None:
+    """Laying the figure out draws everything but its pixels."""
     data, commands = ODD[name]
     for command in commands:
-        _, figure = drawn(command, data)
-        figure.savefig(io.BytesIO(), format="png", dpi=40)
+        drawn(command, data)
 
 
-def test_no_text_of_a_legend_lies_on_a_curve() -> None:
+def test_no_legend_lies_on_curves(press: tuple[Any, Figure], cam: tuple[Any, Figure]) -> None:
     """Legends of curve panels stand above their axes."""
-    for command in ("press", "cam"):
-        _, figure = drawn(command)
-        figure.canvas.draw()
+    for _, figure in (press, cam):
         for axes in figure.axes:
             if axes.get_legend() and axes.axison and axes.get_ylabel():
                 assert axes.get_legend().get_window_extent().y0 >= axes.get_window_extent().y1 - 1.0

@@ -262,10 +262,10 @@ def test_every_command_draws(command: str) -> None:
 
 @pytest.mark.parametrize("name", ODD)
 def test_odd_designs_draw_without_warnings(name: str) -> None:
+    """Laying the figure out draws everything but its pixels."""
     data, commands = ODD[name]
     for command in commands:
-        _, figure = drawn(command, data)
-        figure.savefig(io.BytesIO(), format="png", dpi=40)
+        drawn(command, data)
 
 
 def test_torques_are_left_out_where_the_file_has_none() -> None:
