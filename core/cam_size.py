@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import combinations
 from typing import TypeAlias
 
@@ -44,14 +45,30 @@ class CamCenter:
     Attributes
         center : complex [mm] - O, in the frame of the pivot given
         prime_radius : float [mm] - |B(start) - O|
-        cam_angles : (float, float) [rad] - where the pressure angle reaches its upper and its lower limit
-        margins : (float, float) [mm] - how far O lies inside these two limits (0: on the limit)
+        cam_angles : floats [rad] - where the pressure angle of each roller reaches its upper and its lower limit
+        margins : floats [mm] - how far O lies inside each of these limits (0: on the limit)
     """
 
     center: complex
     prime_radius: float
-    cam_angles: tuple[float, float]
-    margins: tuple[float, float]
+    cam_angles: tuple[float, ...]
+    margins: tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class RockingRoller:
+    """A roller on a rocking arm, and its law.
+
+    Attributes
+        law : function of cam angles [rad] - returns psi [rad] and psi' of the arm
+        pivot, arm : complex, float [mm] - A and l, in any frame
+        side : +1 where the cam lies on the left of the arm (seen from the pivot to the roller), -1 on the right
+    """
+
+    law: Callable[[Reals], tuple[Reals, Reals]]
+    pivot: complex
+    arm: float
+    side: int
 
 
 def smallest_prime_circle(
@@ -132,7 +149,8 @@ def smallest_offset_circle(
         normal = np.full(s.shape, complex(sign, slope) / math.hypot(1.0, slope))
         return normal, (sign * sense * s1 - s * slope) / math.hypot(1.0, slope)
 
-    found, places, margins = _nearest_admissible(planes, 0.0, 0.0, end, joints)
+    families = [partial(planes, sign) for sign in (1, -1)]
+    found, places, margins = _nearest_admissible(families, 0.0, 0.0, end, joints)
     if not found.imag > 0.0:
         raise NoSolution("the lift never comes near the pressure-angle limit: size the cam by its shaft and roller")
     return CamSize(abs(found), found.real, places[0] if margins[0] <= margins[1] else places[1])
@@ -179,33 +197,56 @@ def smallest_prime_circle_rocker(
     Source
         own derivation: tan alpha = -Re z/Im z
     """
-    slope = _checked_slope(max_pressure_angle)
-
-    def planes(sign: int, phi: Reals) -> tuple[Points, Reals]:
-        return _rocker_planes(law, slope, pivot, arm, sense, side, sign, phi)
-
-    psi, _ = law(np.array([start]))
-    roller = complex(pivot + arm * np.exp(1j * psi[0]))
-    center, places, margins = _nearest_admissible(planes, roller, start, end, joints)
-    return CamCenter(center, abs(roller - center), places, margins)
+    roller = RockingRoller(law, pivot, arm, side)
+    return smallest_cam_of_rollers([roller], max_pressure_angle, sense=sense, joints=joints, start=start, end=end)
 
 
-def _rocker_planes(
-    law: Callable[[Reals], tuple[Reals, Reals]],
-    slope: float,
-    pivot: complex,
-    arm: float,
+def smallest_cam_of_rollers(
+    rollers: Sequence[RockingRoller],
+    max_pressure_angle: float,
+    *,
     sense: int,
-    side: int,
-    sign: int,
-    phi: Reals,
-) -> tuple[Points, Reals]:
-    psi, psi1 = law(phi)
+    joints: Sequence[float] = (),
+    start: float = 0.0,
+    end: float = TURN,
+) -> CamCenter:
+    """Cam centre nearest to the first roller at which every roller of a cam shaft keeps a pressure-angle limit.
+
+    The half-planes of smallest_prime_circle_rocker, of all rollers together: two cams on one shaft share O.
+
+    Parameters
+        rollers : sequence of RockingRoller - in one frame; the first one's prime circle is made smallest
+        max_pressure_angle, sense, joints, start, end : as of smallest_prime_circle_rocker
+    Returns
+        best : CamCenter - two cam angles and two margins for each roller, upper limit first
+    Raises
+        NoSolution - as of smallest_prime_circle_rocker
+    Example
+        >>> first = RockingRoller(lambda phi: (0.0 * phi, 0.0 * phi), 0j, 100.0, 1)
+        >>> second = RockingRoller(lambda phi: (0.0 * phi + 1.5, 0.0 * phi), 0j, 100.0, -1)
+        >>> best = smallest_cam_of_rollers([first, second], math.radians(30.0), sense=1)
+        >>> round(best.prime_radius, 6), len(best.margins)
+        (30.67862, 4)
+
+    Source
+        own derivation: tan alpha = -Re z/Im z
+    """
+    slope = _checked_slope(max_pressure_angle)
+    families = [partial(_rocker_planes, roller, slope, sense, sign) for roller in rollers for sign in (1, -1)]
+    first = rollers[0]
+    psi, _ = first.law(np.array([start]))
+    target = complex(first.pivot + first.arm * np.exp(1j * psi[0]))
+    center, places, margins = _nearest_admissible(families, target, start, end, joints)
+    return CamCenter(center, abs(target - center), places, margins)
+
+
+def _rocker_planes(roller: RockingRoller, slope: float, sense: int, sign: int, phi: Reals) -> tuple[Points, Reals]:
+    psi, psi1 = roller.law(phi)
     # side (Im z tan a + sign Re z) = Re(conj(n0) z) with n0 = side (sign + i tan a); sign +1 is the upper limit
-    local = complex(side * sign, side * slope) / math.hypot(1.0, slope)
+    local = complex(roller.side * sign, roller.side * slope) / math.hypot(1.0, slope)
     normal: Points = local * np.exp(1j * psi)
-    reach = arm * (1.0 - sense * psi1) * local.real
-    return normal, (np.conj(normal) * pivot).real + reach
+    reach = roller.arm * (1.0 - sense * psi1) * local.real
+    return normal, (np.conj(normal) * roller.pivot).real + reach
 
 
 def admissible_centers(
@@ -243,7 +284,8 @@ def admissible_centers(
     """
     slope = _checked_slope(max_pressure_angle)
     phi = np.linspace(start, end, samples)
-    parts = [_rocker_planes(law, slope, pivot, arm, sense, side, sign, phi) for sign in (1, -1)]
+    roller = RockingRoller(law, pivot, arm, side)
+    parts = [_rocker_planes(roller, slope, sense, sign, phi) for sign in (1, -1)]
     normals, limits = (np.concatenate(part) for part in zip(*parts, strict=True))
     square = np.array([-1 - 1j, 1 - 1j, 1 + 1j, -1 + 1j], dtype=np.complex128)
     corners: Points = np.asarray(pivot + within * square, dtype=np.complex128)
@@ -281,21 +323,20 @@ def _checked_slope(max_pressure_angle: float) -> float:
     return math.tan(max_pressure_angle)
 
 
-_Planes: TypeAlias = Callable[[int, Reals], tuple[Points, Reals]]
+_Planes: TypeAlias = Callable[[Reals], tuple[Points, Reals]]
 
 
 def _nearest_admissible(
-    planes: _Planes, target: complex, start: float, end: float, joints: Sequence[float]
-) -> tuple[complex, tuple[float, float], tuple[float, float]]:
-    """Point nearest to the target with Re(conj(n) p) >= c for both families of planes, by cutting planes."""
+    families: Sequence[_Planes], target: complex, start: float, end: float, joints: Sequence[float]
+) -> tuple[complex, tuple[float, ...], tuple[float, ...]]:
+    """Point nearest to the target with Re(conj(n) p) >= c for every family of planes, by cutting planes."""
     cuts: list[tuple[complex, float]] = []
     point, scale = target, 1.0
     for _ in range(_ROUNDS):
-        worst = [_largest_violation(planes, sign, point, start, end, joints) for sign in (1, -1)]
+        worst = [_largest_violation(planes, point, start, end, joints) for planes in families]
         scale = max(scale, abs(point), *(abs(cut[1]) for _, _, cut in worst))
-        if max(worst[0][0], worst[1][0]) <= 1e-13 * scale:
-            places = (worst[0][1], worst[1][1])
-            return point, places, (max(0.0, -worst[0][0]), max(0.0, -worst[1][0]))
+        if max(violation for violation, _, _ in worst) <= 1e-13 * scale:
+            return point, tuple(place for _, place, _ in worst), tuple(max(0.0, -short) for short, _, _ in worst)
         cuts = [*cuts, *(cut for violation, _, cut in worst if violation > -1e-6 * scale)]
         point = _nearest_point(cuts, target, scale)
     raise NoSolution(
@@ -304,15 +345,15 @@ def _nearest_admissible(
 
 
 def _largest_violation(
-    planes: _Planes, sign: int, point: complex, start: float, end: float, joints: Sequence[float]
+    planes: _Planes, point: complex, start: float, end: float, joints: Sequence[float]
 ) -> tuple[float, float, tuple[complex, float]]:
     def violation(phi: Reals) -> Reals:
-        normal, limit = planes(sign, phi)
+        normal, limit = planes(phi)
         short: Reals = limit - (np.conj(normal) * point).real
         return short
 
     top = maximum_over(violation, start, end, joints=joints)
-    normal, limit = planes(sign, np.array([top.place]))
+    normal, limit = planes(np.array([top.place]))
     return top.value, top.place, (complex(normal[0]), float(limit[0]))
 
 

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 _SYNC = ("sync_start", "sync_end", "cam_sync_start", "cam_sync_end", "compensation")
 _CHAINS = ("min_transmission_angle_bed", "min_transmission_angle_cylinder")
 _CAM = (
+    "cam_base_radius",
     "end_slope",
     "transition_rise",
     "follower_stroke",

@@ -1,4 +1,4 @@
-"""The cam pair and the force closure of a swing gripper, mixed into its design class."""
+"""The cam pair of a swing gripper, mixed into its design class."""
 
 from __future__ import annotations
 
@@ -7,51 +7,86 @@ from collections.abc import Iterator
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from gearlink.core.report import Check, Status, Table
+from gearlink.core.errors import MissingSection, NoSolution, at_key
+from gearlink.core.gripper_base import GripperBase
+from gearlink.core.report import Check, Status, Table, safely_below
 
 if TYPE_CHECKING:
     from gearlink.core.cam_profile import Reals, RollerPath
     from gearlink.core.disc_cam import DiscCam
-    from gearlink.core.gripper_linkage import GripperLinkage
-    from gearlink.core.six_phase_law import SixPhaseLaw
-    from gearlink.core.specs.swing_gripper import Roller, SwingGripperSpec
+    from gearlink.core.gripper_size import RollerArm
+    from gearlink.core.specs.swing_gripper import GripperCam, Roller
+
+# A hub of 1.5 times the shaft is the usual least.
+_HUB = 1.5
 
 
-class GripperCams:
-    """Reads `law`, `linkage` and `shaft_speed` of the design."""
+class GripperCams(GripperBase):
+    """The cams of the design: their centre, given or chosen, results, tables and checks."""
 
-    spec: SwingGripperSpec
-    samples: int | None
-    law: SixPhaseLaw
-    linkage: GripperLinkage
-    shaft_speed: float
-
-    def _require(self, section: str, words: str) -> Any:
-        raise NotImplementedError
+    @cached_property
+    def _cam(self) -> GripperCam:
+        cam: GripperCam = self._require("cam", "center, sense, roller")
+        return cam
 
     @cached_property
     def cam_center(self) -> complex:
         """The cam axis in the machine's frame [mm], given or chosen by `size`."""
-        cam = self._require("cam", "center, sense, roller")
-        if cam.center is not None:
-            return complex(*cam.center)
+        if self._cam.center is not None:
+            return complex(*self._cam.center)
+        if self.spec.size is None:
+            raise MissingSection("give cam.center, or size: {pressure_angle: 25} to have it chosen", key="size")
+        return self._center_for(self.spec.size.pressure_angle)
+
+    def _center_for(self, degrees: float) -> complex:
+        """Cam centre of the smallest cams that keep a pressure angle [deg]."""
         from gearlink.core.gripper_size import smallest_cam_center
 
-        size = self._require("size", "pressure_angle, or give cam.center")
-        return smallest_cam_center(self.linkage, cam, math.radians(size.pressure_angle))
+        with at_key("size.pressure_angle"):
+            return smallest_cam_center(self.linkage, self._arms, self._cam.sense, math.radians(degrees)).center
+
+    @property
+    def _arms(self) -> list[RollerArm]:
+        """The rollers on their arms, with the side on which the cam lies."""
+        from gearlink.core.gripper_size import RollerArm
+
+        cam, back = self._cam, self._cam.return_roller
+        side = self.spec.size.side if self.spec.size is not None else None
+        if side is None and cam.center is not None:
+            side = 1 if (self._from_pivot / self._main_arm).imag > 0.0 else -1
+        if side is None and back is not None:
+            side = 1 if math.remainder(back.angle, 360.0) > 0.0 else -1
+        if side is None:
+            raise NoSolution("one roller alone does not tell where the cam is: give size.side, 1 or -1", key="size")
+        arms = [RollerArm(cam.roller.arm, math.radians(cam.roller.angle), side)]
+        if back is not None:
+            arms.append(RollerArm(back.arm, math.radians(cam.roller.angle + back.angle), -side))
+        return arms
+
+    @property
+    def _from_pivot(self) -> complex:
+        return self.cam_center - self.linkage.input_pivot
+
+    @property
+    def _main_arm(self) -> complex:
+        """Direction of the main roller's arm at the bite."""
+        import cmath
+
+        import numpy as np
+
+        angle = float(self.linkage.motion(np.array([0.0]), 0).input_angle[0])
+        return cmath.rect(1.0, angle + math.radians(self._cam.roller.angle))
 
     @cached_property
     def main_cam(self) -> DiscCam:
         """The cam of the main roller."""
-        cam = self._require("cam", "center, sense, roller")
-        return self._disc_cam("main cam", cam.roller, cam.roller.angle)
+        return self._disc_cam("main cam", self._cam.roller, self._cam.roller.angle)
 
     @cached_property
     def return_cam(self) -> DiscCam | None:
         """The cam of the return roller, at a fixed angle from the main roller's arm; None without one."""
-        cam = self._require("cam", "center, sense, roller")
-        roller = cam.return_roller
-        return None if roller is None else self._disc_cam("return cam", roller, cam.roller.angle + roller.angle)
+        roller = self._cam.return_roller
+        return None if roller is None else self._disc_cam("return cam", roller, self._cam.roller.angle + roller.angle)
 
     @property
     def cams(self) -> tuple[DiscCam, ...]:
@@ -64,7 +99,7 @@ class GripperCams:
         from gearlink.core.cam_profile import oscillating
         from gearlink.core.disc_cam import DiscCam
 
-        pivot, shift = self.linkage.input_pivot - self.cam_center, math.radians(from_input)
+        pivot, shift = -self._from_pivot, math.radians(from_input)
 
         def path(theta: Reals, order: int) -> RollerPath:
             motion = self.linkage.motion(np.degrees(theta), order)
@@ -72,7 +107,7 @@ class GripperCams:
             return oscillating(pivot, roller.arm, motion.input_angle + shift, motion.input_velocity, second)
 
         joints = tuple(math.radians(start) for start in self.law.starts[:-1])
-        return DiscCam(name, path, self.spec.cam.sense, roller.radius, joints)  # type: ignore[union-attr]
+        return DiscCam(name, path, self._cam.sense, roller.radius, joints)
 
     @property
     def max_pressure_angle(self) -> tuple[float, ...]:
@@ -107,19 +142,59 @@ class GripperCams:
 
     def table_return_cam(self) -> Table:
         """The return cam, point for point."""
-        cam = self.return_cam
-        if cam is None:
-            from gearlink.core.errors import MissingSection
-
+        if self.return_cam is None:
             raise MissingSection("the table needs cam.return_roller: arm, angle, radius", key="cam.return_roller")
-        return cam.table("return_cam", self._cam_degrees)
+        return self.return_cam.table("return_cam", self._cam_degrees)
+
+    # Checks
 
     def check_pressure_angle(self) -> Iterator[Check]:
-        """GL401 for both cams."""
+        """GL401 for both cams over the turn, and a warning for the phase accelerate."""
         from gearlink.core.cam_checks import pressure_angle_checks
 
-        remedy = "move cam.center away from the rocker, or lengthen the phase in which it occurs"
-        yield from pressure_angle_checks(self.cams, self.spec.limits.pressure_angle, remedy)
+        limit = self.spec.limits.pressure_angle
+        over = max(self.max_pressure_angle) > math.radians(limit) > 0.0
+        yield from pressure_angle_checks(self.cams, limit, self._center_remedy(limit) if over else "")
+        yield from self._accelerating(self.spec.limits.accelerate_pressure_angle)
+
+    def _accelerating(self, limit: float) -> Iterator[Check]:
+        from gearlink.core.extremes import largest_magnitude
+
+        for cam in self.cams:
+            end = math.radians(self.law.starts[1])
+            worst = largest_magnitude(cam.pressure_angle, 0.0, end, samples=128)
+            value = math.degrees(abs(worst.value))
+            status: Status = "warn" if value > limit else "pass"
+            text = (
+                f"the pressure angle of the {cam.name} reaches {value:.6g} deg while it accelerates the gripper, at "
+                f"cam angle {math.degrees(worst.place):.5g} deg"
+            )
+            if status == "warn":
+                text += f", above {limit:g} deg: {self._center_remedy(limit)}"
+            yield Check("GL401", "pressure-angle", status, text, value, limit, "deg")
+
+    def _center_remedy(self, limit: float) -> str:
+        """Where the smallest cams stand that keep a pressure angle [deg] over the turn, to a tenth of a millimetre."""
+        longer = "lengthen the phase in which it occurs"
+        try:
+            center = self._center_for(0.99 * limit)
+        except NoSolution:
+            return f"no cam.center keeps it, the least for both rollers is {self._least_limit:.3g} deg: {longer}"
+        return f"set cam.center to [{center.real:.1f}, {center.imag:.1f}], or {longer}"
+
+    @cached_property
+    def _least_limit(self) -> float:
+        """Least pressure angle [deg] that some cam centre keeps for every roller, to a tenth."""
+        low, high = 0.0, 89.9
+        while high - low > 0.1:
+            middle = 0.5 * (low + high)
+            try:
+                self._center_for(middle)
+            except NoSolution:
+                low = middle
+            else:
+                high = middle
+        return high
 
     def check_cam_undercut(self) -> Iterator[Check]:
         """GL402 for both cams."""
@@ -127,92 +202,18 @@ class GripperCams:
 
         yield from undercut_checks(self.cams)
 
-    # Force closure
-
-    @cached_property
-    def lift_sense(self) -> int:
-        """Sign of the cam rocker's turn that lifts the main roller off its cam."""
-        import numpy as np
-
-        theta = np.array([0.0])
-        path = self.main_cam.path(theta, 1)
-        tangent = path.first - 1j * self.main_cam.sense * path.position
-        outward = 1j * self.main_cam.sense * tangent
-        return 1 if float(np.real(np.conj(outward) * path.direction)[0]) > 0.0 else -1
-
-    def inertia_torques(self, degrees: Any) -> tuple[Any, Any]:
-        """Inertia torques of the cam rocker with linkage and of the return rocker [N m] at cylinder angles [deg]."""
-        from gearlink.core.gripper_forces import Masses, inertia_torque
-
-        masses = Masses.of(self._require("inertia", "input, output, coupler, coupler_mass, return_rocker"))
-        motion = self.linkage.motion(degrees, 2)
-        main = inertia_torque(self.linkage, motion, masses, self.shaft_speed)
-        return main, masses.return_rocker * motion.input_acceleration * self.shaft_speed**2
-
-    @cached_property
-    def _worst_unloading(self) -> tuple[Any, Any]:
-        """Largest torque that lifts each roller, and its place."""
-        from gearlink.core.extremes import maximum_over
-
-        sense = self.lift_sense
-        bounds = {"start": 0.0, "end": 360.0, "joints": self.law.starts[1:-1], "samples": 720}
-        return (
-            maximum_over(lambda theta: -sense * self.inertia_torques(theta)[0], **bounds),  # type: ignore[arg-type]
-            maximum_over(lambda theta: sense * self.inertia_torques(theta)[1], **bounds),  # type: ignore[arg-type]
-        )
-
-    @cached_property
-    def lift_off_speed(self) -> float | None:
-        """Speed at which a roller leaves its cam [sheets/h]; None where nothing ever lifts one."""
-        from gearlink.core.gripper_forces import lift_off_speed
-
-        spring = self._require("spring", "torque")
-        worst = [extreme.value for extreme in self._worst_unloading]
-        speed = lift_off_speed(self.spec.speed, spring.torque, worst[0], worst[1])
-        return speed if math.isfinite(speed) else None
-
-    @cached_property
-    def spring_torque(self) -> float:
-        """Least spring torque that keeps both rollers on their cams at the design speed [N m]."""
-        reserve = self.spec.spring.reserve if self.spec.spring else 0.0
-        return max(extreme.value for extreme in self._worst_unloading) + reserve
-
-    def check_lift_off(self) -> Check:
-        """GL406: contact at the design speed, with a tenth of speed in reserve."""
-        spring, speed = self._require("spring", "torque"), self.lift_off_speed
-        if speed is None:
-            return Check("GL406", "lift-off", "pass", "no inertia ever unloads a roller", None, None, "sheets/h")
-        roller, worst = max(zip(("main", "return"), self._worst_unloading, strict=True), key=lambda item: item[1].value)
-        left = spring.torque - worst.value
-        status: Status = "fail" if left <= spring.reserve else "warn" if speed < 1.1 * self.spec.speed else "pass"
-        text = (
-            f"the {roller} roller keeps {left:.4g} N m of the spring's {spring.torque:g} N m at cylinder angle "
-            f"{worst.place:.4g} deg; it lifts off at {speed:.6g} sheets/h"
-        )
-        if status != "pass":
-            needed = 1.21 * worst.value + spring.reserve
-            text += f": raise spring.torque to {needed:.4g} N m for a tenth of speed in reserve"
-        return Check("GL406", "lift-off", status, text, speed, self.spec.speed, "sheets/h")
-
-    def table_forces(self) -> Table:
-        """Inertia and contact torques and normal forces over the turn."""
-        import numpy as np
-
-        from gearlink.core.gripper_forces import contact_torques
-
-        spring = self._require("spring", "torque")
-        degrees = self._cam_degrees
-        main, back = self.inertia_torques(degrees)
-        torques = contact_torques(spring.torque, main, back, self.lift_sense)
-        columns: dict[str, tuple[Any, str]] = {
-            "theta": (degrees, "deg"),
-            "inertia_torque": (main, "N m"),
-            "contact_torque_main": (torques[0], "N m"),
-            "contact_torque_return": (torques[1], "N m"),
-        }
-        rollers = (self.spec.cam.roller, self.spec.cam.return_roller)  # type: ignore[union-attr]
-        for name, torque, cam, roller in zip(("main", "return"), torques, self.cams, rollers, strict=False):
-            lever = roller.arm * 1e-3 * np.cos(cam.pressure_angle(np.radians(degrees)))  # type: ignore[union-attr]
-            columns[f"normal_force_{name}"] = (torque / lever, "N")
-        data, units = zip(*columns.values(), strict=True)
-        return Table("forces", tuple(columns), units, data)
+    def check_shaft_clearance(self) -> Iterator[Check]:
+        """GL302: the profiles against the cam shaft."""
+        shaft = self._cam.shaft_radius
+        for cam in self.cams if shaft > 0.0 else ():
+            room = cam.min_radius - shaft
+            status: Status = "fail" if room <= 0.0 else "warn" if cam.min_radius < _HUB * shaft else "pass"
+            text = f"the {cam.name} leaves {room:.4g} mm round its shaft (radius {shaft:g} mm)"
+            if status == "fail":
+                text = f"the {cam.name} comes {-room:.4g} mm into its shaft (radius {shaft:g} mm)"
+            if status != "pass":
+                text += (
+                    f": take a shaft_radius of at most {safely_below(cam.min_radius / _HUB)} mm (hub of {_HUB:g} times "
+                    f"the shaft), or cam.center {_HUB * shaft - cam.min_radius:.4g} mm farther from the roller"
+                )
+            yield Check("GL302", "shaft-clearance", status, text, room, 0.0, "mm")

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from gearlink.core.errors import NoSolution
 from gearlink.core.gripper_linkage import GripperLinkage, GripperMotion
 
 if TYPE_CHECKING:
@@ -91,22 +92,81 @@ def contact_torques(spring: float, inertia: Array, return_inertia: Array, lift_s
     return spring + lift_sense * inertia, spring - lift_sense * return_inertia
 
 
-def lift_off_speed(speed: float, spring: float, worst_main: float, worst_return: float) -> float:
+def lift_off_speed(speed: float, spring: float, worst: float) -> float:
     """Speed at which the first roller leaves its cam.
 
-    n* = n sqrt(T_s/max(-s_c T_in)), likewise for roller 2: inertia grows with n^2, the spring's torque does not
+    n* = n sqrt(T_s/max(-s_c T_in)): inertia grows with n^2, the spring's torque does not
 
     Parameters
         speed : float - n, any unit
         spring : float [N m] - T_s
-        worst_main, worst_return : float [N m] - largest unloading inertia torque on roller 1 and 2 at n
+        worst : float [N m] - largest inertia torque that unloads a roller at n
     Returns
         speed : float - in the unit of n; inf where nothing unloads a roller
     Example
-        >>> round(lift_off_speed(12000.0, 400.0, 287.6327, 10.0))
+        >>> round(lift_off_speed(12000.0, 400.0, 287.6326512))
         14151
+
     Source
         own derivation
     """
-    worst = max(worst_main, worst_return)
     return speed * math.sqrt(spring / worst) if worst > 0.0 else math.inf
+
+
+@dataclass(frozen=True)
+class LeverSpring:
+    """A pull spring between two arms about A.
+
+    Parameters
+        first_arm, second_arm : float [mm] - p, q: from A to the spring's ends
+        angle : float [rad] - delta between the arms, in (0, pi)
+        preload : float [N] - F_0, pull at the reference length
+        rate : float [N/mm] - k; 0: the pull is the preload at any length
+        reference_length : float [mm] - L_0
+    Raises
+        NoSolution - the spring would have to push
+    Example
+        >>> spring = LeverSpring(120.0, 110.0, math.radians(88.0), 300.0, 25.0, 90.0)
+        >>> round(spring.length, 6), round(spring.torque, 6)
+        (159.933278, 168.954899)
+
+    Source
+        own derivation: the torque is dU/d delta of the spring's energy
+    """
+
+    first_arm: float
+    second_arm: float
+    angle: float
+    preload: float
+    rate: float = 0.0
+    reference_length: float = 0.0
+
+    def __post_init__(self) -> None:
+        if self.pull <= 0.0:
+            raise NoSolution(
+                f"the spring is {self.length:.6g} mm long and pulls with {self.pull:.6g} N: it closes nothing; make "
+                f"its length at preload less than {self.reference_length + self.pull / self.rate:.6g} mm"
+                if self.rate > 0.0
+                else "the spring pulls with 0 N: give it a preload"
+            )
+
+    @property
+    def length(self) -> float:
+        """L = sqrt((p - q)^2 + 4 p q sin^2(delta/2)) [mm]."""
+        p, q = self.first_arm, self.second_arm
+        return math.hypot(p - q, 2.0 * math.sqrt(p * q) * math.sin(0.5 * self.angle))
+
+    @property
+    def pull(self) -> float:
+        """F = F_0 + k (L - L_0) [N]."""
+        return self.preload + self.rate * (self.length - self.reference_length if self.rate else 0.0)
+
+    @property
+    def lever(self) -> float:
+        """Torque per pull, p q sin(delta)/L [N m/N]."""
+        return 1e-3 * self.first_arm * self.second_arm * math.sin(self.angle) / self.length
+
+    @property
+    def torque(self) -> float:
+        """T_s = F p q sin(delta)/L [N m]."""
+        return self.pull * self.lever

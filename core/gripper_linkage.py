@@ -15,7 +15,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from gearlink.core.errors import NoSolution
+from gearlink.core.errors import at_key
+from gearlink.core.extremes import Extreme
 from gearlink.core.fourbar import FourBar
 from gearlink.core.fourbar_sweep import FourBarInverseSweep, solve_inverse
 from gearlink.core.six_phase_law import SixPhaseLaw
@@ -86,22 +87,26 @@ class GripperLinkage:
             degrees : (N,) array [deg]
             order : 0, 1 or 2
         Raises
-            NoSolution - where the linkage does not close; the message gives the cylinder angle
+            NoSolution - where the linkage does not close; `gripper_swing.require_swing` says why beforehand
         """
         beta = self.law.evaluate(degrees, order)
         return self.at(degrees, beta)
 
     def at(self, degrees: Array, beta: tuple[Array, ...]) -> GripperMotion:
         """Motion of all links where the swing angle and its derivatives are known already."""
-        self._require_assembly(degrees, beta[0])
         order = len(beta) - 1
         sense = self.swing_sense
         output = self.output_direction + sense * beta[0]
-        rates = {
-            name: sense * values for name, values in zip(("velocity", "acceleration"), beta[1:3], strict=False)
-        } or {"velocity": 0.0}
-        state = solve_inverse(self.four_bar, output - self.frame_direction, order, **rates)
         nothing = np.empty(0)
+        velocity, acceleration = (sense * beta[n] if n <= order else nothing for n in (1, 2))
+        with at_key("links"):
+            state = solve_inverse(
+                self.four_bar,
+                output - self.frame_direction,
+                order,
+                velocity=velocity,
+                acceleration=acceleration if order > 1 else 0.0,
+            )
         return GripperMotion(
             theta=np.radians(degrees),
             beta=beta[0],
@@ -110,59 +115,43 @@ class GripperLinkage:
             output_angle=_start_in_first_turn(output),
             input_velocity=state.crank_velocity,
             coupler_velocity=state.coupler_velocity,
-            output_velocity=sense * beta[1] if order >= 1 else nothing,
+            output_velocity=velocity,
             input_acceleration=state.crank_acceleration,
             coupler_acceleration=state.coupler_acceleration,
-            output_acceleration=sense * beta[2] if order >= 2 else nothing,
+            output_acceleration=acceleration,
         )
 
     def ratios(self, beta: Array) -> FourBarInverseSweep:
         """Speed ratios w_input/w_output and w_coupler/w_output as geometry, defined in the dwells too."""
-        output = self.output_direction + self.swing_sense * beta - self.frame_direction
-        return solve_inverse(self.four_bar, output, 1)
+        return solve_inverse(self.four_bar, self.local_output(beta), 1)
 
     @cached_property
-    def min_transmission_angles(self) -> tuple[float, float]:
-        """Least angle between CD and ED (at D) and between AC and CD (at C) over the swing, folded [rad].
+    def least_transmission(self) -> tuple[Extreme, Extreme]:
+        """Least angle between CD and ED (at D) and between AC and CD (at C), folded [rad], and the swing [rad] there.
 
         Notes
-            At C it falls out of |AD|, monotonic over a swing that does not cross the frame line; at D out of
-            |EC|; both are refined on a grid of the swing, not of the turn.
+            Refined on a grid of the swing, not of the turn: every row of the motion lies within it.
         """
-        swing = np.linspace(0.0, self.law.total_swing, 181)
+        total = self.law.total_swing
+        swing = np.linspace(0.0, total, 181)
         step = swing[1]
         for _ in range(6):
-            values = self._transmission(swing)
-            places = [swing[int(np.argmin(v))] for v in values]
-            least = [float(np.min(v)) for v in values]
-            swing = np.concatenate([np.linspace(p - step, p + step, 33) for p in places])
-            swing = np.clip(swing, 0.0, self.law.total_swing)
+            values = self.transmission(self.local_output(swing))
+            least = [int(np.argmin(v)) for v in values]
+            found = [Extreme(float(v[i]), float(swing[i])) for v, i in zip(values, least, strict=True)]
+            swing = np.concatenate([np.linspace(e.place - step, e.place + step, 33) for e in found])
+            swing = np.clip(swing, 0.0, total)
             step /= 16.0
-        return least[0], least[1]
+        return found[0], found[1]
 
-    def _transmission(self, beta: Array) -> tuple[Array, Array]:
-        motion = self.at(np.zeros_like(beta), (beta,))
-        at_d = _folded(motion.output_angle - motion.coupler_angle)
-        return at_d, _folded(motion.input_angle - motion.coupler_angle)
+    def transmission(self, direction: Array) -> tuple[Array, Array]:
+        """Angles between CD and ED and between AC and CD, folded [rad], at directions of ED from the frame line."""
+        state = solve_inverse(self.four_bar, direction)
+        return _folded(direction - state.coupler_angle), _folded(state.crank_angle - state.coupler_angle)
 
-    def _require_assembly(self, degrees: Array, beta: Array) -> None:
-        direction = self.output_direction + self.swing_sense * beta
-        reach = np.abs(self.output_pivot + self.output * np.exp(1j * direction) - self.input_pivot)
-        low, high = abs(self.input - self.coupler), self.input + self.coupler
-        wrong = (reach > high) | (reach < low)
-        if not wrong.any():
-            return
-        first = int(np.argmax(wrong))
-        over = float(reach[first]) > high
-        worst = float(reach.max()) - high if over else low - float(reach.min())
-        change = (
-            f"lengthen input or coupler by {worst:.4g} mm" if over else f"bring input and coupler {worst:.4g} mm nearer"
-        )
-        raise NoSolution(
-            f"the linkage does not close at cylinder angle {float(np.atleast_1d(degrees)[first]):g} deg: |AD| = "
-            f"{float(reach[first]):.6g} mm, input and coupler span {low:.6g} to {high:.6g} mm; {change}",
-            key="links",
-        )
+    def local_output(self, beta: Array) -> Array:
+        """Direction of ED from the frame line A-E at swing angles [rad]."""
+        return self.output_direction - self.frame_direction + self.swing_sense * beta
 
 
 def _folded(angle: Array) -> Array:

@@ -87,6 +87,7 @@ _PRESS = {
     "compensation": Term("h0", "mm", "bed displacement made good by the cam in the zone", "TY-460 report 3.3"),
     "min_transmission_angle_bed": Term("mu_ABCD", "deg", "least transmission angle of the bed chain", "VDI 2142"),
     "min_transmission_angle_cylinder": Term("mu_GHMN", "deg", "least transmission angle of the cylinder chain"),
+    "cam_base_radius": Term("r_b", "mm", "cam axis to roller centre at zero lift, given or chosen by size"),
     "end_slope": Term("k1", "mm/rad", "slope of the lift at the end of the zone", "TY-460 report 3.3, mended"),
     "transition_rise": Term("dx", "mm", "rise over the transition", "TY-460 report 3.3"),
     "follower_stroke": Term("h", "mm", "stroke of the follower", "TY-460 report 3.3"),
@@ -130,6 +131,23 @@ _SWING = {
     "iteration_passes": Term("", "1", "passes of that iteration"),
     "iteration_error": Term("N_it/N - 1", "1", "relative error of that iteration"),
     "transition_zone": Term("dk", "1", "half-width of the contact change at mid-swing", "own derivation"),
+    "largest_profile_correction": Term("xi_max", "deg", "largest angular correction of the stroke", "own derivation"),
+    "start_radius_estimate": Term("R0*", "mm", "the source's estimate of R0", "dissertation (23)"),
+    "middle_radius_estimate": Term("Rm*", "mm", "the source's estimate of R at mid-swing", "dissertation (27)"),
+    "contact_end": Term("k_c", "1", "fraction of the stroke at which the roller leaves the profile", "own derivation"),
+    "power_peak": Term("max(b c)", "1", "peak of the power invariant", "own derivation"),
+    "drive_torque_peak": Term("M_dr", "N m", "torque of the cam shaft without the device", "dissertation, chapter 5"),
+    "dynamic_coefficient": Term("K_d", "1", "torque with the drive's elasticity over the calculated one", "chapter 5"),
+    "drive_balancing_ratio": Term("K_y2", "1", "torque of the cam shaft without over with the device", "chapter 5"),
+    "slider_stroke": Term("H", "mm", "travel of the slider over the swing", "dissertation (16), (17)"),
+    "reference_inertia": Term("J_ref", "kg m^2", "inertia in the energy parameter, J + m H^2/gamma^2", "own derivation"),
+    "rocker_share": Term("j0", "1", "the rocker's own share in J_ref", "own derivation"),
+    "middle_place": Term("k_mid", "1", "fraction of the stroke at which the rocker passes mid-swing", "own derivation"),
+    "slider_velocity_peak": Term("B_s", "1", "peak of the slider's velocity invariant", "dissertation (16), (17)"),
+    "slider_acceleration_peak": Term("C_s", "1", "peak of the slider's acceleration invariant", "own derivation"),
+    "crank_span": Term("phi_k", "deg", "crank angle between the dead centres of the cam's drive", "own derivation"),
+    "cam_swing": Term("chi", "deg", "swing of an oscillating cam", "dissertation, chapter 4"),
+    "middle_pressure_angle": Term("alpha_m", "deg", "pressure angle that an oscillating cam keeps at mid-swing"),
 }
 
 _MOBILITY = {
@@ -156,6 +174,24 @@ _MUTILATED = {
     "tip_fouling_margin": Term("", "mm", "room between the tips of planet and ring gear", "own derivation"),
 }
 
+_PLANET_LINKAGE = {
+    "planet_teeth": Term("z2", "1", "teeth of the planet"),
+    "coupler_gear_teeth": Term("z2", "1", "teeth of the gear fixed to the coupler"),
+    "gear_ratio": Term("i", "1", "-z2/z5 for an external mesh, z2/z5 in a ring gear", "thesis 2.2.1"),
+    "linkage_kind": Term("", "1", "class of the linkage by Grashof's rule"),
+    "speed_ratio_max_at": Term("", "deg", "crank angle of the greatest output speed"),
+    "speed_ratio_min_at": Term("", "deg", "crank angle of the least output speed"),
+    "coupler_ratio_max": Term("(w2/w1)max", "1", "greatest coupler speed per crank speed", "thesis 2.2.1"),
+    "coupler_ratio_min": Term("(w2/w1)min", "1", "least coupler speed per crank speed", "thesis 2.2.1"),
+    "standstill_coupler_ratio": Term("1 - 1/i", "1", "w2/w1 at which the output stands still", "thesis 2.2.1"),
+    "dwell_teeth_ratio": Term("(z5/z2)max", "1", "greatest z5/z2 with which these links stop the output"),
+    "output_swing": Term("", "deg", "swing of the output between its own extremes", "own derivation"),
+    "swing_multiple": Term("", "1", "output swing over rocker swing", "thesis figure 2-4"),
+    "naive_multiple": Term("1 + z2/z5", "1", "that multiple with the turning of the coupler left out"),
+    "extreme_crank_angles": Term("", "deg", "crank angles at which the output reverses", "own derivation"),
+    "swing_residual": Term("", "deg", "swing reached less swing asked for"),
+}
+
 TERMS: dict[str, Term] = {
     **_GEAR_LINKAGE,
     **_GEAR_PAIR,
@@ -166,6 +202,7 @@ TERMS: dict[str, Term] = {
     **_SWING,
     **_MOBILITY,
     **_MUTILATED,
+    **_PLANET_LINKAGE,
 }
 
 

@@ -12,6 +12,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.compensation import Compensation, Joint
+from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.report import Check, Table, safely_above
 
 if TYPE_CHECKING:
@@ -33,8 +34,26 @@ class PressCams:
 
     @property
     def _cam(self) -> PressCam:
-        assert self.spec.cam is not None, "the follower has asked for it"
+        if self.spec.cam is None:
+            raise MissingSection("`cam` needs the section cam: base_radius, roller_radius, ...", key="cam")
         return self.spec.cam
+
+    @cached_property
+    def cam_base_radius(self) -> float:
+        """Cam axis to roller centre at zero lift [mm], given or the least that keeps the pressure angle of `size`."""
+        if self._cam.base_radius is not None:
+            return self._cam.base_radius
+        if self.spec.size is None:
+            text = "give cam.base_radius, or size: {pressure_angle: 25} to have it chosen"
+            raise MissingSection(text, key="cam.base_radius")
+        radius = self._base_radius_for(math.radians(self.spec.size.pressure_angle))
+        if radius > self._cam.roller_radius:
+            return radius
+        raise NoSolution(
+            f"a base radius of {radius:.6g} mm would keep the pressure angle, but the roller alone takes "
+            f"{self._cam.roller_radius:g} mm: give cam.base_radius by shaft and roller, or lower size.pressure_angle",
+            key="size.pressure_angle",
+        )
 
     @property
     def end_slope(self) -> float:
@@ -67,17 +86,17 @@ class PressCams:
             TY-460 report 3.6
         """
         low, high = self.follower.lift_range
-        return 2.0 * self._cam.base_radius + high + low
+        return 2.0 * self.cam_base_radius + high + low
 
     @property
     def max_radius(self) -> float:
         """Largest radius of the main cam's profile [mm]: where the lift is greatest, the normal is radial."""
-        return self._cam.base_radius - self._cam.roller_radius + self.follower.lift_range[1]
+        return self.cam_base_radius - self._cam.roller_radius + self.follower.lift_range[1]
 
     @property
     def min_radius(self) -> float:
         """Smallest radius of the main cam's profile [mm]."""
-        return self._cam.base_radius - self._cam.roller_radius + self.follower.lift_range[0]
+        return self.cam_base_radius - self._cam.roller_radius + self.follower.lift_range[0]
 
     @property
     def max_pressure_angle(self) -> float:
@@ -92,12 +111,12 @@ class PressCams:
     @cached_property
     def main_cam(self) -> DiscCam:
         """The cam of roller 1: pitch radius r_b + s."""
-        return self._disc_cam("main cam", self._cam.base_radius)
+        return self._disc_cam("main cam", self.cam_base_radius)
 
     @cached_property
     def return_cam(self) -> DiscCam:
         """The cam of roller 2: its centre stands at r_b + s - L on the same line."""
-        return self._disc_cam("return cam", self._cam.base_radius - self.roller_center_distance)
+        return self._disc_cam("return cam", self.cam_base_radius - self.roller_center_distance)
 
     def _disc_cam(self, name: str, at_zero_lift: float) -> DiscCam:
         from gearlink.core.cam_profile import translating

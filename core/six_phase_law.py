@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.motion_laws import Law
+from gearlink.core.roots import bracketed_root
 
 Array = NDArray[np.float64]
 PHASES = ("accelerate", "constant", "decelerate", "far-dwell", "return", "near-dwell")
@@ -51,7 +52,10 @@ class SixPhaseLaw:
             ("return", self.return_, "rest-to-rest"),
         ):
             if law.kind != kind:
-                raise NoSolution(f"phase {phase} needs a {kind} law; {law.name} is {law.kind}", key=f"laws.{phase}")
+                usual = "cycloidal or modified-sine" if kind == "rest-to-rest" else "velocity-345 or half-cycloidal"
+                raise NoSolution(
+                    f"phase {phase} needs a {kind} law; {law.name} is {law.kind}: take {usual}", key=f"laws.{phase}"
+                )
             if law.end_jumps:
                 raise NoSolution(
                     f"the acceleration of {law.name} is not zero at its ends, where phase {phase} joins a dwell: "
@@ -80,9 +84,20 @@ class SixPhaseLaw:
         """Swing from bite to the far dwell [rad]: w (k_a D_a + D_c + k_d D_d)."""
         return self._heights[2]
 
+    @property
+    def inner_steps(self) -> tuple[str, ...]:
+        """Phases whose law lets the acceleration jump between its ends."""
+        moving = (("accelerate", self.accelerate), ("decelerate", self.decelerate), ("return", self.return_))
+        return tuple(phase for phase, law in moving if math.isinf(law.peak_jerk))
+
+    def reaches(self, swing: float) -> float:
+        """Cylinder angle [deg] at which the working stroke has the swing [rad], from 0 to the total swing."""
+        return bracketed_root(lambda degrees: float(self.evaluate(degrees, 0)[0][0]) - swing, 0.0, self.starts[3])
+
     def phase(self, degrees: Any) -> NDArray[np.intp]:
         """Index of the phase at angles in degrees; a joint belongs to the phase that starts there."""
-        return np.searchsorted(self.starts, np.fmod(degrees, 360.0), side="right") - 1
+        index: NDArray[np.intp] = np.searchsorted(self.starts, np.fmod(degrees, 360.0), side="right") - 1
+        return index
 
     def evaluate(self, degrees: Any, order: int = 2) -> tuple[Array, ...]:
         """Swing and its derivatives by theta.
@@ -106,7 +121,7 @@ class SixPhaseLaw:
     def in_phase(self, index: int, u: Array, order: int) -> tuple[Array, ...]:
         """Swing and derivatives within a phase, at its local coordinate u in [0, 1] (both ends included)."""
         span = math.radians(self.starts[index + 1] - self.starts[index])
-        first, second, top = self._heights
+        first, _, top = self._heights
         w = self.speed
         if index == 0:
             return tuple(w * span * s / span**n for n, s in enumerate(self.accelerate.evaluate(u, order)))
@@ -123,7 +138,8 @@ class SixPhaseLaw:
         return (np.full_like(u, level), *(np.zeros_like(u) for _ in range(order)))
 
     def joints(self) -> Array:
-        """Jumps of beta, beta' and beta'' at the six joints, (6, 3); row i is the start of phase i."""
-        before = [np.array([x[0] for x in self.in_phase((i - 1) % 6, np.array([1.0]), 2)]) for i in range(6)]
-        after = [np.array([x[0] for x in self.in_phase(i, np.array([0.0]), 2)]) for i in range(6)]
-        return np.array(after) - np.array(before)
+        """Jumps of beta and its three derivatives at the six joints, (6, 4); row i is the start of phase i."""
+        before = [np.array([x[0] for x in self.in_phase((i - 1) % 6, np.array([1.0]), 3)]) for i in range(6)]
+        after = [np.array([x[0] for x in self.in_phase(i, np.array([0.0]), 3)]) for i in range(6)]
+        jumps: Array = np.array(after) - np.array(before)
+        return jumps

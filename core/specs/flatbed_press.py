@@ -80,7 +80,9 @@ class Sync(Spec):
 class PressCam(Spec):
     """The compensation cam pair."""
 
-    base_radius: Length = Field(description="cam axis to roller centre at zero lift")
+    base_radius: Length | None = Field(
+        None, description="cam axis to roller centre at zero lift; left out: chosen by the section `size`"
+    )
     roller_radius: Length = Field(description="radius of both rollers")
     transition: Literal["arc", "parabola", "quartic"] = Field(
         "quartic", description="how the end slope is brought to 0"
@@ -89,6 +91,14 @@ class PressCam(Spec):
     transition_end: PartOfTurn = Field(description="cam angle at which the lift is greatest")
     return_angle: PartOfTurn = Field(description="cam angle of the return")
     return_law: MotionLaw = Field("cycloidal", description="rest-to-rest law of the return")
+
+
+class PressSize(Spec):
+    """How a base radius that is left out is chosen: the smallest cams for a pressure angle."""
+
+    pressure_angle: Annotated[float, Field(gt=0, lt=90, json_schema_extra={"unit": "deg"})] = Field(
+        description="pressure angle that neither cam exceeds"
+    )
 
 
 class PressLimits(GearLimits):
@@ -108,6 +118,7 @@ class FlatbedPressSpec(DesignSpec):
     bed: Bed
     sync: Sync = Sync()
     cam: PressCam | None = None
+    size: PressSize | None = None
     limits: PressLimits = PressLimits()
 
     def commands(self) -> tuple[str, ...]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Literal, LiteralString, NoReturn
 
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
@@ -24,10 +24,15 @@ Phase = Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})]
 Point = Annotated[list[SignedLength], Field(min_length=2, max_length=2)]
 
 
+def _refuse(key: str, message: LiteralString, **words: str) -> NoReturn:
+    raise PydanticCustomError("GL111", message, {"key": key, **words})
+
+
 class Cylinder(Spec):
-    """The impression or transfer cylinder that takes the sheet over."""
+    """The cylinder that takes the sheet over."""
 
     radius: Length = Field(description="radius R of the cylinder")
+    center: Point | None = Field(None, description="its axis; left out: the axis that fits is reported")
 
 
 class Arm(Spec):
@@ -108,8 +113,20 @@ class Size(Spec):
     """How a cam centre that is left out is chosen: the smallest cam for a pressure angle."""
 
     pressure_angle: Annotated[float, Field(gt=0, lt=90, json_schema_extra={"unit": "deg"})] = Field(
-        description="pressure angle not to be exceeded"
+        description="pressure angle that no roller exceeds"
     )
+    side: Assembly | None = Field(
+        None, description="+1: cam left of the main roller's arm, seen from A; default: on the return roller's side"
+    )
+
+
+class Release(Spec):
+    """The cylinder angles over which one gripper opens and the other closes on the sheet."""
+
+    window: Annotated[float, Field(gt=0, lt=90, json_schema_extra={"unit": "deg"})] = Field(
+        description="cylinder angle before and after the handover"
+    )
+    gap: Length = Field(0.03, description="allowed distance of the gripper tip from the pitch circle")
 
 
 class Inertia(Spec):
@@ -125,14 +142,41 @@ class Inertia(Spec):
 
 
 class ClosingSpring(Spec):
-    """The spring that pulls the two rockers together."""
+    """The spring that pulls the two rockers together: its torque, or the levers and the pull that make it."""
 
-    torque: Annotated[float, Field(gt=0, json_schema_extra={"unit": "N m"})] = Field(
-        description="torque on each rocker"
+    torque: Annotated[float, Field(gt=0, json_schema_extra={"unit": "N m"})] | None = Field(
+        None, description="torque on each rocker; or else: arms, angle, preload"
     )
+    arms: Annotated[list[Length], Field(min_length=2, max_length=2)] | None = Field(
+        None, description="A to the spring's ends on cam rocker and return rocker"
+    )
+    angle: Annotated[float, Field(gt=0, lt=180, json_schema_extra={"unit": "deg"})] | None = Field(
+        None, description="angle between these two arms"
+    )
+    preload: Annotated[float, Field(ge=0, json_schema_extra={"unit": "N"})] | None = Field(
+        None, description="pull of the spring; at `length` where a rate is given"
+    )
+    rate: Annotated[float, Field(gt=0, json_schema_extra={"unit": "N/mm"})] | None = Field(
+        None, description="rate of the spring"
+    )
+    length: Length | None = Field(None, description="length at which the spring pulls with `preload`")
     reserve: Annotated[float, Field(ge=0, json_schema_extra={"unit": "N m"})] = Field(
         0.0, description="least torque that must remain"
     )
+
+    @model_validator(mode="after")
+    def _torque_or_levers(self) -> ClosingSpring:
+        needed = {"arms": self.arms, "angle": self.angle, "preload": self.preload}
+        missing = [key for key, value in needed.items() if value is None]
+        given = [key for key in (*needed, "rate", "length") if getattr(self, key) is not None]
+        if self.torque is not None and given:
+            text = "torque and {other} exclude each other: give the torque, or the levers that make it"
+            _refuse("torque", text, other=given[0])
+        if self.torque is None and missing:
+            _refuse("torque", "give torque, or arms, angle and preload; {missing} missing", missing=", ".join(missing))
+        if (self.rate is None) != (self.length is None):
+            _refuse("rate", "rate and length go together: the spring pulls with preload at that length")
+        return self
 
 
 class GripperLimits(Spec):
@@ -140,6 +184,14 @@ class GripperLimits(Spec):
 
     transmission_angle: AcuteAngle = Field(40.0, description="least transmission angle, at D and at C")
     pressure_angle: AcuteAngle = Field(45.0, description="greatest pressure angle of the cams")
+    accelerate_pressure_angle: AcuteAngle = Field(30.0, description="the same in the phase accelerate; only warns")
+    condition_number: Annotated[float, Field(gt=1, json_schema_extra={"unit": "1"})] = Field(
+        100.0, description="greatest condition number of the loop, 1/sin(mu); only warns"
+    )
+    handover_place: Length = Field(0.01, description="gripper tip off the line of centres at the handover")
+    jerk_step: Annotated[float, Field(ge=0, json_schema_extra={"unit": "1"})] | None = Field(
+        None, description="jump of the swing's third derivative by the cylinder angle; only warns; none: no limit"
+    )
 
 
 class SwingGripperSpec(DesignSpec):
@@ -156,6 +208,8 @@ class SwingGripperSpec(DesignSpec):
     assembly: Assembly = Field(1, description="sign of sin(input angle - coupler angle); +1: C left of A->D")
     phases: Phases
     handover: Phase = Field(description="cylinder angle of the handover")
+    total_swing: Phase | None = Field(None, description="stated swing: refused where law and phases give another")
+    release: Release | None = None
     laws: Laws = Laws()
     cam: GripperCam | None = None
     size: Size | None = None
