@@ -74,7 +74,7 @@ def findings(file: str, options: Options) -> list[Finding]:
         return [Finding("error", diagnostic) for diagnostic in error.diagnostics]
     except Exception as fault:
         message = f"fault of the program: {type(fault).__name__}: {fault}"
-        return [Finding("fault", Diagnostic("GL199", message, file=file))]
+        return [Finding("fault", Diagnostic("GL199", message, file=file, severity="fault"))]
     return sorted(found, key=lambda finding: (finding.place.line, finding.place.column))
 
 

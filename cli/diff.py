@@ -244,7 +244,7 @@ def same(old: Any, new: Any, tolerance: float) -> bool:
     """
     if _number(old) and _number(new):
         return bool(abs(new - old) <= tolerance * max(1.0, abs(old), abs(new)))
-    return bool(old == new)
+    return bool(old == new) and isinstance(old, bool) == isinstance(new, bool)
 
 
 def relative_change(old: Any, new: Any) -> float | None:

@@ -181,6 +181,17 @@ CHECKS: dict[str, Explanation] = {
         ("lift-off",),
         ("spring.torque", "spring", "speed"),
     ),
+    "GL407": Explanation(
+        "jerk of the lift jumps",
+        "At a joint of the law the third derivative of the motion has a step larger than limits.jerk_step (a warning; "
+        "without that key it is only told).",
+        "A step of the jerk excites vibration at high speed, though far less than a step of the acceleration.",
+        "Take laws that end without jerk: polynomial-4567, velocity-4567 or {septic: 0.5}.",
+        "|s'''(t+) - s'''(t-)| <= limits.jerk_step",
+        "VDI 2143",
+        ("jerk-step",),
+        ("limits.jerk_step", "laws"),
+    ),
     "GL501": Explanation(
         "bed and cylinder differ in speed at the start of the zone",
         "At the start of the synchronous zone bed and cylinder do not run equally fast.",
@@ -262,5 +273,25 @@ CHECKS: dict[str, Explanation] = {
         "wide-swing dissertation, chapter 5; own derivation",
         ("balancing",),
         ("operating_speed_min", "unloader"),
+    ),
+    "GL509": Explanation(
+        "spring slack at mid-swing",
+        "The unloading spring is mounted without stretch, so that it is slack at mid-swing (a warning).",
+        "There it does not press the roller to its cam: play shows just where the roller changes sides.",
+        "Make unloader.stretch_ratio above 0, such as 0.1.",
+        "epsilon = mounting stretch at mid-swing over the stroke of the spring > 0",
+        "wide-swing dissertation, chapter 2; own derivation",
+        ("force-closure",),
+        ("unloader.stretch_ratio", "unloader"),
+    ),
+    "GL510": Explanation(
+        "two strokes take more than a turn",
+        "Working and return stroke together take more cam angle than a turn has.",
+        "The two profiles would overlap.",
+        "Reduce cycle_angle to 180 deg or less.",
+        "2 phi_ud <= 360 deg",
+        "own derivation",
+        ("cycle-angles",),
+        ("cycle_angle",),
     ),
 }

@@ -72,8 +72,6 @@ def _as_markdown(found: Difference) -> str:
 
 
 def _show(found: Difference, options: Options) -> None:
-    from rich.text import Text
-
     from gearlink.cli.render.terminal import console_for, grid_for, number
 
     console = console_for(options)
@@ -92,4 +90,4 @@ def _show(found: Difference, options: Options) -> None:
             grid.add_row(*(row[i] for i in shown))
         console.print(grid)
         console.print()
-    console.print(Text(_verdict(found)))
+    print(_verdict(found))
