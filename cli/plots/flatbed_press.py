@@ -5,8 +5,6 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING
 
-from gearlink.cli.plots import panels
-
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
@@ -24,4 +22,4 @@ _MODULES = {
 def draw(command: str, design: FlatbedPress) -> Figure:
     """The figure of a command on a press."""
     made: Figure = import_module(f"gearlink.cli.plots.{_MODULES[command]}").draw(command, design)
-    return panels.settled(made)
+    return made

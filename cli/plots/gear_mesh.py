@@ -88,7 +88,7 @@ def mesh_figure(title: str, meshes: Sequence[Mesh]) -> Figure:
         if row == rows - 1:
             _legend(zone)
     values(figure.add_subplot(grid[rows, :]), meshes)
-    return style.settled(figure)
+    return figure
 
 
 def whole_gears(axes: Axes, mesh: Mesh) -> None:

@@ -61,19 +61,6 @@ def page(title: str, share: float = 1.0) -> Figure:
     return made
 
 
-def settled(figure: Figure) -> Figure:
-    """The figure with its panels laid out once for all, in millionths of its size.
-
-    The layout's solver leaves a last digit that changes from run to run; a file of the figure would change with it.
-    """
-    figure.draw_without_rendering()
-    figure.set_layout_engine("none")
-    for axes in figure.axes:
-        place = axes.get_position(original=True).bounds
-        axes.set_position(tuple(round(value, 6) for value in place), which="original")
-    return figure
-
-
 def shade(axes: Sequence[Axes], phases: Sequence[Phase]) -> None:
     """Shade the phases in all axes, and name them along the top of the first."""
     names: list[tuple[float, str]] = []

@@ -31,7 +31,7 @@ def draw(command: str, design: SliderCrankDesign) -> Figure:
     mechanism(figure.add_subplot(grid[0]), design)
     travel = figure.add_subplot(grid[1])
     motion(travel, figure.add_subplot(grid[2]), design)
-    return style.settled(figure)
+    return figure
 
 
 def dead_centers(design: SliderCrankDesign) -> tuple[float, float]:

@@ -32,19 +32,6 @@ def figure(width: float, height: float, title: str) -> Figure:
     return made
 
 
-def settled(made: Figure) -> Figure:
-    """The figure with its panels placed for good, to the hundredth of a millimetre.
-
-    The solver of the constrained layout leaves last digits to chance, and an SVG names its clips after them.
-    """
-    made.draw_without_rendering()
-    made.set_layout_engine("none")
-    for axes in made.axes:
-        box = axes.get_position(original=True).bounds
-        axes.set_position(tuple(round(side, 5) for side in box))
-    return made
-
-
 def curves(axes: Axes, xlabel: str, ylabel: str) -> None:
     """A coordinate system for curves: grid, labels, light frame."""
     axes.set_xlabel(xlabel)

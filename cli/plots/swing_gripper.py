@@ -5,8 +5,6 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING
 
-from gearlink.cli.plots import panels
-
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
@@ -18,4 +16,4 @@ _MODULES = {"gripper": "swing_gripper_motion", "analyze": "swing_gripper_motion"
 def draw(command: str, design: SwingGripper) -> Figure:
     """The figure of a command on a swing gripper."""
     made: Figure = import_module(f"gearlink.cli.plots.{_MODULES[command]}").draw(command, design)
-    return panels.settled(made)
+    return made

@@ -49,7 +49,7 @@ def _page(title: str, design: ThreeGearFourBar, charts: Sequence[Callable[[Axes,
     for i, chart in enumerate(charts):
         last_alone = i == len(charts) - 1 and i % 2 == 0
         chart(figure.add_subplot(grid[i // 2, :] if last_alone else grid[i // 2, i % 2]), design)
-    return style.settled(figure)
+    return figure
 
 
 # The motion

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from importlib import import_module
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
@@ -21,10 +22,27 @@ _FIXED_METADATA: dict[str, dict[str, Any]] = {
 }
 
 
+_FIXED_STYLE = {"svg.hashsalt": "gearlink", "svg.fonttype": "path", "pdf.fonttype": 42}
+_ASIAN_FONTS = ("Noto Sans CJK SC", "Source Han Sans SC", "WenQuanYi Zen Hei", "Microsoft YaHei", "PingFang SC")
+
+
 def draw(command: str, design: Design) -> Figure:
     """The figure of a command on a design, from the module named after the kind."""
     module = import_module("gearlink.cli.plots." + design.kind.replace("-", "_"))
     made: Figure = module.draw(command, design)
+    return _settled(made)
+
+
+def _settled(made: Figure) -> Figure:
+    """The figure with its panels placed for good, to the hundredth of a millimetre.
+
+    The solver of the constrained layout leaves last digits to chance, and an SVG names its clips after them.
+    """
+    made.draw_without_rendering()
+    made.set_layout_engine("none")
+    for axes in made.axes:
+        box = axes.get_position(original=True).bounds
+        axes.set_position(tuple(round(side, 5) for side in box))
     return made
 
 
@@ -38,12 +56,25 @@ def write_plot(command: str, design: Design, options: Options, *, stem: str = ""
     import matplotlib
 
     ending = options.plot_format.value
-    made = draw(command, design)
+    with matplotlib.rc_context({"font.family": _families(design.spec.name)}):
+        made = draw(command, design)
     path = options.out / f"{stem or safe_stem(design.spec.name)}-{command.replace(' ', '-')}.{ending}"
 
     def write(stream: IO[bytes]) -> None:
-        with matplotlib.rc_context({"svg.hashsalt": "gearlink", "svg.fonttype": "path", "pdf.fonttype": 42}):
+        with matplotlib.rc_context(_FIXED_STYLE), warnings.catch_warnings():
+            # A script that no installed font has is drawn as boxes; the picture is still worth having.
+            warnings.filterwarnings("ignore", message="Glyph .* missing from font")
             made.savefig(stream, format=ending, metadata=_FIXED_METADATA[ending])
 
     write_atomically(path, write)
     return path
+
+
+def _families(name: str) -> list[str]:
+    """The usual font, and one for the script of the name where it needs one that is installed."""
+    if name.isascii():
+        return ["sans-serif"]
+    from matplotlib.font_manager import get_font_names
+
+    installed = set(get_font_names())
+    return ["sans-serif", *(font for font in _ASIAN_FONTS if font in installed)]
