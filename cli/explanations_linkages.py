@@ -16,6 +16,27 @@ LINKAGES: dict[str, Explanation] = {
         ("tip-fouling",),
         ("gears",),
     ),
+    "GL306": Explanation(
+        "output does not make the motion that is asked for",
+        "The output of a two-gear four-bar stands still where coupler and crank have a certain speed ratio; the links "
+        "reach it, or do not, against what `target.motion` says.",
+        "With a sun on a crank-rocker the output never stands: the coupler would have to turn faster than the crank.",
+        "Change z5/z2 beyond the limit named, take a ring gear, or a drag link.",
+        "w2/w1 = 1 + z5/z2 (sun), 1 - z5/z2 (ring gear): the line CD passes through the pitch point on AB",
+        "thesis 2.2.1; the limit for a crank-rocker is an own derivation",
+        ("dwell-condition",),
+        ("target.motion", "gears", "links"),
+    ),
+    "GL307": Explanation(
+        "target of a synthesis missed",
+        "The design that was found misses what `target` asks for by more than the tolerance.",
+        "The residual is measured on the motion that the design makes, not on the equations of the search.",
+        "Ask for less, free more of the links, or start from other links.",
+        "residual = value reached - value asked for",
+        "own derivation",
+        ("target",),
+        ("target", "target.swing", "links"),
+    ),
     "GL308": Explanation(
         "gear train does not fit the linkage",
         "A gear in the middle of a train is fixed, neighbours do not sit on one link, or a centre distance is not the "

@@ -130,15 +130,13 @@ class GearTrainMobility(Design):
                     "train there and begin the next with the same gear"
                 )
             if gear.at not in self.links[gear.fixed_to]:
-                able = [name for name, pins in self.links.items() if gear.at in pins]
-                yield (
-                    f"gear {j} sits on pin {gear.at}, which {gear.fixed_to} does not carry: fix it to {' or '.join(able)}"
-                )
+                able = " or ".join(name for name, pins in self.links.items() if gear.at in pins)
+                yield f"gear {j} sits on pin {gear.at}, which {gear.fixed_to} does not carry: fix it to {able}"
         first, last = train.gears[0].fixed_to, train.gears[-1].fixed_to
         if first is not None and first == last and all(gear.at in self.links[first] for gear in train.gears):
             yield (
-                f"both ends are fixed to {first}, which carries the whole train: it cannot turn against it and takes no "
-                "freedom away, free one end or fix it to another link"
+                f"both ends are fixed to {first}, which carries the whole train: it cannot turn against it and takes "
+                "no freedom away, free one end or fix it to another link"
             )
 
     def _meshes(self, train: Train) -> Iterator[str]:

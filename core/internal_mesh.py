@@ -28,7 +28,7 @@ class InternalMesh:
     Example
         >>> mesh = InternalMesh(2.0, (48, 62))
         >>> mesh.center_distance, round(mesh.contact_ratio, 6)
-        (14.0, 2.063297)
+        (14.0, 2.036356)
 
     Source
         ISO 21771

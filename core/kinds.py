@@ -41,6 +41,8 @@ _THREE_GEAR = "three_gear_four_bar:ThreeGearFourBar"
 _PRESS = "flatbed_press:FlatbedPress"
 _GRIPPER = "swing_gripper:SwingGripper"
 _SWING = "wide_swing_design:WideSwingDesign"
+_TWO_GEAR = "two_gear_four_bar:TwoGearFourBar"
+_GEARED_ROCKER = "geared_rocker:GearedRocker"
 _MUTILATED = "mutilated_gear_dwell:MutilatedGearDwell"
 
 KINDS: dict[str, Kind] = {
@@ -91,6 +93,16 @@ KINDS: dict[str, Kind] = {
             "mutilated-gear-dwell",
             "mutilated_gear_dwell:MutilatedGearDwellSpec",
             {"analyze": _MUTILATED, "gear": _MUTILATED},
+        ),
+        Kind(
+            "two-gear-four-bar",
+            "two_gear_four_bar:TwoGearFourBarSpec",
+            {"analyze": _TWO_GEAR, "gear": _TWO_GEAR},
+        ),
+        Kind(
+            "geared-rocker",
+            "geared_rocker:GearedRockerSpec",
+            {"analyze": _GEARED_ROCKER, "gear": _GEARED_ROCKER},
         ),
     )
 }

@@ -187,7 +187,7 @@ _PLANET_LINKAGE = {
     "dwell_teeth_ratio": Term("(z5/z2)max", "1", "greatest z5/z2 with which these links stop the output"),
     "output_swing": Term("", "deg", "swing of the output between its own extremes", "own derivation"),
     "swing_multiple": Term("", "1", "output swing over rocker swing", "thesis figure 2-4"),
-    "naive_multiple": Term("1 + z2/z5", "1", "that multiple with the turning of the coupler left out"),
+    "naive_multiple": Term("1 + z2/z5", "1", "multiple 1 + z2/z5, the turning of the coupler left out"),
     "extreme_crank_angles": Term("", "deg", "crank angles at which the output reverses", "own derivation"),
     "swing_residual": Term("", "deg", "swing reached less swing asked for"),
 }

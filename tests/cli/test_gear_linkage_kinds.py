@@ -13,6 +13,8 @@ from gearlink.core.kinds import KINDS
 WORKED = {
     "gear-train-mobility": ["six_bar_two_trains"],
     "mutilated-gear-dwell": ["mutilated_gear_press"],
+    "two-gear-four-bar": ["two_gear_drag_link", "two_gear_ring"],
+    "geared-rocker": ["wide_lever"],
 }
 PAIRS = [(kind, name) for kind, names in WORKED.items() for name in names]
 
@@ -91,3 +93,43 @@ def test_mutilated_figure_shows_the_table(designs):
     lines = {line.get_label(): line for axes in figure.subfigs[1].axes for line in axes.lines}
     table = made.table("motion")
     assert list(lines["rocker"].get_ydata()) == list(table.data[table.columns.index("rocker_speed_ratio")])
+
+
+TWO_GEAR = """kind: two-gear-four-bar
+gears: {module: 1, planet: 16, sun: 12}
+links: {coupler: 30, rocker: 40, frame: 45}
+target: {motion: momentary-dwell}
+"""
+
+
+def test_impossible_dwell_is_refused_with_the_reason(gearlink, tmp_path):
+    (error,) = wrong(gearlink, tmp_path, TWO_GEAR)
+    assert (error["key"], error["line"]) == ("target.motion", 4)
+    assert "crank-rocker w2/w1 stays below 1" in error["message"]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "code", "key"),
+    [
+        ("sun: 12", "sun: 12, ring: 40", "GL111", "gears.ring"),
+        (", sun: 12", "", "GL106", "gears.sun"),
+        ("sun: 12", "ring: 16", "GL111", "gears.ring"),
+    ],
+)
+def test_one_output_gear(gearlink, tmp_path, old, new, code, key):
+    (error,) = wrong(gearlink, tmp_path, TWO_GEAR.replace(old, new))
+    assert (error["code"], error["key"]) == (code, key)
+
+
+def test_rocker_needs_a_crank_or_a_swing(gearlink, designs, tmp_path):
+    text = (designs / "wide_lever.yaml").read_text()
+    (error,) = wrong(gearlink, tmp_path, text.replace("target: {swing: 120}", ""))
+    assert (error["code"], error["key"]) == ("GL106", "links.crank")
+    (error,) = wrong(gearlink, tmp_path, text, "--set", "links.crank=20")
+    assert error["code"] == "GL111"
+
+
+def test_swing_out_of_reach(gearlink, designs):
+    ended = gearlink("analyze", designs / "wide_lever.yaml", "--set", "target.swing=900", "--format", "json")
+    assert ended.status == 2
+    assert ended.json["errors"][0]["key"] == "target.swing"

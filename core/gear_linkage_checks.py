@@ -1,0 +1,47 @@
+"""Checks that several gear-linkages share: transmission angle, tips against bare axes, what a synthesis reached."""
+
+from __future__ import annotations
+
+import math
+
+from gearlink.core.report import Check, below
+
+
+def transmission_check(angle: float, limit: float, remedy: str) -> Check:
+    """GL303: the least transmission angle [rad] against its limit [deg].
+
+    Source
+        VDI 2142
+    """
+    subject = "the least transmission angle over the turn"
+    value = math.degrees(angle)
+    return below("GL303", "transmission-angle", value, limit, limit + 5.0, "deg", subject, remedy)
+
+
+def axis_check(gear: str, axis: str, distance: float, tip: float) -> Check:
+    """GL302: warns where the tips of a gear [mm] pass an axis that comes within `distance` [mm] of its own.
+
+    Source
+        own derivation
+    """
+    room = distance - tip
+    text = f"{gear} stays {room:.4g} mm from the axis {axis}"
+    if room < 0.0:
+        text = (
+            f"the tips of {gear} ({tip:.6g} mm) pass the axis {axis}, {distance:.6g} mm away at the closest: its shaft "
+            "must end before the plane of the gears, or the gears be smaller"
+        )
+    return Check("GL302", "shaft-clearance", "warn" if room < 0.0 else "pass", text, room, 0.0, "mm")
+
+
+def target_check(what: str, residual: float, tolerance: float, unit: str) -> Check:
+    """GL307: the residual of a synthesis, measured on the motion of the design that it gives.
+
+    Source
+        own derivation
+    """
+    met = abs(residual) <= tolerance
+    text = f"{what} is missed by {residual:.3g} {unit}"
+    if not met:
+        text += f", more than {tolerance:.3g} {unit}: ask for less, or free more of the links"
+    return Check("GL307", "target", "pass" if met else "fail", text, residual, tolerance, unit)
