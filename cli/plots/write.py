@@ -56,17 +56,17 @@ def write_plot(command: str, design: Design, options: Options, *, stem: str = ""
     import matplotlib
 
     ending = options.plot_format.value
-    with matplotlib.rc_context({"font.family": _families(design.spec.name)}):
-        made = draw(command, design)
     path = options.out / f"{stem or safe_stem(design.spec.name)}-{command.replace(' ', '-')}.{ending}"
+    style = {**_FIXED_STYLE, "font.family": _families(design.spec.name)}
+    with matplotlib.rc_context(style), warnings.catch_warnings():
+        # A script that no installed font has is drawn as boxes; the picture is still worth having.
+        warnings.filterwarnings("ignore", message="Glyph .* missing from font")
+        made = draw(command, design)
 
-    def write(stream: IO[bytes]) -> None:
-        with matplotlib.rc_context(_FIXED_STYLE), warnings.catch_warnings():
-            # A script that no installed font has is drawn as boxes; the picture is still worth having.
-            warnings.filterwarnings("ignore", message="Glyph .* missing from font")
+        def write(stream: IO[bytes]) -> None:
             made.savefig(stream, format=ending, metadata=_FIXED_METADATA[ending])
 
-    write_atomically(path, write)
+        write_atomically(path, write)
     return path
 
 
