@@ -14,7 +14,9 @@ import numpy as np
 
 from gearlink.core.elliptic import complete_integral, incomplete_integral, jacobi_sn_cn
 from gearlink.core.errors import NoSolution
+from gearlink.core.extremes import maximum_over
 from gearlink.core.periodic_quadrature import CosineSeries, FloatArray, cosine_series
+from gearlink.core.report import safely_above
 from gearlink.core.slider_crank_sweep import slider
 from gearlink.core.unloading import ElasticLaw
 from gearlink.core.unloading_device import Device, DeviceGeometry
@@ -72,9 +74,10 @@ class SliderDrive:
 
     def __post_init__(self) -> None:
         if not 0.0 < self.crank + abs(self.offset) < self.rod:
+            reach = self.crank + abs(self.offset)
             raise NoSolution(
-                f"rod {self.rod:.6g} mm: it must be longer than crank plus offset, "
-                f"{self.crank + abs(self.offset):.6g} mm; lengthen the rod"
+                f"rod {self.rod:.6g} mm: it must be longer than crank plus offset, {reach:.6g} mm; lengthen the rod, "
+                f"best to {safely_above(3.0 * reach)} mm or more"
             )
 
     def depth(self, phi: FloatArray, order: int = 0) -> tuple[FloatArray, ...]:
@@ -203,6 +206,26 @@ class SliderLaw:
         """k at which the rocker passes mid-swing."""
         half = np.array([0.5 * self.clock.span])
         return float(self.clock.integral(half)[0]) / self.clock.total
+
+    @cached_property
+    def velocity_peak(self) -> float:
+        """Largest velocity invariant of the rocker [-]."""
+        return maximum_over(lambda k: self.invariants(k, 1)[1], 0.0, 1.0, samples=128).value
+
+    @cached_property
+    def acceleration_peak(self) -> float:
+        """Largest magnitude of the rocker's acceleration invariant [-]."""
+        return maximum_over(lambda k: np.abs(self.invariants(k)[2]), 0.0, 1.0, samples=128).value
+
+    @cached_property
+    def slider_velocity_peak(self) -> float:
+        """Largest magnitude of the slider's velocity invariant [-]."""
+        return maximum_over(lambda k: np.abs(self.slider_invariants(k)[1]), 0.0, 1.0, samples=128).value
+
+    @cached_property
+    def slider_acceleration_peak(self) -> float:
+        """Largest magnitude of the slider's acceleration invariant [-]."""
+        return maximum_over(lambda k: np.abs(self.slider_invariants(k)[2]), 0.0, 1.0, samples=128).value
 
     def invariants(self, k: FloatArray, order: int = 2) -> tuple[FloatArray, ...]:
         """Displacement, velocity and acceleration invariants of the rocker.

@@ -13,11 +13,17 @@ from functools import cached_property
 import numpy as np
 
 from gearlink.core.errors import NoSolution
+from gearlink.core.extremes import maximum_over
 from gearlink.core.fourbar import FourBar
 from gearlink.core.fourbar_sweep import solve
 from gearlink.core.periodic_quadrature import FloatArray
+from gearlink.core.report import safely_below
+from gearlink.core.roots import bracketed_root
 from gearlink.core.wide_swing import CamPoints
 from gearlink.core.wide_swing_curve import ComplexArray, StrokeLaw
+
+REST_SHARE = 0.02
+"""Part of the stroke at either end in which the cam hardly moves: its curvature there is of no account."""
 
 
 @dataclass(frozen=True)
@@ -159,12 +165,37 @@ class OscillatingCam:
         first, second = self._middle
         return -math.atan((1.0 - self.ratio) * second / (first * self.law.swing * self.law.velocity_peak))
 
-    @cached_property
+    @property
     def cusp_bend(self) -> float:
         """Sense of the cusp at mid-swing: positive for a cusp, negative for a loop.
 
         Im(conj(z2) z3)/|z2|^2 with the second and third derivatives of z after k
         """
+        return self._cusp[0]
+
+    @property
+    def loop_margin(self) -> float:
+        """What must be positive for the profile to exist: `cusp_bend`."""
+        return self._cusp[0]
+
+    @property
+    def transition_zone(self) -> float:
+        """Part Dk of the stroke each side of mid-swing where the roller, in its slot, has left the profile.
+
+        Dk = q r_p/p^2 = 2 r_p Im(conj(z2) z3)/(3 a |z2|^3), p = |z2|/2, q = Im(conj(z2) z3)/(6 |z2|)
+
+        Raises
+            NoSolution - where the pitch curve has a loop
+        Notes
+            Leading order in r_p/a, as `WideSwingCam.transition_zone`.
+        """
+        self.require_profile()
+        bend, second = self._cusp
+        return 2.0 * bend * self.roller_radius / (3.0 * second * self.center_distance)
+
+    @cached_property
+    def _cusp(self) -> tuple[float, float]:
+        """Im(conj(z2) z3)/|z2|^2 and |z2| at mid-swing."""
         _, chi1, chi2, chi3 = (float(x[0]) for x in self.drive.motion(np.array([0.5]), 3))
         phi1, phi3 = self.law.swing * self.law.velocity_peak, self.law.swing * self.law.middle_jerk
         r = self.ratio
@@ -172,7 +203,102 @@ class OscillatingCam:
         second = f2 + 2j * chi1 * f1 + (1j * chi2 - chi1**2) * f
         third = f3 + 3j * chi1 * f2 + 3.0 * (1j * chi2 - chi1**2) * f1
         third += (1j * chi3 - 3.0 * chi1 * chi2 - 1j * chi1**3) * f
-        return (second.conjugate() * third).imag / abs(second) ** 2
+        return (second.conjugate() * third).imag / abs(second) ** 2, abs(second)
+
+    @property
+    def middle_radius(self) -> float:
+        """Pitch radius at mid-swing, a - r [mm]."""
+        return (1.0 - self.ratio) * self.center_distance
+
+    @cached_property
+    def end_radius(self) -> float:
+        """Pitch radius at both ends of the stroke [mm]."""
+        half = 0.5 * self.law.swing
+        return self.center_distance * math.hypot(1.0 - self.ratio * math.cos(half), self.ratio * math.sin(half))
+
+    @property
+    def min_radius(self) -> float:
+        """Least pitch radius [mm]."""
+        return min(self.middle_radius, self.end_radius)
+
+    @property
+    def max_radius(self) -> float:
+        """Largest pitch radius [mm]."""
+        return max(self.middle_radius, self.end_radius)
+
+    @cached_property
+    def max_pressure_angle(self) -> float:
+        """Largest magnitude of the pressure angle over the whole stroke [rad].
+
+        Raises
+            NoSolution - for a pitch curve with a loop
+        """
+
+        def size(k: FloatArray) -> FloatArray:
+            result: FloatArray = np.abs(self.points(k).pressure_angle)
+            return result
+
+        # next to a standstill both rates vanish and their ratio has no digits; the end itself has the limit
+        inside = maximum_over(size, 1e-3, 1.0 - 1e-3, joints=(0.5,), samples=256).value
+        return max(inside, float(size(np.array([0.0, 1.0])).max()))
+
+    @cached_property
+    def min_curvature_radius(self) -> float:
+        """Least radius of the pitch curve where it bulges from the body [mm].
+
+        Raises
+            NoSolution - for a loop, or a transition zone that fills the stroke
+        Notes
+            Left out are the transition zone and the first and last fiftieth of the stroke, in which cam and rocker
+            come from or to a standstill and move by about 1/1000 of their swings.
+        """
+        zone = self.transition_zone
+        if zone >= 0.5 - REST_SHARE:
+            raise NoSolution(
+                f"the transition zone is {zone:.4g} of the stroke: make the roller radius less than "
+                f"{safely_below(0.4 * self.roller_radius / zone)} mm"
+            )
+        peak = max(
+            maximum_over(lambda k: 1.0 / self.points(k).curvature_radius, start, end, samples=128).value
+            for start, end in ((REST_SHARE, 0.5 - zone), (0.5 + zone, 1.0 - REST_SHARE))
+        )
+        return 1.0 / peak if peak > 0.0 else math.inf
+
+    def slot(self) -> tuple[float, float]:
+        """Fractions of the stroke between which the roller's slot at mid-swing has cut the profile away.
+
+        |z(k) + r_p n(k) - z(1/2)| = r_p
+
+        Raises
+            NoSolution - for a loop, or where the roller at mid-swing covers the profile of a whole half stroke
+        """
+        inner, far = 0.55 * self.transition_zone, 0.5 - REST_SHARE
+        if inner >= far or min(self._clearance(0.5 - far), self._clearance(0.5 + far)) <= 0.0:
+            raise NoSolution(
+                f"roller radius {self.roller_radius:.6g} mm: the roller at mid-swing covers the profile of half the "
+                f"stroke; make it at most {safely_below(0.1 * self.roller_radius / self.transition_zone)} mm"
+            )
+        return (
+            bracketed_root(self._clearance, 0.5 - far, 0.5 - inner),
+            bracketed_root(self._clearance, 0.5 + inner, 0.5 + far),
+        )
+
+    def _clearance(self, k: float) -> float:
+        """Distance of the contact point from the roller at mid-swing [mm]."""
+        points = self.points(np.array([k, 0.5]))
+        return abs(complex(points.profile[0] - points.pitch[1])) - self.roller_radius
+
+    def require_profile(self) -> None:
+        """Refuse a pitch curve with a loop.
+
+        Raises
+            NoSolution - with what to change
+        """
+        if self.cusp_bend <= 0.0:
+            raise NoSolution(
+                f"the pitch curve has a loop at mid-swing (measure {self.cusp_bend:.4g}, must be above 0): "
+                "put mid-swing nearer to the cam's largest speed by changing the link lengths"
+            )
 
     def points(self, k: FloatArray) -> CamPoints:
         """Pitch curve, profile, pressure angle and curvature at given fractions of the stroke.
@@ -190,11 +316,7 @@ class OscillatingCam:
         Source
             own derivation
         """
-        if self.cusp_bend <= 0.0:
-            raise NoSolution(
-                f"the pitch curve has a loop at mid-swing (measure {self.cusp_bend:.4g}, must be above 0): "
-                "put mid-swing nearer to the cam's largest speed by changing the link lengths"
-            )
+        self.require_profile()
         view = self.law.middle_view(k)
         chi, chi1, chi2 = self.drive.motion(k)
         phi1, phi2 = self.law.swing * view.velocity, self.law.swing * view.acceleration

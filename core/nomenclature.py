@@ -140,7 +140,7 @@ _SWING = {
     "dynamic_coefficient": Term("K_d", "1", "torque with the drive's elasticity over the calculated one", "chapter 5"),
     "drive_balancing_ratio": Term("K_y2", "1", "torque of the cam shaft without over with the device", "chapter 5"),
     "slider_stroke": Term("H", "mm", "travel of the slider over the swing", "dissertation (16), (17)"),
-    "reference_inertia": Term("J_ref", "kg m^2", "inertia in the energy parameter, J + m H^2/gamma^2", "own derivation"),
+    "reference_inertia": Term("J_ref", "kg m^2", "inertia in the energy parameter, J + m H^2/gamma^2"),
     "rocker_share": Term("j0", "1", "the rocker's own share in J_ref", "own derivation"),
     "middle_place": Term("k_mid", "1", "fraction of the stroke at which the rocker passes mid-swing", "own derivation"),
     "slider_velocity_peak": Term("B_s", "1", "peak of the slider's velocity invariant", "dissertation (16), (17)"),

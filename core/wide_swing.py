@@ -12,6 +12,7 @@ import numpy as np
 from gearlink.core.errors import NoSolution
 from gearlink.core.extremes import maximum_over, minimum_over
 from gearlink.core.periodic_quadrature import FloatArray
+from gearlink.core.report import safely_above, safely_below
 from gearlink.core.wide_swing_curve import ComplexArray, PitchCurve, StrokeLaw
 
 Layout = Literal["twin-cam", "twin-rocker"]
@@ -87,7 +88,8 @@ class WideSwingCam:
             limit = math.degrees(self.law.velocity_peak * self.law.swing)
             raise NoSolution(
                 f"the rocker's peak speed is {self.speed_ratio_peak:.6g} of the cam's; a twin-rocker needs more "
-                f"than 1: reduce the cycle angle below {limit:.4g} deg or increase the swing"
+                f"than 1: reduce the cycle angle below {safely_below(limit)} deg, best to "
+                f"{safely_below(0.5 * limit)} deg or less, or increase the swing"
             )
 
     @property
@@ -222,8 +224,8 @@ class WideSwingCam:
         safe = math.degrees(0.5 * self.law.velocity_peak * self.law.swing)
         return (
             f"the pitch curve has a loop at mid-swing (measure {value:.4g}, must be above 0): reduce the cycle angle "
-            f"to {safe:.4g} deg or less, where the arm is no longer than the centre distance, or increase the swing "
-            "or the spring's mounting stretch"
+            f"to {safely_below(safe)} deg or less, where the arm is no longer than the centre distance, or increase "
+            "the swing or the spring's mounting stretch"
         )
 
     def require_profile(self) -> None:
@@ -237,7 +239,8 @@ class WideSwingCam:
         if self._middle_gap < 0.0:
             raise NoSolution(
                 f"rocker radius {self.rocker_radius:.6g} mm is above {self.nominal_rocker_radius:.6g} mm and the "
-                "pitch curve has a loop: restore that radius"
+                "pitch curve has a loop: leave the rocker radius out, or make it at most "
+                f"{safely_below(self.nominal_rocker_radius, 9)} mm"
             )
         if self.loop_margin <= 0.0:
             raise NoSolution(self._loop_message(self.loop_margin))
@@ -262,7 +265,8 @@ class WideSwingCam:
             needed = self.center_distance * (shaft_radius + self.roller_radius) / self.min_radius
             raise NoSolution(
                 f"the roller comes within {reach:.4g} mm of the cam axis and the shaft's radius is "
-                f"{shaft_radius:.4g} mm: make the centre distance more than {needed:.4g} mm, or the roller smaller"
+                f"{shaft_radius:.4g} mm: make the centre distance more than {safely_above(needed)} mm, or the roller "
+                "smaller"
             )
 
     @cached_property
@@ -303,7 +307,7 @@ class WideSwingCam:
         if self.transition_zone >= 0.5:
             raise NoSolution(
                 f"the transition zone is {self.transition_zone:.4g} of the stroke, more than its half: "
-                f"make the roller radius less than {0.5 * self.roller_radius / self.transition_zone:.4g} mm"
+                f"make the roller radius less than {safely_below(0.5 * self.roller_radius / self.transition_zone)} mm"
             )
         return 0.5 - self.transition_zone
 

@@ -22,6 +22,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gearlink.core.errors import NoSolution
+from gearlink.core.report import safely_below
 from gearlink.core.unloading import ElasticLaw, MiddleView, Pneumatic, Spring
 from gearlink.core.unloading_limits import pendulum_stretch_ratio
 from gearlink.core.wide_swing import Layout, WideSwingCam
@@ -231,7 +232,7 @@ def test_loop_of_a_soft_centred_law() -> None:
     assert soft.cusp[1] / 100.0 == pytest.approx(-0.05, abs=0.005)
     assert firm.cusp[1] / 100.0 == pytest.approx(0.11, abs=0.005)
     assert soft.loop_margin < 0.0 < firm.loop_margin
-    with pytest.raises(NoSolution, match=r"loop at mid-swing.*reduce the cycle angle to 113\.2 deg or less"):
+    with pytest.raises(NoSolution, match=r"loop at mid-swing.*reduce the cycle angle to 113\.1\d deg or less"):
         soft.points(np.array([0.1]))
     with pytest.raises(NoSolution, match="loop"):
         _ = soft.transition_zone
@@ -255,7 +256,7 @@ def test_given_rocker_radius() -> None:
     assert angles[1] > math.radians(45.0) > angles[0]
     assert angles[2] == pytest.approx(0.5 * math.pi)
     longer = replace(nominal, given_rocker_radius=1.01 * nominal.rocker_radius)
-    with pytest.raises(NoSolution, match=r"above 74\.4179 mm.*restore"):
+    with pytest.raises(NoSolution, match=r"above 74\.4179 mm.*at most 74\.4179\d* mm"):
         longer.require_profile()
 
 
@@ -275,7 +276,7 @@ def test_extremes_against_a_fine_sweep(layout: Layout) -> None:
 
 def test_twin_rocker_needs_a_fast_rocker() -> None:
     limit = math.degrees(LAW.velocity_peak * LAW.swing)
-    with pytest.raises(NoSolution, match=rf"needs more than 1: reduce the cycle angle below {limit:.4g} deg"):
+    with pytest.raises(NoSolution, match=rf"needs more than 1: reduce the cycle angle below {safely_below(limit)} deg"):
         WideSwingCam("twin-rocker", LAW, math.radians(limit + 0.1), 200.0, 4.0)
     assert WideSwingCam("twin-rocker", LAW, math.radians(limit - 0.1), 200.0, 4.0).rocker_radius > 1e4
 
