@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -107,8 +107,9 @@ def difference(old: str, new: str, options: Options, tolerance: float = TOLERANC
     for path in _union(before.inputs, after.inputs):
         values = before.inputs.get(path), after.inputs.get(path)
         found.inputs.extend(_changes(path, *values, units.get(path.partition("[")[0], ""), tolerance))
-    for command in _union(before.results, after.results):
-        with _results_as_gearlink_writes_them(f"{old}, {new}"):
+    # Results that the program has just computed are in its own form: an error there is its fault, not the user's.
+    with nullcontext() if before.inputs else _results_as_gearlink_writes_them(f"{old}, {new}"):
+        for command in _union(before.results, after.results):
             _compare_results(found, command, before.results.get(command), after.results.get(command))
     return found
 
@@ -216,9 +217,9 @@ def _compare_results(found: Difference, command: str, old: dict[str, Any] | None
         unit = str(now.get("unit") or was.get("unit") or "")
         changes = _changes(name, was.get("value"), now.get("value"), unit, found.tolerance, command)
         # A quantity that several commands show is told once.
-        known = {(c.name, c.old, c.new) for c in found.quantities}
+        known = [(c.name, c.old, c.new) for c in found.quantities]
         found.quantities.extend(c for c in changes if (c.name, c.old, c.new) not in known)
-    known_checks = {(c.name, c.old, c.new, c.detail) for c in found.checks}
+    known_checks = [(c.name, c.old, c.new, c.detail) for c in found.checks]
     changed = _changed_checks(command, old.get("checks", ()), new.get("checks", ()), found.tolerance)
     found.checks.extend(c for c in changed if (c.name, c.old, c.new, c.detail) not in known_checks)
     for name in _union(old.get("tables", {}), new.get("tables", {})):

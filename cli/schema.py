@@ -80,7 +80,8 @@ def _converted(node: Node, sections: Node, prefix: str) -> Node:
     if "$ref" in node:
         result["allOf"] = [_reference(node, prefix)]
     for key, value in node.items():
-        if key not in (*_DROPPED, "$ref"):
+        # Editors would offer a default of null as the value to write.
+        if key not in (*_DROPPED, "$ref") and not (key == "default" and value is None):
             result |= _keyword(key, value, sections, prefix)
     return result
 

@@ -180,6 +180,7 @@ def test_defaults_obey_the_schema(kind: str) -> None:
     schema = kind_schema(KINDS[kind])
     for node in nodes(schema):
         if "default" in node:
+            assert node["default"] is not None
             inner = {**node, "definitions": schema["definitions"]}
             assert errors(node["default"], inner) == [], node
 
