@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
+from inspect import signature
 from pathlib import Path
 from typing import Annotated
 
@@ -39,7 +40,11 @@ TableOption = Annotated[list[str], typer.Option("--table", metavar="NAME", help=
 SamplesOption = Annotated[int | None, typer.Option("--samples", min=2, max=10_000_000, help="rows per turn or stroke")]
 StrictOption = Annotated[bool, typer.Option("--strict", help="a warning counts as a failure")]
 NoColorOption = Annotated[bool, typer.Option("--no-color", help="no colours, as with NO_COLOR=1")]
+SuggestOption = Annotated[bool, typer.Option("--suggest", help="try the recommended changes, show the mended design")]
 QuietOption = Annotated[bool, typer.Option("--quiet", "-q", help="no talk on standard error")]
+
+
+_WITH_SUGGESTIONS = {"swing"}
 
 
 def _design_command(command: str, words: str) -> Callable[..., None]:
@@ -58,9 +63,8 @@ def _design_command(command: str, words: str) -> Callable[..., None]:
         strict: StrictOption = False,
         no_color: NoColorOption = False,
         quiet: QuietOption = False,
+        suggest: SuggestOption = False,
     ) -> None:
-        from gearlink.cli.run import run_design
-
         options = Options(
             format=format,
             plot=plot,
@@ -74,8 +78,18 @@ def _design_command(command: str, words: str) -> Callable[..., None]:
             color=not no_color,
             quiet=quiet,
         )
+        if suggest:
+            from gearlink.cli.suggest import run_suggested
+
+            raise typer.Exit(run_suggested(command, spec, options))
+        from gearlink.cli.run import run_design
+
         raise typer.Exit(run_design(command, spec, options))
 
+    if command not in _WITH_SUGGESTIONS:
+        given = signature(run, eval_str=True)
+        shown = [each for name, each in given.parameters.items() if name != "suggest"]
+        run.__signature__ = given.replace(parameters=shown)  # type: ignore[attr-defined]
     run.__doc__ = f"{words}\n\nExample: gearlink {command} design.yaml --format json"
     return run
 

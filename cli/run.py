@@ -28,15 +28,25 @@ def run_design(command: str, source: str, options: Options) -> int:
     try:
         design, report = evaluate(command, source, options)
         if options.plot:
-            _plot(command, design, options)
-    except DesignFileError as error:
-        show_errors(error.diagnostics, options)
-        return ExitCode.WRONG_INPUT
-    except CannotWrite as error:
-        show_errors([Diagnostic("GL116", str(error), file=source, line=1, column=1, key="")], options)
-        return ExitCode.WRONG_INPUT
-    _print(report, options)
+            plot(command, design, options)
+    except (DesignFileError, CannotWrite, NoSolution) as error:
+        return show_refusal(error, source, options)
+    print_report(report, options)
     return exit_status(report, strict=options.strict)
+
+
+def show_refusal(error: DesignFileError | CannotWrite | NoSolution, source: str, options: Options) -> int:
+    """Print why there is no result, and give the exit status.
+
+    A NoSolution that comes here is the plot's: it may show what the report did not ask for.
+    """
+    if isinstance(error, DesignFileError):
+        show_errors(error.diagnostics, options)
+    elif isinstance(error, NoSolution):
+        show_errors([Diagnostic(error.code, error.message, file=source, key=error.key)], options)
+    else:
+        show_errors([Diagnostic("GL116", str(error), file=source, line=1, column=1, key="")], options)
+    return ExitCode.WRONG_INPUT
 
 
 def evaluate(command: str, source: str, options: Options) -> tuple[Design, Report]:
@@ -109,7 +119,8 @@ def _unknown_name(error: UnknownName) -> Diagnostic:
     return Diagnostic("GL115", str(error), file=f"<--{error.what}>", line=1, column=1, key=error.name, help=remedy)
 
 
-def _plot(command: str, design: Design, options: Options) -> None:
+def plot(command: str, design: Design, options: Options) -> None:
+    """Write the design's figure and say where."""
     from gearlink.cli.plots.write import write_plot
 
     path = write_plot(command, design, options)
@@ -117,7 +128,8 @@ def _plot(command: str, design: Design, options: Options) -> None:
         print(f"wrote {path}", file=sys.stderr)
 
 
-def _print(report: Report, options: Options) -> None:
+def print_report(report: Report, options: Options) -> None:
+    """Print a report in the format of the options."""
     if options.format is Format.JSON:
         from gearlink.cli.render.json_report import as_json
 
