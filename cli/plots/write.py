@@ -53,21 +53,21 @@ def write_plot(command: str, design: Design, options: Options, *, stem: str = ""
         CannotWrite - where the folder or the disk does not take the file
         NoSolution - where the figure shows something that the design does not have
     """
-    import matplotlib
-
     ending = options.plot_format.value
     path = options.out / f"{stem or safe_stem(design.spec.name)}-{command.replace(' ', '-')}.{ending}"
+    write_atomically(path, lambda stream: picture(command, design, stream, ending))
+    return path
+
+
+def picture(command: str, design: Design, stream: IO[bytes], ending: str) -> None:
+    """Draw a design into a stream as png, svg or pdf; the same design gives the same bytes."""
+    import matplotlib
+
     style = {**_FIXED_STYLE, "font.family": _families(design.spec.name)}
     with matplotlib.rc_context(style), warnings.catch_warnings():
         # A script that no installed font has is drawn as boxes; the picture is still worth having.
         warnings.filterwarnings("ignore", message="Glyph .* missing from font")
-        made = draw(command, design)
-
-        def write(stream: IO[bytes]) -> None:
-            made.savefig(stream, format=ending, metadata=_FIXED_METADATA[ending])
-
-        write_atomically(path, write)
-    return path
+        draw(command, design).savefig(stream, format=ending, metadata=_FIXED_METADATA[ending])
 
 
 def _families(name: str) -> list[str]:

@@ -1,0 +1,89 @@
+"""`report`: one self-contained HTML page."""
+
+from __future__ import annotations
+
+import re
+from html.parser import HTMLParser
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from gearlink.cli.exit_codes import ExitCode
+
+
+class Page(HTMLParser):
+    """Collects what the tests look at, and holds every tag to be closed."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.sources: list[str] = []
+        self.text: list[str] = []
+        self.feed(text)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        named = dict(attrs)
+        self.sources += [value for key in ("src", "href") if (value := named.get(key))]
+        if tag not in ("meta", "img"):
+            self.open.append(tag)
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+    def handle_data(self, data: str) -> None:
+        self.text.append(data)
+
+
+@pytest.fixture
+def crank(tmp_path: Path) -> Path:
+    path = tmp_path / "crank.yaml"
+    path.write_text("kind: slider-crank\nname: <b>A & B</b>\nstroke: 310   # a comment with <tags>\nrod: 520\n")
+    return path
+
+
+def test_page_is_whole_and_self_contained(gearlink: Any, crank: Path, tmp_path: Path) -> None:
+    ended = gearlink("report", crank, "--out", tmp_path / "out")
+    assert ended.status == ExitCode.OK
+    (path,) = (tmp_path / "out").iterdir()
+    page = Page(path.read_text())
+    assert page.open == []
+    assert page.sources
+    assert all(source.startswith("data:image/png;base64,") for source in page.sources)
+    assert "<script" not in path.read_text()
+
+
+def test_names_and_comments_are_text(gearlink: Any, crank: Path, tmp_path: Path) -> None:
+    gearlink("report", crank, "--out", tmp_path / "out")
+    (path,) = (tmp_path / "out").iterdir()
+    assert "<b>A" not in path.read_text()
+    assert "# a comment with <tags>" in "".join(Page(path.read_text()).text)
+
+
+def test_all_commands_of_the_design(gearlink: Any, designs: Path, tmp_path: Path) -> None:
+    ended = gearlink("report", designs / "ty460.yaml", "--out", tmp_path)
+    text = (tmp_path / "TY-460.html").read_text()
+    assert ended.status == ExitCode.OK
+    assert re.findall(r"<h2>(\w+)</h2>", text) == ["press", "cam", "gear"]
+    assert "154.211592" in text
+    assert "TY-460 report 3.2" in text
+
+
+def test_same_design_same_bytes(gearlink: Any, crank: Path, tmp_path: Path) -> None:
+    pages = []
+    for folder in ("a", "b"):
+        gearlink("report", crank, "--out", tmp_path / folder, "-q")
+        pages += [path.read_bytes() for path in (tmp_path / folder).iterdir()]
+    assert pages[0] == pages[1]
+
+
+def test_failing_design_is_still_reported(gearlink: Any, designs: Path, tmp_path: Path) -> None:
+    ended = gearlink("report", designs / "thesis_example_3_as_printed.yaml", "--out", tmp_path)
+    assert ended.status == ExitCode.FINDING
+    assert "collide by 1.6 mm" in (tmp_path / "thesis-example-3-as-printed.html").read_text()
+
+
+def test_wrong_design_writes_nothing(gearlink: Any, crank: Path, tmp_path: Path) -> None:
+    ended = gearlink("report", crank, "--set", "stroke=99999", "--out", tmp_path / "out")
+    assert ended.status == ExitCode.WRONG_INPUT
+    assert not (tmp_path / "out").exists()
