@@ -15,7 +15,10 @@ if TYPE_CHECKING:
 
     from gearlink.core.motion_laws import Law
 
-_HEADINGS = {"rest_to_rest": "From rest to rest, over x = 0 to 1", "rest_to_speed": "From rest to speed, over x = 0 to 1"}
+_HEADINGS = {
+    "rest_to_rest": "From rest to rest, over x = 0 to 1",
+    "rest_to_speed": "From rest to speed, over x = 0 to 1",
+}
 _AXES = ("rise s", "velocity v", "acceleration a", "jerk j")
 _COLORS = (style.BLUE, style.ORANGE, style.GREEN, style.RED, style.PURPLE, style.SKY, style.BLACK)
 _DASHES = ("-", "--", ":")
