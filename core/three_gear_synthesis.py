@@ -48,6 +48,8 @@ class Synthesis(ThreeGearFourBar):
                 min_transmission_angle=math.radians(limits.transmission_angle),
                 min_gear_gap=limits.gear_gap,
             )
+        except MissingSection:
+            raise
         except NoSolution as error:
             if error.key in ("", "gears.idler") or not self.depends_on_idler(error):
                 raise
