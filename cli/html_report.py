@@ -20,6 +20,7 @@ from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite, safe_stem, write_atomically
 from gearlink.cli.options import Options
 from gearlink.cli.render.errors import show_errors
+from gearlink.cli.render.numbers import number, readable_rows
 from gearlink.cli.run import build, exit_status, open_design, read_spec
 from gearlink.core.nomenclature import term
 from gearlink.core.version import VERSION
@@ -35,14 +36,17 @@ h1 { font-size: 1.6em; margin-bottom: 0; } h2 { margin-top: 2em; border-bottom: 
 h3 { margin-bottom: .3em; } .kind { color: #666; margin-top: 0; }
 table { border-collapse: collapse; margin: .5em 0 1em; font-size: .9em; }
 th, td { padding: .15em .7em .15em 0; text-align: left; vertical-align: top; border-bottom: 1px solid #ddd; }
-td.n, th.n { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
+td.n, th.n { text-align: right; font-variant-numeric: tabular-nums; }
+td.n { white-space: nowrap; } th { vertical-align: bottom; }
+h2, h3 { break-after: avoid; } .keys { columns: 2; }
 .pass { color: #00704f; } .warn { color: #9a6700; } .fail { color: #c0392b; font-weight: bold; }
-pre { background: #f6f6f6; padding: .8em; overflow-x: auto; font-size: .85em; }
+pre { background: #f6f6f6; padding: .8em; white-space: pre-wrap; font-size: .85em; }
 img { max-width: 100%; height: auto; break-inside: avoid; } tr, pre { break-inside: avoid; }
 .note { color: #666; font-size: .85em; }
 @page { size: A4; margin: 18mm 16mm; }
 @media print {
   body { margin: 0; max-width: none; font-size: 9.5pt; }
+  img { max-height: 235mm; width: auto; display: block; margin: 0 auto; }
   h2 { break-before: page; } h2.first { break-before: auto; }
 }
 """
@@ -77,7 +81,7 @@ def _page(text: str, spec: Any, parts: Sequence[tuple[Design, Report]]) -> str:
         '<h2 class="first">Input</h2>',
         f"<pre>{escape(text.rstrip())}</pre>",
         "<h3>Keys in force, defaults included</h3>",
-        _table(("key", "value"), _keys(spec.model_dump(by_alias=True)), numeric=()),
+        f'<div class="keys">{_table(("key", "value"), _keys(spec.model_dump(by_alias=True)), numeric=())}</div>',
     ]
     for design, report in parts:
         body += _part(design, report)
@@ -114,7 +118,7 @@ def _part(design: Design, report: Report) -> Iterator[str]:
             (
                 q.name.replace("_", " "),
                 q.symbol,
-                _number(q.value),
+                number(q.value, 9),
                 "" if q.unit == "1" else q.unit,
                 q.words,
                 term(q.name).source,
@@ -143,25 +147,16 @@ def _picture(command: str, design: Design) -> str:
 
 
 def _data(table: Table) -> str:
-    rows = table.rows()
-    step = max(1, math.ceil(len(rows) / _MOST_ROWS))
+    count = len(table.data[0])
+    step = max(1, math.ceil(count / _MOST_ROWS))
     step = next((s for s in (1, 2, 5, 10, 20, 30) if s >= step), step)
     heads = [
         f"{c.replace('_', ' ')} [{u}]" if u != "1" else c.replace("_", " ")
         for c, u in zip(table.columns, table.units, strict=True)
     ]
-    shown = ([_number(item, 6) for item in row] for row in rows[::step])
-    note = f'<p class="note">every {step}th of {len(rows)} rows</p>' if step > 1 else ""
+    note = f'<p class="note">every {step}th of {count} rows</p>' if step > 1 else ""
     title = escape(table.name.replace("_", " "))
-    return f"<h3>{title}</h3>{note}" + _table(heads, shown, numeric=range(len(heads)))
-
-
-def _number(value: object, digits: int = 9) -> str:
-    if isinstance(value, list):
-        return "  ".join(_number(item, digits) for item in value)
-    if isinstance(value, float):
-        return f"{value:.{digits}g}"
-    return "" if value is None else str(value)
+    return f"<h3>{title}</h3>{note}" + _table(heads, readable_rows(table, step), numeric=range(len(heads)))
 
 
 def _table(heads: Sequence[str], rows: Iterable[Sequence[str]], *, numeric: Iterable[int], marked: bool = False) -> str:

@@ -72,7 +72,8 @@ def _as_markdown(found: Difference) -> str:
 
 
 def _show(found: Difference, options: Options) -> None:
-    from gearlink.cli.render.terminal import console_for, grid_for, number
+    from gearlink.cli.render.numbers import number
+    from gearlink.cli.render.terminal import console_for, grid_for
 
     console = console_for(options)
     for part, rows in _parts(found, partial(number, digits=9)):

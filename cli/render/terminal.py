@@ -13,6 +13,7 @@ from rich.table import Table as Grid
 from rich.text import Text
 
 from gearlink.cli.options import Options
+from gearlink.cli.render.numbers import number, readable_rows
 from gearlink.core.report import Check, Quantity, Report, Table
 
 _MOST_ROWS = 24
@@ -60,22 +61,6 @@ def grid_for(console: Console) -> Grid:
     """An empty table in the house's form, in ASCII where the console knows no more."""
     ascii_only = not (console.encoding or "").lower().startswith("utf")
     return Grid(box=box.ASCII2 if ascii_only else box.SIMPLE_HEAD, show_edge=False, pad_edge=False, safe_box=ascii_only)
-
-
-def number(value: object, digits: int = 7) -> str:
-    """A value to a few digits, as an engineer reads it.
-
-    Example
-        >>> number(38.85708906143053), number(40), number(None), number([1.0, 2.5])
-        ('38.85709', '40', '-', '1 2.5')
-    """
-    if value is None:
-        return "-"
-    if isinstance(value, list):
-        return " ".join(number(item, digits) for item in value)
-    if isinstance(value, float):
-        return f"{value:.{digits}g}" if abs(value) >= 1e-12 or value == 0 else f"{value:.1e}"
-    return str(value)
 
 
 def _quantities(quantities: Sequence[Quantity], console: Console) -> Grid:
@@ -129,8 +114,7 @@ def _show_table(table: Table, console: Console) -> None:
     step = max(1, math.ceil(len(rows) / _MOST_ROWS))
     if step > 1:
         step = next((s for s in (2, 5, 10, 15, 30) if s >= step), step)
-    noise = [_noise(column) for column in zip(*rows, strict=True)]
-    cells = [[number(_quiet(x, level), 6) for x, level in zip(row, noise, strict=True)] for row in rows[::step]]
+    cells = readable_rows(table, step)
     thinned = f", every {step}th of {len(rows)} rows (all with --table {table.name} --format csv)" if step > 1 else ""
     console.print(Text(f"\n{table.name}{thinned}", style="bold"))
     for columns in _folds(table, cells, console.width):
@@ -143,15 +127,6 @@ def _show_table(table: Table, console: Console) -> None:
         for row in cells:
             grid.add_row(*(row[i] for i in columns))
         console.print(grid)
-
-
-def _noise(column: Sequence[object]) -> float:
-    """Below this a value of a column is rounding of values that cancel, and shown as 0."""
-    return 1e-13 * max((abs(x) for x in column if isinstance(x, float)), default=0.0)
-
-
-def _quiet(value: object, level: float) -> object:
-    return 0.0 if isinstance(value, float) and abs(value) < level else value
 
 
 def _folds(table: Table, cells: Sequence[Sequence[str]], width: int) -> list[list[int]]:

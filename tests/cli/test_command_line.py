@@ -237,10 +237,10 @@ class TestBatch:
 
         original = batch.build
 
-        def sometimes(loaded: Any, kind: Any, command: str, spec: Any, options: Any) -> Any:
+        def sometimes(loaded: Any, kind: Any, command: str, spec: Any, *rest: Any, **options: Any) -> Any:
             if spec.name == "a":
                 raise ZeroDivisionError("planted")
-            return original(loaded, kind, command, spec, options)
+            return original(loaded, kind, command, spec, *rest, **options)
 
         monkeypatch.setattr(batch, "build", sometimes)
         ended = gearlink("batch", tmp_path, "--format", "json")

@@ -1,0 +1,38 @@
+"""Numbers as a reader wants them: few digits, and no rounding noise in place of a zero."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from gearlink.core.report import Table
+
+
+def number(value: object, digits: int = 7) -> str:
+    """A value to a few digits, as an engineer reads it; the members of a list side by side.
+
+    Example
+        >>> number(38.85708906143053), number(40), number(None), number([1.0, 2.5])
+        ('38.85709', '40', '-', '1 2.5')
+    """
+    if value is None:
+        return "-"
+    if isinstance(value, list):
+        return " ".join(number(item, digits) for item in value)
+    if isinstance(value, float):
+        return f"{value:.{digits}g}"
+    return str(value)
+
+
+def readable_rows(table: Table, step: int = 1, digits: int = 6) -> list[list[str]]:
+    """Every `step`-th row as text; values that are rounding beside their column's largest are shown as 0."""
+    rows = table.rows()
+    noise = [_noise(column) for column in zip(*rows, strict=True)]
+    return [[number(_quiet(x, level), digits) for x, level in zip(row, noise, strict=True)] for row in rows[::step]]
+
+
+def _noise(column: Sequence[object]) -> float:
+    return 1e-13 * max((abs(x) for x in column if isinstance(x, float)), default=0.0)
+
+
+def _quiet(value: object, level: float) -> object:
+    return 0.0 if isinstance(value, float) and abs(value) < level else value
