@@ -1,0 +1,176 @@
+"""Cams as parts: closed disc cams of presses and grippers, open profiles of wide-swing cams."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gearlink.cli.export.contour import JOIN, Circle, Part
+from gearlink.cli.export.sampling import Points, Reals, Stretch
+from gearlink.core.cam_checks import undercut_checks
+from gearlink.core.disc_cam import DiscCam
+from gearlink.core.errors import at_key
+
+if TYPE_CHECKING:
+    from gearlink.core.wide_swing import WideSwingCam
+
+CAM_LAYERS = ("PROFILE", "PITCH_CURVE")
+_TURN = 2.0 * math.pi
+# A joint belongs to the stretch that begins there; so far inside [rad] each stretch is asked, 1e-10 mm of a cam.
+_INSIDE = 1e-12
+
+
+def disc_cam(name: str, cam: DiscCam) -> Part:
+    """A closed cam: profile and pitch curve over a turn, a vertex at each joint of its law.
+
+    Raises
+        NoSolution - where the cam does not exist
+    """
+    joints = _joints(cam)
+    stretches = [_of_turn(cam, low, high) for low, high in pairwise(joints)]
+    rounded = []
+    for stretch, following in zip(stretches, [*stretches[1:], stretches[0]], strict=True):
+        rounded += [stretch, *_round_corner(cam, stretch, following)]
+    failed = tuple(check.message for check in undercut_checks((cam,)) if check.status == "fail")
+    return Part(
+        name=name,
+        title=cam.name,
+        stretches=tuple(rounded),
+        closed=True,
+        circles=(Circle("BASE_CIRCLE", cam.min_radius),),
+        notes=(
+            f"roller radius {cam.roller_radius:.9g} mm, cam turns {'counter-' if cam.sense > 0 else ''}clockwise",
+            "frame: cam axis at the origin, x parallel to the machine's x at cam angle 0",
+            "base circle: the largest about the axis inside the profile",
+        ),
+        findings=failed,
+        extra_columns=("cam_angle [deg]", "pressure_angle [deg]", "curvature_radius [mm]"),
+    )
+
+
+def _joints(cam: DiscCam) -> list[float]:
+    """Cam angles from 0 to a turn where stretches meet."""
+    inside = sorted(joint % _TURN for joint in cam.joints)
+    apart = [0.0]
+    for joint in inside:
+        if joint - apart[-1] > 1e-9 and _TURN - joint > 1e-9:
+            apart.append(joint)
+    return [*apart, _TURN]
+
+
+def _of_turn(cam: DiscCam, low: float, high: float) -> Stretch:
+    def inside(theta: Reals) -> Reals:
+        return np.clip(theta, low + _INSIDE if low else 0.0, high - _INSIDE)
+
+    def points(theta: Reals) -> Points:
+        pitch, contact = cam.points(inside(theta))
+        return np.stack([contact, pitch])
+
+    def extra(theta: Reals) -> Reals:
+        rows = cam.at(inside(theta))
+        return np.stack([np.degrees(theta), np.degrees(rows.pressure_angle), rows.curvature_radius])
+
+    return Stretch(CAM_LAYERS, points, low, high, extra=extra)
+
+
+def _round_corner(cam: DiscCam, before: Stretch, after: Stretch) -> list[Stretch]:
+    """The arc of the roller about a corner of the pitch curve, where the law's velocity jumps; none elsewhere."""
+    left = before.points(np.array([before.high]))[:, 0]
+    right = after.points(np.array([after.low]))[:, 0]
+    if abs(left[0] - right[0]) <= JOIN:
+        return []
+    center, degrees = complex(right[1]), math.degrees(before.high)
+    start, turn = cmath.phase(left[0] - center), cmath.phase((right[0] - center) / (left[0] - center))
+
+    def points(way: Reals) -> Points:
+        arc: Points = center + cam.roller_radius * np.exp(1j * (start + turn * way))
+        return arc[None, :]
+
+    def extra(way: Reals) -> Reals:
+        return np.stack([np.full_like(way, degrees), np.full_like(way, math.nan), np.full_like(way, math.nan)])
+
+    return [Stretch(("PROFILE",), points, 0.0, 1.0, "corner", extra, steps=1)]
+
+
+def swing_cam(name: str, design: Any) -> Part:
+    """A wide-swing cam: the profile of run-up and run-out as far as the roller touches it, open at both ends.
+
+    Raises
+        NoSolution - where the profile does not exist
+    """
+    from gearlink.core.wide_swing_contact import contact_end
+
+    cam, mirror = _served(name, design)
+    with at_key("cam.roller_radius"):
+        end = contact_end(cam)
+        pitch = _pitch_of(cam, mirror)
+        middle = complex(pitch(np.array([0.5]))[0])
+    circles = [Circle("ROLLER_AT_MID_SWING", cam.roller_radius, middle)]
+    shaft = design.spec.cam.shaft_radius
+    if shaft > 0.0:
+        circles.append(Circle("SHAFT", shaft))
+    return Part(
+        name=name,
+        title=f"{'main' if name == 'main_cam' else 'return'} cam, {cam.layout} profile",
+        stretches=tuple(_of_stroke(cam, mirror, low, high) for low, high in pairwise((0.0, end, 0.5, 1.0 - end, 1.0))),
+        closed=False,
+        circles=tuple(circles),
+        notes=_swing_notes(cam, end, mirror),
+        findings=tuple(
+            check.message for check in design.check("cam-undercut") if check.status == "fail" and name == "main_cam"
+        ),
+        extra_columns=("k", "cam_angle [deg]", "pressure_angle [deg]", "curvature_radius [mm]"),
+    )
+
+
+def _served(name: str, design: Any) -> tuple[WideSwingCam, bool]:
+    """The cam of a stroke, and whether its mirror image is meant."""
+    main: WideSwingCam = design.cam
+    if name == "main_cam":
+        return main, False
+    if main.layout == "twin-cam":
+        return main, True
+    with at_key("cycle_angle"):
+        return replace(main, layout="twin-cam"), False
+
+
+def _pitch_of(cam: WideSwingCam, mirror: bool) -> Callable[[Reals], Points]:
+    def pitch(k: Reals) -> Points:
+        points = cam.points(k).pitch
+        return points.conj() if mirror else points
+
+    return pitch
+
+
+def _of_stroke(cam: WideSwingCam, mirror: bool, low: float, high: float) -> Stretch:
+    touches = low == 0.0 or high == 1.0
+
+    def points(k: Reals) -> Points:
+        at = cam.points(k)
+        curves = np.stack([at.profile, at.pitch]) if touches else at.pitch[None, :]
+        return curves.conj() if mirror else curves
+
+    def extra(k: Reals) -> Reals:
+        at = cam.points(k)
+        return np.stack([k, np.degrees(at.cam_angle), np.degrees(at.pressure_angle), at.curvature_radius])
+
+    name = "profile" if touches else "slot"
+    return Stretch(CAM_LAYERS if touches else CAM_LAYERS[1:], points, low, high, name, extra)
+
+
+def _swing_notes(cam: WideSwingCam, end: float, mirror: bool) -> tuple[str, ...]:
+    body = "inside" if cam.layout == "twin-cam" else "outside"
+    return (
+        f"roller radius {cam.roller_radius:.9g} mm, centre distance {cam.center_distance:.9g} mm, "
+        f"rocker radius {cam.rocker_radius:.9g} mm",
+        f"open profile: the body lies {body} it; how it closes through hub and rim is the designer's choice",
+        f"profile given for k = 0 to {end:.9g} and {1.0 - end:.9g} to 1; between them the roller at mid-swing cuts "
+        "its own circle (layer ROLLER_AT_MID_SWING)",
+        "frame: cam axis at the origin, mid-swing on the x axis" + ("; mirror image of main_cam" if mirror else ""),
+    )

@@ -1,0 +1,121 @@
+"""DXF: closed polylines or B-splines on named layers, millimetres, the same bytes for the same design."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator
+from contextlib import contextmanager
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+from gearlink.cli.export.contour import Contour, Line
+from gearlink.cli.export.header import describe
+from gearlink.cli.export.options import CurveForm
+from gearlink.core.errors import GearlinkError
+
+if TYPE_CHECKING:
+    from ezdxf.document import Drawing
+    from ezdxf.layouts.layout import Modelspace
+
+# Colours of the AutoCAD index: black or white, cyan, grey, green, red.
+_COLORS = {"PROFILE": 7, "PITCH_CURVE": 4, "CENTER": 1, "TEXT": 8}
+_CONSTRUCTION = 3
+_DASHED = {"PITCH_CURVE": "CENTER", "CENTER": "CENTER"}
+_MM = 4
+
+
+class NoDxf(GearlinkError):
+    """The library that writes DXF is not installed."""
+
+
+def as_dxf(contour: Contour, spec: Any) -> bytes:
+    """The part as a DXF file (R2010).
+
+    Raises
+        NoDxf - where ezdxf is not installed
+    Notes
+        A closed polyline carries the flag and not its first vertex twice, so that it has no segment without
+        length; a closed spline ends in the control point in which it begins. The text layer is not plotted.
+    """
+    with _ezdxf() as ezdxf:
+        document = ezdxf.new("R2010", setup=["linetypes"], units=_MM)
+        said = describe(contour, spec)
+        for key, text in said.items():
+            document.header.custom_vars.append(key.upper(), _one_line(text))
+        space = document.modelspace()
+        _add_layers(document, contour)
+        for line in contour.lines:
+            _add_line(space, line, contour.form)
+        for circle in contour.part.circles:
+            center = (circle.center.real, circle.center.imag)
+            space.add_circle(center, circle.radius, dxfattribs={"layer": circle.layer})
+        _add_center(space, _reach(contour))
+        _add_text(space, said, contour)
+        # Registered when written, they would stand in the order of a set, which changes from run to run.
+        for used in sorted(document.entitydb.dxf_types_in_use()):
+            document.classes.add_class(used)
+        stream = io.StringIO()
+        document.write(stream)
+        data: bytes = document.encode(stream.getvalue())
+        return data
+
+
+@contextmanager
+def _ezdxf() -> Iterator[Any]:
+    """ezdxf, writing no dates and no random identities as long as it is used here."""
+    try:
+        ezdxf: Any = import_module("ezdxf")
+    except ImportError as error:
+        raise NoDxf("DXF needs the library ezdxf: pip install 'gearlink[dxf]', or take --as svg or csv") from error
+    before = ezdxf.options.write_fixed_meta_data_for_testing
+    ezdxf.options.write_fixed_meta_data_for_testing = True
+    try:
+        yield ezdxf
+    finally:
+        ezdxf.options.write_fixed_meta_data_for_testing = before
+
+
+def _add_layers(document: Drawing, contour: Contour) -> None:
+    layers = [line.layer for line in contour.lines] + [circle.layer for circle in contour.part.circles]
+    for name in dict.fromkeys([*layers, "CENTER", "TEXT"]):
+        layer = document.layers.add(name, color=_COLORS.get(name, _CONSTRUCTION))
+        layer.dxf.linetype = _DASHED.get(name, "CONTINUOUS")
+    document.layers.get("TEXT").dxf.plot = 0
+
+
+def _add_line(space: Modelspace, line: Line, form: CurveForm) -> None:
+    attributes = {"layer": line.layer}
+    if form is CurveForm.POLYLINE:
+        nodes = line.nodes[:-1] if line.closed else line.nodes
+        space.add_lwpolyline([(p.real, p.imag) for p in nodes.tolist()], close=line.closed, dxfattribs=attributes)
+        return
+    spline = space.add_spline(dxfattribs=attributes)
+    spline.control_points = [(p.real, p.imag, 0.0) for p in line.control.tolist()]
+    spline.knots = line.knots.tolist()
+    spline.closed = line.closed
+
+
+def _add_center(space: Modelspace, reach: float) -> None:
+    """A cross on the axis, its long arm along +x to tell the frame's direction."""
+    arm = 0.08 * reach
+    for start, end in (((-arm, 0.0), (2.0 * arm, 0.0)), ((0.0, -arm), (0.0, arm))):
+        space.add_line(start, end, dxfattribs={"layer": "CENTER"})
+    space.add_point((0.0, 0.0), dxfattribs={"layer": "CENTER"})
+
+
+def _add_text(space: Modelspace, said: dict[str, str], contour: Contour) -> None:
+    """The header once more where it can be seen, below the part."""
+    reach = _reach(contour)
+    height = 0.02 * reach
+    for row, (key, text) in enumerate(said.items()):
+        place = (-reach, -reach - (2.0 + 1.6 * row) * height)
+        entity = space.add_text(_one_line(f"{key}: {text}"), height=height, dxfattribs={"layer": "TEXT"})
+        entity.set_placement(place)
+
+
+def _reach(contour: Contour) -> float:
+    return max(float(abs(line.nodes).max()) for line in contour.lines)
+
+
+def _one_line(text: str) -> str:
+    return " ".join(text.encode("utf-8", "replace").decode().split())

@@ -1,0 +1,103 @@
+"""The parts of a design that have a profile: which there are, and the curves of each, made when one is asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from gearlink.core.errors import MissingSection, at_key
+
+if TYPE_CHECKING:
+    from gearlink.cli.export.contour import Part
+
+Makers = dict[str, Callable[[], "Part"]]
+
+
+def makers(design: Any) -> Makers:
+    """Makers of every part that the design has, by the name that --part takes.
+
+    Raises
+        MissingSection - where the design file lacks the sections that a profile needs
+    """
+    made: Makers = _KINDS[design.kind](design)
+    if not made:
+        raise MissingSection(f"no profile to export: {_NEEDED[design.kind]}", key="")
+    return made
+
+
+def kinds() -> tuple[str, ...]:
+    """The kinds of design that have profiles."""
+    return tuple(_KINDS)
+
+
+def _press(design: Any) -> Makers:
+    found: Makers = {}
+    if design.spec.cam is not None:
+        from gearlink.cli.export.cam_parts import disc_cam
+
+        found["main_cam"] = lambda: disc_cam("main_cam", design.main_cam)
+        found["return_cam"] = lambda: disc_cam("return_cam", design.return_cam)
+    if design.spec.input_gears is not None:
+        found |= _pair(design, "input_gears")
+    return found
+
+
+def _gripper(design: Any) -> Makers:
+    if design.spec.cam is None:
+        return {}
+    from gearlink.cli.export.cam_parts import disc_cam
+
+    found: Makers = {"main_cam": lambda: disc_cam("main_cam", design.main_cam)}
+    if design.spec.cam.return_roller is not None:
+        found["return_cam"] = lambda: disc_cam("return_cam", design.return_cam)
+    return found
+
+
+def _wide_swing(design: Any) -> Makers:
+    if design.spec.cam is None:
+        return {}
+    from gearlink.cli.export.cam_parts import swing_cam
+
+    return {name: partial(swing_cam, name, design) for name in ("main_cam", "return_cam")}
+
+
+def _pair(design: Any, key: str = "") -> Makers:
+    def gear(number: int) -> Part:
+        from gearlink.cli.export.gear_parts import gear_of
+
+        with at_key(key):
+            return gear_of(design.gear_pair, number, f"gear{number + 1}", f"gear {number + 1}")
+
+    return {f"gear{number + 1}": partial(gear, number) for number in (0, 1)}
+
+
+def _three_gears(design: Any) -> Makers:
+    places = {
+        "gear1": ("crank_idler", 0, "gear 1, on the crank"),
+        "gear3": ("crank_idler", 1, "gear 3, the idler"),
+        "gear5": ("idler_output", 1, "gear 5, the output"),
+    }
+
+    def gear(name: str) -> Part:
+        from gearlink.cli.export.gear_parts import gear_of
+
+        mesh, number, title = places[name]
+        with at_key("gears"):
+            return gear_of(design.meshes[mesh], number, name, title)
+
+    return {name: partial(gear, name) for name in places}
+
+
+_KINDS: dict[str, Callable[[Any], Makers]] = {
+    "flatbed-press": _press,
+    "swing-gripper": _gripper,
+    "wide-swing-cam": _wide_swing,
+    "gear-pair": _pair,
+    "three-gear-four-bar": _three_gears,
+}
+_NEEDED = {
+    "flatbed-press": "the file has neither a section cam nor a section input_gears",
+    "swing-gripper": "the file has no section cam: center, sense, roller",
+    "wide-swing-cam": "the file has no section cam: center_distance, roller_radius",
+}
