@@ -45,7 +45,7 @@ _GEAR_PAIR = {
     "reference_center_distance": "a = m (z1 + z2)/2",
     "shift_sum": "x1 + x2 = (z1 + z2) (inv(alpha_wt) - inv(alpha))/(2 tan(alpha))",
     "center_distance_modification": "y = (a_w - a)/m",
-    "tip_shortening": "k = x1 + x2 - y",
+    "tip_shortening": "dy = x1 + x2 - y",
     "contact_ratio": "eps_alpha = (z1 (tan(alpha_a1) - tan(alpha_wt)) + z2 (tan(alpha_a2) - tan(alpha_wt)))/(2 pi)",
     "profile_shift": "given, or x1 = x2 = (x1 + x2)/2, or as shift_split says",
     "reference_radius": "r = m z/2",

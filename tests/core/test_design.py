@@ -1,0 +1,232 @@
+"""What all designs share: results by name, units at the border, reports, checks against limits, safe rounding.
+
+Tolerances: conversions to degrees are math.degrees to the last bit; a bound rounded to the safe side may miss its
+number by 1 part in 10^(digits - 1), never pass it by more than the rounding of the number itself.
+"""
+
+import math
+from functools import cached_property
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from gearlink.core.design import Design, Outline, UnknownName
+from gearlink.core.errors import MissingSection, NoSolution, at_key
+from gearlink.core.report import Check, Report, Table, below, safely_above, safely_below
+
+
+class Spec:
+    """A design file."""
+
+    name = "toy"
+
+
+class Toy(Design):
+    """Quantities of every shape, under names of the nomenclature."""
+
+    kind = "toy"
+    outlines = {
+        "press": Outline(("crank_length", "sync_start", "back_step_angle"), ("register",), ("positions",)),
+        "gear": Outline(("tip_pressure_angle", "span_teeth", "motion", "crank_length"), ("undercut", "nothing")),
+    }
+    extra_tables = ("motion",)
+
+    @cached_property
+    def crank_length(self):
+        return 12.5
+
+    @cached_property
+    def sync_start(self):
+        return math.pi / 5.0
+
+    back_step_angle = None
+    tip_pressure_angle = (0.5, 0.25)
+    span_teeth = (4, 5)
+
+    @cached_property
+    def motion(self):
+        return "back-step"
+
+    @cached_property
+    def trap(self):
+        raise AssertionError("nobody has asked for this")
+
+    def check_register(self):
+        return Check("GL506", "register", "pass", "it does", 0.0, 1.0)
+
+    def check_undercut(self):
+        for status in ("warn", "fail"):
+            yield Check("GL201", "undercut", status, status)
+
+    def check_nothing(self):
+        return iter(())
+
+    def table_positions(self):
+        return Table("positions", ("input_angle", "phase"), ("deg", "1"), (np.array([0.0, 30.0]), ["sync", "dwell"]))
+
+    def table_motion(self):
+        return Table("motion", ("speed",), ("1",), (np.array([math.inf, math.nan, -0.0]),))
+
+
+@pytest.fixture
+def toy():
+    return Toy(Spec())
+
+
+# Quantities
+
+
+def test_lengths_stay_and_angles_become_degrees(toy):
+    assert toy.quantity("crank_length").value == 12.5
+    angle = toy.quantity("sync_start")
+    assert (angle.value, angle.unit, angle.symbol) == (math.degrees(math.pi / 5.0), "deg", "phi_s")
+    assert angle.words.startswith("input angle")
+
+
+def test_pairs_become_lists_and_numbers_of_teeth_stay_whole(toy):
+    assert toy.quantity("tip_pressure_angle").value == [math.degrees(0.5), math.degrees(0.25)]
+    teeth = toy.quantity("span_teeth").value
+    assert teeth == [4, 5]
+    assert all(isinstance(n, int) for n in teeth)
+
+
+def test_words_stay_words(toy):
+    assert toy.quantity("motion").value == "back-step"
+
+
+def test_quantity_that_does_not_apply_is_absent(toy):
+    assert toy.quantity("back_step_angle") is None
+    assert [q.name for q in toy.report("press").quantities] == ["crank_length", "sync_start"]
+
+
+def test_names_are_given_once_in_the_order_of_the_commands(toy):
+    assert toy.quantity_names() == (
+        "crank_length",
+        "sync_start",
+        "back_step_angle",
+        "tip_pressure_angle",
+        "span_teeth",
+        "motion",
+    )
+    assert toy.table_names() == ("positions", "motion")
+
+
+@pytest.mark.parametrize("name", ["trap", "crank", "", "spec", "outlines", "table_positions"])
+def test_unknown_quantity_names_the_known_ones(toy, name):
+    with pytest.raises(UnknownName, match="quantity") as refusal:
+        toy.quantity(name)
+    assert (refusal.value.what, refusal.value.name) == ("quantity", name)
+    assert refusal.value.known == toy.quantity_names()
+
+
+def test_unknown_table_names_the_known_ones(toy):
+    with pytest.raises(UnknownName, match="table") as refusal:
+        toy.table("position")
+    assert refusal.value.known == ("positions", "motion")
+
+
+def test_results_are_computed_when_asked_for_and_kept(toy):
+    assert set(vars(toy)) == {"spec", "samples"}
+    toy.quantity("crank_length")
+    assert set(vars(toy)) == {"spec", "samples", "crank_length"}
+    toy.report("gear")
+    assert "trap" not in vars(toy)
+
+
+# Reports
+
+
+def test_report_of_a_command(toy):
+    report = toy.report("press")
+    assert (report.kind, report.name, report.command, report.ok) == ("toy", "toy", "press", True)
+    assert [check.code for check in report.checks] == ["GL506"]
+    assert [table.name for table in report.tables] == ["positions"]
+
+
+def test_report_of_named_quantities_alone_runs_no_check(toy):
+    report = toy.report("gear", quantities=("crank_length",))
+    assert [q.name for q in report.quantities] == ["crank_length"]
+    assert (report.checks, report.tables) == ((), ())
+
+
+def test_report_with_further_tables_and_with_them_alone(toy):
+    assert [t.name for t in toy.report("press", tables=("motion", "positions")).tables] == ["positions", "motion"]
+    alone = toy.report("press", tables=("motion",), only=True)
+    assert ([t.name for t in alone.tables], alone.quantities, alone.checks) == (["motion"], (), ())
+
+
+def test_one_failing_check_fails_the_report(toy):
+    report = toy.report("gear")
+    assert [check.status for check in report.checks] == ["warn", "fail"]
+    assert not report.ok
+    assert Report("toy", "toy", "gear", checks=report.checks[:1]).ok
+
+
+def test_table_rows_turn_columns_and_leave_out_what_is_no_number(toy):
+    assert toy.table("positions").rows() == [[0.0, "sync"], [30.0, "dwell"]]
+    assert toy.table("motion").rows() == [[None], [None], [-0.0]]
+
+
+def test_columns_of_unequal_length_are_a_fault():
+    with pytest.raises(ValueError, match="zip"):
+        Table("t", ("a", "b"), ("1", "1"), ([1.0], [1.0, 2.0])).rows()
+
+
+# Errors
+
+
+def test_key_is_given_where_there_is_none_yet():
+    with pytest.raises(NoSolution) as refusal, at_key("outer"), at_key("inner"):
+        raise NoSolution("no")
+    assert refusal.value.key == "inner"
+    with pytest.raises(NoSolution) as refusal, at_key("outer"):
+        raise NoSolution("no", key="own")
+    assert refusal.value.key == "own"
+    assert (NoSolution("no").code, MissingSection("no").code) == ("GL112", "GL113")
+
+
+# Limits
+
+
+@pytest.mark.parametrize(
+    ("value", "status"), [(40.0 - 1e-9, "fail"), (40.0, "warn"), (45.0 - 1e-9, "warn"), (45.0, "pass"), (90.0, "pass")]
+)
+def test_below_at_its_limits(value, status):
+    check = below("GL303", "transmission-angle", value, 40.0, 45.0, "deg", "the least angle", "lengthen l4")
+    assert (check.status, check.value, check.limit, check.unit) == (status, value, 40.0, "deg")
+    assert ("lengthen l4" in check.message) == (status != "pass")
+    assert ("below the limit 40 deg" in check.message) == (status == "fail")
+    assert ("little above the limit 40 deg" in check.message) == (status == "warn")
+
+
+def test_ratio_has_no_unit_in_its_message():
+    message = below("GL203", "contact-ratio", 1.05, 1.1, 1.2, "1", "the contact ratio", "take more teeth").message
+    assert message == "the contact ratio is 1.05, below the limit 1.1: take more teeth"
+
+
+@settings(derandomize=True, deadline=None, max_examples=200)
+@given(value=st.floats(1e-6, 1e9) | st.floats(-1e9, -1e-6), digits=st.integers(2, 9))
+def test_recommended_bounds_hold_as_printed(value, digits):
+    low, high = float(safely_below(value, digits)), float(safely_above(value, digits))
+    slack = 4e-16 * abs(value)
+    assert low <= value + slack
+    assert high >= value - slack
+    width = 10.0 ** (1 - digits) * abs(value) * (1.0 + 1e-12)
+    assert value - low <= max(width, 0.0) + slack if abs(value) < 10**digits else value - low <= 1.0
+    assert high - value <= width + slack if abs(value) < 10**digits else high - value <= 1.0
+
+
+@pytest.mark.parametrize(
+    ("value", "low", "high"),
+    [
+        (1.6, "1.6", "1.6"),
+        (16.41765, "16.417", "16.418"),
+        (0.0, "0", "0"),
+        (-2.5000049, "-2.5001", "-2.5"),
+        (123456.7, "123456", "123457"),
+    ],
+)
+def test_recommended_bounds(value, low, high):
+    assert (safely_below(value), safely_above(value)) == (low, high)

@@ -1,0 +1,174 @@
+"""One word, one meaning, one unit: the nomenclature against every kind's outlines and against the contract.
+
+No tolerance: names and units are text.
+"""
+
+import json
+import re
+from collections import Counter
+from pathlib import Path
+
+import pytest
+
+from gearlink.core import nomenclature
+from gearlink.core.design import Design
+from gearlink.core.errors import GearlinkError
+from gearlink.core.gear_checks import GEAR_CHECKS
+from gearlink.core.kinds import KINDS
+from gearlink.core.nomenclature import TERMS, Term, term
+
+REFERENCE = Path(__file__).parents[1] / "reference" / "contract"
+UNITS = {
+    "mm",
+    "deg",
+    "1",
+    "mm/s",
+    "mm/rad",
+    "mm/rad^2",
+    "rad/s",
+    "rad/s^2",
+    "1/min",
+    "N",
+    "N/mm",
+    "N m",
+    "kg m^2",
+    "sheets/h",
+}
+OUTLINES = [
+    pytest.param(kind.design_class(command).outlines[command], id=f"{kind.name} {command}")
+    for kind in KINDS.values()
+    for command in kind.commands
+]
+# Angles and lengths whose unit scripts depend on, as they stand in the contract.
+FIXED = {
+    "i3": "1",
+    "crank_length": "mm",
+    "frame_length": "mm",
+    "dwell_crank_angles": "deg",
+    "back_step_angle": "deg",
+    "min_transmission_angle": "deg",
+    "gear_gap": "mm",
+    "nonuniformity": "1",
+    "working_pressure_angle": "deg",
+    "tip_thickness": "mm",
+    "span_measurement": "mm",
+    "contact_ratio": "1",
+    "quick_return_ratio": "1",
+    "dead_center_extended": "deg",
+    "max_stroke": "mm",
+    "sync_start": "deg",
+    "cam_sync_end": "deg",
+    "compensation": "mm",
+    "end_slope": "mm/rad",
+    "transition_rise": "mm",
+    "return_end": "deg",
+    "roller_center_distance": "mm",
+    "max_pressure_angle": "deg",
+    "min_curvature_radius": "mm",
+    "handover_speed": "mm/s",
+    "lift_off_speed": "sheets/h",
+    "force": "N",
+    "spring_rate": "N/mm",
+    "phase_angle": "deg",
+    "profile_correction": "deg",
+    "transition_zone": "1",
+}
+
+
+@pytest.mark.parametrize("outline", OUTLINES)
+def test_every_quantity_of_an_outline_has_its_term(outline):
+    for name in outline.quantities:
+        assert term(name).words, name
+
+
+@pytest.mark.parametrize("outline", OUTLINES)
+def test_an_outline_names_nothing_twice(outline):
+    for names in (outline.quantities, outline.checks, outline.tables):
+        assert [name for name, count in Counter(names).items() if count > 1] == []
+
+
+@pytest.mark.parametrize("outline", OUTLINES)
+def test_no_symbol_stands_for_two_quantities_of_one_result(outline):
+    # a design with two meshes has every gear symbol once for each of them
+    symbols = {name: term(name).symbol for name in outline.quantities if "." not in name}
+    shared = [symbol for symbol, count in Counter(symbols.values()).items() if symbol and count > 1]
+    assert shared == []
+
+
+def test_units_are_spelled_as_in_the_contract():
+    assert {name: entry.unit for name, entry in TERMS.items() if entry.unit not in UNITS} == {}
+
+
+@pytest.mark.parametrize(("name", "unit"), FIXED.items())
+def test_unit_that_scripts_depend_on(name, unit):
+    assert term(name).unit == unit
+
+
+def test_no_meaning_has_two_names():
+    words = Counter(entry.words.casefold().strip(" .") for entry in TERMS.values())
+    assert [meaning for meaning, count in words.items() if count > 1] == []
+
+
+def test_every_term_names_a_result_of_the_engine():
+    engine = Path(nomenclature.__file__).parent
+    used = {
+        word
+        for path in engine.glob("*.py")
+        if path.name != "nomenclature.py"
+        for word in re.findall(r"\w+", path.read_text())
+    }
+    assert set(TERMS) - used == set()
+
+
+@pytest.mark.parametrize("file", sorted(REFERENCE.glob("*.json")), ids=lambda path: path.stem)
+def test_quantities_of_the_contract_have_terms(file):
+    for case in json.loads(file.read_text()):
+        for name in case.get("quantities", {}):
+            assert isinstance(term(name), Term), name
+
+
+def test_names_are_words_and_not_symbols():
+    for name in TERMS:
+        assert name == name.lower()
+        assert name.isidentifier()
+        assert name == "i3" or len(name) > 3
+
+
+def test_mesh_before_the_name_does_not_matter():
+    assert term("crank_idler.contact_ratio") is term("contact_ratio")
+
+
+@pytest.mark.parametrize("name", ["", "contact", "contact_ratio.crank_idler", "Contact_ratio"])
+def test_unknown_name(name):
+    with pytest.raises(GearlinkError, match="no nomenclature entry"):
+        term(name)
+
+
+# Kinds
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_kind_and_its_models_bear_one_name(name):
+    kind = KINDS[name]
+    assert kind.name == name
+    assert kind.spec_model().model_fields["kind"].annotation.__args__ == (name,)
+    for command in kind.commands:
+        cls = kind.design_class(command)
+        assert cls.kind == name
+        assert command in cls.outlines
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_every_check_and_table_of_an_outline_exists(name):
+    for command in KINDS[name].commands:
+        cls = KINDS[name].design_class(command)
+        outline = cls.outlines[command]
+        for check in outline.checks:
+            own = check in GEAR_CHECKS or hasattr(cls, "check_" + check.replace("-", "_"))
+            assert own or cls.check is not Design.check, check
+        for table in (*outline.tables, *cls.extra_tables):
+            assert hasattr(cls, f"table_{table}"), table
+
+
+def test_every_kind_can_be_analysed():
+    assert all("analyze" in kind.commands for kind in KINDS.values())
