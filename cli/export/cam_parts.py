@@ -5,7 +5,6 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable
-from dataclasses import replace
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -15,10 +14,9 @@ from gearlink.cli.export.contour import JOIN, Circle, Part
 from gearlink.cli.export.sampling import Points, Reals, Stretch
 from gearlink.core.cam_checks import undercut_checks
 from gearlink.core.disc_cam import DiscCam
-from gearlink.core.errors import at_key
 
 if TYPE_CHECKING:
-    from gearlink.core.wide_swing import WideSwingCam
+    from gearlink.core.wide_swing_outline import AnyCam
 
 CAM_LAYERS = ("PROFILE", "PITCH_CURVE")
 _TURN = 2.0 * math.pi
@@ -104,43 +102,40 @@ def swing_cam(name: str, design: Any) -> Part:
     Raises
         NoSolution - where the profile does not exist
     """
-    from gearlink.core.wide_swing_contact import contact_end
-
     cam, mirror = _served(name, design)
-    with at_key("cam.roller_radius"):
-        end = contact_end(cam)
-        pitch = _pitch_of(cam, mirror)
-        middle = complex(pitch(np.array([0.5]))[0])
+    start, end = design.slot_of(cam)
+    middle = complex(_pitch_of(cam, mirror)(np.array([0.5]))[0])
     circles = [Circle("ROLLER_AT_MID_SWING", cam.roller_radius, middle)]
-    shaft = design.spec.cam.shaft_radius
+    shaft = design.section.shaft_radius
     if shaft > 0.0:
         circles.append(Circle("SHAFT", shaft))
     return Part(
         name=name,
-        title=f"{'main' if name == 'main_cam' else 'return'} cam, {cam.layout} profile",
-        stretches=tuple(_of_stroke(cam, mirror, low, high) for low, high in pairwise((0.0, end, 0.5, 1.0 - end, 1.0))),
+        title=f"{'main' if name == 'main_cam' else 'return'} cam, {'ex' if is_external(cam) else 'in'}ternal profile",
+        stretches=tuple(_of_stroke(cam, mirror, low, high) for low, high in pairwise((0.0, start, 0.5, end, 1.0))),
         closed=False,
         circles=tuple(circles),
-        notes=_swing_notes(cam, end, mirror),
-        findings=tuple(
-            check.message for check in design.check("cam-undercut") if check.status == "fail" and name == "main_cam"
-        ),
+        notes=_swing_notes(cam, (start, end), mirror),
+        findings=_swing_findings(cam, design),
         extra_columns=("k", "cam_angle [deg]", "pressure_angle [deg]", "curvature_radius [mm]"),
     )
 
 
-def _served(name: str, design: Any) -> tuple[WideSwingCam, bool]:
+def _served(name: str, design: Any) -> tuple[AnyCam, bool]:
     """The cam of a stroke, and whether its mirror image is meant."""
-    main: WideSwingCam = design.cam
     if name == "main_cam":
-        return main, False
-    if main.layout == "twin-cam":
-        return main, True
-    with at_key("cycle_angle"):
-        return replace(main, layout="twin-cam"), False
+        return design.cam, False
+    return (design.cam, True) if design.return_cam is None else (design.return_cam, False)
 
 
-def _pitch_of(cam: WideSwingCam, mirror: bool) -> Callable[[Reals], Points]:
+def _swing_findings(cam: AnyCam, design: Any) -> tuple[str, ...]:
+    """Undercut of this cam; the findings of a design with two shapes tell them apart by their words."""
+    others = [words for words, other in design.cams.items() if other is not cam]
+    failed = [check.message for check in design.check("cam-undercut") if check.status == "fail"]
+    return tuple(message for message in failed if not any(words in message for words in others))
+
+
+def _pitch_of(cam: AnyCam, mirror: bool) -> Callable[[Reals], Points]:
     def pitch(k: Reals) -> Points:
         points = cam.points(k).pitch
         return points.conj() if mirror else points
@@ -148,7 +143,7 @@ def _pitch_of(cam: WideSwingCam, mirror: bool) -> Callable[[Reals], Points]:
     return pitch
 
 
-def _of_stroke(cam: WideSwingCam, mirror: bool, low: float, high: float) -> Stretch:
+def _of_stroke(cam: AnyCam, mirror: bool, low: float, high: float) -> Stretch:
     touches = low == 0.0 or high == 1.0
 
     def points(k: Reals) -> Points:
@@ -164,13 +159,20 @@ def _of_stroke(cam: WideSwingCam, mirror: bool, low: float, high: float) -> Stre
     return Stretch(CAM_LAYERS if touches else CAM_LAYERS[1:], points, low, high, name, extra)
 
 
-def _swing_notes(cam: WideSwingCam, end: float, mirror: bool) -> tuple[str, ...]:
-    body = "inside" if cam.layout == "twin-cam" else "outside"
+def _swing_notes(cam: AnyCam, slot: tuple[float, float], mirror: bool) -> tuple[str, ...]:
+    body = "inside" if is_external(cam) else "outside"
     return (
         f"roller radius {cam.roller_radius:.9g} mm, centre distance {cam.center_distance:.9g} mm, "
         f"rocker radius {cam.rocker_radius:.9g} mm",
         f"open profile: the body lies {body} it; how it closes through hub and rim is the designer's choice",
-        f"profile given for k = 0 to {end:.9g} and {1.0 - end:.9g} to 1; between them the roller at mid-swing cuts "
+        f"profile given for k = 0 to {slot[0]:.9g} and {slot[1]:.9g} to 1; between them the roller at mid-swing cuts "
         "its own circle (layer ROLLER_AT_MID_SWING)",
         "frame: cam axis at the origin, mid-swing on the x axis" + ("; mirror image of main_cam" if mirror else ""),
     )
+
+
+def is_external(cam: AnyCam) -> bool:
+    """Whether the cam's body lies inside its profile."""
+    from gearlink.core import wide_swing_outline
+
+    return wide_swing_outline.is_external(cam)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -10,6 +11,7 @@ from gearlink.core.errors import MissingSection, at_key
 
 if TYPE_CHECKING:
     from gearlink.cli.export.contour import Part
+    from gearlink.core.gear_pair import GearPair
 
 Makers = dict[str, Callable[[], "Part"]]
 
@@ -59,7 +61,9 @@ def _wide_swing(design: Any) -> Makers:
         return {}
     from gearlink.cli.export.cam_parts import swing_cam
 
-    return {name: partial(swing_cam, name, design) for name in ("main_cam", "return_cam")}
+    # A cam on the rocker of a crank-rocker serves both strokes.
+    names = ("main_cam", "return_cam") if design.spec.drive is None else ("main_cam",)
+    return {name: partial(swing_cam, name, design) for name in names}
 
 
 def _pair(design: Any, key: str = "") -> Makers:
@@ -89,12 +93,43 @@ def _three_gears(design: Any) -> Makers:
     return {name: partial(gear, name) for name in places}
 
 
+def _single_mesh(design: Any) -> Makers:
+    """Gears 2 and 5; of a ring gear the roots depend on its cutter, which no design file names, so it is left out."""
+    from gearlink.core.gear_pair import GearPair
+
+    def gear(number: int, name: str, title: str) -> Part:
+        from gearlink.cli.export.gear_parts import gear_of
+
+        mesh = design.mesh
+        with at_key("gears"):
+            if isinstance(mesh, GearPair):
+                return gear_of(mesh, number, name, title)
+            part = gear_of(_planet(mesh), number, name, title)
+        return replace(part, notes=(*part.notes, "the ring gear is not exported: its roots depend on its cutter"))
+
+    found: Makers = {"gear2": partial(gear, 0, "gear2", "gear 2, on the coupler")}
+    if isinstance(design.mesh, GearPair):
+        found["gear5"] = partial(gear, 1, "gear5", "gear 5, the output")
+    return found
+
+
+def _planet(mesh: Any) -> GearPair:
+    """The planet of an internal mesh without shift, as one of two equal external gears: its teeth are the same."""
+    from gearlink.core.gear_pair import GearPair
+
+    teeth = (mesh.teeth[0], mesh.teeth[0])
+    profile = {"addendum": mesh.addendum, "clearance": mesh.clearance}
+    return GearPair.from_shift(mesh.module, teeth, pressure_angle=mesh.pressure_angle, **profile)
+
+
 _KINDS: dict[str, Callable[[Any], Makers]] = {
     "flatbed-press": _press,
     "swing-gripper": _gripper,
     "wide-swing-cam": _wide_swing,
     "gear-pair": _pair,
     "three-gear-four-bar": _three_gears,
+    "two-gear-four-bar": _single_mesh,
+    "geared-rocker": _single_mesh,
 }
 _NEEDED = {
     "flatbed-press": "the file has neither a section cam nor a section input_gears",

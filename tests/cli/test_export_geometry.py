@@ -255,11 +255,25 @@ def test_too_many_points_are_refused() -> None:
 # Wide-swing cams
 
 
+def oscillating() -> Any:
+    import yaml
+
+    return designed(yaml.safe_load((ROOT / "designs" / "wide_swing_oscillating_cam.yaml").read_text()), "analyze")
+
+
+SWING_CAMS = [
+    pytest.param(lambda: swing(0), "main_cam", id="twin-cam-main"),
+    pytest.param(lambda: swing(0), "return_cam", id="twin-cam-return"),
+    pytest.param(lambda: swing(1), "main_cam", id="twin-rocker-main"),
+    pytest.param(lambda: swing(1), "return_cam", id="twin-rocker-return"),
+    pytest.param(oscillating, "main_cam", id="oscillating"),
+]
+
+
 @pytest.mark.parametrize("form", FORMS)
-@pytest.mark.parametrize("number", [0, 1], ids=["twin-cam", "twin-rocker"])
-@pytest.mark.parametrize("name", ["main_cam", "return_cam"])
-def test_swing_cams_are_open_and_follow_the_table(number: int, name: str, form: CurveForm) -> None:
-    design = swing(number)
+@pytest.mark.parametrize(("build", "name"), SWING_CAMS)
+def test_swing_cams_are_open_and_follow_the_table(build: Any, name: str, form: CurveForm) -> None:
+    design = build()
     design.samples = 2000
     exported = made(design, name, form)
     table = design.table(name)
@@ -273,10 +287,20 @@ def test_swing_cams_are_open_and_follow_the_table(number: int, name: str, form: 
     assert distance(column["pitch_x"] + 1j * column["pitch_y"], pitch).max() <= exported.error + AGAIN
 
 
-@pytest.mark.parametrize("number", [0, 1], ids=["twin-cam", "twin-rocker"])
-@pytest.mark.parametrize("name", ["main_cam", "return_cam"])
-def test_a_swing_profile_ends_on_the_roller_at_mid_swing(number: int, name: str) -> None:
-    exported = made(swing(number), name)
+@pytest.mark.parametrize("form", FORMS)
+@pytest.mark.parametrize(("build", "name"), SWING_CAMS)
+def test_the_roller_nowhere_enters_a_swing_profile(build: Any, name: str, form: CurveForm) -> None:
+    exported = made(build(), name, form)
+    (pitch,) = drawn(exported, "PITCH_CURVE")
+    roller = next(c.radius for c in exported.part.circles if c.layer == "ROLLER_AT_MID_SWING")
+    reach = nearest(pitch, drawn(exported, "PROFILE"))
+    assert reach.min() >= roller - 2.0 * T - AGAIN
+    assert np.median(reach) == pytest.approx(roller, rel=0.0, abs=2.0 * T + AGAIN)
+
+
+@pytest.mark.parametrize(("build", "name"), SWING_CAMS)
+def test_a_swing_profile_ends_on_the_roller_at_mid_swing(build: Any, name: str) -> None:
+    exported = made(build(), name)
     roller = next(circle for circle in exported.part.circles if circle.layer == "ROLLER_AT_MID_SWING")
     first, second = drawn(exported, "PROFILE")
     for end in (first[-1], second[0]):
@@ -379,6 +403,15 @@ def test_a_gear_is_closed_and_has_no_vertex_twice() -> None:
         assert line.closed
         assert line.nodes[0] == line.nodes[-1]
         assert np.abs(np.diff(line.nodes)).min() > 1e-6
+
+
+def test_the_planet_of_a_ring_gear() -> None:
+    gears, links = {"module": 2, "planet": 48, "ring": 62}, {"coupler": 30, "rocker": 40, "frame": 45}
+    exported = made(designed({"kind": "two-gear-four-bar", "gears": gears, "links": links}, "gear"), "gear2")
+    assert exported.part.teeth == 48
+    radii = np.abs(exported.lines[0].nodes)
+    assert (radii.min(), radii.max()) == pytest.approx((45.5, 50.0), rel=1e-12)
+    assert any("ring gear is not exported" in note for note in exported.part.notes)
 
 
 def test_three_gears_share_the_idlers_form() -> None:
