@@ -299,7 +299,7 @@ def _free(key: str, kappa: float) -> Law:
             f"{key} law with kappa = {kappa:.9g} reverses its acceleration: keep kappa in {ends} "
             f"(the nearest is {nearest:.9g}); change the swing or the phase length"
         )
-    name = f"{key} {kappa:.17g}"
+    name = f"{key} {kappa!r}"
     if key == "quintic":
         return _free_law(name, POLYNOMIAL_123, POLYNOMIAL_345, kappa)
     return _free_law(name, POLYNOMIAL_345, POLYNOMIAL_4567, kappa)

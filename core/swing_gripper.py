@@ -138,10 +138,12 @@ class SwingGripper(GripperHandover, GripperClosure, Design):
 
     def table_newton(self) -> Table:
         """Both ways side by side: deviation of the angles, steps, opening of the loop, error of the closed form."""
+        import numpy as np
+
         columns = ("theta", "deviation", "iterations", "residual", "error")
         loop = self.loop
-        data = (self.rows[0], loop.deviation, loop.iterations, loop.residual, loop.error)
-        return Table("newton", columns, ("deg", "rad", "1", "mm", "rad"), data)
+        data = (self.rows[0], np.degrees(loop.deviation), loop.iterations, loop.residual, np.degrees(loop.error))
+        return Table("newton", columns, ("deg", "deg", "1", "mm", "deg"), data)
 
     # Checks of law and linkage
 

@@ -1,0 +1,120 @@
+"""The worked example of the swing gripper as data, machines derived from it, and its kinetic energy told apart.
+
+The energy is summed over the links from velocities alone; nothing of it goes through the principle of virtual work
+that the program takes.
+"""
+
+from __future__ import annotations
+
+import copy
+import json
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from gearlink.core.gripper_forces import Masses
+from gearlink.core.gripper_linkage import GripperLinkage
+from gearlink.core.specs.swing_gripper import SwingGripperSpec
+from gearlink.core.swing_gripper import SwingGripper
+
+REFERENCE = json.loads((Path(__file__).parents[1] / "reference" / "swing_gripper.json").read_text())
+CASES = {case["id"]: case for case in REFERENCE["cases"]}
+TABLE = REFERENCE["example_table"]
+
+EXAMPLE: dict[str, Any] = {
+    "kind": "swing-gripper",
+    "speed": 12000.0,
+    "cylinder": {"radius": 135.0},
+    "arm": {"length": 300.0, "direction": 125.0},
+    "links": {"input": 150.0, "coupler": 260.0, "output": 100.0},
+    "pivots": {"input": [230.0, 0.0], "output": [498.0, 55.0]},
+    "output_direction": 110.0,
+    "swing_sense": -1,
+    "assembly": 1,
+    "phases": {
+        "accelerate": 100.0,
+        "constant": 12.0,
+        "decelerate": 50.0,
+        "far_dwell": 8.0,
+        "return": 120.0,
+        "near_dwell": 70.0,
+    },
+    "handover": 106.0,
+    "laws": {"accelerate": "velocity-345", "decelerate": "half-cycloidal", "return": "modified-sine"},
+    "cam": {
+        "center": [0.0, 0.0],
+        "sense": -1,
+        "roller": {"arm": 160.0, "angle": 49.0, "radius": 30.0},
+        "return_roller": {"arm": 160.0, "angle": 88.0, "radius": 30.0},
+    },
+    "inertia": {"input": 0.11, "output": 0.42, "coupler": 0.018, "coupler_mass": 3.2, "return_rocker": 0.05},
+    "spring": {"torque": 400.0},
+}
+
+
+def machine(change: Callable[[dict[str, Any]], object] | None = None, /, **keys: Any) -> SwingGripper:
+    """The example with changes: a function of its data, or dotted keys with __ for the dot."""
+    data = copy.deepcopy(EXAMPLE)
+    if change is not None:
+        change(data)
+    for path, value in keys.items():
+        *sections, last = path.split("__")
+        place = data
+        for section in sections:
+            place = place.setdefault(section, {})
+        if value is None:
+            place.pop(last)
+        else:
+            place[last] = value
+    return SwingGripper(SwingGripperSpec.model_validate(data))
+
+
+def turned(angle: float, shift: complex = 0j) -> SwingGripper:
+    """The example turned about the origin by an angle [deg] and shifted."""
+
+    def change(data: dict[str, Any]) -> None:
+        turn = complex(math.cos(math.radians(angle)), math.sin(math.radians(angle)))
+        for section, key in (("pivots", "input"), ("pivots", "output"), ("cam", "center")):
+            moved = complex(*data[section][key]) * turn + shift
+            data[section][key] = [moved.real, moved.imag]
+        data["arm"]["direction"] += angle
+        data["output_direction"] += angle
+
+    return machine(change)
+
+
+def mirrored() -> SwingGripper:
+    """The example in a mirror on the x axis."""
+
+    def change(data: dict[str, Any]) -> None:
+        for section, key in (("pivots", "input"), ("pivots", "output"), ("cam", "center")):
+            x, y = data[section][key]
+            data[section][key] = [x, 0.0 - y]
+        for place, key in (
+            (data["arm"], "direction"),
+            (data, "output_direction"),
+            (data, "swing_sense"),
+            (data, "assembly"),
+            (data["cam"], "sense"),
+            (data["cam"]["roller"], "angle"),
+            (data["cam"]["return_roller"], "angle"),
+        ):
+            place[key] = -place[key]
+
+    return machine(change)
+
+
+def kinetic_energy(linkage: GripperLinkage, masses: Masses, shaft_speed: float, degrees: Any) -> Any:
+    """Energy [J] of cam rocker, coupler and gripper, from the velocities of their points."""
+    motion = linkage.motion(degrees, 1)
+    w1, w3, w4 = (
+        shaft_speed * rate for rate in (motion.input_velocity, motion.coupler_velocity, motion.output_velocity)
+    )
+    c = 1e-3j * w1 * linkage.input * np.exp(1j * motion.input_angle)
+    d = 1e-3j * w4 * linkage.output * np.exp(1j * motion.output_angle)
+    middle = 0.5 * (c + d)
+    translation = masses.coupler_mass * np.abs(middle) ** 2
+    return 0.5 * (translation + masses.input * w1**2 + masses.coupler * w3**2 + masses.output * w4**2)
