@@ -69,4 +69,14 @@ LINKAGES: dict[str, Explanation] = {
         ("start-shock",),
         ("start_angle", "reduction", "gears"),
     ),
+    "GL311": Explanation(
+        "dwell shorter than wanted",
+        "The slider leaves the band of +- dwell.tolerance before the carrier has turned through the dwell.",
+        "The slider does not stand where it should: the ripple of the arc about the rod's circle is too large.",
+        "Allow a larger tolerance, ask for a smaller dwell.angle, or let target find the rod.",
+        "widest carrier angle about mid-dwell with max s - min s <= 2 tolerance",
+        "own derivation; thesis 2.2.2, figure 2-5",
+        ("dwell-quality",),
+        ("dwell.tolerance", "dwell.angle", "rod", "target"),
+    ),
 }

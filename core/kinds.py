@@ -43,6 +43,7 @@ _GRIPPER = "swing_gripper:SwingGripper"
 _SWING = "wide_swing_design:WideSwingDesign"
 _TWO_GEAR = "two_gear_four_bar:TwoGearFourBar"
 _GEARED_ROCKER = "geared_rocker:GearedRocker"
+_HYPOCYCLOID = "hypocycloid_dwell:HypocycloidDwell"
 _MUTILATED = "mutilated_gear_dwell:MutilatedGearDwell"
 
 KINDS: dict[str, Kind] = {
@@ -103,6 +104,11 @@ KINDS: dict[str, Kind] = {
             "geared-rocker",
             "geared_rocker:GearedRockerSpec",
             {"analyze": _GEARED_ROCKER, "gear": _GEARED_ROCKER},
+        ),
+        Kind(
+            "hypocycloid-dwell",
+            "hypocycloid_dwell:HypocycloidDwellSpec",
+            {"analyze": _HYPOCYCLOID, "gear": _HYPOCYCLOID},
         ),
     )
 }

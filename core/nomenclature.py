@@ -192,6 +192,23 @@ _PLANET_LINKAGE = {
     "swing_residual": Term("", "deg", "swing reached less swing asked for"),
 }
 
+_HYPOCYCLOID = {
+    "cusps": Term("n", "1", "cusps of the curve, ring teeth over planet teeth", "thesis figure 2-5"),
+    "ring_teeth": Term("z_r", "1", "teeth of the ring gear"),
+    "carrier_length": Term("", "mm", "carrier, the centre distance of planet and ring gear"),
+    "point_radius": Term("r", "mm", "pitch radius of the planet, on which the point lies"),
+    "rod_length": Term("L", "mm", "rod from the point to the slider"),
+    "tangent_circle_length": Term("", "mm", "rod of the circle through ends and middle of the dwell", "own derivation"),
+    "osculating_length": Term("4 r (n-1)/(n-2)", "mm", "rod of the circle of curvature in mid-dwell"),
+    "dwell_carrier_angle": Term("", "deg", "carrier angle of the dwell that is wanted"),
+    "dwell_ripple": Term("", "mm", "range of the slider's place in the dwell", "own derivation"),
+    "dwell_deviation_min": Term("", "mm", "least deviation from the place in mid-dwell, inwards positive"),
+    "dwell_deviation_max": Term("", "mm", "greatest deviation from the place in mid-dwell, inwards positive"),
+    "tolerance_carrier_angle": Term("", "deg", "widest carrier angle with the slider within +- the tolerance"),
+    "stroke": Term("S", "mm", "stroke of the slider"),
+    "ripple_share": Term("", "1", "ripple over stroke"),
+}
+
 TERMS: dict[str, Term] = {
     **_GEAR_LINKAGE,
     **_GEAR_PAIR,
@@ -203,6 +220,7 @@ TERMS: dict[str, Term] = {
     **_MOBILITY,
     **_MUTILATED,
     **_PLANET_LINKAGE,
+    **_HYPOCYCLOID,
 }
 
 

@@ -64,14 +64,17 @@ def _internal_check(name: str, mesh: InternalMesh, limits: Any) -> Iterator[Chec
         remedy = "take more teeth of a smaller module"
         yield below("GL203", name, mesh.contact_ratio, limit, limit + 0.1, "1", "the contact ratio", remedy)
     elif name == "involute-interference":
-        yield _margin("GL204", name, mesh.interference_margin, "the tips of the ring gear", "the planet's involute")
+        what, where = "the tips of the ring gear", "the planet's root inside its base circle"
+        remedy = "give both more teeth of a smaller module, or the planet alone more"
+        yield _margin("GL204", name, mesh.interference_margin, what, where, remedy)
     elif name == "tip-fouling":
-        yield _margin("GL206", name, mesh.tip_fouling_margin, "the tips of planet and ring gear", "each other")
+        what, remedy = "the tips of planet and ring gear", "give the ring gear more teeth, or the planet fewer"
+        yield _margin("GL206", name, mesh.tip_fouling_margin, what, "each other", remedy)
 
 
-def _margin(code: str, name: str, margin: float, what: str, where: str) -> Check:
+def _margin(code: str, name: str, margin: float, what: str, where: str, remedy: str) -> Check:
     status: Status = "fail" if margin < 0.0 else "pass"
     text = f"{what} keep {margin:.4g} mm from cutting into {where}"
     if status == "fail":
-        text = f"{what} cut {-margin:.4g} mm into {where}: give the ring gear more teeth, or the planet fewer"
+        text = f"{what} cut {-margin:.4g} mm into {where}: {remedy}"
     return Check(code, name, status, text, margin, 0.0, "mm")

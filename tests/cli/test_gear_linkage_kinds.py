@@ -15,6 +15,7 @@ WORKED = {
     "mutilated-gear-dwell": ["mutilated_gear_press"],
     "two-gear-four-bar": ["two_gear_drag_link", "two_gear_ring"],
     "geared-rocker": ["wide_lever"],
+    "hypocycloid-dwell": ["hypocycloid_slider"],
 }
 PAIRS = [(kind, name) for kind, names in WORKED.items() for name in names]
 
@@ -133,3 +134,46 @@ def test_swing_out_of_reach(gearlink, designs):
     ended = gearlink("analyze", designs / "wide_lever.yaml", "--set", "target.swing=900", "--format", "json")
     assert ended.status == 2
     assert ended.json["errors"][0]["key"] == "target.swing"
+
+
+HYPOCYCLOID = """kind: hypocycloid-dwell
+gears: {module: 1.6, planet: 25, ring: 75}
+rod: {rule: osculating}
+dwell: {tolerance: 0.25}
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "code", "key"),
+    [
+        ("ring: 75", "ring: 80", "GL112", "gears.ring"),
+        ("ring: 75", "ring: 50", "GL112", "gears.ring"),
+        ("{rule: osculating}", "{length: 50}", "GL112", "rod"),
+        ("{rule: osculating}", "{length: 50, rule: osculating}", "GL111", "rod.rule"),
+        ("{rule: osculating}", "{}", "GL106", "rod.rule"),
+        ("rod: {rule: osculating}", "target: {quality: least-ripple}\nrod: {rule: osculating}", "GL111", "rod"),
+        ("dwell: {tolerance: 0.25}", "dwell: {tolerance: 60}", "GL112", "dwell.tolerance"),
+        (
+            "rod: {rule: osculating}\ndwell: {tolerance: 0.25}",
+            "target: {quality: widest-dwell}",
+            "GL106",
+            "dwell.tolerance",
+        ),
+    ],
+)
+def test_hypocycloid_refusals(gearlink, tmp_path, old, new, code, key):
+    (error,) = wrong(gearlink, tmp_path, HYPOCYCLOID.replace(old, new))
+    assert (error["code"], error["key"]) == (code, key)
+
+
+def test_hypocycloid_dwell_too_narrow_is_a_finding(gearlink, tmp_path):
+    path = tmp_path / "design.yaml"
+    path.write_text(HYPOCYCLOID)
+    ended = gearlink("analyze", path, "--format", "json")
+    assert ended.status == 1
+    (failed,) = [c for c in ended.json["checks"] if c["status"] == "fail"]
+    assert (failed["code"], failed["unit"]) == ("GL311", "deg")
+    assert "least-ripple" in failed["message"]
+    for quality in ("least-ripple", "widest-dwell"):
+        path.write_text(HYPOCYCLOID.replace("rod: {rule: osculating}", f"target: {{quality: {quality}}}"))
+        assert gearlink("analyze", path, "--format", "json").status == 0
