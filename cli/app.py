@@ -13,6 +13,7 @@ import typer
 from gearlink.cli.batch_options import BatchFormat, BatchOptions, FailOn
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.export.register import register as register_export
+from gearlink.cli.laws import laws
 from gearlink.cli.options import Format, Options, PlotFormat
 from gearlink.cli.reference_commands import register
 
@@ -160,6 +161,7 @@ def _share(text: str) -> tuple[int, int]:
 
 register(app)
 register_export(app)
+app.command("laws")(laws)
 
 
 @app.callback(invoke_without_command=True)
