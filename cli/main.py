@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import sys
 
@@ -16,7 +17,18 @@ def main() -> None:
 
         print(f"gearlink {VERSION}")
         return
+    _hasten_start()
     sys.exit(run(arguments))
+
+
+def _hasten_start() -> None:
+    """Leave out what costs time at the start of a process and serves nothing here.
+
+    The collector would walk the modules over and over while they are loaded, and pydantic would read the metadata
+    of every installed package in search of plug-ins.
+    """
+    gc.set_threshold(50_000, 20, 100)
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")
 
 
 def run(arguments: list[str]) -> int:
@@ -25,9 +37,7 @@ def run(arguments: list[str]) -> int:
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="replace")
     try:
-        from gearlink.cli.app import invoke
-
-        status = invoke(arguments)
+        status = _invoke(arguments)
         sys.stdout.flush()
         return status
     except KeyboardInterrupt:
@@ -39,6 +49,19 @@ def run(arguments: list[str]) -> int:
         return ExitCode.OK
     except Exception as fault:
         return _fault(fault)
+
+
+def _invoke(arguments: list[str]) -> int:
+    if "_GEARLINK_COMPLETE" not in os.environ:  # else a shell asks for completions
+        from gearlink.cli.quick import plain_line
+
+        if line := plain_line(arguments):
+            from gearlink.cli.run import run_design
+
+            return run_design(*line)
+    from gearlink.cli.app import invoke
+
+    return invoke(arguments)
 
 
 def _fault(fault: Exception) -> int:

@@ -39,3 +39,4 @@ class Options:
     strict: bool = False
     color: bool = True
     quiet: bool = False
+    profile: bool = False

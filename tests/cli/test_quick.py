@@ -1,0 +1,95 @@
+"""Plain command lines mean the same whether they are read directly or by Typer."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import gearlink.cli.run
+from gearlink.cli import app
+from gearlink.cli.options import Format, PlotFormat
+from gearlink.cli.quick import DESIGN_COMMANDS, MOST_SAMPLES, SYNTH_COMMANDS, plain_line
+from gearlink.core.kinds import KINDS
+
+COMMANDS = [*sorted(DESIGN_COMMANDS), *(f"synth {name}" for name in sorted(SYNTH_COMMANDS))]
+WORDS = st.sampled_from(["x.yaml", "a b", "-", "speed=4500", "teeth[1]=20", "crank_length", "press", "."])
+OPTIONS = st.one_of(
+    st.sampled_from(["--plot", "--strict", "--no-color", "--quiet", "-q", "-h", "--help", "--unknown", "--", "-", ""]),
+    WORDS,
+    st.tuples(
+        st.sampled_from(
+            ["--format", "-f", "--plot-format", "--out", "--set", "--quantity", "--table", "--samples", "--form"]
+        ),
+        st.sampled_from(
+            ["json", "md", "csv", "svg", "out", "a=1", "-q", "", "12", "1", "1e3", " 7", "10000001", "JSON"]
+        ),
+        st.booleans(),
+    ).map(lambda t: f"{t[0]}={t[1]}" if t[2] else f"{t[0]}\0{t[1]}"),
+)
+
+
+def by_typer(arguments: list[str], monkeypatch: pytest.MonkeyPatch) -> Any:
+    """What Typer hands to run_design; None where it refuses the line or asks for something else."""
+    seen: list[Any] = []
+    with monkeypatch.context() as patch:
+        patch.setattr(gearlink.cli.run, "run_design", lambda *line: seen.append(line) or 0)
+        app.invoke(arguments)
+    return seen[0] if seen else None
+
+
+@settings(derandomize=True, deadline=None, max_examples=300)
+@given(st.sampled_from(COMMANDS), st.lists(OPTIONS, max_size=4), WORDS, st.integers(0, 4))
+def test_plain_lines_are_read_as_typer_reads_them(command: str, options: list[str], source: str, at: int) -> None:
+    line = [part for option in [*options[:at], source, *options[at:]] for part in option.split("\0")]
+    arguments = [*command.split(), *line]
+    quick = plain_line(arguments)
+    if quick is None:
+        return
+    with pytest.MonkeyPatch.context() as patch:
+        assert quick == by_typer(arguments, patch)
+
+
+def test_every_common_line_is_plain(monkeypatch: pytest.MonkeyPatch) -> None:
+    for command in COMMANDS:
+        arguments = [*command.split(), "x.yaml", "-f", "json", "--set", "a=1", "--set=b=2", "--samples", "12", "-q"]
+        quick = plain_line(arguments)
+        assert quick is not None
+        assert quick == by_typer(arguments, monkeypatch)
+        assert quick[2].overrides == ("a=1", "b=2")
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        [],
+        ["press"],
+        ["press", "a.yaml", "b.yaml"],
+        ["press", "a.yaml", "--help"],
+        ["press", "a.yaml", "--set"],
+        ["press", "a.yaml", "--set", "--plot"],
+        ["press", "a.yaml", "--format", "xml"],
+        ["press", "a.yaml", "--samples", "1"],
+        ["press", "a.yaml", "--samples", str(MOST_SAMPLES + 1)],
+        ["press", "a.yaml", "--samples", "²"],
+        ["press", "a.yaml", "--plo"],
+        ["press", "a.yaml", "-qf", "json"],
+        ["press", "a.yaml", "--suggest"],
+        ["synth", "a.yaml"],
+        ["batch", "designs"],
+    ],
+)
+def test_anything_else_is_left_to_typer(arguments: list[str]) -> None:
+    assert plain_line(arguments) is None
+
+
+def test_commands_and_forms_are_those_of_the_program() -> None:
+    assert set(COMMANDS) == {command for kind in KINDS.values() for command in kind.commands}
+    assert [form.value for form in Format] == ["table", "json", "csv", "md"]
+    assert [form.value for form in PlotFormat] == ["png", "svg", "pdf"]
+    found = plain_line(["cam", "x.yaml", "--plot", "--out", "pictures", "--plot-format=pdf"])
+    assert found is not None
+    assert (found[2].out, found[2].plot_format, found[2].plot) == (Path("pictures"), PlotFormat.PDF, True)
