@@ -273,7 +273,7 @@ def crank_with_room(r1: float, r3: float, r5: float, distance: float) -> float |
         crank : float [mm] - to 1e-6 of r1, on the safe side
     Example
         >>> round(crank_with_room(25.0, 25.0, 75.0, 105.0), 3)
-        16.379
+        16.418
 
     Source
         own derivation
