@@ -106,7 +106,7 @@ CHECKS: dict[str, Explanation] = {
         ("back-step-target", "rounded-ratio"),
         ("gears.i3", "back_step.angle", "back_step", "gears"),
     ),
-    "GL311": Explanation(
+    "GL312": Explanation(
         "linkage near a dead point",
         "Over the swing the loop comes so near to a dead point that the closed form and Newton-Raphson lose digits, or "
         "the assembly is not determined in line with the frame (a warning).",

@@ -161,7 +161,7 @@ class SwingGripper(GripperHandover, GripperClosure, Design):
             yield below("GL303", "transmission-angle", math.degrees(angle), limit, limit + 5.0, "deg", subject, remedy)
 
     def check_conditioning(self) -> Check:
-        """GL311: digits that the loop keeps near a dead point, and the agreement of the two ways."""
+        """GL312: digits that the loop keeps near a dead point, and the agreement of the two ways."""
         from gearlink.core.gripper_swing import turn_remedy
 
         number, limit, agreement = self.condition_number, self.spec.limits.condition_number, self.newton_agreement
@@ -186,7 +186,7 @@ class SwingGripper(GripperHandover, GripperClosure, Design):
         if agreement > _AGREEMENT * number:
             status = "fail"
             text += ": they should agree better; report the design file"
-        return Check("GL311", "conditioning", status, text, number, limit)
+        return Check("GL312", "conditioning", status, text, number, limit)
 
     def check_velocity_step(self) -> Check:
         """GL403 at the six joints of the law."""

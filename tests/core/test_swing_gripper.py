@@ -234,11 +234,15 @@ def test_the_centre_that_is_recommended_keeps_the_limit(limit: float) -> None:
     assert all(c.status != "fail" for c in mended.check("pressure-angle"))
 
 
+def test_the_recommended_centre_of_the_mirrored_machine_is_the_mirrored_centre() -> None:
+    assert abs(mirrored()._center_for(28.0) - DESIGN._center_for(28.0).conjugate()) <= 1e-10
+
+
 @pytest.mark.parametrize("direction", [24.4, 23.9])
 def test_near_a_dead_point_the_report_tells_what_remains(direction: float) -> None:
     design = machine(output_direction=direction, limits={"transmission_angle": 0.0})
     check = design.check("conditioning")[0]
-    assert (check.code, check.status) == ("GL311", "warn")
+    assert (check.code, check.status) == ("GL312", "warn")
     assert check.value > 100.0
     assert "0.01 mm of play turns the gripper by" in check.message
     turn = float(check.message.split("turn output_direction by ")[1].split()[0])
