@@ -43,6 +43,7 @@ SamplesOption = Annotated[int | None, typer.Option("--samples", min=2, max=10_00
 StrictOption = Annotated[bool, typer.Option("--strict", help="a warning counts as a failure")]
 NoColorOption = Annotated[bool, typer.Option("--no-color", help="no colours, as with NO_COLOR=1")]
 SuggestOption = Annotated[bool, typer.Option("--suggest", help="try the recommended changes, show the mended design")]
+ProfileOption = Annotated[bool, typer.Option("--profile", help="tell what was computed and how long each took")]
 QuietOption = Annotated[bool, typer.Option("--quiet", "-q", help="no talk on standard error")]
 
 
@@ -65,6 +66,7 @@ def _design_command(command: str, words: str) -> Callable[..., None]:
         strict: StrictOption = False,
         no_color: NoColorOption = False,
         quiet: QuietOption = False,
+        profile: ProfileOption = False,
         suggest: SuggestOption = False,
     ) -> None:
         options = Options(
@@ -79,6 +81,7 @@ def _design_command(command: str, words: str) -> Callable[..., None]:
             strict=strict,
             color=not no_color,
             quiet=quiet,
+            profile=profile,
         )
         if suggest:
             from gearlink.cli.suggest import run_suggested

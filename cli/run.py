@@ -25,6 +25,10 @@ if TYPE_CHECKING:
 
 def run_design(command: str, source: str, options: Options) -> int:
     """Run `command` on the design file `source`, print the result, and give the exit status."""
+    if options.profile:
+        from gearlink.cli.profile import run_profiled
+
+        return run_profiled(command, source, options)
     try:
         design, report = evaluate(command, source, options)
         if options.plot:

@@ -18,7 +18,9 @@ from gearlink.core.kinds import KINDS
 COMMANDS = [*sorted(DESIGN_COMMANDS), *(f"synth {name}" for name in sorted(SYNTH_COMMANDS))]
 WORDS = st.sampled_from(["x.yaml", "a b", "-", "speed=4500", "teeth[1]=20", "crank_length", "press", "."])
 OPTIONS = st.one_of(
-    st.sampled_from(["--plot", "--strict", "--no-color", "--quiet", "-q", "-h", "--help", "--unknown", "--", "-", ""]),
+    st.sampled_from(
+        ["--plot", "--strict", "--profile", "--no-color", "--quiet", "-q", "-h", "--help", "--unknown", "--", "-", ""]
+    ),
     WORDS,
     st.tuples(
         st.sampled_from(
