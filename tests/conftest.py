@@ -8,10 +8,15 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from hypothesis import HealthCheck, settings
 
 from gearlink.cli.main import run
 
 ROOT = Path(__file__).resolve().parents[1]
+
+# The same examples every time, and no verdict on speed: machines that run tests are shared and noisy.
+settings.register_profile("steady", derandomize=True, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.load_profile("steady")
 
 
 @dataclass(frozen=True)

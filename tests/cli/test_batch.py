@@ -181,11 +181,23 @@ def test_interrupt_keeps_what_is_finished(tmp_path: Path, designs: Path) -> None
         (tmp_path / f"press_{i:04}.yaml").write_text(press)
     command = [sys.executable, "-m", "gearlink.cli.main", "batch", str(tmp_path), "--format", "jsonl"]
     environment = {**os.environ, "PYTHONUNBUFFERED": "1"}
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=ROOT, env=environment)
-    time.sleep(2.5)
-    process.send_signal(signal.SIGINT)
-    sent = time.perf_counter()
-    out, err = process.communicate(timeout=20)
+    process = subprocess.Popen(
+        command,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        cwd=ROOT,
+        env=environment,
+        # A runner started in the background hands an ignored SIGINT down to its children.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
+    try:
+        time.sleep(2.5)
+        process.send_signal(signal.SIGINT)
+        sent = time.perf_counter()
+        out, err = process.communicate(timeout=20)
+    finally:
+        process.kill()
+        process.communicate()
     assert process.returncode == ExitCode.INTERRUPTED, err
     assert time.perf_counter() - sent < 10.0
     assert b"Traceback" not in err
