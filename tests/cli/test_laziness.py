@@ -5,9 +5,13 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from importlib.metadata import packages_distributions
 from pathlib import Path
 
 import pytest
+
+from gearlink.cli.options import Options
+from gearlink.cli.run import open_design, read_spec
 
 ROOT = Path(__file__).resolve().parents[2]
 _PROBE = """
@@ -104,3 +108,90 @@ def test_core_imports_no_interface() -> None:
     done = subprocess.run([sys.executable, "-c", probe], capture_output=True, text=True, check=True)
     found = set(json.loads(done.stdout))
     assert not found & {"typer", "rich", "yaml", "matplotlib", "scipy", "gearlink.cli"}
+
+
+READING = {"annotated_types", "gearlink", "pydantic", "pydantic_core", "typing_extensions", "typing_inspection", "yaml"}
+_SCALAR_LINES = [
+    "synth dwell designs/candy_feed.yaml",
+    "synth back-step designs/thesis_example_1.yaml",
+    "synth variable-speed designs/thesis_example_2.yaml",
+    "synth momentary-dwell designs/thesis_example_3_mended.yaml",
+    "gear designs/ty460_input_gears.yaml",
+    "crank designs/ty460_slider_crank.yaml",
+    "analyze designs/six_bar_two_trains.yaml",
+]
+_SWEEP_LINES = [
+    "analyze designs/thesis_example_3_as_printed.yaml",
+    "press designs/ty460.yaml",
+    "cam designs/ty460.yaml",
+    "gripper designs/swing_gripper.yaml",
+    "swing designs/wide_swing_twin_cam.yaml",
+]
+
+
+def installed(modules: set[str]) -> set[str]:
+    """The packages among the modules that do not come with Python."""
+    return (packages(modules) & set(packages_distributions())) - {"_distutils_hack"}
+
+
+@pytest.mark.parametrize("line", _SCALAR_LINES)
+def test_scalar_commands_import_what_reading_needs_and_no_more(line: str) -> None:
+    modules = modules_of(*line.split(), "--format", "json")
+    assert installed(modules) <= READING | {"_yaml"}
+    assert not {name for name in modules if name.startswith(("gearlink.cli.plots", "gearlink.cli.app"))}
+
+
+@pytest.mark.parametrize("line", _SWEEP_LINES)
+def test_sweeps_import_numpy_besides_and_no_more(line: str) -> None:
+    modules = modules_of(*line.split(), "--format", "json")
+    assert installed(modules) <= READING | {"_yaml", "numpy"}
+    assert not {name for name in modules if name.startswith(("gearlink.cli.plots", "gearlink.cli.app"))}
+
+
+@pytest.mark.parametrize("line", ["press designs/ty460.yaml", "crank designs/ty460_slider_crank.yaml"])
+def test_a_picture_is_drawn_only_where_asked_for(line: str, tmp_path: Path) -> None:
+    plain = modules_of(*line.split())
+    assert "matplotlib" not in packages(plain)
+    drawn = modules_of(*line.split(), "--plot", "--out", str(tmp_path), "--quiet")
+    assert "matplotlib.figure" in drawn
+    assert not drawn & {"matplotlib.pyplot", "scipy"}
+
+
+_EVALUATED = [
+    # command, design, quantity, what else the design works out for it
+    ("synth dwell", "candy_feed", "crank_teeth", ""),
+    ("synth dwell", "candy_feed", "rocker_length", "idler_teeth"),
+    ("synth dwell", "candy_feed", "speed_ratio_max", "idler_teeth train frame_ratio speed_limits"),
+    ("synth dwell", "candy_feed", "dwell_crank_angles", "idler_teeth train _phi12"),
+    ("synth back-step", "thesis_example_1", "coupler_length", "idler_teeth"),
+    ("gear", "ty460_input_gears", "contact_ratio", "gear_pair"),
+    ("crank", "ty460_slider_crank", "max_stroke", "slider_crank"),
+    ("press", "ty460", "crank_length", "slider_crank"),
+    ("press", "ty460", "initial_crank_angle", "slider_crank crank_length bed"),
+    ("press", "ty460", "min_transmission_angle_cylinder", "cylinder"),
+    ("press", "ty460", "sync_start", "slider_crank crank_length bed cylinder"),
+    ("cam", "ty460", "follower_stroke", "slider_crank crank_length bed cylinder sync_start sync_end follower"),
+    ("cam", "ty460", "cam_base_radius", ""),
+    ("gripper", "swing_gripper", "total_swing", "law"),
+    ("gripper", "swing_gripper", "handover_speed", "law _at_handover shaft_speed"),
+    ("gripper", "swing_gripper", "min_transmission_angle", "law linkage"),
+    ("cam", "swing_gripper", "max_pressure_angle", "law linkage _cam cam_center main_cam return_cam"),
+    ("swing", "wide_swing_twin_cam", "energy_parameter", "device plain_law swing"),
+    ("swing", "wide_swing_twin_cam", "min_pivot_ratio", "swing"),
+    ("swing", "wide_swing_twin_cam", "spring_rate", ""),
+    ("analyze", "six_bar_two_trains", "linkage_mobility", "links"),
+    ("analyze", "mutilated_gear_press", "dwell_share", "mutilated"),
+    ("analyze", "mutilated_gear_press", "rocker_swing", "linkage"),
+    ("analyze", "two_gear_ring", "gear_ratio", ""),
+    ("analyze", "two_gear_ring", "coupler_length", "linkage"),
+    ("analyze", "wide_lever", "rocker_swing", "crank_length linkage"),
+]
+
+
+@pytest.mark.parametrize(("command", "design", "quantity", "needed"), _EVALUATED)
+def test_a_quantity_evaluates_what_it_needs_and_no_more(command: str, design: str, quantity: str, needed: str) -> None:
+    path = str(ROOT / "designs" / f"{design}.yaml")
+    loaded, kind = open_design(path, Options())
+    made = kind.design(command, read_spec(loaded, kind, path))
+    assert made.report(command, quantities=[quantity]).checks == ()
+    assert set(vars(made)) - {"spec", "samples", quantity} <= set(needed.split())
