@@ -7,7 +7,7 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from contextlib import contextmanager
-from multiprocessing import get_all_start_methods, get_context
+from multiprocessing import active_children, get_all_start_methods, get_context
 from pathlib import Path
 from time import perf_counter
 
@@ -83,7 +83,10 @@ def _run_parallel(
             advance(futures[future])
         pool.shutdown()
     except BaseException:
-        pool.shutdown(wait=False, cancel_futures=True)
+        # What they are at is lost; waiting for it would make the user wait.
+        for child in active_children():
+            child.terminate()
+        pool.shutdown(cancel_futures=True)
         raise
 
 
