@@ -17,7 +17,7 @@ from gearlink.core.errors import NoSolution
 from gearlink.core.motion_laws import Law
 from gearlink.core.press_chains import BedChain, CylinderChain, Travel, difference
 from gearlink.core.report import safely_above, safely_below
-from gearlink.core.roots import maximum
+from gearlink.core.roots import bracketed_root, maximum
 
 _TURN = 2.0 * math.pi
 
@@ -253,6 +253,15 @@ class Compensation:
             lift : Travel of (N,) arrays [mm, mm/rad, mm/rad^2]
             phases : N names
         """
+        lift, index = self._placed(theta, order)
+        return lift, [self.segments[i].phase for i in index]
+
+    def lift(self, theta: Any, order: int = 2) -> Travel:
+        """Lift at an array of cam angles, as `evaluate` gives it, without the names of the phases."""
+        return self._placed(theta, order)[0]
+
+    def _placed(self, theta: Any, order: int) -> tuple[Travel, Any]:
+        """Lift at an array of cam angles and the number of the stretch of each."""
         import numpy as np
 
         begin = self.segments[0].start
@@ -260,12 +269,12 @@ class Compensation:
         index = np.searchsorted([segment.start for segment in self.segments], turned, side="right") - 1
         lift = Travel(*(np.zeros_like(turned) for _ in range(order + 1)))
         for number, segment in enumerate(self.segments):
-            inside = index == number
-            if inside.any():
+            inside = np.flatnonzero(index == number)
+            if inside.size:
                 part = segment.lift(turned[inside], order)
                 for name in ("value", "first", "second")[: order + 1]:
                     getattr(lift, name)[inside] = getattr(part, name)
-        return lift, [self.segments[i].phase for i in index]
+        return lift, index
 
     @cached_property
     def joints(self) -> tuple[Joint, ...]:
@@ -282,24 +291,36 @@ class Compensation:
         """Least and greatest lift of the turn [mm], refined inside each stretch."""
         low = high = 0.0
         for segment in self.segments[:-1]:
-            for sign in (1.0, -1.0):
-                best = _peak(segment, sign)
-                high, low = (max(high, best), low) if sign > 0.0 else (high, min(low, -best))
+            least, most = _range(segment)
+            low, high = min(low, least), max(high, most)
         return low, high
 
 
-def _peak(segment: Segment, sign: float) -> float:
-    """Largest sign * lift on a stretch: coarse scan, then golden section round the best point."""
-    steps = 48
+def _range(segment: Segment) -> tuple[float, float]:
+    """Least and greatest lift on a stretch: coarse scan, then the root of the slope, or golden section, round them."""
+    steps = 24
     grid = [segment.start + (segment.end - segment.start) * i / steps for i in range(steps)] + [segment.end]
-    values = [sign * float(segment.lift(theta, 0).value) for theta in grid]
+    values = [float(segment.lift(theta, 0).value) for theta in grid]
+    least = -_peak(segment, -1.0, grid, [-value for value in values])
+    return least, _peak(segment, 1.0, grid, values)
+
+
+def _peak(segment: Segment, sign: float, grid: list[float], values: list[float]) -> float:
+    """Largest sign * lift on a stretch, refined from its values on a grid."""
+    last = len(grid) - 1
     i = max(range(len(values)), key=values.__getitem__)
-    if i in (0, steps):
+    if i in (0, last):
         # An end is the peak unless the lift still rises inwards within the first interval.
         slope = sign * float(segment.lift(grid[i], 1).first) * (1.0 if i == 0 else -1.0)
         if slope <= 0.0:
             return values[i]
-    low, high = grid[max(i - 1, 0)], grid[min(i + 1, steps)]
+    low, high = grid[max(i - 1, 0)], grid[min(i + 1, last)]
+
+    def slope_at(theta: float) -> float:
+        return float(segment.lift(theta, 1).first)
+
+    if slope_at(low) * slope_at(high) < 0.0:
+        return max(values[i], sign * float(segment.lift(bracketed_root(slope_at, low, high), 0).value))
     return max(values[i], maximum(lambda theta: sign * float(segment.lift(theta, 0).value), low, high)[1])
 
 

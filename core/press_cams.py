@@ -123,7 +123,7 @@ class PressCams:
         from gearlink.core.disc_cam import DiscCam
 
         def path(theta: Reals, order: int) -> RollerPath:
-            lift = self.follower.evaluate(theta, order)[0]
+            lift = self.follower.lift(theta, order)
             return translating(at_zero_lift + lift.value, lift.first, lift.second if order > 1 else 0.0)
 
         joints = tuple(segment.start for segment in self.follower.segments)
@@ -180,7 +180,7 @@ class PressCams:
         both = sum(self.follower.lift_range)
 
         def needed(theta: Reals) -> Reals:
-            lift = self.follower.evaluate(theta, 1)[0]
+            lift = self.follower.lift(theta, 1)
             nearer: Reals = np.minimum(lift.value, both - lift.value)
             radius: Reals = np.abs(lift.first) / math.tan(pressure_angle) - nearer
             return radius

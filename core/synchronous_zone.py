@@ -22,11 +22,17 @@ def forward_stroke_end(bed: BedChain) -> float:
         stroke's turn and the end.
     """
     steps = 36
-    angles = [_TURN * i / steps for i in range(1, steps + 1)]
-    speeds = [float(bed.travel(angle, 1).first) for angle in angles]
-    for i in range(len(angles) - 1):
-        if speeds[i] > 0.0 >= speeds[i + 1]:
-            return bracketed_root(lambda angle: float(bed.travel(angle, 1).first), angles[i], angles[i + 1])
+
+    def speed(angle: float) -> float:
+        return float(bed.travel(angle, 1).first)
+
+    last, last_speed = _TURN / steps, speed(_TURN / steps)
+    for i in range(2, steps + 1):
+        angle = _TURN * i / steps
+        here = speed(angle)
+        if last_speed > 0.0 >= here:
+            return bracketed_root(speed, last, angle)
+        last, last_speed = angle, here
     raise NoSolution("the bed never turns back within a turn: check stroke, rod and offset of the bed")
 
 
@@ -80,10 +86,12 @@ def _first_root(bed: BedChain, cylinder: CylinderChain, end: float) -> float | N
 
     count = max(8, math.ceil(end / _STEP))
     grid = [end * i / count for i in range(count + 1)]
-    values = [excess(phi) for phi in grid]
+    values = [excess(grid[0]), excess(grid[1])]
     for i in range(1, count + 1):
         if values[i - 1] * values[i] < 0.0 or values[i] == 0.0:
             return bracketed_root(excess, grid[i - 1], grid[i])
+        if i < count:
+            values.append(excess(grid[i + 1]))
         crest = 1 <= i < count and abs(values[i]) <= min(abs(values[i - 1]), abs(values[i + 1]))
         if crest:
             sign = -1.0 if values[i] > 0.0 else 1.0
