@@ -54,7 +54,8 @@ class WideSwingChecks(WideSwingMending):
     def _pressure_remedy(self) -> str:
         mend = self.mended_pressure
         if mend is None:
-            return "no swing and no cycle_angle was found that keeps it; a twin-cam wants a swing near 2 acos(r/a)"
+            keys = "cycle_angle and no swing" if self.spec.drive is None else "drive.crank and no swing"
+            return f"no {keys} alone was found that keeps it; a twin-cam wants a swing near 2 acos(r/a)"
         if mend.value is None:
             return f"leave out {mend.path}"
         return f"make {mend.path} {mend.value:.12g}"
@@ -101,8 +102,10 @@ class WideSwingChecks(WideSwingMending):
             yield Check("GL507", "transition-zone", "fail" if zone > limit else "pass", text, zone, limit)
 
     def check_shaft_clearance(self) -> Iterator[Check]:
-        """GL302: roller against the cam shaft."""
+        """GL302: roller against the cam shaft, and the rocker's axis against the cam."""
         section = self.section
+        if self.spec.drive is None:
+            yield from self._over_rocker_axis()
         if section.shaft_radius == 0.0:
             return
         for words, cam in self.cams.items():
@@ -117,6 +120,19 @@ class WideSwingChecks(WideSwingMending):
                     f"{self.mended_center_distance:.12g} mm, or the roller smaller"
                 )
             yield Check("GL302", "shaft-clearance", "fail" if room <= 0.0 else "pass", text, room, 0.0, "mm")
+
+    def _over_rocker_axis(self) -> Iterator[Check]:
+        """The cam's arc about the dwells may reach over the rocker's axis: a warning, since it can be overhung."""
+        place, roller = self.section.center_distance, self.section.roller_radius
+        for words, cam in self.cams.items():
+            sense = -1.0 if self.spec.layout == "twin-rocker" and cam is self.cam else 1.0
+            room = sense * (place - cam.end_radius) + roller
+            if room <= 0.0:
+                text = (
+                    f"the {words} reaches {-room:.4g} mm over the rocker's axis at the dwells: overhang the rocker "
+                    "beside the cam, or reduce the swing"
+                )
+                yield Check("GL302", "shaft-clearance", "warn", text, room, 0.0, "mm")
 
     # Suggestions
 
@@ -193,6 +209,8 @@ class WideSwingChecks(WideSwingMending):
         try:
             cam = self.cam
         except NoSolution:
+            if self.spec.layout != "twin-rocker":
+                raise
             # a twin-rocker whose rocker is slower than its cam
             return Suggestion("cycle_angle", self.mended_cycle_angle, "a twin-rocker must turn faster than its cam")
         return None if cam.loop_margin > 0.0 and self.has_profile else self.mended_profile

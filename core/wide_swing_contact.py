@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
@@ -54,7 +55,8 @@ def contact_end(cam: WideSwingCam) -> float:
     Raises
         NoSolution - where the roller at mid-swing reaches the start of the profile, or is too large there
     Notes
-        1/2 - k is 4/3 of 1/2 - undercut_start as the roller radius tends to zero.
+        1/2 - k is 4/3 of 1/2 - undercut_start as the roller radius tends to zero. With a rocker radius below that of
+        (18), (24) the pitch curve turns smoothly at mid-swing; 1/2 where nothing is cut away then.
     Example
         >>> from gearlink.core.unloading import ElasticLaw, Pneumatic
         >>> law = ElasticLaw(Pneumatic(2.5), math.radians(120))
@@ -73,12 +75,25 @@ def contact_end(cam: WideSwingCam) -> float:
         normal = cam.sense * complex(cam.curve.normal(state)[0])
         return abs(step) ** 2 + diameter * (step * normal.conjugate()).real
 
+    if cam.rocker_radius < cam.nominal_rocker_radius:
+        return _first_fall(clearance)
     if clearance(0.0) <= 0.0:
         raise NoSolution(
             f"roller radius {cam.roller_radius:.6g} mm: the roller at mid-swing covers the start of the profile; "
             "make it smaller or the centre distance larger"
         )
     return bracketed_root(clearance, 0.0, undercut_start(cam))
+
+
+def _first_fall(clearance: Callable[[float], float]) -> float:
+    """The first place before mid-swing where the clearance falls below 0, or 1/2."""
+    last = 0.0
+    for i in range(1, 60):
+        k = 0.5 - 0.5 * 0.7**i
+        if clearance(k) < 0.0:
+            return bracketed_root(clearance, last, k)
+        last = k
+    return 0.5
 
 
 def start_radius_estimate(cam: WideSwingCam, k: float = 0.1) -> float:

@@ -283,6 +283,11 @@ class WideSwingLaw(Design):
             return self.spec.inertia
         return self.reference_inertia * self.energy_parameter / self.plain_law.energy_parameter
 
+    @property
+    def harmful_speed(self) -> float:
+        """Speed up to which the device raises the torque, n0 sqrt((1 + f)/2) [rev/min]."""
+        return self.spec.speed * math.sqrt(0.5 * (1.0 + self.spec.unloader.residual))
+
     # Tables
 
     @property
@@ -379,7 +384,7 @@ class WideSwingLaw(Design):
 
     def check_balancing(self) -> Iterator[Check]:
         """GL508: speeds at which the device does harm."""
-        harm = self.spec.speed / math.sqrt(2.0)
+        harm = self.harmful_speed
         text = f"the device lowers the torque above {harm:.5g} rev/min and raises it below"
         lowest = self.spec.operating_speed_min
         if lowest is None:

@@ -5,12 +5,16 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from functools import cached_property
-from typing import NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-from gearlink.core.errors import NoSolution
+from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.report import safely_above, safely_below
 from gearlink.core.spec_paths import replaced, value_at
 from gearlink.core.wide_swing_profile import WideSwingProfile
+
+if TYPE_CHECKING:
+    from gearlink.core.combined_slider import SliderLaw
+    from gearlink.core.combined_swing import CrankRockerDrive
 
 Value: TypeAlias = float | None
 
@@ -138,6 +142,26 @@ class WideSwingMending(WideSwingProfile):
 
     # Combined mechanisms
 
+    @cached_property
+    def drive(self) -> CrankRockerDrive:
+        """The crank-rocker that carries the cam; its refusal names the length to change."""
+        try:
+            return super().drive
+        except MissingSection:
+            raise
+        except NoSolution as error:
+            raise _with_number(error, self.mended_drive()) from error
+
+    @cached_property
+    def slider_law(self) -> SliderLaw:
+        """The law of rocker and slider; its refusal at a dead centre names the angle to change."""
+        try:
+            return super().slider_law
+        except NoSolution as error:
+            if error.key != "slider.middle_angle":
+                raise
+            raise _with_number(error, self.mended_slider_angle()) from error
+
     @property
     def mended_slider_rod(self) -> float:
         """A usual length of the connecting rod [mm]."""
@@ -175,6 +199,10 @@ class WideSwingMending(WideSwingProfile):
             length = max(middle, 0.95 * (least + middle - section.crank))
             return Suggestion(f"drive.{name}", float(safely_below(length, 9)), why)
         return Suggestion("drive.crank", float(safely_below(0.5 * least)), why)
+
+
+def _with_number(error: NoSolution, mend: Suggestion) -> NoSolution:
+    return NoSolution(f"{error.message}: make {mend.path} {mend.value:.12g}", key=mend.path)
 
 
 def _exists(trial: WideSwingMending) -> bool:

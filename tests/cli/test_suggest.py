@@ -1,0 +1,141 @@
+"""`gearlink swing --suggest`: the changes that are tried, the mended report, formats and exit status."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from gearlink.cli.exit_codes import ExitCode
+
+LOOP = """kind: wide-swing-cam
+layout: twin-rocker
+swing: 160
+cycle_angle: 150
+speed: 100
+inertia: 0.5
+unloader: {type: spring, pivot_ratio: 4, stretch_ratio: 0.05, arm: 60}
+cam: {center_distance: 150, roller_radius: 4, shaft_radius: 20}
+"""
+CANNOT_TURN = LOOP.replace("pivot_ratio: 4", "pivot_ratio: 0.9")
+
+
+@pytest.fixture
+def loop(tmp_path: Path) -> Path:
+    path = tmp_path / "loop.yaml"
+    path.write_text(LOOP)
+    return path
+
+
+def test_loop_is_mended_step_by_step(gearlink: Any, loop: Path) -> None:
+    assert gearlink("swing", loop).status == ExitCode.FINDING
+    ended = gearlink("swing", loop, "--suggest", "--format", "json")
+    assert ended.status == ExitCode.OK
+    first, *others = ended.json["suggestions"]
+    assert (first["path"], first["old"], first["new"]) == ("cycle_angle", 150.0, 113.19)
+    assert "loop" in first["why"]
+    assert all(change["path"] == "cycle_angle" for change in others)
+    assert ended.json["ok"] is True
+    assert "transition_zone" in ended.json["quantities"]
+
+
+def test_changes_put_in_by_hand_give_the_same_report(gearlink: Any, loop: Path) -> None:
+    mended = gearlink("swing", loop, "--suggest", "--format", "json").json
+    overrides = [f"--set={change['path']}={json.dumps(change['new'])}" for change in mended["suggestions"]]
+    by_hand = gearlink("swing", loop, *overrides, "--format", "json")
+    assert by_hand.status == ExitCode.OK
+    mended.pop("suggestions")
+    assert by_hand.json == mended
+
+
+def test_refused_design_is_mended(gearlink: Any, tmp_path: Path) -> None:
+    path = tmp_path / "stuck.yaml"
+    path.write_text(CANNOT_TURN)
+    assert gearlink("swing", path).status == ExitCode.WRONG_INPUT
+    ended = gearlink("swing", path, "--suggest", "--format", "json")
+    assert ended.status == ExitCode.OK
+    assert ended.json["suggestions"][0]["path"] == "unloader.pivot_ratio"
+
+
+def test_key_that_is_left_out(gearlink: Any, designs: Path) -> None:
+    arguments = ("swing", designs / "wide_swing_twin_cam.yaml", "--set", "cam.rocker_radius=80", "--suggest")
+    ended = gearlink(*arguments, "--format", "json")
+    assert [(c["path"], c["old"], c["new"]) for c in ended.json["suggestions"]] == [("cam.rocker_radius", 80.0, None)]
+    assert "cam.rocker_radius: 80 -> left out" in gearlink(*arguments).out
+
+
+def test_good_design_needs_no_change(gearlink: Any, designs: Path) -> None:
+    path = designs / "wide_swing_twin_cam.yaml"
+    ended = gearlink("swing", path, "--suggest", "--format", "json")
+    plain = gearlink("swing", path, "--format", "json")
+    assert ended.status == ExitCode.OK
+    assert ended.json == plain.json | {"suggestions": []}
+    assert gearlink("swing", path, "--suggest").out == "suggestions: none\n\n" + gearlink("swing", path).out
+
+
+def test_formats(gearlink: Any, loop: Path) -> None:
+    table = gearlink("swing", loop, "--suggest").out
+    assert table.startswith("suggestions, tried in this order:\n  cycle_angle: 150 -> 113.19")
+    csv = gearlink("swing", loop, "--suggest", "--format", "csv").out
+    assert csv.startswith("change,old,new,why\ncycle_angle,150.0,113.19,")
+    assert "\n\nquantity,symbol,unit,value\n" in csv
+    markdown = gearlink("swing", loop, "--suggest", "--format", "md").out
+    assert markdown.startswith("## Suggestions\n\n| change | old | new | why |")
+    assert "\n# loop: swing\n" in markdown
+
+
+def test_quantity_stays_alone_on_standard_output(gearlink: Any, loop: Path) -> None:
+    ended = gearlink("swing", loop, "--suggest", "--quantity", "velocity_peak")
+    assert ended.out.count("\n") == 1
+    assert float(ended.out) == pytest.approx(1.4149, abs=1e-4)
+    assert "cycle_angle: 150 -> 113.19" in ended.err
+
+
+def test_what_cannot_be_mended_keeps_its_status(gearlink: Any, designs: Path, tmp_path: Path) -> None:
+    path = designs / "wide_swing_twin_rocker.yaml"
+    ended = gearlink("swing", path, "--set", "limits.pressure_angle=1", "--suggest", "--format", "json")
+    assert ended.status == ExitCode.FINDING
+    wrong = gearlink("swing", path, "--set", "swing=400", "--suggest", "--format", "json")
+    assert wrong.status == ExitCode.WRONG_INPUT
+    assert wrong.json["errors"][0]["key"] == "swing"
+    unknown = gearlink("swing", path, "--suggest", "--quantity", "velocity_peek")
+    assert unknown.status == ExitCode.WRONG_INPUT
+    (tmp_path / "file").write_text("")
+    no_folder = gearlink("swing", path, "--suggest", "--plot", "--out", tmp_path / "file" / "x")
+    assert no_folder.status == ExitCode.WRONG_INPUT
+
+
+def test_figure_is_that_of_the_mended_design(gearlink: Any, loop: Path, tmp_path: Path) -> None:
+    ended = gearlink("swing", loop, "--suggest", "--plot", "--out", tmp_path, "--quiet")
+    assert ended.status == ExitCode.OK
+    assert (tmp_path / "loop-swing.png").stat().st_size > 50_000
+
+
+@pytest.mark.parametrize("command", ["cam", "analyze", "gear", "crank", "press", "gripper"])
+def test_other_commands_have_no_such_option(gearlink: Any, designs: Path, command: str) -> None:
+    ended = gearlink(command, designs / "wide_swing_twin_cam.yaml", "--suggest")
+    assert ended.status == ExitCode.WRONG_INPUT
+    assert "--suggest" in ended.err
+
+
+def test_wrong_kind(gearlink: Any, designs: Path) -> None:
+    ended = gearlink("swing", designs / "ty460.yaml", "--suggest", "--format", "json")
+    assert ended.status == ExitCode.WRONG_INPUT
+    assert ended.json["errors"][0]["code"] == "GL113"
+
+
+@pytest.mark.parametrize("name", ["twin_cam", "twin_rocker", "slider", "oscillating_cam"])
+def test_worked_designs_pass(gearlink: Any, designs: Path, name: str) -> None:
+    path = designs / f"wide_swing_{name}.yaml"
+    for command in ("swing", "analyze", *(() if name == "slider" else ("cam",))):
+        ended = gearlink(command, path, "--strict", "--format", "json")
+        assert ended.status == ExitCode.OK, ended.out
+
+
+def test_cam_command_refuses_a_loop_at_the_key(gearlink: Any, loop: Path) -> None:
+    ended = gearlink("cam", loop, "--format", "json")
+    assert ended.status == ExitCode.WRONG_INPUT
+    (error,) = ended.json["errors"]
+    assert (error["key"], error["line"]) == ("cycle_angle", 4)

@@ -1,0 +1,57 @@
+"""The page on wide swings: its table of convergence and its numbers are what the engine gives.
+
+Tolerance: orders of magnitude in the table; the last of them, near rounding, are shown as < 1e-12.
+"""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import pytest
+
+from gearlink.core.errors import NoSolution
+from gearlink.core.unloading import ElasticLaw, Pneumatic
+from gearlink.core.unloading_iteration import legacy_law
+
+PAGE = Path(__file__).resolve().parents[1] / "docs" / "wide_swing.md"
+NODES = (2, 4, 8, 16, 32, 64)
+CASES = ((2.5, 120.0), (1.5, 180.0), (1.2, 300.0), (1.05, 300.0))
+MARK = "<!-- convergence -->\n"
+
+
+def convergence() -> str:
+    """The table of nodes against error; printed by `python tests/test_wide_swing_page.py`, which writes it."""
+    rows = ["| nodes | " + " | ".join(f"ratio {ratio:g}, {swing:g} deg" for ratio, swing in CASES) + " |"]
+    rows.append("|" + " ---: |" * (len(CASES) + 1))
+    laws = [ElasticLaw(Pneumatic(ratio), math.radians(swing)) for ratio, swing in CASES]
+    for nodes in NODES:
+        errors = [abs(law.energy_parameter_with(nodes) / law.energy_parameter - 1.0) for law in laws]
+        rows.append(f"| {nodes} | " + " | ".join(f"{e:.0e}" if e > 1e-12 else "< 1e-12" for e in errors) + " |")
+    return "\n".join(rows) + "\n"
+
+
+def test_convergence_table() -> None:
+    assert MARK + "\n" + convergence() in PAGE.read_text()
+
+
+def test_numbers_of_the_iteration() -> None:
+    law, device = ElasticLaw(Pneumatic(2.5), math.radians(120.0)), Pneumatic(2.5)
+    for steps, error in ((10, 2.7e-3), (20, 6.6e-4)):
+        found = legacy_law(device, law.swing, steps=steps).energy_parameter / law.energy_parameter - 1.0
+        assert found == pytest.approx(error, rel=0.03, abs=0.0)
+    assert legacy_law(device, law.swing, steps=20).passes <= 16
+    with pytest.raises(NoSolution, match="exponent 1"):
+        legacy_law(Pneumatic(4.0), math.radians(300.0), steps=20, exponent=2)
+
+
+def test_constants_of_formula_3() -> None:
+    q = 13.0 / 9.0
+    assert round(2.0 * q * q, 4) == 4.1728
+    assert round(0.5 / (q * q - 1.0), 3) == 0.460
+    assert round((0.5 / (q * q - 1.0)) ** 2, 3) == 0.212
+
+
+if __name__ == "__main__":
+    head, _, rest = PAGE.read_text().partition(MARK)
+    PAGE.write_text(head + MARK + "\n" + convergence() + rest[rest.index("\n`gearlink` doubles") :])
