@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearlink.core import fourbar, fourbar_sweep
+from gearlink.core.dwell_angle_sweep import regained
 from gearlink.core.errors import NoSolution
 from gearlink.core.fourbar import FourBar
 from gearlink.core.gauss_quadrature import GAUSS_NODES, GAUSS_WEIGHTS
@@ -18,7 +19,9 @@ from gearlink.core.gear_linkage import GearTrain
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
+_BLOCK = 8192
 _INTEGRAL_BELOW = 0.2  # h [rad], as in `gearlink.core.symmetric_back_step`
+_FAR_FROM_1 = -0.5  # i3 above which small dwell angles need the integral
 _NODES = np.array([-x for x in reversed(GAUSS_NODES)] + list(GAUSS_NODES))
 _WEIGHTS = np.array([*reversed(GAUSS_WEIGHTS), *GAUSS_WEIGHTS])
 
@@ -133,19 +136,36 @@ def momentary_dwells(r1: ArrayLike, r3: ArrayLike, r5: ArrayLike, eccentricity: 
     Source
         own derivation; scalar form in `gearlink.core.momentary_dwell`
     """
-    arrays = [np.asarray(x, dtype=float) for x in (r1, r3, r5, eccentricity)]
-    if not all(np.all((x > 0.0) & (x < np.inf)) for x in arrays):
+    arrays = np.broadcast_arrays(*(np.asarray(x, dtype=float) for x in (r1, r3, r5, eccentricity)))
+    if not all(x.size == 0 or (x.min() > 0.0 and x.max() < np.inf) for x in arrays):
         raise NoSolution("radii and eccentricities must all be positive and finite")
-    r1, r3, r5, e = np.broadcast_arrays(*arrays)
+    shape = arrays[0].shape
+    flat = [x.ravel() for x in arrays]
+    frame, angle, exists = np.empty(flat[0].size), np.empty(flat[0].size), np.empty(flat[0].size, dtype=bool)
+    with np.errstate(invalid="ignore"):
+        for start in range(0, frame.size, _BLOCK):
+            block = slice(start, start + _BLOCK)
+            exists[block] = _momentary_block([x[block] for x in flat], frame[block], angle[block])
+    return MomentaryDwells(frame.reshape(shape), angle.reshape(shape), exists.reshape(shape))
+
+
+def _momentary_block(given: list[Array], frame: Array, angle: Array) -> Mask:
+    """Frame lengths and crank angles of one block; NaN where there is no momentary dwell."""
+    r1, r3, r5, e = given
     b, s = r1 + r3, r1 + 2.0 * r3 + r5
-    share = (r1 / (np.sqrt(b * (b + r5)) + np.sqrt(r3 * (r3 + r5)))) ** 2
+    share = r1 / (np.sqrt(b * (b + r5)) + np.sqrt(r3 * (r3 + r5)))
+    share *= share
     e_lo = share * s
-    exists = (e_lo < e) & (e < r1 - 2.0 * np.maximum(0.0, r1 - r5) * share)
-    e = np.where(exists, e, np.nan)
-    span = (r1 - e_lo) * (r1 + e_lo)
-    x, sine = np.sqrt((r1 - e) * (r1 + e) / span), np.sqrt((e - e_lo) * (e + e_lo) / span)
-    phi = np.arctan2(-r1 * sine, -e_lo * x) - np.arctan2(-r5 * sine, (s - e_lo) * x)
-    return MomentaryDwells(np.hypot((s - e_lo) * x, r5 * sine), phi % (2.0 * math.pi), exists)
+    exists: Mask = (e_lo < e) & (e < r1 - 2.0 * np.maximum(0.0, r1 - r5) * share)
+    span = 1.0 / ((r1 - e_lo) * (r1 + e_lo))
+    x, sine = np.sqrt((r1 - e) * (r1 + e) * span), np.sqrt((e - e_lo) * (e + e_lo) * span)
+    reach, rise = (s - e_lo) * x, r5 * sine
+    np.sqrt(reach * reach + rise * rise, out=frame)
+    np.subtract(np.arctan2(rise, reach), np.arctan2(r1 * sine, -e_lo * x), out=angle)
+    angle += 2.0 * math.pi * (angle < 0.0)
+    if not exists.all():
+        frame[~exists] = angle[~exists] = math.nan
+    return exists
 
 
 def dwell_angles(i3: ArrayLike, back_step_crank_angle: ArrayLike) -> Array:
@@ -160,7 +180,8 @@ def dwell_angles(i3: ArrayLike, back_step_crank_angle: ArrayLike) -> Array:
     Raises
         NoSolution - for a value outside its range
     Notes
-        Newton steps kept inside the bracket [h, 3 h], all designs at once.
+        Steps of third order, all designs at once, see `gearlink.core.dwell_angle_sweep`; Newton steps kept inside
+        a bracket for those that do not settle.
     Example
         >>> np.round(np.degrees(dwell_angles([-1.0, -2.0, -3.0], math.radians(90.0))), 9).tolist()
         [131.409622109, 135.0, 136.359742972]
@@ -171,10 +192,19 @@ def dwell_angles(i3: ArrayLike, back_step_crank_angle: ArrayLike) -> Array:
     ratio, h = _pair(i3, 0.5 * np.asarray(back_step_crank_angle, dtype=float))
     if not np.all((h > 0.0) & (h < 0.5 * math.pi)):
         raise NoSolution("crank angles of the back-step must lie above 0 and below 180 deg")
+    y, settled = regained(ratio.ravel(), h.ravel())
+    settled &= (ratio.ravel() <= _FAR_FROM_1) | (h.ravel() >= _INTEGRAL_BELOW)
+    if not settled.all():
+        rest = np.flatnonzero(~settled)
+        y[rest] = _regained_by_bracket(ratio.flat[rest], h.flat[rest])
+    return y.reshape(h.shape) + h
+
+
+def _regained_by_bracket(ratio: Array, h: Array) -> Array:
+    """Where the output regains its place: Newton steps kept inside the bracket [h, 3 h]."""
     limit = 2.0 * math.pi * (1.0 - ratio) / (2.0 - ratio)
     high = np.minimum(3.0 * h, limit - h)
-    y = _newton(lambda y: (-_fallen(ratio, h, y), _speed(ratio, h, y)), h, high, np.minimum(2.0 * h, high))
-    return y + h
+    return _newton(lambda y: (-_fallen(ratio, h, y), _speed(ratio, h, y)), h, high, np.minimum(2.0 * h, high))
 
 
 def crank_angles_for_dwell(i3: ArrayLike, dwell_angle: ArrayLike) -> DwellCrankAngles:
