@@ -499,3 +499,16 @@ def test_laziness() -> None:
     fresh = design()
     fresh.report("swing", quantities=("min_pivot_ratio",))
     assert "plain_law" not in fresh.__dict__
+
+
+def test_spring_of_given_length_is_judged_by_formula_4() -> None:
+    """(4) at the file's own ratio; above or below it together with the ratio that just fits."""
+    unloader = {"type": "spring", "stretch_ratio": 0.5, "arm": 120, "closed_length": 150, "end_fittings": 40}
+    for ratio in (2.2, 2.9, 2.92, 4.0):
+        made = design(unloader={**unloader, "pivot_ratio": ratio}, cam=None)
+        half = 0.5 * made.swing
+        longest = math.sqrt(1.0 + ratio * ratio - 2.0 * ratio * math.cos(half))
+        stretch = 0.5 * 120.0 * (longest - (ratio - 1.0))
+        assert made.min_pivot_ratio == close(1.0 + (150.0 + 40.0 + stretch) / 120.0)
+        assert made.fitting_pivot_ratio is not None
+        assert (ratio >= made.min_pivot_ratio) == (ratio >= made.fitting_pivot_ratio)
