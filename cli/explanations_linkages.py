@@ -16,6 +16,17 @@ LINKAGES: dict[str, Explanation] = {
         ("tip-fouling",),
         ("gears",),
     ),
+    "GL305": Explanation(
+        "five-bar closes",
+        "The two couplers reach from one geared link to the other at every input angle (a design that opens is refused "
+        "with the worst angle).",
+        "Where they do not reach, the mechanism cannot be put together or jams there.",
+        "Lengthen coupler and follower together, make them more equal, or shorten the geared links.",
+        "|b - c| < |BD| < b + c over the whole period; function form |c - e| < |CE| < c + e over the range",
+        "own derivation",
+        ("closure",),
+        ("links", "range"),
+    ),
     "GL306": Explanation(
         "output does not make the motion that is asked for",
         "The output of a two-gear four-bar stands still where coupler and crank have a certain speed ratio; the links "

@@ -44,6 +44,7 @@ _SWING = "wide_swing_design:WideSwingDesign"
 _TWO_GEAR = "two_gear_four_bar:TwoGearFourBar"
 _GEARED_ROCKER = "geared_rocker:GearedRocker"
 _HYPOCYCLOID = "hypocycloid_dwell:HypocycloidDwell"
+_FIVE_BAR = "geared_five_bar:GearedFiveBar"
 _MUTILATED = "mutilated_gear_dwell:MutilatedGearDwell"
 
 KINDS: dict[str, Kind] = {
@@ -105,6 +106,7 @@ KINDS: dict[str, Kind] = {
             "geared_rocker:GearedRockerSpec",
             {"analyze": _GEARED_ROCKER, "gear": _GEARED_ROCKER},
         ),
+        Kind("geared-five-bar", "geared_five_bar:GearedFiveBarSpec", {"analyze": _FIVE_BAR, "gear": _FIVE_BAR}),
         Kind(
             "hypocycloid-dwell",
             "hypocycloid_dwell:HypocycloidDwellSpec",

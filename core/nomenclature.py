@@ -27,8 +27,8 @@ _GEAR_LINKAGE = {
     "output_teeth": Term("z5", "1", "teeth of the output gear"),
     "frame_ratio": Term("d", "1", "frame length over crank length", "thesis (4-18), (4-20)"),
     "crank_length": Term("l1", "mm", "crank"),
-    "coupler_length": Term("l2", "mm", "coupler, the centre distance of crank gear and idler"),
-    "rocker_length": Term("l3", "mm", "rocker, the centre distance of idler and output gear"),
+    "coupler_length": Term("l2", "mm", "coupler; with three gears the centre distance of gears 1 and 3"),
+    "rocker_length": Term("l3", "mm", "rocker; with three gears the centre distance of gears 3 and 5"),
     "frame_length": Term("l4", "mm", "frame", "own closed form in place of thesis (4-26)..(4-33)"),
     "mean_ratio": Term("I", "1", "net output turns per input turn", "thesis (4-1)"),
     "speed_ratio_max": Term("(w5/w1)max", "1", "greatest output speed per input speed", "thesis (4-13)"),
@@ -209,6 +209,31 @@ _HYPOCYCLOID = {
     "ripple_share": Term("", "1", "ripple over stroke"),
 }
 
+_FIVE_BAR = {
+    "form": Term("", "1", "path of a coupler point, or output as a function of the input"),
+    "five_bar_ratio": Term("k", "1", "output over input speed of the gears", "thesis figure 2-1"),
+    "coupler_ratio": Term("m", "1", "coupler over input speed, 1 + z5/z2 or 1 - z5/z2", "thesis figure 2-7, a reading"),
+    "period_turns": Term("q", "1", "input turns until everything repeats", "own derivation"),
+    "input_length": Term("a", "mm", "input link AB"),
+    "follower_length": Term("c", "mm", "follower CD"),
+    "output_length": Term("e", "mm", "output link DE"),
+    "phase": Term("delta", "deg", "direction of output link (function: coupler) at input angle 0"),
+    "assembly": Term("", "1", "assembly, +1 or -1"),
+    "point_along": Term("u", "mm", "coupler point, along B->C"),
+    "point_across": Term("v", "mm", "coupler point, to the left of B->C"),
+    "span_min": Term("", "mm", "least distance that the dyad spans", "own derivation"),
+    "span_min_at": Term("", "deg", "input angle of it"),
+    "span_max": Term("", "mm", "greatest distance that the dyad spans", "own derivation"),
+    "span_max_at": Term("", "deg", "input angle of it"),
+    "min_transmission_angle_at": Term("", "deg", "input angle of the least transmission angle"),
+    "path_width": Term("", "mm", "extent of the path along the frame"),
+    "path_height": Term("", "mm", "extent of the path across the frame"),
+    "phase_step": Term("360/z4", "deg", "step in which the phase can be set a tooth on"),
+    "path_deviation_rms": Term("", "mm", "root mean square of the points' distances from the path"),
+    "path_deviation_max": Term("", "mm", "greatest distance of a point from the path"),
+    "position_errors": Term("", "deg", "output angle reached less that asked for, at each position"),
+}
+
 TERMS: dict[str, Term] = {
     **_GEAR_LINKAGE,
     **_GEAR_PAIR,
@@ -221,6 +246,7 @@ TERMS: dict[str, Term] = {
     **_MUTILATED,
     **_PLANET_LINKAGE,
     **_HYPOCYCLOID,
+    **_FIVE_BAR,
 }
 
 

@@ -48,9 +48,18 @@ class SingleMesh(Design):
         """The checks of the mesh, and the design's own."""
         if name not in MESH_CHECKS:
             return super().check(name)
-        if isinstance(self.mesh, InternalMesh):
-            return list(_internal_check(name, self.mesh, self.spec.limits))
-        return [] if name == "tip-fouling" else list(gear_check(name, self.mesh, self.spec.limits))
+        return mesh_checks(name, self.mesh, self.spec.limits)
+
+
+def mesh_checks(name: str, mesh: GearPair | InternalMesh, limits: Any, label: str = "") -> list[Check]:
+    """The findings of one of MESH_CHECKS on a mesh, which goes by a label where a design has several.
+
+    Source
+        ISO 21771 for the quantities
+    """
+    if isinstance(mesh, InternalMesh):
+        return list(_internal_check(name, mesh, limits))
+    return [] if name == "tip-fouling" else list(gear_check(name, mesh, limits, label))
 
 
 def _internal_check(name: str, mesh: InternalMesh, limits: Any) -> Iterator[Check]:
