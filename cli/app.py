@@ -15,6 +15,7 @@ from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.export.register import register as register_export
 from gearlink.cli.laws import laws
 from gearlink.cli.options import Format, Options, PlotFormat
+from gearlink.cli.picture_commands import register as register_pictures
 from gearlink.cli.reference_commands import register
 
 _HELP = """Design calculator for the mechanisms of printing machines.
@@ -120,6 +121,23 @@ for _name, _words in _SYNTH_COMMANDS.items():
     synth.command(_name)(_design_command(f"synth {_name}", _words))
 
 
+@app.command("report")
+def _report(
+    spec: Spec,
+    out: OutOption = Path(),
+    set_: SetOption = [],  # noqa: B006 - Typer copies it
+    strict: StrictOption = False,
+    quiet: QuietOption = False,
+) -> None:
+    """All of a design on one self-contained HTML page: input, results, findings, tables, pictures.
+
+    Example: gearlink report designs/ty460.yaml --out reports
+    """
+    from gearlink.cli.html_report import run_report
+
+    raise typer.Exit(run_report(spec, Options(out=out, overrides=tuple(set_), strict=strict, quiet=quiet)))
+
+
 @app.command("batch")
 def _batch(
     places: Annotated[list[str], typer.Argument(metavar="DIR...", help="folders, design files or patterns")],
@@ -164,6 +182,7 @@ def _share(text: str) -> tuple[int, int]:
 
 register(app)
 register_export(app)
+register_pictures(app)
 app.command("laws")(laws)
 
 

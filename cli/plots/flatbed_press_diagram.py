@@ -39,7 +39,7 @@ def machine(axes: Axes, design: FlatbedPress) -> None:
     a, d = 0j, bed.d * LEVEL
     b, c, e, f = (complex(points[0]) * LEVEL for points in (bed.b, bed.c, bed.e, bed.f))
     slide = f.imag
-    gear_axis, radius = _gear_axis(design, slide)
+    gear_axis, radius = input_gear_place(design, slide)
     h, m, n = (gear_axis + UPRIGHT * p for p in (complex(cylinder.h[0]), complex(cylinder.m[0]), cylinder.n))
     _gears(axes, a, gear_axis, radius)
     style.link(axes, [a, b, c, d, e, f], style.BLUE, 1.8)
@@ -52,7 +52,7 @@ def machine(axes: Axes, design: FlatbedPress) -> None:
     _cylinder(axes, design, n, top)
 
 
-def _gear_axis(design: FlatbedPress, slide: float) -> tuple[complex, float | None]:
+def input_gear_place(design: FlatbedPress, slide: float) -> tuple[complex, float | None]:
     """Axis G on the height of the slide line, and the working radius of the equal input gears."""
     gears = design.spec.input_gears
     if gears is not None:

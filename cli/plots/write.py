@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
@@ -30,10 +31,10 @@ def draw(command: str, design: Design) -> Figure:
     """The figure of a command on a design, from the module named after the kind."""
     module = import_module("gearlink.cli.plots." + design.kind.replace("-", "_"))
     made: Figure = module.draw(command, design)
-    return _settled(made)
+    return settled(made)
 
 
-def _settled(made: Figure) -> Figure:
+def settled(made: Figure) -> Figure:
     """The figure with its panels placed for good, to the hundredth of a millimetre.
 
     The solver of the constrained layout leaves last digits to chance, and an SVG names its clips after them.
@@ -61,16 +62,21 @@ def write_plot(command: str, design: Design, options: Options, *, stem: str = ""
 
 def picture(command: str, design: Design, stream: IO[bytes], ending: str) -> None:
     """Draw a design into a stream as png, svg or pdf; the same design gives the same bytes."""
+    save(lambda: draw(command, design), design.spec.name, stream, ending)
+
+
+def save(make: Callable[[], Figure], name: str, stream: IO[bytes], ending: str) -> None:
+    """Write the figure that `make` draws, in fonts that have the letters of `name`, as png, svg or pdf."""
     import matplotlib
 
-    style = {**_FIXED_STYLE, "font.family": _families(design.spec.name)}
+    style: Any = {**_FIXED_STYLE, "font.family": families(name)}
     with matplotlib.rc_context(style), warnings.catch_warnings():
         # A script that no installed font has is drawn as boxes; the picture is still worth having.
         warnings.filterwarnings("ignore", message="Glyph .* missing from font")
-        draw(command, design).savefig(stream, format=ending, metadata=_FIXED_METADATA[ending])
+        make().savefig(stream, format=ending, metadata=_FIXED_METADATA[ending])
 
 
-def _families(name: str) -> list[str]:
+def families(name: str) -> list[str]:
     """The usual font, and one for the script of the name where it needs one that is installed."""
     if name.isascii():
         return ["sans-serif"]

@@ -1,0 +1,1 @@
+"""Moving pictures: one module per kind that moves, named after it, with build(design, fraction)."""

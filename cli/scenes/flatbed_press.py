@@ -1,0 +1,265 @@
+"""The flatbed press in motion: one turn of the input, a sheet. Chains and cams are to scale, as in its diagram."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from gearlink.cli.plots import style
+from gearlink.cli.plots.flatbed_press_diagram import LEVEL, UPRIGHT, input_gear_place
+from gearlink.cli.scenes.cams import disc_cam
+from gearlink.cli.scenes.gears import gear
+from gearlink.cli.scenes.scene import (
+    TURN,
+    Body,
+    Chain,
+    Chart,
+    Curve,
+    Line,
+    Mark,
+    Part,
+    Points,
+    Readout,
+    Reals,
+    Scene,
+    circle,
+    fixed_circle,
+    loop,
+    pale,
+    track,
+    wheel,
+)
+from gearlink.cli.scenes.slider_crank import block
+from gearlink.core.mesh_phase import driven_turn
+from gearlink.core.press_positions import bed_positions, cylinder_positions
+
+if TYPE_CHECKING:
+    from gearlink.core.flatbed_press import FlatbedPress
+
+_BED, _RACK = "#CFE8F7", "#F6E3C0"
+_CAM_COLORS = (style.BLUE, style.RED)
+
+
+@dataclass(frozen=True)
+class Machine:
+    """Where the parts of a press stand; what the design leaves free keeps the parts apart."""
+
+    design: FlatbedPress
+    fraction: Reals
+
+    @property
+    def phi(self) -> Reals:
+        """Input angle [rad]."""
+        return TURN * self.fraction
+
+    @cached_property
+    def bed_joints(self) -> tuple[Points, ...]:
+        """A to F with the slide level."""
+        at = bed_positions(self.design.bed, self.phi)
+        return tuple(LEVEL * track(point, self.fraction) for point in (at.a, at.b, at.c, at.d, at.e, at.f))
+
+    @cached_property
+    def slide(self) -> float:
+        """Height of the slide line [mm]."""
+        return float(self.bed_joints[5].imag[0])
+
+    @cached_property
+    def gear_axis(self) -> complex:
+        """Axis G."""
+        return input_gear_place(self.design, self.slide)[0]
+
+    @cached_property
+    def cylinder_joints(self) -> tuple[Points, ...]:
+        """G, H, M, N with N above G."""
+        at = cylinder_positions(self.design.cylinder, self.phi)
+        return tuple(self.gear_axis + UPRIGHT * track(point, self.fraction) for point in (at.g, at.h, at.m, at.n))
+
+    @cached_property
+    def cam_angle(self) -> Reals:
+        """Angle turned by the cams [rad]."""
+        return np.asarray(self.design.bed.cam_angle(self.phi).value)
+
+    @cached_property
+    def lift(self) -> Reals:
+        """Way of the lower rack [mm]; nothing without cams."""
+        if self.design.spec.cam is None:
+            return np.zeros_like(self.fraction)
+        return np.asarray(self.design.follower.evaluate(self.cam_angle, 0)[0].value)
+
+    @cached_property
+    def bed_travel(self) -> Reals:
+        """Way of the bed [mm], the compensation taken off."""
+        return np.asarray(self.design.bed.travel(self.phi).value) - self.lift
+
+    @cached_property
+    def cylinder_travel(self) -> Reals:
+        """Way of the cylinder's surface [mm]."""
+        return np.asarray(self.design.cylinder.travel(self.phi).value)
+
+    @property
+    def pinion(self) -> float:
+        """Radius of the pinion on F [mm]."""
+        return 0.12 * self.design.spec.bed.stroke
+
+    @property
+    def bed_top(self) -> float:
+        """Height of the bed's top [mm]."""
+        return self.slide + self.pinion + 0.06 * self.design.spec.bed.stroke
+
+    @cached_property
+    def cam_axis(self) -> complex:
+        """Where the cams of the shaft D are drawn: beside the chains."""
+        design = self.design
+        links, roller = design.bed, 0.0 if design.spec.cam is None else design.spec.cam.roller_radius
+        gears = 0.0 if design.spec.input_gears is None else design.gear_pair.tip_radius[0]
+        reach = max(links.linkage.crank + links.linkage.frame, links.slider_crank_length, gears)
+        return complex(self.bed_joints[3][0]) + reach + 1.5 * design.max_radius + 2.0 * roller
+
+    @cached_property
+    def cylinder_axis(self) -> complex:
+        """Axis of the cylinder: on the bed, geared to N."""
+        radius, n = self.design.cylinder.radius, complex(self.cylinder_joints[3][0])
+        rise = self.bed_top + radius - n.imag
+        distance = max(radius * (1.0 + self.design.cylinder.gear_ratio), 1.001 * abs(rise))
+        return complex(n.real - math.sqrt(distance**2 - rise**2), self.bed_top + radius)
+
+
+def build(design: FlatbedPress, fraction: Reals) -> Scene:
+    """Positions over fractions of the loop."""
+    machine = Machine(design, fraction)
+    bed, cylinder = machine.bed_joints, machine.cylinder_joints
+    names = "ABCDEFGHMN"
+    pivots = "ADGN"
+    return Scene(
+        parts=(
+            *_driving_circles(machine),
+            *_bed(machine),
+            *_cylinder(machine),
+            *_input_gears(machine),
+            Chain(joints=bed, color=style.BLUE),
+            Chain(joints=cylinder, color=style.GREEN),
+            *_cams(machine),
+        ),
+        marks=(
+            *(
+                Mark(point=point, text=name, pivot=name in pivots)
+                for name, point in zip(names, (*bed, *cylinder), strict=True)
+            ),
+            *_cam_words(machine),
+        ),
+        chart=_chart(design, machine),
+        readouts=(
+            Readout(label="input", unit="°", values=np.degrees(machine.phi)),
+            Readout(label="bed", unit=" mm", values=machine.bed_travel),
+            Readout(label="cylinder", unit=" mm", values=machine.cylinder_travel),
+            Readout(label="lift of the cam", unit=" mm", values=machine.lift),
+        ),
+    )
+
+
+def _bed(machine: Machine) -> list[Part]:
+    """Pinion on F between the rack that the cams move and the rack of the bed."""
+    stroke, fraction = machine.design.spec.bed.stroke, machine.fraction
+    f, pinion = machine.bed_joints[5], machine.pinion
+    middle = 0.5 * (float(f.real.min()) + float(f.real.max()))
+    thick = 0.06 * stroke
+    whole = Machine(machine.design, loop(721)).bed_travel
+    travel = machine.bed_travel - 0.5 * (float(whole.min()) + float(whole.max()))
+    upper = middle + travel + 1j * (machine.slide + pinion + 0.5 * thick)
+    lower = middle + machine.lift + 1j * (machine.slide - pinion - 0.5 * thick)
+    turn = -(f.real - machine.lift) / pinion
+    spoke = pinion * np.array([-1.0, 1.0, 0.0, 1j, -1j])
+    way = Line(points=f[[int(f.real.argmin()), int(f.real.argmax())]], color=style.GREY)
+    return [
+        way,
+        replace(block(upper, 0.72 * stroke, thick, style.BLACK, "bed"), fill=_BED),
+        replace(block(lower, 1.0 * stroke, thick, style.BLACK, "rack moved by the cams"), fill=_RACK),
+        wheel(f, pinion, fraction, color=style.BLUE, fill=pale(style.BLUE, 0.1)),
+        Body(outline=spoke, place=f, turn=turn, color=style.BLUE, closed=False),
+    ]
+
+
+def _painted(body: Body, fill: str) -> Body:
+    return Body(outline=body.outline, place=body.place, turn=body.turn, color=body.color, fill=fill, label=body.label)
+
+
+def _cylinder(machine: Machine) -> list[Part]:
+    """The cylinder on the bed; its gripper gap shows how it turns."""
+    radius, axis = machine.design.cylinder.radius, machine.cylinder_axis
+    turn = machine.cylinder_travel / radius - 0.5 * math.pi
+    gap = radius * np.exp(1j * np.linspace(-0.35, 0.0, 9))
+    outline = np.concatenate([[0.82 * gap[0]], gap, [0.82 * gap[-1], 0.82 * gap[0]]])
+    shared = {"place": track(axis, machine.fraction), "turn": turn, "color": style.GREEN}
+    return [
+        Body(outline=circle(radius, 144), repeats=0, fill=pale(style.GREEN, 0.12), **shared, label="cylinder"),  # type: ignore[arg-type]
+        Body(outline=outline, fill="#ffffff", **shared),  # type: ignore[arg-type]
+    ]
+
+
+def _driving_circles(machine: Machine) -> list[Part]:
+    """Pitch circles of the gears from N to the cylinder."""
+    axis, n = machine.cylinder_axis, complex(machine.cylinder_joints[3][0])
+    driven = abs(axis - n) / (1.0 + machine.design.cylinder.gear_ratio)
+    pairs = ((axis, driven), (n, abs(axis - n) - driven))
+    return [fixed_circle(center, radius, style.GREY, dashed=True) for center, radius in pairs]
+
+
+def _input_gears(machine: Machine) -> list[Part]:
+    """Gears 1 on G and 2 on A with their teeth, where the design has them."""
+    design = machine.design
+    if design.spec.input_gears is None:
+        return []
+    pair, a, g = design.gear_pair, machine.bed_joints[0], machine.cylinder_joints[0]
+    line = np.full_like(machine.fraction, np.angle(machine.gear_axis))
+    turn = driven_turn(pair.teeth, line, machine.phi)
+    return [
+        *gear(pair, 0, a, machine.phi, 1.0, style.GREY, "2"),
+        *gear(pair, 1, g, turn, -1.0, style.GREY, "1"),
+    ]
+
+
+def _cams(machine: Machine) -> list[Part]:
+    """The cams of the shaft D with the rollers of the rack, drawn beside it."""
+    design = machine.design
+    if design.spec.cam is None:
+        return []
+    axis = track(machine.cam_axis, machine.fraction)
+    back = disc_cam(design.return_cam, axis, machine.cam_angle, _CAM_COLORS[1])
+    main = disc_cam(design.main_cam, axis, machine.cam_angle, _CAM_COLORS[0])
+    parts: list[Part] = [back, replace(main, fill="")]
+    places = (
+        design.cam_base_radius + machine.lift,
+        design.cam_base_radius - design.roller_center_distance + machine.lift,
+    )
+    rollers = [axis + place for place in places]
+    for center, color in zip(rollers, _CAM_COLORS, strict=True):
+        parts.append(wheel(center, design.spec.cam.roller_radius, machine.fraction, color=color, fill=pale(color, 0.3)))
+    parts.append(Chain(joints=(rollers[0], rollers[1]), color=style.GREY, width=1.5))
+    parts.append(wheel(axis, 0.12 * design.cam_base_radius, machine.fraction, color=style.BLACK, fill="#ffffff"))
+    return parts
+
+
+def _cam_words(machine: Machine) -> tuple[Mark, ...]:
+    design = machine.design
+    if design.spec.cam is None:
+        return ()
+    below = machine.cam_axis - (1.0 + 1.4j) * design.max_radius
+    return (Mark(point=track(below, machine.fraction), text="cams on D"),)
+
+
+def _chart(design: FlatbedPress, machine: Machine) -> Chart:
+    whole = Machine(design, loop())
+    return Chart(
+        xlabel="input angle [deg]",
+        ylabel="travel [mm]",
+        x=360.0 * loop(),
+        now=np.degrees(machine.phi),
+        curves=(
+            Curve(label="bed", color=style.BLUE, y=whole.bed_travel, now=machine.bed_travel),
+            Curve(label="cylinder", color=style.GREEN, y=whole.cylinder_travel, now=machine.cylinder_travel),
+        ),
+    )

@@ -1,0 +1,64 @@
+"""The geared rocker in motion: one turn of the crank."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from gearlink.cli.plots import style
+from gearlink.cli.scenes.gears import gear
+from gearlink.cli.scenes.linkages import Joints, coupler_windings, crank_readout, over_crank, whole_turn
+from gearlink.cli.scenes.scene import TURN, Body, Curve, Readout, Reals, Scene, fixed_circle
+from gearlink.core.mesh_phase import driven_turn
+
+if TYPE_CHECKING:
+    from gearlink.core.geared_rocker import GearedRocker
+
+
+def build(design: GearedRocker, fraction: Reals) -> Scene:
+    """Positions over fractions of the loop; a hand on the output shows its swing."""
+    phi = TURN * fraction
+    at, output = Joints.of(design.linkage, phi), _turn(design, phi)
+    wound = coupler_windings(design.linkage)
+    reach = design.mesh.tip_radius[1]
+    start, whole = _turn(design, np.zeros(1))[0], _turn(design, whole_turn())
+    hand = Body(
+        outline=np.array([0.0, 1.7 * reach * 1j]),
+        place=at.d,
+        turn=output - start,
+        color=style.ORANGE,
+        width=5.0,
+        closed=False,
+    )
+    rocker = Joints.of(design.linkage, whole_turn()).rocker
+    return Scene(
+        parts=(
+            *gear(design.mesh, 1, at.d, output, wound, style.ORANGE, "5"),
+            *gear(design.mesh, 0, at.c, at.coupler, wound, style.BLUE, "2"),
+            hand,
+            fixed_circle(0j, design.crank_length, style.GREY, dashed=True),
+            at.chain(),
+        ),
+        marks=at.marks(),
+        chart=over_crank(
+            phi,
+            (
+                Curve(label="output", color=style.ORANGE, y=np.degrees(whole - start), now=np.degrees(output - start)),
+                Curve(
+                    label="rocker",
+                    color=style.BLACK,
+                    y=np.degrees(rocker - rocker[0]),
+                    now=np.degrees(at.rocker - rocker[0]),
+                ),
+            ),
+            "angle from crank angle 0 [deg]",
+        ),
+        readouts=(crank_readout(phi), Readout(label="output", unit="°", values=np.degrees(output - start))),
+    )
+
+
+def _turn(design: GearedRocker, phi: Reals) -> Reals:
+    at, teeth = Joints.of(design.linkage, phi), design.mesh.teeth
+    return driven_turn((teeth[0], teeth[1]), at.rocker + math.pi, at.coupler)

@@ -1,0 +1,66 @@
+"""What the scenes of the smaller gear-linkages share: the four joints, and a chart over the crank angle."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from gearlink.cli.plots import style
+from gearlink.cli.scenes.scene import TURN, Chain, Chart, Curve, Mark, Points, Readout, Reals, loop, track
+from gearlink.core import fourbar_sweep
+from gearlink.core.fourbar import FourBar
+
+
+@dataclass(frozen=True, slots=True)
+class Joints:
+    """A four-bar over crank angles: joints [mm], and directions of coupler and rocker [rad]."""
+
+    a: Points
+    b: Points
+    c: Points
+    d: Points
+    coupler: Reals
+    rocker: Reals
+
+    @classmethod
+    def of(cls, linkage: FourBar, crank_angle: Reals) -> Joints:
+        """The joints at crank angles [rad]."""
+        state = fourbar_sweep.solve(linkage, crank_angle)
+        return cls(
+            track(0.0, crank_angle),
+            linkage.crank * np.exp(1j * crank_angle),
+            linkage.frame + linkage.rocker * np.exp(1j * state.rocker_angle),
+            track(linkage.frame, crank_angle),
+            state.coupler_angle,
+            state.rocker_angle,
+        )
+
+    def chain(self) -> Chain:
+        """The links."""
+        return Chain(joints=(self.a, self.b, self.c, self.d), color=style.BLACK)
+
+    def marks(self) -> tuple[Mark, ...]:
+        """Letters and pivots."""
+        named = (("A", self.a, True), ("B", self.b, False), ("C", self.c, False), ("D", self.d, True))
+        return tuple(Mark(point=point, text=name, pivot=pivot) for name, point, pivot in named)
+
+
+def coupler_windings(linkage: FourBar) -> float:
+    """Turns of coupler and rocker in a turn of the crank: 1 in a drag link, else 0."""
+    return 1.0 if linkage.kind() == "drag-link" else 0.0
+
+
+def over_crank(phi: Reals, curves: tuple[Curve, ...], ylabel: str) -> Chart:
+    """A chart over one turn of the crank; its curves have as many points as `loop()`."""
+    return Chart(xlabel="crank angle [deg]", ylabel=ylabel, x=360.0 * loop(), now=np.degrees(phi), curves=curves)
+
+
+def crank_readout(phi: Reals) -> Readout:
+    """The crank angle."""
+    return Readout(label="crank", unit="°", values=np.degrees(phi))
+
+
+def whole_turn() -> Reals:
+    """Crank angles of a chart [rad]."""
+    return TURN * loop()

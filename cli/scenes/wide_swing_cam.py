@@ -1,0 +1,232 @@
+"""The wide-swing mechanism in motion: working stroke, rest, return stroke, rest.
+
+A cam is drawn as far as it is known: the profile of its stroke with the slot of the roller at mid-swing.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from gearlink.cli.plots import style
+from gearlink.cli.scenes.linkages import Joints
+from gearlink.cli.scenes.scene import (
+    TURN,
+    Body,
+    Chain,
+    Chart,
+    Curve,
+    Mark,
+    Part,
+    Points,
+    Readout,
+    Reals,
+    Scene,
+    loop,
+    pale,
+    track,
+    wheel,
+)
+from gearlink.cli.scenes.slider_crank import block
+
+if TYPE_CHECKING:
+    from gearlink.core.wide_swing_design import WideSwingDesign
+    from gearlink.core.wide_swing_outline import AnyCam
+
+
+@dataclass(frozen=True)
+class Cycle:
+    """The cycle of a cam that turns evenly, or of one on a crank-rocker, over fractions of the loop."""
+
+    design: WideSwingDesign
+    fraction: Reals
+
+    @property
+    def oscillates(self) -> bool:
+        """Whether the cam rides on a crank-rocker."""
+        return self.design.spec.drive is not None
+
+    @cached_property
+    def turned(self) -> float:
+        """Angle that the cam, or the crank, turns in the loop: whole turns with room for both strokes [rad]."""
+        return TURN if self.oscillates else TURN * math.ceil(2.0 * self.design.cycle_angle / TURN - 1e-9)
+
+    @cached_property
+    def share(self) -> float:
+        """Share of the loop that a stroke takes."""
+        return self.design.cycle_angle / self.turned
+
+    @cached_property
+    def stroke(self) -> Reals:
+        """k, fraction of the stroke: from 0 to 1 and back; the return takes the law from its other end."""
+        at = np.mod(self.fraction, 1.0)
+        if self.oscillates:
+            return np.where(at <= self.share, at / self.share, self._back(at))
+        out, back = np.clip(at / self.share, 0.0, 1.0), np.clip((at - 0.5) / self.share, 0.0, 1.0)
+        return np.where(at < 0.5, out, 1.0 - back)
+
+    def _back(self, at: Reals) -> Reals:
+        """k where the cam that swings back stands as it did in the stroke."""
+        from gearlink.core import fourbar_sweep
+
+        drive = self.design.drive
+        k = np.linspace(0.0, 1.0, 20001)
+        forth = fourbar_sweep.solve(drive.linkage, drive.crank_angles[0] + k * drive.crank_span).rocker_angle
+        here = fourbar_sweep.solve(drive.linkage, drive.crank_angles[0] + TURN * at).rocker_angle
+        rising = forth[-1] > forth[0]
+        return np.asarray(np.interp(here if rising else -here, forth if rising else -forth, k))
+
+    @cached_property
+    def swing(self) -> Reals:
+        """Angle of the rocker from mid-swing [rad]."""
+        law = self.design.law
+        share = law.invariants(self.stroke, 0)[0]
+        return np.asarray((share - 0.5) * self.design.swing)
+
+    def cam_turn(self, late: float) -> Reals:
+        """Angle of an evenly turning cam from mid-swing of its stroke, which begins at a fraction [rad]."""
+        return self.turned * (self.fraction - late) - 0.5 * self.design.cycle_angle
+
+
+def build(design: WideSwingDesign, fraction: Reals) -> Scene:
+    """Positions over fractions of the loop; the rocker's pivot is the origin, the cam axis stands right of it."""
+    cycle = Cycle(design, fraction)
+    marks = [Mark(point=track(0.0, fraction), pivot=True)]
+    if design.spec.cam is not None:
+        marks.append(Mark(point=track(design.spec.cam.center_distance, fraction), pivot=True))
+    if cycle.oscillates:
+        marks.append(Mark(point=_crank_rocker(cycle)[0], text="A", pivot=True))
+    drive = "crank" if cycle.oscillates else "cam"
+    return Scene(
+        parts=(*_device(cycle), *_cams(cycle), *_slider(cycle)),
+        marks=tuple(marks),
+        chart=_chart(cycle, drive),
+        readouts=(
+            Readout(label=drive, unit="°", values=np.degrees(cycle.turned * fraction)),
+            Readout(label="rocker from mid-swing", unit="°", values=np.degrees(cycle.swing)),
+        ),
+    )
+
+
+def _cams(cycle: Cycle) -> list[Part]:
+    """Cams of both strokes, and the rollers on the arms of the rocker."""
+    design = cycle.design
+    if design.spec.cam is None:
+        return []
+    if cycle.oscillates:
+        turn, joints = _cam_on_rocker(cycle), _crank_rocker(cycle)
+        return [
+            *_cam(cycle, design.cam, turn, style.BLUE),
+            Chain(joints=joints, color=style.GREY),
+            *_roller(cycle, design.cam.rocker_radius),
+        ]
+    if design.return_cam is None:
+        main = _cam(cycle, design.cam, -cycle.cam_turn(0.0), style.BLUE)
+        back = _cam(cycle, design.cam, cycle.cam_turn(0.5), style.RED, mirrored=True)
+        return [*back, *main, *_roller(cycle, design.cam.rocker_radius)]
+    main = _cam(cycle, design.cam, math.pi + cycle.cam_turn(0.0), style.BLUE)
+    back = _cam(cycle, design.return_cam, cycle.cam_turn(0.5), style.RED, mirrored=True)
+    rollers = *_roller(cycle, -design.cam.rocker_radius), *_roller(cycle, design.return_cam.rocker_radius)
+    return [*back, *main, *rollers]
+
+
+def _cam(cycle: Cycle, cam: AnyCam, turn: Reals, color: str, *, mirrored: bool = False) -> list[Part]:
+    """The contour of a stroke, open as it is known, and spokes to the cam axis."""
+    from gearlink.core.wide_swing_outline import contour
+
+    run_up, slot, run_out = contour(cam, cycle.design.slot_of(cam), 160)
+    outline = np.concatenate([run_up, slot[1:], run_out[1:]])
+    outline = outline.conj() if mirrored else outline
+    place = track(cam.center_distance, cycle.fraction)
+    spokes = np.array([outline[0], 0.0, outline[-1]])
+    return [
+        Body(outline=spokes, place=place, turn=turn, color=color, width=0.8, closed=False),
+        Body(outline=outline, place=place, turn=turn, color=color, width=2.4, closed=False),
+    ]
+
+
+def _roller(cycle: Cycle, arm: float) -> list[Part]:
+    """A roller on its arm; a negative arm points the other way."""
+    center = arm * np.exp(1j * cycle.swing)
+    cam = cycle.design.spec.cam
+    assert cam is not None, "there is a roller where there is a cam"
+    return [
+        Chain(joints=(track(0.0, cycle.fraction), center), color=style.BLACK, marked=False),
+        wheel(center, cam.roller_radius, cycle.fraction, color=style.BLACK, fill=pale(style.ORANGE, 0.6)),
+    ]
+
+
+def _cam_on_rocker(cycle: Cycle) -> Reals:
+    """Turn of a cam on the rocker of a crank-rocker, 0 at the middle of the crank's stroke [rad]."""
+    joints = _drive_joints(cycle)
+    middle = float(
+        Joints.of(cycle.design.drive.linkage, np.array([0.5 * sum(cycle.design.drive.crank_angles)])).rocker[0]
+    )
+    return -_rising(cycle) * (joints.rocker - middle)
+
+
+def _rising(cycle: Cycle) -> float:
+    """+1 where the rocker of the drive turns counter-clockwise in the stroke, else -1."""
+    ends = Joints.of(cycle.design.drive.linkage, np.array(cycle.design.drive.crank_angles)).rocker
+    return 1.0 if ends[1] > ends[0] else -1.0
+
+
+def _drive_joints(cycle: Cycle) -> Joints:
+    drive = cycle.design.drive
+    return Joints.of(drive.linkage, drive.crank_angles[0] + TURN * cycle.fraction)
+
+
+def _crank_rocker(cycle: Cycle) -> tuple[Points, ...]:
+    """The crank-rocker of the cam, its rocker on the cam axis, mirrored where the cam asks for it."""
+    at, cam = _drive_joints(cycle), cycle.design.spec.cam
+    assert cam is not None, "the drive carries a cam"
+    aside = -complex(math.cos(math.radians(60.0)), -math.sin(math.radians(60.0)))
+    frame = cycle.design.drive.linkage.frame
+
+    def placed(point: Points) -> Points:
+        from_rocker = point - frame
+        return np.asarray(cam.center_distance + aside * (from_rocker.conj() if _rising(cycle) > 0.0 else from_rocker))
+
+    return placed(at.a), placed(at.b), placed(at.c), placed(at.d)
+
+
+def _device(cycle: Cycle) -> list[Part]:
+    """The unloading device, shortest at mid-swing, and its arm."""
+    unloader = cycle.design.spec.unloader
+    pin = 1j * unloader.arm * np.exp(1j * cycle.swing)
+    base = track(1j * unloader.arm * unloader.pivot_ratio, cycle.fraction)
+    return [
+        Chain(joints=(base, pin), color=style.GREEN, width=6.0),
+        Chain(joints=(track(0.0, cycle.fraction), pin), color=style.BLACK),
+    ]
+
+
+def _slider(cycle: Cycle) -> list[Part]:
+    """The slider that the rocker moves through a rod."""
+    section = cycle.design.spec.slider
+    if section is None:
+        return []
+    drive = cycle.design.slider_law.drive
+    arm = drive.crank * np.exp(1j * (cycle.swing + drive.middle_angle - 0.5 * math.pi))
+    place = -drive.offset - 1j * drive.depth(cycle.swing)[0]
+    return [
+        block(place, 0.14 * drive.rod, 0.2 * drive.rod, style.BLUE),
+        Chain(joints=(track(0.0, cycle.fraction), arm, place), color=style.BLACK),
+    ]
+
+
+def _chart(cycle: Cycle, drive: str) -> Chart:
+    whole = Cycle(cycle.design, loop(361))
+    curve = Curve(label="rocker", color=style.BLUE, y=np.degrees(whole.swing), now=np.degrees(cycle.swing))
+    turned = math.degrees(cycle.turned)
+    return Chart(
+        xlabel=f"{drive} angle from the start of the stroke [deg]",
+        ylabel="rocker from mid-swing [deg]",
+        x=turned * loop(361),
+        now=turned * cycle.fraction,
+        curves=(curve,),
+    )
