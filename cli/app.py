@@ -11,6 +11,7 @@ from typing import Annotated
 import typer
 
 from gearlink.cli.batch_options import BatchFormat, BatchOptions, FailOn
+from gearlink.cli.bench.command import register as register_bench
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.export.register import register as register_export
 from gearlink.cli.laws import laws
@@ -182,6 +183,7 @@ def _share(text: str) -> tuple[int, int]:
 
 register(app)
 register_export(app)
+register_bench(app)
 register_pictures(app)
 app.command("laws")(laws)
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import cache
 from typing import Any, ClassVar
 
 from gearlink.core.errors import GearlinkError
@@ -50,11 +51,13 @@ class Design:
         return self.outlines[command]
 
     @classmethod
+    @cache
     def quantity_names(cls) -> tuple[str, ...]:
         """Every quantity that can be asked for, each once."""
         return tuple(dict.fromkeys(name for outline in cls.outlines.values() for name in outline.quantities))
 
     @classmethod
+    @cache
     def table_names(cls) -> tuple[str, ...]:
         """Every table that any command shows or that can be asked for."""
         shown = [name for outline in cls.outlines.values() for name in outline.tables]

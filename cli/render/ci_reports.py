@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterator, Sequence
 from pathlib import PurePath
 from typing import Any
@@ -78,9 +79,12 @@ def _junit_case(suite: ElementTree.Element, outcome: Outcome) -> None:
         node.set("type", found[0][1] if found else "")
 
 
+_NOT_XML = re.compile("[\x00-\x08\x0b-\x1f\ud800-\udfff]")
+
+
 def _xml_text(text: str) -> str:
     """Without the control characters that XML 1.0 does not know."""
-    return "".join(c if c in "\t\n" or (ord(c) >= 0x20 and not 0xD800 <= ord(c) < 0xE000) else "?" for c in text)
+    return _NOT_XML.sub("?", text)
 
 
 def as_sarif(results: Sequence[Outcome]) -> str:

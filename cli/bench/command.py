@@ -1,0 +1,77 @@
+"""`gearlink bench`: run time against error of the solver families."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from gearlink.cli.exit_codes import ExitCode
+
+NAMES = ("four-bar", "involute", "dwell", "unloading", "cam", "press", "start-up", "batch")
+
+
+class BenchFormat(StrEnum):
+    """How the tables are printed."""
+
+    TABLE = "table"
+    JSON = "json"
+    MARKDOWN = "md"
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    app.command("bench")(_bench)
+
+
+def _bench(
+    families: Annotated[list[str] | None, typer.Argument(metavar="[FAMILY]...", help=", ".join(NAMES))] = None,
+    quick: Annotated[bool, typer.Option("--quick", help="fewer rounds, nothing above 1e5")] = False,
+    out: Annotated[Path | None, typer.Option("--out", metavar="DIR", help="write a picture of each family")] = None,
+    format: Annotated[
+        BenchFormat, typer.Option("--format", "-f", help="how the tables are printed")
+    ] = BenchFormat.TABLE,
+    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="no talk on standard error")] = False,
+) -> None:
+    """Time per result against error for every family of solvers, beside the textbook ways; needs gearlink[bench].
+
+    Example: gearlink bench involute dwell --quick
+    """
+    raise typer.Exit(run_bench(families or NAMES, format, quick=quick, out=out, quiet=quiet))
+
+
+def run_bench(names: Sequence[str], form: BenchFormat, *, quick: bool, out: Path | None, quiet: bool) -> int:
+    """Measure the families, print their tables, give the exit status."""
+    from gearlink.cli.bench import page
+    from gearlink.cli.bench.families import measured
+    from gearlink.cli.bench.timing import BenchNeedsMpmath, machine, mpmath
+
+    if wrong := [name for name in names if name not in NAMES]:
+        print(f"error: no family {', '.join(wrong)}; the families are {', '.join(NAMES)}", file=sys.stderr)
+        return ExitCode.WRONG_INPUT
+
+    def say(text: str) -> None:
+        if not quiet:
+            print(text, file=sys.stderr)
+
+    try:
+        mpmath()
+    except BenchNeedsMpmath as error:
+        print(f"error: {error}", file=sys.stderr)
+        return ExitCode.WRONG_INPUT
+    found = []
+    for name in dict.fromkeys(names):
+        say(f"measuring {name} ...")
+        found.append(measured(name, quick))
+    pictures = page.write_pictures(found, out, say) if out else {}
+    if form is BenchFormat.JSON:
+        print(page.as_json(found, machine()))
+    elif form is BenchFormat.MARKDOWN:
+        print(page.as_markdown(found, machine(), pictures), end="")
+    else:
+        print(page.as_text(found, machine()))
+    return ExitCode.OK

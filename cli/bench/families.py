@@ -1,0 +1,25 @@
+"""The families that `bench` measures, by name; modules are imported only when theirs is asked for."""
+
+from __future__ import annotations
+
+from importlib import import_module
+
+from gearlink.cli.bench.timing import Family
+
+FAMILIES = {
+    "four-bar": "four_bar:family",
+    "involute": "involute:family",
+    "dwell": "dwell:family",
+    "unloading": "unloading:family",
+    "cam": "cam:family",
+    "press": "cam:press",
+    "start-up": "start_up:family",
+    "batch": "start_up:batch",
+}
+
+
+def measured(name: str, quick: bool) -> Family:
+    """The table of a family."""
+    module, _, function = FAMILIES[name].partition(":")
+    family: Family = getattr(import_module(f"gearlink.cli.bench.{module}"), function)(quick)
+    return family

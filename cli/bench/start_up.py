@@ -1,0 +1,152 @@
+"""Whole processes: every command against a minimal Typer program with one command; a batch against its reading."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from contextlib import redirect_stdout
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from gearlink.cli.bench.timing import Family, Method, Row, measure
+
+MINIMAL = """import typer
+app = typer.Typer(pretty_exceptions_enable=False)
+@app.command()
+def hello(name: str = "you") -> None:
+    print("hello", name)
+app()
+"""
+NAIVE = """import typer
+import numpy, scipy.optimize, matplotlib.pyplot
+app = typer.Typer(pretty_exceptions_enable=False)
+@app.command()
+def hello(name: str = "you") -> None:
+    print("hello", name)
+app()
+"""
+COMMANDS = {
+    "--version": ["--version"],
+    "--help": ["--help"],
+    "synth dwell, json": ["synth", "dwell", "candy_feed.yaml", "--format", "json"],
+    "synth dwell, table": ["synth", "dwell", "candy_feed.yaml"],
+    "gear, json": ["gear", "ty460_input_gears.yaml", "--format", "json"],
+    "crank, json": ["crank", "ty460_slider_crank.yaml", "--format", "json"],
+    "analyze, json": ["analyze", "thesis_example_3_as_printed.yaml", "--format", "json"],
+    "press, json": ["press", "ty460.yaml", "--format", "json"],
+    "press, table": ["press", "ty460.yaml"],
+    "cam, json": ["cam", "ty460.yaml", "--format", "json"],
+    "gripper, json": ["gripper", "swing_gripper.yaml", "--format", "json"],
+    "swing, json": ["swing", "wide_swing_twin_cam.yaml", "--format", "json"],
+}
+_RUN = "import sys; from gearlink.cli.main import main; sys.exit(main())"
+
+
+def designs() -> Path:
+    """The folder of the worked designs."""
+    import gearlink.designs as package
+
+    return Path(str(package.__file__)).parent
+
+
+def family(quick: bool) -> Family:
+    """The table of the family."""
+    with TemporaryDirectory() as folder:
+        minimal, naive = Path(folder) / "minimal.py", Path(folder) / "naive.py"
+        minimal.write_text(MINIMAL, encoding="utf-8")
+        naive.write_text(NAIVE, encoding="utf-8")
+        _compile()
+        methods = [
+            Method("python, doing nothing", 1, process("-c", "pass")),
+            Method("Typer with scipy and pyplot at the top", 1, process(str(naive))),
+            *(Method(name, 1, process("-c", _RUN, *arguments)) for name, arguments in COMMANDS.items()),
+        ]
+        rows = measure(methods, process(str(minimal)), 1, 5 if quick else 15)
+    return Family(
+        "start-up",
+        "Start-up: the whole process of a command",
+        "none",
+        "a minimal Typer program with one command",
+        rows,
+        ("the worked designs; modules compiled beforehand, as an installed package's are",),
+    )
+
+
+def _compile() -> None:
+    """Byte code of the program, which an editable install in an environment that writes none would lack."""
+    import compileall
+
+    import gearlink.cli as cli
+    import gearlink.core as core
+
+    for package in (core, cli):
+        compileall.compile_dir(next(iter(package.__path__)), quiet=2)
+
+
+def process(*arguments: str) -> Callable[[], object]:
+    """A call of Python in a process of its own, its output thrown away."""
+
+    def run() -> object:
+        return subprocess.run(
+            [sys.executable, *arguments],
+            cwd=designs(),
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            check=False,
+        )
+
+    return run
+
+
+def batch(quick: bool) -> Family:
+    """A thousand designs in a batch, in one process and in two, against reading and validating their files."""
+    count = 200 if quick else 1000
+    with TemporaryDirectory() as name:
+        folder = Path(name)
+        written = write_designs(folder, count)
+        methods = [
+            Method("batch in one process", count, lambda: _batch(folder, 1)),
+            Method("batch in two processes", count, lambda: _batch(folder, 2)),
+        ]
+        rows: tuple[Row, ...] = measure(methods, lambda: _validate(written), count, 3)
+    return Family(
+        "batch",
+        f"Batch of {count} designs",
+        "none",
+        "reading and validating the same files in one process",
+        rows,
+        ("gear pairs, slider-cranks and dwell syntheses in equal shares",),
+    )
+
+
+def write_designs(folder: Path, count: int) -> list[Path]:
+    """Designs of three kinds, no two alike."""
+    kinds = ("candy_feed.yaml", "ty460_input_gears.yaml", "ty460_slider_crank.yaml")
+    texts = [(designs() / kind).read_text(encoding="utf-8") for kind in kinds]
+    written = []
+    for i in range(count):
+        path = folder / f"design_{i:04d}.yaml"
+        path.write_text(f"{texts[i % len(texts)]}# {i}\n", encoding="utf-8")
+        written.append(path)
+    return written
+
+
+def _validate(files: list[Path]) -> None:
+    from gearlink.cli.options import Options
+    from gearlink.cli.run import open_design, read_spec
+
+    for path in files:
+        loaded, kind = open_design(str(path), Options())
+        read_spec(loaded, kind, str(path))
+
+
+def _batch(folder: Path, jobs: int) -> None:
+    from gearlink.cli.batch import run_batch
+    from gearlink.cli.batch_options import BatchFormat, BatchOptions
+    from gearlink.cli.options import Options
+
+    options = BatchOptions(Options(quiet=True), BatchFormat.JUNIT, jobs=jobs)
+    with open(os.devnull, "w", encoding="utf-8") as nowhere, redirect_stdout(nowhere):
+        run_batch([str(folder)], options)

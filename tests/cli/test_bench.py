@@ -1,0 +1,106 @@
+"""`bench`: what it prints; its errors are real measurements, its times are not tested."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from gearlink.cli.bench import four_bar, timing
+from gearlink.cli.bench.command import NAMES
+from gearlink.cli.bench.families import FAMILIES
+from gearlink.cli.bench.page import as_json, as_markdown, as_text, curves, duration, write_pictures
+from gearlink.cli.bench.timing import BenchNeedsMpmath, Family, Row, interleaved, mpmath, worst
+from gearlink.cli.main import run
+
+FAMILY = Family(
+    "cam",
+    "Cams",
+    "mm",
+    "itself",
+    (
+        Row("closed", 10, 5.0, 1e-15, 1.0),
+        Row("Newton, 2 steps", 10, 9.0, 1e-4, 2.0),
+        Row("whole", 1, 2e6, math.nan, 9.0),
+    ),
+    ("a note",),
+)
+
+
+def test_names_of_the_families_agree() -> None:
+    assert tuple(FAMILIES) == NAMES
+
+
+def test_unloading_family_shows_the_errors_of_its_methods(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["bench", "unloading", "--quick", "--format", "json", "--quiet"]) == 0
+    (family,) = json.loads(capsys.readouterr().out)["families"]
+    error = {row["method"]: row["error"] for row in family["rows"]}
+    assert error["quadrature, 16 nodes"] < 1e-15 < error["quadrature, 4 nodes"] < 1e-6
+    assert 1e-4 < error["the dissertation's iteration, 20 steps"] < 1e-3  # the figure of its docstring: 8e-4
+
+
+def test_wrong_family_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["bench", "five-bar"]) == 2
+    assert "the families are four-bar" in capsys.readouterr().err
+
+
+def test_without_mpmath_the_remedy_is_named(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setitem(__import__("sys").modules, "mpmath", None)
+    with pytest.raises(BenchNeedsMpmath):
+        mpmath()
+    assert run(["bench", "involute"]) == 2
+    assert "gearlink[bench]" in capsys.readouterr().err
+
+
+def test_reference_of_the_four_bar_is_the_loop_itself() -> None:
+    mp = mpmath(30)
+    a, b, c, d = (mp.mpf(x) for x in (18.0, 50.0, 100.0, 121.4))
+    for phi in (0.3, 2.0, -4.0):
+        x, y, speed, _ = four_bar.reference(phi)
+        opening = abs(d + c * mp.mpc(x, y) - a * mp.expj(mp.mpf(phi))) - b
+        assert abs(opening) < mp.mpf(10) ** -27
+        step = mp.mpf(10) ** -10
+        further = four_bar.reference(phi)[:2]
+        assert further == (x, y)
+        assert abs(speed) < 1 + step
+
+
+def test_textbook_rival_and_march_agree_with_the_reference() -> None:
+    phi = np.sort(four_bar.positions(50))
+    # textbook forms keep 14 digits on this linkage; a march to 1e-12 ends with a step far below
+    assert four_bar.error_of(lambda: four_bar.textbook(four_bar.LINKAGE, phi), "textbook", phi) < 100
+    assert four_bar.error_of(lambda: four_bar.march(phi, 1e-12), "Newton with", phi) < 100
+
+
+def test_pages_hold_every_row(tmp_path: Path) -> None:
+    machine = timing.machine()
+    for page in (as_text([FAMILY], machine), as_markdown([FAMILY], machine)):
+        assert all(text in page for text in ("closed", "5 ns", "2 ms", "1e-15", "a note", machine["numpy"]))
+    assert json.loads(as_json([FAMILY], machine))["families"][0]["rows"][2]["error"] is None
+    assert curves(FAMILY) == {"closed": [(5.0, 1e-15)], "Newton": [(9.0, 1e-4)]}
+    said: list[str] = []
+    assert write_pictures([FAMILY], tmp_path, said.append) == {"cam": "bench-cam.png"}
+    assert (tmp_path / "bench-cam.png").stat().st_size > 10_000
+    assert said
+
+
+def test_times_are_of_one_call_each() -> None:
+    calls = [0, 0]
+
+    def count(i: int) -> None:
+        calls[i] += 1
+
+    fast, slow = interleaved([lambda: count(0), lambda: [count(1) for _ in range(200)]], 3)
+    assert 0.0 < fast < slow
+    assert duration(999.0) == "999 ns"
+
+
+def test_errors_are_in_units_of_the_last_place() -> None:
+    mp = mpmath(30)
+    assert worst([1.0 + 2**-52], [mp.mpf(1)]) == 1.0
+    assert worst([1e-20], [mp.mpf(0)], floor=1.0) == pytest.approx(1e-20 / 2**-52, rel=1e-12)
