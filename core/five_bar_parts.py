@@ -70,7 +70,8 @@ class FiveBarParts(Design):
     @property
     def contact_ratio(self) -> list[float]:
         """Contact ratio of each mesh."""
-        return [mesh.contact_ratio for mesh in self.meshes.values()]
+        with at_key("gears"):
+            return [mesh.contact_ratio for mesh in self.meshes.values()]
 
     @property
     def ratio(self) -> Fraction:

@@ -25,6 +25,8 @@ _STEPS = 80
 _WIDEST = math.log(20.0)
 _FARTHEST = 2.0 * _WIDEST
 _SCATTER = 1.5
+# A five-bar that comes nearer to its dead point than this is of no use to anybody [rad].
+_LEAST_ANGLE = math.radians(0.5)
 # Sum of squared misses over the input link of a candidate that is worth following; its motion decides.
 _CLOSE = 1e-22
 # Largest error of an output angle of a design that counts as found [rad].
@@ -122,10 +124,15 @@ def _candidates(start: FunctionFiveBar, positions: Positions) -> Iterator[Functi
         value[better], slopes[better] = new_value[better], new_slopes[better]
         damping = np.where(better, 0.3 * damping, 4.0 * np.minimum(damping, 1e6))
     close = (cost < _CLOSE) & np.all(np.abs(x[:, :4]) < _WIDEST, axis=1)
+    seen: set[tuple[float, ...]] = set()
     for row in x[close]:
+        row[4] = math.remainder(float(row[4]), 2.0 * math.pi)
+        alike = tuple(np.round(row, 6).tolist())
+        if alike in seen:
+            continue
+        seen.add(alike)
         b, c, e, d = (start.input * math.exp(float(v)) for v in row[:4])
-        phase = math.remainder(float(row[4]), 2.0 * math.pi)
-        yield replace(start, coupler=b, follower=c, output=e, frame=d, phase=phase)
+        yield replace(start, coupler=b, follower=c, output=e, frame=d, phase=float(row[4]))
 
 
 def _misses(x: Array, phi: Array, psi: Array, ratio: float) -> tuple[Array, Array]:
@@ -154,11 +161,18 @@ def _moving(bar: FunctionFiveBar, positions: Positions) -> Iterator[FunctionFive
     for assembly in (1, -1):
         made = replace(bar, assembly=assembly)
         try:
-            errors = position_errors(made, positions)
-        except NoSolution:
+            angle, _ = made.min_transmission_angle(positions[0][0], positions[-1][0])
+        except NoSolution:  # it opens on the way, in either assembly
+            return
+        if angle < _LEAST_ANGLE or not all(_stands(made, phi, psi) for phi, psi in positions):
             continue
-        if max(map(abs, errors)) <= _EXACT:
+        if max(map(abs, position_errors(made, positions))) <= _EXACT:
             yield made
+
+
+def _stands(bar: FunctionFiveBar, phi: float, psi: float) -> bool:
+    """Whether the output link points the right way at an input angle, whole turns aside."""
+    return abs(math.remainder(bar.output_angle(phi) - psi, 2.0 * math.pi)) <= _EXACT
 
 
 def _quality(bar: FunctionFiveBar, positions: Positions, wanted: float) -> tuple[float, float]:

@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import Any
 
 from gearlink.core.design import Design
+from gearlink.core.errors import at_key
 from gearlink.core.gear_checks import GEAR_CHECKS, GEAR_QUANTITIES, gear_check, gear_quantity
 from gearlink.core.gear_pair import GearPair
 from gearlink.core.gear_teeth import min_shift_no_undercut
@@ -42,7 +43,8 @@ class SingleMesh(Design):
         known = GEAR_QUANTITIES if isinstance(self.mesh, GearPair) else INTERNAL_QUANTITIES
         if name not in known:
             return None
-        return gear_quantity(self.mesh, name) if isinstance(self.mesh, GearPair) else getattr(self.mesh, name)
+        with at_key("gears"):
+            return gear_quantity(self.mesh, name) if isinstance(self.mesh, GearPair) else getattr(self.mesh, name)
 
     def check(self, name: str) -> list[Check]:
         """The checks of the mesh, and the design's own."""
@@ -58,7 +60,8 @@ def mesh_checks(name: str, mesh: GearPair | InternalMesh, limits: Any, label: st
         ISO 21771 for the quantities
     """
     if isinstance(mesh, InternalMesh):
-        return list(_internal_check(name, mesh, limits))
+        with at_key("gears"):
+            return list(_internal_check(name, mesh, limits))
     return [] if name == "tip-fouling" else list(gear_check(name, mesh, limits, label))
 
 
