@@ -114,5 +114,4 @@ class DiscCam:
             "pressure_angle": (np.degrees(cam.pressure_angle), "deg"),
             "curvature_radius": (cam.curvature_radius, "mm"),
         }
-        data, units = zip(*columns.values(), strict=True)
-        return Table(name, tuple(columns), units, data)
+        return Table.of(name, columns)

@@ -214,8 +214,7 @@ class FlatbedPress(PressCams, Design):
                 "deg",
             ),
         }
-        data, units = zip(*columns.values(), strict=True)
-        return Table("positions", tuple(columns), units, data)
+        return Table.of("positions", columns)
 
     @staticmethod
     def _transmission(linkage: FourBar, crank_angle: Any) -> Any:

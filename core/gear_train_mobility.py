@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from gearlink.core import mobility
 from gearlink.core.design import Design, Outline
@@ -75,14 +75,14 @@ class GearTrainMobility(Design):
 
     def table_trains(self) -> Table:
         """A row per train: its gears, where they sit, fixed ends, change of the degrees of freedom."""
-        rows = [
-            (float(i), _words(train), float(fixed), float(change))
-            for i, (train, fixed, change) in enumerate(
-                zip(self.spec.trains, self.fixed_ends, self.mobility_changes, strict=True), start=1
-            )
-        ]
-        columns = tuple(zip(*rows, strict=True)) or ((), (), (), ())
-        return Table("trains", ("train", "gears", "fixed_ends", "change"), ("1", "1", "1", "1"), columns)
+        trains = self.spec.trains
+        columns: dict[str, tuple[list[Any], str]] = {
+            "train": ([float(i) for i in range(1, len(trains) + 1)], "1"),
+            "gears": ([_words(train) for train in trains], "1"),
+            "fixed_ends": ([float(fixed) for fixed in self.fixed_ends], "1"),
+            "change": ([float(change) for change in self.mobility_changes], "1"),
+        }
+        return Table.of("trains", columns)
 
     # Checks
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from gearlink.core.design import Outline
 from gearlink.core.errors import NoSolution
@@ -221,7 +221,7 @@ class GearedFiveBar(FiveBarParts):
         bar = self.path_bar
         found = sweep(bar, np.radians(degrees), self.offset)
         gamma = found.transmission_angle
-        columns: dict[str, tuple[Any, str]] = {
+        columns = {
             "input_angle": (degrees, "deg"),
             "output_angle": (math.degrees(bar.phase) + float(bar.ratio) * degrees, "deg"),
             "coupler_angle": (np.degrees(found.coupler_angle), "deg"),
@@ -231,8 +231,7 @@ class GearedFiveBar(FiveBarParts):
             "y_velocity": (found.velocity.imag, "mm/rad"),
             "transmission_angle": (np.degrees(np.minimum(gamma, np.pi - gamma)), "deg"),
         }
-        data, units = zip(*columns.values(), strict=True)
-        return Table("path", tuple(columns), units, data)
+        return Table.of("path", columns)
 
     def table_deviations(self) -> Table:
         """Every point that is asked for and its distance from the path."""
@@ -241,20 +240,19 @@ class GearedFiveBar(FiveBarParts):
         assert target.points is not None, "shown only with a fit"
         assert fit is not None, "shown only with a fit"
         x, y = zip(*target.points, strict=True)
-        return Table("deviations", ("x", "y", "distance"), ("mm", "mm", "mm"), (x, y, fit.distance))
+        return Table.of("deviations", {"x": (x, "mm"), "y": (y, "mm"), "distance": (fit.distance, "mm")})
 
     def table_function(self) -> Table:
         """Output angle and speed over the range of the input, both ends included."""
         start, end = self.input_range
         count, bar = self.samples or 180, self.function_bar
         angles = [start + (end - start) * i / count for i in range(count)] + [end]
-        columns: dict[str, tuple[list[float], str]] = {
+        columns = {
             "input_angle": ([math.degrees(angle) for angle in angles], "deg"),
             "output_angle": ([math.degrees(angle) for angle in bar.output_angles(angles)], "deg"),
             "speed_ratio": ([bar.output_speed(angle) for angle in angles], "1"),
         }
-        data, units = zip(*columns.values(), strict=True)
-        return Table("function", tuple(columns), units, data)
+        return Table.of("function", columns)
 
     # Checks
 

@@ -221,8 +221,7 @@ class GearedRocker(SingleMesh):
                 "deg",
             ),
         }
-        data, units = zip(*columns.values(), strict=True)
-        return Table("motion", tuple(columns), units, data)
+        return Table.of("motion", columns)
 
     # Checks
 

@@ -151,8 +151,7 @@ class GripperClosure(GripperCams):
         for name, torque, cam, roller in contacts:
             lever = roller.arm * 1e-3 * np.cos(cam.pressure_angle(np.radians(degrees)))  # type: ignore[union-attr]
             columns[f"normal_force_{name}"] = (torque / lever, "N")
-        data, units = zip(*columns.values(), strict=True)
-        return Table("forces", tuple(columns), units, data)
+        return Table.of("forces", columns)
 
 
 def _angle(z: complex) -> float:

@@ -84,9 +84,14 @@ class GripperHandover(GripperBase):
         degrees = self.spec.handover + half * np.linspace(-1.0, 1.0, _ROWS)
         lead, speed, path = self._path(degrees)
         difference = speed_difference(path, lead, speed, self.shaft_speed, self.spec.cylinder.radius)
-        columns = ("theta", "arm_lead", "gap", "slip", "speed_difference")
-        units = ("deg", "deg", "mm", "mm", "mm/s")
-        return Table("handover_window", columns, units, (degrees, np.degrees(lead), path.gap, path.slip, difference))
+        columns = {
+            "theta": (degrees, "deg"),
+            "arm_lead": (np.degrees(lead), "deg"),
+            "gap": (path.gap, "mm"),
+            "slip": (path.slip, "mm"),
+            "speed_difference": (difference, "mm/s"),
+        }
+        return Table.of("handover_window", columns)
 
     # Checks
 

@@ -189,7 +189,7 @@ class HypocycloidDwell(SingleMesh):
         degrees = [360.0 * i / count for i in range(count)]
         angles = [math.remainder(math.radians(x), 2.0 * math.pi) for x in degrees]
         points = [slider.point(t) for t in angles]
-        columns: dict[str, tuple[list[float], str]] = {
+        columns = {
             "carrier_angle": (degrees, "deg"),
             "deviation": ([slider.deviation(t) for t in angles], "mm"),
             "velocity": ([slider.speed(t) for t in angles], "mm/rad"),
@@ -198,8 +198,7 @@ class HypocycloidDwell(SingleMesh):
             "x": ([p.real for p in points], "mm"),
             "y": ([p.imag for p in points], "mm"),
         }
-        data, units = zip(*columns.values(), strict=True)
-        return Table("motion", tuple(columns), units, data)
+        return Table.of("motion", columns)
 
     # Checks
 

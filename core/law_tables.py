@@ -13,8 +13,6 @@ from gearlink.core.report import Report, Table
 
 # Laws with a number are shown at their symmetric value.
 FREE_LAWS: tuple[Mapping[str, object], ...] = ({"quintic": 0.5}, {"septic": 0.5})
-_CONSTANTS = ("law", "Cv", "Ca", "Cj", "Cm", "kappa", "jumps")
-_COURSE = ("x", "s", "v", "a", "j")
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,16 +68,16 @@ def constants(name: str, laws: Sequence[Law]) -> Table:
     Source
         own derivation; constants as VDI 2143
     """
-    columns = (
-        [each.name for each in laws],
-        [each.peak_velocity for each in laws],
-        [each.peak_acceleration for each in laws],
-        [each.interior_jerk for each in laws],
-        [each.peak_power for each in laws],
-        [each.kappa for each in laws],
-        [_jumps(each) for each in laws],
-    )
-    return Table(name, _CONSTANTS, ("1",) * len(_CONSTANTS), columns)
+    columns: dict[str, list[Any]] = {
+        "law": [each.name for each in laws],
+        "Cv": [each.peak_velocity for each in laws],
+        "Ca": [each.peak_acceleration for each in laws],
+        "Cj": [each.interior_jerk for each in laws],
+        "Cm": [each.peak_power for each in laws],
+        "kappa": [each.kappa for each in laws],
+        "jumps": [_jumps(each) for each in laws],
+    }
+    return Table.of(name, {column: (data, "1") for column, data in columns.items()})
 
 
 def _jumps(law: Law) -> str:
@@ -106,4 +104,5 @@ def course(law: Law, steps: int) -> Table:
     import numpy as np
 
     x = np.arange(steps + 1) / steps
-    return Table(law.name, _COURSE, ("1",) * len(_COURSE), (x, *law.evaluate(x, 3)))
+    columns = zip("xsvaj", (x, *law.evaluate(x, 3)), strict=True)
+    return Table.of(law.name, {column: (data, "1") for column, data in columns})

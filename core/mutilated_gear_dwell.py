@@ -181,8 +181,7 @@ class MutilatedGearDwell(SingleMesh):
             columns["rocker_angle"] = ([math.degrees(state.rocker_angle) for state in states], "deg")
             rocker = [state.rocker_velocity * speed for state, speed in zip(states, speeds, strict=True)]
             columns["rocker_speed_ratio"] = (rocker, "1")
-        data, units = zip(*columns.values(), strict=True)
-        return Table("motion", tuple(columns), units, data)
+        return Table.of("motion", columns)
 
     # Checks
 

@@ -142,12 +142,14 @@ class PressCams:
 
         degrees = self._cam_degrees
         lift, phases = self.follower.evaluate(np.radians(degrees), 2)
-        return Table(
-            "follower",
-            ("cam_angle", "lift", "velocity", "acceleration", "phase"),
-            ("deg", "mm", "mm/rad", "mm/rad^2", "1"),
-            (degrees, lift.value, lift.first, lift.second, phases),
-        )
+        columns = {
+            "cam_angle": (degrees, "deg"),
+            "lift": (lift.value, "mm"),
+            "velocity": (lift.first, "mm/rad"),
+            "acceleration": (lift.second, "mm/rad^2"),
+            "phase": (phases, "1"),
+        }
+        return Table.of("follower", columns)
 
     def table_main_cam(self) -> Table:
         """The main cam, point for point (TY-460 report 3.5)."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
@@ -48,6 +48,17 @@ class Table:
     columns: tuple[str, ...]
     units: tuple[str, ...]
     data: tuple[Column, ...]
+
+    @classmethod
+    def of(cls, name: str, columns: Mapping[str, tuple[Column, str]]) -> Table:
+        """A table from its columns by name, each the data and their unit.
+
+        Example
+            >>> Table.of("law", {"x": ([0.0, 0.5], "1"), "velocity": ([0.0, 2.0], "mm/s")}).units
+            ('1', 'mm/s')
+        """
+        data, units = zip(*columns.values(), strict=True)
+        return cls(name, tuple(columns), units, data)
 
     def rows(self) -> list[list[float | str | None]]:
         """The table turned into rows; None where a value does not exist (infinite or not a number)."""

@@ -109,8 +109,7 @@ class SwingGripper(GripperHandover, GripperClosure, Design):
             "input_acceleration": (motion.input_acceleration * square, "rad/s^2"),
             "output_acceleration": (motion.output_acceleration * square, "rad/s^2"),
         }
-        data, units = zip(*columns.values(), strict=True)
-        return Table("motion", tuple(columns), units, data)
+        return Table.of("motion", columns)
 
     # The loop both ways
 
@@ -140,10 +139,15 @@ class SwingGripper(GripperHandover, GripperClosure, Design):
         """Both ways side by side: deviation of the angles, steps, opening of the loop, error of the closed form."""
         import numpy as np
 
-        columns = ("theta", "deviation", "iterations", "residual", "error")
         loop = self.loop
-        data = (self.rows[0], np.degrees(loop.deviation), loop.iterations, loop.residual, np.degrees(loop.error))
-        return Table("newton", columns, ("deg", "deg", "1", "mm", "deg"), data)
+        columns = {
+            "theta": (self.rows[0], "deg"),
+            "deviation": (np.degrees(loop.deviation), "deg"),
+            "iterations": (loop.iterations, "1"),
+            "residual": (loop.residual, "mm"),
+            "error": (np.degrees(loop.error), "deg"),
+        }
+        return Table.of("newton", columns)
 
     # Checks of law and linkage
 

@@ -277,8 +277,7 @@ class ThreeGearFourBar(Design):
             "acceleration_ratio": (sweep.acceleration_ratio, "1"),
             "transmission_angle": (np.degrees(sweep.transmission_angle), "deg"),
         }
-        data, units = zip(*columns.values(), strict=True)
-        return Table("motion", tuple(columns), units, data)
+        return Table.of("motion", columns)
 
     # Checks
 

@@ -285,8 +285,7 @@ class TwoGearFourBar(SingleMesh):
                 "deg",
             ),
         }
-        data, units = zip(*columns.values(), strict=True)
-        return Table("motion", tuple(columns), units, data)
+        return Table.of("motion", columns)
 
     # Checks
 

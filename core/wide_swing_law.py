@@ -319,15 +319,23 @@ class WideSwingLaw(Design):
         """The invariants of the law over the stroke."""
         k = self._k
         a, b, c = self.law.invariants(k, 2)
-        return Table("law", ("k", "displacement", "velocity", "acceleration"), ("1",) * 4, (k, a, b, c))
+        return Table.of(
+            "law", {"k": (k, "1"), "displacement": (a, "1"), "velocity": (b, "1"), "acceleration": (c, "1")}
+        )
 
     def table_slider(self) -> Table:
         """The slider's invariants over the stroke, its travel and its speed at the design speed."""
         k, law = self._k, self.slider_law
         a, b, c = law.slider_invariants(k)
-        names = ("k", "displacement", "velocity", "acceleration", "travel", "speed")
-        units = ("1", "1", "1", "1", "mm", "mm/s")
-        return Table("slider", names, units, (k, a, b, c, law.stroke * a, law.stroke / self.stroke_time * b))
+        columns = {
+            "k": (k, "1"),
+            "displacement": (a, "1"),
+            "velocity": (b, "1"),
+            "acceleration": (c, "1"),
+            "travel": (law.stroke * a, "mm"),
+            "speed": (law.stroke / self.stroke_time * b, "mm/s"),
+        }
+        return Table.of("slider", columns)
 
     def table_balance(self) -> Table:
         """Torque on the rocker axis with and without the device, over the speed."""
@@ -348,8 +356,7 @@ class WideSwingLaw(Design):
         }
         if self.spec.shaft is not None:
             columns["drive_ratio"] = (drive_balancing_ratio(share, self.spec.shaft.linkage_share), "1")
-        data, units = zip(*columns.values(), strict=True)
-        return Table("balance", tuple(columns), units, data)
+        return Table.of("balance", columns)
 
     def table_iteration(self) -> Table:
         """Steps of the iteration against its error (run time against error of the source's own method)."""
@@ -357,13 +364,13 @@ class WideSwingLaw(Design):
 
         steps = (5, 10, 20, 50, 100, 200)
         laws = [legacy_law(self.device, self.swing, steps=n) for n in steps]
-        errors = [law.energy_parameter / self.plain_law.energy_parameter - 1.0 for law in laws]
-        return Table(
-            "iteration",
-            ("steps", "passes", "energy_parameter", "relative_error"),
-            ("1", "1", "1", "1"),
-            (steps, [law.passes for law in laws], [law.energy_parameter for law in laws], errors),
-        )
+        columns = {
+            "steps": (steps, "1"),
+            "passes": ([law.passes for law in laws], "1"),
+            "energy_parameter": ([law.energy_parameter for law in laws], "1"),
+            "relative_error": ([law.energy_parameter / self.plain_law.energy_parameter - 1.0 for law in laws], "1"),
+        }
+        return Table.of("iteration", columns)
 
     # Checks
 

@@ -197,5 +197,4 @@ class WideSwingProfile(WideSwingLaw):
             "pressure_angle": (np.degrees(points.pressure_angle), "deg"),
             "curvature_radius": (points.curvature_radius, "mm"),
         }
-        data, units = zip(*columns.values(), strict=True)
-        return Table(name, tuple(columns), units, data)
+        return Table.of(name, columns)
