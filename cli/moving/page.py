@@ -9,8 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from gearlink.cli.moving.raster import label_shift
-from gearlink.cli.moving.stage import ChartScale, Stage
+from gearlink.cli.moving.stage import ChartScale, Stage, label_shift
 from gearlink.cli.scenes.scene import Body, Chain, Line, Points, Reals
 
 

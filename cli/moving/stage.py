@@ -31,6 +31,11 @@ class Box:
         """Its height."""
         return self.bottom - self.top
 
+    @property
+    def sides(self) -> tuple[float, float, float, float]:
+        """Left, top, right, bottom."""
+        return self.left, self.top, self.right, self.bottom
+
 
 @dataclass(frozen=True)
 class Stage:
@@ -90,6 +95,13 @@ class Stage:
         room = self.room
         x = 0.5 * (room.left + room.right) - self.scale * 0.5 * (left + right)
         return complex(x, 0.5 * (room.top + room.bottom) + self.scale * 0.5 * (low + high))
+
+    @property
+    def extent(self) -> Box:
+        """What parts and marks reach over all pictures [pixels]."""
+        left, right, low, high = self._extent
+        corners = self.pixels(np.array([complex(left, high), complex(right, low)]))
+        return Box(float(corners[0].real), float(corners[0].imag), float(corners[1].real), float(corners[1].imag))
 
     def pixels(self, points: Points) -> Points:
         """Points of the machine on the picture, y downwards."""
@@ -175,3 +187,11 @@ def ticks(low: float, high: float, most: int) -> Sequence[float]:
     step = next((s for s in steps if span / s <= most - 1 + 1e-9), power * 10.0)
     first = math.ceil(low / step - 1e-9)
     return [k * step + 0.0 for k in range(first, math.floor(high / step + 1e-9) + 1)]
+
+
+def label_shift(body: Body, scale: float, text_size: float) -> complex:
+    """From a body's axis to its label, in pixels: inside the holes of a gear, away from letters and pivots."""
+    if body.repeats == 1:
+        return 0j
+    reach = max(0.3 * scale * float(np.abs(body.outline).max()), 1.5 * text_size)
+    return complex(reach * np.exp(2.5j))

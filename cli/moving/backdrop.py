@@ -1,0 +1,67 @@
+"""What stands still behind a moving picture: fixed lines, the chart with its words, the title."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from PIL import Image, ImageDraw
+
+from gearlink.cli.moving.brush import BLACK, FINER, GREY, LIGHT, WHITE, dashes, flat, font
+from gearlink.cli.moving.stage import ChartScale, Stage
+from gearlink.cli.scenes.scene import Line
+
+if TYPE_CHECKING:
+    from PIL.Image import Image as Picture
+
+
+def backdrop(stage: Stage) -> Picture:
+    """The large picture that all others are drawn on."""
+    made = Image.new("RGB", (FINER * stage.width, FINER * stage.height), WHITE)
+    draw = ImageDraw.Draw(made)
+    for part in stage.scene.parts:
+        if isinstance(part, Line):
+            _line(draw, part, stage)
+    size = FINER * stage.text_size
+    draw.text((0.9 * size, 0.6 * size), stage.title, font=font(1.25 * size, stage.title), fill=BLACK)
+    if stage.scene.chart is not None:
+        scale = ChartScale(stage.scene.chart, stage.chart_room)
+        _chart(draw, scale)
+        _chart_words(draw, scale, size)
+    return made
+
+
+def _line(draw: ImageDraw.ImageDraw, line: Line, stage: Stage) -> None:
+    points = FINER * stage.pixels(line.points)
+    if line.fill:
+        draw.polygon(flat(points), fill=line.fill)
+    width = max(1, round(line.width * FINER))
+    for stretch in dashes(points, 7.0 * FINER) if line.dashed else [points]:
+        draw.line(flat(stretch), fill=line.color, width=width)
+
+
+def _chart(draw: ImageDraw.ImageDraw, scale: ChartScale) -> None:
+    room = scale.room
+    for x, _ in scale.x_ticks():
+        draw.line([FINER * x, FINER * room.top, FINER * x, FINER * room.bottom], fill=LIGHT, width=FINER)
+    for y, _ in scale.y_ticks():
+        draw.line([FINER * room.left, FINER * y, FINER * room.right, FINER * y], fill=LIGHT, width=FINER)
+    corners = [room.left, room.top, room.left, room.bottom, room.right, room.bottom]
+    draw.line([FINER * corner for corner in corners], fill=GREY, width=FINER)
+    for curve in scale.chart.curves:
+        points = FINER * scale.points(scale.chart.x, curve.y)
+        draw.line(flat(points), fill=curve.color, width=2 * FINER, joint="curve")
+
+
+def _chart_words(draw: ImageDraw.ImageDraw, scale: ChartScale, size: float) -> None:
+    """Numbers and names of the axes; several curves are named in their colours, above the right end of the chart."""
+    small = font(0.85 * size)
+    left, top, right, bottom = (FINER * side for side in scale.room.sides)
+    for x, words in scale.x_ticks():
+        draw.text((FINER * x, bottom + 0.3 * size), words, font=small, fill=GREY, anchor="ma")
+    for y, words in scale.y_ticks():
+        draw.text((left - 0.4 * size, FINER * y), words, font=small, fill=GREY, anchor="rm")
+    draw.text((0.5 * (left + right), bottom + 1.5 * size), scale.chart.xlabel, font=small, fill=BLACK, anchor="ma")
+    draw.text((left, top - 0.35 * size), scale.chart.ylabel, font=small, fill=BLACK, anchor="ls")
+    for curve in reversed(scale.chart.curves if len(scale.chart.curves) > 1 else ()):
+        draw.text((right, top - 0.35 * size), curve.label, font=small, fill=curve.color, anchor="rs")
+        right -= draw.textlength(curve.label, font=small) + 1.2 * size

@@ -1,0 +1,68 @@
+"""Strokes for pictures that are drawn large and reduced: Pillow's, with whole bars, discs and dashes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from PIL import ImageFont
+
+from gearlink.cli.scenes.scene import Points
+
+if TYPE_CHECKING:
+    from PIL.ImageDraw import ImageDraw
+
+FINER = 2
+"""The large picture has so many pixels for one of the reduced."""
+WHITE, BLACK, GREY, LIGHT = "#ffffff", "#222222", "#777777", "#dddddd"
+
+
+def flat(points: Points) -> list[float]:
+    """x, y, x, y ... as Pillow takes them."""
+    flat: list[float] = np.column_stack([points.real, points.imag]).ravel().tolist()
+    return flat
+
+
+def bar(draw: ImageDraw, start: complex, end: complex, width: float, color: str) -> None:
+    """A straight bar; Pillow's own wide lines round their corners to whole pixels and seem to bend."""
+    if start == end:
+        return
+    side = 0.5j * width * (end - start) / abs(end - start)
+    draw.polygon(flat(np.array([start + side, end + side, end - side, start - side])), fill=color)
+
+
+def disc(draw: ImageDraw, at: complex, radius: float, fill: str, edge: str, width: int) -> None:
+    """A disc with an edge."""
+    box = [at.real - radius, at.imag - radius, at.real + radius, at.imag + radius]
+    draw.ellipse(box, fill=fill, outline=edge, width=width)
+
+
+def dashes(points: Points, length: float) -> list[Points]:
+    """The dashes of a polyline, each as long as the gap behind it."""
+    along = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(points)))])
+    edges = np.arange(0.0, along[-1], length)
+    made = []
+    for start in edges[::2]:
+        at = np.linspace(start, min(start + length, along[-1]), 5)
+        made.append(np.interp(at, along, points.real) + 1j * np.interp(at, along, points.imag))
+    return made
+
+
+def font_file(name: str) -> str:
+    """A font that has the letters of a name, where one is installed; else the one that comes with matplotlib."""
+    import matplotlib
+
+    from gearlink.cli.plots.write import families
+
+    *_, last = families(name)
+    if last != "sans-serif":
+        from matplotlib.font_manager import findfont
+
+        return str(findfont(last))
+    return str(Path(matplotlib.get_data_path()) / "fonts" / "ttf" / "DejaVuSans.ttf")
+
+
+def font(size: float, name: str = "") -> Any:
+    """A font of so many pixels, with the letters of a name."""
+    return ImageFont.truetype(font_file(name), max(8, round(size)))
