@@ -217,13 +217,13 @@ class ThreeGearFourBar(Design):
 
     @cached_property
     def tolerance_dwell(self) -> ToleranceDwell | None:
-        """The longest dwell within the file's `tolerance`, where it gives one."""
-        if self.spec.tolerance is None:
+        """The longest dwell within the file's `dwell_tolerance`, where it gives one."""
+        if self.spec.dwell_tolerance is None:
             return None
         from gearlink.core.tolerance_dwell import tolerance_dwell
 
-        with at_key("tolerance"):
-            return tolerance_dwell(self.linkage, self.train, math.radians(self.spec.tolerance))
+        with at_key("dwell_tolerance"):
+            return tolerance_dwell(self.linkage, self.train, math.radians(self.spec.dwell_tolerance))
 
     @property
     def tolerance_dwell_angle(self) -> float | None:

@@ -113,7 +113,7 @@ class ThreeGearSpec(DesignSpec):
     back_step: BackStep | None = None
     speed: Speed | None = None
     momentary: Momentary | None = None
-    tolerance: Annotated[float, Field(gt=0, json_schema_extra={"unit": "deg"})] | None = Field(
+    dwell_tolerance: Annotated[float, Field(gt=0, json_schema_extra={"unit": "deg"})] | None = Field(
         None, description="output tolerance +- for the tolerance dwell"
     )
     limits: Limits = Limits()

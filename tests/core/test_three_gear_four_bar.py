@@ -160,7 +160,7 @@ def test_back_step_and_dwell_by_the_output_angle_itself(name, assembly):
 
 def test_tolerance_dwell_only_where_the_file_gives_one():
     assert value(design(**EXAMPLE_3), "tolerance_dwell_angle") is None
-    found = design(**EXAMPLE_3, tolerance=1.0)
+    found = design(**EXAMPLE_3, dwell_tolerance=1.0)
     assert value(found, "tolerance_dwell_angle") == pytest.approx(123.0084, abs=5e-5)  # 40 digits, printed to four
     oracle = drive(EXAMPLE_3)
     start, width = value(found, "tolerance_dwell_start"), value(found, "tolerance_dwell_angle")
@@ -206,7 +206,7 @@ def mirrored(one, other):
 
 @pytest.mark.parametrize("name", DESIGNS)
 def test_mirror_image(name):
-    given = DESIGNS[name] | {"tolerance": 0.5}
+    given = DESIGNS[name] | {"dwell_tolerance": 0.5}
     mirrored(*(design(**given, assembly=s).report("analyze") for s in (1, -1)))
 
 
