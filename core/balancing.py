@@ -87,35 +87,6 @@ def inertia_torque_peak(inertia: float, law: ElasticLaw, time: float) -> float:
     return inertia * law.swing * law.acceleration_peak / time**2
 
 
-def residual_torque(inertia: float, law: ElasticLaw, time: float, speed_ratio: float, k: FloatArray) -> FloatArray:
-    """Torque on the rocker axis that the device leaves to the drive over a stroke.
-
-    M1(k) = J gamma c(k) (1/T^2 - 1/T0^2), T0/T = n/n0
-
-    Parameters
-        inertia : float [kg m^2] - J
-        law : ElasticLaw
-        time : float [s] - T0 of one stroke at the design speed
-        speed_ratio : float - n/n0
-        k : (N,) array - fraction of the stroke
-    Returns
-        torque : (N,) array [N m]
-    Raises
-        NoSolution - for k outside 0 to 1
-    Example
-        >>> from gearlink.core.unloading import Pneumatic
-        >>> law = ElasticLaw(Pneumatic(2.5), math.radians(120))
-        >>> residual_torque(0.5, law, 0.2, 1.0, np.array([0.1])).tolist()
-        [0.0]
-
-    Source
-        wide-swing dissertation (1), chapter 5; own derivation
-    """
-    detuning = (speed_ratio - 1.0) * (speed_ratio + 1.0)
-    result: FloatArray = inertia * law.swing / time**2 * detuning * law.invariants(k, 2)[2]
-    return result
-
-
 def balancing_ratio(speed_ratio: FloatArray, residual_fraction: float = 0.0) -> FloatArray:
     """How many times the device lowers the torque on the rocker axis.
 

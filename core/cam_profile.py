@@ -116,7 +116,7 @@ def translating(
 
     Parameters
         displacement : (N,) array [mm] - y, of the roller centre along the travel from the foot of the
-            perpendicular out of the cam axis: sqrt(r_p^2 - e^2) + lift (see start_displacement)
+            perpendicular out of the cam axis: sqrt(r_p^2 - e^2) + lift
         first, second : (N,) arrays [mm/rad, mm/rad^2] - y', y''; the second serves the curvature only
         direction : complex - u, unit vector of the travel (1 along +x, -1 along -x, 1j along +y)
         offset : float [mm] - e, how far the line of travel passes the cam axis on the right of u
@@ -136,31 +136,6 @@ def translating(
     u = complex(direction) / abs(direction)
     y, y1, y2 = np.broadcast_arrays(*(np.asarray(a, dtype=float) for a in (displacement, first, second)))
     return RollerPath(u * (y - 1j * offset), u * y1, u * y2, np.broadcast_to(np.complex128(u), y.shape))
-
-
-def start_displacement(prime_radius: float, offset: float = 0.0) -> float:
-    """Displacement of a slide at zero lift, sqrt(r_p^2 - e^2).
-
-    Parameters
-        prime_radius : float [mm] - r_p, of the prime circle (base circle of the pitch curve)
-        offset : float [mm] - e
-    Returns
-        displacement : float [mm]
-    Raises
-        NoSolution - |e| >= r_p
-    Example
-        >>> start_displacement(50.0, 30.0)
-        40.0
-
-    Source
-        own derivation
-    """
-    if not abs(offset) < prime_radius:
-        raise NoSolution(
-            f"offset {offset:.9g} mm reaches past the prime circle of {prime_radius:.9g} mm: "
-            f"keep it below {prime_radius:.9g} mm or enlarge the base radius"
-        )
-    return math.sqrt((prime_radius - offset) * (prime_radius + offset))
 
 
 def pitch_points(cam_angle: ArrayLike, path: RollerPath, *, sense: int) -> Points:

@@ -1,4 +1,4 @@
-"""Smallest cams for a pressure-angle limit: prime circles of slides, admissible cam centres of rocking arms."""
+"""Smallest cams for a pressure-angle limit: the cam centre that the rollers of rocking arms allow."""
 
 from __future__ import annotations
 
@@ -17,25 +17,9 @@ from gearlink.core.extremes import TURN, maximum_over
 
 Reals: TypeAlias = NDArray[np.float64]
 Points: TypeAlias = NDArray[np.complex128]
-Lift: TypeAlias = Callable[[Reals], tuple[Reals, Reals]]
 
 # Cutting planes converge quadratically; the example of the swing gripper takes four rounds.
 _ROUNDS = 60
-
-
-@dataclass(frozen=True, slots=True)
-class CamSize:
-    """A smallest cam.
-
-    Attributes
-        prime_radius : float [mm] - r_p, from the cam centre to the roller centre at the start
-        offset : float [mm] - of a slide's line of travel, 0 in line
-        cam_angle : float [rad] - where the limit is reached
-    """
-
-    prime_radius: float
-    offset: float
-    cam_angle: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,136 +55,6 @@ class RockingRoller:
     side: int
 
 
-def smallest_prime_circle(
-    lift: Lift,
-    max_pressure_angle: float,
-    *,
-    sense: int = 1,
-    offset: float = 0.0,
-    joints: Sequence[float] = (),
-    end: float = TURN,
-) -> CamSize:
-    """Smallest prime circle of a translating follower whose pressure angle keeps a limit.
-
-    y0 = max(|eps s' - e|/tan alpha_max - s),  r_p = sqrt(e^2 + y0^2)
-
-    Parameters
-        lift : function of cam angles [rad] - returns s [mm] and s' [mm/rad]
-        max_pressure_angle : float [rad] - in (0, pi/2), for either sign
-        sense : +1 or -1 - eps; matters with an offset only
-        offset : float [mm] - e, as of cam_profile.translating
-        joints : floats [rad] - ends of the phases of the law
-        end : float [rad] - the lift is given from 0 to here
-    Returns
-        size : CamSize
-    Raises
-        NoSolution - limit outside 0 to 90 deg; or a lift that needs no cam (y0 <= 0)
-    Example
-        >>> lift = lambda phi: (5.0 - 5.0 * np.cos(phi), 5.0 * np.sin(phi))
-        >>> round(smallest_prime_circle(lift, math.radians(45.0)).prime_radius, 9)
-        2.071067812
-
-    Source
-        own derivation from tan alpha = (eps s' - e)/(y0 + s)
-    """
-    slope = _checked_slope(max_pressure_angle)
-
-    def needed(phi: Reals) -> Reals:
-        s, s1 = lift(phi)
-        return np.abs(sense * s1 - offset) / slope - s
-
-    worst = maximum_over(needed, 0.0, end, joints=joints)
-    if not worst.value > 0.0:
-        raise NoSolution("the lift never comes near the pressure-angle limit: size the cam by its shaft and roller")
-    return CamSize(math.hypot(worst.value, offset), offset, worst.place)
-
-
-def smallest_offset_circle(
-    lift: Lift,
-    max_pressure_angle: float,
-    *,
-    sense: int = 1,
-    joints: Sequence[float] = (),
-    end: float = TURN,
-) -> CamSize:
-    """Smallest prime circle of a translating follower with the offset that allows it.
-
-    r_p = min over e of sqrt(e^2 + y0(e)^2): the point nearest to the roller of the half-planes
-    (y0 + s) tan alpha_max >= +-(eps s' - e)
-
-    Parameters
-        lift, max_pressure_angle, sense, joints, end : as of smallest_prime_circle
-    Returns
-        size : CamSize - its offset is positive where the cam axis lies on the left of the travel
-    Raises
-        NoSolution - as of smallest_prime_circle
-    Example
-        >>> lift = lambda phi: (5.0 - 5.0 * np.cos(phi), 5.0 * np.sin(phi))
-        >>> abs(smallest_offset_circle(lift, math.radians(45.0)).offset) < 1e-9
-        True
-
-    Source
-        own derivation: the half-planes are linear in (e, y0)
-    """
-    slope = _checked_slope(max_pressure_angle)
-
-    def planes(sign: int, phi: Reals) -> tuple[Points, Reals]:
-        s, s1 = lift(phi)
-        normal = np.full(s.shape, complex(sign, slope) / math.hypot(1.0, slope))
-        return normal, (sign * sense * s1 - s * slope) / math.hypot(1.0, slope)
-
-    families = [partial(planes, sign) for sign in (1, -1)]
-    found, places, margins = _nearest_admissible(families, 0.0, 0.0, end, joints)
-    if not found.imag > 0.0:
-        raise NoSolution("the lift never comes near the pressure-angle limit: size the cam by its shaft and roller")
-    return CamSize(abs(found), found.real, places[0] if margins[0] <= margins[1] else places[1])
-
-
-def smallest_prime_circle_rocker(
-    law: Callable[[Reals], tuple[Reals, Reals]],
-    max_pressure_angle: float,
-    *,
-    pivot: complex,
-    arm: float,
-    sense: int,
-    side: int,
-    joints: Sequence[float] = (),
-    start: float = 0.0,
-    end: float = TURN,
-) -> CamCenter:
-    """Cam centre nearest to the roller of a rocking arm that keeps a pressure-angle limit.
-
-    z = (O - A) e^(-i psi) - l (1 - eps psi');  side (Im z tan alpha_max +- Re z) >= 0 for every cam angle
-
-    Parameters
-        law : function of cam angles [rad] - returns psi [rad] and psi' of the arm
-        max_pressure_angle : float [rad] - in (0, pi/2), for either sign
-        pivot, arm : complex, float [mm] - A and l, in any frame
-        sense : +1 or -1 - eps
-        side : +1 where the cam lies on the left of the arm (seen from the pivot to the roller), -1 on the right
-        joints : floats [rad] - ends of the phases of the law
-        start, end : float [rad] - range of cam angles; the prime circle is the one at start
-    Returns
-        best : CamCenter - the centre in the frame of the pivot
-    Raises
-        NoSolution - limit outside 0 to 90 deg; no centre keeps it
-    Notes
-        The limits are half-planes in O; their intersection is convex, and its point nearest to the roller is
-        found by cutting planes, each refined to the cam angle of the largest violation: exact to rounding.
-    Example
-        >>> rocking = lambda phi: (2.0 - 0.1 * np.cos(phi), 0.1 * np.sin(phi))
-        >>> best = smallest_prime_circle_rocker(
-        ...     rocking, math.radians(30.0), pivot=0j, arm=100.0, sense=1, side=1)
-        >>> round(best.prime_radius, 6) > 0.0
-        True
-
-    Source
-        own derivation: tan alpha = -Re z/Im z
-    """
-    roller = RockingRoller(law, pivot, arm, side)
-    return smallest_cam_of_rollers([roller], max_pressure_angle, sense=sense, joints=joints, start=start, end=end)
-
-
 def smallest_cam_of_rollers(
     rollers: Sequence[RockingRoller],
     max_pressure_angle: float,
@@ -212,15 +66,22 @@ def smallest_cam_of_rollers(
 ) -> CamCenter:
     """Cam centre nearest to the first roller at which every roller of a cam shaft keeps a pressure-angle limit.
 
-    The half-planes of smallest_prime_circle_rocker, of all rollers together: two cams on one shaft share O.
+    z = (O - A) e^(-i psi) - l (1 - eps psi');  side (Im z tan alpha_max +- Re z) >= 0 for every cam angle and roller
 
     Parameters
         rollers : sequence of RockingRoller - in one frame; the first one's prime circle is made smallest
-        max_pressure_angle, sense, joints, start, end : as of smallest_prime_circle_rocker
+        max_pressure_angle : float [rad] - in (0, pi/2), for either sign
+        sense : +1 or -1 - eps
+        joints : floats [rad] - ends of the phases of the law
+        start, end : float [rad] - range of cam angles; the prime circle is the one at start
     Returns
         best : CamCenter - two cam angles and two margins for each roller, upper limit first
     Raises
-        NoSolution - as of smallest_prime_circle_rocker
+        NoSolution - limit outside 0 to 90 deg; no centre keeps it
+    Notes
+        Two cams on one shaft share O. The limits are half-planes in O; their intersection is convex, and its point
+        nearest to the roller is found by cutting planes, each refined to the cam angle of the largest violation:
+        exact to rounding.
     Example
         >>> first = RockingRoller(lambda phi: (0.0 * phi, 0.0 * phi), 0j, 100.0, 1)
         >>> second = RockingRoller(lambda phi: (0.0 * phi + 1.5, 0.0 * phi), 0j, 100.0, -1)
@@ -247,71 +108,6 @@ def _rocker_planes(roller: RockingRoller, slope: float, sense: int, sign: int, p
     normal: Points = local * np.exp(1j * psi)
     reach = roller.arm * (1.0 - sense * psi1) * local.real
     return normal, (np.conj(normal) * roller.pivot).real + reach
-
-
-def admissible_centers(
-    law: Callable[[Reals], tuple[Reals, Reals]],
-    max_pressure_angle: float,
-    *,
-    pivot: complex,
-    arm: float,
-    sense: int,
-    side: int,
-    start: float = 0.0,
-    end: float = TURN,
-    samples: int = 1440,
-    within: float,
-) -> Points:
-    """Outline of the region of admissible cam centres, cut off at a distance from the pivot.
-
-    Parameters
-        law, max_pressure_angle, pivot, arm, sense, side, start, end : as of smallest_prime_circle_rocker
-        samples : int - cam angles whose half-planes are cut
-        within : float [mm] - the region reaches to infinity; it is clipped to a square of this half-width
-    Returns
-        corners : (N,) complex array [mm] - counter-clockwise, convex
-    Raises
-        NoSolution - nothing of the region lies within
-    Example
-        >>> corners = admissible_centers(
-        ...     lambda phi: (0.0 * phi, 0.0 * phi), math.radians(45.0),
-        ...     pivot=0j, arm=100.0, sense=1, side=1, within=200.0)
-        >>> [(round(c.real), round(c.imag)) for c in corners]
-        [(-100, 200), (100, 0), (200, 100), (200, 200)]
-
-    Source
-        own derivation
-    """
-    slope = _checked_slope(max_pressure_angle)
-    phi = np.linspace(start, end, samples)
-    roller = RockingRoller(law, pivot, arm, side)
-    parts = [_rocker_planes(roller, slope, sense, sign, phi) for sign in (1, -1)]
-    normals, limits = (np.concatenate(part) for part in zip(*parts, strict=True))
-    square = np.array([-1 - 1j, 1 - 1j, 1 + 1j, -1 + 1j], dtype=np.complex128)
-    corners: Points = np.asarray(pivot + within * square, dtype=np.complex128)
-    for _ in range(2 * samples):
-        short = limits - (np.conj(normals)[:, None] * corners[None, :]).real.min(axis=1)
-        worst = int(np.argmax(short))
-        if short[worst] <= 1e-12 * within:
-            first = int(np.lexsort((corners.imag, corners.real))[0])
-            return np.roll(corners, -first)
-        corners = _clipped(corners, complex(normals[worst]), float(limits[worst]))
-    return corners
-
-
-def _clipped(corners: Points, normal: complex, limit: float) -> Points:
-    inside = (normal.conjugate() * corners).real - limit
-    kept: list[complex] = []
-    for i, here in enumerate(inside):
-        previous = inside[i - 1]
-        if (previous < 0.0) != (here < 0.0):
-            share = previous / (previous - here)
-            kept.append(complex(corners[i - 1] + share * (corners[i] - corners[i - 1])))
-        if here >= 0.0:
-            kept.append(complex(corners[i]))
-    if len(kept) < 3:
-        raise NoSolution("no admissible cam centre lies within reach: raise the pressure-angle limit or the reach")
-    return np.array(kept)
 
 
 def _checked_slope(max_pressure_angle: float) -> float:

@@ -50,14 +50,6 @@ class MomentaryDwells:
     exists: Mask
 
 
-@dataclass(frozen=True, slots=True)
-class DwellCrankAngles:
-    """Crank angles of the back-step phi12 [rad] for given dwell angles, NaN where not `exists`."""
-
-    back_step_crank_angle: Array
-    exists: Mask
-
-
 def turn(samples: int = 360) -> Array:
     """Crank angles that divide the turn into equal steps, from 0.
 
@@ -207,36 +199,6 @@ def _regained_by_bracket(ratio: Array, h: Array) -> Array:
     return _newton(lambda y: (-_fallen(ratio, h, y), _speed(ratio, h, y)), h, high, np.minimum(2.0 * h, high))
 
 
-def crank_angles_for_dwell(i3: ArrayLike, dwell_angle: ArrayLike) -> DwellCrankAngles:
-    """Crank angle of the back-step phi12 that gives the dwell angle phi13, for many designs of the symmetric family.
-
-    Parameters
-        i3, dwell_angle : arrays that broadcast [1, rad] - i3 < 0
-    Returns
-        angles : DwellCrankAngles - `exists` where 0 < phi13 < 2 pi (1 - i3)/(2 - i3)
-    Raises
-        NoSolution - for a ratio that is not negative
-    Example
-        >>> found = crank_angles_for_dwell(-1.8, np.radians([135.0, 270.0]))
-        >>> np.round(np.degrees(found.back_step_crank_angle), 8).tolist(), found.exists.tolist()
-        ([90.30114714, nan], [True, False])
-
-    Source
-        own derivation; scalar form in `gearlink.core.symmetric_back_step`
-    """
-    ratio, asked = _pair(i3, dwell_angle)
-    exists = (asked > 0.0) & (asked < 2.0 * math.pi * (1.0 - ratio) / (2.0 - ratio))
-    phi13 = np.where(exists, asked, 0.5 * math.pi)
-    high = np.minimum(0.5 * phi13, 0.5 * math.pi)
-
-    def equation(h: Array) -> tuple[Array, Array]:
-        y = phi13 - h
-        return _fallen(ratio, h, y), _fallen_by_h(ratio, h, y) + _speed(ratio, h, y)
-
-    h = _newton(equation, 0.25 * phi13, high, np.minimum(phi13 / 3.0, high))
-    return DwellCrankAngles(np.where(exists, 2.0 * h, np.nan), exists)
-
-
 def _pair(i3: ArrayLike, angle: ArrayLike) -> tuple[Array, Array]:
     """Ratios and angles, broadcast; ratios checked."""
     ratio, phi = np.broadcast_arrays(np.asarray(i3, dtype=float), np.asarray(angle, dtype=float))
@@ -272,16 +234,6 @@ def _speed(i3: Array, h: Array, y: Array) -> Array:
     cos_y = np.cos(y)
     speed: Array = 1.0 - (1.0 - i3) * cos_y / np.sqrt(i3 * (i3 - 2.0) * np.cos(h) ** 2 + cos_y**2)
     return speed
-
-
-def _fallen_by_h(i3: Array, h: Array, y: Array) -> Array:
-    """Derivative of `_fallen` after h at constant y."""
-    n, rest = 1.0 - i3, i3 * (i3 - 2.0)
-    cos_h, sin_y = np.cos(h), np.sin(y)
-    square = rest * cos_h**2 + np.cos(y) ** 2
-    by_y = sin_y * rest * cos_h * np.sin(h) / (np.sqrt(square) * (square + sin_y**2))
-    slope: Array = n * (by_y + n / (n * n * cos_h**2 + np.sin(h) ** 2)) - 1.0
-    return slope
 
 
 def _newton(f: Callable[[Array], tuple[Array, Array]], low: Array, high: Array, x: Array) -> Array:

@@ -151,14 +151,6 @@ class GearPair:
             given_first_shift=None if isinstance(split, str) else split,
         )
 
-    def require_center_distance(self, center_distance: float) -> None:
-        """Refuse a centre distance [mm] that differs from the pair's own by more than 1e-6 module."""
-        if not abs(center_distance - self.center_distance) <= 1e-6 * self.module:
-            raise NoSolution(
-                f"centre distance {center_distance:.9g} mm does not fit the profile shifts {self.profile_shift}, "
-                f"which need {self.center_distance:.12g} mm: change it, or leave one of the two out"
-            )
-
     @cached_property
     def _teeth_sum(self) -> int:
         return self.teeth[0] + self.teeth[1]
@@ -259,11 +251,6 @@ class GearPair:
         """r_f = r - (h_a* + c* - x) m [mm]."""
         r, x, depth = self.reference_radius, self.profile_shift, self.addendum + self.clearance
         return r[0] - self.module * (depth - x[0]), r[1] - self.module * (depth - x[1])
-
-    @cached_property
-    def root_clearance(self) -> Pair:
-        """c = a' - r_a(mate) - r_f [mm]: with the full tip shortening c* m in both roots, by identity."""
-        return self.module * self.clearance, self.module * self.clearance
 
     @cached_property
     def tooth_thickness(self) -> Pair:

@@ -29,26 +29,6 @@ def min_shift_no_undercut(teeth: int, pressure_angle: float, addendum: float = 1
     return addendum - teeth * math.sin(pressure_angle) ** 2 / 2.0
 
 
-def min_teeth_no_undercut(pressure_angle: float, addendum: float = 1.0) -> float:
-    """Number of teeth below which an unshifted gear is undercut by a rack cutter.
-
-    z_min = 2 h_a*/sin^2(alpha)
-
-    Parameters
-        pressure_angle : float [rad] - of the reference profile, alpha
-        addendum : float [module] - h_a* of the reference profile
-    Returns
-        z_min : float - round up to whole teeth
-    Example
-        >>> round(min_teeth_no_undercut(math.radians(20.0)), 4)
-        17.0973
-
-    Source
-        own derivation: min_shift_no_undercut = 0
-    """
-    return 2.0 * addendum / math.sin(pressure_angle) ** 2
-
-
 def pressure_angle_rise(radius: float, increase: float, pressure_angle: float, *, what: str = "radius") -> float:
     """Rise of an involute's pressure angle from one radius to another.
 

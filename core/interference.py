@@ -41,25 +41,6 @@ def gap(center_distance: float, radius_1: float, radius_2: float) -> float:
     return center_distance - radius_1 - radius_2
 
 
-def pin_to_rocker_pivot(crank: float, frame: float) -> tuple[Approach, Approach]:
-    """Least and greatest distance of the crank pin B from the rocker pivot D over a turn.
-
-    BD = |d - a| ... d + a
-
-    Parameters
-        crank, frame : float [mm] - a, d
-    Returns
-        nearest, farthest : Approach
-    Example
-        >>> pin_to_rocker_pivot(18.0, 121.4)[0]
-        Approach(distance=103.4, crank_angle=0.0)
-
-    Source
-        own derivation
-    """
-    return Approach(abs(frame - crank), 0.0), Approach(frame + crank, math.pi)
-
-
 def joint_to_crank_pivot(
     crank: float, coupler: float, rocker: float, frame: float, assembly: int = 1
 ) -> tuple[Approach, Approach]:

@@ -12,7 +12,7 @@ import numpy as np
 from gearlink.core.errors import NoSolution
 from gearlink.core.extremes import maximum_over, minimum_over
 from gearlink.core.periodic_quadrature import FloatArray
-from gearlink.core.report import safely_above, safely_below
+from gearlink.core.report import safely_below
 from gearlink.core.wide_swing_curve import ComplexArray, PitchCurve, StrokeLaw
 
 Layout = Literal["twin-cam", "twin-rocker"]
@@ -248,25 +248,6 @@ class WideSwingCam:
             raise NoSolution(
                 f"phase angle {math.degrees(self.phase_angle):.4g} deg of the run-up is not above 0: "
                 f"increase the cycle angle above {math.degrees(2.0 * self.profile_correction):.4g} deg"
-            )
-
-    def require_hub(self, shaft_radius: float) -> None:
-        """Refuse a roller that reaches the shaft of the cam.
-
-        Parameters
-            shaft_radius : float [mm] - shaft or hub
-        Raises
-            NoSolution - with the centre distance that clears it
-        Source
-            own derivation
-        """
-        reach = self.min_radius - self.roller_radius
-        if reach <= shaft_radius:
-            needed = self.center_distance * (shaft_radius + self.roller_radius) / self.min_radius
-            raise NoSolution(
-                f"the roller comes within {reach:.4g} mm of the cam axis and the shaft's radius is "
-                f"{shaft_radius:.4g} mm: make the centre distance more than {safely_above(needed)} mm, or the roller "
-                "smaller"
             )
 
     @cached_property

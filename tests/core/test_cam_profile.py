@@ -25,7 +25,6 @@ from gearlink.core.cam_profile import (
     pressure_angle,
     profile,
     profile_points,
-    start_displacement,
     translating,
 )
 from gearlink.core.errors import NoSolution
@@ -99,7 +98,7 @@ def test_eccentric_circle_translating() -> None:
 def test_cycloidal_slide() -> None:
     rise = math.pi / 2.0
     s, v, a = law("cycloidal").evaluate(0.375, 2)
-    y = start_displacement(60.0) + 30.0 * s
+    y = 60.0 + 30.0 * s
     path = translating(y, 30.0 * v / rise, 30.0 * a / rise**2, direction=1j)
     near, far = (profile(0.375 * rise, path, sense=1, roller_radius=15.0, flank=flank) for flank in (1, -1))
     assert_matches(near, expected("TRA-01"), far)
@@ -278,11 +277,6 @@ def test_refuses_the_relative_pole() -> None:
 def test_refuses_a_standing_pitch_curve() -> None:
     with pytest.raises(NoSolution, match="stands still at cam angle 57"):
         profile(1.0, oscillating(0.0, 80.0, 1.0, 1.0), sense=1, roller_radius=10.0)
-
-
-def test_refuses_an_offset_past_the_prime_circle() -> None:
-    with pytest.raises(NoSolution, match="keep it below 50 mm"):
-        start_displacement(50.0, -50.0)
 
 
 def test_refuses_a_direction_that_is_no_unit_vector() -> None:

@@ -16,12 +16,7 @@ import numpy as np
 import pytest
 
 from gearlink.core.cam_profile import curvature, oscillating, pressure_angle, profile
-from gearlink.core.cam_size import (
-    admissible_centers,
-    smallest_offset_circle,
-    smallest_prime_circle,
-    smallest_prime_circle_rocker,
-)
+from gearlink.core.cam_size import CamCenter, RockingRoller, smallest_cam_of_rollers
 from gearlink.core.errors import NoSolution
 from gearlink.core.extremes import least_convex_radius, maximum_over, minimum_over
 from gearlink.core.motion_laws import law
@@ -98,6 +93,11 @@ def rocker_law(theta: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return one + MAIN, w1
 
 
+def smallest_cam(limit: float) -> CamCenter:
+    """The smallest cam of the example's main roller."""
+    return smallest_cam_of_rollers([RockingRoller(rocker_law, PIVOT, 160.0, 1)], limit, sense=-1, joints=JOINTS)
+
+
 def expected(case: str) -> dict[str, float]:
     return {key: float(value) for key, value in CASES[case]["expected"].items()}
 
@@ -158,7 +158,7 @@ def test_no_undercut_in_the_example(angle: float, least: float) -> None:
 def test_smallest_cam_of_the_example() -> None:
     numbers = expected("FEAS-01")
     limit = math.radians(25.0)
-    best = smallest_prime_circle_rocker(rocker_law, limit, pivot=PIVOT, arm=160.0, sense=-1, side=1, joints=JOINTS)
+    best = smallest_cam(limit)
     assert best.center == pytest.approx(complex(numbers["Ox"], numbers["Oy"]), abs=LENGTH)
     assert best.prime_radius == pytest.approx(numbers["r_pitch_min"], abs=LENGTH)
     assert abs(best.center - PIVOT) == pytest.approx(numbers["f"], abs=LENGTH)
@@ -180,67 +180,17 @@ def test_mirrored_machine_has_the_mirrored_cam() -> None:
         return -psi, -rate
 
     limit = math.radians(25.0)
-    one = smallest_prime_circle_rocker(rocker_law, limit, pivot=PIVOT, arm=160.0, sense=-1, side=1, joints=JOINTS)
-    other = smallest_prime_circle_rocker(
-        mirrored, limit, pivot=PIVOT.conjugate(), arm=160.0, sense=1, side=-1, joints=JOINTS
+    one = smallest_cam(limit)
+    other = smallest_cam_of_rollers(
+        [RockingRoller(mirrored, PIVOT.conjugate(), 160.0, -1)], limit, sense=1, joints=JOINTS
     )
     assert other.center == pytest.approx(one.center.conjugate(), abs=LENGTH)
     assert other.cam_angles == pytest.approx(one.cam_angles[::-1], abs=1e-6)
 
 
 def test_a_wider_limit_gives_a_smaller_cam() -> None:
-    radii = [
-        smallest_prime_circle_rocker(
-            rocker_law, math.radians(limit), pivot=PIVOT, arm=160.0, sense=-1, side=1, joints=JOINTS
-        ).prime_radius
-        for limit in (20.0, 25.0, 30.0, 40.0)
-    ]
+    radii = [smallest_cam(math.radians(limit)).prime_radius for limit in (20.0, 25.0, 30.0, 40.0)]
     assert radii == sorted(radii, reverse=True)
-
-
-def test_region_of_admissible_centers() -> None:
-    limit = math.radians(25.0)
-    corners = admissible_centers(rocker_law, limit, pivot=PIVOT, arm=160.0, sense=-1, side=1, within=400.0, samples=721)
-    best = smallest_prime_circle_rocker(rocker_law, limit, pivot=PIVOT, arm=160.0, sense=-1, side=1, joints=JOINTS)
-    # 721 half-planes contain the region of all; its apex lies within the error of the envelope's chord
-    assert np.abs(corners - best.center).min() < 0.01
-    edges = np.roll(corners, -1) - corners
-    assert (np.imag(np.conj(edges) * np.roll(edges, -1)) >= -1e-9).all()
-    theta = np.linspace(0.0, TURN, 721)
-    inside = corners.mean()
-    assert np.abs(pressure_angle(theta, gripper_path(theta, MAIN, inside), sense=-1)).max() <= limit
-    for corner in corners[np.abs(corners - PIVOT) < 390.0]:
-        alpha = pressure_angle(theta, gripper_path(theta, MAIN, complex(corner)), sense=-1)
-        assert np.abs(alpha).max() == pytest.approx(limit, abs=1e-9)
-
-
-def cycloidal_rise(phi: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    s, v = law("cycloidal").evaluate(phi / (math.pi / 2.0), 1)
-    return 30.0 * s, 30.0 * v / (math.pi / 2.0)
-
-
-def test_smallest_cam_of_a_slide() -> None:
-    numbers = expected("BASE-01")
-    size = smallest_prime_circle(cycloidal_rise, math.radians(30.0), end=math.pi / 2.0)
-    assert size.prime_radius == pytest.approx(numbers["r_pitch_min"], rel=1e-14)
-    assert size.cam_angle / (math.pi / 2.0) == pytest.approx(numbers["x_star"], abs=1e-7)
-
-
-@pytest.mark.parametrize("sense", [1, -1])
-def test_best_offset_against_a_scan(sense: int) -> None:
-    limit, end = math.radians(30.0), math.pi / 2.0
-    best = smallest_offset_circle(cycloidal_rise, limit, sense=sense, end=end)
-    scan = [
-        smallest_prime_circle(cycloidal_rise, limit, sense=sense, offset=best.offset + step, end=end).prime_radius
-        for step in (-0.1, -1e-4, 0.0, 1e-4, 0.1)
-    ]
-    assert scan[2] == pytest.approx(best.prime_radius, abs=LENGTH)
-    assert min(scan) >= best.prime_radius - LENGTH
-    assert scan[0] > scan[1] > scan[2] < scan[3] < scan[4]
-    # a rise alone wants the offset on the side to which the cam carries the roller
-    assert sense * best.offset > 0.0
-    with_rise_and_return = smallest_offset_circle(lambda phi: (5 - 5 * np.cos(phi), 5 * np.sin(phi)), limit)
-    assert with_rise_and_return.offset == pytest.approx(0.0, abs=1e-6)
 
 
 # Failures
@@ -249,30 +199,11 @@ def test_best_offset_against_a_scan(sense: int) -> None:
 @pytest.mark.parametrize("limit", [0.0, -0.1, 90.0, math.nan])
 def test_refuses_a_limit_out_of_range(limit: float) -> None:
     with pytest.raises(NoSolution, match="between 0 and 90 deg"):
-        smallest_prime_circle(cycloidal_rise, math.radians(limit))
+        smallest_cam(math.radians(limit))
 
 
 def test_refuses_a_rocker_that_moves_with_the_cam_too_fast() -> None:
     # an arm that turns right round meets every direction of the centre
+    turning = RockingRoller(lambda phi: (phi, 1.0 + 0.0 * phi), 0j, 100.0, 1)
     with pytest.raises(NoSolution, match="raise the limit"):
-        smallest_prime_circle_rocker(
-            lambda phi: (phi, 1.0 + 0.0 * phi), math.radians(20.0), pivot=0j, arm=100.0, sense=-1, side=1
-        )
-
-
-def test_refuses_an_empty_region() -> None:
-    with pytest.raises(NoSolution, match="raise the pressure-angle limit"):
-        admissible_centers(
-            lambda phi: (phi, 1.0 + 0.0 * phi),
-            math.radians(20.0),
-            pivot=0j,
-            arm=100.0,
-            sense=-1,
-            side=1,
-            within=500.0,
-        )
-
-
-def test_a_lift_without_motion_needs_no_cam() -> None:
-    with pytest.raises(NoSolution, match="size the cam by its shaft"):
-        smallest_prime_circle(lambda phi: (0.0 * phi, 0.0 * phi), math.radians(30.0))
+        smallest_cam_of_rollers([turning], math.radians(20.0), sense=-1)

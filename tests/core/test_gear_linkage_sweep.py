@@ -13,14 +13,13 @@ from gearlink.core.errors import NoSolution
 from gearlink.core.fourbar import FourBar
 from gearlink.core.gear_linkage import GearTrain, output_acceleration, output_angle, output_speed
 from gearlink.core.gear_linkage_sweep import (
-    crank_angles_for_dwell,
     dwell_angles,
     momentary_dwells,
     output_motion,
     turn,
 )
 from gearlink.core.momentary_dwell import momentary_crank_angle, momentary_frame_length, tangency_range
-from gearlink.core.symmetric_back_step import crank_angle_for_dwell, dwell_angle, dwell_angle_limit
+from gearlink.core.symmetric_back_step import dwell_angle
 
 EX3 = FourBar(18.0, 50.0, 100.0, 121.4)
 EX3_TRAIN = GearTrain(20, 20, 60)
@@ -81,24 +80,9 @@ def test_dwell_angles_agree_with_the_scalar_root():
     assert np.max(np.abs(found / exact - 1.0)) < 1e-13
 
 
-def test_crank_angles_for_dwell_agree_with_the_scalar_root():
-    i3 = -np.geomspace(0.04, 12.0, 15)[:, None]
-    phi13 = np.concatenate([np.geomspace(1e-3, 0.4, 10), np.linspace(0.5, 6.0, 20)])
-    found = crank_angles_for_dwell(i3, phi13)
-    for j, ratio in enumerate(-np.geomspace(0.04, 12.0, 15)):
-        for k, angle in enumerate(phi13):
-            assert found.exists[j, k] == (angle < dwell_angle_limit(float(ratio)))
-            if found.exists[j, k]:
-                exact = crank_angle_for_dwell(float(ratio), float(angle))
-                assert found.back_step_crank_angle[j, k] == pytest.approx(exact, rel=1e-12)
-            else:
-                assert math.isnan(found.back_step_crank_angle[j, k])
-
-
 def test_single_designs_need_no_array():
     assert dwell_angles(-2.0, 1.0) == pytest.approx(1.5, rel=1e-14)
     assert dwell_angles(-2.0, 0.1) == pytest.approx(0.15, rel=1e-14)
-    assert crank_angles_for_dwell(-2.0, 1.5).back_step_crank_angle == pytest.approx(1.0, rel=1e-14)
 
 
 def test_refuses_values_outside_their_range():
@@ -107,7 +91,7 @@ def test_refuses_values_outside_their_range():
     with pytest.raises(NoSolution, match="negative"):
         dwell_angles([-1.0, 0.0], 1.0)
     with pytest.raises(NoSolution, match="negative"):
-        crank_angles_for_dwell(math.nan, 1.0)
+        dwell_angles(math.nan, 1.0)
     with pytest.raises(NoSolution, match="positive and finite"):
         momentary_dwells(25.0, 25.0, 0.0, 16.0)
     with pytest.raises(NoSolution, match="take at least 1"):

@@ -20,11 +20,11 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from oracles.unloading_limits import pendulum_stretch_ratio
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.report import safely_below
 from gearlink.core.unloading import ElasticLaw, MiddleView, Pneumatic, Spring
-from gearlink.core.unloading_limits import pendulum_stretch_ratio
 from gearlink.core.wide_swing import Layout, WideSwingCam
 
 POINT, ANGLE, BEND, EDGE = 1e-14, 1e-14, 1e-13, 1e-13
@@ -299,14 +299,3 @@ def test_transition_zone_that_fills_the_stroke() -> None:
     limit = float(refusal.value.message.split("less than ")[1].split(" mm")[0])
     assert replace(wide, roller_radius=0.999 * limit).transition_zone < 0.5
     assert replace(wide, roller_radius=1.001 * limit).transition_zone > 0.5
-
-
-def test_hub() -> None:
-    mechanism = cam("twin-cam", 200.0)
-    mechanism.require_hub(117.0)
-    with pytest.raises(NoSolution, match="centre distance more than") as refusal:
-        mechanism.require_hub(120.0)
-    needed = float(refusal.value.message.split("more than ")[1].split(" mm")[0])
-    replace(mechanism, center_distance=needed + 0.1).require_hub(120.0)
-    with pytest.raises(NoSolution):
-        replace(mechanism, center_distance=needed - 0.1).require_hub(120.0)

@@ -11,16 +11,16 @@ import math
 import mpmath as mp
 import numpy as np
 import pytest
-
-from gearlink.core.errors import NoSolution
-from gearlink.core.unloading_device import Pneumatic, Spring
-from gearlink.core.unloading_limits import (
+from oracles.unloading_limits import (
     pendulum_displacement,
     pendulum_peaks,
     pendulum_stretch_ratio,
     small_swing_peaks,
     touching_pins_energy_parameter,
 )
+
+from gearlink.core.errors import NoSolution
+from gearlink.core.unloading_device import Pneumatic, Spring
 
 ROUNDING = 1e-15
 
