@@ -61,13 +61,13 @@ def _chart(design: MutilatedGearDwell, whole: float, turns: Reals, driven: Reals
 def _wheel(design: MutilatedGearDwell, center: Points, turn: Reals) -> Body:
     """The wheel's outline, its first group counter-clockwise from the x axis.
 
-    The first and the last tooth of a group end at the pitch circle, so that they pass the resting gear; the model
-    says no more of them, nor of the locking arcs.
+    The first and the last tooth of a group are cut down so far that they pass the resting gear; the model says no
+    more of them, nor of the locking arcs.
     """
     from gearlink.core.tooth_profile import ToothProfile, tooth_space
 
     gears, mesh = design.spec.gears, design.mesh
-    pitch, root = mesh.reference_radius[0], mesh.root_radius[0]
+    root = mesh.root_radius[0]
     step = TURN / gears.full_teeth
     try:
         space = tooth_space(ToothProfile.of(mesh, 0), 0.012 * mesh.module)
@@ -75,7 +75,7 @@ def _wheel(design: MutilatedGearDwell, center: Points, turn: Reals) -> Body:
         space = mesh.tip_radius[0] * np.exp(1j * np.linspace(-0.5 * step, 0.5 * step, 5))
     half = space[np.angle(space) >= 0.0]
     tooth = np.concatenate([half, half[::-1].conj() * np.exp(1j * step)])
-    cut = tooth * np.minimum(1.0, pitch / np.abs(tooth))
+    cut = tooth * np.minimum(1.0, max(root, _free_radius(design)) / np.abs(tooth))
     # A wheel with one tooth in a group has a single cut tooth.
     teeth = [cut if k in (0, gears.group_teeth - 1) else tooth for k in range(gears.group_teeth)]
     group = np.concatenate([each * np.exp(1j * step * k) for k, each in enumerate(teeth)])
@@ -91,3 +91,17 @@ def _wheel(design: MutilatedGearDwell, center: Points, turn: Reals) -> Body:
         fill=pale(style.BLUE),
         label="1" if gears.groups > 1 else "",
     )
+
+
+def _free_radius(design: MutilatedGearDwell) -> float:
+    """How far from the wheel's axis the resting gear leaves room, but for the tooth that stands in the gap [mm]."""
+    from gearlink.core.tooth_profile import ToothProfile, outline
+
+    mesh, half_pitch = design.mesh, math.pi / design.mesh.teeth[1]
+    try:
+        teeth = outline(ToothProfile.of(mesh, 1), 0.012 * mesh.module)
+    except NoSolution:
+        return mesh.reference_radius[0]
+    from_tooth = teeth * np.exp(-1j * half_pitch)
+    others = from_tooth[np.abs(np.angle(from_tooth)) > half_pitch]
+    return float(np.abs(mesh.center_distance - others).min())
