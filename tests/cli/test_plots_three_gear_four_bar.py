@@ -31,14 +31,14 @@ ODD = {
     "drag link": "{gears: {module: 2.0, crank: 20, idler: 30, output: 20}, links: {crank: 60.0, frame: 15.0}, "
     "shafts: {input_radius: 6.0, output_radius: 8.0}}",
     "mirrored, with tolerance": "{gears: {module: 2.0, crank: 40, idler: 72, output: 40}, assembly: -1, "
-    "tolerance: 2.0, links: {crank: 38.9, frame: 153.55}, shafts: {input_radius: 10.0}}",
+    "dwell_tolerance: 2.0, links: {crank: 38.9, frame: 153.55}, shafts: {input_radius: 10.0}}",
     "tiny": "{gears: {module: 2.0e-6, crank: 20, idler: 25, output: 40}, links: {crank: 5.0e-6, frame: 80.0e-6}}",
     "huge": "{gears: {module: 1000000.0, crank: 20, idler: 25, output: 40}, "
     "links: {crank: 2500000.0, frame: 40000000.0}}",
     "drag link with a collision": "{gears: {module: 2.0, crank: 10, idler: 60, output: 40}, "
     "links: {crank: 80.0, frame: 35.0}}",
     "dwell over the turn's end": "{gears: {module: 2.5, crank: 20, idler: 20, output: 60}, assembly: -1, "
-    "tolerance: 0.4, links: {crank: 18.0, frame: 121.4}}",
+    "dwell_tolerance: 0.4, links: {crank: 18.0, frame: 121.4}}",
 }
 
 
