@@ -79,7 +79,7 @@ def _wheel(design: MutilatedGearDwell, center: Points, turn: Reals) -> Body:
     # A wheel with one tooth in a group has a single cut tooth.
     teeth = [cut if k in (0, gears.group_teeth - 1) else tooth for k in range(gears.group_teeth)]
     group = np.concatenate([each * np.exp(1j * step * k) for k, each in enumerate(teeth)])
-    gap = np.linspace(gears.group_teeth * step, TURN / gears.groups, 40)
+    gap = np.linspace(gears.group_teeth * step, TURN / gears.groups, 180)
     part = np.concatenate([group, root * np.exp(1j * gap)])
     whole = np.concatenate([part * np.exp(1j * TURN * k / gears.groups) for k in range(gears.groups)])
     return Body(
