@@ -343,7 +343,7 @@ class WideSwingLaw(Design):
 
         from gearlink.core.balancing import drive_balancing_ratio, speed_sweep
 
-        share = np.arange(10, 135, 5) / 100.0 if self.samples is None else np.linspace(0.0, 1.3, self.samples + 1)
+        share = np.arange(10, 135, 5) / 100.0
         residual = self.spec.unloader.residual
         sweep = speed_sweep(self.even_inertia, self.plain_law, self.stroke_time, share, residual)
         with np.errstate(divide="ignore", invalid="ignore"):

@@ -97,6 +97,12 @@ class TestReferences:
         # null in the table where nothing is left
         assert None in [row[3] for row in made.table("balance").rows()]
 
+    def test_balance_keeps_its_speeds_with_samples(self) -> None:
+        """`--samples` divides turn and stroke; the speeds of the balance are no part of either."""
+        finer = WideSwingDesign(design().spec, 40)
+        assert len(finer.table("law").rows()) == 41
+        assert finer.table("balance").rows() == design().table("balance").rows()
+
     def test_spring(self) -> None:
         made = design(swing=180.0, speed=60.0 * 1.66, unloader=SPRING | {"arm": 120.0}, cam=None)
         assert value(made, "energy_parameter") == close(CASES["D08"]["N"])
