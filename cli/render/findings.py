@@ -10,7 +10,7 @@ from typing import Any
 
 from gearlink.cli.check import Finding
 from gearlink.cli.options import Format, Options
-from gearlink.cli.render.json_report import FORMAT
+from gearlink.cli.render.json_report import FORMAT, plain_check
 
 _STATUSES = ("pass", "warn", "fail", "error", "fault")
 _HEADS = ("file", "line", "column", "key", "status", "code", "check", "command", "value", "limit", "unit", "message")
@@ -23,7 +23,7 @@ def show_findings(found: Sequence[Finding], designs: int, options: Options, *, o
     if options.format is Format.JSON:
         plain = [_plain(finding) for finding in shown]
         whole = {"gearlink": FORMAT, "command": "check", "ok": ok, "summary": {"designs": designs, **counts}}
-        print(json.dumps({**whole, "findings": plain}, ensure_ascii=False, allow_nan=False))
+        print(json.dumps({**whole, "findings": plain, **_as_results(found)}, ensure_ascii=False, allow_nan=False))
         return
     if options.format is Format.CSV:
         import csv
@@ -36,6 +36,13 @@ def show_findings(found: Sequence[Finding], designs: int, options: Options, *, o
     print(_as_markdown(shown, verdict) if options.format is Format.MARKDOWN else _as_text(shown, verdict))
     if shown and not options.quiet:
         print("`gearlink explain CODE` tells what a code means and how to mend the design", file=sys.stderr)
+
+
+def _as_results(found: Sequence[Finding]) -> dict[str, Any]:
+    """All checks, and the errors if there are any, each in the form that the results of the other commands have."""
+    checks = [{"file": item.place.as_json()["file"], **plain_check(item.check)} for item in found if item.check]
+    errors = [finding.place.as_json() for finding in found if finding.status in ("error", "fault")]
+    return {"checks": checks} | ({"errors": errors} if errors else {})
 
 
 def _plain(finding: Finding) -> dict[str, Any]:

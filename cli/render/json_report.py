@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from gearlink.core.report import Report
+from gearlink.core.report import Check, Report
 
 FORMAT = 1
 
@@ -19,21 +19,23 @@ def as_plain(report: Report) -> dict[str, Any]:
         "command": report.command,
         "ok": report.ok,
         "quantities": {q.name: {"value": q.value, "unit": q.unit, "symbol": q.symbol} for q in report.quantities},
-        "checks": [
-            {
-                "code": c.code,
-                "name": c.name,
-                "status": c.status,
-                "value": c.value,
-                "limit": c.limit,
-                "unit": c.unit,
-                "message": c.message,
-            }
-            for c in report.checks
-        ],
+        "checks": [plain_check(check) for check in report.checks],
         "tables": {
             t.name: {"columns": list(t.columns), "units": list(t.units), "rows": t.rows()} for t in report.tables
         },
+    }
+
+
+def plain_check(check: Check) -> dict[str, Any]:
+    """One check as it stands in the `checks` of a result."""
+    return {
+        "code": check.code,
+        "name": check.name,
+        "status": check.status,
+        "value": check.value,
+        "limit": check.limit,
+        "unit": check.unit,
+        "message": check.message,
     }
 
 

@@ -60,6 +60,13 @@ def test_json(gearlink: Any, tmp_path: Path) -> None:
     assert (failed["code"], failed["check"], failed["line"], failed["column"]) == ("GL301", "gear-collision", 4, 1)
     assert failed["key"] == "links"
     assert failed["limit"] == 0.5
+    # Passes too, in the form of the other commands' results, so that one reader does for all.
+    checks = [{**check, "file": None} for check in whole["checks"]]
+    collision = next(check for check in checks if check["name"] == "gear-collision")
+    assert (collision["status"], collision["limit"]) == ("fail", 0.5)
+    analyzed = gearlink("analyze", path, "--format", "json").json["checks"]
+    assert all({**check, "file": None} in checks for check in analyzed)
+    assert "errors" not in whole
     assert not [finding for finding in whole["findings"] if finding["status"] == "pass"]
 
 
@@ -86,6 +93,8 @@ def test_errors_of_the_file(gearlink: Any, tmp_path: Path) -> None:
     assert ended.status == 2
     assert {(f["code"], f["line"]) for f in ended.json["findings"]} >= {("GL105", 2), ("GL107", 4)}
     assert {f["status"] for f in ended.json["findings"]} == {"error"}
+    # The record of errors is the one that every command prints with status 2.
+    assert ended.json["errors"] == gearlink("crank", path, "--format", "json").json["errors"]
 
 
 def test_a_mechanism_that_does_not_exist_is_no_pass(gearlink: Any, tmp_path: Path) -> None:
