@@ -31,7 +31,7 @@ def register(app: typer.Typer) -> None:
 
 
 def _chart(
-    name: Annotated[str, typer.Argument(metavar="[NAME]", help="chart; left out: the list of charts")] = "",
+    name: Annotated[str, typer.Argument(metavar="NAME", help="chart; left out: the list of charts")] = "",
     design: Annotated[str, typer.Option("--design", metavar="SPEC", help="mark this design in the chart")] = "",
     range_: Annotated[str, typer.Option("--range", metavar="LOW:HIGH", help="range of the x axis")] = "",
     curves: Annotated[str, typer.Option("--curves", metavar="A,B,...", help="a curve for each parameter")] = "",
@@ -75,7 +75,7 @@ def _animate(
     set_: SetOption = [],  # noqa: B006 - Typer copies it
     quiet: QuietOption = False,
 ) -> None:
-    """The mechanism in motion: NAME.gif, a loop without a jump. HTML has controls; mp4 needs ffmpeg.
+    """The mechanism in motion: NAME-motion.gif, a loop without a jump. HTML has controls; mp4 needs ffmpeg.
 
     Example: gearlink animate design.yaml --format html --seconds 8
     """
