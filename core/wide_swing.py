@@ -12,8 +12,10 @@ import numpy as np
 from gearlink.core.errors import NoSolution
 from gearlink.core.extremes import maximum_over, minimum_over
 from gearlink.core.periodic_quadrature import FloatArray
-from gearlink.core.report import safely_below
+from gearlink.core.report import safely_above, safely_below
 from gearlink.core.wide_swing_curve import ComplexArray, PitchCurve, StrokeLaw
+
+_LEAST_SPEED_RATIO = 1e-10  # B gamma/phi_ud; 1 - lambda, about as large, keeps six digits
 
 Layout = Literal["twin-cam", "twin-rocker"]
 
@@ -83,6 +85,13 @@ class WideSwingCam:
             raise NoSolution(
                 f"cycle angle {math.degrees(self.cycle_angle):.6g} deg: one stroke needs more than 0 and "
                 "at most 360 deg of the cam"
+            )
+        if self.speed_ratio_peak < _LEAST_SPEED_RATIO:
+            least = safely_above(math.degrees(self.law.swing * _LEAST_SPEED_RATIO / self.speed_ratio_peak))
+            raise NoSolution(
+                f"a swing of {math.degrees(self.law.swing):.6g} deg is too small to reckon a cam with: the roller "
+                f"would hardly leave the cam's own circle; set swing to at least {least} deg",
+                key="swing",
             )
         if self.layout == "twin-rocker" and self.speed_ratio_peak <= 1.0:
             limit = math.degrees(self.law.velocity_peak * self.law.swing)
@@ -247,7 +256,7 @@ class WideSwingCam:
         if self.phase_angle <= 0.0:
             raise NoSolution(
                 f"phase angle {math.degrees(self.phase_angle):.4g} deg of the run-up is not above 0: "
-                f"increase the cycle angle above {math.degrees(2.0 * self.profile_correction):.4g} deg"
+                f"increase the cycle angle above {safely_above(math.degrees(2.0 * self.profile_correction))} deg"
             )
 
     @cached_property
