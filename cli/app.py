@@ -22,6 +22,7 @@ from gearlink.cli.reference_commands import register
 _HELP = """Design calculator for the mechanisms of printing machines.
 
 A design is a YAML file; `gearlink analyze FILE` says all there is to say of it.
+
 Exit status: 0 all checks pass, 1 a check fails, 2 the input is wrong or no such mechanism exists, 3 a fault.
 """
 
@@ -186,6 +187,8 @@ register_export(app)
 register_bench(app)
 register_pictures(app)
 app.command("laws")(laws)
+for _command in (*app.registered_commands, *synth.registered_commands):  # whole in the list of commands, not cut short
+    _command.short_help = (_command.callback.__doc__ or "").strip().partition("\n")[0] if _command.callback else None
 
 
 @app.callback(invoke_without_command=True)
@@ -229,5 +232,5 @@ def _usage_error(wrong: typer.TyperException, arguments: list[str]) -> int:
 
 
 def _wants_json(arguments: list[str]) -> bool:
-    following = dict(zip(arguments, [*arguments[1:], ""], strict=True))
+    following = dict(zip(arguments, arguments[1:], strict=False))
     return "--format=json" in arguments or "json" in (following.get("--format"), following.get("-f"))

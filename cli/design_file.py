@@ -41,6 +41,8 @@ KeyPath = tuple[str | int, ...]
 _STEP = re.compile(r"(?:(?:^|(?<=.)\.)([^.\[\]=\s]+)|\[([0-9]{1,6})\])")
 _ROOT: KeyPath = ()
 _LONGEST_KIND = 60
+LEAST_SIZE, LARGEST_SIZE = 1e-30, 1e12
+"""Between them the fourth powers of a number and of its ratios to others neither overflow nor vanish."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -189,7 +191,7 @@ def validate(loaded: LoadedFile, model: type[Model]) -> Model:
 
     wrong = list(loaded.problems)
     odd = list(_odd_values(loaded.data, _ROOT))
-    wrong += [_not_finite(loaded, path) for path, value in odd if not isinstance(value, bool)]
+    wrong += [_no_size(loaded, path, value) for path, value in odd if not isinstance(value, bool)]
     spec: Model | None = None
     omitted = 0
     try:
@@ -213,17 +215,26 @@ def validate(loaded: LoadedFile, model: type[Model]) -> Model:
 
 
 def _odd_values(node: Any, path: KeyPath) -> Iterator[tuple[KeyPath, Any]]:
-    """Numbers that are not finite, and truth values, which Python takes for 1 and 0."""
+    """Numbers that no machine has, not finite ones too, and truth values, which Python takes for 1 and 0."""
     items = node.items() if isinstance(node, dict) else enumerate(node)
     for step, value in items:
         if isinstance(value, (dict, list)):
             yield from _odd_values(value, (*path, step))
-        elif isinstance(value, bool) or (isinstance(value, float) and not math.isfinite(value)):
+        elif isinstance(value, bool) or (isinstance(value, (int, float)) and not _has_size(value)):
             yield (*path, step), value
 
 
-def _not_finite(loaded: LoadedFile, path: KeyPath) -> Diagnostic:
-    return loaded.report("GL108", f"{format_path(path)} is not a finite number", path, help="give a finite number")
+def _has_size(value: float) -> bool:
+    return value == 0 or LEAST_SIZE <= abs(value) <= LARGEST_SIZE
+
+
+def _no_size(loaded: LoadedFile, path: KeyPath, value: float) -> Diagnostic:
+    key = format_path(path)
+    if not math.isfinite(value):
+        return loaded.report("GL108", f"{key} is not a finite number", path, help="give a finite number")
+    message = f"{key} is {value:g}, which is no number of a machine"
+    remedy = f"allowed: 0, or {LEAST_SIZE:g} to {LARGEST_SIZE:g} in size"
+    return loaded.report("GL108", message, path, help=remedy)
 
 
 def _find(marks: Marks | None, path: KeyPath, root: int, value: bool = False) -> tuple[int, int]:

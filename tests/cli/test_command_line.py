@@ -148,6 +148,21 @@ def test_wrong_option_in_json(gearlink: Any, crank: Path) -> None:
     assert ended.json["errors"][0]["file"] == "<command line>"
 
 
+@pytest.mark.parametrize("arguments", [(), ("synth",)])
+def test_no_command_is_answered_with_help(gearlink: Any, arguments: tuple[str, ...]) -> None:
+    ended = gearlink(*arguments)
+    assert ended.status == ExitCode.WRONG_INPUT
+    assert "Commands:" in ended.err
+    assert "..." not in ended.err.partition("Commands:")[2]
+
+
+@pytest.mark.parametrize("value", ["1e300", "-1e300", "1e-300", "5e-324"])
+def test_numbers_that_no_machine_has_are_refused(gearlink: Any, crank: Path, value: str) -> None:
+    ended = gearlink("crank", crank, "--set", f"rod={value}", "--format", "json")
+    assert ended.status == ExitCode.WRONG_INPUT
+    assert ended.json["errors"][-1]["message"] == f"rod is {float(value):g}, which is no number of a machine"
+
+
 def test_missing_file(gearlink: Any) -> None:
     ended = gearlink("crank", "nowhere.yaml")
     assert ended.status == ExitCode.WRONG_INPUT

@@ -354,6 +354,10 @@ def test_every_error_is_told_in_one_run_in_the_order_of_the_file() -> None:
          "points[1].at[1] is missing: the list is too short", ""),
         ("split: .inf", "GL108", "split", "split is not a finite number", "give a finite number"),
         ("teeth: [20, 1e999]", "GL108", "teeth[1]", "teeth[1] is not a finite number", "give a finite number"),
+        ("split: 1e-300", "GL108", "split", "split is 1e-300, which is no number of a machine",
+         "allowed: 0, or 1e-30 to 1e+12 in size"),
+        ("teeth: [20, -1e300]", "GL108", "teeth[1]", "teeth[1] is -1e+300, which is no number of a machine",
+         "allowed: 0, or 1e-30 to 1e+12 in size"),
     ],
 )  # fmt: skip
 def test_each_error_in_our_own_words(text: str, code: str, key: str, message: str, help: str) -> None:
@@ -443,7 +447,7 @@ def test_a_flood_of_errors_is_cut_in_time() -> None:
 
 
 @settings(derandomize=True, deadline=None, max_examples=200)
-@given(st.floats(allow_nan=False, allow_infinity=False))
+@given(st.floats(1e-30, 1e12) | st.floats(-1e12, -1e-30) | st.sampled_from([0.0, -0.0]))
 def test_floats_reach_the_model_to_the_last_bit(number: float) -> None:
     got = spec(f"pivot: [{number!r}, 0]\n").pivot[0]
     assert struct.pack("d", got) == struct.pack("d", number)
