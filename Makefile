@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 PYTEST := $(BIN)/python -m pytest -q -n auto
 
-.PHONY: demo test check check-full format lint types docs bench clean
+.PHONY: demo test check check-full format lint types docs bench stress clean
 
 $(READY): pyproject.toml
 	$(PYTHON) -c 'import sys; sys.exit("gearlink needs Python 3.11 or newer" if sys.version_info < (3, 11) else 0)'
@@ -15,6 +15,7 @@ $(READY): pyproject.toml
 	ln -sfn ../../core .types/gearlink/core
 	ln -sfn ../../cli .types/gearlink/cli
 	ln -sfn ../../designs .types/gearlink/designs
+	$(BIN)/python -m compileall -q core cli designs
 	touch $(READY)
 
 demo: $(READY)
@@ -28,7 +29,7 @@ test: $(READY)
 check: lint types test
 
 check-full: lint types $(READY)
-	$(PYTEST) -m 'slow or not slow'
+	$(PYTEST) -m 'not stress'
 	$(PYTEST) --doctest-modules --pyargs gearlink.core
 
 lint: $(READY)
@@ -42,8 +43,20 @@ format: $(READY)
 	$(BIN)/ruff format .
 	$(BIN)/ruff check --fix .
 
+# The peers stand in an environment of their own: they need other versions, and numba.
+bench/.venv/.ready: Makefile
+	$(PYTHON) -m venv bench/.venv
+	bench/.venv/bin/python -m pip install --quiet --disable-pip-version-check pylinkage mechanism numba mpmath
+	touch $@
+
+bench: $(READY) bench/.venv/.ready
+	$(BIN)/python bench/write_page.py
+
+stress: $(READY)
+	$(PYTEST) -m stress tests/stress -s
+
 docs: $(READY)
 	$(BIN)/python docs/generate.py
 
 clean:
-	rm -rf $(VENV) .types build *.egg-info .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) bench/.venv .types build *.egg-info .pytest_cache .mypy_cache .ruff_cache .hypothesis

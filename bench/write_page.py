@@ -1,0 +1,167 @@
+"""Writes docs/benchmarks.md and its pictures: goals with what was reached, tables of all families, the peers."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from gearlink.cli.bench.command import NAMES
+from gearlink.cli.bench.families import measured
+from gearlink.cli.bench.page import as_markdown, duration, write_pictures
+from gearlink.cli.bench.timing import Family, machine
+
+ROOT = Path(__file__).resolve().parents[1]
+DOCS = ROOT / "docs"
+PEERS = ROOT / "bench" / ".venv" / "bin" / "python"
+
+_HEAD = """# Run time against error
+
+Written by `make bench` (`gearlink bench` prints the tables alone). Every time is a median of rounds in which all
+methods of a table take their turn, so ratios within a table hold even on a busy machine; single times do not.
+Errors are against 30 digits and more on a sample.
+"""
+_REASONS = """## Where a goal is missed, and why
+
+* **Small arrays.** A numpy call costs 0.3 to 1 us whatever its size, and the sweep makes some seventy: up to a few
+  hundred positions the scalar kernel or the textbook form is the faster one. The program takes the scalar kernel
+  (2 to 3 us) for single positions.
+* **phi13.** 60 ns are three steps of third order and one that avoids cancellation (3 ulp at worst). With the last
+  step left out it is 45 ns, at 25 ulp. The scalar form takes 11 us and keeps 15 ulp.
+* **Cam profile.** Points alone take less than a pass. The whole profile writes seven columns (two complex, three
+  real) where the pass writes four: memory bandwidth, not arithmetic, is the remainder.
+* **Start-up.** Plain command lines are read without Typer, and pydantic's search for plug-ins is switched off;
+  what remains is the import of pydantic (which Typer's own floor includes), of numpy for sweeps, and of rich for
+  tables on a terminal.
+* **Batch.** Reading and validating a small file takes 0.1 ms (libyaml and pydantic-core are compiled); a full
+  report with its checks takes two to four times as long in Python. Processes pay from about half a second of
+  work on; 1000 small designs lie at that limit, so the program decides by the first 16 of them.
+"""
+
+
+@dataclass(frozen=True, slots=True)
+class Goal:
+    """A goal: what, the figure to reach, how it is read off the families."""
+
+    what: str
+    limit: float
+    unit: str
+    value: Callable[[dict[str, Family]], float]
+
+
+def _row(
+    family: str, method: str, field: str = "ratio", size: int | None = None
+) -> Callable[[dict[str, Family]], float]:
+    def read(found: dict[str, Family]) -> float:
+        row = found[family].row(method, size)
+        assert row is not None, (family, method, size)
+        return float(getattr(row, field))
+
+    return read
+
+
+def goals(wide_vectors: bool) -> list[Goal]:
+    """The goals; two of them depend on whether the machine has AVX-512."""
+    start = [
+        Goal(f"`{name}`, whole process, over a minimal Typer command", limit, "x", _row("start-up", name))
+        for name, limit in (
+            ("--version", 0.5),
+            ("synth dwell, json", 1.3),
+            ("synth dwell, table", 1.5),
+            ("press, json", 2.2),
+            ("cam, json", 2.2),
+        )
+    ]
+    vectors = "closed form, unit vectors"
+    return [
+        Goal(
+            "four-bar, 2 derivatives, N = 1e6, over a numpy pass",
+            1.0 if wide_vectors else 1.5,
+            "x",
+            _row("four-bar", vectors),
+        ),
+        Goal("its error", 4.0, "eps", _row("four-bar", vectors, "error")),
+        Goal("four-bar, N = 1, scalar", 5000.0, "ns", _row("four-bar", "closed form, scalar", "nanoseconds", 1)),
+        Goal(
+            "inverse involute, 1e5 values",
+            15.0,
+            "ns",
+            _row("involute", "rational start, one Newton step", "nanoseconds"),
+        ),
+        Goal("its error", 2.0, "ulp", _row("involute", "rational start, one Newton step", "error")),
+        Goal("phi13, 1e5 designs", 60.0, "ns", _row("dwell", "phi13: vector steps of third order", "nanoseconds")),
+        Goal("its error", 4.0, "ulp", _row("dwell", "phi13: vector steps of third order", "error")),
+        Goal("momentary frame, 1e5 designs", 20.0, "ns", _row("dwell", "frame: closed form", "nanoseconds")),
+        Goal(
+            "press: chains, zone, both cams, 3600 positions",
+            3e6,
+            "ns",
+            _row("press", "chains, zone, both cams", "nanoseconds"),
+        ),
+        Goal(
+            "cam profile, N = 1e6, over a numpy pass",
+            1.5,
+            "x",
+            _row("cam", "envelope with pressure angle and curvature"),
+        ),
+        *start,
+        Goal("1000 designs in a batch over reading their files", 2.0, "x", _row("batch", "batch in one process")),
+    ]
+
+
+def goals_table(found: dict[str, Family], wide_vectors: bool) -> str:
+    """The goals as Markdown."""
+    lines = ["## Goals", "", "| what | goal | reached | |", "|---|---:|---:|---|"]
+    for goal in goals(wide_vectors):
+        value = goal.value(found)
+        shown = [duration(x) if goal.unit == "ns" else f"{x:.3g} {goal.unit}" for x in (goal.limit, value)]
+        lines.append(f"| {goal.what} | {shown[0]} | {shown[1]} | {'met' if value <= goal.limit else 'missed'} |")
+    return "\n".join(lines)
+
+
+def peers_table(peers: dict[str, Any], found: dict[str, Family]) -> str:
+    """What pylinkage and mechanism take for the same four-bar."""
+    lines = ["## Peers: the same four-bar with velocities and accelerations", ""]
+    lines += [", ".join(f"{name} {version}" for name, version in peers["versions"].items()), ""]
+    lines += ["| method | N | time each | relative error | over a numpy pass |", "|---|---:|---:|---:|---:|"]
+    for row in peers["rows"]:
+        lines.append(
+            f"| {row['method']} | {row['size']} | {duration(row['nanoseconds'])} | {row['error']:.1g} "
+            f"| {row['ratio']:.3g} |"
+        )
+    own = found["four-bar"].row("closed form, unit vectors")
+    assert own is not None
+    lines += ["", f"gearlink at N = {own.size}: {duration(own.nanoseconds)}, {own.ratio:.2f} passes.", ""]
+    starts = ", ".join(f"{name} {1e3 * seconds:.0f} ms" for name, seconds in peers["starts"].items())
+    lines.append(
+        f"A process that imports the package and ends: {starts}. The error is the coupler pin's, for the crank"
+    )
+    lines.append("pin that the package itself gives.")
+    return "\n".join(lines)
+
+
+def main() -> None:
+    """Measure, write, say where."""
+    quick = "--quick" in sys.argv[1:]
+    found = {}
+    for name in NAMES:
+        print(f"measuring {name} ...", file=sys.stderr)
+        found[name] = measured(name, quick)
+    here = machine()
+    pictures = write_pictures(list(found.values()), DOCS, lambda text: print(text, file=sys.stderr))
+    parts = [_HEAD, goals_table(found, here["AVX-512"] == "yes"), _REASONS]
+    if PEERS.exists():
+        print("measuring the peers ...", file=sys.stderr)
+        done = subprocess.run([PEERS, ROOT / "bench" / "peers.py"], capture_output=True, text=True, check=True)
+        parts.append(peers_table(json.loads(done.stdout), found))
+    parts.append("## Machine\n\n" + as_markdown(list(found.values()), here, pictures))
+    (DOCS / "benchmarks.md").write_text("\n\n".join(part.strip() for part in parts) + "\n", encoding="utf-8")
+    print(f"wrote {DOCS / 'benchmarks.md'}", file=sys.stderr)
+
+
+if __name__ == "__main__":
+    main()
