@@ -6,6 +6,7 @@ import cmath
 import math
 
 from gearlink.core.errors import NoSolution
+from gearlink.core.report import safely_above
 
 
 def close_dyad(start: complex, end: complex, first: float, second: float, side: int) -> complex:
@@ -70,12 +71,12 @@ def require_dyad(distance: float, first: float, second: float) -> None:
     if distance > longest:
         raise NoSolution(
             f"{distance:.9g} mm apart, more than the two links together, {longest:.9g} mm: lengthen them by "
-            f"{distance - longest:.4g} mm"
+            f"{safely_above(distance - longest, 4)} mm"
         )
     if distance < shortest or distance == 0.0:
         raise NoSolution(
             f"{distance:.9g} mm apart, less than the difference of the two links, {shortest:.9g} mm: make them more "
-            f"equal by {shortest - distance:.4g} mm"
+            f"equal by {safely_above(shortest - distance, 4)} mm"
         )
 
 

@@ -18,6 +18,7 @@ from functools import cached_property
 from gearlink.core.dyad import close_dyad, direction, transmission_angle
 from gearlink.core.errors import NoSolution
 from gearlink.core.harmonic_sum import HarmonicSum
+from gearlink.core.report import safely_above
 
 TURN = 2.0 * math.pi
 
@@ -138,13 +139,13 @@ class GearedFiveBar:
             raise NoSolution(
                 f"the five-bar opens: at input angle {math.degrees(high):.6g} deg (of {turn}) B and D are "
                 f"{greatest:.9g} mm apart, coupler and follower together only {longest:.9g} mm; lengthen them "
-                f"by more than {greatest - longest:.4g} mm together, or shorten input or output"
+                f"by more than {safely_above(greatest - longest, 4)} mm together, or shorten input or output"
             )
         if least <= shortest:
             raise NoSolution(
                 f"the five-bar opens: at input angle {math.degrees(low):.6g} deg (of {turn}) B and D are {least:.9g} "
                 f"mm apart, coupler and follower differ by {shortest:.9g} mm; make them more equal by more than "
-                f"{shortest - least:.4g} mm, or shorten input or output"
+                f"{safely_above(shortest - least, 4)} mm, or shorten input or output"
             )
 
     def min_transmission_angle(self) -> tuple[float, float]:

@@ -18,6 +18,7 @@ from itertools import pairwise
 from gearlink.core.dyad import close_dyad, direction, transmission_angle
 from gearlink.core.errors import NoSolution
 from gearlink.core.harmonic_sum import HarmonicSum
+from gearlink.core.report import safely_above
 
 
 @dataclass(frozen=True)
@@ -139,13 +140,13 @@ class FunctionFiveBar:
             raise NoSolution(
                 f"the five-bar opens: at input angle {math.degrees(high):.6g} deg C and E are {greatest:.9g} mm apart, "
                 f"follower and output together only {longest:.9g} mm; lengthen them by more than "
-                f"{greatest - longest:.4g} mm together, shorten the coupler, or narrow the range"
+                f"{safely_above(greatest - longest, 4)} mm together, shorten the coupler, or narrow the range"
             )
         if least <= shortest:
             raise NoSolution(
                 f"the five-bar opens: at input angle {math.degrees(low):.6g} deg C and E are {least:.9g} mm apart, "
                 f"follower and output differ by {shortest:.9g} mm; make them more equal by more than "
-                f"{shortest - least:.4g} mm, lengthen the frame, or narrow the range"
+                f"{safely_above(shortest - least, 4)} mm, lengthen the frame, or narrow the range"
             )
 
     def min_transmission_angle(self, start: float, end: float) -> tuple[float, float]:

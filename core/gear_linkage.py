@@ -15,6 +15,7 @@ from dataclasses import dataclass
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.fourbar import FourBar, solve
+from gearlink.core.report import safely_above
 from gearlink.core.roots import bracketed_root, sign_changes
 
 # Every 2 deg, and halving steps towards 0 and 180 deg: near a change point the rates peak there, as narrowly as the
@@ -215,7 +216,7 @@ def check_linkage(linkage: FourBar) -> str:
     shortest, p, q, longest = sorted((linkage.crank, linkage.coupler, linkage.rocker, linkage.frame))
     excess = math.fsum((shortest, longest, -p, -q))
     remedy = (
-        f"shorten the longest link, {longest:.9g} mm, by more than {max(excess, 0.0):.3g} mm"
+        f"shorten the longest link, {longest:.9g} mm, by more than {safely_above(max(excess, 0.0), 3)} mm"
         if excess >= 0.0 or kind in ("change-point", "impossible")
         else "make crank or frame the shortest link"
     )

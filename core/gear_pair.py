@@ -9,6 +9,7 @@ from functools import cached_property
 from gearlink.core import gear_teeth
 from gearlink.core.errors import NoSolution
 from gearlink.core.involute import involute, involute_rise, rise_of_involute
+from gearlink.core.report import safely_above
 
 Pair = tuple[float, float]
 
@@ -84,7 +85,7 @@ class GearPair:
             raise NoSolution(
                 f"centre distance {self.given_distance:.6g} mm does not suit gears of {self.teeth[0]} and "
                 f"{self.teeth[1]} teeth of module {self.module:g} mm: the least is the sum of the base radii, "
-                f"{least:.9g} mm; change it or the teeth"
+                f"{safely_above(least, 9)} mm; change it or the teeth"
             )
 
     def _check_shift(self) -> None:
@@ -92,7 +93,8 @@ class GearPair:
         if not least <= self.shift_sum < math.inf:
             raise NoSolution(
                 f"profile shifts with the sum {self.shift_sum:.6g} leave no pressure angle to {self.teeth[0]} and "
-                f"{self.teeth[1]} teeth: the sum must be at least {least:.6g}; raise a shift or take more teeth"
+                f"{self.teeth[1]} teeth: the sum must be at least {safely_above(least, 6)}; raise a shift or "
+                "take more teeth"
             )
 
     @classmethod

@@ -6,6 +6,7 @@ import math
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.involute import involute
+from gearlink.core.report import safely_above
 
 
 def min_shift_no_undercut(teeth: int, pressure_angle: float, addendum: float = 1.0) -> float:
@@ -60,7 +61,7 @@ def pressure_angle_rise(radius: float, increase: float, pressure_angle: float, *
     if not above >= 0.0:
         raise NoSolution(
             f"{what} {radius + increase:.6g} mm lies inside the base circle, where there is no involute: "
-            f"it must be at least {base:.6g} mm"
+            f"it must be at least {safely_above(base, 6)} mm"
         )
     u = math.sqrt(above * (above + 2.0 * base))
     v = radius * math.sin(pressure_angle)

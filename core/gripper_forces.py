@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.gripper_linkage import GripperLinkage, GripperMotion
+from gearlink.core.report import safely_below
 
 if TYPE_CHECKING:
     from gearlink.core.specs.swing_gripper import Inertia
@@ -145,7 +146,7 @@ class LeverSpring:
         if self.pull <= 0.0:
             raise NoSolution(
                 f"the spring is {self.length:.6g} mm long and pulls with {self.pull:.6g} N: it closes nothing; make "
-                f"its length at preload less than {self.reference_length + self.pull / self.rate:.6g} mm"
+                f"its length at preload less than {safely_below(self.reference_length + self.pull / self.rate, 6)} mm"
                 if self.rate > 0.0
                 else "the spring pulls with 0 N: give it a preload"
             )

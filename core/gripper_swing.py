@@ -39,9 +39,9 @@ def require_swing(linkage: GripperLinkage, limit: float) -> None:
     if wrong.any():
         first = int(np.argmax(wrong))
         off = float(reach.max()) - high
-        change = f"lengthen input or coupler by {off:.4g} mm"
+        change = f"lengthen input or coupler by {safely_above(off, 4)} mm"
         if off <= 0.0:
-            change = f"bring input and coupler {low - float(reach.min()):.4g} mm nearer"
+            change = f"bring input and coupler {safely_above(low - float(reach.min()), 4)} mm nearer"
         raise NoSolution(
             f"the linkage does not close at cylinder angle {linkage.law.reaches(float(swing[first])):.6g} deg: |AD| = "
             f"{reach[first]:.6g} mm, input and coupler span {low:.6g} to {high:.6g} mm; {change}, or "

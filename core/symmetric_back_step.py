@@ -16,6 +16,7 @@ import math
 from gearlink.core.errors import NoSolution
 from gearlink.core.gauss_quadrature import integral
 from gearlink.core.gear_linkage_synthesis import check_back_step_crank_angle, check_ratio
+from gearlink.core.report import safely_above
 from gearlink.core.roots import bracketed_root
 
 _SERIES_BELOW = 0.25  # tan h; the fifteenth term is then below 1e-17 of the first
@@ -223,4 +224,5 @@ def _ratio_remedy(phi13: float) -> str:
     """The i3 from which on a dwell angle is within reach, where there is one."""
     if not 0.0 < phi13 < 2.0 * math.pi:
         return ""
-    return f" or take -i3 above {2.0 * (phi13 - math.pi) / (2.0 * math.pi - phi13):.9g} (an idler of more teeth)"
+    least = 2.0 * (phi13 - math.pi) / (2.0 * math.pi - phi13)
+    return f" or take -i3 above {safely_above(least, 9)} (an idler of more teeth)"

@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 from gearlink.core.errors import NoSolution
 from gearlink.core.gear_pair import GearPair
 from gearlink.core.involute import inverse_involute, involute
+from gearlink.core.report import safely_below
 from gearlink.core.roots import bracketed_root
 
 Points = NDArray[np.complex128]
@@ -74,12 +75,13 @@ class ToothProfile:
             raise NoSolution(
                 f"a tool with the addendum {self.tool_addendum:.6g} and the pressure angle "
                 f"{math.degrees(self.pressure_angle):.6g} deg is pointed: addendum and clearance together must stay "
-                f"below {math.pi / 4.0 / math.tan(self.pressure_angle):.6g} modules"
+                f"below {safely_below(math.pi / 4.0 / math.tan(self.pressure_angle), 6)} modules"
             )
         most = _full_rounding(self.pressure_angle, self.tool_addendum)
         if not 0.0 <= self.tool_rounding <= most * (1.0 + 1e-12):
             raise NoSolution(
-                f"tool rounding {self.tool_rounding:.6g}: it must lie between 0 and {most:.6g} modules, a full round"
+                f"tool rounding {self.tool_rounding:.6g}: it must lie between 0 and {safely_below(most, 6)} modules, "
+                "a full round"
             )
         if not self._root > 0.0:
             raise NoSolution(
