@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable
 from inspect import signature
+from itertools import pairwise
 from pathlib import Path
 from typing import Annotated
 
@@ -232,5 +233,5 @@ def _usage_error(wrong: typer.TyperException, arguments: list[str]) -> int:
 
 
 def _wants_json(arguments: list[str]) -> bool:
-    following = dict(zip(arguments, arguments[1:], strict=False))
+    following = dict(pairwise(arguments))
     return "--format=json" in arguments or "json" in (following.get("--format"), following.get("-f"))
