@@ -15,7 +15,7 @@ from gearlink.core.errors import NoSolution
 
 Array = NDArray[np.float64]
 
-_SERIES_BELOW = 0.25  # tan h, as in `gearlink.core.symmetric_back_step`
+_SERIES_BELOW = 0.25  # tan h; a chart does with fewer terms than `gearlink.core.symmetric_back_step`
 
 
 def frame_ratio_at_crank_angle(i3: ArrayLike, back_step_crank_angle: ArrayLike) -> Array:
