@@ -22,6 +22,8 @@ from gearlink.core.unloading import ElasticLaw
 from gearlink.core.unloading_device import Device, DeviceGeometry
 
 _NEWTON_STEPS = 60
+# A step as small is as good as none: subnormal numbers have no full set of digits to settle in.
+_FAINTEST = 1e-300
 
 
 def reference_inertia(rocker_inertia: float, mass: float, stroke: float, swing: float) -> tuple[float, float]:
@@ -295,7 +297,7 @@ class SliderLaw:
             step = (self._time_of(v, clock) - k * clock.total) / self._slowness(side * np.cos(v), np.sin(v))
             # a step past an end of the stroke stops there; the next one starts from the end
             v = np.clip(v - step, 0.0, math.pi)
-            if bool(np.all(np.abs(step) <= 1e-13 * v)):
+            if bool(np.all(np.abs(step) <= 1e-13 * v + _FAINTEST)):
                 return v
         raise NoSolution(f"the law of motion did not settle in {_NEWTON_STEPS} Newton steps; report this design")
 

@@ -48,6 +48,8 @@ __all__ = [
 ]
 
 _NEWTON_STEPS = 40
+# A step as small is as good as none: subnormal numbers have no full set of digits to settle in.
+_FAINTEST = 1e-300
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -361,7 +363,7 @@ class ElasticLaw:
             angle = np.clip(angle - step, 0.0, 0.5 * math.pi)
             # counted from mid-swing k itself is known to its last bit only
             floor = 4e-16 * scale if from_middle else 0.0
-            if bool(np.all((np.abs(step) <= 1e-13 * angle) | (np.abs(excess) <= floor))):
+            if bool(np.all((np.abs(step) <= 1e-13 * angle + _FAINTEST) | (np.abs(excess) <= floor))):
                 return angle
         raise NoSolution(f"the law of motion did not settle in {_NEWTON_STEPS} Newton steps; report this design")
 

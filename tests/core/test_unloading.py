@@ -196,6 +196,8 @@ def test_acceleration_peak_is_the_largest_of_a_fine_sweep(device: Device, swing:
 
 
 def test_exact_places_and_small_times() -> None:
+    for k in (5e-324, 2.3e-313, 1e-300):  # subnormal numbers and their neighbours
+        assert ElasticLaw(Pneumatic(1.5), 2.0).evaluate(k)[0] == pytest.approx(0.0, abs=1e-300)
     law = ElasticLaw(Spring(1.3, 0.2), math.radians(250.0))
     assert law.evaluate(0.0, 3) == (0.0, 0.0, law.acceleration_start, 0.0)
     assert law.evaluate(0.5)[0] == 0.5
