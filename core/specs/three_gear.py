@@ -37,9 +37,8 @@ class Gears(Spec):
         if self.i3 is not None and self.idler is not None:
             raise PydanticCustomError("GL111", "i3 and idler exclude each other: give one", {"key": "i3"})
         if self.i3 is not None and self.crank != self.output:
-            raise PydanticCustomError(
-                "GL111", "i3 goes with equal crank and output teeth: give idler in its place", {"key": "i3"}
-            )
+            message = "i3 goes with equal crank and output teeth: set output to {crank}, or give idler in place of i3"
+            raise PydanticCustomError("GL111", message, {"key": "output", "crank": self.crank})
         return self
 
 

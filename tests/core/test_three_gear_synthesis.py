@@ -18,6 +18,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from oracles.three_gear import Drive
+from pydantic import ValidationError
 
 from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.specs.three_gear import ThreeGearSpec
@@ -293,6 +294,16 @@ def test_back_step_that_an_idler_given_misses(angle, status):
             design(BackStepSynthesis, gears=EQUAL | {"idler": 72}, back_step={"angle": angle}),
         ):
             assert [c.status for c in mended.check("back-step-target")] == ["pass"]
+
+
+def test_ratio_with_unequal_gears_is_refused_at_the_output_gear():
+    """The key of unequal gears is the same whether the file gives the idler or its ratio."""
+    with pytest.raises(ValidationError) as refusal:
+        design(BackStepSynthesis, gears=EQUAL | {"output": 30, "i3": -1.8}, back_step={"crank_angle": 90.0})
+    (error,) = refusal.value.errors()
+    assert error["type"] == "GL111"
+    assert error["ctx"]["key"] == "output"
+    assert "set output to 40" in error["msg"]
 
 
 def test_no_target_no_check():
