@@ -13,6 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gearlink.core.errors import NoSolution
+
 Array = NDArray[np.float64]
 
 
@@ -100,6 +102,8 @@ def widest_window(arm: float, radius: float, gap: float) -> float:
         gap : float [mm] - allowed distance from the pitch circle
     Returns
         turn : float [rad]
+    Raises
+        NoSolution - for a gap of 2 l or more, which no turn reaches
     Example
         >>> round(math.degrees(widest_window(300.0, 135.0, 0.03)), 4)
         1.0032
@@ -107,8 +111,12 @@ def widest_window(arm: float, radius: float, gap: float) -> float:
     Source
         own derivation
     """
+    if gap >= 2.0 * arm:
+        raise NoSolution(
+            f"no turn takes the tip {gap:.6g} mm off the pitch circle: ask for less than {2.0 * arm:.6g} mm"
+        )
     square = gap * (2.0 * radius + gap) / (4.0 * arm * (arm + radius))
-    return 2.0 * math.asin(math.sqrt(min(1.0, square))) * arm / radius
+    return 2.0 * math.asin(math.sqrt(square)) * arm / radius
 
 
 @dataclass(frozen=True, slots=True)

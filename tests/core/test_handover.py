@@ -16,6 +16,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from oracles.gripper import CASES, machine
 
+from gearlink.core.errors import NoSolution
 from gearlink.core.handover import misplacement, speed_difference, tip_path, widest_window
 
 EPS = 2.0**-52
@@ -60,6 +61,12 @@ def test_the_widest_window_has_just_the_gap(arm: float, radius: float, gap: floa
     turn = np.array([widest_window(arm, radius, gap)])
     path = tip_path(arm, radius, arm + radius, turn * radius / arm, turn)
     assert path.gap[0] == pytest.approx(gap, rel=0.0, abs=4 * EPS * (arm + radius))
+
+
+def test_a_gap_that_no_turn_reaches_is_refused() -> None:
+    assert widest_window(300.0, 135.0, 599.999) == pytest.approx(math.pi * 300.0 / 135.0, rel=2e-3)
+    with pytest.raises(NoSolution, match="less than 600 mm"):
+        widest_window(300.0, 135.0, 600.0)
 
 
 def test_slip_grows_with_the_third_power() -> None:
