@@ -16,19 +16,7 @@ from dataclasses import dataclass
 from gearlink.core.errors import NoSolution
 from gearlink.core.fourbar import FourBar, solve
 from gearlink.core.report import safely_above
-from gearlink.core.roots import bracketed_root, sign_changes
-
-# Every 2 deg, and halving steps towards 0 and 180 deg: near a change point the rates peak there, as narrowly as the
-# coupler and the rocker come near to one line.
-_HALVINGS = [math.radians(2.0) * 0.5**j for j in range(1, 15)]
-_GRID = sorted(
-    {math.radians(2.0 * i) for i in range(181)}
-    | {
-        math.radians(place) + side * step
-        for place, side in ((0, 1), (180, -1), (180, 1), (360, -1))
-        for step in _HALVINGS
-    }
-)
+from gearlink.core.turn_standstills import zeros_over_turn
 
 
 @dataclass(frozen=True, slots=True)
@@ -324,8 +312,6 @@ def _blend(train: GearTrain, coupler: float, rocker: float) -> float:
 
 def _extremes(f: Callable[[float], float], slope: Callable[[float], float]) -> Extremes:
     """Extremes of a periodic function from the sign changes of its derivative."""
-    slopes = [slope(phi) for phi in _GRID]
-    places = [bracketed_root(slope, _GRID[i], _GRID[i + 1]) for i in sign_changes(slopes)]
-    ranked = sorted((f(place), place % (2.0 * math.pi)) for place in places)
+    ranked = sorted((f(place), place) for place in zeros_over_turn(slope))
     (least, at_least), (greatest, at_greatest) = ranked[0], ranked[-1]
     return Extremes(greatest, at_greatest, least, at_least)

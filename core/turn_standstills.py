@@ -13,7 +13,8 @@ Function = Callable[[float], float]
 
 TURN = 2.0 * math.pi
 
-# Every 2 deg, and halving steps towards 0 and 180 deg, where the rates of a linkage near its change point peak.
+# Every 2 deg, and halving steps towards 0 and 180 deg: near a change point the rates peak there, as narrowly as the
+# coupler and the rocker come near to one line.
 _HALVINGS = [math.radians(2.0) * 0.5**j for j in range(1, 15)]
 _GRID = sorted(
     {math.radians(2.0 * i) for i in range(181)}
