@@ -32,6 +32,14 @@ _TINTS = {
     "dwell": "#F2F2F2",
     "near-dwell": "#F2F2F2",
 }
+_LEGEND: dict[str, Any] = {
+    "frameon": False,
+    "fontsize": 7.5,
+    "borderpad": 0.1,
+    "borderaxespad": 0.2,
+    "handlelength": 1.8,
+    "columnspacing": 1.2,
+}
 _NAME_SIZE = 7.5
 _LINE = 112
 """Characters of a legend that fill the width of a page."""
@@ -103,13 +111,20 @@ def legend_above(axes: Axes, columns: int = 5) -> None:
         loc="lower right",
         bbox_to_anchor=(1.0, 1.0),
         ncols=columns,
-        frameon=False,
-        fontsize=7.5,
-        borderpad=0.1,
-        borderaxespad=0.2,
-        handlelength=1.8,
-        columnspacing=1.2,
+        **_LEGEND,
     )
+
+
+def legend_under_heading(axes: Axes, title: str, columns: int = 2) -> None:
+    """The heading of a panel, and between it and the curves a legend in as many rows as it needs."""
+    legend = axes.legend(
+        loc="lower left",
+        bbox_to_anchor=(0.0, 1.0),
+        ncols=columns,
+        **_LEGEND,
+    )
+    rows = math.ceil(len(legend.get_texts()) / columns)
+    axes.set_title(title, loc="left", fontsize=9, fontweight="bold", pad=7.0 + 12.0 * rows)
 
 
 def legend_below(axes: Axes, columns: int = 1) -> None:

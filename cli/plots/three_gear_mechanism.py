@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.plots import panels, style
+from gearlink.cli.plots.linkage import letters
 from gearlink.core.fourbar import FourBar, solve
 from gearlink.core.three_gear_four_bar import ThreeGearFourBar
 
@@ -188,31 +189,13 @@ def _shafts(axes: Axes, design: ThreeGearFourBar) -> None:
 
 def _letters(axes: Axes, at: Position) -> None:
     """The letters of the joints, away from the links that meet there."""
-    joints = {
+    joints: dict[str, tuple[complex, tuple[complex, ...]]] = {
         "A": (at.a, (at.b, at.d)),
         "B": (at.b, (at.a, at.c)),
         "C": (at.c, (at.b, at.d)),
         "D": (at.d, (at.c, at.a)),
     }
-    for name, (point, neighbours) in joints.items():
-        ways = [(other - point) / abs(other - point) for other in neighbours if other != point]
-        away = -sum(ways, 0j)
-        if abs(away) < 0.2:
-            away = 1j * ways[0]
-        away *= 12.0 / abs(away)
-        box = {"boxstyle": "round,pad=0.1", "facecolor": "white", "edgecolor": "none", "alpha": 0.7}
-        axes.annotate(
-            name,
-            (point.real, point.imag),
-            (away.real, away.imag),
-            textcoords="offset points",
-            ha="center",
-            va="center",
-            fontsize=10,
-            fontweight="bold",
-            bbox=box,
-            zorder=8,
-        )
+    letters(axes, joints)
 
 
 def numbers(axes: Axes, drawing: Axes, design: ThreeGearFourBar) -> None:

@@ -10,7 +10,6 @@ from gearlink.cli.plots.wide_swing_parts import (
     cam_panel,
     cams_of,
     has_slots,
-    legend_under_heading,
     pressure_panel,
     stroke_axis,
     zone_words,
@@ -111,7 +110,7 @@ def _balance_panel(axes: Axes, design: WideSwingDesign) -> None:
     if lowest is not None:
         axes.axvline(lowest, color=style.GREEN, linewidth=1.0, linestyle=_DOTTED, label="least working speed")
     axes.axvspan(-2.0, -1.0, color=style.LIGHT, alpha=0.45, label="harmful")
-    legend_under_heading(axes, "Torque on the rocker axis", 2)
+    panels.legend_under_heading(axes, "Torque on the rocker axis", 2)
 
 
 def _slider_panel(axes: Axes, design: WideSwingDesign) -> None:
@@ -122,4 +121,4 @@ def _slider_panel(axes: Axes, design: WideSwingDesign) -> None:
         values = table.data[table.columns.index(column)]
         axes.plot(table.data[0], values, color=color, linewidth=1.6, label=column)
     axes.axvline(design.middle_place, color=style.GREY, linewidth=0.9, linestyle=_DASHED, label="mid-swing")
-    legend_under_heading(axes, "Slider", 4)
+    panels.legend_under_heading(axes, "Slider", 4)

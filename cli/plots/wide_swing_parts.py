@@ -19,23 +19,6 @@ _DOTTED: Any = (0, (1, 2))
 ZONE = "#F7D9A8"
 
 
-def legend_under_heading(axes: Axes, title: str, columns: int = 2) -> None:
-    """The heading of a panel, and between it and the curves a legend in as many rows as it needs."""
-    legend = axes.legend(
-        loc="lower left",
-        bbox_to_anchor=(0.0, 1.0),
-        ncols=columns,
-        frameon=False,
-        fontsize=7.5,
-        borderpad=0.1,
-        borderaxespad=0.2,
-        handlelength=1.8,
-        columnspacing=1.2,
-    )
-    rows = math.ceil(len(legend.get_texts()) / columns)
-    axes.set_title(title, loc="left", fontsize=9, fontweight="bold", pad=7.0 + 12.0 * rows)
-
-
 def cams_of(design: WideSwingDesign) -> list[tuple[str, AnyCam, float]]:
     """The cams to be drawn: title, cam, and -1 where the mirror image serves the return stroke."""
     working = "Cam of the working stroke"
@@ -180,7 +163,7 @@ def pressure_panel(axes: Axes, design: WideSwingDesign) -> None:
     for sign in (1.0, -1.0):
         name = f"limit ±{limit:g}°" if sign > 0.0 else None
         axes.axhline(sign * limit, color=style.RED, linewidth=1.0, linestyle=_DASHED, label=name)
-    legend_under_heading(axes, "Pressure angle")
+    panels.legend_under_heading(axes, "Pressure angle")
 
 
 def _zone(axes: Axes, design: WideSwingDesign) -> None:
@@ -209,4 +192,4 @@ def curvature_panel(axes: Axes, design: WideSwingDesign) -> None:
     roller = design.section.roller_radius
     axes.axhline(roller, color=style.RED, linewidth=1.0, linestyle=_DASHED, label=f"roller radius {roller:g} mm")
     axes.set_ylim(0.3 * roller, 100.0 * design.section.center_distance)
-    legend_under_heading(axes, "Curvature radius of the pitch curve")
+    panels.legend_under_heading(axes, "Curvature radius of the pitch curve")
