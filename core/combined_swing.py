@@ -19,7 +19,7 @@ from gearlink.core.fourbar_sweep import solve
 from gearlink.core.periodic_quadrature import FloatArray
 from gearlink.core.report import safely_below
 from gearlink.core.roots import bracketed_root
-from gearlink.core.wide_swing import CamPoints
+from gearlink.core.wide_swing import LEAST_SPEED_RATIO, CamPoints, too_small_swing
 from gearlink.core.wide_swing_curve import ComplexArray, StrokeLaw
 
 REST_SHARE = 0.02
@@ -149,7 +149,10 @@ class OscillatingCam:
     @cached_property
     def ratio(self) -> float:
         """lambda = r/a."""
-        return 1.0 / (1.0 + self.law.swing * self.law.velocity_peak / self._middle[0])
+        peak = self.law.swing * self.law.velocity_peak / self._middle[0]
+        if peak < LEAST_SPEED_RATIO:
+            raise too_small_swing(self.law.swing, peak)
+        return 1.0 / (1.0 + peak)
 
     @property
     def rocker_radius(self) -> float:

@@ -151,7 +151,10 @@ def _misses(x: Array, phi: Array, psi: Array, ratio: float) -> tuple[Array, Arra
 def _step(value: Array, slopes: Array, damping: Array) -> Array:
     """Levenberg's step of least length for every row: J^T (J J^T + damping)^-1 value."""
     count = value.shape[1]
-    square = slopes @ np.swapaxes(slopes, 1, 2) + (damping[:, None, None] + 1e-14) * np.eye(count)
+    square = slopes @ np.swapaxes(slopes, 1, 2)
+    # The floor goes with the size, else rounding takes it where one link is a million times the others.
+    floor = 1e-14 * np.maximum(1.0, np.trace(square, axis1=1, axis2=2))
+    square += (damping + floor)[:, None, None] * np.eye(count)
     step: Array = np.squeeze(np.swapaxes(slopes, 1, 2) @ np.linalg.solve(square, value[:, :, None]), axis=2)
     return np.clip(step, -0.5, 0.5)
 

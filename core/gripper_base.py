@@ -44,8 +44,20 @@ class GripperBase:
             with at_key(f"laws.{key}"):
                 laws.append(law(getattr(spec.laws, key if key != "return" else "return_")))
         made = SixPhaseLaw(spec.phases.lengths(), spec.cylinder.radius / spec.arm.length, *laws)
+        self._require_swing_below_a_turn(made)
         self._require_stated_swing(made)
         return made
+
+    def _require_swing_below_a_turn(self, law: SixPhaseLaw) -> None:
+        swing = math.degrees(law.total_swing)
+        if swing < 360.0:
+            return
+        raise NoSolution(
+            f"the arm swings {swing:.6g} deg, a turn or more: the tip's speed R/l_EF = {law.speed:.6g} is too high for "
+            f"these phases; make the arm longer than {self.spec.arm.length * swing / 360.0:.6g} mm, the cylinder's "
+            f"radius less than {self.spec.cylinder.radius * 360.0 / swing:.6g} mm, or the phases shorter",
+            key="arm.length",
+        )
 
     def _require_stated_swing(self, law: SixPhaseLaw) -> None:
         stated, swing = self.spec.total_swing, math.degrees(law.total_swing)

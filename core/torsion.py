@@ -16,6 +16,9 @@ from gearlink.core.errors import NoSolution
 from gearlink.core.extremes import maximum_over
 from gearlink.core.periodic_quadrature import CosineSeries, FloatArray, cosine_coefficients, cosine_series
 
+_STIFFEST = 20_000.0
+"""Natural frequency times stroke time from which the search for the peak takes seconds and finds the step's alone."""
+
 
 def acceleration_series(acceleration: Callable[[FloatArray], FloatArray]) -> CosineSeries:
     """Acceleration invariant of a stroke from rest to rest as a cosine series.
@@ -121,7 +124,7 @@ def dynamic_coefficient(series: CosineSeries, stiffness: float, damping: float =
     Returns
         K_d, k : floats
     Raises
-        NoSolution - for W not positive or zeta outside [0, 1)
+        NoSolution - for W not positive or above 20000, or zeta outside [0, 1)
     Notes
         The step of c at the start alone gives 1 + exp(-pi zeta/sqrt(1 - zeta^2)), about 2.
     Example
@@ -133,6 +136,12 @@ def dynamic_coefficient(series: CosineSeries, stiffness: float, damping: float =
         wide-swing dissertation, chapter 5 (K_d about 2); own derivation
     """
     response = TorsionResponse(series, stiffness, damping)
+    if stiffness > _STIFFEST:
+        raise NoSolution(
+            f"natural frequency times stroke time is {stiffness:.6g}, {stiffness / (2.0 * math.pi):.4g} oscillations "
+            f"in a stroke: above {_STIFFEST:g} the drive is rigid to the stroke; leave the section shaft out, or make "
+            f"speed {stiffness / _STIFFEST:.4g} times higher or natural_frequency as much lower"
+        )
     fastest = max(stiffness, math.pi * len(series.coefficients))
     samples = 65 + int(6.0 * fastest)
     top = maximum_over(lambda k: np.abs(response(k)), 0.0, 1.0, samples=samples)

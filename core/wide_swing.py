@@ -15,7 +15,7 @@ from gearlink.core.periodic_quadrature import FloatArray
 from gearlink.core.report import safely_above, safely_below
 from gearlink.core.wide_swing_curve import ComplexArray, PitchCurve, StrokeLaw
 
-_LEAST_SPEED_RATIO = 1e-10  # B gamma/phi_ud; 1 - lambda, about as large, keeps six digits
+LEAST_SPEED_RATIO = 1e-10  # B gamma/phi_ud; 1 - lambda, about as large, keeps six digits
 
 Layout = Literal["twin-cam", "twin-rocker"]
 
@@ -86,13 +86,8 @@ class WideSwingCam:
                 f"cycle angle {math.degrees(self.cycle_angle):.6g} deg: one stroke needs more than 0 and "
                 "at most 360 deg of the cam"
             )
-        if self.speed_ratio_peak < _LEAST_SPEED_RATIO:
-            least = safely_above(math.degrees(self.law.swing * _LEAST_SPEED_RATIO / self.speed_ratio_peak))
-            raise NoSolution(
-                f"a swing of {math.degrees(self.law.swing):.6g} deg is too small to reckon a cam with: the roller "
-                f"would hardly leave the cam's own circle; set swing to at least {least} deg",
-                key="swing",
-            )
+        if self.speed_ratio_peak < LEAST_SPEED_RATIO:
+            raise too_small_swing(self.law.swing, self.speed_ratio_peak)
         if self.layout == "twin-rocker" and self.speed_ratio_peak <= 1.0:
             limit = math.degrees(self.law.velocity_peak * self.law.swing)
             raise NoSolution(
@@ -344,6 +339,29 @@ class WideSwingCam:
             pressure_angle=self.curve.pressure_angle(state),
             curvature_radius=radius,
         )
+
+
+def too_small_swing(swing: float, speed_ratio_peak: float) -> NoSolution:
+    """The refusal of a swing whose cam rounding would not tell from a circle.
+
+    Parameters
+        swing : float [rad]
+        speed_ratio_peak : float - below LEAST_SPEED_RATIO, to which it grows with the swing
+    Returns
+        error : NoSolution - names the least swing
+    Example
+        >>> print(too_small_swing(math.radians(1e-9), 1e-11).message.partition("; ")[2])
+        set swing to at least 1.0001e-08 deg
+
+    Source
+        own derivation
+    """
+    least = safely_above(math.degrees(swing * LEAST_SPEED_RATIO / speed_ratio_peak))
+    return NoSolution(
+        f"a swing of {math.degrees(swing):.6g} deg is too small to reckon a cam with: the roller "
+        f"would hardly leave the cam's own circle; set swing to at least {least} deg",
+        key="swing",
+    )
 
 
 def _mirrored(w: ComplexArray, sense: int) -> ComplexArray:

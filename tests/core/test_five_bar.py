@@ -229,6 +229,15 @@ def test_positions_are_met_on_the_real_motion(count):
     assert five_bar_for_positions(start, positions, RADIANS(40.0)) == bar
 
 
+@pytest.mark.parametrize("length", ["coupler", "output"])
+def test_a_start_with_a_link_far_too_long_is_refused(length):
+    pairs = [(60.0, 60.0), (80.0, 63.75), (100.0, 75.0), (120.0, 93.75), (140.0, 120.0)]
+    positions = [(RADIANS(p), RADIANS(q)) for p, q in pairs]
+    start = replace(FunctionFiveBar(45.0, 27.0, 72.0, 54.0, 90.0, 1.8, RADIANS(60.0)), **{length: 1e12})
+    with pytest.raises(NoSolution, match="start from other links"):
+        five_bar_for_positions(start, positions)
+
+
 def test_whole_turns_count_as_errors():
     reached = FUNCTION.output_angles([1.2, 2.0])
     exact = [(1.2, reached[0]), (2.0, reached[1])]

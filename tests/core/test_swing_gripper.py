@@ -156,7 +156,7 @@ def test_rows_of_the_tables() -> None:
 @pytest.mark.parametrize(
     ("changes", "key", "words"),
     [
-        ({"links__coupler": 115.5}, "links", "lengthen input or coupler by 70.39 mm, or turn output_direction"),
+        ({"links__coupler": 115.5}, "links", "lengthen input or coupler by 70.4 mm, or turn output_direction"),
         ({"output_direction": 23.7}, "links", "dead point, off it by 0.021 deg where at least 0.057 deg are needed"),
         ({"pivots__output": [230.0, 0.0]}, "pivots", "frame length is 0 mm"),
         ({"laws__return": "simple-harmonic"}, "laws.return", "take cycloidal, modified-sine or polynomial-345"),
@@ -164,6 +164,8 @@ def test_rows_of_the_tables() -> None:
         ({"laws__accelerate": {"quintic": 0.7}}, "laws.accelerate", "keep kappa in 2/5 to 3/5"),
         ({"laws__accelerate": "half-simple-harmonic"}, "laws.accelerate", "half-cycloidal or velocity-345"),
         ({"total_swing": 40.0}, "total_swing", r"phases.constant by \+1.88888889 deg"),
+        ({"arm__length": 20.0}, "arm.length", "swings 587.25 deg, a turn or more.*arm longer than 32.625 mm"),
+        ({"cylinder__radius": 1e12}, "arm.length", "radius less than 1241.38 mm"),
         (
             {"output_direction": 38.0, "limits": {"transmission_angle": 1.0}},
             "cam.center",
