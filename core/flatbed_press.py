@@ -141,7 +141,9 @@ class FlatbedPress(PressCams, Design):
 
     @cached_property
     def zone_length(self) -> float:
-        """Cylinder travel in the zone [mm]."""
+        """Cylinder travel in the zone [mm]: as asked for, unless the file says where the zone ends."""
+        if self.spec.sync.end is None:
+            return self.spec.sync.length
         return float(self.cylinder.travel(self.sync_end).value - self.cylinder.travel(self.sync_start).value)
 
     @cached_property
