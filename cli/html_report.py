@@ -131,8 +131,8 @@ def _part(design: Design, report: Report) -> Iterator[str]:
     if report.checks:
         order = ("fail", "warn", "pass")
         found = sorted(report.checks, key=lambda check: order.index(check.status))
-        rows = ((c.status, f"{c.code} {c.name}", c.message) for c in found)
-        yield "<h3>Checks</h3>" + _table(("status", "check", "finding"), rows, numeric=(), marked=True)
+        findings = ((c.status, f"{c.code} {c.name}", c.message) for c in found)
+        yield "<h3>Checks</h3>" + _table(("status", "check", "finding"), findings, numeric=(), marked=True)
     for table in report.tables:
         yield _data(table)
 

@@ -51,17 +51,14 @@ class Design:
         return self.outlines[command]
 
     @classmethod
-    @cache
     def quantity_names(cls) -> tuple[str, ...]:
         """Every quantity that can be asked for, each once."""
-        return tuple(dict.fromkeys(name for outline in cls.outlines.values() for name in outline.quantities))
+        return _quantities_of(cls)  # type: ignore[arg-type]  # mypy takes a class for unhashable
 
     @classmethod
-    @cache
     def table_names(cls) -> tuple[str, ...]:
         """Every table that any command shows or that can be asked for."""
-        shown = [name for outline in cls.outlines.values() for name in outline.tables]
-        return tuple(dict.fromkeys([*shown, *cls.extra_tables]))
+        return _tables_of(cls)  # type: ignore[arg-type]
 
     def raw(self, name: str) -> Any:
         """The value of a quantity in mm and radians, or None where it does not apply."""
@@ -121,6 +118,17 @@ class Design:
             checks=tuple(check for name in outline.checks for check in self.check(name)),
             tables=tuple(self.table(name) for name in asked),
         )
+
+
+@cache
+def _quantities_of(kind: type[Design]) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(name for outline in kind.outlines.values() for name in outline.quantities))
+
+
+@cache
+def _tables_of(kind: type[Design]) -> tuple[str, ...]:
+    shown = [name for outline in kind.outlines.values() for name in outline.tables]
+    return tuple(dict.fromkeys([*shown, *kind.extra_tables]))
 
 
 def _in_unit(value: Any, unit: str) -> Any:
