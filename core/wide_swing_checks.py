@@ -1,4 +1,4 @@
-"""Checks of the cams of a wide-swing mechanism."""
+"""Checks of a wide-swing mechanism: device, stroke and cams."""
 
 from __future__ import annotations
 
@@ -17,6 +17,58 @@ if TYPE_CHECKING:
 
 class WideSwingChecks(WideSwingMending):
     """The checks; where the pitch curve has a loop, `profile-exists` alone speaks of that cam."""
+
+    # Device and stroke
+
+    def check_unloader_turnability(self) -> Iterator[Check]:
+        """GL504: the device can follow the whole swing."""
+        least, ratio = self.fitting_pivot_ratio, self.spec.unloader.pivot_ratio
+        if least is None:
+            return
+        status: Status = "fail" if ratio < least else "pass"
+        text = f"pivot ratio {ratio:g}, at least {least:.6g} is needed over a swing of {self.spec.swing:g} deg"
+        if status == "fail":
+            text += f": increase unloader.pivot_ratio to at least {safely_above(least)}, or reduce the swing"
+        yield Check("GL504", "unloader-turnability", status, text, ratio, least)
+
+    def check_force_closure(self) -> Iterator[Check]:
+        """GL509: a spring that is slack at mid-swing does not hold the roller there."""
+        unloader = self.spec.unloader
+        if unloader.type == "pneumatic":
+            return
+        stretch = unloader.stretch_ratio
+        status: Status = "warn" if stretch == 0.0 else "pass"
+        text = f"the spring's mounting stretch is {stretch:g} of its stroke"
+        if status == "warn":
+            text += ": it is slack at mid-swing; make unloader.stretch_ratio above 0, such as 0.1"
+        yield Check("GL509", "force-closure", status, text, stretch, 0.0)
+
+    def check_cycle_angles(self) -> Iterator[Check]:
+        """GL510: both strokes find room in one turn of the cam."""
+        if self.spec.drive is not None:
+            return
+        both = 2.0 * math.degrees(self.cycle_angle)
+        text = f"both strokes take {both:g} deg of the cam's turn"
+        if both > 360.0:
+            text += ", more than 360 deg: reduce cycle_angle to 180 deg or less"
+        yield Check("GL510", "cycle-angles", "fail" if both > 360.0 else "pass", text, both, 360.0, "deg")
+
+    def check_balancing(self) -> Iterator[Check]:
+        """GL508: speeds at which the device does harm."""
+        harm = self.harmful_speed
+        text = f"the device lowers the torque above {harm:.5g} rev/min and raises it below"
+        lowest = self.spec.operating_speed_min
+        if lowest is None:
+            return
+        status: Status = "warn" if lowest < harm else "pass"
+        if status == "warn":
+            share = (lowest / self.spec.speed) ** 2
+            text += (
+                f"; at {lowest:g} rev/min lower its force or rate to {share:.3g} of the design value, or take it off"
+            )
+        yield Check("GL508", "balancing", status, text, lowest, harm, "1/min")
+
+    # Cams
 
     def _judged(self, *, zone: bool) -> Iterator[tuple[str, WideSwingCam | OscillatingCam]]:
         """The cams with a profile, and with `zone` those whose transition zone leaves something to judge."""
