@@ -314,7 +314,7 @@ def profile(cam_angle: ArrayLike, path: RollerPath, *, sense: int, roller_radius
 
 def _flattened(path: RollerPath, shape: tuple[int, ...]) -> RollerPath:
     parts = (path.position, path.first, path.second, path.direction)
-    return RollerPath(*(np.broadcast_to(part, shape).ravel() for part in parts))
+    return RollerPath(*(np.broadcast_to(part, shape).reshape(-1) for part in parts))
 
 
 def _back_turn(cam_angle: ArrayLike, sense: int) -> Points:

@@ -132,7 +132,7 @@ def momentary_dwells(r1: ArrayLike, r3: ArrayLike, r5: ArrayLike, eccentricity: 
     if not all(x.size == 0 or (x.min() > 0.0 and x.max() < np.inf) for x in arrays):
         raise NoSolution("radii and eccentricities must all be positive and finite")
     shape = arrays[0].shape
-    flat = [x.ravel() for x in arrays]
+    flat = [x.reshape(-1) for x in arrays]
     frame, angle, exists = np.empty(flat[0].size), np.empty(flat[0].size), np.empty(flat[0].size, dtype=bool)
     with np.errstate(invalid="ignore"):
         for start in range(0, frame.size, _BLOCK):
@@ -182,14 +182,17 @@ def dwell_angles(i3: ArrayLike, back_step_crank_angle: ArrayLike) -> Array:
         own derivation; scalar form in `gearlink.core.symmetric_back_step`
     """
     ratio, h = _pair(i3, 0.5 * np.asarray(back_step_crank_angle, dtype=float))
-    if not np.all((h > 0.0) & (h < 0.5 * math.pi)):
+    if h.size and not (h.min() > 0.0 and h.max() < 0.5 * math.pi):
         raise NoSolution("crank angles of the back-step must lie above 0 and below 180 deg")
-    y, settled = regained(ratio.ravel(), h.ravel())
-    settled &= (ratio.ravel() <= _FAR_FROM_1) | (h.ravel() >= _INTEGRAL_BELOW)
+    y, settled = regained(ratio.reshape(-1), h.reshape(-1))
+    if ratio.size and ratio.max() > _FAR_FROM_1:
+        settled &= (ratio.ravel() <= _FAR_FROM_1) | (h.ravel() >= _INTEGRAL_BELOW)
     if not settled.all():
         rest = np.flatnonzero(~settled)
         y[rest] = _regained_by_bracket(ratio.flat[rest], h.flat[rest])
-    return y.reshape(h.shape) + h
+    result = y.reshape(h.shape)
+    result += h
+    return result
 
 
 def _regained_by_bracket(ratio: Array, h: Array) -> Array:
@@ -202,7 +205,7 @@ def _regained_by_bracket(ratio: Array, h: Array) -> Array:
 def _pair(i3: ArrayLike, angle: ArrayLike) -> tuple[Array, Array]:
     """Ratios and angles, broadcast; ratios checked."""
     ratio, phi = np.broadcast_arrays(np.asarray(i3, dtype=float), np.asarray(angle, dtype=float))
-    if not np.all((ratio > -np.inf) & (ratio < 0.0)):
+    if ratio.size and not (ratio.min() > -np.inf and ratio.max() < 0.0):
         raise NoSolution("i3 = -z3/z5 must be negative and finite in every design: external meshes")
     return ratio, phi
 

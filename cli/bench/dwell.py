@@ -100,6 +100,7 @@ def reference(i3: float, phi12: float) -> Any:
 def _momentary(size: int, quick: bool) -> list[Method]:
     rng = np.random.default_rng(4)
     r1 = rng.uniform(20.0, 30.0, size)
+    r5, eccentricity = 3.0 * r1, 0.6 * r1
     designs = [(r, r, 3.0 * r, 0.6 * r) for r in r1[: min(size, 1000)].tolist()]
     searched = designs[: min(len(designs), 2 if quick else 5)]
     chosen = [designs[i] for i in sample_of(len(designs), 20)]
@@ -111,7 +112,7 @@ def _momentary(size: int, quick: bool) -> list[Method]:
         return momentary_dwells(*design).frame
 
     methods = [
-        Method("frame: closed form", size, lambda: momentary_dwells(r1, r1, 3.0 * r1, 0.6 * r1), error(sweep)),
+        Method("frame: closed form", size, lambda: momentary_dwells(r1, r1, r5, eccentricity), error(sweep)),
         Method("frame: scalar", len(designs), _loop(momentary_frame_length, designs), error(momentary_frame_length)),
     ]
     if size == 1:

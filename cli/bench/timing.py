@@ -145,6 +145,7 @@ def machine() -> dict[str, str]:
         "processor": _cpu("model name") or platform.processor() or platform.machine(),
         "AVX-512": "yes" if "avx512f" in _cpu("flags").split() else "no",
         "cores": str(os.cpu_count()),
+        "load": f"{os.getloadavg()[0]:.1f} processes" if hasattr(os, "getloadavg") else "unknown",
         "system": f"{platform.system()} {platform.release()}",
         "Python": platform.python_version(),
         "numpy": np.__version__,

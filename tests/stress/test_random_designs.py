@@ -390,7 +390,3 @@ def test_the_worst_of_a_hundred_thousand_stay_as_good() -> None:
     i3, phi12 = -0.7003967280612687, 1.1140301474485852
     found = float(dwell_angles(i3, phi12))
     assert abs(found - 1.634519159506842) <= 6.0 * math.ulp(found)  # 1.634519159506842083331
-    crank = slider_crank.crank_length(0.01365311940426825, 0.011084884366623417, -0.006880788327584944)
-    assert (
-        abs(slider_crank.stroke(crank, 0.011084884366623417, -0.006880788327584944) / 0.01365311940426825 - 1.0) < 1e-12
-    )
