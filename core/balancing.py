@@ -11,9 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gearlink.core.arrays import Reals
 from gearlink.core.errors import NoSolution
 from gearlink.core.extremes import maximum_over
-from gearlink.core.periodic_quadrature import FloatArray
 from gearlink.core.unloading import ElasticLaw
 
 
@@ -27,10 +27,10 @@ class SpeedSweep:
         balancing_ratio : (N,) array - K_y = without over with; infinite where nothing is left
     """
 
-    speed_ratio: FloatArray
-    torque_without: FloatArray
-    torque_with: FloatArray
-    balancing_ratio: FloatArray
+    speed_ratio: Reals
+    torque_without: Reals
+    torque_with: Reals
+    balancing_ratio: Reals
 
 
 def stroke_time(cycle_angle: float, speed: float) -> float:
@@ -87,7 +87,7 @@ def inertia_torque_peak(inertia: float, law: ElasticLaw, time: float) -> float:
     return inertia * law.swing * law.acceleration_peak / time**2
 
 
-def balancing_ratio(speed_ratio: FloatArray, residual_fraction: float = 0.0) -> FloatArray:
+def balancing_ratio(speed_ratio: Reals, residual_fraction: float = 0.0) -> Reals:
     """How many times the device lowers the torque on the rocker axis.
 
     K_y1 = n^2/(|n^2 - n0^2| + f n0^2)
@@ -113,12 +113,12 @@ def balancing_ratio(speed_ratio: FloatArray, residual_fraction: float = 0.0) -> 
         raise NoSolution("speeds and the residual fraction must be 0 or more")
     left = np.abs((speed_ratio - 1.0) * (speed_ratio + 1.0)) + residual_fraction
     with np.errstate(divide="ignore"):
-        result: FloatArray = speed_ratio**2 / left
+        result: Reals = speed_ratio**2 / left
     return result
 
 
 def speed_sweep(
-    inertia: float, law: ElasticLaw, time: float, speed_ratio: FloatArray, residual_fraction: float = 0.0
+    inertia: float, law: ElasticLaw, time: float, speed_ratio: Reals, residual_fraction: float = 0.0
 ) -> SpeedSweep:
     """Torque peaks on the rocker axis with and without the device over the speed.
 
@@ -170,7 +170,7 @@ def power_peak(law: ElasticLaw) -> float:
         own derivation
     """
 
-    def product(k: FloatArray) -> FloatArray:
+    def product(k: Reals) -> Reals:
         _, b, c = law.invariants(k)
         return b * c
 
@@ -207,7 +207,7 @@ def drive_torque_peak(inertia: float, law: ElasticLaw, time: float, cycle_angle:
     return share * law.swing / cycle_angle * power_peak(law)
 
 
-def drive_balancing_ratio(speed_ratio: FloatArray, linkage_fraction: float) -> FloatArray:
+def drive_balancing_ratio(speed_ratio: Reals, linkage_fraction: float) -> Reals:
     """How many times the device lowers the torque on the cam shaft.
 
     K_y2 = n^2 (1 + g)/(|n^2 - n0^2| + g n^2)
@@ -234,5 +234,5 @@ def drive_balancing_ratio(speed_ratio: FloatArray, linkage_fraction: float) -> F
     square = speed_ratio**2
     left = np.abs((speed_ratio - 1.0) * (speed_ratio + 1.0)) + linkage_fraction * square
     with np.errstate(divide="ignore"):
-        result: FloatArray = square * (1.0 + linkage_fraction) / left
+        result: Reals = square * (1.0 + linkage_fraction) / left
     return result

@@ -10,13 +10,10 @@ from itertools import combinations
 from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearlink.core.arrays import Points, Reals
 from gearlink.core.errors import NoSolution
 from gearlink.core.extremes import TURN, maximum_over
-
-Reals: TypeAlias = NDArray[np.float64]
-Points: TypeAlias = NDArray[np.complex128]
 
 # Cutting planes converge quadratically; the example of the swing gripper takes four rounds.
 _ROUNDS = 60

@@ -12,10 +12,11 @@ from functools import cached_property
 
 import numpy as np
 
+from gearlink.core.arrays import Reals
 from gearlink.core.elliptic import complete_integral, incomplete_integral, jacobi_sn_cn
 from gearlink.core.errors import NoSolution
 from gearlink.core.extremes import maximum_over
-from gearlink.core.periodic_quadrature import CosineSeries, FloatArray, cosine_series
+from gearlink.core.periodic_quadrature import CosineSeries, cosine_series
 from gearlink.core.report import safely_above
 from gearlink.core.slider_crank_sweep import slider
 from gearlink.core.unloading import ElasticLaw
@@ -82,7 +83,7 @@ class SliderDrive:
                 f"best to {safely_above(3.0 * reach)} mm or more"
             )
 
-    def depth(self, phi: FloatArray, order: int = 0) -> tuple[FloatArray, ...]:
+    def depth(self, phi: Reals, order: int = 0) -> tuple[Reals, ...]:
         """Slider position at rocker angles phi from mid-swing, with derivatives after phi up to 2 [mm]."""
         return slider(phi + (self.middle_angle - 0.5 * math.pi), self.crank, self.rod, self.offset, order)
 
@@ -163,25 +164,25 @@ class SliderLaw:
         """H, distance of the slider's positions at the ends of the swing [mm]."""
         return abs(self._stroke)
 
-    def _slider_rate(self, phi: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def _slider_rate(self, phi: Reals) -> tuple[Reals, Reals]:
         """b_kp and its derivative after a."""
         _, first, second = self.drive.depth(phi, 2)
         return self.swing / self.stroke * first, self.swing**2 / self.stroke * second
 
-    def _inertia(self, rate: FloatArray) -> FloatArray:
-        result: FloatArray = self.rocker_share + (1.0 - self.rocker_share) * rate**2
+    def _inertia(self, rate: Reals) -> Reals:
+        result: Reals = self.rocker_share + (1.0 - self.rocker_share) * rate**2
         return result
 
-    def _angle(self, sine: FloatArray, cosine: FloatArray) -> FloatArray:
+    def _angle(self, sine: Reals, cosine: Reals) -> Reals:
         """phi where sin(phi/2) = -m sin u."""
         g = self.geometry
         return -2.0 * np.arctan2(g.half_sine * sine, np.hypot(g.half_cosine, g.half_sine * cosine))
 
-    def _slowness(self, sine: FloatArray, cosine: FloatArray) -> FloatArray:
+    def _slowness(self, sine: Reals, cosine: Reals) -> Reals:
         root = np.sqrt(self._inertia(self._slider_rate(self._angle(sine, cosine))[0]))
         return root * self._half.slowness(sine, cosine)
 
-    def _integrand(self, z: FloatArray) -> FloatArray:
+    def _integrand(self, z: Reals) -> Reals:
         quarter = complete_integral(self._half.modulus_complement)
         second = z > quarter
         folded = np.where(second, 2.0 * quarter - z, z)
@@ -229,7 +230,7 @@ class SliderLaw:
         """Largest magnitude of the slider's acceleration invariant [-]."""
         return maximum_over(lambda k: np.abs(self.slider_invariants(k)[2]), 0.0, 1.0, samples=128).value
 
-    def invariants(self, k: FloatArray, order: int = 2) -> tuple[FloatArray, ...]:
+    def invariants(self, k: Reals, order: int = 2) -> tuple[Reals, ...]:
         """Displacement, velocity and acceleration invariants of the rocker.
 
         c = (N/2)(E_a/j - E j_a/j^2)
@@ -246,7 +247,7 @@ class SliderLaw:
         first_half = self._half.displacement(np.abs(sine), cosine)
         return (np.where(sine < 0.0, 1.0 - first_half, first_half), *self._rates(sine, cosine))[: order + 1]
 
-    def slider_invariants(self, k: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def slider_invariants(self, k: Reals) -> tuple[Reals, Reals, Reals]:
         """Displacement, velocity and acceleration invariants of the slider.
 
         a_s = (s - s_0)/H, b_s = b_kp b, c_s = b_kp c + b_kp,a b^2
@@ -265,7 +266,7 @@ class SliderLaw:
         start = self.drive.depth(np.array([-0.5 * self.swing]))[0]
         return (self.drive.depth(phi)[0] - start) / self.stroke, rate * b, rate * c + change * b**2
 
-    def _rates(self, sine: FloatArray, cosine: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def _rates(self, sine: Reals, cosine: Reals) -> tuple[Reals, Reals]:
         g, parameter = self.geometry, self.energy_parameter
         rate, change = self._slider_rate(self._angle(sine, cosine))
         inertia = self._inertia(rate)
@@ -276,7 +277,7 @@ class SliderLaw:
         b = np.sqrt(parameter * energy / inertia)
         return b, 0.5 * parameter * (push - energy * inertia_change / inertia) / inertia
 
-    def _pendulum(self, k: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def _pendulum(self, k: Reals) -> tuple[Reals, Reals]:
         if not bool(np.all((k >= 0.0) & (k <= 1.0))):
             raise NoSolution("the fraction of the stroke k must lie between 0 and 1")
         late = k > 0.5
@@ -289,7 +290,7 @@ class SliderLaw:
             sine[part], cosine[part] = side * np.cos(v), np.sin(v)
         return sine, cosine
 
-    def _invert(self, k: FloatArray, clock: CosineSeries, side: float) -> FloatArray:
+    def _invert(self, k: Reals, clock: CosineSeries, side: float) -> Reals:
         """Angle v = pi/2 - |u| counted from one end of the stroke, by Newton steps."""
         grid = np.linspace(0.0, math.pi, 65)
         v = np.interp(k, self._time_of(grid, clock) / clock.total, grid)
@@ -301,7 +302,7 @@ class SliderLaw:
                 return v
         raise NoSolution(f"the law of motion did not settle in {_NEWTON_STEPS} Newton steps; report this design")
 
-    def _time_of(self, v: FloatArray, clock: CosineSeries) -> FloatArray:
+    def _time_of(self, v: Reals, clock: CosineSeries) -> Reals:
         complement = self._half.modulus_complement
         z = incomplete_integral(np.sin(v), np.abs(np.cos(v)), self._half.modulus, complement)
         return clock.integral(np.where(np.cos(v) < 0.0, clock.span - z, z))

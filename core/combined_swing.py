@@ -12,15 +12,15 @@ from functools import cached_property
 
 import numpy as np
 
+from gearlink.core.arrays import Points, Reals
 from gearlink.core.errors import NoSolution
 from gearlink.core.extremes import maximum_over
 from gearlink.core.fourbar import FourBar
 from gearlink.core.fourbar_sweep import solve
-from gearlink.core.periodic_quadrature import FloatArray
 from gearlink.core.report import safely_below
 from gearlink.core.roots import bracketed_root
 from gearlink.core.wide_swing import LEAST_SPEED_RATIO, CamPoints, too_small_swing
-from gearlink.core.wide_swing_curve import ComplexArray, StrokeLaw
+from gearlink.core.wide_swing_curve import StrokeLaw
 
 REST_SHARE = 0.02
 """Part of the stroke at either end in which the cam hardly moves: its curvature there is of no account."""
@@ -83,7 +83,7 @@ class CrankRockerDrive:
         middle = solve(self.linkage, np.array([0.5 * sum(self.crank_angles)]), 1)
         return float(middle.rocker_angle[0]), math.copysign(1.0, float(middle.rocker_velocity[0]))
 
-    def motion(self, k: FloatArray, order: int = 2) -> tuple[FloatArray, ...]:
+    def motion(self, k: Reals, order: int = 2) -> tuple[Reals, ...]:
         """Cam angle from k = 1/2, counted in its direction of motion, and its derivatives after k.
 
         Parameters
@@ -237,8 +237,8 @@ class OscillatingCam:
             NoSolution - for a pitch curve with a loop
         """
 
-        def size(k: FloatArray) -> FloatArray:
-            result: FloatArray = np.abs(self.points(k).pressure_angle)
+        def size(k: Reals) -> Reals:
+            result: Reals = np.abs(self.points(k).pressure_angle)
             return result
 
         # next to a standstill both rates vanish and their ratio has no digits; the end itself has the limit
@@ -303,7 +303,7 @@ class OscillatingCam:
                 "put mid-swing nearer to the cam's largest speed by changing the link lengths"
             )
 
-    def points(self, k: FloatArray) -> CamPoints:
+    def points(self, k: Reals) -> CamPoints:
         """Pitch curve, profile, pressure angle and curvature at given fractions of the stroke.
 
         tan delta = [lambda (chi' + phi') - chi' cos phi]/(chi' sin phi)
@@ -323,8 +323,8 @@ class OscillatingCam:
         view = self.law.middle_view(k)
         chi, chi1, chi2 = self.drive.motion(k)
         phi1, phi2 = self.law.swing * view.velocity, self.law.swing * view.acceleration
-        arm: ComplexArray = self.ratio * np.exp(1j * view.angle)
-        turn: ComplexArray = np.exp(1j * chi)
+        arm: Points = self.ratio * np.exp(1j * view.angle)
+        turn: Points = np.exp(1j * chi)
         pitch = turn * (arm - 1.0)
         first = 1j * turn * (chi1 * (arm - 1.0) + phi1 * arm)
         second = turn * (
@@ -350,11 +350,11 @@ class OscillatingCam:
 
     def _pressure_angle(
         self,
-        phi: FloatArray,
-        chi: tuple[FloatArray, FloatArray],
-        rate: tuple[FloatArray, FloatArray],
-        k: FloatArray,
-    ) -> FloatArray:
+        phi: Reals,
+        chi: tuple[Reals, Reals],
+        rate: tuple[Reals, Reals],
+        k: Reals,
+    ) -> Reals:
         """delta; where cam and rocker stand still the ratio of their accelerations takes the velocities' place."""
         end = (k == 0.0) | (k == 1.0)
         cam, rocker = np.where(end, chi[1], chi[0]), np.where(end, rate[1], rate[0])

@@ -9,16 +9,15 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gearlink.core.arrays import Reals
 from gearlink.core.errors import NoSolution
-
-Array = NDArray[np.float64]
 
 _SERIES_BELOW = 0.25  # tan h; a chart does with fewer terms than `gearlink.core.symmetric_back_step`
 
 
-def frame_ratio_at_crank_angle(i3: ArrayLike, back_step_crank_angle: ArrayLike) -> Array:
+def frame_ratio_at_crank_angle(i3: ArrayLike, back_step_crank_angle: ArrayLike) -> Reals:
     """Frame ratio d over i3 at constant crank angle of the back-step.
 
     d = s cos(h) + sqrt(s^2 cos^2(h) + 1),   s = sqrt(i3 (i3 - 2)),   h = phi12/2
@@ -42,7 +41,7 @@ def frame_ratio_at_crank_angle(i3: ArrayLike, back_step_crank_angle: ArrayLike) 
     return np.asarray(sc + np.hypot(sc, 1.0))
 
 
-def back_step_at_crank_angle(i3: ArrayLike, back_step_crank_angle: ArrayLike) -> Array:
+def back_step_at_crank_angle(i3: ArrayLike, back_step_crank_angle: ArrayLike) -> Reals:
     """Back-step of the output over i3 at constant crank angle of the back-step, as a magnitude.
 
     |phi5(2) - phi5(1)| = 2 n atan(tan(h)/n) - 2 h,   n = 1 - i3,   h = phi12/2
@@ -71,7 +70,7 @@ def back_step_at_crank_angle(i3: ArrayLike, back_step_crank_angle: ArrayLike) ->
     return np.where(t < _SERIES_BELOW, _series(v, np.minimum(t, _SERIES_BELOW)), 2.0 * plain)
 
 
-def _series(v: Array, t: Array) -> Array:
+def _series(v: Reals, t: Reals) -> Reals:
     log_x = np.log1p(-v)
     total = np.zeros_like(t)
     for j in range(14, 0, -1):
@@ -79,7 +78,7 @@ def _series(v: Array, t: Array) -> Array:
     return 2.0 * total
 
 
-def speed_swing_share(frame_ratio: ArrayLike) -> Array:
+def speed_swing_share(frame_ratio: ArrayLike) -> Reals:
     """The share y of the frame ratio in the swing of the speed: W_max, W_min = 1 +- 2 (1 - i3) y.
 
     y = d/(d^2 + 1)
@@ -104,7 +103,7 @@ def speed_swing_share(frame_ratio: ArrayLike) -> Array:
     return np.asarray(1.0 / (d + 1.0 / d))
 
 
-def frame_ratio_at_nonuniformity(i3: ArrayLike, nonuniformity: ArrayLike) -> Array:
+def frame_ratio_at_nonuniformity(i3: ArrayLike, nonuniformity: ArrayLike) -> Reals:
     """Frame ratio d over i3 at constant nonuniformity of the output speed.
 
     d = q + sqrt(q^2 - 1),   q = 2 (1 - i3)/delta,   delta = 2 (W_max - W_min)/(W_max + W_min)
@@ -135,7 +134,7 @@ def frame_ratio_at_nonuniformity(i3: ArrayLike, nonuniformity: ArrayLike) -> Arr
     return np.asarray(q + np.sqrt((q - 1.0) * (q + 1.0)))
 
 
-def _ratios(i3: ArrayLike) -> Array:
+def _ratios(i3: ArrayLike) -> Reals:
     ratio = np.asarray(i3, dtype=float)
     wrong = ~((ratio > -np.inf) & (ratio < 0.0))
     if np.any(wrong):
@@ -145,7 +144,7 @@ def _ratios(i3: ArrayLike) -> Array:
     return ratio
 
 
-def _half_angles(back_step_crank_angle: ArrayLike) -> Array:
+def _half_angles(back_step_crank_angle: ArrayLike) -> Reals:
     phi12 = np.asarray(back_step_crank_angle, dtype=float)
     wrong = ~((phi12 >= 0.0) & (phi12 < math.pi))
     if np.any(wrong):

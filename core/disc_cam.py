@@ -10,7 +10,8 @@ from functools import cached_property
 import numpy as np
 
 from gearlink.core import cam_profile
-from gearlink.core.cam_profile import CamProfile, Points, Reals, RollerPath
+from gearlink.core.arrays import Points, Reals
+from gearlink.core.cam_profile import CamProfile, RollerPath
 from gearlink.core.extremes import Extreme, least_convex_radius, maximum_over, minimum_over
 from gearlink.core.report import Table
 from gearlink.core.undercut import Undercut, undercut

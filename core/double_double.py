@@ -11,14 +11,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from gearlink.core.arrays import Reals
 
 
 class Pair(NamedTuple):
     """Unevaluated sum high + low."""
 
-    high: Array
-    low: Array
+    high: Reals
+    low: Reals
 
 
 _SPLIT = 2.0**27 + 1.0
@@ -52,7 +52,7 @@ _COS_TERMS = (
 )  # -1/2!, 1/4!, -1/6!, 1/8!
 
 
-def two_sum(x: Array, y: Array) -> Pair:
+def two_sum(x: Reals, y: Reals) -> Pair:
     """Exact sum of two floats as a pair.
 
     Example
@@ -67,7 +67,7 @@ def two_sum(x: Array, y: Array) -> Pair:
     return Pair(high, (x - (high - y_seen)) + (y - y_seen))
 
 
-def two_product(x: Array, y: Array) -> Pair:
+def two_product(x: Reals, y: Reals) -> Pair:
     """Exact product of two floats as a pair (no overflow above 2^996).
 
     Example
@@ -117,7 +117,7 @@ def multiply(x: Pair, y: Pair) -> Pair:
     return two_sum(high, low + (x.high * y.low + x.low * y.high))
 
 
-def cos_sin(angle: Array) -> tuple[Pair, Pair]:
+def cos_sin(angle: Reals) -> tuple[Pair, Pair]:
     """Cosine and sine of floats as pairs.
 
     angle = k pi/16 + rest, |rest| <= pi/32; Taylor's series of the rest, then the addition theorem
@@ -166,7 +166,7 @@ def _short_cos_sin(x: Pair) -> tuple[Pair, Pair]:
     return add(one, multiply(xx, cosine)), add(x, multiply(x, multiply(xx, sine)))
 
 
-def _tail(y: Array, first: int) -> Array:
+def _tail(y: Reals, first: int) -> Reals:
     """The four terms of sine or cosine from x^first on, divided by x^first; y = x^2."""
     total = np.zeros_like(y)
     for n in range(first + 6, first - 1, -2):
@@ -174,7 +174,7 @@ def _tail(y: Array, first: int) -> Array:
     return total
 
 
-def _horner(xx: Pair, terms: tuple[tuple[float, float], ...], tail: Array) -> Pair:
+def _horner(xx: Pair, terms: tuple[tuple[float, float], ...], tail: Reals) -> Pair:
     total = Pair(tail, np.zeros_like(tail))
     for high, low in reversed(terms):
         total = add(multiply(xx, total), Pair(np.full_like(tail, high), np.full_like(tail, low)))

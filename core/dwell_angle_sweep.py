@@ -14,7 +14,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from gearlink.core.arrays import Reals
 
 _BLOCK = 8192
 _MOST_STEPS = 12
@@ -40,7 +40,7 @@ _ASIN_BOTTOM = (
 _SINE = tuple((-1.0) ** m / math.factorial(2 * m + 3) for m in reversed(range(11)))
 
 
-def regained(ratio: Array, h: Array) -> tuple[Array, NDArray[np.bool_]]:
+def regained(ratio: Reals, h: Reals) -> tuple[Reals, NDArray[np.bool_]]:
     """Where the output regains its place, y above the symmetry line, for flat arrays of i3 and h.
 
     Parameters
@@ -69,7 +69,7 @@ def regained(ratio: Array, h: Array) -> tuple[Array, NDArray[np.bool_]]:
     return y, settled
 
 
-def _settle(ratio: Array, h: Array, y: Array, rows: Array) -> NDArray[np.bool_]:
+def _settle(ratio: Reals, h: Reals, y: Reals, rows: Reals) -> NDArray[np.bool_]:
     """Steps until every design of a block rests; y is filled."""
     n, c, shift, high, *work = rows
     np.subtract(1.0, ratio, out=n)
@@ -108,7 +108,7 @@ def _settle(ratio: Array, h: Array, y: Array, rows: Array) -> NDArray[np.bool_]:
     return settled
 
 
-def _step(n: Array, c: Array, shift: Array, y: Array, work: list[Array]) -> Array:
+def _step(n: Reals, c: Reals, shift: Reals, y: Reals, work: list[Reals]) -> Reals:
     """Halley's step of F, with u = tan(y/2) for sine and cosine.
 
     F' = n cos(y)/r - 1,  F'' = -n c sin(y)/r^3,  r^2 = c + cos^2(y)
@@ -147,7 +147,7 @@ def _step(n: Array, c: Array, shift: Array, y: Array, work: list[Array]) -> Arra
     return value
 
 
-def _last_step(ratio: Array, n: Array, c: Array, h: Array, y: Array) -> Array:
+def _last_step(ratio: Reals, n: Reals, c: Reals, h: Reals, y: Reals) -> Reals:
     """Newton's step of F = (n k - 1)(y + h) + n [p(y) + p(h)],  p(v) = (asin(k sin(v)) - k sin(v)) - k (v - sin(v))."""
     rest = ratio * (ratio - 2.0)
     v_h, v_y = _less_sine(h), _less_sine(y)
@@ -161,11 +161,11 @@ def _last_step(ratio: Array, n: Array, c: Array, h: Array, y: Array) -> Array:
     cosine_square = 1.0 - sin_y * sin_y
     root, cosine = np.sqrt(c + cosine_square), np.copysign(np.sqrt(cosine_square), 0.5 * math.pi - y)
     slope = rest * (square - sin_y * sin_y) / (root * (n * cosine + root))
-    step: Array = value / slope
+    step: Reals = value / slope
     return step
 
 
-def _less_sine(v: Array) -> Array:
+def _less_sine(v: Reals) -> Reals:
     """v - sin(v)."""
     w = v * v
     total = np.full(w.shape, _SINE[0])
@@ -177,7 +177,7 @@ def _less_sine(v: Array) -> Array:
     return total
 
 
-def _asin_rise(x: Array) -> Array:
+def _asin_rise(x: Reals) -> Reals:
     """asin(x) - x."""
     w = x * x
     top, bottom = np.full(w.shape, _ASIN_TOP[0]), np.full(w.shape, _ASIN_BOTTOM[0])

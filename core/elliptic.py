@@ -9,11 +9,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-import numpy.typing as npt
 
+from gearlink.core.arrays import Reals
 from gearlink.core.errors import NoSolution
-
-FloatArray = npt.NDArray[np.float64]
 
 
 def landen_ladder(modulus: float, complement: float) -> list[tuple[float, float, float]]:
@@ -68,7 +66,7 @@ def complete_integral(complement: float) -> float:
     return math.pi / (2.0 * ladder[-1][0])
 
 
-def incomplete_integral(sine: FloatArray, cosine: FloatArray, modulus: float, complement: float) -> FloatArray:
+def incomplete_integral(sine: Reals, cosine: Reals, modulus: float, complement: float) -> Reals:
     """Incomplete elliptic integral of the first kind F(phi, k) for amplitudes of the first quadrant.
 
     tan(phi_{n+1} - phi_n) = (b/a) tan phi_n, F = phi_n/(2^n a_n)
@@ -97,7 +95,7 @@ def incomplete_integral(sine: FloatArray, cosine: FloatArray, modulus: float, co
     return phi / (2.0 ** (len(ladder) - 1) * ladder[-1][0])
 
 
-def amplitude(z: FloatArray, modulus: float, complement: float) -> FloatArray:
+def amplitude(z: Reals, modulus: float, complement: float) -> Reals:
     """Jacobi's amplitude am(z, k), the inverse of the incomplete integral.
 
     Parameters
@@ -123,7 +121,7 @@ def amplitude(z: FloatArray, modulus: float, complement: float) -> FloatArray:
     return phi
 
 
-def jacobi_sn_cn(z: FloatArray, modulus: float, complement: float) -> tuple[FloatArray, FloatArray]:
+def jacobi_sn_cn(z: Reals, modulus: float, complement: float) -> tuple[Reals, Reals]:
     """Jacobi's sn(z, k) and cn(z, k) on [0, K], cn with its digits also near K.
 
     sn(K - y) = cn(y)/dn(y), cn(K - y) = k' sn(y)/dn(y)

@@ -11,7 +11,8 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-Reals: TypeAlias = NDArray[np.float64]
+from gearlink.core.arrays import Reals
+
 Function: TypeAlias = Callable[[Reals], Reals]
 
 TURN = 2.0 * math.pi

@@ -10,12 +10,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gearlink.core.arrays import Points
 from gearlink.core.errors import NoSolution
 from gearlink.core.five_bar import GearedFiveBar
 from gearlink.core.five_bar_path import distances, points
 from gearlink.core.halton import halton
-
-Points = NDArray[np.complex128]
 
 _TRIED = 600
 _KEPT = 12

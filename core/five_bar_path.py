@@ -6,13 +6,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearlink.core.arrays import Points, Reals
 from gearlink.core.extremes import Extreme, maximum_over, minimum_over
 from gearlink.core.five_bar import GearedFiveBar
-
-Array = NDArray[np.float64]
-Points = NDArray[np.complex128]
 
 _PER_TURN = 720
 
@@ -21,13 +18,13 @@ _PER_TURN = 720
 class PathSweep:
     """The five-bar over input angles: coupler angle continuous from the first row, rates per input angle."""
 
-    coupler_angle: Array
-    transmission_angle: Array
+    coupler_angle: Reals
+    transmission_angle: Reals
     point: Points
     velocity: Points
 
 
-def sweep(bar: GearedFiveBar, phi: Array, offset: complex) -> PathSweep:
+def sweep(bar: GearedFiveBar, phi: Reals, offset: complex) -> PathSweep:
     """Coupler angle, transmission angle, coupler point and its velocity.
 
     w2 = Re[(B' - D') e^(-i t3)]/(b sin(t2 - t3)),   M' = B' + i w2 (M - B)
@@ -59,7 +56,7 @@ def sweep(bar: GearedFiveBar, phi: Array, offset: complex) -> PathSweep:
     return PathSweep(_continuous(bar, phi), gamma, point, speeds[0] + 1j * w2 * offset * u2)
 
 
-def points(bar: GearedFiveBar, phi: Array, offset: complex) -> Points:
+def points(bar: GearedFiveBar, phi: Reals, offset: complex) -> Points:
     """The coupler point alone [mm]; closure is not checked (NaN where the five-bar opens).
 
     Source
@@ -70,7 +67,7 @@ def points(bar: GearedFiveBar, phi: Array, offset: complex) -> Points:
     return result
 
 
-def _position(bar: GearedFiveBar, phi: Array) -> tuple[Points, Points, Points, Points, Array]:
+def _position(bar: GearedFiveBar, phi: Reals) -> tuple[Points, Points, Points, Points, Reals]:
     """B, D, unit vectors of coupler (B->C) and follower (D->C), transmission angle."""
     b, c = bar.coupler, bar.follower
     start = bar.input * np.exp(1j * phi)
@@ -86,7 +83,7 @@ def _position(bar: GearedFiveBar, phi: Array) -> tuple[Points, Points, Points, P
     return start, end, (joint - start) / b, (joint - end) / c, gamma
 
 
-def _continuous(bar: GearedFiveBar, phi: Array) -> Array:
+def _continuous(bar: GearedFiveBar, phi: Reals) -> Reals:
     """Coupler angle without jumps: between rows the angle is followed in steps below a quarter turn.
 
     |w2| <= (|B'| + |D'|)/(b sin(gamma)) bounds the step, so that no winding is missed.
@@ -114,7 +111,7 @@ def extent(bar: GearedFiveBar, offset: complex) -> tuple[Extreme, Extreme, Extre
     end, count = bar.period, 512 * bar.period_turns
 
     def part(direction: complex) -> tuple[Extreme, Extreme]:
-        def along(phi: Array) -> Array:
+        def along(phi: Reals) -> Reals:
             return np.asarray((points(bar, phi, offset) * np.conj(direction)).real)
 
         return minimum_over(along, 0.0, end, samples=count), maximum_over(along, 0.0, end, samples=count)
@@ -122,7 +119,7 @@ def extent(bar: GearedFiveBar, offset: complex) -> tuple[Extreme, Extreme, Extre
     return (*part(1.0 + 0j), *part(1j))
 
 
-def distances(bar: GearedFiveBar, offset: complex, targets: Points) -> tuple[Array, Array]:
+def distances(bar: GearedFiveBar, offset: complex, targets: Points) -> tuple[Reals, Reals]:
     """Distance of each point from the path, and the input angle of the path's nearest place.
 
     Parameters

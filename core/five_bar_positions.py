@@ -6,16 +6,14 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import pairwise
-from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearlink.core.arrays import Reals
 from gearlink.core.errors import NoSolution
 from gearlink.core.five_bar_function import FunctionFiveBar
 from gearlink.core.halton import halton
 
-Array: TypeAlias = NDArray[np.float64]
 Positions = Sequence[tuple[float, float]]
 
 MOST_POSITIONS = 5
@@ -97,7 +95,7 @@ def _require(positions: Positions) -> None:
             )
 
 
-def _starts(bar: FunctionFiveBar) -> Array:
+def _starts(bar: FunctionFiveBar) -> Reals:
     """Rows of the unknowns ln(b/a), ln(c/a), ln(e/a), ln(d/a), t20: the start, and scattered ones about it."""
     first = [math.log(length / bar.input) for length in (bar.coupler, bar.follower, bar.output, bar.frame)]
     rows = [[*first, bar.phase]]
@@ -135,7 +133,7 @@ def _candidates(start: FunctionFiveBar, positions: Positions) -> Iterator[Functi
         yield replace(start, coupler=b, follower=c, output=e, frame=d, phase=float(row[4]))
 
 
-def _misses(x: Array, phi: Array, psi: Array, ratio: float) -> tuple[Array, Array]:
+def _misses(x: Reals, phi: Reals, psi: Reals, ratio: float) -> tuple[Reals, Reals]:
     """|CD| - c at each position over the input link, for every row of unknowns, and its derivatives."""
     b, c, e, d = (np.exp(np.clip(x[:, i], -_FARTHEST, _FARTHEST))[:, None] for i in range(4))
     coupler = b * np.exp(1j * (x[:, 4:5] + ratio * phi))
@@ -148,14 +146,14 @@ def _misses(x: Array, phi: Array, psi: Array, ratio: float) -> tuple[Array, Arra
     return long - c, slopes
 
 
-def _step(value: Array, slopes: Array, damping: Array) -> Array:
+def _step(value: Reals, slopes: Reals, damping: Reals) -> Reals:
     """Levenberg's step of least length for every row: J^T (J J^T + damping)^-1 value."""
     count = value.shape[1]
     square = slopes @ np.swapaxes(slopes, 1, 2)
     # The floor goes with the size, else rounding takes it where one link is a million times the others.
     floor = 1e-14 * np.maximum(1.0, np.trace(square, axis1=1, axis2=2))
     square += (damping + floor)[:, None, None] * np.eye(count)
-    step: Array = np.squeeze(np.swapaxes(slopes, 1, 2) @ np.linalg.solve(square, value[:, :, None]), axis=2)
+    step: Reals = np.squeeze(np.swapaxes(slopes, 1, 2) @ np.linalg.solve(square, value[:, :, None]), axis=2)
     return np.clip(step, -0.5, 0.5)
 
 

@@ -18,12 +18,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearlink.core import fourbar
+from gearlink.core.arrays import Reals
 from gearlink.core.errors import NoSolution
 from gearlink.core.fourbar import FourBar
 from gearlink.core.fourbar_refine import dead_point_distance, loop_residual, position_error, refine
 from gearlink.core.fourbar_vectors import loop_opening, loop_rates, loop_step, unit_rates, unit_vector
-
-Array = NDArray[np.float64]
 
 __all__ = [
     "NewtonSweep",
@@ -53,15 +52,15 @@ class NewtonSweep:
     position), residual |r| of the loop [mm]; all of the shape of the crank angles.
     """
 
-    coupler_angle: Array
-    rocker_angle: Array
+    coupler_angle: Reals
+    rocker_angle: Reals
     iterations: NDArray[np.int64]
-    residual: Array
+    residual: Reals
 
 
 def newton_step(
     linkage: FourBar, crank_angle: ArrayLike, coupler_angle: ArrayLike, rocker_angle: ArrayLike
-) -> tuple[Array, Array, Array]:
+) -> tuple[Reals, Reals, Reals]:
     """One Newton-Raphson step of the vector loop with its analytic Jacobian, solved by projection.
 
     d_b = Re(r conj(e_c)) / (b sin(theta_b - theta_c)),   d_c = Re(r conj(e_b)) / (c sin(theta_b - theta_c))
@@ -177,10 +176,10 @@ def _longest(linkage: FourBar) -> float:
     return max(linkage.crank, linkage.coupler, linkage.rocker, linkage.frame)
 
 
-def _checked(linkage: FourBar, phi: Array, b: Array, c: Array, e_a: Any, e_b: Any, e_c: Any) -> Array:
+def _checked(linkage: FourBar, phi: Reals, b: Reals, c: Reals, e_a: Any, e_b: Any, e_c: Any) -> Reals:
     """|r| of every position; refuse one that is open, or that lies on the other side of BD."""
     r = loop_opening(linkage, e_a, e_b, e_c)
-    residual: Array = np.abs(r)
+    residual: Reals = np.abs(r)
     total = linkage.crank + linkage.coupler + linkage.rocker + linkage.frame
     # Angles of several turns carry the rounding of their own size into the loop.
     limit = 16.0 * _EPS * total * np.maximum(1.0, np.maximum(np.abs(b), np.abs(c)))
@@ -207,7 +206,7 @@ class _Place:
     iterations: int
 
 
-def follow(linkage: FourBar, crank_angle: Sequence[float] | Array) -> NewtonSweep:
+def follow(linkage: FourBar, crank_angle: Sequence[float] | Reals) -> NewtonSweep:
     """Follow the motion from one crank angle to the next, each start predicted from the position before.
 
     theta + theta' h + theta'' h^2/2; the step h is halved until `start_is_safe`
@@ -345,7 +344,7 @@ def solve(linkage: FourBar, crank_angle: ArrayLike) -> NewtonSweep:
     )
 
 
-def _anchors(linkage: FourBar, phi: Array) -> list[_Place]:
+def _anchors(linkage: FourBar, phi: Reals) -> list[_Place]:
     """Places every five degrees from the smallest crank angle to the largest, followed from the first given one."""
     low, high, first = float(phi.min()), float(phi.max()), float(phi[0])
     count = max(1, math.ceil((high - low) / _ANCHOR_STEP))

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gearlink.core.arrays import Reals
 from gearlink.core.double_double import Pair, add, cos_sin, two_product
 from gearlink.core.errors import NoSolution
 from gearlink.core.fourbar import FourBar
 
-Array = NDArray[np.float64]
-
 _EPS = 2.0**-52
 
 
-def dead_point_distance(transmission_angle: ArrayLike) -> Array:
+def dead_point_distance(transmission_angle: ArrayLike) -> Reals:
     """Distance of the transmission angle from a dead point.
 
     dev = min(gamma, pi - gamma)
@@ -34,7 +33,7 @@ def dead_point_distance(transmission_angle: ArrayLike) -> Array:
     return np.minimum(gamma, np.pi - gamma)
 
 
-def position_error(transmission_angle: ArrayLike) -> Array:
+def position_error(transmission_angle: ArrayLike) -> Reals:
     """Error to expect of coupler and rocker angle from any plain floating-point formula.
 
     8 eps/dev, and not above sqrt(eps)
@@ -59,7 +58,7 @@ def position_error(transmission_angle: ArrayLike) -> Array:
 
 def loop_residual(
     linkage: FourBar, crank_angle: ArrayLike, coupler_angle: ArrayLike, rocker_angle: ArrayLike
-) -> tuple[Array, Array]:
+) -> tuple[Reals, Reals]:
     """Opening of the vector loop, x and y, computed with 106 bits and rounded once.
 
     r = a e(phi) + b e(theta_b) - d - c e(theta_c)
@@ -95,7 +94,7 @@ def _scaled(length: float, x: Pair) -> Pair:
 
 def refine(
     linkage: FourBar, crank_angle: ArrayLike, coupler_angle: ArrayLike, rocker_angle: ArrayLike, steps: int = 2
-) -> tuple[Array, Array]:
+) -> tuple[Reals, Reals]:
     """Coupler and rocker angle, refined by Newton steps whose residual carries 106 bits.
 
     Parameters

@@ -14,16 +14,15 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gearlink.core.arrays import Reals
 from gearlink.core.errors import NoSolution
 from gearlink.core.fourbar import FourBar, inverse_reading
 from gearlink.core.fourbar_loop import Reading, refusal
 
-Array = NDArray[np.float64]
-
 BLOCK = 8192
 
 
-def _not_asked() -> Array:
+def _not_asked() -> Reals:
     return np.empty(0)
 
 
@@ -34,30 +33,30 @@ class FourBarSweep:
     Rates that were not asked for are empty arrays.
     """
 
-    coupler_angle: Array
-    rocker_angle: Array
-    transmission_angle: Array
-    coupler_velocity: Array = field(default_factory=_not_asked)
-    rocker_velocity: Array = field(default_factory=_not_asked)
-    coupler_acceleration: Array = field(default_factory=_not_asked)
-    rocker_acceleration: Array = field(default_factory=_not_asked)
-    coupler_jerk: Array = field(default_factory=_not_asked)
-    rocker_jerk: Array = field(default_factory=_not_asked)
+    coupler_angle: Reals
+    rocker_angle: Reals
+    transmission_angle: Reals
+    coupler_velocity: Reals = field(default_factory=_not_asked)
+    rocker_velocity: Reals = field(default_factory=_not_asked)
+    coupler_acceleration: Reals = field(default_factory=_not_asked)
+    rocker_acceleration: Reals = field(default_factory=_not_asked)
+    coupler_jerk: Reals = field(default_factory=_not_asked)
+    rocker_jerk: Reals = field(default_factory=_not_asked)
 
 
 @dataclass(frozen=True, slots=True)
 class FourBarInverseSweep:
     """Four-bar over rocker angles, the rocker driving: `fourbar.FourBarInverseState` as arrays."""
 
-    crank_angle: Array
-    coupler_angle: Array
-    transmission_angle: Array
-    crank_velocity: Array = field(default_factory=_not_asked)
-    coupler_velocity: Array = field(default_factory=_not_asked)
-    crank_acceleration: Array = field(default_factory=_not_asked)
-    coupler_acceleration: Array = field(default_factory=_not_asked)
-    crank_jerk: Array = field(default_factory=_not_asked)
-    coupler_jerk: Array = field(default_factory=_not_asked)
+    crank_angle: Reals
+    coupler_angle: Reals
+    transmission_angle: Reals
+    crank_velocity: Reals = field(default_factory=_not_asked)
+    coupler_velocity: Reals = field(default_factory=_not_asked)
+    crank_acceleration: Reals = field(default_factory=_not_asked)
+    coupler_acceleration: Reals = field(default_factory=_not_asked)
+    crank_jerk: Reals = field(default_factory=_not_asked)
+    coupler_jerk: Reals = field(default_factory=_not_asked)
 
 
 def solve(
@@ -134,7 +133,7 @@ def solve_inverse(
     return FourBarInverseSweep(crank, coupler, transmission, *rates)
 
 
-def unit_vectors(linkage: FourBar, crank_angle: Array, order: int = 2, out: Array | None = None) -> Array:
+def unit_vectors(linkage: FourBar, crank_angle: Reals, order: int = 2, out: Reals | None = None) -> Reals:
     """Directions of coupler and rocker as unit vectors, and rates, without any angle: the raw kernel.
 
     Parameters
@@ -177,7 +176,7 @@ def assembles(linkage: FourBar, crank_angle: ArrayLike) -> NDArray[np.bool_]:
     return np.asarray((p >= 0.0) & (q >= 0.0))
 
 
-def _driven(rows: list[Array], velocity: ArrayLike, acceleration: ArrayLike, jerk: ArrayLike) -> list[Array]:
+def _driven(rows: list[Reals], velocity: ArrayLike, acceleration: ArrayLike, jerk: ArrayLike) -> list[Reals]:
     """Rows whose derivatives after the driving angle became time derivatives for the driver's motion."""
     motion = (velocity, acceleration, jerk)
     if all(np.ndim(x) == 0 for x in motion) and motion == (1.0, 0.0, 0.0):
@@ -189,11 +188,11 @@ def _driven(rows: list[Array], velocity: ArrayLike, acceleration: ArrayLike, jer
     return result + [w * w * w * z + 3.0 * w * e * y + j * x for x, y, z in zip(first, second, third, strict=False)]
 
 
-Scratch = tuple[Array, ...]
-Writer = Callable[[Reading, Array, Scratch, Array], int]
+Scratch = tuple[Reals, ...]
+Writer = Callable[[Reading, Reals, Scratch, Reals], int]
 
 
-def _sweep(reading: Reading, phi: Array, order: int, write: Writer, out: Array | None) -> Array:
+def _sweep(reading: Reading, phi: Reals, order: int, write: Writer, out: Reals | None) -> Reals:
     """Fill position rows by `write` and then the pairs of rates, block by block."""
     if not 0 <= order <= 3:
         raise ValueError(f"order is {order}; the rates go from 0 to 3")
@@ -215,7 +214,7 @@ def _sweep(reading: Reading, phi: Array, order: int, write: Writer, out: Array |
     return out
 
 
-def _triangle(reading: Reading, phi: Array, order: int, rows: Scratch) -> None:
+def _triangle(reading: Reading, phi: Reals, order: int, rows: Scratch) -> None:
     """Rows t, t^2, 1 + t^2, and times 1 + t^2: n^2, R, (P - Q)/2; refuse where P Q is not positive."""
     t, tt, one, n, r, z, q, *_ = rows
     np.multiply(phi, 0.5, out=t)
@@ -233,13 +232,13 @@ def _triangle(reading: Reading, phi: Array, order: int, rows: Scratch) -> None:
     np.multiply(z, 0.5, out=z)
 
 
-def _linear(at_0: float, at_pi: float, tt: Array, out: Array) -> None:
+def _linear(at_0: float, at_pi: float, tt: Reals, out: Reals) -> None:
     """at_0 + at_pi t^2."""
     np.multiply(tt, at_pi, out=out)
     np.add(out, at_0, out=out)
 
 
-def _refuse(reading: Reading, phi: Array, order: int, p: Array, q: Array, n: Array) -> None:
+def _refuse(reading: Reading, phi: Reals, order: int, p: Reals, q: Reals, n: Reals) -> None:
     """Raise for the first angle that has no position, or no rates when rates are wanted."""
     product = p * q
     good = (product > 0.0) | ((product == 0.0) & (n > 0.0)) if order == 0 else product > 0.0
@@ -248,11 +247,11 @@ def _refuse(reading: Reading, phi: Array, order: int, p: Array, q: Array, n: Arr
         raise NoSolution(refusal(reading, float(phi[i]), float(p[i]), float(q[i])))
 
 
-def _write_angles(reading: Reading, phi: Array, rows: Scratch, out: Array) -> int:
+def _write_angles(reading: Reading, phi: Reals, rows: Scratch, out: Reals) -> int:
     """Coupler, rocker and transmission angle, continuous as in `fourbar_loop.solve_loop`."""
     t, tt, one, n, r, z, x, y, nu, *_ = rows
     a, d, s = reading.a, reading.d, float(reading.s)
-    winding: Array | float = 0.0
+    winding: Reals | float = 0.0
     if a > abs(d):
         winding = phi - math.pi if d > 0.0 else phi
         _arg(2.0 * d, a - d, a + d, t, tt, x, nu)
@@ -272,14 +271,14 @@ def _write_angles(reading: Reading, phi: Array, rows: Scratch, out: Array) -> in
     return 3
 
 
-def _arg(sine: float, at_0: float, at_pi: float, t: Array, tt: Array, scratch: Array, out: Array) -> None:
+def _arg(sine: float, at_0: float, at_pi: float, t: Reals, tt: Reals, scratch: Reals, out: Reals) -> None:
     """Angle of the vector (at_0 + at_pi t^2, sine t)."""
     _linear(at_0, at_pi, tt, scratch)
     np.multiply(t, sine, out=out)
     np.arctan2(out, scratch, out=out)
 
 
-def _write_vectors(reading: Reading, _phi: Array, rows: Scratch, out: Array) -> int:
+def _write_vectors(reading: Reading, _phi: Reals, rows: Scratch, out: Reals) -> int:
     """Unit vectors (V/b)(h + i s R/(2 n^2)) and (V/c)(h - 1 + i s R/(2 n^2)), h = 1/2 + (b^2 - c^2)/(2 n^2)."""
     t, tt, one, n, r, _, x, y, h, k, v = rows
     a, b, c, d, s = reading[:5]
@@ -308,7 +307,7 @@ def _write_vectors(reading: Reading, _phi: Array, rows: Scratch, out: Array) -> 
     return 4
 
 
-def _rates(reading: Reading, rows: Scratch, out: Array) -> None:
+def _rates(reading: Reading, rows: Scratch, out: Reals) -> None:
     """Pairs (coupler, rocker) of derivatives, as many as `out` has rows for; see `fourbar_loop._rates`.
 
     Rows used: 1/n^2 = one m and 1/R = one r in place of n and R, g' and h.
@@ -331,7 +330,7 @@ def _rates(reading: Reading, rows: Scratch, out: Array) -> None:
         _second(ad, e, f, rows, out[2:])
 
 
-def _second(ad: float, e: float, f: float, rows: Scratch, out: Array) -> None:
+def _second(ad: float, e: float, f: float, rows: Scratch, out: Reals) -> None:
     """Accelerations; afterwards m holds 1/n^4 over 1 + t^2, z s cot(gamma), u_1 (n^2)'/(2 n^4)."""
     t, tt, _, m, r, z, hn, g_1, h, g_2, u_1 = rows
     np.multiply(z, r, out=z)
@@ -354,7 +353,7 @@ def _second(ad: float, e: float, f: float, rows: Scratch, out: Array) -> None:
         _third(ad, e, f, rows, out[2:])
 
 
-def _third(ad: float, e: float, f: float, rows: Scratch, out: Array) -> None:
+def _third(ad: float, e: float, f: float, rows: Scratch, out: Reals) -> None:
     """Jerks; not on the fast path, so written plainly. Rows as `_second` leaves them."""
     t, tt, one, m, _, cot, hn, g_1, h, g_2, u_1 = rows
     u_2 = ad * (1.0 - tt) * m - 8.0 * ad * t / one * hn * u_1

@@ -12,13 +12,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gearlink.core.arrays import Reals
 from gearlink.core.errors import NoSolution
 from gearlink.core.fourbar import FourBar
 
-Array = NDArray[np.float64]
 
-
-def unit_vector(angle: Array) -> NDArray[np.complex128]:
+def unit_vector(angle: Reals) -> NDArray[np.complex128]:
     """Direction of an angle as a complex number, cosine and sine each to an ulp.
 
     Example
@@ -55,7 +54,7 @@ def loop_rates(
     velocity: ArrayLike = 1.0,
     acceleration: ArrayLike = 0.0,
     jerk: ArrayLike = 0.0,
-) -> tuple[Array, ...]:
+) -> tuple[Reals, ...]:
     """Rates of coupler and rocker from the differentiated vector loop: the paper's matrices, solved.
 
     w_b = w a sin(phi - theta_c) / (b s),  w_c = w a sin(phi - theta_b) / (c s),  s = sin(theta_c - theta_b)

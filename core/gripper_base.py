@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 from gearlink.core.errors import MissingSection, NoSolution, at_key
 
 if TYPE_CHECKING:
-    from gearlink.core.gripper_linkage import Array, GripperLinkage, GripperMotion
+    from gearlink.core.arrays import Reals
+    from gearlink.core.gripper_linkage import GripperLinkage, GripperMotion
     from gearlink.core.six_phase_law import SixPhaseLaw
     from gearlink.core.specs.swing_gripper import SwingGripperSpec
 
@@ -95,10 +96,10 @@ class GripperBase:
         return linkage
 
     @cached_property
-    def rows(self) -> tuple[Array, GripperMotion]:
+    def rows(self) -> tuple[Reals, GripperMotion]:
         """Cylinder angles in degrees and the motion there, for the tables."""
         import numpy as np
 
         count = self.samples or 360
-        degrees: Array = np.arange(count, dtype=np.float64) * (360.0 / count)
+        degrees: Reals = np.arange(count, dtype=np.float64) * (360.0 / count)
         return degrees, self.linkage.motion(degrees, 2)

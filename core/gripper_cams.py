@@ -12,7 +12,8 @@ from gearlink.core.gripper_base import GripperBase
 from gearlink.core.report import Check, Status, Table, safely_below
 
 if TYPE_CHECKING:
-    from gearlink.core.cam_profile import Reals, RollerPath
+    from gearlink.core.arrays import Reals
+    from gearlink.core.cam_profile import RollerPath
     from gearlink.core.disc_cam import DiscCam
     from gearlink.core.gripper_size import RollerArm
     from gearlink.core.specs.swing_gripper import GripperCam, Roller

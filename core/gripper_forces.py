@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearlink.core.arrays import Reals
 from gearlink.core.errors import NoSolution
 from gearlink.core.gripper_linkage import GripperLinkage, GripperMotion
 from gearlink.core.report import safely_below
@@ -21,7 +21,6 @@ from gearlink.core.report import safely_below
 if TYPE_CHECKING:
     from gearlink.core.specs.swing_gripper import Inertia
 
-Array = NDArray[np.float64]
 _M2 = 1e-6  # mm^2 in m^2
 
 
@@ -41,7 +40,7 @@ class Masses:
         return cls(inertia.input, inertia.output, inertia.coupler, inertia.coupler_mass, inertia.return_rocker)
 
 
-def inertia_torque(linkage: GripperLinkage, motion: GripperMotion, masses: Masses, shaft_speed: float) -> Array:
+def inertia_torque(linkage: GripperLinkage, motion: GripperMotion, masses: Masses, shaft_speed: float) -> Reals:
     """Torque that moves cam rocker and linkage, about A.
 
     T_in = J_A a_1 + J_E a_4 k_4 + J_CD a_3 k_3 + m Re(conj(v_G/w_1) a_G),  k_i = w_i/w_1
@@ -73,11 +72,11 @@ def inertia_torque(linkage: GripperLinkage, motion: GripperMotion, masses: Masse
         + masses.output * motion.output_acceleration * k4
         + masses.coupler * motion.coupler_acceleration * k3
     )
-    torque: Array = square * (turning + translation)
+    torque: Reals = square * (turning + translation)
     return torque
 
 
-def contact_torques(spring: float, inertia: Array, return_inertia: Array, lift_sense: int) -> tuple[Array, Array]:
+def contact_torques(spring: float, inertia: Reals, return_inertia: Reals, lift_sense: int) -> tuple[Reals, Reals]:
     """Torques that press the main and the return roller to their cams [N m].
 
     T_1 = T_s + s_c T_in,  T_2 = T_s - s_c J_2 psi_2''

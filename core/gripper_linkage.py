@@ -13,15 +13,13 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearlink.core.arrays import Reals
 from gearlink.core.errors import at_key
 from gearlink.core.extremes import Extreme
 from gearlink.core.fourbar import FourBar
 from gearlink.core.fourbar_sweep import FourBarInverseSweep, solve_inverse
 from gearlink.core.six_phase_law import SixPhaseLaw
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,17 +29,17 @@ class GripperMotion:
     `input` is AC, `coupler` C->D, `output` E->D. Derivatives beyond the order asked for are empty.
     """
 
-    theta: Array
-    beta: Array
-    input_angle: Array
-    coupler_angle: Array
-    output_angle: Array
-    input_velocity: Array
-    coupler_velocity: Array
-    output_velocity: Array
-    input_acceleration: Array
-    coupler_acceleration: Array
-    output_acceleration: Array
+    theta: Reals
+    beta: Reals
+    input_angle: Reals
+    coupler_angle: Reals
+    output_angle: Reals
+    input_velocity: Reals
+    coupler_velocity: Reals
+    output_velocity: Reals
+    input_acceleration: Reals
+    coupler_acceleration: Reals
+    output_acceleration: Reals
 
 
 @dataclass(frozen=True)
@@ -80,7 +78,7 @@ class GripperLinkage:
         """Direction of E seen from A [rad]."""
         return cmath.phase(self.output_pivot - self.input_pivot)
 
-    def motion(self, degrees: Array, order: int = 2) -> GripperMotion:
+    def motion(self, degrees: Reals, order: int = 2) -> GripperMotion:
         """Motion of all links at cylinder angles.
 
         Parameters
@@ -92,7 +90,7 @@ class GripperLinkage:
         beta = self.law.evaluate(degrees, order)
         return self.at(degrees, beta)
 
-    def at(self, degrees: Array, beta: tuple[Array, ...]) -> GripperMotion:
+    def at(self, degrees: Reals, beta: tuple[Reals, ...]) -> GripperMotion:
         """Motion of all links where the swing angle and its derivatives are known already."""
         order = len(beta) - 1
         sense = self.swing_sense
@@ -121,7 +119,7 @@ class GripperLinkage:
             output_acceleration=acceleration,
         )
 
-    def ratios(self, beta: Array) -> FourBarInverseSweep:
+    def ratios(self, beta: Reals) -> FourBarInverseSweep:
         """Speed ratios w_input/w_output and w_coupler/w_output as geometry, defined in the dwells too."""
         return solve_inverse(self.four_bar, self.local_output(beta), 1)
 
@@ -144,23 +142,23 @@ class GripperLinkage:
             step /= 16.0
         return found[0], found[1]
 
-    def transmission(self, direction: Array) -> tuple[Array, Array]:
+    def transmission(self, direction: Reals) -> tuple[Reals, Reals]:
         """Angles between CD and ED and between AC and CD, folded [rad], at directions of ED from the frame line."""
         state = solve_inverse(self.four_bar, direction)
         return _folded(direction - state.coupler_angle), _folded(state.crank_angle - state.coupler_angle)
 
-    def local_output(self, beta: Array) -> Array:
+    def local_output(self, beta: Reals) -> Reals:
         """Direction of ED from the frame line A-E at swing angles [rad]."""
         return self.output_direction - self.frame_direction + self.swing_sense * beta
 
 
-def _folded(angle: Array) -> Array:
+def _folded(angle: Reals) -> Reals:
     """Angle between two lines, 0 to pi/2."""
-    folded: Array = np.abs(np.arctan2(np.sin(angle), np.cos(angle)))
+    folded: Reals = np.abs(np.arctan2(np.sin(angle), np.cos(angle)))
     return np.minimum(folded, math.pi - folded)
 
 
-def _start_in_first_turn(angle: Array) -> Array:
+def _start_in_first_turn(angle: Reals) -> Reals:
     """The same continuous angle, shifted by whole turns so that the first lies in (-pi, pi]."""
     if not angle.size:
         return angle

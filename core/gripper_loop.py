@@ -9,10 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearlink.core import fourbar_newton
+from gearlink.core.arrays import Reals
 from gearlink.core.fourbar_refine import refine
 from gearlink.core.gripper_linkage import GripperLinkage, GripperMotion
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,10 +25,10 @@ class TwoWays:
         residual : (N,) array [mm] - opening of the loop that Newton-Raphson left
     """
 
-    deviation: Array
-    error: Array
+    deviation: Reals
+    error: Reals
     iterations: NDArray[np.int64]
-    residual: Array
+    residual: Reals
 
 
 def two_ways(linkage: GripperLinkage, motion: GripperMotion) -> TwoWays:
@@ -62,7 +61,7 @@ def two_ways(linkage: GripperLinkage, motion: GripperMotion) -> TwoWays:
     )
 
 
-def _apart(one: Array, other: Array) -> Array:
+def _apart(one: Reals, other: Reals) -> Reals:
     difference = one - other
-    turns: Array = np.abs(difference - 2.0 * math.pi * np.rint(difference / (2.0 * math.pi)))
+    turns: Reals = np.abs(difference - 2.0 * math.pi * np.rint(difference / (2.0 * math.pi)))
     return turns

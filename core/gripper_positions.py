@@ -7,9 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gearlink.core.arrays import Points
 from gearlink.core.gripper_linkage import GripperLinkage
-
-Points = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gearlink.core.cam_size import CamCenter, Reals, RockingRoller, smallest_cam_of_rollers
+from gearlink.core.arrays import Reals
+from gearlink.core.cam_size import CamCenter, RockingRoller, smallest_cam_of_rollers
 from gearlink.core.gripper_linkage import GripperLinkage
 
 

@@ -7,11 +7,10 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from gearlink.core.arrays import Reals
 from gearlink.core.errors import NoSolution
 from gearlink.core.gripper_linkage import GripperLinkage
 from gearlink.core.report import safely_above, safely_below
-
-Array = NDArray[np.float64]
 
 DEAD_POINT = 1e-3
 _LEAST_AIM = math.radians(10.0)
@@ -111,13 +110,13 @@ def clear_turn(linkage: GripperLinkage, limit: float) -> tuple[float | None, flo
     return min(turns, key=abs, default=None), widest
 
 
-def _reach(linkage: GripperLinkage, directions: Array) -> Array:
+def _reach(linkage: GripperLinkage, directions: Reals) -> Reals:
     """|AD| [mm] at directions of ED from the frame line."""
-    reach: Array = np.abs(linkage.four_bar.frame + linkage.output * np.exp(1j * directions))
+    reach: Reals = np.abs(linkage.four_bar.frame + linkage.output * np.exp(1j * directions))
     return reach
 
 
-def _runs(places: Array, good: NDArray[np.bool_]) -> list[tuple[float, float]]:
+def _runs(places: Reals, good: NDArray[np.bool_]) -> list[tuple[float, float]]:
     """First and last place of every unbroken run of good ones."""
     edges = np.flatnonzero(np.diff(np.concatenate(([0], good.astype(np.int8), [0]))))
     return [(float(places[i]), float(places[j - 1])) for i, j in zip(edges[::2], edges[1::2], strict=True)]

@@ -11,11 +11,9 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearlink.core.arrays import Reals
 from gearlink.core.errors import NoSolution
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,12 +26,12 @@ class TipPath:
         slip : (N,) array [mm] - R (psi_F - turned): how far the tip is ahead of the sheet since the handover
     """
 
-    gap: Array
-    drum_angle: Array
-    slip: Array
+    gap: Reals
+    drum_angle: Reals
+    slip: Reals
 
 
-def tip_path(arm: float, radius: float, distance: float, lead: Array, turned: Array, lead_0: float = 0.0) -> TipPath:
+def tip_path(arm: float, radius: float, distance: float, lead: Reals, turned: Reals, lead_0: float = 0.0) -> TipPath:
     """Path of the gripper tip relative to the drum.
 
     |OF|^2 = (D - l)^2 + 4 l D sin^2(d/2),   gap = [(D - l - R)(D - l + R) + 4 l D sin^2(d/2)]/(|OF| + R)
@@ -59,19 +57,19 @@ def tip_path(arm: float, radius: float, distance: float, lead: Array, turned: Ar
     offset = distance - arm
     swell = 4.0 * arm * distance * np.sin(0.5 * lead) ** 2
     from_drum = np.sqrt(offset * offset + swell)
-    gap: Array = ((offset - radius) * (offset + radius) + swell) / (from_drum + radius)
-    angle: Array = _drum_angle(arm, distance, lead)
-    slip: Array = radius * (angle - _drum_angle(arm, distance, np.float64(lead_0)) - turned)
+    gap: Reals = ((offset - radius) * (offset + radius) + swell) / (from_drum + radius)
+    angle: Reals = _drum_angle(arm, distance, lead)
+    slip: Reals = radius * (angle - _drum_angle(arm, distance, np.float64(lead_0)) - turned)
     return TipPath(gap, angle, slip)
 
 
-def _drum_angle(arm: float, distance: float, lead: Array | np.float64) -> Array:
+def _drum_angle(arm: float, distance: float, lead: Reals | np.float64) -> Reals:
     # D - l cos d = (D - l) + 2 l sin^2(d/2)
-    angle: Array = np.arctan2(arm * np.sin(lead), distance - arm + 2.0 * arm * np.sin(0.5 * lead) ** 2)
+    angle: Reals = np.arctan2(arm * np.sin(lead), distance - arm + 2.0 * arm * np.sin(0.5 * lead) ** 2)
     return angle
 
 
-def speed_difference(path: TipPath, lead: Array, tip_speed: Array, drum_speed: float, radius: float) -> Array:
+def speed_difference(path: TipPath, lead: Reals, tip_speed: Reals, drum_speed: float, radius: float) -> Reals:
     """Tangential speed of the tip less that of the drum turning below it.
 
     v cos(d + psi_F) - (R + gap) Omega
@@ -88,7 +86,7 @@ def speed_difference(path: TipPath, lead: Array, tip_speed: Array, drum_speed: f
         own derivation
     """
     turn = np.sin(0.5 * (lead + path.drum_angle)) ** 2
-    difference: Array = (tip_speed - radius * drum_speed) - 2.0 * tip_speed * turn - path.gap * drum_speed
+    difference: Reals = (tip_speed - radius * drum_speed) - 2.0 * tip_speed * turn - path.gap * drum_speed
     return difference
 
 

@@ -6,8 +6,9 @@ import math
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gearlink.core.arrays import Reals
 from gearlink.core.errors import NoSolution
 
 _BLOCK = 8192
@@ -25,10 +26,8 @@ _START_BOTTOM = (0.0038231201481075134, 0.060304900663855875, 0.3498080014715667
 _POLE_TOP = (0.0006460240453031124, -0.05377753195692445, 0.8224670334241132)
 _POLE_BOTTOM = (2.519912699940214e-10, 7.151751063605589e-08, 0.0006769856505923604, -0.06010090372552, 1.0)
 
-Floats = NDArray[np.float64]
 
-
-def involute(alpha: ArrayLike) -> Floats:
+def involute(alpha: ArrayLike) -> Reals:
     """Involutes of many pressure angles.
 
     inv(alpha) = tan(alpha) - alpha
@@ -58,7 +57,7 @@ def involute(alpha: ArrayLike) -> Floats:
     return _in_blocks(_involute_block, angles, 4)
 
 
-def inverse_involute(v: ArrayLike) -> Floats:
+def inverse_involute(v: ArrayLike) -> Reals:
     """Pressure angles of many involutes.
 
     tan(alpha) - alpha = v
@@ -99,7 +98,7 @@ def inverse_involute(v: ArrayLike) -> Floats:
     return alpha
 
 
-def _in_blocks(kernel: Callable[..., None], values: Floats, buffers: int) -> Floats:
+def _in_blocks(kernel: Callable[..., None], values: Reals, buffers: int) -> Reals:
     """Run a kernel over blocks of the flattened array; its buffers are made once."""
     flat = np.ascontiguousarray(values).reshape(-1)
     result = np.empty(flat.size)
@@ -110,7 +109,7 @@ def _in_blocks(kernel: Callable[..., None], values: Floats, buffers: int) -> Flo
     return result.reshape(values.shape)
 
 
-def _polynomial(coefficients: tuple[float, ...], x: Floats, out: Floats) -> Floats:
+def _polynomial(coefficients: tuple[float, ...], x: Reals, out: Reals) -> Reals:
     """Horner's rule in place, highest power first."""
     np.multiply(x, coefficients[0], out=out)
     out += coefficients[1]
@@ -120,7 +119,7 @@ def _polynomial(coefficients: tuple[float, ...], x: Floats, out: Floats) -> Floa
     return out
 
 
-def _involute_block(a: Floats, out: Floats, w: Floats, second: Floats, p: Floats, q: Floats) -> None:
+def _involute_block(a: Reals, out: Reals, w: Reals, second: Reals, p: Reals, q: Reals) -> None:
     np.multiply(a, a, out=w)
     _polynomial(_CUBIC_TOP, w, second)
     second /= _polynomial(_CUBIC_BOTTOM, w, p)
@@ -148,7 +147,7 @@ def _involute_block(a: Floats, out: Floats, w: Floats, second: Floats, p: Floats
         np.copyto(out, w, where=q >= _DIRECT)
 
 
-def _inverse_block(v: Floats, out: Floats, w: Floats, p: Floats, q: Floats, inv: Floats) -> None:
+def _inverse_block(v: Reals, out: Reals, w: Reals, p: Reals, q: Reals, inv: Reals) -> None:
     np.multiply(v, 3.0, out=q)
     np.cbrt(q, out=out)
     np.multiply(out, out, out=w)
@@ -170,7 +169,7 @@ def _inverse_block(v: Floats, out: Floats, w: Floats, p: Floats, q: Floats, inv:
     out -= inv
 
 
-def _inverse_near_pole(v: Floats) -> Floats:
+def _inverse_near_pole(v: Reals) -> Reals:
     alpha = np.arctan(v + 1.3)
     for _ in range(3):
         tangent = v + alpha

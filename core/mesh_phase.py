@@ -5,15 +5,13 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gearlink.core.arrays import Points, Reals
 from gearlink.core.internal_mesh import InternalMesh
 
-Array = NDArray[np.float64]
-Points = NDArray[np.complex128]
 
-
-def driven_turn(teeth: tuple[int, int], line_of_centres: ArrayLike, turn: ArrayLike) -> Array:
+def driven_turn(teeth: tuple[int, int], line_of_centres: ArrayLike, turn: ArrayLike) -> Reals:
     """Place of the second gear of an external mesh for a place of the first.
 
     z_1 (t_1 - psi) + z_2 (t_2 - psi - pi) = -pi
@@ -39,7 +37,7 @@ def driven_turn(teeth: tuple[int, int], line_of_centres: ArrayLike, turn: ArrayL
     return np.asarray(psi + math.pi - (math.pi + z1 * (first - psi)) / z2)
 
 
-def ring_turn(teeth: tuple[int, int], line_of_centres: ArrayLike, turn: ArrayLike) -> Array:
+def ring_turn(teeth: tuple[int, int], line_of_centres: ArrayLike, turn: ArrayLike) -> Reals:
     """Place of a ring gear for a place of the gear inside it.
 
     z_1 (t_1 - psi) = z_2 (t_2 - psi)

@@ -7,17 +7,15 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
+from gearlink.core.arrays import Reals
 from gearlink.core.errors import NoSolution
-
-FloatArray = npt.NDArray[np.float64]
 
 _BLOCK = 1024
 _SETTLED = 8.0 * 2.0**-52
 
 
-def midpoint_mean(f: Callable[[FloatArray], FloatArray], span: float, nodes: int) -> float:
+def midpoint_mean(f: Callable[[Reals], Reals], span: float, nodes: int) -> float:
     """Mean of a function over [0, span] by the equal-weight midpoint rule.
 
     mean = (1/n) sum f((i + 1/2) span/n)
@@ -41,8 +39,8 @@ def midpoint_mean(f: Callable[[FloatArray], FloatArray], span: float, nodes: int
     return math.fsum(f(_midpoints(span, nodes)).tolist()) / nodes
 
 
-def _midpoints(span: float, nodes: int) -> FloatArray:
-    points: FloatArray = (np.arange(nodes, dtype=np.float64) + 0.5) * (span / nodes)
+def _midpoints(span: float, nodes: int) -> Reals:
+    points: Reals = (np.arange(nodes, dtype=np.float64) + 0.5) * (span / nodes)
     return points
 
 
@@ -58,7 +56,7 @@ class CosineSeries:
     """
 
     span: float
-    coefficients: FloatArray
+    coefficients: Reals
     nodes: int
     difference: float
 
@@ -67,7 +65,7 @@ class CosineSeries:
         """Integral over the whole span."""
         return float(self.coefficients[0]) * self.span
 
-    def integral(self, z: FloatArray) -> FloatArray:
+    def integral(self, z: Reals) -> Reals:
         """Integral from 0 to z, of small relative error also for small z (times sum |f_j| over f(0))."""
         wave = np.arange(1, len(self.coefficients)) * (math.pi / self.span)
         weights = self.coefficients[1:] / wave
@@ -83,9 +81,7 @@ class CosineSeries:
         return CosineSeries(self.span, self.coefficients * signs, self.nodes, self.difference)
 
 
-def cosine_series(
-    f: Callable[[FloatArray], FloatArray], span: float, *, first: int = 16, limit: int = 8192
-) -> CosineSeries:
+def cosine_series(f: Callable[[Reals], Reals], span: float, *, first: int = 16, limit: int = 8192) -> CosineSeries:
     """Cosine series of an even, periodic, analytic function, with as many nodes as it takes.
 
     Parameters
@@ -121,7 +117,7 @@ def cosine_series(
     )
 
 
-def cosine_coefficients(values: FloatArray) -> FloatArray:
+def cosine_coefficients(values: Reals) -> Reals:
     """Coefficients of the cosine series through values at the midpoints of equal parts of the span.
 
     f_j = (2/n) sum f(z_i) cos(pi j z_i/span), f_0 half of that
@@ -139,7 +135,7 @@ def cosine_coefficients(values: FloatArray) -> FloatArray:
     """
     n = len(values)
     spectrum = np.fft.rfft(np.concatenate([values, values[::-1]]))[:n]
-    coefficients: FloatArray = (spectrum * np.exp(-0.5j * math.pi / n * np.arange(n))).real / n
+    coefficients: Reals = (spectrum * np.exp(-0.5j * math.pi / n * np.arange(n))).real / n
     coefficients[0] = math.fsum(values.tolist()) / n
     size = float(np.max(np.abs(values)))
     significant = np.flatnonzero(np.abs(coefficients) > 1e-17 * size)

@@ -16,7 +16,8 @@ from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.report import Check, Table, safely_above
 
 if TYPE_CHECKING:
-    from gearlink.core.cam_profile import Reals, RollerPath
+    from gearlink.core.arrays import Reals
+    from gearlink.core.cam_profile import RollerPath
     from gearlink.core.disc_cam import DiscCam
     from gearlink.core.specs.flatbed_press import FlatbedPressSpec, PressCam
 

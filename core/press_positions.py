@@ -11,15 +11,12 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gearlink.core import fourbar_sweep, slider_crank_sweep
+from gearlink.core.arrays import Points, Reals
 from gearlink.core.fourbar import FourBar
 from gearlink.core.press_chains import BedChain, CylinderChain, difference
 from gearlink.core.roots import bracketed_root
-
-Points = NDArray[np.complex128]
-Reals = NDArray[np.float64]
 
 _TURN = 2.0 * math.pi
 

@@ -15,11 +15,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gearlink.core.arrays import Reals
 from gearlink.core.errors import NoSolution
 from gearlink.core.motion_laws import Law
 from gearlink.core.roots import bracketed_root
 
-Array = NDArray[np.float64]
 PHASES = ("accelerate", "constant", "decelerate", "far-dwell", "return", "near-dwell")
 
 
@@ -99,7 +99,7 @@ class SixPhaseLaw:
         index: NDArray[np.intp] = np.searchsorted(self.starts, np.fmod(degrees, 360.0), side="right") - 1
         return index
 
-    def evaluate(self, degrees: Any, order: int = 2) -> tuple[Array, ...]:
+    def evaluate(self, degrees: Any, order: int = 2) -> tuple[Reals, ...]:
         """Swing and its derivatives by theta.
 
         Parameters
@@ -118,7 +118,7 @@ class SixPhaseLaw:
                 target[inside] = values
         return out
 
-    def in_phase(self, index: int, u: Array, order: int) -> tuple[Array, ...]:
+    def in_phase(self, index: int, u: Reals, order: int) -> tuple[Reals, ...]:
         """Swing and derivatives within a phase, at its local coordinate u in [0, 1] (both ends included)."""
         span = math.radians(self.starts[index + 1] - self.starts[index])
         first, _, top = self._heights
@@ -137,9 +137,9 @@ class SixPhaseLaw:
         level = top if index == 3 else 0.0
         return (np.full_like(u, level), *(np.zeros_like(u) for _ in range(order)))
 
-    def joints(self) -> Array:
+    def joints(self) -> Reals:
         """Jumps of beta and its three derivatives at the six joints, (6, 4); row i is the start of phase i."""
         before = [np.array([x[0] for x in self.in_phase((i - 1) % 6, np.array([1.0]), 3)]) for i in range(6)]
         after = [np.array([x[0] for x in self.in_phase(i, np.array([0.0]), 3)]) for i in range(6)]
-        jumps: Array = np.array(after) - np.array(before)
+        jumps: Reals = np.array(after) - np.array(before)
         return jumps

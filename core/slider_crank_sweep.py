@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gearlink.core.arrays import Reals
 from gearlink.core.errors import NoSolution
 from gearlink.core.slider_crank import not_reached
 
-Floats = NDArray[np.float64]
 
-
-def slider(psi: ArrayLike, crank: float, rod: float, offset: float = 0.0, order: int = 0) -> tuple[Floats, ...]:
+def slider(psi: ArrayLike, crank: float, rod: float, offset: float = 0.0, order: int = 0) -> tuple[Reals, ...]:
     """Depths of the slider below the crank pivot, with derivatives with respect to the crank direction.
 
     h = w - r sin(psi),  w = sqrt(L^2 - u^2),  u = r cos(psi) + e
@@ -36,8 +35,8 @@ def slider(psi: ArrayLike, crank: float, rod: float, offset: float = 0.0, order:
 
 
 def slider_at(
-    cosine: Floats, sine: Floats, crank: float, rod: float, offset: float = 0.0, order: int = 0
-) -> tuple[Floats, ...]:
+    cosine: Reals, sine: Reals, crank: float, rod: float, offset: float = 0.0, order: int = 0
+) -> tuple[Reals, ...]:
     """The same as `slider` for crank directions given as unit vectors.
 
     Parameters

@@ -19,17 +19,15 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gearlink.core.arrays import Points, Reals
 from gearlink.core.errors import NoSolution
 from gearlink.core.gear_pair import GearPair
 from gearlink.core.involute import inverse_involute, involute
 from gearlink.core.report import safely_below
 from gearlink.core.roots import bracketed_root
 
-Points = NDArray[np.complex128]
-Floats = NDArray[np.float64]
-Curve = Callable[[Floats], Points]
+Curve = Callable[[Reals], Points]
 
 _LEAST_CHORD_ERROR = 1e-7  # module; below it the points of large gears would be told apart by rounding alone
 
@@ -240,12 +238,12 @@ class ToothProfile:
 
     # Curves [mm], each over an array of its parameter
 
-    def root_arc(self, angle: Floats) -> Points:
+    def root_arc(self, angle: Reals) -> Points:
         """The root circle, over the polar angle."""
         arc: Points = self.root_radius * np.exp(1j * angle)
         return arc
 
-    def trochoid(self, normal: Floats) -> Points:
+    def trochoid(self, normal: Reals) -> Points:
         """The root's rounding, over the direction b of the normal."""
         q, rho = self._q, self.tool_rounding
         across = q * np.tan(normal)
@@ -253,7 +251,7 @@ class ToothProfile:
         rounded: Points = self.module * points * np.exp(-1j * (across - self._u) / self._r)
         return rounded
 
-    def flank(self, roll: Floats) -> Points:
+    def flank(self, roll: Reals) -> Points:
         """The involute, over its roll angle t = tan(pressure angle at the radius).
 
         z(t) = r_b (1 - i t) exp(i (angle at the base circle + t))
@@ -261,7 +259,7 @@ class ToothProfile:
         points: Points = self.base_radius * (1.0 - 1j * roll) * np.exp(1j * (self._at_base + roll))
         return points
 
-    def tip_arc(self, angle: Floats) -> Points:
+    def tip_arc(self, angle: Reals) -> Points:
         """The tip circle, over the polar angle."""
         arc: Points = self.outer_radius * np.exp(1j * angle)
         return arc

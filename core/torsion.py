@@ -12,15 +12,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gearlink.core.arrays import Reals
 from gearlink.core.errors import NoSolution
 from gearlink.core.extremes import maximum_over
-from gearlink.core.periodic_quadrature import CosineSeries, FloatArray, cosine_coefficients, cosine_series
+from gearlink.core.periodic_quadrature import CosineSeries, cosine_coefficients, cosine_series
 
 _STIFFEST = 20_000.0
 """Natural frequency times stroke time from which the search for the peak takes seconds and finds the step's alone."""
 
 
-def acceleration_series(acceleration: Callable[[FloatArray], FloatArray]) -> CosineSeries:
+def acceleration_series(acceleration: Callable[[Reals], Reals]) -> CosineSeries:
     """Acceleration invariant of a stroke from rest to rest as a cosine series.
 
     c(k) = sum c_j cos(j pi k)
@@ -74,7 +75,7 @@ class TorsionResponse:
         if not 0.0 <= self.damping < 1.0:
             raise NoSolution(f"damping ratio {self.damping:.6g}: it must be at least 0 and below 1")
 
-    def __call__(self, k: FloatArray) -> FloatArray:
+    def __call__(self, k: Reals) -> Reals:
         """y at fractions k of the stroke.
 
         Parameters
@@ -94,21 +95,19 @@ class TorsionResponse:
             )
         return result
 
-    def _undamped(self, k: FloatArray, wave: float) -> FloatArray:
+    def _undamped(self, k: Reals, wave: float) -> Reals:
         """(cos wave k - cos W k)/(W^2 - wave^2)."""
         total, difference = 0.5 * (self.stiffness + wave), 0.5 * (self.stiffness - wave)
         # np.sinc(x) = sin(pi x)/(pi x)
-        result: FloatArray = 0.5 * k**2 * np.sinc(total * k / math.pi) * np.sinc(difference * k / math.pi)
+        result: Reals = 0.5 * k**2 * np.sinc(total * k / math.pi) * np.sinc(difference * k / math.pi)
         return result
 
-    def _damped(self, k: FloatArray, wave: float) -> FloatArray:
+    def _damped(self, k: Reals, wave: float) -> Reals:
         decay, free = self.damping * self.stiffness, self.stiffness * math.sqrt(1.0 - self.damping**2)
         forced = 1.0 / complex(self.stiffness**2 - wave**2, 2.0 * decay * wave)
         steady = (forced * np.exp(1j * wave * k)).real
         sine = (forced * 1j * wave).real + decay * forced.real
-        result: FloatArray = steady - np.exp(-decay * k) * (
-            forced.real * np.cos(free * k) + sine / free * np.sin(free * k)
-        )
+        result: Reals = steady - np.exp(-decay * k) * (forced.real * np.cos(free * k) + sine / free * np.sin(free * k))
         return result
 
 

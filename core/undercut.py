@@ -5,13 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
-Reals: TypeAlias = NDArray[np.float64]
-Points: TypeAlias = NDArray[np.complex128]
+from gearlink.core.arrays import Points, Reals
 
 _GRID = 17
 

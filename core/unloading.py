@@ -17,9 +17,10 @@ from typing import overload
 import numpy as np
 import numpy.typing as npt
 
+from gearlink.core.arrays import Reals
 from gearlink.core.elliptic import complete_integral, incomplete_integral, jacobi_sn_cn
 from gearlink.core.errors import NoSolution
-from gearlink.core.periodic_quadrature import CosineSeries, FloatArray, cosine_series, midpoint_mean
+from gearlink.core.periodic_quadrature import CosineSeries, cosine_series, midpoint_mean
 from gearlink.core.roots import bracketed_root, sign_changes
 from gearlink.core.unloading_device import (
     Device,
@@ -61,10 +62,10 @@ class MiddleView:
         velocity, deficit, acceleration : (N,) arrays - b, B - b, c
     """
 
-    angle: FloatArray
-    velocity: FloatArray
-    deficit: FloatArray
-    acceleration: FloatArray
+    angle: Reals
+    velocity: Reals
+    deficit: Reals
+    acceleration: Reals
 
 
 @dataclass(frozen=True)
@@ -118,13 +119,13 @@ class ElasticLaw:
         """k of the elliptic substitution."""
         return self.geometry.reach * self.geometry.half_sine / self.geometry.longest
 
-    def slowness(self, sine: FloatArray, cosine: FloatArray) -> FloatArray:
+    def slowness(self, sine: Reals, cosine: Reals) -> Reals:
         """F(u) = gamma sqrt(N) |dk/du| from sin u and cos u of the pendulum angle, 0 at mid-swing."""
         g = self.geometry
         stretch = (g.longest + g.length(sine)) / (g.ratio * g.mean_force(sine))
         return np.sqrt(stretch) / np.hypot(g.half_cosine, g.half_sine * cosine)
 
-    def _integrand(self, z: FloatArray) -> FloatArray:
+    def _integrand(self, z: Reals) -> Reals:
         """F du/dz with z = 0 at the start of the stroke and K at mid-swing; du/dz = l/L."""
         cosine, sine = jacobi_sn_cn(z, self.modulus, self.modulus_complement)
         return self.slowness(sine, cosine) * self.geometry.length(sine) / self.geometry.longest
@@ -241,8 +242,8 @@ class ElasticLaw:
     @overload
     def evaluate(self, k: float, order: int = 2) -> tuple[float, ...]: ...
     @overload
-    def evaluate(self, k: FloatArray, order: int = 2) -> tuple[FloatArray, ...]: ...
-    def evaluate(self, k: float | FloatArray, order: int = 2) -> tuple[float, ...] | tuple[FloatArray, ...]:
+    def evaluate(self, k: Reals, order: int = 2) -> tuple[Reals, ...]: ...
+    def evaluate(self, k: float | Reals, order: int = 2) -> tuple[float, ...] | tuple[Reals, ...]:
         """Displacement, velocity, acceleration and jerk invariants, as many as asked for.
 
         a = 1/2 - phi/gamma, b = sqrt(N E), c = (N/2) lambda gamma X sin(phi)/l, dc/dk
@@ -264,7 +265,7 @@ class ElasticLaw:
             return self.invariants(k, order)
         return tuple(float(x[0]) for x in self.invariants(np.array([float(k)]), order))
 
-    def invariants(self, k: FloatArray, order: int = 2) -> tuple[FloatArray, ...]:
+    def invariants(self, k: Reals, order: int = 2) -> tuple[Reals, ...]:
         """The invariants of `evaluate` for an array of any shape."""
         sine, cosine, second = self._pendulum(k)
         a = self.displacement(sine, cosine)
@@ -278,7 +279,7 @@ class ElasticLaw:
             results.append(self._jerk(sine, cosine))
         return tuple(x.reshape(k.shape) for x in results)
 
-    def middle_view(self, k: FloatArray) -> MiddleView:
+    def middle_view(self, k: Reals) -> MiddleView:
         """The motion seen from mid-swing, every number with a small relative error there.
 
         phi = (a - 1/2) gamma, B - b = N (E(mid) - E)/(B + b)
@@ -301,7 +302,7 @@ class ElasticLaw:
         deficit = spent / (self.velocity_peak + velocity)
         return MiddleView(2.0 * side * half, velocity, deficit, -side * self._acceleration(sine, cosine))
 
-    def displacement(self, sine: FloatArray, cosine: FloatArray) -> FloatArray:
+    def displacement(self, sine: Reals, cosine: Reals) -> Reals:
         """a in the first half from sin u and cos u, counted from the end of the half stroke that keeps the digits."""
         g = self.geometry
         s, c = g.half_sine * sine, np.hypot(g.half_cosine, g.half_sine * cosine)
@@ -311,22 +312,22 @@ class ElasticLaw:
         )
         return np.where(cosine < sine, 2.0 / self.swing * turned, from_middle)
 
-    def _velocity(self, sine: FloatArray, cosine: FloatArray) -> FloatArray:
+    def _velocity(self, sine: Reals, cosine: Reals) -> Reals:
         g = self.geometry
         energy = g.mean_force(sine) / (g.longest + g.length(sine))
         return self._rate * g.reach * g.half_sine * np.sqrt(energy) * cosine
 
-    def _sine_of_swing(self, sine: FloatArray, cosine: FloatArray) -> FloatArray:
+    def _sine_of_swing(self, sine: Reals, cosine: Reals) -> Reals:
         """sin |phi| = 2 sin(phi/2) cos(phi/2)."""
         g = self.geometry
         return 2.0 * g.half_sine * sine * np.hypot(g.half_cosine, g.half_sine * cosine)
 
-    def _acceleration(self, sine: FloatArray, cosine: FloatArray) -> FloatArray:
+    def _acceleration(self, sine: Reals, cosine: Reals) -> Reals:
         g = self.geometry
         lever = g.ratio * self._sine_of_swing(sine, cosine) / g.length(sine)
         return 0.5 * self.energy_parameter * self.swing * g.force(sine) * lever
 
-    def _jerk(self, sine: FloatArray, cosine: FloatArray) -> FloatArray:
+    def _jerk(self, sine: Reals, cosine: Reals) -> Reals:
         g = self.geometry
         s = (g.half_sine * sine) ** 2
         length = g.length(sine)
@@ -335,7 +336,7 @@ class ElasticLaw:
         change = g.force(sine) * bend + g.stiffness() * lever**2
         return -0.5 * self.energy_parameter * self.swing**2 * self._velocity(sine, cosine) * change
 
-    def _pendulum(self, k: FloatArray) -> tuple[FloatArray, FloatArray, npt.NDArray[np.bool_]]:
+    def _pendulum(self, k: Reals) -> tuple[Reals, Reals, npt.NDArray[np.bool_]]:
         """sin u, cos u of every k folded into the first half, and which k lay in the second."""
         k = np.asarray(k, dtype=np.float64).ravel()
         if not bool(np.all((k >= 0.0) & (k <= 1.0))):
@@ -350,7 +351,7 @@ class ElasticLaw:
         sine[~near_start], cosine[~near_start] = np.sin(u), np.cos(u)
         return sine, cosine, second
 
-    def _invert(self, k: FloatArray, clock: CosineSeries, *, from_middle: bool) -> FloatArray:
+    def _invert(self, k: Reals, clock: CosineSeries, *, from_middle: bool) -> Reals:
         """Angle u from mid-swing, or v = pi/2 - u from the start, at the fraction k counted from there."""
         scale = self.swing * self._rate
         grid = np.linspace(0.0, 0.5 * math.pi, 33)
@@ -367,7 +368,7 @@ class ElasticLaw:
                 return angle
         raise NoSolution(f"the law of motion did not settle in {_NEWTON_STEPS} Newton steps; report this design")
 
-    def _time_of(self, angle: FloatArray, clock: CosineSeries, *, from_middle: bool) -> FloatArray:
+    def _time_of(self, angle: Reals, clock: CosineSeries, *, from_middle: bool) -> Reals:
         """gamma sqrt(N) times the fraction of the stroke to u from mid-swing, or to v from the start."""
         shrink = self.modulus_complement if from_middle else 1.0
         sine, cosine = np.sin(angle), shrink * np.cos(angle)

@@ -12,8 +12,8 @@ from functools import cached_property
 
 import numpy as np
 
+from gearlink.core.arrays import Reals
 from gearlink.core.errors import NoSolution
-from gearlink.core.periodic_quadrature import FloatArray
 
 WIDEST_SWING = math.radians(300.0)
 STANDARD_EXTENSION_RATIO = 13.0 / 9.0
@@ -128,27 +128,27 @@ class DeviceGeometry:
         """D = L - l0."""
         return (self.reach * self.half_sine) ** 2 / (self.longest + self.shortest)
 
-    def length(self, sine: FloatArray) -> FloatArray:
+    def length(self, sine: Reals) -> Reals:
         """l where sin(phi/2) = m * sine."""
         return np.hypot(self.shortest, self.reach * self.half_sine * sine)
 
-    def extension(self, sine: FloatArray) -> FloatArray:
+    def extension(self, sine: Reals) -> Reals:
         """l - l0 where sin(phi/2) = m * sine."""
         return (self.reach * self.half_sine * sine) ** 2 / (self.length(sine) + self.shortest)
 
-    def mean_force(self, sine: FloatArray) -> FloatArray:
+    def mean_force(self, sine: Reals) -> Reals:
         """w = E/x: force over stretch, mean between here and the end of the swing."""
         if isinstance(self.device, Pneumatic):
             return np.ones_like(sine)
         return (0.5 + self.device.stretch_ratio) * self.stroke + 0.5 * self.extension(sine)
 
-    def mean_force_to_middle(self, sine: FloatArray) -> FloatArray:
+    def mean_force_to_middle(self, sine: Reals) -> Reals:
         """(E(mid) - E)/(l - l0): the mean between here and mid-swing."""
         if isinstance(self.device, Pneumatic):
             return np.ones_like(sine)
         return self.device.stretch_ratio * self.stroke + 0.5 * self.extension(sine)
 
-    def force(self, sine: FloatArray) -> FloatArray:
+    def force(self, sine: Reals) -> Reals:
         """X = dE/dx: the force here."""
         if isinstance(self.device, Pneumatic):
             return np.ones_like(sine)

@@ -9,11 +9,11 @@ from typing import Literal
 
 import numpy as np
 
+from gearlink.core.arrays import Points, Reals
 from gearlink.core.errors import NoSolution
 from gearlink.core.extremes import maximum_over, minimum_over
-from gearlink.core.periodic_quadrature import FloatArray
 from gearlink.core.report import safely_above, safely_below
-from gearlink.core.wide_swing_curve import ComplexArray, PitchCurve, StrokeLaw
+from gearlink.core.wide_swing_curve import PitchCurve, StrokeLaw
 
 LEAST_SPEED_RATIO = 1e-10  # B gamma/phi_ud; 1 - lambda, about as large, keeps six digits
 
@@ -34,13 +34,13 @@ class CamPoints:
             infinite where straight
     """
 
-    k: FloatArray
-    cam_angle: FloatArray
-    polar_angle: FloatArray
-    pitch: ComplexArray
-    profile: ComplexArray
-    pressure_angle: FloatArray
-    curvature_radius: FloatArray
+    k: Reals
+    cam_angle: Reals
+    polar_angle: Reals
+    pitch: Points
+    profile: Points
+    pressure_angle: Reals
+    curvature_radius: Reals
 
 
 @dataclass(frozen=True)
@@ -296,7 +296,7 @@ class WideSwingCam:
             )
         return 0.5 - self.transition_zone
 
-    def points(self, k: FloatArray) -> CamPoints:
+    def points(self, k: Reals) -> CamPoints:
         """Pitch curve, profile, pressure angle and curvature at given fractions of the stroke.
 
         z = e^{i theta}(-1 + lambda e^{i phi}), tan delta = (lambda A - cos phi)/sin phi
@@ -364,9 +364,9 @@ def too_small_swing(swing: float, speed_ratio_peak: float) -> NoSolution:
     )
 
 
-def _mirrored(w: ComplexArray, sense: int) -> ComplexArray:
+def _mirrored(w: Points, sense: int) -> Points:
     """From the common form to the layout's own frame."""
-    result: ComplexArray = w if sense > 0 else -np.conj(w)
+    result: Points = w if sense > 0 else -np.conj(w)
     return result
 
 

@@ -15,12 +15,9 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-import numpy.typing as npt
 
-from gearlink.core.periodic_quadrature import FloatArray
+from gearlink.core.arrays import Points, Reals
 from gearlink.core.unloading import MiddleView
-
-ComplexArray = npt.NDArray[np.complex128]
 
 
 class StrokeLaw(Protocol):
@@ -32,20 +29,20 @@ class StrokeLaw(Protocol):
     def velocity_peak(self) -> float: ...
     @property
     def middle_jerk(self) -> float: ...
-    def middle_view(self, k: FloatArray) -> MiddleView: ...
+    def middle_view(self, k: Reals) -> MiddleView: ...
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CurveState:
     """The products e, s and the vector g = 1 - lambda A e^{i psi} from which the profile is made."""
 
-    k: FloatArray
-    theta: FloatArray
-    psi: FloatArray
-    a: FloatArray  # A = 1 + dpsi/dtheta
-    e: FloatArray
-    s: FloatArray
-    second: FloatArray  # d2 psi/dtheta2
+    k: Reals
+    theta: Reals
+    psi: Reals
+    a: Reals  # A = 1 + dpsi/dtheta
+    e: Reals
+    s: Reals
+    second: Reals  # d2 psi/dtheta2
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +65,7 @@ class PitchCurve:
     ratio: float
     middle_gap: float
 
-    def state(self, k: FloatArray) -> CurveState:
+    def state(self, k: Reals) -> CurveState:
         """The state at fractions k of the stroke."""
         view = self.law.middle_view(k)
         speed_ratio = self.law.swing / self.cycle_angle
@@ -83,34 +80,34 @@ class PitchCurve:
             second=self.sense * self.law.swing / self.cycle_angle**2 * view.acceleration,
         )
 
-    def correction(self, state: CurveState) -> FloatArray:
+    def correction(self, state: CurveState) -> Reals:
         """beta, polar angle of the roller centre against the centre line."""
         ratio = self.ratio
         return np.arctan2(ratio * np.sin(state.psi), (1.0 - ratio) + ratio * state.s)
 
-    def pitch(self, state: CurveState) -> ComplexArray:
+    def pitch(self, state: CurveState) -> Points:
         """w, the roller centre in the cam's frame."""
         ratio = self.ratio
         arm = -((1.0 - ratio) + ratio * state.s) + 1j * ratio * np.sin(state.psi)
-        result: ComplexArray = np.exp(1j * state.theta) * arm
+        result: Points = np.exp(1j * state.theta) * arm
         return result
 
-    def gradient(self, state: CurveState) -> ComplexArray:
+    def gradient(self, state: CurveState) -> Points:
         """g = 1 - lambda A e^{i psi}, along the inward normal in the centre line's frame."""
         pull = self.ratio * state.a
-        result: ComplexArray = (state.e + pull * state.s) - 1j * pull * np.sin(state.psi)
+        result: Points = (state.e + pull * state.s) - 1j * pull * np.sin(state.psi)
         return result
 
-    def normal(self, state: CurveState) -> ComplexArray:
+    def normal(self, state: CurveState) -> Points:
         """Unit normal with an inward radial part; at the cusp the limit of the run-up."""
         g = self.gradient(state)
         size = np.abs(g)
         cusp = size == 0.0
         unit = g / np.where(cusp, 1.0, size) + np.where(cusp, 1j * self.sense, 0.0)
-        result: ComplexArray = np.exp(1j * state.theta) * unit
+        result: Points = np.exp(1j * state.theta) * unit
         return result
 
-    def curvature(self, state: CurveState) -> FloatArray:
+    def curvature(self, state: CurveState) -> Reals:
         """Curvature times centre distance, positive with the centre towards the cam axis, infinite at the cusp."""
         ratio, a = self.ratio, state.a
         turn = state.e * (1.0 - ratio * a * a) + state.s * ratio * a * (1.0 + a)
@@ -119,12 +116,12 @@ class PitchCurve:
         cusp = size == 0.0
         return np.where(cusp, self.sense * math.inf, turn / np.where(cusp, 1.0, size))
 
-    def pressure_angle(self, state: CurveState) -> FloatArray:
+    def pressure_angle(self, state: CurveState) -> Reals:
         """delta from tan delta = (lambda A - cos phi)/sin phi."""
         sine = np.sin(self.sense * state.psi)
         return np.arctan2((state.s - state.e) * np.where(sine < 0.0, -1.0, 1.0), np.abs(sine))
 
-    def loop_measure(self, state: CurveState) -> FloatArray:
+    def loop_measure(self, state: CurveState) -> Reals:
         """(dTheta/dtheta) rho^2/(1 - cos phi) = (1 - lambda) e/s + lambda (1 + A), away from mid-swing."""
-        result: FloatArray = (1.0 - self.ratio) * state.e / state.s + self.ratio * (1.0 + state.a)
+        result: Reals = (1.0 - self.ratio) * state.e / state.s + self.ratio * (1.0 + state.a)
         return result

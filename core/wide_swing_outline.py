@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from gearlink.core.arrays import Points, Reals
 from gearlink.core.combined_swing import OscillatingCam
-from gearlink.core.periodic_quadrature import FloatArray
 from gearlink.core.wide_swing import CamPoints, WideSwingCam
-from gearlink.core.wide_swing_curve import ComplexArray
 
 AnyCam = WideSwingCam | OscillatingCam
 
@@ -17,7 +16,7 @@ def is_external(cam: AnyCam) -> bool:
     return isinstance(cam, OscillatingCam) or cam.sense > 0
 
 
-def rocker_pivots(cam: AnyCam, points: CamPoints) -> ComplexArray:
+def rocker_pivots(cam: AnyCam, points: CamPoints) -> Points:
     """Places of the rocker's pivot in the cam's frame, the cam held still.
 
     -a e^{i theta} external, a e^{-i theta} internal
@@ -40,13 +39,11 @@ def rocker_pivots(cam: AnyCam, points: CamPoints) -> ComplexArray:
         wide-swing dissertation, figures of chapters 3 and 4
     """
     sense = 1.0 if is_external(cam) else -1.0
-    pivots: ComplexArray = -sense * cam.center_distance * np.exp(1j * sense * points.cam_angle)
+    pivots: Points = -sense * cam.center_distance * np.exp(1j * sense * points.cam_angle)
     return pivots
 
 
-def contour(
-    cam: AnyCam, slot: tuple[float, float], count: int = 400
-) -> tuple[ComplexArray, ComplexArray, ComplexArray]:
+def contour(cam: AnyCam, slot: tuple[float, float], count: int = 400) -> tuple[Points, Points, Points]:
     """The cam's contour over the stroke: run-up, slot of the roller at mid-swing, run-out.
 
     Parameters
@@ -66,16 +63,16 @@ def contour(
     return run_up, _slot_bottom(cam, middle, run_up[-1], run_out[0]), run_out
 
 
-def _slot_bottom(cam: AnyCam, middle: complex, start: complex, end: complex) -> ComplexArray:
+def _slot_bottom(cam: AnyCam, middle: complex, start: complex, end: complex) -> Points:
     """Arc of the roller at mid-swing from one contact point to the other, by way of the body."""
     into_body = -middle / abs(middle) if is_external(cam) else middle / abs(middle)
     first, last = (float(np.angle((point - middle) / into_body)) for point in (start, end))
     angles = np.linspace(first, last, 81)
-    result: ComplexArray = middle + cam.roller_radius * into_body * np.exp(1j * angles)
+    result: Points = middle + cam.roller_radius * into_body * np.exp(1j * angles)
     return result
 
 
-def dwell_arc(cam: AnyCam, count: int = 181) -> ComplexArray:
+def dwell_arc(cam: AnyCam, count: int = 181) -> Points:
     """The rest of the turn, from the end of the stroke back to its start, about the cam axis.
 
     Parameters
@@ -91,7 +88,7 @@ def dwell_arc(cam: AnyCam, count: int = 181) -> ComplexArray:
     last, first = (complex(z) for z in cam.points(np.array([1.0, 0.0])).profile)
     middle = complex(cam.points(np.array([0.5])).pitch[0])
     start, end = (float(np.angle(z / -middle)) for z in (last, first))
-    share: FloatArray = np.linspace(0.0, 1.0, count)
+    share: Reals = np.linspace(0.0, 1.0, count)
     radius = abs(last) ** (1.0 - share) * abs(first) ** share
-    result: ComplexArray = -middle / abs(middle) * radius * np.exp(1j * (start + (end - start) * share))
+    result: Points = -middle / abs(middle) * radius * np.exp(1j * (start + (end - start) * share))
     return result

@@ -10,8 +10,8 @@ import math
 
 import numpy as np
 
+from gearlink.core.arrays import Reals
 from gearlink.core.elliptic import complete_integral, incomplete_integral, jacobi_sn_cn
-from gearlink.core.periodic_quadrature import FloatArray
 from gearlink.core.unloading_device import Device, Pneumatic, require_swing
 
 
@@ -64,7 +64,7 @@ def pendulum_peaks(swing: float) -> tuple[float, float, float]:
     return 4.0 * quarter * math.sin(0.25 * swing) / swing, start, start if swing <= math.pi else peak
 
 
-def pendulum_displacement(k: FloatArray, swing: float) -> FloatArray:
+def pendulum_displacement(k: Reals, swing: float) -> Reals:
     """Displacement invariant of the pendulum law.
 
     a = 1/2 - (2/gamma) asin(m sn(K (1 - 2k), m))
