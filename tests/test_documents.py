@@ -1,0 +1,105 @@
+"""README and documents say what the program does: their commands are run and their output compared.
+
+Numbers are compared at 1e-9 relative: a printed value may differ in the last digits between machines' libraries.
+Times in milliseconds are skipped.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import shlex
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from gearlink.cli.exit_codes import ExitCode
+
+ROOT = Path(__file__).resolve().parents[1]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+_BLOCK = re.compile(r"```console\n(.*?)```", re.DOTALL)
+_NUMBER = re.compile(r"-?\d+\.?\d*(?:e[-+]?\d+)?$")
+
+
+def sessions() -> list[tuple[str, str, list[str]]]:
+    """Page, command and printed output of every `$ gearlink ...` in a console block."""
+    found: list[tuple[str, str, list[str]]] = []
+    for page in PAGES:
+        for block in _BLOCK.findall(page.read_text()):
+            for line in block.rstrip("\n").split("\n"):
+                if line.startswith("$ "):
+                    found.append((page.name, line[2:], []))
+                elif found:
+                    found[-1][2].append(line)
+    return found
+
+
+def same(got: str, want: str) -> bool:
+    """Equal but for the last digits of numbers."""
+    a, b = got.split(), want.split()
+    if len(a) != len(b):
+        return False
+    for x, y in zip(a, b, strict=True):
+        if x != y and not (_NUMBER.match(x) and _NUMBER.match(y) and abs(float(x) - float(y)) <= 1e-9 * abs(float(y))):
+            return False
+    return True
+
+
+@pytest.mark.parametrize(("page", "command", "output"), sessions(), ids=lambda x: x if isinstance(x, str) else "")
+def test_console_blocks(
+    page: str, command: str, output: list[str], gearlink: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    words = shlex.split(command)
+    assert words[0] == "gearlink", f"{page}: only gearlink commands are run"
+    monkeypatch.chdir(ROOT)
+    monkeypatch.setenv("COLUMNS", "80")
+    ended = gearlink(*words[1:])
+    assert ended.status in (ExitCode.OK, ExitCode.FINDING, ExitCode.WRONG_INPUT)
+    got = [line.rstrip() for line in (ended.out + ended.err).rstrip().split("\n")]
+    timed = re.compile(r"(pass|warn|fail|error) +(\d+|cached)$")
+    got, want = ([timed.sub(r"\1", line) for line in lines] for lines in (got, output))
+    assert len(got) == len(want), "\n".join(got)
+    for a, b in zip(got, want, strict=True):
+        assert same(a, b), f"{page}: `{command}` prints\n{a}\nthe page says\n{b}"
+
+
+def test_readme_opens_with_a_real_result() -> None:
+    assert any(page == "README.md" and command.startswith("gearlink synth dwell") for page, command, _ in sessions())
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_links_lead_somewhere(page: Path) -> None:
+    for target in re.findall(r"\]\(([^)#]+)(?:#[^)]*)?\)", page.read_text()):
+        if not target.startswith("http"):
+            assert (page.parent / target).exists(), target
+
+
+def test_nomenclature_page_is_the_nomenclature() -> None:
+    import importlib.util
+
+    spec = importlib.util.spec_from_file_location("generate", ROOT / "docs" / "generate.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    assert (ROOT / "docs" / "nomenclature.md").read_text() == module.text(), "run `make docs`"
+
+
+@pytest.mark.parametrize("path", sorted((ROOT / "designs").glob("*.yaml")), ids=lambda path: path.name)
+def test_every_worked_design_runs(path: Path, gearlink: Any) -> None:
+    ended = gearlink("batch", path, "--format", "json")
+    printed_wrong = path.name == "thesis_example_3_as_printed.yaml"
+    assert ended.status == (ExitCode.FINDING if printed_wrong else ExitCode.OK), ended.out
+
+
+def test_make_targets_of_the_readme_exist() -> None:
+    makefile = (ROOT / "Makefile").read_text()
+    for target in re.findall(r"^make (\w+)", (ROOT / "README.md").read_text(), re.MULTILINE):
+        assert re.search(rf"^{target}:", makefile, re.MULTILINE), target
+
+
+def test_ci_runs_the_check() -> None:
+    script = (ROOT / ".ci" / "run").read_text()
+    assert "make check" in script
+    assert os.access(ROOT / ".ci" / "run", os.X_OK)
