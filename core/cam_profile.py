@@ -9,15 +9,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gearlink.core.arrays import Points, Reals
 from gearlink.core.errors import NoSolution
-
-Reals: TypeAlias = NDArray[np.float64]
-Points: TypeAlias = NDArray[np.complex128]
 
 # The intermediate arrays of a block stay in the cache; above 8192 complex numbers the C library maps and clears new
 # pages for each of them, which doubles the time.

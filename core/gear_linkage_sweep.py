@@ -7,17 +7,15 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from gearlink.core import fourbar, fourbar_sweep
+from gearlink.core.arrays import Mask, Reals
 from gearlink.core.dwell_angle_sweep import regained
 from gearlink.core.errors import NoSolution
 from gearlink.core.fourbar import FourBar
 from gearlink.core.gauss_quadrature import GAUSS_NODES, GAUSS_WEIGHTS
 from gearlink.core.gear_linkage import GearTrain
-
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 _BLOCK = 8192
 _INTEGRAL_BELOW = 0.2  # h [rad], as in `gearlink.core.symmetric_back_step`
@@ -34,23 +32,23 @@ class OutputMotion:
     transmission_angle [rad] (0..pi/2)
     """
 
-    crank_angle: Array
-    output_angle: Array
-    speed_ratio: Array
-    acceleration_ratio: Array
-    transmission_angle: Array
+    crank_angle: Reals
+    output_angle: Reals
+    speed_ratio: Reals
+    acceleration_ratio: Reals
+    transmission_angle: Reals
 
 
 @dataclass(frozen=True, slots=True)
 class MomentaryDwells:
     """Momentary-dwell designs: frame length [mm], crank angle of the standstill [rad], both NaN where not `exists`."""
 
-    frame: Array
-    crank_angle: Array
+    frame: Reals
+    crank_angle: Reals
     exists: Mask
 
 
-def turn(samples: int = 360) -> Array:
+def turn(samples: int = 360) -> Reals:
     """Crank angles that divide the turn into equal steps, from 0.
 
     Parameters
@@ -68,7 +66,7 @@ def turn(samples: int = 360) -> Array:
     """
     if samples < 1:
         raise NoSolution(f"{samples} samples divide no turn; take at least 1")
-    angles: Array = np.arange(samples, dtype=np.float64) * (2.0 * math.pi / samples)
+    angles: Reals = np.arange(samples, dtype=np.float64) * (2.0 * math.pi / samples)
     return angles
 
 
@@ -141,7 +139,7 @@ def momentary_dwells(r1: ArrayLike, r3: ArrayLike, r5: ArrayLike, eccentricity: 
     return MomentaryDwells(frame.reshape(shape), angle.reshape(shape), exists.reshape(shape))
 
 
-def _momentary_block(given: list[Array], frame: Array, angle: Array) -> Mask:
+def _momentary_block(given: list[Reals], frame: Reals, angle: Reals) -> Mask:
     """Frame lengths and crank angles of one block; NaN where there is no momentary dwell."""
     r1, r3, r5, e = given
     b, s = r1 + r3, r1 + 2.0 * r3 + r5
@@ -160,7 +158,7 @@ def _momentary_block(given: list[Array], frame: Array, angle: Array) -> Mask:
     return exists
 
 
-def dwell_angles(i3: ArrayLike, back_step_crank_angle: ArrayLike) -> Array:
+def dwell_angles(i3: ArrayLike, back_step_crank_angle: ArrayLike) -> Reals:
     """Dwell angle phi13 of the symmetric family (I = 1) for many ratios and crank angles of the back-step.
 
     n [asin(k sin(y)) + asin(k sin(h))] = h + y,   phi13 = y + h,   h = phi12/2
@@ -195,14 +193,14 @@ def dwell_angles(i3: ArrayLike, back_step_crank_angle: ArrayLike) -> Array:
     return result
 
 
-def _regained_by_bracket(ratio: Array, h: Array) -> Array:
+def _regained_by_bracket(ratio: Reals, h: Reals) -> Reals:
     """Where the output regains its place: Newton steps kept inside the bracket [h, 3 h]."""
     limit = 2.0 * math.pi * (1.0 - ratio) / (2.0 - ratio)
     high = np.minimum(3.0 * h, limit - h)
     return _newton(lambda y: (-_fallen(ratio, h, y), _speed(ratio, h, y)), h, high, np.minimum(2.0 * h, high))
 
 
-def _pair(i3: ArrayLike, angle: ArrayLike) -> tuple[Array, Array]:
+def _pair(i3: ArrayLike, angle: ArrayLike) -> tuple[Reals, Reals]:
     """Ratios and angles, broadcast; ratios checked."""
     ratio, phi = np.broadcast_arrays(np.asarray(i3, dtype=float), np.asarray(angle, dtype=float))
     if ratio.size and not (ratio.min() > -np.inf and ratio.max() < 0.0):
@@ -210,7 +208,7 @@ def _pair(i3: ArrayLike, angle: ArrayLike) -> tuple[Array, Array]:
     return ratio, phi
 
 
-def _fallen(i3: Array, h: Array, y: Array) -> Array:
+def _fallen(i3: Reals, h: Reals, y: Reals) -> Reals:
     """How far the output at 270 deg + y stands below its place at 270 deg - h."""
     n = 1.0 - i3
     root = np.sqrt(i3 * (i3 - 2.0) * np.cos(h) ** 2 + np.cos(y) ** 2)
@@ -221,25 +219,25 @@ def _fallen(i3: Array, h: Array, y: Array) -> Array:
     return fallen
 
 
-def _fallen_by_integral(i3: Array, h: Array, y: Array) -> Array:
+def _fallen_by_integral(i3: Reals, h: Reals, y: Reals) -> Reals:
     """The same for small h, without its cancellation: the integral of the backward speed."""
     i3, h, y = i3[:, None], h[:, None], y[:, None]
     half, at = 0.5 * (y + h), 0.5 * (y - h) + 0.5 * (y + h) * _NODES
     rest = i3 * (i3 - 2.0)
     root = np.sqrt(rest * np.cos(h) ** 2 + np.cos(at) ** 2)
     backward = rest * np.sin(h - at) * np.sin(h + at) / (root * (root + (1.0 - i3) * np.cos(at)))
-    result: Array = (half * backward) @ _WEIGHTS
+    result: Reals = (half * backward) @ _WEIGHTS
     return result
 
 
-def _speed(i3: Array, h: Array, y: Array) -> Array:
+def _speed(i3: Reals, h: Reals, y: Reals) -> Reals:
     """Speed ratio W at 270 deg + y, the derivative of -`_fallen` after y."""
     cos_y = np.cos(y)
-    speed: Array = 1.0 - (1.0 - i3) * cos_y / np.sqrt(i3 * (i3 - 2.0) * np.cos(h) ** 2 + cos_y**2)
+    speed: Reals = 1.0 - (1.0 - i3) * cos_y / np.sqrt(i3 * (i3 - 2.0) * np.cos(h) ** 2 + cos_y**2)
     return speed
 
 
-def _newton(f: Callable[[Array], tuple[Array, Array]], low: Array, high: Array, x: Array) -> Array:
+def _newton(f: Callable[[Reals], tuple[Reals, Reals]], low: Reals, high: Reals, x: Reals) -> Reals:
     """Roots of rising functions with their slopes, f(low) <= 0 <= f(high); a step that leaves the bracket halves it."""
     low, high = np.array(low), np.array(high)
     for _ in range(100):
