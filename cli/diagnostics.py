@@ -31,8 +31,8 @@ class Diagnostic:
     severity: str = "error"
 
     def as_json(self) -> dict[str, str | int]:
-        """The record as it stands in the `errors` of a JSON result."""
-        return {
+        """The record as it stands in the `errors` of a JSON result; with `help` where a remedy is known."""
+        record: dict[str, str | int] = {
             "code": self.code,
             "message": self.message,
             "file": self.file.encode("utf-8", "backslashreplace").decode(),
@@ -40,6 +40,7 @@ class Diagnostic:
             "column": self.column,
             "key": self.key,
         }
+        return record | ({"help": self.help} if self.help else {})
 
     def as_text(self, encoding: str = "utf-8") -> str:
         """Headline, source line with a caret, help; holds only characters that the encoding can write."""

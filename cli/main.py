@@ -11,14 +11,8 @@ from gearlink.cli.exit_codes import ExitCode
 
 def main() -> None:
     """Run gearlink on the process's arguments and leave with its exit status."""
-    arguments = sys.argv[1:]
-    if arguments in (["--version"], ["-V"]):
-        from gearlink.core.version import VERSION
-
-        print(f"gearlink {VERSION}")
-        return
     _hasten_start()
-    sys.exit(run(arguments))
+    sys.exit(run(sys.argv[1:]))
 
 
 def _hasten_start() -> None:
@@ -33,6 +27,7 @@ def _hasten_start() -> None:
 
 def run(arguments: list[str]) -> int:
     """Exit status of a command line; every way out is mapped here, and none shows a traceback."""
+    _replace_closed_streams()
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="replace")
@@ -44,14 +39,36 @@ def run(arguments: list[str]) -> int:
         print("interrupted", file=sys.stderr)
         return ExitCode.INTERRUPTED
     except BrokenPipeError:
-        # The reader had enough. Point stdout elsewhere so that the interpreter's last flush finds it open.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return ExitCode.OK
+        return _reader_gone()
+    except SystemExit as end:  # rich and Typer make this of a broken pipe
+        if isinstance(end.__context__, BrokenPipeError):
+            return _reader_gone()
+        raise
     except Exception as fault:
         return _fault(fault)
 
 
+def _replace_closed_streams() -> None:
+    """Give the process the streams that its parent closed: an empty input, outputs that nobody reads."""
+    if sys.stdin is None:
+        sys.stdin = open(os.devnull, encoding="utf-8")  # noqa: SIM115 - open as long as the process
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:
+            setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115
+
+
+def _reader_gone() -> int:
+    """The reader of a pipe had enough. Point stdout elsewhere so that the interpreter's last flush finds it open."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    return ExitCode.OK
+
+
 def _invoke(arguments: list[str]) -> int:
+    if arguments in (["--version"], ["-V"]):
+        from gearlink.core.version import VERSION
+
+        print(f"gearlink {VERSION}")
+        return ExitCode.OK
     if "_GEARLINK_COMPLETE" not in os.environ:  # else a shell asks for completions
         from gearlink.cli.quick import plain_line
 
@@ -67,6 +84,11 @@ def _invoke(arguments: list[str]) -> int:
 def _fault(fault: Exception) -> int:
     if isinstance(fault, OSError):
         print(f"error: {fault.strerror or fault}", file=sys.stderr)
+        return ExitCode.WRONG_INPUT
+    from gearlink.cli.files import CannotWrite
+
+    if isinstance(fault, CannotWrite):
+        print(f"error: {fault}", file=sys.stderr)
         return ExitCode.WRONG_INPUT
     if os.environ.get("GEARLINK_TRACEBACK"):
         import traceback

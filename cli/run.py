@@ -106,9 +106,8 @@ def require_command(loaded: LoadedFile, kind: Kind, command: str) -> None:
     """
     if command in kind.commands:
         return
-    line, column, file = loaded.locate(("kind",))
     message = f"`{command}` does not apply to a {kind.name}; this kind understands: {', '.join(kind.commands)}"
-    raise DesignFileError([Diagnostic("GL113", message, file=file, line=line, column=column, key="kind")])
+    raise DesignFileError([loaded.report("GL113", message, ("kind",))])
 
 
 def exit_status(report: Report, *, strict: bool = False) -> int:

@@ -9,7 +9,7 @@ from gearlink.core.report import Report
 
 def as_markdown(report: Report) -> str:
     """The report as Markdown: a heading, then quantities, checks and tables."""
-    parts = [f"# {report.name}: {report.command}"]
+    parts = [f"# {_on_one_line(report.name)}: {report.command}"]
     if report.quantities:
         rows = [(f"`{q.name}`", q.symbol, text_of(q.value), q.unit, q.words) for q in report.quantities]
         parts.append(markdown_table(("quantity", "symbol", "value", "unit", "meaning"), rows))
@@ -22,6 +22,11 @@ def as_markdown(report: Report) -> str:
             f"## {table.name}\n\n" + markdown_table(heads, ([text_of(item) for item in row] for row in table.rows()))
         )
     return "\n\n".join(parts)
+
+
+def _on_one_line(name: str) -> str:
+    """A design's name as a heading takes it: no line breaks, and signs that would be read as markup spelled out."""
+    return " ".join(name.split()).replace("&", "&amp;").replace("<", "&lt;")
 
 
 def text_of(value: object) -> str:

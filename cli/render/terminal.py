@@ -24,7 +24,7 @@ _WIDE = 110
 def show(report: Report, options: Options) -> None:
     """Print a report: heading, quantities, tables, checks, verdict."""
     console = console_for(options)
-    console.print(Text(f"{report.name}: {report.command} ({report.kind})", style="bold"))
+    console.print(Text(f"{' '.join(report.name.split())}: {report.command} ({report.kind})", style="bold"))
     if report.quantities:
         console.print(_quantities(report.quantities, console))
     for table in report.tables:

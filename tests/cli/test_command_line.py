@@ -113,6 +113,17 @@ def test_markdown(gearlink: Any, crank: Path) -> None:
     assert "| `crank_length` | l1 | 154.2115920390838" in ended.out
 
 
+@pytest.mark.parametrize("format", ["table", "md"])
+def test_a_name_of_several_lines_stays_in_the_heading(gearlink: Any, crank: Path, format: str) -> None:
+    ended = gearlink("crank", crank, "--set", r'name="a\nb"', "--format", format)
+    assert ended.out.splitlines()[0].removeprefix("# ").startswith("a b: crank")
+
+
+def test_errors_in_json_name_the_remedy(gearlink: Any, crank: Path) -> None:
+    ended = gearlink("crank", crank, "--set", "strok=5", "--format", "json")
+    assert ended.json["errors"][0]["help"].startswith("did you mean 'stroke'?")
+
+
 def test_markdown_and_json_agree_to_the_last_digit(gearlink: Any, crank: Path) -> None:
     value = gearlink("crank", crank, "--format", "json").json["quantities"]["max_stroke"]["value"]
     assert repr(value) in gearlink("crank", crank, "--format", "md").out
@@ -205,6 +216,38 @@ def test_closed_pipe_is_no_error() -> None:
     done = subprocess.run(["bash", "-c", command], capture_output=True, cwd=ROOT, check=False)
     assert done.stderr == b""
     assert done.returncode == 0
+
+
+@pytest.mark.parametrize("line", ["cam designs/ty460.yaml", "schema", "laws --law cycloidal"])
+def test_a_reader_that_leaves_early_is_no_error_in_any_command(line: str) -> None:
+    pipe = f"set -o pipefail; {sys.executable} -m gearlink.cli.main {line} | true"
+    ended = subprocess.run(["bash", "-c", pipe], capture_output=True, cwd=ROOT, check=False)
+    assert (ended.returncode, ended.stderr) == (0, b"")
+
+
+@pytest.mark.parametrize("line", ["--version", "crank designs/ty460_slider_crank.yaml"])
+def test_a_full_disk_is_said_without_traceback(line: str) -> None:
+    command = [sys.executable, "-m", "gearlink.cli.main", *line.split()]
+    with open("/dev/full", "w") as full:
+        ended = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, cwd=ROOT, check=False)
+    assert (ended.returncode, ended.stderr) == (2, b"error: No space left on device\n")
+
+
+@pytest.mark.parametrize(
+    ("line", "status"),
+    [("crank - <&-", 2), ("crank designs/ty460_slider_crank.yaml >&-", 0), ("crank nosuch.yaml 2>&-", 2)],
+)
+def test_closed_streams(line: str, status: int) -> None:
+    shell = f"{sys.executable} -m gearlink.cli.main {line}"
+    ended = subprocess.run(["bash", "-c", shell], capture_output=True, cwd=ROOT, check=False)
+    assert ended.returncode == status
+    assert b"fault" not in ended.stderr
+
+
+def test_a_cache_that_cannot_be_written_is_no_fault(gearlink: Any, crank: Path) -> None:
+    ended = gearlink("batch", crank, "--cache", crank)
+    assert ended.status == ExitCode.WRONG_INPUT
+    assert "cannot write" in ended.err
 
 
 def test_a_fault_is_said_in_one_line(gearlink: Any, crank: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -29,7 +29,9 @@ def test_json_form() -> None:
         "line": 3,
         "column": 1,
         "key": "modul",
+        "help": "help",
     }
+    assert "help" not in Diagnostic("GL110", "too large", "a.yaml").as_json()
 
 
 def test_file_name_that_is_no_text_survives_json() -> None:

@@ -75,8 +75,7 @@ def test_help_and_version_import_no_models(arguments: tuple[str, ...]) -> None:
 
 def test_version_imports_no_typer() -> None:
     probe = (
-        "import sys; sys.argv = ['gearlink', '--version']\n"
-        "from gearlink.cli.main import main; main()\n"
+        "import sys; from gearlink.cli.main import run; run(['--version'])\n"
         "print(sorted(m for m in sys.modules if m.partition('.')[0] in ('typer', 'pydantic', 'rich', 'yaml')))"
     )
     done = subprocess.run([sys.executable, "-c", probe], capture_output=True, text=True, check=True)
