@@ -143,7 +143,7 @@ def _report(
 
 @app.command("batch")
 def _batch(
-    places: Annotated[list[str], typer.Argument(metavar="DIR...", help="folders, design files or patterns")],
+    places: Annotated[list[str], typer.Argument(metavar="DIR", help="folders, design files or patterns")],
     format: Annotated[BatchFormat, typer.Option("--format", "-f", help="form of the summary")] = BatchFormat.TABLE,
     fail_on: Annotated[FailOn, typer.Option("--fail-on", help="what ends with status 1")] = FailOn.FAILURE,
     out: Annotated[Path | None, typer.Option(metavar="DIR", help="write reports and tables of each design")] = None,

@@ -54,7 +54,7 @@ def _new(
 
 
 def _schema(
-    kind: Annotated[str | None, typer.Argument(metavar="[KIND]", help="kind of design; left out: all kinds")] = None,
+    kind: Annotated[str | None, typer.Argument(metavar="KIND", help="kind of design; left out: all kinds")] = None,
 ) -> None:
     """JSON Schema (draft-07) of the design files, for editors that check and complete while you type.
 
@@ -68,7 +68,7 @@ def _schema(
 
 
 def _explain(
-    name: Annotated[str | None, typer.Argument(metavar="[NAME]", help="code, check, quantity, kind or law")] = None,
+    name: Annotated[str | None, typer.Argument(metavar="NAME", help="code, check, quantity, kind or law")] = None,
     format: PageOption = PageFormat.TABLE,
 ) -> None:
     """What a code, a check, a quantity, a kind of design or a law of motion means; without NAME the list of codes.
@@ -81,7 +81,7 @@ def _explain(
 
 
 def _check(
-    places: Annotated[list[str], typer.Argument(metavar="SPEC|DIR...", help="design files, folders, or -")],
+    places: Annotated[list[str], typer.Argument(metavar="SPEC|DIR", help="design files, folders, or -")],
     format: FormatOption = Format.TABLE,
     verbose: Annotated[bool, typer.Option("--verbose", "-v", help="show passed checks as well")] = False,
     set_: Annotated[list[str], typer.Option("--set", metavar="PATH=VALUE", help="override a key (repeatable)")] = [],  # noqa: B006

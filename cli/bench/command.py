@@ -29,7 +29,7 @@ def register(app: typer.Typer) -> None:
 
 
 def _bench(
-    families: Annotated[list[str] | None, typer.Argument(metavar="[FAMILY]...", help=", ".join(NAMES))] = None,
+    families: Annotated[list[str] | None, typer.Argument(metavar="FAMILY", help=", ".join(NAMES))] = None,
     quick: Annotated[bool, typer.Option("--quick", help="fewer rounds, nothing above 1e5")] = False,
     out: Annotated[Path | None, typer.Option("--out", metavar="DIR", help="write a picture of each family")] = None,
     format: Annotated[
