@@ -59,6 +59,19 @@ def transmission_angle(distance: float, first: float, second: float) -> float:
     return 2.0 * math.atan2(math.sqrt(near), math.sqrt(far))
 
 
+def require_lengths(**links: float) -> None:
+    """Refuse a link whose length [mm] is not positive and finite.
+
+    Raises
+        NoSolution - with the link's name and length
+    Source
+        own derivation
+    """
+    for name, length in links.items():
+        if not 0.0 < length < math.inf:
+            raise NoSolution(f"{name} link is {length:g} mm; it must be positive and finite")
+
+
 def require_dyad(distance: float, first: float, second: float) -> None:
     """Refuse a distance that the two links do not span.
 

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 
-from gearlink.core.dyad import close_dyad, direction, transmission_angle
+from gearlink.core.dyad import close_dyad, direction, require_lengths, transmission_angle
 from gearlink.core.errors import NoSolution
 from gearlink.core.harmonic_sum import HarmonicSum
 from gearlink.core.report import safely_above
@@ -56,10 +56,9 @@ class GearedFiveBar:
     assembly: int = 1
 
     def __post_init__(self) -> None:
-        for name in ("input", "coupler", "follower", "output", "frame"):
-            length = getattr(self, name)
-            if not 0.0 < length < math.inf:
-                raise NoSolution(f"{name} link is {length:g} mm; it must be positive and finite")
+        require_lengths(
+            input=self.input, coupler=self.coupler, follower=self.follower, output=self.output, frame=self.frame
+        )
         if self.ratio == 0:
             raise NoSolution("gear ratio is 0; the output link would stand still")
 

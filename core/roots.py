@@ -93,6 +93,9 @@ def maximum(f: Callable[[float], float], low: float, high: float) -> tuple[float
         >>> x, value = maximum(lambda x: 1.0 - (x - 0.25) ** 2, 0.0, 1.0)
         >>> round(x, 6), value
         (0.25, 1.0)
+
+    Source
+        J. Kiefer, Proc. Amer. Math. Soc. 4 (1953) 502-506
     """
     left, right = low, high
     p, q = right - _GOLDEN * (right - left), left + _GOLDEN * (right - left)
