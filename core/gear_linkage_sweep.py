@@ -142,17 +142,30 @@ def momentary_dwells(r1: ArrayLike, r3: ArrayLike, r5: ArrayLike, eccentricity: 
 def _momentary_block(given: list[Reals], frame: Reals, angle: Reals) -> Mask:
     """Frame lengths and crank angles of one block; NaN where there is no momentary dwell."""
     r1, r3, r5, e = given
-    b, s = r1 + r3, r1 + 2.0 * r3 + r5
-    share = r1 / (np.sqrt(b * (b + r5)) + np.sqrt(r3 * (r3 + r5)))
+    b, outer = r1 + r3, r3 + r5
+    s = b + outer
+    share = r1 / (np.sqrt(b * (b + r5)) + np.sqrt(r3 * outer))
     share *= share
     e_lo = share * s
-    exists: Mask = (e_lo < e) & (e < r1 - 2.0 * np.maximum(0.0, r1 - r5) * share)
-    span = 1.0 / ((r1 - e_lo) * (r1 + e_lo))
-    x, sine = np.sqrt((r1 - e) * (r1 + e) * span), np.sqrt((e - e_lo) * (e + e_lo) * span)
+    exists: Mask = e_lo < e
+    share *= -2.0
+    share *= np.maximum(0.0, r1 - r5)
+    share += r1
+    exists &= e < share
+    span = (r1 - e_lo) * (r1 + e_lo)
+    x, sine = (r1 - e) * (r1 + e), (e - e_lo) * (e + e_lo)
+    for square in (x, sine):
+        square /= span
+        np.sqrt(square, out=square)
     reach, rise = (s - e_lo) * x, r5 * sine
-    np.sqrt(reach * reach + rise * rise, out=frame)
-    np.subtract(np.arctan2(rise, reach), np.arctan2(r1 * sine, -e_lo * x), out=angle)
-    angle += 2.0 * math.pi * (angle < 0.0)
+    e_lo *= x
+    sine *= r1
+    np.subtract(np.arctan2(rise, reach), np.arctan2(sine, -e_lo), out=angle)
+    np.add(angle, 2.0 * math.pi, out=angle, where=angle < 0.0)
+    reach *= reach
+    rise *= rise
+    reach += rise
+    np.sqrt(reach, out=frame)
     if not exists.all():
         frame[~exists] = angle[~exists] = math.nan
     return exists

@@ -15,7 +15,7 @@ from gearlink.core.cam_profile import profile, profile_points, translating
 
 Array = NDArray[np.float64]
 Points = NDArray[np.complex128]
-BLOCK = 8192
+BLOCK = 8000  # a block of complex numbers stays below the 128 KiB above which the C library maps new pages
 BASE, RISE, ROLLER = 40.0, 10.0, 12.0
 """Radius to the roller centre at zero lift, half the lift, roller radius [mm]: s = 10 (1 - cos 2 theta)."""
 
@@ -75,7 +75,7 @@ def _envelopes(size: int) -> list[Method]:
     methods = [Method(name, size, run, point_error(found, theta)) for name, run, found in ways]
     if size > BLOCK:
         whole_error = methods[0].error
-        methods.append(Method("envelope with all, in blocks of 8192, constant memory", size, in_blocks, whole_error))
+        methods.append(Method("envelope with all, in blocks of 8000, constant memory", size, in_blocks, whole_error))
     short = Method("radial shortcut", size, lambda: radial(theta, y), gap_of(radial(theta, y)))
     return [*methods, short]
 
