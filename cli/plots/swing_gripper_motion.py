@@ -20,6 +20,8 @@ _HANDOVER = style.RED
 
 @dataclass(frozen=True, slots=True)
 class _Station:
+    """A position of the mechanism that is drawn: its name, cylinder angle [deg] and colour."""
+
     name: str
     degrees: float
     color: str
