@@ -217,13 +217,23 @@ class ThreeGearFourBar(Design):
 
     @cached_property
     def tolerance_dwell(self) -> ToleranceDwell | None:
-        """The longest dwell within the file's `dwell_tolerance`, where it gives one."""
-        if self.spec.dwell_tolerance is None:
+        """The longest dwell within the tolerance of the output, where the file gives one."""
+        tolerance = self.output_tolerance
+        if tolerance is None:
             return None
         from gearlink.core.tolerance_dwell import tolerance_dwell
 
-        with at_key("dwell_tolerance"):
-            return tolerance_dwell(self.linkage, self.train, math.radians(self.spec.dwell_tolerance))
+        with at_key("dwell_tolerance" if self.spec.dwell_backlash is None else "dwell_backlash"):
+            return tolerance_dwell(self.linkage, self.train, tolerance)
+
+    @property
+    def output_tolerance(self) -> float | None:
+        """Tolerance of the output angle to either side [rad]: given, or from the play at the output gear."""
+        if self.spec.dwell_backlash is not None:
+            from gearlink.core.tolerance_dwell import tolerance_from_backlash
+
+            return tolerance_from_backlash(self.spec.dwell_backlash, self.spec.gears.module * self.output_teeth / 2.0)
+        return None if self.spec.dwell_tolerance is None else math.radians(self.spec.dwell_tolerance)
 
     @property
     def tolerance_dwell_angle(self) -> float | None:

@@ -179,7 +179,7 @@ def _back_step_marks(axes: Axes, design: ThreeGearFourBar, dwell: Stretch) -> No
 def _tolerance(axes: Axes, design: ThreeGearFourBar, at_start: float, low: float) -> None:
     """The band that the tolerance dwell keeps to, where the file asks for one."""
     found = design.tolerance_dwell
-    if found is None or design.spec.dwell_tolerance is None:
+    if found is None or design.output_tolerance is None:
         return
     from gearlink.core.gear_linkage import output_angle
 
@@ -187,7 +187,7 @@ def _tolerance(axes: Axes, design: ThreeGearFourBar, at_start: float, low: float
     start = found.start + 2.0 * math.pi * max(turns, 0)
     shift = output_angle(design.linkage, design.train, start) - output_angle(design.linkage, design.train, found.start)
     middle = math.degrees(found.output_angle + shift - at_start)
-    band = design.spec.dwell_tolerance
+    band = math.degrees(design.output_tolerance)
     axes.fill_between(
         [math.degrees(start), math.degrees(start + found.crank_angle)],
         middle - band,

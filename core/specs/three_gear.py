@@ -115,8 +115,19 @@ class ThreeGearSpec(DesignSpec):
     dwell_tolerance: Annotated[float, Field(gt=0, json_schema_extra={"unit": "deg"})] | None = Field(
         None, description="output tolerance +- for the tolerance dwell"
     )
+    dwell_backlash: Length | None = Field(
+        None, description="play at the output gear's reference circle, in place of dwell_tolerance"
+    )
     limits: Limits = Limits()
     shafts: Shafts | None = None
+
+    @model_validator(mode="after")
+    def _one_tolerance(self) -> ThreeGearSpec:
+        if self.dwell_tolerance is not None and self.dwell_backlash is not None:
+            raise PydanticCustomError(
+                "GL111", "dwell_tolerance and dwell_backlash exclude each other: give one", {"key": "dwell_backlash"}
+            )
+        return self
 
     def commands(self) -> tuple[str, ...]:
         """What the file asks for: a synthesis per section, an analysis where the links are given."""

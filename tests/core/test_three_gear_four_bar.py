@@ -168,6 +168,14 @@ def test_tolerance_dwell_only_where_the_file_gives_one():
     assert float(mp.degrees(max(at) - min(at))) == pytest.approx(2.0, abs=1e-4)
 
 
+def test_play_at_the_output_gear_is_a_tolerance():
+    """j = 2 tol r5 with r5 = 75 mm: the same dwell as the tolerance itself."""
+    play = design(**EXAMPLE_3, dwell_backlash=2.0 * math.radians(1.0) * 75.0)
+    assert value(play, "tolerance_dwell_angle") == pytest.approx(
+        value(design(**EXAMPLE_3, dwell_tolerance=1.0), "tolerance_dwell_angle"), rel=1e-12, abs=0.0
+    )
+
+
 def test_quantities_that_do_not_apply_are_absent():
     names = [quantity.name for quantity in design(**DESIGNS["one way"]).report("analyze").quantities]
     assert "dwell_crank_angles" in names
