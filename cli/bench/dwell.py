@@ -22,7 +22,7 @@ def family(quick: bool) -> Family:
     """The table of the family."""
     rows: list[Row] = []
     for size in SIZES:
-        rows += measure([*_dwell(size, quick), *_momentary(size, quick)], numpy_pass(size), size, 5)
+        rows += measure([*_dwell(size, quick), *_momentary(size, quick)], numpy_pass(size), size, 11)
     return Family(
         "dwell",
         "Dwell angle phi13 and frame of the momentary dwell",
