@@ -38,6 +38,8 @@ def sessions() -> list[tuple[str, str, list[str]]]:
 def same(got: str, want: str) -> bool:
     """Equal but for the last digits of numbers."""
     a, b = got.split(), want.split()
+    if set(got) == set(want) == {"─"}:
+        return True  # a rule under a column of times
     if len(a) != len(b):
         return False
     for x, y in zip(a, b, strict=True):

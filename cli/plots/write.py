@@ -37,13 +37,17 @@ def draw(command: str, design: Design) -> Figure:
 def settled(made: Figure) -> Figure:
     """The figure with its panels placed for good, to the hundredth of a millimetre.
 
-    The solver of the constrained layout leaves last digits to chance, and an SVG names its clips after them.
+    The solver of the constrained layout leaves last digits to chance; an SVG names its clips after them, and a
+    drawing to scale widens its limits by them. So the limits are those from before the layout.
     """
+    limits = [(axes.get_xlim(), axes.get_ylim()) for axes in made.axes]
     made.draw_without_rendering()
     made.set_layout_engine("none")
-    for axes in made.axes:
+    for axes, (x, y) in zip(made.axes, limits, strict=True):
         box = axes.get_position(original=True).bounds
         axes.set_position(tuple(round(side, 5) for side in box))
+        axes.set_xlim(x, auto=None)
+        axes.set_ylim(y, auto=None)
     return made
 
 
