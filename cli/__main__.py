@@ -1,0 +1,5 @@
+"""`python -m gearlink.cli` runs the command."""
+
+from gearlink.cli.main import main
+
+main()
