@@ -45,7 +45,7 @@ _REASONS = """## Where a goal is missed, and why
 * **Batch.** Reading and validating a small file takes 50 to 100 us, for libyaml and pydantic-core are compiled; the
   results, checks and report of a design take three times that in Python. The goal would leave them 50 us. What was
   found to be computed twice is gone (names of quantities, text for XML): a third of the time. 1000 such designs take
-  0.2 to 0.5 s in one process; two take 0.15 s to start, so the program, which judges by the first 16, stays with one.
+  0.2 to 0.5 s in one process; two take 0.15 s to start, so the program, which judges by a sample of 16, stays with one.
   Two processes pay for designs with sweeps (a press: 3 ms and more each).
 """
 
