@@ -5,12 +5,17 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterator, Sequence
+from functools import lru_cache
 from pathlib import PurePath
-from typing import Any
+from typing import TYPE_CHECKING, Any
 from xml.etree import ElementTree
 
 from gearlink.cli.batch import Outcome
 from gearlink.core.version import VERSION
+
+if TYPE_CHECKING:
+    from gearlink.cli.design_file import LoadedFile
+    from gearlink.core.report import Check
 
 _SARIF_LEVEL = {"fail": "error", "warn": "warning"}
 
@@ -22,7 +27,28 @@ def _findings(outcome: Outcome) -> Iterator[tuple[str, str, str, str, int, int]]
     if outcome.report is not None:
         for check in outcome.report.checks:
             if check.status != "pass":
-                yield check.status, check.code, check.name, check.message, 1, 1
+                yield check.status, check.code, check.name, check.message, *_place(outcome.file, check)
+
+
+def _place(file: str, check: Check) -> tuple[int, int]:
+    """Line and column of the key that a check is about; the file's start where it can no longer be read."""
+    from gearlink.cli.check import key_of
+    from gearlink.cli.design_file import DesignFileError, parse_path
+
+    try:
+        loaded = _loaded(file)
+    except DesignFileError:
+        return 1, 1
+    line, column, _ = loaded.locate(parse_path(key_of(loaded.data, check)) or ("kind",))
+    return line, column
+
+
+@lru_cache(maxsize=1)
+def _loaded(file: str) -> LoadedFile:
+    """The file read once for all its findings."""
+    from gearlink.cli.design_file import load
+
+    return load(file)
 
 
 def as_junit(results: Sequence[Outcome]) -> str:

@@ -153,6 +153,12 @@ class TestFormats:
         levels = {(r["ruleId"], r["level"]) for r in run["results"]}
         assert {("GL301", "error"), ("GL302", "warning"), ("GL106", "error")} <= levels
 
+    def test_findings_stand_at_their_line(self, gearlink: Any, folder: Path) -> None:
+        results = json.loads(gearlink("batch", folder, "--format", "sarif").out)["runs"][0]["results"]
+        (collision,) = (r for r in results if r["ruleId"] == "GL301")
+        line = collision["locations"][0]["physicalLocation"]["region"]["startLine"]
+        assert (folder / "fail.yml").read_text().splitlines()[line - 1].startswith("links:")
+
     def test_github(self, gearlink: Any, folder: Path) -> None:
         lines = gearlink("batch", folder, "--format", "github").out.splitlines()
         pattern = re.compile(r"::(error|warning) file=[^,]+,line=\d+,col=\d+,title=GL\d{3} [\w-]+::.+")
