@@ -87,14 +87,14 @@ def solve_loop(reading: Reading, phi: float, order: int, motion: tuple[float, fl
     b, c = nu + s * math.atan2(r, e + n2), nu + s * math.atan2(r, e - n2)
     result = [winding + b, winding + c, math.atan2(r, z)]
     if order > 0:
-        result += _rates(reading, sin_phi, cc - ss, n2, r, z, order, motion)
+        result += _rates(reading, sin_phi, (cc, ss), n2, r, z, order, motion)
     return result
 
 
 def _rates(
     reading: Reading,
     sin_phi: float,
-    cos_phi: float,
+    squares: tuple[float, float],
     n2: float,
     r: float,
     z: float,
@@ -103,15 +103,18 @@ def _rates(
 ) -> list[float]:
     """Pairs (coupler, rocker) of rates from coupler' = nu' - g' (1 - h) and rocker' = nu' + g' h.
 
-    g = s gamma is the rocker's lead on the coupler: g' = 2 s a d sin(phi)/R; nu' = 1/2 + f/n^2;
-    h = 1/2 + e/(2 n^2). The higher rates differentiate these three.
+    g = s gamma is the rocker's lead on the coupler: g' = 2 s a d sin(phi)/R; h = 1/2 + e/(2 n^2);
+    nu' = a [(a - d) cos^2(phi/2) + (a + d) sin^2(phi/2)]/n^2, which is 1/2 + f/n^2 but keeps the digits of a short
+    crank. The higher rates differentiate these three.
     """
     velocity, acceleration, jerk = motion
-    s, e, f, ad, m = reading.s, reading.e, reading.f, reading.a * reading.d, 1.0 / n2
+    a, d, s, e, f = reading.a, reading.d, reading.s, reading.e, reading.f
+    ad, m, (cc, ss) = a * d, 1.0 / n2, squares
+    cos_phi = cc - ss
     half_n1 = ad * sin_phi
     h = 0.5 + 0.5 * e * m
     g_1 = 2.0 * s * half_n1 / r
-    nu_1 = 0.5 + f * m
+    nu_1 = a * ((a - d) * cc + (a + d) * ss) * m
     b_1, c_1 = nu_1 - g_1 * (0.5 - 0.5 * e * m), nu_1 + g_1 * h
     rates = [velocity * b_1, velocity * c_1]
     if order == 1:

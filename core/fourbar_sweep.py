@@ -312,8 +312,9 @@ def _rates(reading: Reading, rows: Scratch, out: Reals) -> None:
 
     Rows used: 1/n^2 = one m and 1/R = one r in place of n and R, g' and h.
     """
-    t, _, one, m, r, _, hn, g_1, h, _, u_1 = rows
-    e, f, s, ad = reading.e, reading.f, float(reading.s), reading.a * reading.d
+    t, tt, one, m, r, _, hn, g_1, h, _, u_1 = rows
+    a, d, e, s = reading.a, reading.d, reading.e, float(reading.s)
+    ad = a * d
     np.divide(s, r, out=r)
     np.divide(1.0, m, out=m)
     np.multiply(one, m, out=hn)
@@ -322,12 +323,12 @@ def _rates(reading: Reading, rows: Scratch, out: Reals) -> None:
     np.multiply(hn, 0.5 * e, out=h)
     np.add(h, 0.5, out=h)
     np.multiply(g_1, h, out=out[1])
-    np.multiply(hn, f, out=u_1)
-    np.add(u_1, 0.5, out=u_1)
+    _linear(a * (a - d), a * (a + d), tt, u_1)
+    np.multiply(u_1, m, out=u_1)
     np.add(out[1], u_1, out=out[1])
     np.subtract(out[1], g_1, out=out[0])
     if len(out) > 2:
-        _second(ad, e, f, rows, out[2:])
+        _second(ad, e, reading.f, rows, out[2:])
 
 
 def _second(ad: float, e: float, f: float, rows: Scratch, out: Reals) -> None:
