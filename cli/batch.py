@@ -6,26 +6,30 @@ A file's outcomes do not depend on the others: nothing that one design does can 
 from __future__ import annotations
 
 import glob
+import os
 import sys
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
 
 from gearlink.cli.batch_options import BatchOptions
-from gearlink.cli.design_file import DesignFileError
+from gearlink.cli.design_file import DesignFileError, LoadedFile, parse_path
 from gearlink.cli.diagnostics import Diagnostic
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite
 from gearlink.cli.run import build, exit_status, open_design, read_spec
-from gearlink.core.report import Report
+from gearlink.core.report import Check, Report
 
 _ENDINGS = (".yaml", ".yml")
 
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """What became of one command on one design file."""
+    """What became of one command on one design file.
+
+    `places` holds line and column of each check that did not pass, where the output of the batch shows them.
+    """
 
     file: str
     kind: str
@@ -34,6 +38,7 @@ class Outcome:
     status: int
     report: Report | None = None
     errors: tuple[Diagnostic, ...] = ()
+    places: tuple[tuple[int, int], ...] = ()
     seconds: float = 0.0
     cached: bool = False
 
@@ -42,7 +47,7 @@ class Outcome:
         """One word: pass, warn, fail, error or fault."""
         if self.report is None:
             return "error" if self.status == ExitCode.WRONG_INPUT else "fault"
-        found = {check.status for check in self.report.checks}
+        found = {check.status for check in self.to_mend}
         return "fail" if "fail" in found else "warn" if "warn" in found else "pass"
 
     @property
@@ -52,8 +57,13 @@ class Outcome:
             return f"{self.errors[0].line}:{self.errors[0].column} {self.errors[0].code}: {self.errors[0].message}"
         if self.report is None:
             return ""
-        worst = [c for wanted in ("fail", "warn") for c in self.report.checks if c.status == wanted]
+        worst = [c for wanted in ("fail", "warn") for c in self.to_mend if c.status == wanted]
         return f"{worst[0].code} {worst[0].name}: {worst[0].message}" if worst else ""
+
+    @property
+    def to_mend(self) -> list[Check]:
+        """The checks that did not pass."""
+        return [] if self.report is None else [c for c in self.report.checks if c.status != "pass"]
 
 
 def design_files(places: Sequence[str]) -> list[Path]:
@@ -77,29 +87,37 @@ def design_files(places: Sequence[str]) -> list[Path]:
 
 
 def _below(folder: Path) -> list[Path]:
-    candidates = (p for p in folder.rglob("*") if p.suffix in _ENDINGS and p.is_file())
-    return sorted(p for p in candidates if not any(part.startswith(".") for part in p.relative_to(folder).parts))
+    found: list[Path] = []
+    for root, folders, names in os.walk(folder):
+        folders[:] = [name for name in folders if not name.startswith(".")]
+        place = Path(root)
+        wanted = (place / name for name in names if name.endswith(_ENDINGS) and not name.startswith("."))
+        found += [path for path in wanted if path.is_file()]
+    return sorted(found, key=lambda path: path.parts)
 
 
 def outcomes(path: Path, options: BatchOptions) -> list[Outcome]:
     """What became of each command that a file asks for; nothing raised here ends a batch."""
     if options.cache is None:
-        return list(_timed(_computed(path, options)))
+        return list(_computed(path, options))
     from gearlink.cli.batch_cache import cached_outcomes
 
-    return cached_outcomes(path, options, lambda: list(_timed(_computed(path, options))))
-
-
-def _timed(results: Iterable[Outcome]) -> Iterator[Outcome]:
-    start = perf_counter()
-    for outcome in results:
-        now = perf_counter()
-        yield replace(outcome, seconds=now - start)
-        start = now
+    return cached_outcomes(path, options, lambda: list(_computed(path, options)))
 
 
 def _computed(path: Path, options: BatchOptions) -> Iterator[Outcome]:
     file, kind_name, name, command = str(path), "", path.stem, ""
+    start = perf_counter()
+
+    def ended(
+        status: int,
+        report: Report | None = None,
+        errors: Sequence[Diagnostic] = (),
+        places: tuple[tuple[int, int], ...] = (),
+    ) -> Outcome:
+        seconds = perf_counter() - start
+        return Outcome(file, kind_name, name, command, status, report, tuple(errors), places, seconds)
+
     try:
         loaded, kind = open_design(file, options.design)
         kind_name = kind.name
@@ -107,26 +125,30 @@ def _computed(path: Path, options: BatchOptions) -> Iterator[Outcome]:
         name = spec.name
         for command in spec.commands():
             try:
-                design, report = build(loaded, kind, command, spec, options.design, with_tables=options.with_tables)
+                design, report = build(loaded, kind, command, spec, options.design, findings_only=options.findings_only)
                 if options.out is not None:
                     from gearlink.cli.batch_out import write_results
 
                     write_results(path, design, report, options)
-                yield Outcome(file, kind_name, name, command, exit_status(report, strict=options.design.strict), report)
+                places = _places(loaded, report) if options.with_places else ()
+                yield ended(exit_status(report, strict=options.design.strict), report, places=places)
             except DesignFileError as error:
-                yield _error(file, kind_name, name, command, error.diagnostics)
+                yield ended(ExitCode.WRONG_INPUT, errors=error.diagnostics)
             except CannotWrite as error:
-                yield _error(file, kind_name, name, command, [Diagnostic("GL116", str(error), file=file)])
+                yield ended(ExitCode.WRONG_INPUT, errors=[Diagnostic("GL116", str(error), file=file)])
+            start = perf_counter()
     except DesignFileError as error:
-        yield _error(file, kind_name, name, command, error.diagnostics)
+        yield ended(ExitCode.WRONG_INPUT, errors=error.diagnostics)
     except Exception as fault:
         message = f"fault of the program: {type(fault).__name__}: {fault}"
-        fault_line = Diagnostic("GL199", message, file=file)
-        yield Outcome(file, kind_name, name, command, ExitCode.FAULT, None, (fault_line,))
+        yield ended(ExitCode.FAULT, errors=[Diagnostic("GL199", message, file=file)])
 
 
-def _error(file: str, kind: str, name: str, command: str, errors: Sequence[Diagnostic]) -> Outcome:
-    return Outcome(file, kind, name, command, ExitCode.WRONG_INPUT, None, tuple(errors))
+def _places(loaded: LoadedFile, report: Report) -> tuple[tuple[int, int], ...]:
+    from gearlink.cli.finding_keys import key_of
+
+    bad = (check for check in report.checks if check.status != "pass")
+    return tuple(loaded.place_in_file(parse_path(key_of(loaded.data, check)) or ("kind",)) for check in bad)
 
 
 def run_batch(places: Sequence[str], options: BatchOptions) -> int:

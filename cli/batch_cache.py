@@ -47,13 +47,22 @@ def cached_outcomes(path: Path, options: BatchOptions, compute: Callable[[], lis
 
 def _key(path: Path, content: bytes, options: BatchOptions) -> str:
     design = options.design
-    decides = (VERSION, str(path), options.with_tables, design.strict, design.overrides, design.samples)
+    decides = (
+        VERSION,
+        str(path),
+        options.findings_only,
+        options.with_places,
+        design.strict,
+        design.overrides,
+        design.samples,
+    )
     return hashlib.sha256(repr(decides).encode() + b"\0" + content).hexdigest()
 
 
 def _plain(outcome: Outcome) -> dict[str, Any]:
     report = outcome.report
     whole = {name: getattr(outcome, name) for name in ("file", "kind", "name", "command", "status")}
+    whole["places"] = outcome.places
     whole["errors"] = [asdict(error) for error in outcome.errors]
     if report is not None:
         whole["report"] = {
@@ -70,7 +79,8 @@ def _plain(outcome: Outcome) -> dict[str, Any]:
 def _from_plain(item: dict[str, Any]) -> Outcome:
     errors = tuple(Diagnostic(**error) for error in item.pop("errors"))
     kept = item.pop("report", None)
-    outcome = Outcome(**item, errors=errors, cached=True)
+    places = tuple((line, column) for line, column in item.pop("places"))
+    outcome = Outcome(**item, errors=errors, places=places, cached=True)
     if kept is None:
         return outcome
     report = Report(

@@ -48,9 +48,14 @@ class BatchOptions:
     jobs: int = 0
 
     @property
-    def with_tables(self) -> bool:
-        """Whether any output shows the designs' tables; else none is computed."""
-        return self.format in (BatchFormat.JSON, BatchFormat.JSONL) or self.out is not None
+    def findings_only(self) -> bool:
+        """Whether no output shows the designs' quantities and tables; then no table is computed."""
+        return self.format not in (BatchFormat.JSON, BatchFormat.JSONL) and self.out is None
+
+    @property
+    def with_places(self) -> bool:
+        """Whether the output names the line of the file that a finding is about."""
+        return self.format in (BatchFormat.JUNIT, BatchFormat.SARIF, BatchFormat.GITHUB)
 
     def share_of(self, items: Sequence[Item]) -> list[Item]:
         """This shard's share; the shares of all shards are disjoint and make up the whole.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures import Future, ProcessPoolExecutor, as_completed
 from contextlib import contextmanager
 from multiprocessing import active_children, get_all_start_methods, get_context
 from pathlib import Path
@@ -14,10 +14,10 @@ from time import perf_counter
 from gearlink.cli.batch import Outcome, outcomes
 from gearlink.cli.batch_options import BatchOptions
 
-# Several processes pay when the rest would take this long in one; starting them costs about a tenth of a second.
-_WORTH_SECONDS = 0.5
+# Several processes pay when the rest would take this long in one; starting them costs some hundredths of a second.
+_WORTH_SECONDS = 0.15
 _TRIED_FIRST = 16
-_CHUNKS_PER_JOB = 8
+_CHUNKS_PER_JOB = 32
 _CHUNK_SECONDS = 0.25
 
 
@@ -73,19 +73,37 @@ def _run_parallel(
     results: list[Outcome],
     advance: Callable[[int], None],
 ) -> None:
-    """Chunks in processes; a forked child has every module loaded already."""
+    """Chunks in processes; this one takes them from the end while the others take them from the beginning.
+
+    Notes
+        A forked child has every module loaded already. Results come in as they are finished, so that an interrupt
+        leaves what there is.
+    """
     method = "fork" if "fork" in get_all_start_methods() and sys.platform == "linux" else None
-    pool = ProcessPoolExecutor(jobs, mp_context=get_context(method), initializer=_ignore_interrupt)
+    pool = ProcessPoolExecutor(jobs - 1, mp_context=get_context(method), initializer=_ignore_interrupt)
+    taken: dict[Future[list[Outcome]], int] = {}
     try:
-        futures = {pool.submit(_chunk, chunk, options): len(chunk) for chunk in chunks}
-        for future in as_completed(futures):
+        futures = [pool.submit(_chunk, chunk, options) for chunk in chunks]
+        taken = {future: len(chunk) for future, chunk in zip(futures, chunks, strict=True)}
+        for future, chunk in zip(reversed(futures), reversed(chunks), strict=True):
+            if not future.cancel():
+                break
+            del taken[future]
+            for path in chunk:
+                results += outcomes(path, options)
+                advance(1)
+        for future in as_completed(list(taken)):
+            count = taken.pop(future)
             results += future.result()
-            advance(futures[future])
+            advance(count)
         pool.shutdown()
     except BaseException:
         # What they are at is lost; waiting for it would make the user wait.
         for child in active_children():
             child.terminate()
+        for future in taken:
+            if future.done() and not future.cancelled() and future.exception() is None:
+                results += future.result()
         pool.shutdown(cancel_futures=True)
         raise
 

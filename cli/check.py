@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
@@ -11,7 +10,7 @@ from gearlink.cli.batch import design_files
 from gearlink.cli.design_file import DesignFileError, LoadedFile, diagnose_no_solution, parse_path
 from gearlink.cli.diagnostics import Diagnostic
 from gearlink.cli.exit_codes import ExitCode
-from gearlink.cli.explanations import explanations
+from gearlink.cli.finding_keys import key_of
 from gearlink.cli.options import Options
 from gearlink.cli.run import open_design, read_spec
 from gearlink.core.errors import NoSolution
@@ -21,7 +20,6 @@ if TYPE_CHECKING:
     from gearlink.core.design import Design
     from gearlink.core.kinds import Kind
 
-_PATH = re.compile(r"\b[a-z][a-z0-9_]*(?:\.[a-z][a-z0-9_]*)+\b")
 _STATUS = {"pass": ExitCode.OK, "warn": ExitCode.OK, "fail": ExitCode.FINDING, "error": ExitCode.WRONG_INPUT}
 
 
@@ -91,9 +89,7 @@ def _findings(loaded: LoadedFile, kind: Kind, spec: Any) -> Iterator[Finding]:
             done |= {(cls, name) for name in names}
             for check in (check for name in names for check in design.check(name)):
                 yield Finding(check.status, _place(loaded, check), command, check)
-            for name in outline.quantities:
-                # A mechanism that does not exist has no quantities, and not every check would notice.
-                design.quantity(name)
+            design.require(command)  # not every check would notice that there is no mechanism
         except NoSolution as error:
             yield Finding("error", diagnose_no_solution(loaded, error), command)
 
@@ -102,25 +98,3 @@ def _place(loaded: LoadedFile, check: Check) -> Diagnostic:
     """The check as a diagnostic at the key that it is about."""
     diagnostic = loaded.report(check.code, check.message, parse_path(key_of(loaded.data, check)) or ("kind",))
     return replace(diagnostic, severity=check.status)
-
-
-def key_of(data: dict[str, Any], check: Check) -> str:
-    """The key of a file that a check is about: one that its message names, else the most telling one of its code.
-
-    Example
-        >>> key_of({"cam": {"base_radius": 9}}, Check("GL405", "constant-sum", "fail", "raise cam.base_radius"))
-        'cam.base_radius'
-    """
-    known = explanations().get(check.code)
-    for path in (*_PATH.findall(check.message), *(known.keys if known else ())):
-        if _has(data, path):
-            return str(path)
-    return "kind"
-
-
-def _has(data: Any, path: str) -> bool:
-    for step in path.split("."):
-        if not isinstance(data, dict) or data.get(step) is None:
-            return False
-        data = data[step]
-    return True

@@ -76,6 +76,11 @@ class LoadedFile:
         source, at = self._spot(path, value)
         return *source.place(at), source.file
 
+    def place_in_file(self, path: KeyPath) -> tuple[int, int]:
+        """Line and column of a key, or of its nearest parent, in the file itself, whatever `--set` put over it."""
+        at, _ = _find(self.tree.marks, path, self.tree.at, False)
+        return self.tree.source.place(at)
+
     def report(self, code: str, message: str, path: KeyPath, *, key: str | None = None, help: str = "") -> Diagnostic:
         """A diagnostic that points at a key, or at the nearest parent of a missing one."""
         source, at = self._spot(path)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import NamedTuple
 
 
@@ -27,6 +28,7 @@ class Explanation(NamedTuple):
     keys: tuple[str, ...] = ()
 
 
+@cache
 def explanations() -> dict[str, Explanation]:
     """Every code with its text, in the order of the codes."""
     from gearlink.cli.explanations_checks import CHECKS

@@ -76,11 +76,11 @@ def read_spec(loaded: LoadedFile, kind: Kind, source: str) -> Any:
 
 
 def build(
-    loaded: LoadedFile, kind: Kind, command: str, spec: Any, options: Options, *, with_tables: bool = True
+    loaded: LoadedFile, kind: Kind, command: str, spec: Any, options: Options, *, findings_only: bool = False
 ) -> tuple[Design, Report]:
     """The design of a validated spec and its report; what the mechanism refuses becomes a located error."""
     only = bool(options.tables) and options.format is Format.CSV
-    wanted = {"quantities": options.quantities, "tables": options.tables, "only": only, "with_tables": with_tables}
+    wanted = {"quantities": options.quantities, "tables": options.tables, "only": only, "findings_only": findings_only}
     try:
         design = kind.design(command, spec, options.samples)
         report = design.report(command, **wanted)  # type: ignore[arg-type]

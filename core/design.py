@@ -86,6 +86,15 @@ class Design:
         found: Check | Iterable[Check] = getattr(self, "check_" + name.replace("-", "_"))()
         return [found] if isinstance(found, Check) else list(found)
 
+    def require(self, command: str) -> None:
+        """Compute every quantity of a command: where no mechanism exists, one of them says so.
+
+        Raises
+            NoSolution
+        """
+        for name in self.outline(command).quantities:
+            self.raw(name)
+
     def report(
         self,
         command: str,
@@ -93,7 +102,7 @@ class Design:
         quantities: Sequence[str] = (),
         tables: Sequence[str] = (),
         only: bool = False,
-        with_tables: bool = True,
+        findings_only: bool = False,
     ) -> Report:
         """The report of a command.
 
@@ -102,20 +111,30 @@ class Design:
             quantities : names - give these alone, without checks and tables of the command
             tables : names - tables to give besides those of the command
             only : bool - give the named tables alone
-            with_tables : bool - False computes none of the command's own tables
+            findings_only : bool - give the checks that do not pass alone; the command's quantities are computed all
+                the same, since a mechanism that does not exist has none, its tables are not
         Raises
             UnknownName - for a name that the design does not have
             NoSolution - where no mechanism exists
         """
         outline = Outline(tuple(quantities)) if quantities or only else self.outline(command)
-        asked = dict.fromkeys([*(outline.tables if with_tables else ()), *tables])
-        found = [self.quantity(name) for name in outline.quantities]
+        asked = dict.fromkeys([*(() if findings_only else outline.tables), *tables])
+        found: Iterable[Quantity | None] = ()
+        if findings_only:
+            self.require(command)
+        else:
+            found = [self.quantity(name) for name in outline.quantities]
         return Report(
             kind=self.kind,
             name=self.spec.name,
             command=command,
             quantities=tuple(quantity for quantity in found if quantity is not None),
-            checks=tuple(check for name in outline.checks for check in self.check(name)),
+            checks=tuple(
+                check
+                for name in outline.checks
+                for check in self.check(name)
+                if check.status != "pass" or not findings_only
+            ),
             tables=tuple(self.table(name) for name in asked),
         )
 

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
+from typing import Literal
 
 
 class GearlinkError(Exception):
@@ -31,12 +30,22 @@ class MissingSection(NoSolution):
     code = "GL113"
 
 
-@contextmanager
-def at_key(key: str) -> Iterator[None]:
-    """Give a NoSolution raised inside the block the design file's key, where it has none yet."""
-    try:
-        yield
-    except NoSolution as error:
-        if not error.key:
-            error.key = key
-        raise
+class at_key:
+    """Give a NoSolution raised inside the block the design file's key, where it has none yet.
+
+    Notes
+        A class, since contextlib's generators cost as much as a quantity does.
+    """
+
+    __slots__ = ("_key",)
+
+    def __init__(self, key: str) -> None:
+        self._key = key
+
+    def __enter__(self) -> None:
+        return None
+
+    def __exit__(self, _kind: object, error: object, _traceback: object) -> Literal[False]:
+        if isinstance(error, NoSolution) and not error.key:
+            error.key = self._key
+        return False

@@ -5,17 +5,12 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterator, Sequence
-from functools import lru_cache
 from pathlib import PurePath
-from typing import TYPE_CHECKING, Any
-from xml.etree import ElementTree
+from typing import Any
+from xml.sax.saxutils import escape, quoteattr
 
 from gearlink.cli.batch import Outcome
 from gearlink.core.version import VERSION
-
-if TYPE_CHECKING:
-    from gearlink.cli.design_file import LoadedFile
-    from gearlink.core.report import Check
 
 _SARIF_LEVEL = {"fail": "error", "warn": "warning"}
 
@@ -24,85 +19,56 @@ def _findings(outcome: Outcome) -> Iterator[tuple[str, str, str, str, int, int]]
     """Status, code, name, message, line, column of everything to mend."""
     for error in outcome.errors:
         yield "fail", error.code, "input", error.message, error.line, error.column
-    if outcome.report is not None:
-        for check in outcome.report.checks:
-            if check.status != "pass":
-                yield check.status, check.code, check.name, check.message, *_place(outcome.file, check)
-
-
-def _place(file: str, check: Check) -> tuple[int, int]:
-    """Line and column of the key that a check is about; the file's start where it can no longer be read."""
-    from gearlink.cli.check import key_of
-    from gearlink.cli.design_file import DesignFileError, parse_path
-
-    try:
-        loaded = _loaded(file)
-    except DesignFileError:
-        return 1, 1
-    line, column, _ = loaded.locate(parse_path(key_of(loaded.data, check)) or ("kind",))
-    return line, column
-
-
-@lru_cache(maxsize=1)
-def _loaded(file: str) -> LoadedFile:
-    """The file read once for all its findings."""
-    from gearlink.cli.design_file import load
-
-    return load(file)
+    for check, (line, column) in zip(outcome.to_mend, outcome.places, strict=True):
+        yield check.status, check.code, check.name, check.message, line, column
 
 
 def as_junit(results: Sequence[Outcome]) -> str:
     """JUnit XML: a suite per design file, a case per command; a wrong file is an error, a failed check a failure."""
-    root = ElementTree.Element("testsuites", name="gearlink")
     by_file: dict[str, list[Outcome]] = {}
     for outcome in results:
         by_file.setdefault(outcome.file, []).append(outcome)
+    lines = ['<?xml version="1.0" encoding="UTF-8"?>', '<testsuites name="gearlink">']
     for file, group in by_file.items():
-        bad = [outcome.verdict for outcome in group]
-        suite = ElementTree.SubElement(
-            root,
-            "testsuite",
-            name=_xml_text(file),
-            tests=str(len(group)),
-            failures=str(sum(_is_failure(o) for o in group)),
-            errors=str(sum(v in ("error", "fault") for v in bad)),
-            time=f"{sum(o.seconds for o in group):.6f}",
+        failures = sum(_is_failure(o) for o in group)
+        errors = sum(o.report is None for o in group)
+        seconds = sum(o.seconds for o in group)
+        lines.append(
+            f'  <testsuite name={_attribute(file)} tests="{len(group)}" failures="{failures}" errors="{errors}" '
+            f'time="{seconds:.6f}">'
         )
         for outcome in group:
-            _junit_case(suite, outcome)
-    ElementTree.indent(root)
-    return '<?xml version="1.0" encoding="UTF-8"?>\n' + ElementTree.tostring(root, encoding="unicode") + "\n"
+            lines += _junit_case(outcome)
+        lines.append("  </testsuite>")
+    return "\n".join([*lines, "</testsuites>"]) + "\n"
 
 
 def _is_failure(outcome: Outcome) -> bool:
     return outcome.report is not None and outcome.status != 0
 
 
-def _junit_case(suite: ElementTree.Element, outcome: Outcome) -> None:
-    case = ElementTree.SubElement(
-        suite,
-        "testcase",
-        classname=_xml_text(outcome.kind or "unreadable"),
-        name=_xml_text(f"{outcome.name}: {outcome.command or 'read'}"),
-        time=f"{outcome.seconds:.6f}",
-    )
+def _junit_case(outcome: Outcome) -> Iterator[str]:
+    kind, name = outcome.kind or "unreadable", f"{outcome.name}: {outcome.command or 'read'}"
+    case = f'<testcase classname={_attribute(kind)} name={_attribute(name)} time="{outcome.seconds:.6f}"'
     found = list(_findings(outcome))
-    if outcome.report is None:
-        tag = "error"
-    elif _is_failure(outcome):
-        tag = "failure"
-    else:
-        tag = "system-out" if found else ""
-    if not tag:
+    if outcome.report is not None and not found:
+        yield f"    {case} />"
         return
+    tag = head = "system-out"
+    if outcome.report is None or _is_failure(outcome):
+        tag = "error" if outcome.report is None else "failure"
+        _, code, _, message, _, _ = found[0]
+        head = f"{tag} message={_attribute(message)} type={_attribute(code)}"
     text = "\n".join(
         f"{outcome.file}:{line}:{column}: {code} {name}: {words}" for _, code, name, words, line, column in found
     )
-    node = ElementTree.SubElement(case, tag)
-    node.text = _xml_text(text)
-    if tag != "system-out":
-        node.set("message", _xml_text(found[0][3] if found else ""))
-        node.set("type", found[0][1] if found else "")
+    yield f"    {case}>"
+    yield f"      <{head}>{escape(_xml_text(text))}</{tag}>"
+    yield "    </testcase>"
+
+
+def _attribute(text: str) -> str:
+    return quoteattr(_xml_text(text))
 
 
 _NOT_XML = re.compile("[\x00-\x08\x0b-\x1f\ud800-\udfff]")

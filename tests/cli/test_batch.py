@@ -153,6 +153,20 @@ class TestFormats:
         levels = {(r["ruleId"], r["level"]) for r in run["results"]}
         assert {("GL301", "error"), ("GL302", "warning"), ("GL106", "error")} <= levels
 
+    @pytest.mark.parametrize("form", ["junit", "sarif", "github"])
+    def test_places_are_kept(self, gearlink: Any, folder: Path, tmp_path: Path, form: str) -> None:
+        line = ("batch", folder, "--format", form, "--cache", tmp_path / "cache")
+        first, again = (re.sub(r'time="[\d.]+"', "", gearlink(*line).out) for _ in range(2))
+        assert first == again
+        assert "fail.yml" in first
+
+    def test_what_is_set_over_a_file_keeps_its_line(self, gearlink: Any, folder: Path) -> None:
+        out = gearlink("batch", folder / "fail.yml", "--format", "github", "--set", "links.crank=25.01").out
+        line = next(
+            i for i, text in enumerate((folder / "fail.yml").read_text().splitlines(), 1) if text[:6] == "links:"
+        )
+        assert f"line={line}," in next(text for text in out.splitlines() if "GL301" in text)
+
     def test_findings_stand_at_their_line(self, gearlink: Any, folder: Path) -> None:
         results = json.loads(gearlink("batch", folder, "--format", "sarif").out)["runs"][0]["results"]
         (collision,) = (r for r in results if r["ruleId"] == "GL301")

@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from gearlink.cli.check import key_of
+from gearlink.cli.finding_keys import key_of
 from gearlink.core.design import Design
 from gearlink.core.report import Check
 
