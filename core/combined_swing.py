@@ -238,12 +238,21 @@ class OscillatingCam:
         """
 
         def size(k: Reals) -> Reals:
-            result: Reals = np.abs(self.points(k).pressure_angle)
-            return result
+            return np.abs(self.pressure_angle(k))
 
         # next to a standstill both rates vanish and their ratio has no digits; the end itself has the limit
         inside = maximum_over(size, 1e-3, 1.0 - 1e-3, joints=(0.5,), samples=256).value
         return max(inside, float(size(np.array([0.0, 1.0])).max()))
+
+    def pressure_angle(self, k: Reals) -> Reals:
+        """Pressure angle at fractions of the stroke [rad].
+
+        Raises
+            NoSolution - for a pitch curve with a loop
+        Source
+            own derivation
+        """
+        return self.points(k).pressure_angle
 
     @cached_property
     def min_curvature_radius(self) -> float:

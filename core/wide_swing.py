@@ -261,10 +261,17 @@ class WideSwingCam:
         Raises
             NoSolution - where the transition zone fills the stroke
         """
-        end = self.zone_start
-        return maximum_over(
-            lambda k: np.abs(self.curve.pressure_angle(self.curve.state(k))), 0.0, end, samples=128
-        ).value
+        return maximum_over(lambda k: np.abs(self.pressure_angle(k)), 0.0, self.zone_start, samples=128).value
+
+    def pressure_angle(self, k: Reals) -> Reals:
+        """Pressure angle at fractions k < 1/2 of the stroke [rad], of the pitch curve even where it has a loop.
+
+        tan delta = (lambda A - cos phi)/sin phi
+
+        Source
+            own derivation
+        """
+        return self.curve.pressure_angle(self.curve.state(k))
 
     @cached_property
     def min_curvature_radius(self) -> float:

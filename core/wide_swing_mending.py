@@ -7,6 +7,8 @@ from collections.abc import Callable, Iterator
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
+import numpy as np
+
 from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.report import safely_above, safely_below
 from gearlink.core.spec_paths import replaced, value_at
@@ -14,7 +16,8 @@ from gearlink.core.wide_swing_profile import WideSwingProfile
 
 if TYPE_CHECKING:
     from gearlink.core.combined_slider import SliderLaw
-    from gearlink.core.combined_swing import CrankRockerDrive
+    from gearlink.core.combined_swing import CrankRockerDrive, OscillatingCam
+    from gearlink.core.wide_swing import WideSwingCam
 
 Value: TypeAlias = float | None
 
@@ -211,4 +214,19 @@ def _exists(trial: WideSwingMending) -> bool:
 
 def _pressure_holds(trial: WideSwingMending) -> bool:
     limit = trial.spec.limits.pressure_angle
-    return all(trial.has_zone(cam) and math.degrees(cam.max_pressure_angle) <= limit for cam in trial.cams.values())
+    cams = trial.cams.values()
+    # Most values that are tried exceed the limit by far: a few places tell, before any maximum is refined.
+    if any(math.degrees(_pressure_somewhere(cam)) > limit for cam in cams):
+        return False
+    return all(trial.has_zone(cam) and math.degrees(cam.max_pressure_angle) <= limit for cam in cams)
+
+
+def _pressure_somewhere(cam: WideSwingCam | OscillatingCam) -> float:
+    """Largest pressure angle at a few places of the stroke [rad], infinite where the pitch curve has a loop."""
+    try:
+        end = 0.5 - cam.transition_zone
+    except NoSolution:
+        return math.inf
+    if end <= 0.0:
+        return math.inf
+    return float(np.abs(cam.pressure_angle(np.linspace(0.0, end, 17))).max())
