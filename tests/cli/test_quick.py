@@ -43,7 +43,7 @@ def by_typer(arguments: list[str], monkeypatch: pytest.MonkeyPatch) -> Any:
     return seen[0] if seen else None
 
 
-@settings(derandomize=True, deadline=None, max_examples=300)
+@settings(max_examples=300)
 @given(st.sampled_from(COMMANDS), st.lists(OPTIONS, max_size=4), WORDS, st.integers(0, 4))
 def test_plain_lines_are_read_as_typer_reads_them(command: str, options: list[str], source: str, at: int) -> None:
     line = [part for option in [*options[:at], source, *options[at:]] for part in option.split("\0")]

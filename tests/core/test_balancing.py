@@ -73,7 +73,7 @@ def test_nothing_is_left_at_the_design_speed() -> None:
 
 
 @given(speed=st.floats(0.05, 2.0).filter(lambda n: abs(n - 1.0) > 1e-3))
-@settings(derandomize=True, deadline=None, max_examples=50)
+@settings(max_examples=50)
 def test_sweep_is_the_peak_of_the_residual(speed: float) -> None:
     sweep = speed_sweep(0.5, LAW, TIME, np.array([speed]))
     peak = float(np.abs(residual_torque(speed, np.linspace(0.0, 1.0, 101))).max())

@@ -59,7 +59,7 @@ def test_rocker_alone_is_the_plain_law() -> None:
     offset=st.floats(-0.4, 0.4),
     share=st.floats(0.02, 1.0),
 )
-@settings(derandomize=True, deadline=None, max_examples=40)
+@settings(max_examples=40)
 def test_invariants_are_each_other_s_integrals(
     ratio: float, swing: float, rod: float, offset: float, share: float
 ) -> None:

@@ -67,7 +67,7 @@ def test_nonuniformity_2_is_the_momentary_dwell() -> None:
 
 
 @given(ratios, angles)
-@settings(derandomize=True, deadline=None, max_examples=200)
+@settings(max_examples=200)
 def test_arrays_agree_with_the_scalar_forms(i3: float, phi12: float) -> None:
     d = gear_linkage_synthesis.frame_ratio_for_back_step(i3, phi12)
     assert float(design_charts.frame_ratio_at_crank_angle(i3, phi12)) == pytest.approx(d, rel=_SCALAR, abs=0.0)
@@ -78,7 +78,7 @@ def test_arrays_agree_with_the_scalar_forms(i3: float, phi12: float) -> None:
 
 
 @given(ratios, st.floats(0.01, 0.99))
-@settings(derandomize=True, deadline=None, max_examples=100)
+@settings(max_examples=100)
 def test_nonuniformity_comes_back_from_its_frame_ratio(i3: float, share: float) -> None:
     delta = 2.0 * share * (1.0 - i3)
     d = float(design_charts.frame_ratio_at_nonuniformity(i3, delta))

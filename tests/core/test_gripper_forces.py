@@ -131,7 +131,7 @@ def test_spring_torque_of_the_reference() -> None:
     preload=st.floats(1.0, 5000.0),
     rate=st.floats(0.0, 50.0),
 )
-@settings(derandomize=True, deadline=None, max_examples=60)
+@settings(max_examples=60)
 def test_spring_torque_is_the_slope_of_its_energy(arms: tuple, angle: float, preload: float, rate: float) -> None:
     p, q = arms
     spring = LeverSpring(p, q, angle, preload, rate, 0.25)

@@ -132,7 +132,7 @@ def test_both_ways_agree_near_dead_points(direction: float) -> None:
     assembly=st.sampled_from([1, -1]),
     sense=st.sampled_from([1, -1]),
 )
-@settings(derandomize=True, deadline=None, max_examples=80)
+@settings(max_examples=80)
 def test_every_machine_is_refused_or_closes(links: tuple, direction: float, assembly: int, sense: int) -> None:
     design = machine(
         links=dict(zip(("input", "coupler", "output"), links, strict=True)),

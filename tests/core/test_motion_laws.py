@@ -163,7 +163,7 @@ def differentiated(coefficients: list[Fraction], times: int) -> list[Fraction]:
 
 @pytest.mark.parametrize("name", COEFFICIENTS)
 @given(x=IN_UNIT)
-@settings(derandomize=True, deadline=None, max_examples=50)
+@settings(max_examples=50)
 def test_polynomials_against_fractions(name: str, x: float) -> None:
     rule = law(name)
     for k, (value, peak) in enumerate(zip(rule.evaluate(x), peaks(rule), strict=True)):
@@ -218,7 +218,7 @@ def test_each_derivative_is_the_slope_of_the_one_before(rule: Law) -> None:
 
 
 @given(x=st.floats(0.5, 1.0), name=st.sampled_from(REST_TO_REST))
-@settings(derandomize=True, deadline=None, max_examples=200)
+@settings(max_examples=200)
 def test_second_half_mirrors_the_first_exactly(x: float, name: str) -> None:
     s, v, a, j = law(name).evaluate(x)
     first = law(name).evaluate(1.0 - x)
@@ -229,7 +229,7 @@ def test_second_half_mirrors_the_first_exactly(x: float, name: str) -> None:
 
 
 @given(x=IN_UNIT, rule=st.sampled_from(ALL))
-@settings(derandomize=True, deadline=None, max_examples=200)
+@settings(max_examples=200)
 def test_float_and_array_agree(x: float, rule: Law) -> None:
     for one, many, peak in zip(rule.evaluate(x), rule.evaluate(np.array([x, 0.25])), peaks(rule), strict=True):
         assert type(one) is float
@@ -266,7 +266,7 @@ def test_continuous_at_the_joints(shares: tuple[float, ...]) -> None:
 
 
 @given(exponent=st.floats(-12.0, -0.5), name=st.sampled_from(["cycloidal", "modified-sine", "velocity-cycloidal"]))
-@settings(derandomize=True, deadline=None, max_examples=100)
+@settings(max_examples=100)
 def test_relative_accuracy_near_zero(exponent: float, name: str) -> None:
     x = 10.0**exponent
     if name == "modified-sine" and x >= 0.125:
@@ -290,7 +290,7 @@ def test_velocity_after_the_harmonic_is_half_the_cycloidal() -> None:
 
 
 @given(a=st.floats(0.01, 1.0), b=st.floats(0.0, 1.0), c=st.floats(0.01, 1.0), d=st.floats(0.0, 1.0))
-@settings(derandomize=True, deadline=None, max_examples=60)
+@settings(max_examples=60)
 def test_any_scca(a: float, b: float, c: float, d: float) -> None:
     total = math.fsum((a, b, c, d))
     rule = law({"scca": [a / total, b / total, c / total, d / total]})

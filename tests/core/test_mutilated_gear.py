@@ -46,7 +46,7 @@ def test_reference_case():
     assert found == pytest.approx(out, rel=4e-16, abs=0.0)
 
 
-@settings(derandomize=True, deadline=None, max_examples=150)
+@settings(max_examples=150)
 @given(st.integers(10, 200), st.integers(1, 60), st.integers(1, 5), st.integers(8, 80), st.fractions(1, 30))
 def test_against_fractions(full, group, groups, driven, reduction):
     if group * groups >= full:

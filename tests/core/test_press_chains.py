@@ -196,7 +196,7 @@ def test_mirror_image_of_the_cylinder_chain_turns_backwards(name):
         assert there.first == pytest.approx(here.first, rel=1e-13)
 
 
-@settings(derandomize=True, deadline=None, max_examples=100)
+@settings(max_examples=100)
 @given(name=st.sampled_from(sorted(PRESSES)), phi=st.floats(-20.0, 20.0))
 def test_cam_angle_leads_back_to_the_input_angle(name, phi):
     bed = bed_of(PRESSES[name])

@@ -87,7 +87,7 @@ def test_tolerance_ends_early():
     assert coarse.calls < fine.calls
 
 
-@settings(derandomize=True, deadline=None, max_examples=200)
+@settings(max_examples=200)
 @given(st.floats(-1e3, 1e3), st.floats(1e-3, 1e3), st.floats(1e-3, 1e3), st.sampled_from([1, 3, 5]))
 def test_any_odd_power_in_any_bracket(root, left, right, power):
     low, high = root - left, root + right

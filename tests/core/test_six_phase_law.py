@@ -136,7 +136,7 @@ def test_scales_with_the_speed() -> None:
     speed=st.floats(0.05, 2.0),
     laws=st.tuples(st.sampled_from(RUN_UPS), st.sampled_from(RUN_UPS), st.sampled_from(RISES)),
 )
-@settings(derandomize=True, deadline=None, max_examples=60)
+@settings(max_examples=60)
 def test_out_and_home_without_turning_back(parts: list[float], speed: float, laws: tuple) -> None:
     lengths = tuple(360.0 * part / sum(parts) for part in parts)
     motion = made(*laws, lengths=lengths, speed=speed)
@@ -153,7 +153,7 @@ def test_out_and_home_without_turning_back(parts: list[float], speed: float, law
 
 
 @given(share=st.floats(0.001, 0.999))
-@settings(derandomize=True, deadline=None, max_examples=50)
+@settings(max_examples=50)
 def test_reaches_inverts_the_stroke(share: float) -> None:
     swing = share * EXAMPLE.total_swing
     back = EXAMPLE.evaluate(np.array([EXAMPLE.reaches(swing)]), 0)[0][0]

@@ -71,7 +71,7 @@ def test_press_report():
 strokes = st.tuples(st.floats(1e-3, 1.0 - 1e-9), st.floats(1.0, 1e3), st.floats(-0.999, 0.999))
 
 
-@settings(derandomize=True, deadline=None, max_examples=100)
+@settings(max_examples=100)
 @given(strokes)
 def test_crank_against_bisection(drawn):
     share, rod, part = drawn
@@ -120,7 +120,7 @@ def test_largest_stroke_belongs_to_the_longest_crank():
 lengths = st.tuples(st.floats(0.01, 0.99), st.floats(0.5, 500.0), st.floats(-0.95, 0.95))
 
 
-@settings(derandomize=True, deadline=None, max_examples=100)
+@settings(max_examples=100)
 @given(lengths)
 def test_round_trip_mirror_and_scale(drawn):
     share, rod, part = drawn
@@ -138,7 +138,7 @@ def test_round_trip_mirror_and_scale(drawn):
         assert angle(crank, rod, -offset) == -angle(crank, rod, offset)
 
 
-@settings(derandomize=True, deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(lengths)
 def test_dead_centers_are_the_extremes_of_the_slider(drawn):
     share, rod, part = drawn
@@ -187,7 +187,7 @@ def test_orders_and_shapes():
         assert slider_crank.slider(0.3, 50.0, 200.0, 10.0, order) == full[: order + 1]
 
 
-@settings(derandomize=True, deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(st.floats(-3.0, 3.0), lengths)
 def test_mirror_of_the_position(psi, drawn):
     share, rod, part = drawn

@@ -75,7 +75,7 @@ def test_published_dwell_angle_of_example_1():
     assert math.degrees(back_step_angle(-1.8, math.radians(90.0))) == pytest.approx(out["backoff_deg"], rel=1e-15)
 
 
-@settings(derandomize=True, deadline=None, max_examples=200)
+@settings(max_examples=200)
 @given(ratios, st.floats(1e-6, 3.1415))
 def test_back_step_keeps_its_digits(i3, phi12):
     exact = exact_back_step(i3, phi12)
@@ -84,7 +84,7 @@ def test_back_step_keeps_its_digits(i3, phi12):
     assert abs(back_step_angle(i3, phi12) - exact) < 2e-15 * condition * exact
 
 
-@settings(derandomize=True, deadline=None, max_examples=200)
+@settings(max_examples=200)
 @given(ratios, crank_angles)
 def test_dwell_angle_satisfies_its_equation(i3, phi12):
     phi13 = dwell_angle(i3, phi12)
@@ -93,33 +93,33 @@ def test_dwell_angle_satisfies_its_equation(i3, phi12):
     assert abs(rest / slope) < 1e-13 * phi13
 
 
-@settings(derandomize=True, deadline=None, max_examples=100)
+@settings(max_examples=100)
 @given(st.floats(1e-4, 3.1))
 def test_three_halves_is_exact_for_i3_of_minus_2(phi12):
     assert dwell_angle(-2.0, phi12) == pytest.approx(1.5 * phi12, rel=3e-14)
 
 
-@settings(derandomize=True, deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(ratios)
 def test_three_halves_is_the_limit_of_small_angles(i3):
     assert dwell_angle(i3, 1e-7) == pytest.approx(1.5e-7, rel=1e-13)
 
 
-@settings(derandomize=True, deadline=None, max_examples=150)
+@settings(max_examples=150)
 @given(ratios, st.floats(1e-4, 0.9999))
 def test_crank_angle_for_dwell_is_the_inverse(i3, share):
     phi13 = share * dwell_angle_limit(i3)
     assert dwell_angle(i3, crank_angle_for_dwell(i3, phi13)) == pytest.approx(phi13, rel=1e-12)
 
 
-@settings(derandomize=True, deadline=None, max_examples=100)
+@settings(max_examples=100)
 @given(ratios, st.floats(1e-6, 0.9999))
 def test_crank_angle_for_back_step_is_the_inverse(i3, share):
     angle = share * -i3 * math.pi
     assert back_step_angle(i3, crank_angle_for_back_step(i3, angle)) == pytest.approx(angle, rel=2e-14)
 
 
-@settings(derandomize=True, deadline=None, max_examples=100)
+@settings(max_examples=100)
 @given(st.floats(1e-6, 0.999), st.floats(1e-3, 3.1))
 def test_ratio_for_back_step_is_the_inverse(share, phi12):
     angle = share * (2.0 * math.tan(phi12 / 2.0) - phi12)

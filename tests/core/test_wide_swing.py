@@ -181,7 +181,7 @@ def test_run_out_mirrors_the_run_up(layout: Layout) -> None:
 
 
 @given(scale=st.floats(1e-3, 1e4))
-@settings(derandomize=True, deadline=None, max_examples=20)
+@settings(max_examples=20)
 def test_lengths_scale(scale: float) -> None:
     one, other = cam("twin-cam"), cam("twin-cam", scale)
     k = np.array([0.1, 0.4])
@@ -203,7 +203,7 @@ def test_other_laws_serve() -> None:
     cycle=st.floats(0.2, math.pi),
     layout=st.sampled_from(LAYOUTS),
 )
-@settings(derandomize=True, deadline=None, max_examples=60)
+@settings(max_examples=60)
 def test_profile_exists_where_the_arm_is_short(ratio: float, swing: float, cycle: float, layout: Layout) -> None:
     """A twin-cam always exists; a twin-rocker does at least where its arm does not exceed the centre distance."""
     law = ElasticLaw(Pneumatic(ratio), swing)
