@@ -59,7 +59,7 @@ def test_device_torque_is_the_inertia_torque_at_the_design_speed() -> None:
 
 def residual_torque(speed_ratio: float, k: np.ndarray) -> np.ndarray:
     """Torque that the device leaves to the drive, J gamma c(k) (1/T^2 - 1/T0^2) with T0/T = n/n0."""
-    return 0.5 * LAW.swing / TIME**2 * (speed_ratio**2 - 1.0) * LAW.invariants(k, 2)[2]
+    return 0.5 * LAW.swing / TIME**2 * (speed_ratio - 1.0) * (speed_ratio + 1.0) * LAW.invariants(k, 2)[2]
 
 
 def test_nothing_is_left_at_the_design_speed() -> None:
