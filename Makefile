@@ -53,7 +53,7 @@ bench: $(READY) bench/.venv/.ready
 	$(BIN)/python bench/write_page.py
 
 stress: $(READY)
-	$(PYTEST) -m stress tests/stress -s
+	$(PYTEST) -m stress tests/stress -rP
 
 docs: $(READY)
 	$(BIN)/python docs/generate.py

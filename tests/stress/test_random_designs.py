@@ -8,11 +8,11 @@ Errors are in eps = 2^-52 times the condition number that stands at each test; t
 from __future__ import annotations
 
 import math
-import os
 from typing import Any
 
 import numpy as np
 import pytest
+from stress.worst import COUNTS, EPS, LONG, LONGER_NUMBERS, MANY, Worst
 
 from gearlink.core import fourbar, fourbar_sweep, slider_crank
 from gearlink.core.cam_profile import oscillating, profile, translating
@@ -24,39 +24,12 @@ from gearlink.core.motion_laws import law
 from gearlink.core.unloading import ElasticLaw
 from gearlink.core.unloading_device import Pneumatic, Spring
 
-LONG = np.longdouble
-pytestmark = pytest.mark.skipif(np.finfo(LONG).nmant < 63, reason="no longer numbers on this machine")
+pytestmark = LONGER_NUMBERS
 
-EPS = 2.0**-52
-FEW, MANY = 400, int(os.environ.get("GEARLINK_DESIGNS", "100000"))
-COUNTS = [FEW, pytest.param(MANY, marks=pytest.mark.stress)]
 LAWS: list[Any] = [
     *("simple-harmonic", "cycloidal", "modified-trapezoid", "modified-sine", "polynomial-345", "polynomial-4567"),
     *("mcv-50", "mcv-33", "mcv-20", {"scca": [0.25, 0.25, 0.25, 0.25]}),
 ]
-
-
-def report(family: str, count: int, errors: dict[str, tuple[float, Any]]) -> None:
-    """Worst error of each quantity with its design, on standard output (make stress shows it)."""
-    print(f"\n{family}, {count} designs:")
-    for name, (worst, design) in errors.items():
-        print(f"  {name:28s} {worst:8.2f}  {design}")
-
-
-class Worst:
-    """The worst error of each quantity and the design it belongs to."""
-
-    def __init__(self) -> None:
-        self.found: dict[str, tuple[float, Any]] = {}
-
-    def take(self, name: str, error: float, design: Any) -> None:
-        if not error <= self.found.get(name, (-1.0, None))[0]:
-            self.found[name] = (error, design)
-
-    def check(self, family: str, count: int, limits: dict[str, float]) -> None:
-        report(family, count, self.found)
-        for name, limit in limits.items():
-            assert self.found[name][0] <= limit, (family, name, self.found[name])
 
 
 def long_four_bar(a: float, b: float, c: float, d: float, side: int, phi: float) -> tuple[Any, ...]:
