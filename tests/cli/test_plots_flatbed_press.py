@@ -17,9 +17,7 @@ import pytest
 import yaml
 from matplotlib.figure import Figure
 
-from gearlink.cli.files import CannotWrite
-from gearlink.cli.options import Options, PlotFormat
-from gearlink.cli.plots.write import draw, write_plot
+from gearlink.cli.plots.write import draw
 from gearlink.core.kinds import KINDS
 
 KIND = KINDS["flatbed-press"]
@@ -288,23 +286,3 @@ def test_no_legend_lies_on_curves(press: tuple[Any, Figure], cam: tuple[Any, Fig
         for axes in figure.axes:
             if axes.get_legend() and axes.axison and axes.get_ylabel():
                 assert axes.get_legend().get_window_extent().y0 >= axes.get_window_extent().y1 - 1.0
-
-
-@pytest.mark.parametrize("ending", ["png", "svg", "pdf"])
-def test_files_are_written_and_reproducible(tmp_path: Path, ending: str) -> None:
-    options = Options(plot=True, plot_format=PlotFormat(ending), out=tmp_path)
-    first = write_plot("cam", design(press_file(), "cam"), options)
-    content = first.read_bytes()
-    assert first.name == f"TY-460-cam.{ending}"
-    assert write_plot("cam", design(press_file(), "cam"), options).read_bytes() == content
-    assert list(tmp_path.iterdir()) == [first]
-
-
-def test_nothing_half_written_remains(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def full(*_: Any, **__: Any) -> None:
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(Figure, "savefig", full)
-    with pytest.raises(CannotWrite, match="No space left"):
-        write_plot("press", design(press_file()), Options(plot=True, out=tmp_path))
-    assert not list(tmp_path.iterdir())

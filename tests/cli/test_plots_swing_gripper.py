@@ -17,9 +17,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from gearlink.cli.files import CannotWrite
-from gearlink.cli.options import Options, PlotFormat
-from gearlink.cli.plots.write import draw, write_plot
+from gearlink.cli.plots.write import draw
 from gearlink.core.kinds import KINDS
 
 KIND = KINDS["swing-gripper"]
@@ -271,23 +269,3 @@ def test_odd_designs_draw_without_warnings(name: str) -> None:
 def test_torques_are_left_out_where_the_file_has_none() -> None:
     _, figure = drawn("gripper", changed(BARE))
     assert not any(axes.get_title(loc="left").startswith("Torques") for axes in figure.axes)
-
-
-@pytest.mark.parametrize("ending", ["png", "svg", "pdf"])
-def test_files_are_written_and_reproducible(tmp_path: Path, ending: str) -> None:
-    options = Options(plot=True, plot_format=PlotFormat(ending), out=tmp_path)
-    first = write_plot("gripper", design(gripper_file(), "gripper"), options)
-    content = first.read_bytes()
-    assert first.name == f"paper-gripper.{ending}"
-    assert write_plot("gripper", design(gripper_file(), "gripper"), options).read_bytes() == content
-    assert list(tmp_path.iterdir()) == [first]
-
-
-def test_nothing_half_written_remains(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def full(*_: Any, **__: Any) -> None:
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(Figure, "savefig", full)
-    with pytest.raises(CannotWrite, match="No space left"):
-        write_plot("cam", design(gripper_file(), "cam"), Options(plot=True, out=tmp_path))
-    assert not list(tmp_path.iterdir())

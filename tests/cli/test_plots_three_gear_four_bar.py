@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 import yaml
 
-from gearlink.cli.options import Options, PlotFormat
+from gearlink.cli.options import Options
 from gearlink.cli.plots.three_gear_mechanism import dwell_position, position
 from gearlink.cli.plots.write import draw, write_plot
 from gearlink.core.kinds import KINDS
@@ -140,13 +140,3 @@ def test_steady_motion_has_no_magnified_dwell():
     command = "synth variable-speed"
     figure = draw(command, design(command, CASES[command]))
     assert not [line for axes in figure.axes for line in axes.lines if line.get_gid() == "magnified"]
-
-
-@pytest.mark.parametrize("ending", list(PlotFormat))
-def test_files_are_the_same_every_time(ending, tmp_path):
-    command = "synth dwell"
-    made = [
-        write_plot(command, design(command, CASES[command]), Options(plot_format=ending, out=tmp_path / n)).read_bytes()
-        for n in "ab"
-    ]
-    assert made[0] == made[1]

@@ -14,9 +14,8 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from gearlink.cli.files import CannotWrite
-from gearlink.cli.options import Options, PlotFormat
-from gearlink.cli.plots.write import draw, write_plot
+from gearlink.cli.options import Options
+from gearlink.cli.plots.write import draw
 from gearlink.cli.run import open_design, read_spec
 from gearlink.core.errors import NoSolution
 
@@ -168,27 +167,3 @@ def test_design_without_cam_or_profile() -> None:
         assert not [axes for axes in figure.axes if axes.get_title(loc="left").startswith("Cam of")]
     with pytest.raises(NoSolution, match="loop"):
         drawn("twin_rocker", "cam", *looped)
-
-
-def test_files_are_reproducible(tmp_path: Path) -> None:
-    texts = []
-    for folder in (tmp_path / "a", tmp_path / "b"):
-        made = design("twin_rocker", "cam")
-        path = write_plot("cam", made, Options(plot_format=PlotFormat.SVG, out=folder))
-        texts.append(path.read_bytes())
-    assert texts[0] == texts[1]
-
-
-def test_every_format_and_no_half_written_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    made = design("twin_cam", "swing")
-    for form, magic in ((PlotFormat.PNG, b"\x89PNG"), (PlotFormat.PDF, b"%PDF")):
-        path = write_plot("swing", made, Options(plot_format=form, out=tmp_path))
-        assert path.read_bytes().startswith(magic)
-
-    def full(*_: object, **__: object) -> None:
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(Figure, "savefig", full)
-    with pytest.raises(CannotWrite, match="No space left"):
-        write_plot("swing", made, Options(out=tmp_path / "full"))
-    assert list((tmp_path / "full").iterdir()) == []

@@ -1,0 +1,58 @@
+"""Files of plots: one for each figure, the same every time, whole or not there."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+from matplotlib.figure import Figure
+
+MAGIC = {"png": b"\x89PNG\r\n", "svg": b"<?xml", "pdf": b"%PDF-"}
+FIGURES = [
+    ("press", "ty460", "png"),
+    ("cam", "ty460", "svg"),
+    ("gripper", "swing_gripper", "pdf"),
+    ("cam", "swing_gripper", "png"),
+    ("swing", "wide_swing_twin_cam", "svg"),
+    ("cam", "wide_swing_twin_rocker", "pdf"),
+    ("gear", "ty460_input_gears", "pdf"),
+    ("crank", "ty460_slider_crank", "png"),
+    ("synth dwell", "candy_feed", "svg"),
+    ("analyze", "thesis_example_3_as_printed", "pdf"),
+    ("analyze", "two_gear_ring", "png"),
+    ("analyze", "five_bar_path", "svg"),
+    ("analyze", "wide_lever", "pdf"),
+    ("analyze", "hypocycloid_slider", "png"),
+    ("analyze", "mutilated_gear_press", "svg"),
+    ("analyze", "six_bar_two_trains", "pdf"),
+]
+
+
+@pytest.mark.parametrize(("command", "name", "ending"), FIGURES)
+def test_one_file_the_same_every_time(
+    gearlink: Any, designs: Path, tmp_path: Path, command: str, name: str, ending: str
+) -> None:
+    made = []
+    for folder in (tmp_path / "a", tmp_path / "b"):
+        arguments = [*command.split(), designs / f"{name}.yaml", "--quiet", "--plot", "--plot-format", ending]
+        assert gearlink(*arguments, "--out", folder).status in (0, 1)
+        (file,) = folder.iterdir()
+        assert file.suffix == f".{ending}"
+        made.append(file.read_bytes())
+    assert made[0] == made[1]
+    assert made[0].startswith(MAGIC[ending])
+    assert len(made[0]) > 5000
+
+
+def test_nothing_half_written_remains(
+    gearlink: Any, designs: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(*_: Any, **__: Any) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(Figure, "savefig", full)
+    ended = gearlink("crank", designs / "ty460_slider_crank.yaml", "--plot", "--out", tmp_path)
+    assert ended.status == 2
+    assert "No space left" in ended.err
+    assert not list(tmp_path.iterdir())
