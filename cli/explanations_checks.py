@@ -90,7 +90,8 @@ CHECKS: dict[str, Explanation] = {
         "Bring coupler and driven link nearer to a right angle: shorten the crank, take a larger idler, or a shorter "
         "frame in a drag link.",
         "mu = min(gamma, 180 deg - gamma), cos(gamma) = (l2^2 + l3^2 - n^2)/(2 l2 l3), n the diagonal from the crank "
-        "pin; fails below the limit, warns less than 5 deg above it",
+        "pin; fails below the limit, warns less than 5 deg above it; "
+        "below 3 deg the message names the condition number 1/sin(mu)",
         "VDI 2142; thesis 4.2",
         ("transmission-angle",),
         ("links", "cylinder.double_crank", "bed.double_crank", "back_step", "dwell", "speed", "momentary", "gears"),

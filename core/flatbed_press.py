@@ -12,6 +12,7 @@ from gearlink.core.design import Design, Outline
 from gearlink.core.errors import MissingSection, NoSolution, at_key
 from gearlink.core.fourbar import FourBar
 from gearlink.core.gear_checks import GEAR_CHECKS, GEAR_QUANTITIES, gear_check, gear_quantity
+from gearlink.core.gear_linkage_checks import transmission_check
 from gearlink.core.gear_pair import GearPair
 from gearlink.core.press_cams import PressCams
 from gearlink.core.press_chains import BedChain, CylinderChain, difference
@@ -234,16 +235,12 @@ class FlatbedPress(PressCams, Design):
             ("bed", self.min_transmission_angle_bed),
             ("cylinder", self.min_transmission_angle_cylinder),
         ):
-            yield below(
-                "GL303",
-                "transmission-angle",
-                math.degrees(angle),
+            yield transmission_check(
+                angle,
                 limit,
-                limit + 5.0,
-                "deg",
-                f"the least transmission angle of the {chain} chain",
                 f"bring coupler and rocker of {chain}.double_crank nearer to a right angle (shorter frame, longer "
                 "coupler)",
+                f"the least transmission angle of the {chain} chain",
             )
 
     def check_sync_speed(self) -> Check:

@@ -6,15 +6,21 @@ import math
 
 from gearlink.core.report import Check, below
 
+_POOR = 20.0
 
-def transmission_check(angle: float, limit: float, remedy: str) -> Check:
-    """GL303: the least transmission angle [rad] against its limit [deg].
+
+def transmission_check(
+    angle: float, limit: float, remedy: str, subject: str = "the least transmission angle over the turn"
+) -> Check:
+    """GL303: the least transmission angle [rad] against its limit [deg]; near a dead point with the condition number.
 
     Source
         VDI 2142
     """
-    subject = "the least transmission angle over the turn"
     value = math.degrees(angle)
+    condition = 1.0 / math.sin(angle) if angle else math.inf
+    if condition > _POOR:
+        remedy = f"play and rounding come out up to {condition:.3g} times as large (condition number); {remedy}"
     return below("GL303", "transmission-angle", value, limit, limit + 5.0, "deg", subject, remedy)
 
 

@@ -12,10 +12,11 @@ from gearlink.core.errors import at_key
 from gearlink.core.fourbar import FourBar, solve
 from gearlink.core.gear_checks import GEAR_CHECKS
 from gearlink.core.gear_linkage import check_linkage
+from gearlink.core.gear_linkage_checks import transmission_check
 from gearlink.core.gear_pair import GearPair
 from gearlink.core.interference import joint_to_crank_pivot
 from gearlink.core.mutilated_gear import MutilatedGear
-from gearlink.core.report import Check, Table, below
+from gearlink.core.report import Check, Table
 from gearlink.core.single_mesh import MESH_CHECKS, MESH_QUANTITIES, SingleMesh
 
 if TYPE_CHECKING:
@@ -206,6 +207,4 @@ class MutilatedGearDwell(SingleMesh):
         """GL303, where there is a four-bar."""
         if self.min_transmission_angle is None:
             return
-        limit, value = self.spec.limits.transmission_angle, math.degrees(self.min_transmission_angle)
-        subject, remedy = "the least transmission angle over the turn", "shorten the crank"
-        yield below("GL303", "transmission-angle", value, limit, limit + 5.0, "deg", subject, remedy)
+        yield transmission_check(self.min_transmission_angle, self.spec.limits.transmission_angle, "shorten the crank")

@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 from gearlink.core.design import Design, Outline
 from gearlink.core.errors import NoSolution
+from gearlink.core.gear_linkage_checks import transmission_check
 from gearlink.core.gripper_closure import GripperClosure
 from gearlink.core.gripper_handover import GripperHandover
-from gearlink.core.report import Check, Report, Status, Table, below
+from gearlink.core.report import Check, Report, Status, Table
 
 if TYPE_CHECKING:
     from gearlink.core.gripper_loop import TwoWays
@@ -162,7 +163,7 @@ class SwingGripper(GripperHandover, GripperClosure, Design):
             aim = limit if math.degrees(angle) < limit else limit + 5.0
             remedy = turn_remedy(self.linkage, math.radians(aim)) if math.degrees(angle) < limit + 5.0 else ""
             subject = f"the least transmission angle at {place}"
-            yield below("GL303", "transmission-angle", math.degrees(angle), limit, limit + 5.0, "deg", subject, remedy)
+            yield transmission_check(angle, limit, remedy, subject)
 
     def check_conditioning(self) -> Check:
         """GL312: digits that the loop keeps near a dead point, and the agreement of the two ways."""

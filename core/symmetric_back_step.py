@@ -12,6 +12,7 @@ angles themselves, so a design next to the momentary dwell keeps all its digits.
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.gauss_quadrature import integral
@@ -22,6 +23,8 @@ from gearlink.core.roots import bracketed_root
 # tan h: the closed form then loses no more than 12 ulp, and the 29th term is below 1e-17 of the first.
 _SERIES_BELOW = 0.5
 _INTEGRAL_BELOW = 0.2  # h [rad]; ten Gauss points over 4 h are then exact to rounding
+_POLISHED_BELOW = 0.75  # h [rad]; the closed form loses some ulp / h^2, which a step with the integral gives back
+_PART = 0.6  # longest stretch [rad] of that integral
 
 
 def back_step_angle(i3: float, back_step_crank_angle: float) -> float:
@@ -141,7 +144,10 @@ def dwell_angle(i3: float, back_step_crank_angle: float) -> float:
     h = 0.5 * back_step_crank_angle
     if h == 0.0:
         return 0.0
-    return h + bracketed_root(lambda y: _fallen(i3, h, y), h, min(3.0 * h, dwell_angle_limit(i3) - h))
+    y = bracketed_root(lambda y: _fallen(i3, h, y), h, min(3.0 * h, dwell_angle_limit(i3) - h))
+    if _INTEGRAL_BELOW <= h < _POLISHED_BELOW:
+        y -= _fallen_in_parts(i3, h, y) / _reverse(i3, h, y)
+    return h + y
 
 
 def dwell_angle_limit(i3: float) -> float:
@@ -186,7 +192,12 @@ def crank_angle_for_dwell(i3: float, dwell_angle: float) -> float:
             f"below 360 (1 - i3)/(2 - i3) = {_deg(limit)} deg; reduce it{_ratio_remedy(dwell_angle)}"
         )
     high = min(0.5 * dwell_angle, 0.5 * math.pi)
-    return 2.0 * bracketed_root(lambda h: _fallen(i3, h, dwell_angle - h), 0.25 * dwell_angle, high)
+    h = bracketed_root(lambda h: _fallen(i3, h, dwell_angle - h), 0.25 * dwell_angle, high)
+    if _INTEGRAL_BELOW <= h < _POLISHED_BELOW:
+        near = 1e-4 * h
+        slope = (_fallen(i3, h + near, dwell_angle - h - near) - _fallen(i3, h - near, dwell_angle - h + near)) / near
+        h -= 2.0 * _fallen_in_parts(i3, h, dwell_angle - h) / slope
+    return 2.0 * h
 
 
 def _back_step(v: float, h: float) -> float:
@@ -210,10 +221,19 @@ def _fallen(i3: float, h: float, y: float) -> float:
     return n * (at_y + math.atan(math.tan(h) / n)) - h - y
 
 
+def _fallen_in_parts(i3: float, h: float, y: float) -> float:
+    """The same as a sum of integrals: no cancellation, for a last step."""
+    count = math.ceil((h + y) / _PART)
+    places = [-h + (h + y) * i / count for i in range(count + 1)]
+    return math.fsum(integral(lambda x: _reverse(i3, h, x), low, high) for low, high in pairwise(places))
+
+
 def _reverse(i3: float, h: float, y: float) -> float:
-    """Backward speed ratio -W at 270 deg + y, |y| < 90 deg, as a product that vanishes exactly at y = +-h."""
+    """Backward speed ratio -W at 270 deg + y, as a product that vanishes exactly at y = +-h."""
     n, rest = 1.0 - i3, i3 * (i3 - 2.0)
     root = math.sqrt(rest * math.cos(h) ** 2 + math.cos(y) ** 2)
+    if math.cos(y) < 0.0:
+        return n * math.cos(y) / root - 1.0
     return rest * math.sin(h - y) * math.sin(h + y) / (root * (root + n * math.cos(y)))
 
 

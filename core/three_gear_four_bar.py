@@ -13,12 +13,13 @@ from gearlink.core.errors import MissingSection, at_key
 from gearlink.core.fourbar import FourBar
 from gearlink.core.gear_checks import GEAR_CHECKS, GEAR_QUANTITIES, gear_check, gear_quantity
 from gearlink.core.gear_linkage import Extremes, GearTrain
+from gearlink.core.gear_linkage_checks import transmission_check
 from gearlink.core.gear_linkage_dwells import BackStep
 from gearlink.core.gear_pair import GearPair
 from gearlink.core.idler_choice import idler_for_ratio
 from gearlink.core.interference import joint_to_crank_pivot
 from gearlink.core.momentary_dwell import crank_with_room
-from gearlink.core.report import Check, Status, Table, below, safely_above, safely_below
+from gearlink.core.report import Check, Status, Table, safely_above, safely_below
 
 if TYPE_CHECKING:
     from gearlink.core.specs.three_gear import ThreeGearSpec
@@ -344,11 +345,8 @@ class ThreeGearFourBar(Design):
 
     def check_transmission_angle(self) -> Check:
         """GL303."""
-        limit = self.spec.limits.transmission_angle
         remedy = "shorten the crank or take a larger idler"
-        subject = "the least transmission angle over the turn"
-        value = math.degrees(self.min_transmission_angle)
-        return below("GL303", "transmission-angle", value, limit, limit + 5.0, "deg", subject, remedy)
+        return transmission_check(self.min_transmission_angle, self.spec.limits.transmission_angle, remedy)
 
     def check_rounded_ratio(self) -> Iterator[Check]:
         """GL304 where the file gives i3: whole teeth may change it."""
