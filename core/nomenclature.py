@@ -217,7 +217,9 @@ _FIVE_BAR = {
     "input_length": Term("a", "mm", "input link AB"),
     "follower_length": Term("c", "mm", "follower CD"),
     "output_length": Term("e", "mm", "output link DE"),
-    "phase": Term("delta", "deg", "direction of output link (function: coupler) at input angle 0"),
+    "phase": Term(
+        "delta", "deg", "direction of the output link at input angle 0; of the coupler where a function is generated"
+    ),
     "assembly": Term("", "1", "assembly, +1 or -1"),
     "point_along": Term("u", "mm", "coupler point, along B->C"),
     "point_across": Term("v", "mm", "coupler point, to the left of B->C"),

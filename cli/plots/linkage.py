@@ -59,12 +59,14 @@ def letters(axes: Axes, joints: Mapping[str, tuple[complex, Sequence[complex]]])
 
 
 def facts(axes: Axes, design: Design, names: Sequence[str]) -> None:
-    """Legend and numbers beside a drawing, on its right."""
+    """Legend and numbers beside a drawing, on its right; what the words add after a semicolon is left out."""
     axes.autoscale_view()
     axes.margins(0.03)
     axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), frameon=False, fontsize=8, borderaxespad=0.0)
     found = [design.quantity(name) for name in names]
-    lines = [f"{q.words}: {_text(q.value)} {q.unit}".removesuffix(" 1") for q in found if q is not None]
+    lines = [
+        f"{q.words.partition(';')[0]}: {_text(q.value)} {q.unit}".removesuffix(" 1") for q in found if q is not None
+    ]
     axes.text(1.012, 0.0, "\n".join(lines), transform=axes.transAxes, va="bottom", fontsize=8, linespacing=1.45)
 
 
