@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import islice
 from typing import Any, Protocol
 
 from gearlink.core.gear_pair import GearPair
@@ -74,7 +75,7 @@ def gear_check(name: str, pair: GearPair, limits: Limits, mesh: str = "") -> Ite
         elif name == "tip-thickness":
             yield _tip_thickness(pair, gear, limits.tip_thickness, before)
         elif name == "involute-interference":
-            yield _interference(pair, gear, before)
+            yield _interference(pair, gear, limits.tip_thickness, before)
         elif name == "root-clearance":
             yield _root_clearance(pair, gear, before)
         elif name == "contact-ratio" and gear == 0:
@@ -101,19 +102,28 @@ def _undercut(pair: GearPair, gear: int, margin: float, before: str) -> Check:
 
 def _tip_thickness(pair: GearPair, gear: int, limit: float, before: str) -> Check:
     share = pair.tip_thickness[gear] / pair.module
+    warn = limit + 0.15
     return below(
         "GL202",
         "tip-thickness",
         share,
         limit,
-        limit + 0.15,
+        warn,
         "1",
         f"{before}the tip thickness of gear {gear + 1} over the module",
-        "lower its profile shift or its addendum",
+        f"lower its profile shift or its addendum{_mended(pair, gear, warn, limit) if share < warn else ''}",
     )
 
 
-def _interference(pair: GearPair, gear: int, before: str) -> Check:
+def _mended(pair: GearPair, gear: int, *tip_thickness: float) -> str:
+    """The shifts that mend a tip, by the first aim that can be met, put after the words of a remedy."""
+    from gearlink.core.gear_mending import mended_shift
+
+    found = filter(None, (mended_shift(pair, gear, aim) for aim in tip_thickness))
+    return "".join(f": {words}" for words in islice(found, 1))
+
+
+def _interference(pair: GearPair, gear: int, tip_thickness: float, before: str) -> Check:
     margin = pair.interference_margin[gear]
     status: Status = "fail" if margin < 0.0 else "pass"
     text = f"{before}the tip of gear {gear + 1} stays {margin:.4g} mm short of the mate's base tangent point"
@@ -121,19 +131,21 @@ def _interference(pair: GearPair, gear: int, before: str) -> Check:
         text = (
             f"{before}the tip of gear {gear + 1} goes {-margin:.4g} mm beyond the mate's base tangent point: "
             f"raise the profile shift of gear {2 - gear} or lower the addendum of gear {gear + 1}"
+            f"{_mended(pair, gear, tip_thickness)}"
         )
     return Check("GL204", "involute-interference", status, text, margin, 0.0, "mm")
 
 
 def _root_clearance(pair: GearPair, gear: int, before: str) -> Check:
+    least, usual = 0.05, 0.15
     return below(
         "GL205",
         "root-clearance",
         # The profile's own coefficient: with full tip shortening it is what remains, and carries no rounding.
         pair.clearance,
-        0.05,
-        0.15,
+        least,
+        usual,
         "1",
         f"{before}the clearance at the root of gear {gear + 1} over the module",
-        "raise the clearance coefficient or shorten the mate's tips",
+        f"raise the clearance coefficient to {least if pair.clearance < least else usual:g} or more",
     )

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import numpy as np
 
 from gearlink.core.errors import MissingSection, NoSolution
+from gearlink.core.nearest_good import nearest_good
 from gearlink.core.report import safely_above, safely_below
 from gearlink.core.spec_paths import replaced, value_at
 from gearlink.core.wide_swing_profile import WideSwingProfile
@@ -21,7 +22,6 @@ if TYPE_CHECKING:
 
 Value: TypeAlias = float | None
 
-_STEPS, _HALVINGS = 16, 12
 _STRICTLY = 1.0 + 1e-6
 
 
@@ -31,33 +31,6 @@ class Suggestion(NamedTuple):
     path: str
     value: Value
     why: str
-
-
-def nearest_good(bad: float, limit: float, good: Callable[[float], bool]) -> float | None:
-    """The value nearest to `bad` on the way to `limit` that is good, to four digits; None where none is found.
-
-    Notes
-        Equal steps to the first good value, then halving; rounded away from `bad` and tried again.
-    Example
-        >>> nearest_good(100.0, 20.0, lambda x: x * x < 3000.0), nearest_good(1.0, 2.0, lambda x: x > 5.0)
-        (54.77, None)
-
-    Source
-        own derivation
-    """
-    last, found = bad, None
-    for i in range(1, _STEPS + 1):
-        found = bad + (limit - bad) * i / _STEPS
-        if good(found):
-            break
-        last = found
-    else:
-        return None
-    for _ in range(_HALVINGS):
-        middle = 0.5 * (last + found)
-        last, found = (last, middle) if good(middle) else (middle, found)
-    rounded = float((safely_above if limit > bad else safely_below)(found, 4))
-    return rounded if good(rounded) else found
 
 
 class WideSwingMending(WideSwingProfile):
