@@ -5,6 +5,7 @@ from __future__ import annotations
 import statistics
 import subprocess
 import sys
+import tracemalloc
 from collections.abc import Callable
 from pathlib import Path
 from time import process_time
@@ -76,25 +77,42 @@ def test_time_grows_linearly(name: str) -> None:
 
 
 MEASURE = """
-import resource, sys
+import sys
 sys.path.insert(0, {folder!r})
 from stress.test_scaling import SIZES, SWEEPS
-sweep = SWEEPS[{name!r}]
 for count in (SIZES[0], SIZES[-1]):
-    sweep(count)
-    print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)
+    SWEEPS[{name!r}](count)
+    with open("/proc/self/status") as status:
+        print(next(line.split()[1] for line in status if line.startswith("VmHWM")))
 """
 
 
 @pytest.mark.stress
+@pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="no /proc: getrusage would tell the parent's peak")
 @pytest.mark.parametrize("name", SWEEPS)
-def test_memory_stays(name: str) -> None:
+def test_memory_of_the_process_stays(name: str) -> None:
     """Greatest resident memory of a process of its own, after 1e5 positions and after 1e7 more."""
     code = MEASURE.format(folder=str(Path(__file__).parents[1]), name=name)
     out = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
     few, many = (int(line) / 1024.0 for line in out.split())
     print(f"\n{name}: {few:.1f} MB after {SIZES[0]:.0e} positions, {many - few:.1f} MB more after {SIZES[-1]:.0e}")
     assert many - few <= MEGABYTES
+
+
+def traced(sweep: Callable[[int], float], count: int) -> float:
+    """Greatest memory in use during a sweep, in MB."""
+    tracemalloc.start()
+    sweep(count)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    return peak / 2.0**20
+
+
+@pytest.mark.parametrize("name", SWEEPS)
+def test_memory_in_use_stays(name: str) -> None:
+    """A sweep of twenty blocks needs what one of four blocks needs."""
+    few, many = (traced(SWEEPS[name], blocks * BLOCK) for blocks in (4, 20))
+    assert many <= few + 0.1
 
 
 @pytest.mark.parametrize("name", SWEEPS)
