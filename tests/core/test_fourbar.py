@@ -199,8 +199,9 @@ def test_velocities_of_a_short_crank_keep_their_digits(crank: float) -> None:
     linkage = FourBar(crank, 1.1, 0.9, 1.3)
     for phi in (0.7, 1.0, 4.0):
         state, exact = solve(linkage, phi, 1), oracle(linkage, phi, 1)
-        assert state.coupler_velocity == pytest.approx(float(exact[0][1]), rel=16 * EPS)
-        assert state.rocker_velocity == pytest.approx(float(exact[1][1]), rel=16 * EPS)
+        velocities = (state.coupler_velocity, exact[0][1]), (state.rocker_velocity, exact[1][1])
+        limit = 8 * EPS * max(abs(velocity) for velocity, _ in velocities)
+        assert max(abs(found - true) for found, true in velocities) <= limit
 
 
 def test_paper_matrix_in_turned_axes() -> None:
