@@ -2,7 +2,8 @@
 
 Tolerances, with dev = min(gamma, pi - gamma) and EPS = 2^-52:
 * angles: 8 EPS/dev - rounding of the vector B->D, divided by the condition 1/dev; an ulp of the angle more where
-  it has wound beyond pi;
+  it has wound beyond pi. That is for links within 1:6 of each other; lengths of any ratio have
+  (l_max/n + l_max/l_min)/sin(gamma), n the diagonal, which the way there and back is held to;
 * velocities: 8 EPS/dev^2, accelerations and jerks 32 EPS/dev^2 of the larger of coupler and rocker (and of the
   driver's own): one more division by sin(gamma), whose relative error is EPS/dev^2; single values cancel;
 * against mpmath (acos form and Taylor coefficients, 50 digits) and between two routes the same multiples hold;
