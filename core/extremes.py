@@ -22,6 +22,10 @@ _UNIT = np.linspace(0.0, 1.0, _POINTS)
 # Where a function maps its argument through a phase table, one ulp may not be enough to stay inside.
 _INSIDE_ULPS = 16.0
 _MOST_CANDIDATES = 16
+# Samples of a bracket that differ by no more are rounding: another round gains 1/16 of it at a kink, less elsewhere.
+_FLAT_ULPS = 16.0
+_TURNS_OF_NOISE = 4
+_END_SHARE = 2.0**-7  # of a step: where the samples fall from an end, little else than that end is left to see
 
 
 @dataclass(frozen=True, slots=True)
@@ -161,7 +165,7 @@ def _enlarged(f: Function, left: Reals, right: Reals, best: Extreme, finest: flo
         row = int(np.argmax(peak))
         if peak[row] > best.value:
             best = Extreme(float(peak[row]), float(place[row]))
-        flat = peak - v.min(axis=1) <= 2.0 * np.spacing(np.abs(peak))
+        flat = peak - v.min(axis=1) <= _FLAT_ULPS * np.spacing(np.abs(peak))
         narrow = right - left <= finest
         missed = ((i == 0) & (left > safe_left)) | ((i == _POINTS - 1) & (right < safe_right))
         near = x[rows, np.maximum(i - 1, 0)], x[rows, np.minimum(i + 1, _POINTS - 1)]
@@ -171,9 +175,25 @@ def _enlarged(f: Function, left: Reals, right: Reals, best: Extreme, finest: flo
         safe_left, safe_right = np.where(missed, safe_left, near[0]), np.where(missed, safe_right, near[1])
         left = np.where(missed, safe_left, next_left)
         right = np.where(missed, safe_right, next_right)
-        going = ~(narrow | (flat & ~missed))
+        going = ~(narrow | (flat & ~missed) | _is_noise(v))
         left, right, safe_left, safe_right = (a[going] for a in (left, right, safe_left, safe_right))
     return best
+
+
+def _falls_from_its_end(v: Reals, i: NDArray[np.intp]) -> NDArray[np.bool_]:
+    """Whether the samples fall from the end of the bracket, without a vertex between the first two."""
+    last = _POINTS - 1
+    first_step = np.where(i == 0, v[:, 0] - v[:, 1], v[:, last] - v[:, last - 1])
+    next_step = np.where(i == 0, v[:, 1] - v[:, 2], v[:, last - 1] - v[:, last - 2])
+    falls: NDArray[np.bool_] = ((i == 0) | (i == last)) & (next_step > 0.0) & (2.0 * first_step > next_step)
+    return falls
+
+
+def _is_noise(v: Reals) -> NDArray[np.bool_]:
+    """Whether the samples of a bracket go up and down too often for a function that the first samples resolved."""
+    steps = np.diff(v, axis=1)
+    noise: NDArray[np.bool_] = np.count_nonzero(steps[:, :-1] * steps[:, 1:] < 0.0, axis=1) >= _TURNS_OF_NOISE
+    return noise
 
 
 def _vertex(x: Reals, v: Reals, i: NDArray[np.intp]) -> tuple[Reals, Reals]:
@@ -185,4 +205,5 @@ def _vertex(x: Reals, v: Reals, i: NDArray[np.intp]) -> tuple[Reals, Reals]:
     step = x[:, 1] - x[:, 0]
     interior = (i == middle) & (bend < 0.0)
     shift = np.divide(0.5 * (low - high), bend, out=np.zeros_like(bend), where=interior)
-    return x[rows, i] + shift * step, np.where(interior, 0.125 * step, step)
+    half = np.where(interior, 0.125, np.where(_falls_from_its_end(v, i), _END_SHARE, 1.0)) * step
+    return x[rows, i] + shift * step, half
