@@ -10,9 +10,10 @@ from typing import Annotated
 
 import typer
 
+from gearlink.cli.bench.families import FAMILIES, measured
 from gearlink.cli.exit_codes import ExitCode
 
-NAMES = ("four-bar", "involute", "dwell", "unloading", "cam", "press", "start-up", "batch")
+NAMES = tuple(FAMILIES)
 
 
 class BenchFormat(StrEnum):
@@ -47,7 +48,6 @@ def _bench(
 def run_bench(names: Sequence[str], form: BenchFormat, *, quick: bool, out: Path | None, quiet: bool) -> int:
     """Measure the families, print their tables, give the exit status."""
     from gearlink.cli.bench import page
-    from gearlink.cli.bench.families import measured
     from gearlink.cli.bench.timing import BenchNeedsMpmath, machine, mpmath
 
     if wrong := [name for name in names if name not in NAMES]:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from importlib import import_module
+from typing import TYPE_CHECKING
 
-from gearlink.cli.bench.timing import Family
+if TYPE_CHECKING:
+    from gearlink.cli.bench.timing import Family
 
 FAMILIES = {
     "four-bar": "four_bar:family",
@@ -15,6 +17,7 @@ FAMILIES = {
     "press": "cam:press",
     "start-up": "start_up:family",
     "batch": "start_up:batch",
+    "parallel": "start_up:parallel",
 }
 
 

@@ -1,4 +1,4 @@
-"""Whole processes: every command against a minimal Typer program with one command; a batch against its reading."""
+"""Whole processes: every command against a minimal Typer program; a batch against its reading, two against one."""
 
 from __future__ import annotations
 
@@ -102,7 +102,7 @@ def process(*arguments: str) -> Callable[[], object]:
 
 
 def batch(quick: bool) -> Family:
-    """A thousand designs in a batch, in one process and in two, against reading and validating their files."""
+    """A thousand designs in a batch against reading and validating their files."""
     count = 200 if quick else 1000
     with TemporaryDirectory() as name:
         folder = Path(name)
@@ -112,8 +112,9 @@ def batch(quick: bool) -> Family:
         methods = [
             Method("batch in one process", count, lambda: _batch(folder, 1)),
             Method("batch in two processes", count, lambda: _batch(folder, 2)),
+            Method("batch, as the program chooses", count, lambda: _batch(folder, 0)),
         ]
-        rows: tuple[Row, ...] = measure(methods, lambda: _validate(written), count, 3)
+        rows: tuple[Row, ...] = measure(methods, lambda: _validate(written), count, 3 if quick else 7)
     return Family(
         "batch",
         f"Batch of {count} designs",
@@ -124,9 +125,25 @@ def batch(quick: bool) -> Family:
     )
 
 
-def write_designs(folder: Path, count: int) -> list[Path]:
-    """Designs of three kinds, no two alike."""
-    kinds = ("candy_feed.yaml", "ty460_input_gears.yaml", "ty460_slider_crank.yaml")
+def parallel(quick: bool) -> Family:
+    """A hundred presses in a batch of two processes against one."""
+    count = 20 if quick else 100
+    with TemporaryDirectory() as name:
+        folder = Path(name)
+        write_designs(folder, count, PRESS)
+        gc.collect()
+        gc.freeze()
+        methods = [Method("two processes", count, lambda: _batch(folder, 2))]
+        rows = measure(methods, lambda: _batch(folder, 1), count, 3 if quick else 7)
+    return Family("parallel", f"Batch of {count} presses", "none", "the same batch in one process", rows)
+
+
+SMALL = ("candy_feed.yaml", "ty460_input_gears.yaml", "ty460_slider_crank.yaml")
+PRESS = ("ty460.yaml",)
+
+
+def write_designs(folder: Path, count: int, kinds: tuple[str, ...] = SMALL) -> list[Path]:
+    """Copies of worked designs, no two files alike."""
     texts = [(designs() / kind).read_text(encoding="utf-8") for kind in kinds]
     written = []
     for i in range(count):
