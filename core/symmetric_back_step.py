@@ -12,10 +12,9 @@ angles themselves, so a design next to the momentary dwell keeps all its digits.
 from __future__ import annotations
 
 import math
-from itertools import pairwise
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.gauss_quadrature import integral
+from gearlink.core.gauss_quadrature import GAUSS_NODES, GAUSS_WEIGHTS
 from gearlink.core.gear_linkage_synthesis import check_back_step_crank_angle, check_ratio
 from gearlink.core.report import safely_above
 from gearlink.core.roots import bracketed_root
@@ -24,7 +23,8 @@ from gearlink.core.roots import bracketed_root
 _SERIES_BELOW = 0.5
 _INTEGRAL_BELOW = 0.2  # h [rad]; ten Gauss points over 4 h are then exact to rounding
 _POLISHED_BELOW = 0.75  # h [rad]; the closed form loses some ulp / h^2, which a step with the integral gives back
-_PART = 0.6  # longest stretch [rad] of that integral
+_PART = 0.6  # longest stretch [rad] of that integral for ten Gauss points
+_NODES = tuple((s * x, w) for x, w in zip(GAUSS_NODES, GAUSS_WEIGHTS, strict=True) for s in (-1.0, 1.0))
 
 
 def back_step_angle(i3: float, back_step_crank_angle: float) -> float:
@@ -146,7 +146,7 @@ def dwell_angle(i3: float, back_step_crank_angle: float) -> float:
         return 0.0
     y = bracketed_root(lambda y: _fallen(i3, h, y), h, min(3.0 * h, dwell_angle_limit(i3) - h))
     if _INTEGRAL_BELOW <= h < _POLISHED_BELOW:
-        y -= _fallen_in_parts(i3, h, y) / _reverse(i3, h, y)
+        y -= _fallen_by_integral(i3, h, y) / _reverse(i3, h, y)
     return h + y
 
 
@@ -196,7 +196,7 @@ def crank_angle_for_dwell(i3: float, dwell_angle: float) -> float:
     if _INTEGRAL_BELOW <= h < _POLISHED_BELOW:
         near = 1e-4 * h
         slope = (_fallen(i3, h + near, dwell_angle - h - near) - _fallen(i3, h - near, dwell_angle - h + near)) / near
-        h -= 2.0 * _fallen_in_parts(i3, h, dwell_angle - h) / slope
+        h -= 2.0 * _fallen_by_integral(i3, h, dwell_angle - h) / slope
     return 2.0 * h
 
 
@@ -216,16 +216,29 @@ def _fallen(i3: float, h: float, y: float) -> float:
     """How far the output at 270 deg + y stands below its place at 270 deg - h; zero at y = phi13 - h."""
     n, rest = 1.0 - i3, i3 * (i3 - 2.0) * math.cos(h) ** 2
     if h < _INTEGRAL_BELOW:
-        return integral(lambda x: _reverse(i3, h, x), -h, y)
+        return _fallen_by_integral(i3, h, y)
     at_y = math.atan2(math.sin(y), math.sqrt(rest + math.cos(y) ** 2))
     return n * (at_y + math.atan(math.tan(h) / n)) - h - y
 
 
-def _fallen_in_parts(i3: float, h: float, y: float) -> float:
-    """The same as a sum of integrals: no cancellation, for a last step."""
+def _fallen_by_integral(i3: float, h: float, y: float) -> float:
+    """The same as the integral of `_reverse` from -h to y: no cancellation."""
+    n, rest = 1.0 - i3, i3 * (i3 - 2.0)
+    square, constant = math.sin(h) ** 2, rest * math.cos(h) ** 2
     count = math.ceil((h + y) / _PART)
-    places = [-h + (h + y) * i / count for i in range(count + 1)]
-    return math.fsum(integral(lambda x: _reverse(i3, h, x), low, high) for low, high in pairwise(places))
+    half = 0.5 * (h + y) / count
+    total = 0.0
+    for part in range(count):
+        mean = (2 * part + 1) * half - h
+        for x, w in _NODES:
+            place = mean + x * half
+            cosine = math.cos(place)
+            root = math.sqrt(constant + cosine * cosine)
+            if cosine < 0.0:
+                total += w * (n * cosine / root - 1.0) / rest
+            else:
+                total += w * (square - math.sin(place) ** 2) / (root * (root + n * cosine))
+    return rest * half * total
 
 
 def _reverse(i3: float, h: float, y: float) -> float:
