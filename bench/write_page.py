@@ -32,21 +32,22 @@ _REASONS = """## Where a goal is missed, and why
   (2 to 3 us) for single positions.
 * **Times in ns and ms** hold for an idle machine; the load while these were taken stands under Machine. On a busy one
   compare the ratios.
-* **phi13 and frame.** 55 ns and 18 ns are reached where the call stands alone; in this table, between others, the
-  caches are cold and the arrays of results are new pages each time. phi13 is three steps of third order and one
-  that avoids cancellation (3 ulp at worst). Without the last step it is 45 ns, at 25 ulp. The bracketed steps that
-  it replaced took 416 ns. A better start saves no step: the worst design of a block of 8192 decides.
+* **phi13 and frame.** The times are those of calls that stand alone; in this table, between others, the caches are
+  cold and the arrays of results are new pages each time. phi13 is two steps of third order from a fitted start and one
+  that avoids cancellation (4 ulp at worst; without it 25 ulp). Bracketed steps took seven times as long. One design
+  alone goes through Python's own numbers: a bracket, then one step with an integral.
 * **Cam profile.** Points alone take less than a pass. The whole profile in one go writes seven columns (two complex,
   three real) where the pass writes four into arrays that are there: new pages from the system, not arithmetic, are
   the remainder. In blocks it stays in the cache, at constant memory.
 * **Start-up.** Plain command lines are read without Typer, and pydantic's search for plug-ins is switched off;
   what remains is the import of pydantic (which Typer's own floor includes), of numpy for sweeps, and of rich for
   tables on a terminal.
-* **Batch.** Reading and validating a small file takes 50 to 100 us, for libyaml and pydantic-core are compiled; the
-  results, checks and report of a design take three times that in Python. The goal would leave them 50 us. What was
-  found to be computed twice is gone (names of quantities, text for XML): a third of the time. 1000 such designs take
-  0.2 to 0.5 s in one process; two take 0.15 s to start, so the program, which judges by a sample of 16, stays with one.
-  Two processes pay for designs with sweeps (a press: 3 ms and more each).
+* **Batch.** Reading and validating a small file takes 0.1 to 0.2 ms, for libyaml and pydantic-core are compiled; the
+  results and checks of a design take one to one and a half times that in Python. In one process the goal is therefore
+  missed by a quarter; two processes, which the program takes from 0.15 s of work on, meet it. Where the output shows
+  findings alone (everything but JSON and `--out`), quantities are computed, since they tell whether there is a
+  mechanism at all, but put into no words, and no table is computed. The table above was taken with both cores idle:
+  on a busy machine two processes are no faster than one.
 """
 
 
