@@ -138,9 +138,9 @@ def print_report(report: Report, options: Options) -> None:
 
         print(as_json(report))
     elif options.format is Format.CSV:
-        from gearlink.cli.render.csv_report import as_csv
+        from gearlink.cli.render.csv_report import write_csv
 
-        sys.stdout.write(as_csv(report))
+        write_csv(report, sys.stdout)
     elif options.format is Format.MARKDOWN:
         from gearlink.cli.render.markdown_report import as_markdown
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 if TYPE_CHECKING:
@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
 Value = float | int | str | list[float] | list[int]
 Status = Literal["pass", "warn", "fail"]
+_BLOCK = 4096
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,10 +61,23 @@ class Table:
         data, units = zip(*columns.values(), strict=True)
         return cls(name, tuple(columns), units, data)
 
+    @property
+    def length(self) -> int:
+        """How many rows it has."""
+        return max(map(len, self.data))
+
+    def each_row(self) -> Iterator[tuple[float | str | None, ...]]:
+        """The rows one after the other, made a few thousand at a time; as `rows`."""
+        for start in range(0, self.length, _BLOCK):
+            yield from zip(*(_plain(column[start : start + _BLOCK]) for column in self.data), strict=True)
+
     def rows(self) -> list[list[float | str | None]]:
         """The table turned into rows; None where a value does not exist (infinite or not a number)."""
-        columns = [column.tolist() if hasattr(column, "tolist") else column for column in self.data]
-        return [[_finite(item) for item in row] for row in zip(*columns, strict=True)]
+        return [list(row) for row in self.each_row()]
+
+    def thinned(self, step: int) -> Table:
+        """The table with every `step`-th row."""
+        return replace(self, data=tuple(column[::step] for column in self.data))
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,8 +97,15 @@ class Report:
         return all(check.status != "fail" for check in self.checks)
 
 
-def _finite(item: float | str | None) -> float | str | None:
-    return None if isinstance(item, float) and not math.isfinite(item) else item
+def _plain(column: Column) -> Sequence[float | str | None]:
+    """A column's numbers as Python's own, None where they do not exist."""
+    items: Sequence[Any] = column.tolist() if hasattr(column, "tolist") else column
+    try:
+        if all(map(math.isfinite, items)):
+            return items
+    except TypeError:  # words, or nothing at a place
+        pass
+    return [None if isinstance(item, float) and not math.isfinite(item) else item for item in items]
 
 
 def below(code: str, name: str, value: float, limit: float, warn: float, unit: str, subject: str, remedy: str) -> Check:

@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 import csv
-import io
 from collections.abc import Iterable, Iterator, Sequence
+from itertools import chain
+from typing import IO
 
 from gearlink.core.report import Report, Table
 
 
-def as_csv(report: Report) -> str:
-    """The report as CSV: quantities, checks and tables, each with its own header row."""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
+def write_csv(report: Report, stream: IO[str]) -> None:
+    """Write the report as CSV, row by row: quantities, checks and tables, each with its own header row."""
+    writer = csv.writer(stream, lineterminator="\n")
     for number, block in enumerate(_blocks(report)):
         if number:
-            text.write("\n")
+            stream.write("\n")
         writer.writerows(block)
-    return text.getvalue()
 
 
 def _blocks(report: Report) -> Iterator[Iterable[Iterable[object]]]:
@@ -38,9 +37,9 @@ def _blocks(report: Report) -> Iterator[Iterable[Iterable[object]]]:
         yield table_rows(table)
 
 
-def table_rows(table: Table) -> list[Sequence[object]]:
+def table_rows(table: Table) -> Iterator[Sequence[object]]:
     """A table's header row, `column [unit]`, and its rows."""
     heads = [
         f"{column} [{unit}]" if unit != "1" else column for column, unit in zip(table.columns, table.units, strict=True)
     ]
-    return [heads, *table.rows()]
+    return chain([heads], table.each_row())

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Iterable
 
 from gearlink.core.report import Table
 
@@ -25,13 +26,13 @@ def number(value: object, digits: int = 7) -> str:
 
 def readable_rows(table: Table, step: int = 1, digits: int = 6) -> list[list[str]]:
     """Every `step`-th row as text; values that are rounding beside their column's largest are shown as 0."""
-    rows = table.rows()
-    noise = [_noise(column) for column in zip(*rows, strict=True)]
-    return [[number(_quiet(x, level), digits) for x, level in zip(row, noise, strict=True)] for row in rows[::step]]
+    noise = [_noise(column) for column in table.data]
+    rows = table.thinned(step).each_row()
+    return [[number(_quiet(x, level), digits) for x, level in zip(row, noise, strict=True)] for row in rows]
 
 
-def _noise(column: Sequence[object]) -> float:
-    return 1e-13 * max((abs(x) for x in column if isinstance(x, float)), default=0.0)
+def _noise(column: Iterable[object]) -> float:
+    return 1e-13 * max((abs(x) for x in column if isinstance(x, float) and math.isfinite(x)), default=0.0)
 
 
 def _quiet(value: object, level: float) -> object:

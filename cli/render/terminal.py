@@ -110,12 +110,13 @@ def _room(check: Check) -> float:
 
 
 def _show_table(table: Table, console: Console) -> None:
-    rows = table.rows()
-    step = max(1, math.ceil(len(rows) / _MOST_ROWS))
+    step = max(1, math.ceil(table.length / _MOST_ROWS))
     if step > 1:
         step = next((s for s in (2, 5, 10, 15, 30) if s >= step), step)
     cells = readable_rows(table, step)
-    thinned = f", every {step}th of {len(rows)} rows (all with --table {table.name} --format csv)" if step > 1 else ""
+    thinned = (
+        f", every {step}th of {table.length} rows (all with --table {table.name} --format csv)" if step > 1 else ""
+    )
     console.print(Text(f"\n{table.name}{thinned}", style="bold"))
     for columns in _folds(table, cells, console.width):
         grid = grid_for(console)

@@ -169,6 +169,19 @@ def test_table_rows_turn_columns_and_leave_out_what_is_no_number(toy):
     assert toy.table("motion").rows() == [[None], [None], [-0.0]]
 
 
+def test_rows_run_on_from_block_to_block():
+    count = 10_001
+    x = np.arange(count) / 7.0
+    gaps = np.where(np.arange(count) == 5000, np.nan, x)
+    table = Table("t", ("x", "y", "word"), ("1", "1", "1"), (x, gaps, ["a"] * count))
+    rows = list(table.each_row())
+    assert table.length == len(rows) == count
+    assert [row[0] for row in rows] == x.tolist()
+    assert [i for i, row in enumerate(rows) if row[1] is None] == [5000]
+    assert rows == [tuple(row) for row in table.rows()]
+    assert list(table.thinned(1000).each_row()) == rows[::1000]
+
+
 def test_columns_of_unequal_length_are_a_fault():
     with pytest.raises(ValueError, match="zip"):
         Table("t", ("a", "b"), ("1", "1"), ([1.0], [1.0, 2.0])).rows()
