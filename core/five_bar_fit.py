@@ -3,26 +3,33 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import Any
+from itertools import islice
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gearlink.core.arrays import Points
+from gearlink.core.arrays import Points, Reals
 from gearlink.core.errors import NoSolution
 from gearlink.core.five_bar import GearedFiveBar
-from gearlink.core.five_bar_path import distances, points
-from gearlink.core.halton import halton
+from gearlink.core.five_bar_descent import PathProblem, descend, matched, thinned
+from gearlink.core.five_bar_family import FiveBarFamily
+from gearlink.core.five_bar_path import distances
+from gearlink.core.five_bar_starts import bounds, scattered_starts
 
-_TRIED = 600
-_KEPT = 12
-_SCATTER = 0.7
-_SETTLING = 8
-_POLISHINGS = 8
-# A penalty gives way a little; the search aims this much higher than the limit [rad].
-_MARGIN = math.radians(0.5)
+# Places of the grid by wave of the fastest part, how few and many they are in all: for the starts, and for a stage,
+# where rows times targets times places are limited.
+_PER_WAVE, _FEWEST, _MOST = 120, 240, 480
+_STAGE_PER_WAVE, _STAGE_FEWEST, _WORK = 60, 120, 200_000
+# As many for the span, finer at the end, when the extremes of a long period must not be missed.
+_SPANS, _FEWEST_SPANS, _MOST_SPANS = 12, 120, 2400
+_SPANS_TO_FINISH, _MOST_SPANS_TO_FINISH = 40, 20_000
+# Targets that choose the starts. Stages: rows, steps, weight of the limit, targets; the last looks at all of them.
+_CHOOSING = 16
+_STAGES = ((64, 15, 3.0, 24), (16, 30, 10.0, 64))
+_LAST, _STEPS, _MORE_STEPS = 3, 120, 20
+# The search aims so much higher than the limit, against rounding; higher where a penalty gave way [rad].
+_MARGIN, *_MARGINS = (math.radians(margin) for margin in (0.005, 0.02, 0.1, 0.5, 2.0))
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,8 +72,12 @@ def fit_path(start: GearedFiveBar, offset: complex, targets: Points, transmissio
     Raises
         NoSolution - for fewer than three points, or where no start closes
     Notes
-        The 12 best of 600 fixed scattered starts (no random numbers) are refined; the given one is always among them.
-        Closing and transmission angle enter as penalties of the search; the result is judged by its real path alone.
+        The budget is fixed, in evaluations, not in time: the same points give the same fit. Up to 600 scattered starts
+        (no random numbers), their couplers made to close, are compared in five rounds of at most 3 million distances;
+        the 64 best and the given one take 15 steps of Levenberg and Marquardt, the 17 best of them 30 more, the 3 best
+        120 more, and at most 80 more where the transmission angle is missed. The first two stages look at no more than
+        24 and 64 of the points, and matching points with paths takes at most 200 000 distances a time, or 120 places of
+        each path. Only the search's best five-bar that closes is judged by its real path, beside the given one.
     Source
         thesis 2.2.1, figure 2-1; own derivation
     """
@@ -75,71 +86,17 @@ def fit_path(start: GearedFiveBar, offset: complex, targets: Points, transmissio
     scale = float(np.max(np.abs(targets[:, None] - targets[None, :])))
     if not scale > 0.0:
         raise NoSolution("all points are the same: a path needs at least two different ones")
-    ranked = _ranked_starts(start, offset, targets, transmission_angle)
-    fits = [fit for bar, m in ranked for fit in _refined(bar, m, targets, transmission_angle, scale)]
-    fits += [judge(bar, m, targets) for bar, m in ranked]
-    if not fits:
+    given = [judge(start, offset, targets)] if _closes(start, 0.0) else []
+    with np.errstate(all="ignore"):  # rows that open are NaN and drop out
+        rows = _search(start, offset / scale, targets / scale, transmission_angle, scale)
+    closing = (made for row in rows if _closes((made := _made(start, row, scale))[0], transmission_angle))
+    found = [judge(bar, m, targets) for bar, m in islice(closing, 1)]
+    if not given and not found:
         raise NoSolution(
             "none of the starts closes over a whole turn with the transmission angle that is asked for: start from "
             "links that do (longer coupler and follower), or lower limits.transmission_angle"
         )
-    return _polished(min(fits, key=lambda fit: fit.rms), targets, transmission_angle, scale)
-
-
-def _polished(fit: Fit, targets: Points, least: float, scale: float) -> Fit:
-    """The best fit refined again, with its points matched anew, as long as that brings it nearer."""
-    for _ in range(_POLISHINGS):
-        better = next(_refined(fit.bar, fit.offset, targets, least, scale), fit)
-        if not better.rms < 0.999 * fit.rms:
-            break
-        fit = better
-    return fit
-
-
-def _starts(start: GearedFiveBar, offset: complex) -> Iterator[tuple[GearedFiveBar, complex]]:
-    """The given start, and others about it at fixed scattered places."""
-    yield start, offset
-    names = ("input", "coupler", "follower", "output")
-    for i in range(1, _TRIED + 1):
-        *shares, turn, along, across = halton(i, 7)
-        lengths = {
-            name: getattr(start, name) * math.exp(_SCATTER * (2.0 * share - 1.0))
-            for name, share in zip(names, shares, strict=True)
-        }
-        reach = 1.5 * lengths["coupler"]
-        moved = complex(reach * (2.0 * along - 1.0), reach * (2.0 * across - 1.0)) + 0.5 * offset
-        yield replace(start, **lengths, phase=start.phase + 2.0 * math.pi * turn), moved
-
-
-def _ranked_starts(
-    start: GearedFiveBar, offset: complex, targets: Points, least: float
-) -> list[tuple[GearedFiveBar, complex]]:
-    """The starts that close, nearest to the points first, the given one before all."""
-    scored: list[tuple[float, int, GearedFiveBar, complex]] = []
-    for i, (bar, m) in enumerate(_starts(start, offset)):
-        if not _closes(bar, least if i else 0.0):
-            continue
-        settled, square = _settled(bar, m, targets)
-        scored.append((square if i else -1.0, i, bar, settled if i else m))
-    scored.sort(key=lambda entry: entry[:2])
-    return [(bar, m) for _, _, bar, m in scored[:_KEPT]]
-
-
-def _settled(bar: GearedFiveBar, offset: complex, targets: Points) -> tuple[complex, float]:
-    """The coupler point that suits the points best, and the mean square of the distances from its path.
-
-    With the nearest places known, the best u + i v is a mean: the path is linear in it. Both steps take turns.
-    """
-    count = 120 * bar.period_turns
-    phi = bar.period * np.arange(count) / count
-    start, unit = points(bar, phi, 0j), points(bar, phi, 1.0 + 0j) - points(bar, phi, 0j)
-    square = math.inf
-    for _ in range(_SETTLING):
-        away = np.abs((start + offset * unit)[None, :] - targets[:, None])
-        nearest = np.argmin(away, axis=1)
-        square = float(np.mean(np.min(away, axis=1) ** 2))
-        offset = complex(np.mean(np.conj(unit[nearest]) * (targets - start[nearest])))
-    return offset, square
+    return min(found + given, key=lambda fit: fit.rms)
 
 
 def _closes(bar: GearedFiveBar, least: float) -> bool:
@@ -149,49 +106,59 @@ def _closes(bar: GearedFiveBar, least: float) -> bool:
         return False
 
 
-def _refined(bar: GearedFiveBar, offset: complex, targets: Points, least: float, scale: float) -> Iterator[Fit]:
-    """The start after least squares, if it still closes with the transmission angle, sought a little higher if not."""
-    for margin in (0.0, _MARGIN):
-        changed, m = _least_squares(bar, offset, targets, least + margin, scale)
-        if _closes(changed, least):
-            yield judge(replace(changed, phase=math.remainder(changed.phase, 2.0 * math.pi)), m, targets)
-            return
+def _search(start: GearedFiveBar, offset: complex, targets: Points, least: float, scale: float) -> Reals:
+    """Rows of unknowns at the ends of the search, lengths by the scale, the best first."""
+    family = _family(start, scale)
+    lengths = np.log((start.input, start.coupler, start.follower, start.output)) - math.log(scale)
+    first = np.array([*lengths, start.phase, offset.real, offset.imag])
+    problem = PathProblem(family, targets, *bounds(first), math.cos(least), 1.0)
+    x = scattered_starts(family, first, thinned(problem, _CHOOSING).targets, least)
+    x = np.concatenate((first[None, :], x))
+    for rows, steps, weight, most in _STAGES:
+        stage = _refined(replace(thinned(problem, most), weight=weight), rows)
+        x = x[: rows + 1]
+        x, _, cost = descend(stage, x, matched(stage, x), steps)
+        x = x[np.argsort(cost, kind="stable")]
+    return _finished(_refined(replace(problem, weight=weight), _LAST), x[:_LAST], least)
 
 
-def _least_squares(
-    bar: GearedFiveBar, offset: complex, targets: Points, least: float, scale: float
-) -> tuple[GearedFiveBar, complex]:
-    """The five-bar and coupler point at the minimum next to the start; it may open."""
-    from scipy.optimize import least_squares
-
-    _, phi = distances(bar, offset, targets)
-    lengths = [math.log(x) for x in (bar.input, bar.coupler, bar.follower, bar.output)]
-    x = np.array([*lengths, bar.phase, offset.real / scale, offset.imag / scale, *phi])
-
-    def made(x: Any) -> tuple[GearedFiveBar, complex]:
-        a, b, c, e = (float(v) for v in np.exp(x[:4]))
-        changed = replace(bar, input=a, coupler=b, follower=c, output=e, phase=float(x[4]))
-        return changed, scale * complex(x[5], x[6])
-
-    def miss(x: Any) -> Any:
-        changed, m = made(x)
-        away = (points(changed, x[7:], m) - targets) / scale
-        away = np.where(np.isfinite(away), away, 1.0 + 0j)  # open there: the penalties lead back
-        return np.concatenate((away.real, away.imag, _penalties(changed, least)))
-
-    free = [math.inf] * (3 + phi.size)
-    bounds = [*(v - 2.5 for v in lengths), *(-v for v in free)], [*(v + 2.5 for v in lengths), *free]
-    found = least_squares(miss, x, bounds=bounds, xtol=1e-12, ftol=1e-12, gtol=1e-12, max_nfev=150)
-    return made(found.x)
+def _finished(problem: PathProblem, x: Reals, least: float) -> Reals:
+    """The last stage, over all targets, and more steps for rows that still miss the transmission angle."""
+    x, phi, cost = descend(_aimed(problem, least + _MARGIN), x, matched(problem, x), _STEPS)
+    spans = _between(_SPANS_TO_FINISH * problem.family.waves, _FEWEST_SPANS, _MOST_SPANS_TO_FINISH)
+    problem = replace(problem, family=replace(problem.family, span_count=spans))
+    for margin in _MARGINS:
+        missing = ~(np.max(problem.family.cosines(x)[0], axis=1) <= math.cos(least))
+        if not np.any(missing):
+            break
+        more = descend(_aimed(problem, least + margin), x[missing], phi[missing], _MORE_STEPS)
+        x[missing], phi[missing], cost[missing] = more
+    return np.asarray(x[np.argsort(cost, kind="stable")])
 
 
-def _penalties(bar: GearedFiveBar, least: float) -> NDArray[np.float64]:
-    """How far the cosine of the transmission angle passes its limit at the nearest and the farthest |BD|."""
-    phi = bar.period * np.arange(90 * bar.period_turns) / (90 * bar.period_turns)
-    square = np.full(phi.size, bar.span_squared.constant)
-    for amplitude, frequency, start in bar.span_squared.terms:
-        square += amplitude * np.cos(frequency * phi + start)
-    b, c = bar.coupler, bar.follower
-    cosine = (b * b + c * c - np.array([square.min(), square.max()])) / (2.0 * b * c)
-    limit = math.cos(least)
-    return 3.0 * np.maximum(0.0, np.array([cosine[0], -cosine[1]]) - limit)
+def _aimed(problem: PathProblem, angle: float) -> PathProblem:
+    return replace(problem, cosine=math.cos(angle))
+
+
+def _refined(problem: PathProblem, rows: int) -> PathProblem:
+    """The same with as fine a grid as the work of a stage allows."""
+    most = max(_WORK // (rows * problem.targets.size), _STAGE_FEWEST)
+    count = _between(_STAGE_PER_WAVE * problem.family.waves, _STAGE_FEWEST, most)
+    return replace(problem, family=replace(problem.family, count=count))
+
+
+def _between(places: float, fewest: int, most: int) -> int:
+    return math.ceil(min(max(places, fewest), most))
+
+
+def _family(bar: GearedFiveBar, scale: float) -> FiveBarFamily:
+    family = FiveBarFamily(bar.frame / scale, float(bar.ratio), bar.assembly, bar.period, _FEWEST, _FEWEST_SPANS)
+    spans = _between(_SPANS * family.waves, _FEWEST_SPANS, _MOST_SPANS)
+    return replace(family, count=_between(_PER_WAVE * family.waves, _FEWEST, _MOST), span_count=spans)
+
+
+def _made(bar: GearedFiveBar, row: Reals, scale: float) -> tuple[GearedFiveBar, complex]:
+    """Five-bar and coupler point of a row."""
+    a, b, c, e = (scale * math.exp(float(x)) for x in row[:4])
+    phase = math.remainder(float(row[4]), 2.0 * math.pi)
+    return replace(bar, input=a, coupler=b, follower=c, output=e, phase=phase), scale * complex(row[5], row[6])

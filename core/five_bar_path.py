@@ -10,8 +10,13 @@ import numpy as np
 from gearlink.core.arrays import Points, Reals
 from gearlink.core.extremes import Extreme, maximum_over, minimum_over
 from gearlink.core.five_bar import GearedFiveBar
+from gearlink.core.five_bar_family import near_places
 
-_PER_TURN = 720
+_PER_TURN, _FEW_TURNS, _PER_WAVE = 720, 4, 48
+# So many branches of a path that crosses itself are tried for each point.
+_BRANCHES = 3
+# Distances that are held at a time.
+_AT_ONCE = 1_000_000
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,11 +54,8 @@ def sweep(bar: GearedFiveBar, phi: Reals, offset: complex) -> PathSweep:
     """
     bar.closure()
     start, end, u2, u3, gamma = _position(bar, phi)
-    k = float(bar.ratio)
-    speeds = 1j * start, 1j * k * (end - bar.frame)
-    w2 = ((speeds[0] - speeds[1]) * np.conj(u3)).real / (bar.coupler * (u2 * np.conj(u3)).imag)
-    point = start + offset * u2
-    return PathSweep(_continuous(bar, phi), gamma, point, speeds[0] + 1j * w2 * offset * u2)
+    velocity = _velocity(bar, start, end, u2, u3, offset)
+    return PathSweep(_continuous(bar, phi), gamma, start + offset * u2, velocity)
 
 
 def points(bar: GearedFiveBar, phi: Reals, offset: complex) -> Points:
@@ -83,20 +85,50 @@ def _position(bar: GearedFiveBar, phi: Reals) -> tuple[Points, Points, Points, P
     return start, end, (joint - start) / b, (joint - end) / c, gamma
 
 
-def _continuous(bar: GearedFiveBar, phi: Reals) -> Reals:
-    """Coupler angle without jumps: between rows the angle is followed in steps below a quarter turn.
+def _velocity(bar: GearedFiveBar, start: Points, end: Points, u2: Points, u3: Points, offset: complex) -> Points:
+    """Velocity of the coupler point, of what `_position` gives."""
+    speeds = 1j * start, 1j * float(bar.ratio) * (end - bar.frame)
+    w2 = ((speeds[0] - speeds[1]) * np.conj(u3)).real / (bar.coupler * (u2 * np.conj(u3)).imag)
+    velocity: Points = speeds[0] + 1j * w2 * offset * u2
+    return velocity
 
-    |w2| <= (|B'| + |D'|)/(b sin(gamma)) bounds the step, so that no winding is missed.
+
+def _continuous(bar: GearedFiveBar, phi: Reals) -> Reals:
+    """Coupler angle without jumps, however near the five-bar comes to its dead points.
+
+    The coupler stands within half a turn of BD, always on the same side: it winds as BD does.
     """
-    angle, _ = bar.min_transmission_angle()
-    bound = (bar.input + abs(float(bar.ratio)) * bar.output) / (bar.coupler * math.sin(angle))
-    widest = float(np.max(np.diff(phi), initial=0.0))
-    parts = max(1, math.ceil(widest * bound / (0.5 * math.pi)))
-    if phi.size < 2:
-        return np.asarray(np.angle(_position(bar, phi)[2]))
-    steps = np.arange(parts) / parts
-    fine = np.append((phi[:-1, None] + np.diff(phi)[:, None] * steps).ravel(), phi[-1])
-    return np.asarray(np.unwrap(np.angle(_position(bar, fine)[2]))[::parts])
+    start, end, u2, _, _ = _position(bar, phi)
+    angle, way = np.angle(u2), end - start
+    wound = np.concatenate(([0.0], np.cumsum(_windings(bar, phi[:-1], phi[1:]))))
+    turned = np.angle(way[:1]) + wound + np.angle(u2 * np.conj(way))
+    turns = np.round((turned - angle) / (2.0 * math.pi))
+    return np.asarray(angle + 2.0 * math.pi * (turns - turns[:1]))
+
+
+def _windings(bar: GearedFiveBar, left: Reals, right: Reals) -> Reals:
+    """Angles by which BD turns between pairs of input angles.
+
+    |D' - B'| <= a + |k| e: while BD moves by less than its length it turns by less than a right angle. Elsewhere the
+    step is halved.
+    """
+    fastest = bar.input + abs(float(bar.ratio)) * bar.output
+    first, last = _way(bar, left), _way(bar, right)
+    middle = 0.5 * (left + right)
+    split = (fastest * (right - left) >= np.abs(first)) & (left < middle) & (middle < right)
+    turned = np.angle(last * np.conj(first))
+    if np.any(split):
+        low, middle, high = left[split], middle[split], right[split]
+        halves = _windings(bar, np.concatenate((low, middle)), np.concatenate((middle, high)))
+        turned[split] = halves[: low.size] + halves[low.size :]
+    return np.asarray(turned)
+
+
+def _way(bar: GearedFiveBar, phi: Reals) -> Points:
+    """The vector BD."""
+    end = bar.frame + bar.output * np.exp(1j * (bar.phase + float(bar.ratio) * phi))
+    way: Points = end - bar.input * np.exp(1j * phi)
+    return way
 
 
 def extent(bar: GearedFiveBar, offset: complex) -> tuple[Extreme, Extreme, Extreme, Extreme]:
@@ -131,20 +163,39 @@ def distances(bar: GearedFiveBar, offset: complex, targets: Points) -> tuple[Rea
     Raises
         NoSolution - where the five-bar opens
     Notes
-        Nearest of 720 places a turn, then golden section between its neighbours: the distance to rounding.
+        The three nearest branches of the path on a grid of 720 places a turn (48 a wave of the fastest part after four
+        turns), then golden section between the neighbours of each: the distance to rounding.
     Source
         own derivation
     """
     bar.closure()
-    count = _PER_TURN * bar.period_turns
-    grid = bar.period * np.arange(count) / count
-    nearest = np.argmin(np.abs(points(bar, grid, offset)[None, :] - targets[:, None]), axis=1)
-    step = bar.period / count
-    low, high = grid[nearest] - step, grid[nearest] + step
+    step, middle = _near(bar, offset, targets)
+    low, high, aims = middle - step, middle + step, targets[:, None]
     share = (math.sqrt(5.0) - 1.0) / 2.0
     for _ in range(60):
         p, q = high - share * (high - low), low + share * (high - low)
-        closer = np.abs(points(bar, p, offset) - targets) <= np.abs(points(bar, q, offset) - targets)
+        closer = np.abs(points(bar, p, offset) - aims) <= np.abs(points(bar, q, offset) - aims)
         low, high = np.where(closer, low, p), np.where(closer, q, high)
     phi = 0.5 * (low + high)
-    return np.abs(points(bar, phi, offset) - targets), phi % bar.period
+    away = np.abs(points(bar, phi, offset) - aims)
+    rows, best = np.arange(targets.size), np.argmin(away, axis=1)
+    return away[rows, best], phi[rows, best] % bar.period
+
+
+def _near(bar: GearedFiveBar, offset: complex, targets: Points) -> tuple[float, Reals]:
+    """Step of a grid over the period, and its input angles (N, 3) at which the path passes the points nearest."""
+    count = _places(bar)
+    step, at_once = bar.period / count, max(1, _AT_ONCE // count)
+    grid = np.asarray(step * np.arange(count), dtype=np.float64)
+    start, end, u2, u3, _ = _position(bar, grid)
+    path, velocity = start + offset * u2, _velocity(bar, start, end, u2, u3, offset)
+    blocks = [targets[i : i + at_once] for i in range(0, targets.size, at_once)]
+    places = [near_places(path[None, :], velocity[None, :], step, block, _BRANCHES)[0] for block in blocks]
+    return step, grid[np.concatenate(places)]
+
+
+def _places(bar: GearedFiveBar) -> int:
+    """Places of a grid over the period on which no branch of the path is missed."""
+    k = float(bar.ratio)
+    waves = bar.period_turns * max(1.0, abs(k), abs(1.0 - k))
+    return max(_PER_TURN * min(bar.period_turns, _FEW_TURNS), math.ceil(_PER_WAVE * waves))
