@@ -263,8 +263,10 @@ def near_places(path: Points, velocity: Points, step: float, targets: Points, mo
     Source
         own derivation
     """
-    middle, known = np.mean(targets), np.isfinite(path) & np.isfinite(velocity)
-    path, targets = np.where(known, path - middle, _FAR), targets - middle
+    known = np.isfinite(path) & np.isfinite(velocity)
+    middle, size = np.mean(targets), max(np.max(np.abs(targets)), np.max(np.abs(path), where=known, initial=0.0))
+    path, targets = np.where(known, (path - middle) / size, _FAR), (targets - middle) / size
+    velocity = velocity / size
     speed = np.where(known, np.abs(velocity), 0.0)
     tangent = np.where(speed > 0.0, velocity / np.where(speed > 0.0, speed, 1.0), 0.0)
     along = _projected(2.0 * path, tangent, targets)

@@ -89,7 +89,8 @@ def fit_path(start: GearedFiveBar, offset: complex, targets: Points, transmissio
     given = [judge(start, offset, targets)] if _closes(start, 0.0) else []
     with np.errstate(all="ignore"):  # rows that open are NaN and drop out
         rows = _search(start, offset / scale, targets / scale, transmission_angle, scale)
-    closing = (made for row in rows if _closes((made := _made(start, row, scale))[0], transmission_angle))
+    known = rows[np.all(np.isfinite(rows), axis=1)]
+    closing = (made for row in known if _closes((made := _made(start, row, scale))[0], transmission_angle))
     found = [judge(bar, m, targets) for bar, m in islice(closing, 1)]
     if not given and not found:
         raise NoSolution(
@@ -159,6 +160,6 @@ def _family(bar: GearedFiveBar, scale: float) -> FiveBarFamily:
 
 def _made(bar: GearedFiveBar, row: Reals, scale: float) -> tuple[GearedFiveBar, complex]:
     """Five-bar and coupler point of a row."""
-    a, b, c, e = (scale * math.exp(float(x)) for x in row[:4])
+    a, b, c, e = (math.exp(float(x) + math.log(scale)) for x in row[:4])
     phase = math.remainder(float(row[4]), 2.0 * math.pi)
     return replace(bar, input=a, coupler=b, follower=c, output=e, phase=phase), scale * complex(row[5], row[6])
