@@ -140,7 +140,7 @@ def extent(bar: GearedFiveBar, offset: complex) -> tuple[Extreme, Extreme, Extre
         own derivation
     """
     bar.closure()
-    end, count = bar.period, 512 * bar.period_turns
+    end, count = bar.period, _places(bar)
 
     def part(direction: complex) -> tuple[Extreme, Extreme]:
         def along(phi: Reals) -> Reals:

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from gearlink.core.extremes import Extreme
     from gearlink.core.specs.geared_five_bar import GearedFiveBarSpec
 
+_SHOWN_TURNS = 100
 _POSITION_TOLERANCE = math.degrees(1e-9)
 
 
@@ -210,14 +211,20 @@ class GearedFiveBar(FiveBarParts):
             raise NoSolution(f"the form {self.form} has no table {name}: it has {', '.join(self.table_names_shown())}")
         return super().table(name)
 
+    @property
+    def shown_turns(self) -> int:
+        """Input turns that the path's table covers: the period, or the beginning of a long one."""
+        return min(self.period_turns, _SHOWN_TURNS)
+
     def table_path(self) -> Table:
-        """Coupler point, its speed and the links over the whole period."""
+        """Coupler point, its speed and the links over the period, or the first hundred turns of a longer one."""
         import numpy as np
 
         from gearlink.core.five_bar_path import sweep
 
-        count = (self.samples or 360) * self.period_turns
-        degrees = np.arange(count) * (360.0 * self.period_turns / count)
+        turns = self.shown_turns
+        count = (self.samples or 360) * turns
+        degrees = np.arange(count) * (360.0 * turns / count)
         bar = self.path_bar
         found = sweep(bar, np.radians(degrees), self.offset)
         gamma = found.transmission_angle

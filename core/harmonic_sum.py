@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from gearlink.core.roots import bracketed_root, sign_changes
 
 _STEPS_PER_WAVE = 40
+_MANY = 4000
 
 
 @dataclass(frozen=True)
@@ -52,7 +53,8 @@ class HarmonicSum:
         Returns
             least, greatest : (float, float)
         Notes
-            Signs of the derivative at 40 places a wave of the highest frequency, then bracketed roots.
+            Signs of the derivative at 40 places a wave of the highest frequency, then bracketed roots; on a long
+            interval only of those next to which an end's value may be the least or the greatest.
         Example
             >>> HarmonicSum(5.0, ((2.0, 1.0, 0.0),)).extremes(-1.0, 1.0)[1]
             (0.0, 7.0)
@@ -63,7 +65,27 @@ class HarmonicSum:
         fastest = max((abs(f) for _, f, _ in self.terms), default=0.0)
         count = max(8, math.ceil(_STEPS_PER_WAVE * fastest * (end - start) / (2.0 * math.pi)))
         grid = [start + (end - start) * i / count for i in range(count + 1)]
-        slopes = [self.slope(x) for x in grid]
-        places = [bracketed_root(self.slope, grid[i], grid[i + 1]) for i in sign_changes(slopes)]
+        brackets = self._few_brackets(grid) if count > _MANY else sign_changes([self.slope(x) for x in grid])
+        places = [bracketed_root(self.slope, grid[i], grid[i + 1]) for i in brackets]
         found = [(x, self.value(x)) for x in (start, end, *places)]
         return min(found, key=lambda pair: pair[1]), max(found, key=lambda pair: pair[1])
+
+    def _few_brackets(self, grid: list[float]) -> list[int]:
+        """Steps of a grid that hold a root of the derivative and may hold the least or the greatest value.
+
+        Within a step the sum passes the nearer end's value by no more than h^2/8 max |f''|.
+        """
+        import numpy as np
+
+        x = np.array(grid)
+        slopes, values = np.zeros(x.size), np.zeros(x.size)
+        for a, f, p in self.terms:
+            angle = f * x + p
+            slopes -= a * f * np.sin(angle)
+            values += a * np.cos(angle)
+        bend = sum(abs(a) * f * f for a, f, _ in self.terms)
+        slack = bend * (grid[1] - grid[0]) ** 2 / 8.0 + 1e-12 * sum(abs(a) for a, _, _ in self.terms)
+        low, high = np.minimum(values[:-1], values[1:]), np.maximum(values[:-1], values[1:])
+        extreme = (low - slack <= low.min()) | (high + slack >= high.max())
+        turning = (np.sign(slopes[:-1]) != np.sign(slopes[1:])) | (slopes[:-1] == 0.0)
+        return [int(i) for i in np.flatnonzero(extreme & turning)]

@@ -56,8 +56,9 @@ def path_mechanism(axes: Axes, design: GearedFiveBar) -> None:
     frame, m = complex(bar.frame), bar.point(0.0, offset)
     _gears(axes, design, frame)
     data = linkage.columns(design, "path")
-    closed = linkage.closed(data["x"]), linkage.closed(data["y"])
-    axes.plot(*closed, color=style.GREEN, linewidth=1.8, label="path of M", zorder=3)
+    whole = design.shown_turns == design.period_turns
+    path = [linkage.closed(data[name]) if whole else data[name] for name in ("x", "y")]
+    axes.plot(*path, color=style.GREEN, linewidth=1.8, label="path of M", zorder=3)
     target = design.spec.target
     if target is not None and target.points is not None:
         x, y = zip(*target.points, strict=True)
