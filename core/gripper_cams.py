@@ -39,12 +39,13 @@ class GripperCams(GripperBase):
             raise MissingSection("give cam.center, or size: {pressure_angle: 25} to have it chosen", key="size")
         return self._center_for(self.spec.size.pressure_angle)
 
-    def _center_for(self, degrees: float) -> complex:
+    def _center_for(self, degrees: float, *, refined: bool = True) -> complex:
         """Cam centre of the smallest cams that keep a pressure angle [deg]."""
         from gearlink.core.gripper_size import smallest_cam_center
 
         with at_key("size.pressure_angle"):
-            return smallest_cam_center(self.linkage, self._arms, self._cam.sense, math.radians(degrees)).center
+            limit, sense = math.radians(degrees), self._cam.sense
+            return smallest_cam_center(self.linkage, self._arms, sense, limit, refined=refined).center
 
     @property
     def _arms(self) -> list[RollerArm]:
@@ -190,7 +191,7 @@ class GripperCams(GripperBase):
         while high - low > 0.1:
             middle = 0.5 * (low + high)
             try:
-                self._center_for(middle)
+                self._center_for(middle, refined=False)
             except NoSolution:
                 low = middle
             else:

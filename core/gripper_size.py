@@ -29,7 +29,7 @@ class RollerArm:
 
 
 def smallest_cam_center(
-    linkage: GripperLinkage, arms: Sequence[RollerArm], sense: int, pressure_angle: float
+    linkage: GripperLinkage, arms: Sequence[RollerArm], sense: int, pressure_angle: float, *, refined: bool = True
 ) -> CamCenter:
     """Cam centre nearest to the first roller at which no roller exceeds a pressure angle.
 
@@ -38,6 +38,7 @@ def smallest_cam_center(
         arms : sequence of RollerArm - all rollers of the cam shaft
         sense : +1 or -1 - of the cam
         pressure_angle : float [rad]
+        refined : bool - as of `smallest_cam_of_rollers`
     Returns
         best : CamCenter - in the machine's frame
     Raises
@@ -47,7 +48,7 @@ def smallest_cam_center(
     """
     rollers = [_rocking_roller(linkage, arm) for arm in arms]
     joints = tuple(math.radians(start) for start in linkage.law.starts[1:-1])
-    return smallest_cam_of_rollers(rollers, pressure_angle, sense=sense, joints=joints)
+    return smallest_cam_of_rollers(rollers, pressure_angle, sense=sense, joints=joints, refined=refined)
 
 
 def _rocking_roller(linkage: GripperLinkage, arm: RollerArm) -> RockingRoller:

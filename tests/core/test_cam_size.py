@@ -207,3 +207,12 @@ def test_refuses_a_rocker_that_moves_with_the_cam_too_fast() -> None:
     turning = RockingRoller(lambda phi: (phi, 1.0 + 0.0 * phi), 0j, 100.0, 1)
     with pytest.raises(NoSolution, match="raise the limit"):
         smallest_cam_of_rollers([turning], math.radians(20.0), sense=-1)
+
+
+def test_a_table_of_places_comes_near_the_refined_centre() -> None:
+    def best(refined: bool) -> CamCenter:
+        roller = RockingRoller(rocker_law, PIVOT, 160.0, 1)
+        return smallest_cam_of_rollers([roller], math.radians(30.0), sense=-1, joints=JOINTS, refined=refined)
+
+    assert abs(best(False).center - best(True).center) < 1e-3
+    assert best(False).prime_radius != best(True).prime_radius
