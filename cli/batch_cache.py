@@ -35,8 +35,9 @@ def cached_outcomes(path: Path, options: BatchOptions, compute: Callable[[], lis
     entry = options.cache / f"{_key(path, content, options)}.json"
     if options.out is None and entry.exists():
         try:
-            return [_from_plain(item) for item in json.loads(entry.read_text())]
-        except (OSError, ValueError, KeyError, TypeError):
+            if kept := [_from_plain(item) for item in json.loads(entry.read_text())]:
+                return kept
+        except (OSError, ValueError, KeyError, TypeError, AttributeError):
             pass
     results = compute()
     if all(outcome.status != ExitCode.FAULT for outcome in results):

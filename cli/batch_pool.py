@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import os
 import sys
+from collections import deque
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Future, ProcessPoolExecutor, as_completed
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Future, ProcessPoolExecutor, wait
 from contextlib import contextmanager
 from multiprocessing import active_children, get_all_start_methods, get_context
 from pathlib import Path
@@ -13,6 +14,8 @@ from time import perf_counter
 
 from gearlink.cli.batch import Outcome, outcomes
 from gearlink.cli.batch_options import BatchOptions
+from gearlink.cli.diagnostics import Diagnostic
+from gearlink.cli.exit_codes import ExitCode
 
 # Several processes pay when the rest would take this long in one; starting them costs some hundredths of a second.
 _WORTH_SECONDS = 0.15
@@ -77,35 +80,56 @@ def _run_parallel(
 
     Notes
         A forked child has every module loaded already. Results come in as they are finished, so that an interrupt
-        leaves what there is.
+        leaves what there is. A process that dies (memory, a signal) costs the chunks it was given; this one does the
+        rest alone.
     """
     method = "fork" if "fork" in get_all_start_methods() and sys.platform == "linux" else None
     pool = ProcessPoolExecutor(jobs - 1, mp_context=get_context(method), initializer=_ignore_interrupt)
-    taken: dict[Future[list[Outcome]], int] = {}
+    waiting, given = deque(chunks), dict[Future[list[Outcome]], Sequence[Path]]()
+
+    def collect() -> bool:
+        """Take what is finished and give out more; False where a process has died."""
+        alive = True
+        for future in [future for future in given if future.done()]:
+            try:
+                results.extend(future.result())
+            except BrokenExecutor:
+                alive = False
+                results.extend(map(_lost, given[future]))
+            advance(len(given.pop(future)))
+        while alive and waiting and len(given) < 2 * (jobs - 1):
+            try:
+                given[pool.submit(_chunk, waiting[0], options)] = waiting[0]
+                waiting.popleft()
+            except BrokenExecutor:
+                alive = False
+        return alive
+
     try:
-        futures = [pool.submit(_chunk, chunk, options) for chunk in chunks]
-        taken = {future: len(chunk) for future, chunk in zip(futures, chunks, strict=True)}
-        for future, chunk in zip(reversed(futures), reversed(chunks), strict=True):
-            if not future.cancel():
-                break
-            del taken[future]
-            for path in chunk:
+        alive = collect()
+        while waiting:
+            for path in waiting.pop():
                 results += outcomes(path, options)
                 advance(1)
-        for future in as_completed(list(taken)):
-            count = taken.pop(future)
-            results += future.result()
-            advance(count)
+                alive = alive and collect()
+        while given:
+            wait(given, return_when=FIRST_COMPLETED)
+            collect()
         pool.shutdown()
     except BaseException:
         # What they are at is lost; waiting for it would make the user wait.
+        for future in given:
+            if future.done() and future.exception() is None:
+                results += future.result()
         for child in active_children():
             child.terminate()
-        for future in taken:
-            if future.done() and not future.cancelled() and future.exception() is None:
-                results += future.result()
-        pool.shutdown(cancel_futures=True)
+        pool.shutdown()
         raise
+
+
+def _lost(path: Path) -> Outcome:
+    message = "fault: the process that had this file died; run it alone with -j 1"
+    return Outcome(str(path), "", path.stem, "", ExitCode.FAULT, None, (Diagnostic("GL199", message, file=str(path)),))
 
 
 def _ignore_interrupt() -> None:

@@ -20,6 +20,7 @@ _BLOCK = 8192
 _MOST_STEPS = 12
 _SMALL = 0.75  # h [rad] below which the last step avoids the cancellation
 _TINY = 1e-3  # h [rad] below which the steps of F are noise and y = 2 h (1 + O(h^2)) is the better start
+_FITTED_BELOW = -0.2  # i3 above which the fitted start may lie in the reach of the root y = h
 _START = (0.249, -0.434, 0.058, 0.163)
 # (asin(x) - x)/x^3 as a rational function of x^2, |x| <= 1/2: relative error 2e-18 of asin(x), of the fdlibm library
 _ASIN_TOP = (
@@ -83,6 +84,7 @@ def _settle(ratio: Reals, h: Reals, y: Reals, rows: Reals) -> NDArray[np.bool_]:
     shift -= h
     np.divide(n, n + 1.0, out=high)
     _start(high, h, y, work)
+    np.multiply(h, 2.0, out=y, where=ratio > _FITTED_BELOW)
     high *= 2.0 * math.pi
     high -= h
     np.minimum(high, 3.0 * h, out=high)

@@ -191,8 +191,8 @@ def _falls_from_its_end(v: Reals, i: NDArray[np.intp]) -> NDArray[np.bool_]:
 
 def _is_noise(v: Reals) -> NDArray[np.bool_]:
     """Whether the samples of a bracket go up and down too often for a function that the first samples resolved."""
-    steps = np.diff(v, axis=1)
-    noise: NDArray[np.bool_] = np.count_nonzero(steps[:, :-1] * steps[:, 1:] < 0.0, axis=1) >= _TURNS_OF_NOISE
+    signs = np.sign(np.diff(v, axis=1))
+    noise: NDArray[np.bool_] = np.count_nonzero(signs[:, :-1] * signs[:, 1:] < 0.0, axis=1) >= _TURNS_OF_NOISE
     return noise
 
 

@@ -73,9 +73,9 @@ def gear_check(name: str, pair: GearPair, limits: Limits, mesh: str = "") -> Ite
         if name == "undercut":
             yield _undercut(pair, gear, limits.undercut, before)
         elif name == "tip-thickness":
-            yield _tip_thickness(pair, gear, limits.tip_thickness, before)
+            yield _tip_thickness(pair, gear, limits, before)
         elif name == "involute-interference":
-            yield _interference(pair, gear, limits.tip_thickness, before)
+            yield _interference(pair, gear, limits, before)
         elif name == "root-clearance":
             yield _root_clearance(pair, gear, before)
         elif name == "contact-ratio" and gear == 0:
@@ -100,9 +100,12 @@ def _undercut(pair: GearPair, gear: int, margin: float, before: str) -> Check:
     return Check("GL201", "undercut", status, text, x - least, -margin)
 
 
-def _tip_thickness(pair: GearPair, gear: int, limit: float, before: str) -> Check:
+def _tip_thickness(pair: GearPair, gear: int, limits: Limits, before: str) -> Check:
     share = pair.tip_thickness[gear] / pair.module
+    limit = limits.tip_thickness
     warn = limit + 0.15
+    aims = (warn, limit) if share < limit else (warn,)
+    remedy = _mended(pair, gear, limits, *aims) if share < warn else ""
     return below(
         "GL202",
         "tip-thickness",
@@ -111,19 +114,19 @@ def _tip_thickness(pair: GearPair, gear: int, limit: float, before: str) -> Chec
         warn,
         "1",
         f"{before}the tip thickness of gear {gear + 1} over the module",
-        f"lower its profile shift or its addendum{_mended(pair, gear, warn, limit) if share < warn else ''}",
+        f"lower its profile shift or its addendum{remedy}",
     )
 
 
-def _mended(pair: GearPair, gear: int, *tip_thickness: float) -> str:
+def _mended(pair: GearPair, gear: int, limits: Limits, *tip_thickness: float) -> str:
     """The shifts that mend a tip, by the first aim that can be met, put after the words of a remedy."""
     from gearlink.core.gear_mending import mended_shift
 
-    found = filter(None, (mended_shift(pair, gear, aim) for aim in tip_thickness))
+    found = filter(None, (mended_shift(pair, gear, aim, limits.contact_ratio) for aim in tip_thickness))
     return "".join(f": {words}" for words in islice(found, 1))
 
 
-def _interference(pair: GearPair, gear: int, tip_thickness: float, before: str) -> Check:
+def _interference(pair: GearPair, gear: int, limits: Limits, before: str) -> Check:
     margin = pair.interference_margin[gear]
     status: Status = "fail" if margin < 0.0 else "pass"
     text = f"{before}the tip of gear {gear + 1} stays {margin:.4g} mm short of the mate's base tangent point"
@@ -131,7 +134,7 @@ def _interference(pair: GearPair, gear: int, tip_thickness: float, before: str) 
         text = (
             f"{before}the tip of gear {gear + 1} goes {-margin:.4g} mm beyond the mate's base tangent point: "
             f"raise the profile shift of gear {2 - gear} or lower the addendum of gear {gear + 1}"
-            f"{_mended(pair, gear, tip_thickness)}"
+            f"{_mended(pair, gear, limits, limits.tip_thickness)}"
         )
     return Check("GL204", "involute-interference", status, text, margin, 0.0, "mm")
 

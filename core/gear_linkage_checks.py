@@ -6,7 +6,7 @@ import math
 
 from gearlink.core.report import Check, below
 
-_POOR = 20.0
+_POOR = math.radians(3.0)
 
 
 def transmission_check(
@@ -18,8 +18,8 @@ def transmission_check(
         VDI 2142
     """
     value = math.degrees(angle)
-    condition = 1.0 / math.sin(angle) if angle else math.inf
-    if condition > _POOR:
+    if angle < _POOR:
+        condition = 1.0 / math.sin(angle) if angle else math.inf
         remedy = f"play and rounding come out up to {condition:.3g} times as large (condition number); {remedy}"
     return below("GL303", "transmission-angle", value, limit, limit + 5.0, "deg", subject, remedy)
 

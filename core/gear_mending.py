@@ -18,13 +18,14 @@ def shared_anew(pair: GearPair, gear: int, x: float) -> GearPair:
     return replace(pair, given_shift=shifts, given_distance=None, given_first_shift=None)
 
 
-def mended_shift(pair: GearPair, gear: int, tip_thickness: float) -> str:
+def mended_shift(pair: GearPair, gear: int, tip_thickness: float, contact_ratio: float = 1.1) -> str:
     """The smaller profile shift of a gear whose tip is too thin or too high, in words; empty where none mends it.
 
     Parameters
         pair : GearPair
         gear : int - 0 or 1
         tip_thickness : float [module] - what both tips must have
+        contact_ratio : float - what the pair must have, if it has it now
     Notes
         The mate takes over the difference. No tip may then be too thin or reach beyond the mate's base tangent
         point, no tooth be undercut.
@@ -42,6 +43,7 @@ def mended_shift(pair: GearPair, gear: int, tip_thickness: float) -> str:
             return (
                 min(trial.tip_thickness) >= tip_thickness * trial.module
                 and min(trial.interference_margin) >= 0.0
+                and trial.contact_ratio >= min(contact_ratio, pair.contact_ratio)
                 and all(x >= least for x, least in zip(trial.profile_shift, trial.min_shift_no_undercut, strict=True))
             )
         except NoSolution:

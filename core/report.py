@@ -64,7 +64,7 @@ class Table:
     @property
     def length(self) -> int:
         """How many rows it has."""
-        return max(map(len, self.data))
+        return max(map(len, self.data), default=0)
 
     def each_row(self) -> Iterator[tuple[float | str | None, ...]]:
         """The rows one after the other, made a few thousand at a time; as `rows`."""
@@ -103,7 +103,7 @@ def _plain(column: Column) -> Sequence[float | str | None]:
     try:
         if all(map(math.isfinite, items)):
             return items
-    except TypeError:  # words, or nothing at a place
+    except (TypeError, ValueError, OverflowError):  # words, nothing at a place, integers beyond all floats
         pass
     return [None if isinstance(item, float) and not math.isfinite(item) else item for item in items]
 

@@ -23,6 +23,7 @@ from gearlink.core.roots import bracketed_root
 _SERIES_BELOW = 0.5
 _INTEGRAL_BELOW = 0.2  # h [rad]; ten Gauss points over 4 h are then exact to rounding
 _POLISHED_BELOW = 0.75  # h [rad]; the closed form loses some ulp / h^2, which a step with the integral gives back
+_POLISHED_I3 = -0.1
 _PART = 0.6  # longest stretch [rad] of that integral for ten Gauss points
 _NODES = tuple((s * x, w) for x, w in zip(GAUSS_NODES, GAUSS_WEIGHTS, strict=True) for s in (-1.0, 1.0))
 
@@ -130,8 +131,8 @@ def dwell_angle(i3: float, back_step_crank_angle: float) -> float:
     Raises
         NoSolution - for i3 >= 0 or phi12 outside [0, pi)
     Notes
-        Bracketed root of a function that falls monotonically from y = h on; within 4 ulp. The thesis takes
-        1.5 phi12 (4-17), which is within 3 % for phi12 <= 90 deg and i3 <= -1.
+        Bracketed root of a function that falls monotonically from y = h on; within 4 ulp for i3 <= -0.1. The thesis
+        takes 1.5 phi12 (4-17), which is within 3 % for phi12 <= 90 deg and i3 <= -1.
     Example
         >>> round(math.degrees(dwell_angle(-1.0, math.radians(90.0))), 10)
         131.4096221093
@@ -145,7 +146,7 @@ def dwell_angle(i3: float, back_step_crank_angle: float) -> float:
     if h == 0.0:
         return 0.0
     y = bracketed_root(lambda y: _fallen(i3, h, y), h, min(3.0 * h, dwell_angle_limit(i3) - h))
-    if _INTEGRAL_BELOW <= h < _POLISHED_BELOW:
+    if _polished(i3, h):
         y -= _fallen_by_integral(i3, h, y) / _reverse(i3, h, y)
     return h + y
 
@@ -193,7 +194,7 @@ def crank_angle_for_dwell(i3: float, dwell_angle: float) -> float:
         )
     high = min(0.5 * dwell_angle, 0.5 * math.pi)
     h = bracketed_root(lambda h: _fallen(i3, h, dwell_angle - h), 0.25 * dwell_angle, high)
-    if _INTEGRAL_BELOW <= h < _POLISHED_BELOW:
+    if _polished(i3, h):
         near = 1e-4 * h
         slope = (_fallen(i3, h + near, dwell_angle - h - near) - _fallen(i3, h - near, dwell_angle - h + near)) / near
         h -= 2.0 * _fallen_by_integral(i3, h, dwell_angle - h) / slope
@@ -219,6 +220,11 @@ def _fallen(i3: float, h: float, y: float) -> float:
         return _fallen_by_integral(i3, h, y)
     at_y = math.atan2(math.sin(y), math.sqrt(rest + math.cos(y) ** 2))
     return n * (at_y + math.atan(math.tan(h) / n)) - h - y
+
+
+def _polished(i3: float, h: float) -> bool:
+    """Whether a last step with the integral gives digits back: ten Gauss points need a singularity far enough away."""
+    return i3 <= _POLISHED_I3 and _INTEGRAL_BELOW <= h < _POLISHED_BELOW
 
 
 def _fallen_by_integral(i3: float, h: float, y: float) -> float:

@@ -71,7 +71,7 @@ def _attribute(text: str) -> str:
     return quoteattr(_xml_text(text))
 
 
-_NOT_XML = re.compile("[\x00-\x08\x0b-\x1f\ud800-\udfff]")
+_NOT_XML = re.compile("[\x00-\x08\x0b-\x1f\ud800-\udfff\ufffe\uffff]")
 
 
 def _xml_text(text: str) -> str:
@@ -105,7 +105,7 @@ def as_sarif(results: Sequence[Outcome]) -> str:
 def _uri(file: str) -> str:
     from urllib.parse import quote
 
-    return quote(PurePath(file).as_posix())
+    return quote(PurePath(file).as_posix().encode("utf-8", "surrogateescape"))
 
 
 def as_github(results: Sequence[Outcome]) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from typing import Any
 
 from gearlink.core.report import Table
 
@@ -31,8 +32,9 @@ def readable_rows(table: Table, step: int = 1, digits: int = 6) -> list[list[str
     return [[number(_quiet(x, level), digits) for x, level in zip(row, noise, strict=True)] for row in rows]
 
 
-def _noise(column: Iterable[object]) -> float:
-    return 1e-13 * max((abs(x) for x in column if isinstance(x, float) and math.isfinite(x)), default=0.0)
+def _noise(column: Any) -> float:
+    items: Iterable[object] = column.tolist() if hasattr(column, "tolist") else column
+    return 1e-13 * max((abs(x) for x in items if isinstance(x, float) and math.isfinite(x)), default=0.0)
 
 
 def _quiet(value: object, level: float) -> object:

@@ -222,3 +222,27 @@ def test_interrupt_keeps_what_is_finished(tmp_path: Path, designs: Path) -> None
     assert time.perf_counter() - sent < 10.0
     assert b"Traceback" not in err
     assert 0 < len(out.splitlines()) < 9000
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="forked processes")
+def test_a_process_that_dies_costs_its_own_files(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    from gearlink.cli import batch_pool
+    from gearlink.cli.batch import Outcome
+    from gearlink.cli.batch_options import BatchOptions
+
+    parent = os.getpid()
+
+    def outcome(path: Path, _: BatchOptions) -> list[Outcome]:
+        time.sleep(0.002)
+        if os.getpid() != parent and path.name >= "064":
+            os.kill(os.getpid(), signal.SIGKILL)
+        return [Outcome(str(path), "", path.stem, "", 0)]
+
+    monkeypatch.setattr(batch_pool, "outcomes", outcome)
+    results, interrupted = batch_pool.run_files([tmp_path / f"{i:03}" for i in range(100)], BatchOptions(jobs=2))
+    assert not interrupted
+    assert len(results) == len({result.file for result in results}) == 100
+    assert 0 < sum(bool(result.errors) for result in results) < 50
+    assert capfd.readouterr().err == ""

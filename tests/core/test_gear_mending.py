@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 
 import pytest
@@ -46,3 +47,19 @@ def test_sharing_anew_keeps_the_centre_distance(gear: int) -> None:
     again = shared_anew(pair, gear, 0.11)
     assert again.profile_shift[gear] == 0.11
     assert again.center_distance == pytest.approx(206.0, rel=1e-14, abs=0.0)
+
+
+def test_a_warning_that_no_shift_ends_names_none() -> None:
+    (message,) = [
+        check.message
+        for check in gear_check("tip-thickness", GearPair.from_shift(2.0, (10, 24), (0.56, 0.05)), GearLimits())
+        if check.status == "warn"
+    ]
+    assert message.endswith("lower its profile shift or its addendum")
+
+
+def test_the_contact_ratio_stays() -> None:
+    pair = GearPair.from_shift(22.472, (6, 43), (-0.7029351494, 0.0266140915), math.radians(25.0), addendum=0.8)
+    for message in failing(pair, "involute-interference"):
+        found = SHIFTS.search(message)
+        assert not found or not failing(shared_anew(pair, 0, float(found[1])), "contact-ratio")

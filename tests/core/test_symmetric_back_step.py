@@ -159,3 +159,18 @@ def test_refuses_a_back_step_out_of_reach():
         i3_for_back_step(0.1, math.pi)
     with pytest.raises(NoSolution, match="must be negative"):
         dwell_angle(1.0, 1.0)
+
+
+@pytest.mark.parametrize(("i3", "phi12"), [(-0.04, 3.141), (-0.0156949174, 3.0441540192), (-1e-3, 3.1), (-0.19, 3.0)])
+def test_many_at_once_never_take_the_root_at_the_back_step_s_own_end(i3: float, phi12: float) -> None:
+    # y = h solves the equation too; a start near 2 h once fell to it
+    from gearlink.core.gear_linkage_sweep import dwell_angles
+
+    assert float(dwell_angles(i3, phi12)) == pytest.approx(dwell_angle(i3, phi12), rel=4e-15 / -i3, abs=0.0)
+
+
+def test_an_idler_that_hardly_turns_the_output() -> None:
+    # the polishing step has nothing to divide by there and is left out
+    phi12 = crank_angle_for_dwell(-5.8713855e-12, 0.7702330021354994)
+    assert 0.7702330021354994 / 2.0 <= phi12 <= 0.7702330021354994
+    assert 0.55 <= dwell_angle(-1.2210616767893468e-15, 0.5505694513324071) <= 1.2
