@@ -10,7 +10,8 @@ import numpy as np
 from gearlink.core.arrays import Reals
 from gearlink.core.errors import NoSolution
 
-# As in `gearlink.core.cam_profile`: with 8192 complex numbers and more the C library maps new pages for every array.
+# The intermediate arrays of a block stay in the cache; above 8192 complex numbers the C library maps and clears new
+# pages for each of them, which doubles the time.
 BLOCK = 8000
 
 

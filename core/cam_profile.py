@@ -14,11 +14,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gearlink.core.arrays import Points, Reals
+from gearlink.core.blocks import BLOCK
 from gearlink.core.errors import NoSolution
-
-# The intermediate arrays of a block stay in the cache; above 8192 complex numbers the C library maps and clears new
-# pages for each of them, which doubles the time.
-_BLOCK = 8000
 
 
 @dataclass(frozen=True, slots=True)
@@ -285,8 +282,8 @@ def profile(cam_angle: ArrayLike, path: RollerPath, *, sense: int, roller_radius
     phi, flat = np.broadcast_to(phi, shape).ravel(), _flattened(path, shape)
     pitch, contact = (np.empty(phi.size, dtype=np.complex128) for _ in range(2))
     bend, across, slope = (np.empty(phi.size) for _ in range(3))
-    for start in range(0, phi.size, _BLOCK):
-        block = slice(start, start + _BLOCK)
+    for start in range(0, phi.size, BLOCK):
+        block = slice(start, start + BLOCK)
         part = RollerPath(flat.position[block], flat.first[block], flat.second[block], flat.direction[block])
         d1 = _pitch_rate(part, sense)
         speed = _speed(phi[block], part, d1)

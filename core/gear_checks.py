@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import islice
 from typing import Any, Protocol
 
 from gearlink.core.gear_pair import GearPair
@@ -57,7 +56,7 @@ def gear_quantity(pair: GearPair, name: str) -> Any:
     return getattr(pair, name)
 
 
-def gear_check(name: str, pair: GearPair, limits: Limits, mesh: str = "") -> Iterator[Check]:
+def gear_check(name: str, pair: GearPair, limits: Limits, mesh: str = "", shift_key: str = "") -> Iterator[Check]:
     """The findings of one of GEAR_CHECKS on a pair.
 
     Parameters
@@ -65,6 +64,7 @@ def gear_check(name: str, pair: GearPair, limits: Limits, mesh: str = "") -> Ite
         pair : GearPair
         limits : the `limits` section of a spec
         mesh : str - name of the mesh in a design with several, put before the message
+        shift_key : str - the design file's key of both profile shifts, for remedies; empty where it has none
     Source
         ISO 21771 for the quantities; limits are usual practice (tip thickness, contact ratio, clearance)
     """
@@ -73,9 +73,9 @@ def gear_check(name: str, pair: GearPair, limits: Limits, mesh: str = "") -> Ite
         if name == "undercut":
             yield _undercut(pair, gear, limits.undercut, before)
         elif name == "tip-thickness":
-            yield _tip_thickness(pair, gear, limits, before)
+            yield _tip_thickness(pair, gear, limits, before, shift_key)
         elif name == "involute-interference":
-            yield _interference(pair, gear, limits, before)
+            yield _interference(pair, gear, limits, before, shift_key)
         elif name == "root-clearance":
             yield _root_clearance(pair, gear, before)
         elif name == "contact-ratio" and gear == 0:
@@ -100,12 +100,12 @@ def _undercut(pair: GearPair, gear: int, margin: float, before: str) -> Check:
     return Check("GL201", "undercut", status, text, x - least, -margin)
 
 
-def _tip_thickness(pair: GearPair, gear: int, limits: Limits, before: str) -> Check:
+def _tip_thickness(pair: GearPair, gear: int, limits: Limits, before: str, shift_key: str) -> Check:
     share = pair.tip_thickness[gear] / pair.module
     limit = limits.tip_thickness
     warn = limit + 0.15
-    aims = (warn, limit) if share < limit else (warn,)
-    remedy = _mended(pair, gear, limits, *aims) if share < warn else ""
+    aims = [aim for aim in (warn, limit) if share < aim]
+    remedy = next(filter(None, (_mended(pair, gear, limits, aim, shift_key) for aim in aims)), "")
     return below(
         "GL202",
         "tip-thickness",
@@ -118,15 +118,19 @@ def _tip_thickness(pair: GearPair, gear: int, limits: Limits, before: str) -> Ch
     )
 
 
-def _mended(pair: GearPair, gear: int, limits: Limits, *tip_thickness: float) -> str:
-    """The shifts that mend a tip, by the first aim that can be met, put after the words of a remedy."""
-    from gearlink.core.gear_mending import mended_shift
+def _mended(pair: GearPair, gear: int, limits: Limits, tip_thickness: float, shift_key: str) -> str:
+    """The shifts that mend a tip, after the words of a remedy; nothing where none do or the file has no such key."""
+    if not shift_key:
+        return ""
+    from gearlink.core.gear_mending import mended_shifts
 
-    found = filter(None, (mended_shift(pair, gear, aim, limits.contact_ratio) for aim in tip_thickness))
-    return "".join(f": {words}" for words in islice(found, 1))
+    shifts = mended_shifts(pair, gear, tip_thickness, limits.contact_ratio)
+    if shifts is None:
+        return ""
+    return f"; {shift_key} [{shifts[0]:.9g}, {shifts[1]:.9g}] does it at the same centre distance"
 
 
-def _interference(pair: GearPair, gear: int, limits: Limits, before: str) -> Check:
+def _interference(pair: GearPair, gear: int, limits: Limits, before: str, shift_key: str) -> Check:
     margin = pair.interference_margin[gear]
     status: Status = "fail" if margin < 0.0 else "pass"
     text = f"{before}the tip of gear {gear + 1} stays {margin:.4g} mm short of the mate's base tangent point"
@@ -134,7 +138,7 @@ def _interference(pair: GearPair, gear: int, limits: Limits, before: str) -> Che
         text = (
             f"{before}the tip of gear {gear + 1} goes {-margin:.4g} mm beyond the mate's base tangent point: "
             f"raise the profile shift of gear {2 - gear} or lower the addendum of gear {gear + 1}"
-            f"{_mended(pair, gear, limits, limits.tip_thickness)}"
+            f"{_mended(pair, gear, limits, limits.tip_thickness, shift_key)}"
         )
     return Check("GL204", "involute-interference", status, text, margin, 0.0, "mm")
 

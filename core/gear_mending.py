@@ -18,20 +18,23 @@ def shared_anew(pair: GearPair, gear: int, x: float) -> GearPair:
     return replace(pair, given_shift=shifts, given_distance=None, given_first_shift=None)
 
 
-def mended_shift(pair: GearPair, gear: int, tip_thickness: float, contact_ratio: float = 1.1) -> str:
-    """The smaller profile shift of a gear whose tip is too thin or too high, in words; empty where none mends it.
+def mended_shifts(pair: GearPair, gear: int, tip_thickness: float, contact_ratio: float) -> tuple[float, float] | None:
+    """Profile shifts at the same centre distance, smaller at a gear whose tip is too thin or too high.
 
     Parameters
         pair : GearPair
         gear : int - 0 or 1
         tip_thickness : float [module] - what both tips must have
         contact_ratio : float - what the pair must have, if it has it now
+    Returns
+        shifts : (x_1, x_2) [module] - the nearest that mend it; None where none do
     Notes
         The mate takes over the difference. No tip may then be too thin or reach beyond the mate's base tangent
         point, no tooth be undercut.
     Example
-        >>> mended_shift(GearPair.from_shift(2.0, (12, 40), (0.9, -0.2)), 0, 0.4)
-        'x1 = 0.473, x2 = 0.227 keep the centre distance'
+        >>> x_1, x_2 = mended_shifts(GearPair.from_shift(2.0, (12, 40), (0.9, -0.2)), 0, 0.4, 1.1)
+        >>> x_1, round(x_2, 9)
+        (0.473, 0.227)
 
     Source
         own derivation
@@ -51,7 +54,4 @@ def mended_shift(pair: GearPair, gear: int, tip_thickness: float, contact_ratio:
 
     start = pair.profile_shift[gear]
     found = nearest_good(start, start - _FARTHEST, good)
-    if found is None:
-        return ""
-    first, second = shared_anew(pair, gear, found).profile_shift
-    return f"x1 = {first:.9g}, x2 = {second:.9g} keep the centre distance"
+    return None if found is None else shared_anew(pair, gear, found).profile_shift

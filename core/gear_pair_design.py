@@ -67,7 +67,7 @@ class GearPairDesign(Design):
     def check(self, name: str) -> list[Check]:
         """Every check is the pair's."""
         with at_key(self._placed_by):
-            return list(gear_check(name, self.gear_pair, self.spec.limits))
+            return list(gear_check(name, self.gear_pair, self.spec.limits, shift_key="profile_shift"))
 
     @property
     def _placed_by(self) -> str:

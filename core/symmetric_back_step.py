@@ -131,7 +131,7 @@ def dwell_angle(i3: float, back_step_crank_angle: float) -> float:
     Raises
         NoSolution - for i3 >= 0 or phi12 outside [0, pi)
     Notes
-        Bracketed root of a function that falls monotonically from y = h on; within 4 ulp for i3 <= -0.1. The thesis
+        Bracketed root of a function that falls monotonically from y = h on; within 6 ulp for i3 <= -0.1. The thesis
         takes 1.5 phi12 (4-17), which is within 3 % for phi12 <= 90 deg and i3 <= -1.
     Example
         >>> round(math.degrees(dwell_angle(-1.0, math.radians(90.0))), 10)

@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearlink.cli.bench.timing import Family, Method, Row, measure, mpmath, numpy_pass, sample_of
+from gearlink.core.blocks import BLOCK
 from gearlink.core.cam_profile import profile, profile_points, translating
 
 Array = NDArray[np.float64]
 Points = NDArray[np.complex128]
-BLOCK = 8000  # a block of complex numbers stays below the 128 KiB above which the C library maps new pages
 BASE, RISE, ROLLER = 40.0, 10.0, 12.0
 """Radius to the roller centre at zero lift, half the lift, roller radius [mm]: s = 10 (1 - cos 2 theta)."""
 

@@ -146,6 +146,16 @@ class TestFormats:
         assert failure is not None
         assert "collide" in failure.get("message", "")
 
+    def test_junit_says_hostile_names_as_they_are(self, gearlink: Any, tmp_path: Path) -> None:
+        name = """a"b'c <d> &amp; ]]> \u00e9\t"""
+        path = tmp_path / "x'&<.yaml"
+        path.write_text(f"kind: slider-crank\nname: {json.dumps(name)}\nstroke: 310\nrod: 520\noffset: 50\n")
+        text = gearlink("batch", path, "--format", "junit").out
+        (case,) = ElementTree.fromstring(text.split("\n", 1)[1]).iter("testcase")
+        (suite,) = ElementTree.fromstring(text.split("\n", 1)[1]).iter("testsuite")
+        assert suite.get("name") == str(path)
+        assert case.get("name") == f"{name}: crank"
+
     def test_sarif(self, gearlink: Any, folder: Path) -> None:
         sarif = json.loads(gearlink("batch", folder, "--format", "sarif").out)
         run = sarif["runs"][0]

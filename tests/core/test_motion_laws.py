@@ -19,6 +19,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from oracles.forty_digits import scca_acceleration
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.motion_laws import REST_TO_REST, REST_TO_SPEED, Law, law
@@ -114,21 +115,6 @@ def test_reference_half_laws() -> None:
 # A second method: the acceleration integrated numerically, polynomials in exact fractions
 
 
-def acceleration(shares: tuple[Fraction, ...], x: mpmath.mpf) -> mpmath.mpf:
-    """Unscaled SCCA acceleration straight from its definition."""
-    a, b, c, d = (mpmath.mpf(share.numerator) / share.denominator for share in map(Fraction, shares))
-    y = min(x, 1 - x)
-    if y < a / 2:
-        size = mpmath.sin(mpmath.pi * y / a)
-    elif y < (a + b) / 2:
-        size = mpmath.mpf(1)
-    elif y < (1 - d) / 2:
-        size = mpmath.cos(mpmath.pi * (y - (a + b) / 2) / c)
-    else:
-        size = mpmath.mpf(0)
-    return size if x <= 0.5 else -size
-
-
 def moments(shares: tuple[Fraction, ...], x: float) -> list[mpmath.mpf]:
     """Single, double and triple integrals of the unscaled acceleration from 0 to x."""
     a, b, c, _ = (mpmath.mpf(share.numerator) / share.denominator for share in map(Fraction, shares))
@@ -136,7 +122,8 @@ def moments(shares: tuple[Fraction, ...], x: float) -> list[mpmath.mpf]:
     joints = sorted({*first, *(1 - joint for joint in first), mpmath.mpf(0)})
     ends = [joint for joint in joints if joint < x] + [mpmath.mpf(x)]
     return [
-        mpmath.quad(lambda t, k=k: (x - t) ** k * acceleration(shares, t), ends) / math.factorial(k) for k in range(3)
+        mpmath.quad(lambda t, k=k: (x - t) ** k * scca_acceleration(shares, t), ends) / math.factorial(k)
+        for k in range(3)
     ]
 
 
@@ -150,7 +137,7 @@ def test_integrals_of_the_acceleration(name: str) -> None:
         for x in (0.03, 0.21, 0.44, 0.77):
             v, s, area = (float(scale * moment) for moment in moments(shares, x))
             assert rule.evaluate(x, 2) == pytest.approx(
-                (s, v, float(scale * acceleration(shares, mpmath.mpf(x)))), abs=ULPS * rule.peak_acceleration
+                (s, v, float(scale * scca_acceleration(shares, mpmath.mpf(x)))), abs=ULPS * rule.peak_acceleration
             )
             assert follower.evaluate(x, 1) == pytest.approx((area, s), abs=ULPS)
 

@@ -9,6 +9,7 @@ import math
 from pathlib import Path
 
 import mpmath
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -174,3 +175,38 @@ def test_an_idler_that_hardly_turns_the_output() -> None:
     phi12 = crank_angle_for_dwell(-5.8713855e-12, 0.7702330021354994)
     assert 0.7702330021354994 / 2.0 <= phi12 <= 0.7702330021354994
     assert 0.55 <= dwell_angle(-1.2210616767893468e-15, 0.5505694513324071) <= 1.2
+
+
+def regained_at_fifty_digits(i3: float, phi12: float, start: float) -> mpmath.mpf:
+    """phi13 from the textbook angles, set equal."""
+    n, h = 1 - mpmath.mpf(i3), mpmath.mpf(phi12) / 2
+    rest = (n * n - 1) * mpmath.cos(h) ** 2
+    at_h = mpmath.atan(mpmath.tan(h) / n)
+
+    def fallen(y: mpmath.mpf) -> mpmath.mpf:
+        return n * (mpmath.atan2(mpmath.sin(y), mpmath.sqrt(rest + mpmath.cos(y) ** 2)) + at_h) - h - y
+
+    return h + mpmath.findroot(fallen, mpmath.mpf(start) - h)
+
+
+@settings(max_examples=300)
+@given(st.floats(-2.0, 2.0), st.floats(-2.0, 0.0), st.floats(0.0, 1.0))
+def test_dwell_angle_at_fifty_digits(many: float, few: float, share: float) -> None:
+    """6 ulp; above i3 = -0.1 both sides of the equation agree to 1/|i3|, and 16 times that is lost."""
+    phi12 = 0.01 + 3.09 * share
+    for i3, limit in ((-(10.0 ** max(many, -1.0)), 6.0), (-0.1 * 10.0**few, 16.0 / (0.1 * 10.0**few))):
+        found = dwell_angle(i3, phi12)
+        with mpmath.workdps(50):
+            error = abs(regained_at_fifty_digits(i3, phi12, found) - mpmath.mpf(found))
+        assert float(error) <= limit * math.ulp(found)
+
+
+def test_the_fitted_start_of_many_is_as_near_as_it_says() -> None:
+    from gearlink.core.dwell_angle_sweep import _start, regained
+
+    i3, h = (a.ravel() for a in np.meshgrid(-np.geomspace(0.2, 12.0, 60), np.linspace(0.01, 1.57, 80)))
+    n, start = 1.0 - i3, np.empty(i3.size)
+    _start(n / (n + 1.0), h, start, [np.empty(i3.size) for _ in range(3)])
+    y, settled = regained(i3, h)
+    assert settled.all()
+    assert np.max(np.abs(start / y - 1.0)) < 0.0235

@@ -61,6 +61,21 @@ def stroke(crank: float, rod: float, offset: float) -> Any:
     return mp.sqrt((rod + r) ** 2 - e * e) - mp.sqrt((rod - r) ** 2 - e * e)
 
 
+def scca_acceleration(shares: Any, x: Any) -> Any:
+    """Unscaled acceleration of the law of shares (a, b, c, d), straight from its definition."""
+    a, b, c, d = (mp.mpf(share.numerator) / share.denominator for share in map(Fraction, shares))
+    y = min(x, 1 - x)
+    if y < a / 2:
+        size = mp.sin(mp.pi * y / a)
+    elif y < (a + b) / 2:
+        size = mp.mpf(1)
+    elif y < (1 - d) / 2:
+        size = mp.cos(mp.pi * (y - (a + b) / 2) / c)
+    else:
+        size = mp.mpf(0)
+    return size if 2 * x <= 1 else -size
+
+
 def rise(definition: Any, x: float) -> tuple[Any, Any, Any]:
     """Rise, velocity and acceleration of a law of motion from its definition."""
     x = mp.mpf(x)
@@ -70,28 +85,16 @@ def rise(definition: Any, x: float) -> tuple[Any, Any, Any]:
         acceleration = mp.fsum(k * n * (n - 1) * x ** (n - 2) for n, k in terms[2:])
         return mp.fsum(k * x**n for n, k in terms), velocity, acceleration
     shares = definition["scca"] if isinstance(definition, dict) else SHARES[definition]
-    a, b, c, d = (mp.mpf(Fraction(share).numerator) / Fraction(share).denominator for share in shares)
+    a, b, c, _ = (mp.mpf(share.numerator) / share.denominator for share in map(Fraction, shares))
     first = [mp.mpf(0), a / 2, (a + b) / 2, (a + b + c) / 2, mp.mpf(1) / 2]
     joints = sorted({*first, *(1 - joint for joint in first)})
 
-    def shape(t: Any) -> Any:
-        y = min(t, 1 - t)
-        if y < a / 2:
-            size = mp.sin(mp.pi * y / a)
-        elif y < (a + b) / 2:
-            size = mp.mpf(1)
-        elif y < (1 - d) / 2:
-            size = mp.cos(mp.pi * (y - (a + b) / 2) / c)
-        else:
-            size = mp.mpf(0)
-        return size if 2 * t <= 1 else -size
-
     def integral(end: Any, power: int) -> Any:
         ends = [joint for joint in joints if joint < end] + [end]
-        return mp.quad(lambda t: (end - t) ** power * shape(t), ends) if end else mp.mpf(0)
+        return mp.quad(lambda t: (end - t) ** power * scca_acceleration(shares, t), ends) if end else mp.mpf(0)
 
     whole = integral(mp.mpf(1), 1)
-    return integral(x, 1) / whole, integral(x, 0) / whole, shape(x) / whole
+    return integral(x, 1) / whole, integral(x, 0) / whole, scca_acceleration(shares, x) / whole
 
 
 def translating_profile(phi: float, y: float, y1: float, offset: float, sense: int, radius: float) -> Any:
