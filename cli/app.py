@@ -11,14 +11,14 @@ from typing import Annotated
 
 import typer
 
-from gearlink.cli.batch_options import BatchFormat, BatchOptions, FailOn
+from gearlink.cli.batch.options import BatchFormat, BatchOptions, FailOn
 from gearlink.cli.bench.command import register as register_bench
+from gearlink.cli.commands.laws import laws
+from gearlink.cli.commands.picture_options import register as register_pictures
+from gearlink.cli.commands.reference_options import register
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.export.register import register as register_export
-from gearlink.cli.laws import laws
 from gearlink.cli.options import Format, Options, PlotFormat
-from gearlink.cli.picture_commands import register as register_pictures
-from gearlink.cli.reference_commands import register
 
 _HELP = """Design calculator for the mechanisms of printing machines.
 
@@ -88,10 +88,10 @@ def _design_command(command: str, words: str) -> Callable[..., None]:
             profile=profile,
         )
         if suggest:
-            from gearlink.cli.suggest import run_suggested
+            from gearlink.cli.commands.suggest import run_suggested
 
             raise typer.Exit(run_suggested(command, spec, options))
-        from gearlink.cli.run import run_design
+        from gearlink.cli.commands.design import run_design
 
         raise typer.Exit(run_design(command, spec, options))
 
@@ -136,7 +136,7 @@ def _report(
 
     Example: gearlink report designs/ty460.yaml --out reports
     """
-    from gearlink.cli.html_report import run_report
+    from gearlink.cli.commands.report import run_report
 
     raise typer.Exit(run_report(spec, Options(out=out, overrides=tuple(set_), strict=strict, quiet=quiet)))
 
@@ -161,7 +161,7 @@ def _batch(
 
     Example: gearlink batch designs --format junit > results.xml
     """
-    from gearlink.cli.batch import run_batch
+    from gearlink.cli.batch.run import run_batch
 
     design = Options(
         plot=plot,
@@ -225,7 +225,7 @@ def _usage_error(wrong: typer.TyperException, arguments: list[str]) -> int:
         else:
             typer.echo(f"error: {message}", err=True)
         return ExitCode.WRONG_INPUT
-    from gearlink.cli.diagnostics import Diagnostic
+    from gearlink.cli.reading.diagnostics import Diagnostic
     from gearlink.cli.render.errors import errors_as_json
 
     print(errors_as_json([Diagnostic("GL115", message, file="<command line>", line=1, column=1, key="")]))

@@ -73,7 +73,7 @@ def _invoke(arguments: list[str]) -> int:
         from gearlink.cli.quick import plain_line
 
         if line := plain_line(arguments):
-            from gearlink.cli.run import run_design
+            from gearlink.cli.commands.design import run_design
 
             return run_design(*line)
     from gearlink.cli.app import invoke

@@ -20,7 +20,7 @@ class Kind:
 
     def spec_model(self) -> Any:
         """The pydantic model of the kind's design file."""
-        return _load(f"gearlink.core.specs.{self.spec}")
+        return _load(f"gearlink.core.{self.spec}")
 
     def design(self, command: str, spec: Any, samples: int | None = None) -> Design:
         """The design of a spec, of the class that the command needs."""
@@ -37,79 +37,79 @@ def _load(place: str) -> Any:
     return getattr(import_module(module), name)
 
 
-_THREE_GEAR = "three_gear_four_bar:ThreeGearFourBar"
-_PRESS = "flatbed_press:FlatbedPress"
-_GRIPPER = "swing_gripper:SwingGripper"
-_SWING = "wide_swing_design:WideSwingDesign"
-_TWO_GEAR = "two_gear_four_bar:TwoGearFourBar"
-_GEARED_ROCKER = "geared_rocker:GearedRocker"
-_HYPOCYCLOID = "hypocycloid_dwell:HypocycloidDwell"
-_FIVE_BAR = "geared_five_bar:GearedFiveBar"
-_MUTILATED = "mutilated_gear_dwell:MutilatedGearDwell"
+_THREE_GEAR = "three_gear.design:ThreeGearFourBar"
+_PRESS = "flatbed_press.design:FlatbedPress"
+_GRIPPER = "swing_gripper.design:SwingGripper"
+_SWING = "wide_swing.design:WideSwingDesign"
+_TWO_GEAR = "planet_linkages.two_gear_design:TwoGearFourBar"
+_GEARED_ROCKER = "planet_linkages.rocker_design:GearedRocker"
+_HYPOCYCLOID = "dwell_gears.hypocycloid_design:HypocycloidDwell"
+_FIVE_BAR = "five_bar.design:GearedFiveBar"
+_MUTILATED = "dwell_gears.mutilated_design:MutilatedGearDwell"
 
 KINDS: dict[str, Kind] = {
     kind.name: kind
     for kind in (
         Kind(
             "three-gear-four-bar",
-            "three_gear:ThreeGearSpec",
+            "three_gear.spec:ThreeGearSpec",
             {
-                "synth dwell": "three_gear_synthesis:DwellSynthesis",
-                "synth back-step": "three_gear_synthesis:BackStepSynthesis",
-                "synth variable-speed": "three_gear_synthesis:VariableSpeedSynthesis",
-                "synth momentary-dwell": "three_gear_synthesis:MomentaryDwellSynthesis",
+                "synth dwell": "three_gear.synthesis:DwellSynthesis",
+                "synth back-step": "three_gear.synthesis:BackStepSynthesis",
+                "synth variable-speed": "three_gear.synthesis:VariableSpeedSynthesis",
+                "synth momentary-dwell": "three_gear.synthesis:MomentaryDwellSynthesis",
                 "analyze": _THREE_GEAR,
                 "gear": _THREE_GEAR,
             },
         ),
         Kind(
             "gear-pair",
-            "gear_pair:GearPairSpec",
-            {"gear": "gear_pair_design:GearPairDesign", "analyze": "gear_pair_design:GearPairDesign"},
+            "gears.spec:GearPairSpec",
+            {"gear": "gears.design:GearPairDesign", "analyze": "gears.design:GearPairDesign"},
         ),
         Kind(
             "slider-crank",
-            "slider_crank:SliderCrankSpec",
+            "linkages.slider_crank_spec:SliderCrankSpec",
             {
-                "crank": "slider_crank_design:SliderCrankDesign",
-                "analyze": "slider_crank_design:SliderCrankDesign",
+                "crank": "linkages.slider_crank_design:SliderCrankDesign",
+                "analyze": "linkages.slider_crank_design:SliderCrankDesign",
             },
         ),
         Kind(
             "flatbed-press",
-            "flatbed_press:FlatbedPressSpec",
+            "flatbed_press.spec:FlatbedPressSpec",
             {"press": _PRESS, "cam": _PRESS, "gear": _PRESS, "crank": _PRESS, "analyze": _PRESS},
         ),
         Kind(
             "swing-gripper",
-            "swing_gripper:SwingGripperSpec",
+            "swing_gripper.spec:SwingGripperSpec",
             {"gripper": _GRIPPER, "cam": _GRIPPER, "analyze": _GRIPPER},
         ),
-        Kind("wide-swing-cam", "wide_swing:WideSwingSpec", {"swing": _SWING, "cam": _SWING, "analyze": _SWING}),
+        Kind("wide-swing-cam", "wide_swing.spec:WideSwingSpec", {"swing": _SWING, "cam": _SWING, "analyze": _SWING}),
         Kind(
             "gear-train-mobility",
-            "gear_train_mobility:GearTrainMobilitySpec",
-            {"analyze": "gear_train_mobility:GearTrainMobility"},
+            "linkages.mobility_spec:GearTrainMobilitySpec",
+            {"analyze": "linkages.mobility_design:GearTrainMobility"},
         ),
         Kind(
             "mutilated-gear-dwell",
-            "mutilated_gear_dwell:MutilatedGearDwellSpec",
+            "dwell_gears.mutilated_spec:MutilatedGearDwellSpec",
             {"analyze": _MUTILATED, "gear": _MUTILATED},
         ),
         Kind(
             "two-gear-four-bar",
-            "two_gear_four_bar:TwoGearFourBarSpec",
+            "planet_linkages.two_gear_spec:TwoGearFourBarSpec",
             {"analyze": _TWO_GEAR, "gear": _TWO_GEAR},
         ),
         Kind(
             "geared-rocker",
-            "geared_rocker:GearedRockerSpec",
+            "planet_linkages.rocker_spec:GearedRockerSpec",
             {"analyze": _GEARED_ROCKER, "gear": _GEARED_ROCKER},
         ),
-        Kind("geared-five-bar", "geared_five_bar:GearedFiveBarSpec", {"analyze": _FIVE_BAR, "gear": _FIVE_BAR}),
+        Kind("geared-five-bar", "five_bar.spec:GearedFiveBarSpec", {"analyze": _FIVE_BAR, "gear": _FIVE_BAR}),
         Kind(
             "hypocycloid-dwell",
-            "hypocycloid_dwell:HypocycloidDwellSpec",
+            "dwell_gears.hypocycloid_spec:HypocycloidDwellSpec",
             {"analyze": _HYPOCYCLOID, "gear": _HYPOCYCLOID},
         ),
     )

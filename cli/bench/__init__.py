@@ -1,1 +1,4 @@
-"""Run time against error, measured: one module per family of solvers, one for timing, one for pages."""
+"""Run time against error of every solver (`gearlink bench`).
+
+Begin with `command` and `families`.
+"""

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearlink.cli.bench.timing import Family, Method, Row, measure, mpmath, numpy_pass, sample_of
-from gearlink.core.blocks import BLOCK
-from gearlink.core.cam_profile import profile, profile_points, translating
+from gearlink.core.cams.profile import profile, profile_points, translating
+from gearlink.core.numerics.blocks import BLOCK
 
 Array = NDArray[np.float64]
 Points = NDArray[np.complex128]
@@ -151,8 +151,8 @@ def _spline_method(theta: Array, points: Points, between: Array) -> Method:
 def press(quick: bool) -> Family:
     """Both chains, zone and both cams of the worked press at 3600 positions, from the validated spec on."""
     import gearlink.designs as designs
+    from gearlink.cli.commands.design import open_design, read_spec
     from gearlink.cli.options import Options
-    from gearlink.cli.run import open_design, read_spec
 
     source = str(Path(str(designs.__file__)).parent / "ty460.yaml")
     loaded, kind = open_design(source, Options())

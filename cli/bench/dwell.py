@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearlink.cli.bench.timing import Family, Method, Row, measure, mpmath, numpy_pass, sample_of, worst
-from gearlink.core.gear_linkage_sweep import dwell_angles, momentary_dwells
-from gearlink.core.momentary_dwell import momentary_frame_length
-from gearlink.core.symmetric_back_step import dwell_angle
+from gearlink.core.three_gear.momentary_dwell import momentary_frame_length
+from gearlink.core.three_gear.sweep import dwell_angles, momentary_dwells
+from gearlink.core.three_gear.symmetric_back_step import dwell_angle
 
 Array = NDArray[np.float64]
 SIZES = (1, 1000, 100_000)
@@ -130,9 +130,9 @@ def nested_search(r1: float, r3: float, r5: float, eccentricity: float) -> float
     """Frame length at which the least output speed of the turn is zero: a search over frames round one over angles."""
     from scipy.optimize import brentq, minimize_scalar
 
-    from gearlink.core import fourbar
-    from gearlink.core.fourbar import FourBar
-    from gearlink.core.gear_linkage import GearTrain
+    from gearlink.core.linkages import fourbar
+    from gearlink.core.linkages.fourbar import FourBar
+    from gearlink.core.three_gear.motion import GearTrain
 
     train = GearTrain(r1, r3, r5)
     b, c = r1 + r3, r3 + r5

@@ -154,8 +154,8 @@ def write_designs(folder: Path, count: int, kinds: tuple[str, ...] = SMALL) -> l
 
 
 def _validate(files: list[Path]) -> None:
+    from gearlink.cli.commands.design import open_design, read_spec
     from gearlink.cli.options import Options
-    from gearlink.cli.run import open_design, read_spec
 
     for path in files:
         loaded, kind = open_design(str(path), Options())
@@ -163,8 +163,8 @@ def _validate(files: list[Path]) -> None:
 
 
 def _batch(folder: Path, jobs: int) -> None:
-    from gearlink.cli.batch import run_batch
-    from gearlink.cli.batch_options import BatchFormat, BatchOptions
+    from gearlink.cli.batch.options import BatchFormat, BatchOptions
+    from gearlink.cli.batch.run import run_batch
     from gearlink.cli.options import Options
 
     options = BatchOptions(Options(quiet=True), BatchFormat.JUNIT, jobs=jobs)

@@ -1,1 +1,4 @@
-"""Profiles of cams and gears as files for CAD and machine tools: DXF, SVG, CSV."""
+"""Profiles and tables as DXF, SVG and CSV, within a chord error that is measured (`gearlink export`).
+
+Begin with `command`; `parts` says what a design has to export.
+"""

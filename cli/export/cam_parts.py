@@ -12,11 +12,11 @@ import numpy as np
 
 from gearlink.cli.export.contour import JOIN, Circle, Part
 from gearlink.cli.export.sampling import Points, Reals, Stretch
-from gearlink.core.cam_checks import undercut_checks
-from gearlink.core.disc_cam import DiscCam
+from gearlink.core.cams.checks import undercut_checks
+from gearlink.core.cams.disc_cam import DiscCam
 
 if TYPE_CHECKING:
-    from gearlink.core.wide_swing_outline import AnyCam
+    from gearlink.core.wide_swing.outline import AnyCam
 
 CAM_LAYERS = ("PROFILE", "PITCH_CURVE")
 _TURN = 2.0 * math.pi
@@ -173,6 +173,6 @@ def _swing_notes(cam: AnyCam, slot: tuple[float, float], mirror: bool) -> tuple[
 
 def is_external(cam: AnyCam) -> bool:
     """Whether the cam's body lies inside its profile."""
-    from gearlink.core import wide_swing_outline
+    from gearlink.core.wide_swing import outline
 
-    return wide_swing_outline.is_external(cam)
+    return outline.is_external(cam)

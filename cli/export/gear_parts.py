@@ -6,8 +6,8 @@ import math
 
 from gearlink.cli.export.contour import Circle, Part
 from gearlink.cli.export.sampling import Points, Reals, Stretch
-from gearlink.core.gear_pair import GearPair
-from gearlink.core.tooth_profile import Curve, ToothProfile
+from gearlink.core.gears.pair import GearPair
+from gearlink.core.gears.tooth_profile import Curve, ToothProfile
 
 _NAMES = ("root circle", "trochoid", "involute", "tip circle")
 

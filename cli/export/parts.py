@@ -11,7 +11,7 @@ from gearlink.core.errors import MissingSection, at_key
 
 if TYPE_CHECKING:
     from gearlink.cli.export.contour import Part
-    from gearlink.core.gear_pair import GearPair
+    from gearlink.core.gears.pair import GearPair
 
 Makers = dict[str, Callable[[], "Part"]]
 
@@ -95,7 +95,7 @@ def _three_gears(design: Any) -> Makers:
 
 def _single_mesh(design: Any) -> Makers:
     """Gears 2 and 5; of a ring gear the roots depend on its cutter, which no design file names, so it is left out."""
-    from gearlink.core.gear_pair import GearPair
+    from gearlink.core.gears.pair import GearPair
 
     def gear(number: int, name: str, title: str) -> Part:
         from gearlink.cli.export.gear_parts import gear_of
@@ -115,7 +115,7 @@ def _single_mesh(design: Any) -> Makers:
 
 def _planet(mesh: Any) -> GearPair:
     """The planet of an internal mesh without shift, as one of two equal external gears: its teeth are the same."""
-    from gearlink.core.gear_pair import GearPair
+    from gearlink.core.gears.pair import GearPair
 
     teeth = (mesh.teeth[0], mesh.teeth[0])
     profile = {"addendum": mesh.addendum, "clearance": mesh.clearance}

@@ -1,1 +1,4 @@
-"""Drawing of moving pictures: where things stand on the picture, and the formats GIF, mp4 and HTML."""
+"""Moving pictures: frames from a scene, as GIF, MP4 or a page with a player.
+
+Begin with `stage`.
+"""

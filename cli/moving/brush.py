@@ -53,7 +53,7 @@ def font_file(name: str) -> str:
     """A font that has the letters of a name, where one is installed; else the one that comes with matplotlib."""
     import matplotlib
 
-    from gearlink.cli.plots.write import families
+    from gearlink.cli.figures.write import families
 
     *_, last = families(name)
     if last != "sans-serif":

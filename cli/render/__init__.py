@@ -1,1 +1,1 @@
-"""One renderer per output format."""
+"""One renderer per format of a report: terminal, JSON, CSV, Markdown."""

@@ -6,8 +6,8 @@ import json
 import sys
 from collections.abc import Sequence
 
-from gearlink.cli.diagnostics import Diagnostic
 from gearlink.cli.options import Format, Options
+from gearlink.cli.reading.diagnostics import Diagnostic
 from gearlink.cli.render.json_report import FORMAT
 
 

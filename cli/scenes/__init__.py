@@ -1,1 +1,4 @@
-"""Moving pictures: one module per kind that moves, named after it, with build(design, fraction)."""
+"""What is drawn of a mechanism, as data, one module per kind.
+
+Begin with `scene`.
+"""

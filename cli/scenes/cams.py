@@ -9,7 +9,7 @@ import numpy as np
 from gearlink.cli.scenes.scene import TURN, Body, Points, Reals, pale
 
 if TYPE_CHECKING:
-    from gearlink.core.disc_cam import DiscCam
+    from gearlink.core.cams.disc_cam import DiscCam
 
 _POINTS = 720
 

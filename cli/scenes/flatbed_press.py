@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.cli.plots import style
-from gearlink.cli.plots.flatbed_press_diagram import LEVEL, UPRIGHT, input_gear_place
+from gearlink.cli.figures import style
+from gearlink.cli.figures.flatbed_press_diagram import LEVEL, UPRIGHT, input_gear_place
 from gearlink.cli.scenes.cams import disc_cam
 from gearlink.cli.scenes.gears import gear
 from gearlink.cli.scenes.scene import (
@@ -34,11 +34,11 @@ from gearlink.cli.scenes.scene import (
     wheel,
 )
 from gearlink.cli.scenes.slider_crank import block
-from gearlink.core.mesh_phase import driven_turn
-from gearlink.core.press_positions import bed_positions, cylinder_positions
+from gearlink.core.flatbed_press.positions import bed_positions, cylinder_positions
+from gearlink.core.gears.mesh_phase import driven_turn
 
 if TYPE_CHECKING:
-    from gearlink.core.flatbed_press import FlatbedPress
+    from gearlink.core.flatbed_press.design import FlatbedPress
 
 _BED, _RACK = "#CFE8F7", "#F6E3C0"
 _CAM_COLORS = (style.BLUE, style.RED)

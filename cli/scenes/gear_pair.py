@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.cli.plots import style
+from gearlink.cli.figures import style
 from gearlink.cli.scenes.gears import gear, holes_for
 from gearlink.cli.scenes.scene import TURN, Mark, Part, Points, Reals, Scene, fixed_circle, track
-from gearlink.core.mesh_phase import driven_turn
+from gearlink.core.gears.mesh_phase import driven_turn
 
 if TYPE_CHECKING:
-    from gearlink.core.gear_pair import GearPair
-    from gearlink.core.gear_pair_design import GearPairDesign
+    from gearlink.core.gears.design import GearPairDesign
+    from gearlink.core.gears.pair import GearPair
 
 _MOST_PITCHES = 36
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.cli.plots import style
+from gearlink.cli.figures import style
 from gearlink.cli.scenes.gears import gear
 from gearlink.cli.scenes.scene import (
     TURN,
@@ -27,12 +27,12 @@ from gearlink.cli.scenes.scene import (
     standing,
     track,
 )
-from gearlink.core.dyad import close_dyad
-from gearlink.core.internal_mesh import InternalMesh
-from gearlink.core.mesh_phase import driven_turn, ring_turn
+from gearlink.core.gears.internal_mesh import InternalMesh
+from gearlink.core.gears.mesh_phase import driven_turn, ring_turn
+from gearlink.core.linkages.dyad import close_dyad
 
 if TYPE_CHECKING:
-    from gearlink.core.geared_five_bar import GearedFiveBar
+    from gearlink.core.five_bar.design import GearedFiveBar
 
 
 def build(design: GearedFiveBar, fraction: Reals) -> Scene:

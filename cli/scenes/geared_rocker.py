@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.cli.plots import style
+from gearlink.cli.figures import style
 from gearlink.cli.scenes.gears import gear
 from gearlink.cli.scenes.linkages import Joints, coupler_windings, crank_readout, over_crank, whole_turn
 from gearlink.cli.scenes.scene import TURN, Body, Curve, Readout, Reals, Scene, fixed_circle
-from gearlink.core.mesh_phase import driven_turn
+from gearlink.core.gears.mesh_phase import driven_turn
 
 if TYPE_CHECKING:
-    from gearlink.core.geared_rocker import GearedRocker
+    from gearlink.core.planet_linkages.rocker_design import GearedRocker
 
 
 def build(design: GearedRocker, fraction: Reals) -> Scene:

@@ -8,9 +8,9 @@ import numpy as np
 
 from gearlink.cli.scenes.scene import TURN, Body, Points, Reals, circle, pale
 from gearlink.core.errors import NoSolution
-from gearlink.core.gear_pair import GearPair
-from gearlink.core.internal_mesh import InternalMesh
-from gearlink.core.mesh_phase import ring_outline
+from gearlink.core.gears.internal_mesh import InternalMesh
+from gearlink.core.gears.mesh_phase import ring_outline
+from gearlink.core.gears.pair import GearPair
 
 _HOLES = (5, 4, 6, 3, 7, 8, 9, 10, 11, 12)
 _WHITE = "#ffffff"
@@ -43,7 +43,7 @@ def gear(
 
 
 def _teeth(pair: GearPair, number: int) -> Points:
-    from gearlink.core.tooth_profile import ToothProfile, outline
+    from gearlink.core.gears.tooth_profile import ToothProfile, outline
 
     return outline(ToothProfile.of(pair, number), 0.012 * pair.module)
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.cli.plots import style
+from gearlink.cli.figures import style
 from gearlink.cli.scenes.gears import gear
 from gearlink.cli.scenes.scene import (
     TURN,
@@ -24,10 +24,10 @@ from gearlink.cli.scenes.scene import (
     track,
 )
 from gearlink.cli.scenes.slider_crank import block
-from gearlink.core.mesh_phase import ring_turn
+from gearlink.core.gears.mesh_phase import ring_turn
 
 if TYPE_CHECKING:
-    from gearlink.core.hypocycloid_dwell import HypocycloidDwell
+    from gearlink.core.dwell_gears.hypocycloid_design import HypocycloidDwell
 
 
 def build(design: HypocycloidDwell, fraction: Reals) -> Scene:

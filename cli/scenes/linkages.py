@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gearlink.cli.plots import style
+from gearlink.cli.figures import style
 from gearlink.cli.scenes.scene import TURN, Chain, Chart, Curve, Mark, Points, Readout, Reals, loop, track
-from gearlink.core import fourbar_sweep
-from gearlink.core.fourbar import FourBar
+from gearlink.core.linkages import fourbar_sweep
+from gearlink.core.linkages.fourbar import FourBar
 
 
 @dataclass(frozen=True, slots=True)

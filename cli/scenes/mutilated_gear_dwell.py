@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.cli.plots import style
+from gearlink.cli.figures import style
 from gearlink.cli.scenes.gears import gear
 from gearlink.cli.scenes.linkages import Joints
 from gearlink.cli.scenes.scene import TURN, Body, Chart, Curve, Mark, Points, Readout, Reals, Scene, loop, pale, track
 from gearlink.core.errors import NoSolution
 
 if TYPE_CHECKING:
-    from gearlink.core.mutilated_gear_dwell import MutilatedGearDwell
+    from gearlink.core.dwell_gears.mutilated_design import MutilatedGearDwell
 
 
 def build(design: MutilatedGearDwell, fraction: Reals) -> Scene:
@@ -64,7 +64,7 @@ def _wheel(design: MutilatedGearDwell, center: Points, turn: Reals) -> Body:
     The first and the last tooth of a group are cut down so far that they pass the resting gear; the model says no
     more of them, nor of the locking arcs.
     """
-    from gearlink.core.tooth_profile import ToothProfile, tooth_space
+    from gearlink.core.gears.tooth_profile import ToothProfile, tooth_space
 
     gears, mesh = design.spec.gears, design.mesh
     root = mesh.root_radius[0]
@@ -95,7 +95,7 @@ def _wheel(design: MutilatedGearDwell, center: Points, turn: Reals) -> Body:
 
 def _free_radius(design: MutilatedGearDwell) -> float:
     """How far from the wheel's axis the resting gear leaves room, but for the tooth that stands in the gap [mm]."""
-    from gearlink.core.tooth_profile import ToothProfile, outline
+    from gearlink.core.gears.tooth_profile import ToothProfile, outline
 
     mesh, half_pitch = design.mesh, math.pi / design.mesh.teeth[1]
     try:

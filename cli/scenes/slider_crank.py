@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.cli.plots import style
+from gearlink.cli.figures import style
 from gearlink.cli.scenes.scene import (
     TURN,
     Body,
@@ -24,10 +24,10 @@ from gearlink.cli.scenes.scene import (
     pale,
     track,
 )
-from gearlink.core.slider_crank_sweep import slider
+from gearlink.core.linkages.slider_crank_sweep import slider
 
 if TYPE_CHECKING:
-    from gearlink.core.slider_crank_design import SliderCrankDesign
+    from gearlink.core.linkages.slider_crank_design import SliderCrankDesign
 
 
 def build(design: SliderCrankDesign, fraction: Reals) -> Scene:

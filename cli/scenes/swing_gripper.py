@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.cli.plots import style
+from gearlink.cli.figures import style
 from gearlink.cli.scenes.cams import disc_cam
 from gearlink.cli.scenes.scene import (
     TURN,
@@ -27,10 +27,10 @@ from gearlink.cli.scenes.scene import (
     track,
     wheel,
 )
-from gearlink.core.gripper_positions import GripperPositions, positions
+from gearlink.core.swing_gripper.positions import GripperPositions, positions
 
 if TYPE_CHECKING:
-    from gearlink.core.swing_gripper import SwingGripper
+    from gearlink.core.swing_gripper.design import SwingGripper
 
 _CAM_COLORS = ("#666666", "#A08060")
 

@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.cli.plots import style
+from gearlink.cli.figures import style
 from gearlink.cli.scenes.gears import gear
 from gearlink.cli.scenes.scene import TURN, Chain, Chart, Curve, Mark, Readout, Reals, Scene, fixed_circle, loop, track
-from gearlink.core import fourbar_sweep
-from gearlink.core.gear_linkage_sweep import output_motion
-from gearlink.core.mesh_phase import driven_turn
+from gearlink.core.gears.mesh_phase import driven_turn
+from gearlink.core.linkages import fourbar_sweep
+from gearlink.core.three_gear.sweep import output_motion
 
 if TYPE_CHECKING:
-    from gearlink.core.three_gear_four_bar import ThreeGearFourBar
+    from gearlink.core.three_gear.design import ThreeGearFourBar
 
 
 def build(design: ThreeGearFourBar, fraction: Reals) -> Scene:

@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.cli.plots import style
+from gearlink.cli.figures import style
 from gearlink.cli.scenes.gears import gear
 from gearlink.cli.scenes.linkages import Joints, coupler_windings, crank_readout, over_crank, whole_turn
 from gearlink.cli.scenes.scene import TURN, Curve, Readout, Reals, Scene, fixed_circle
-from gearlink.core.mesh_phase import driven_turn, ring_turn
+from gearlink.core.gears.mesh_phase import driven_turn, ring_turn
 
 if TYPE_CHECKING:
-    from gearlink.core.two_gear_four_bar import TwoGearFourBar
+    from gearlink.core.planet_linkages.two_gear_design import TwoGearFourBar
 
 
 def build(design: TwoGearFourBar, fraction: Reals) -> Scene:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.cli.plots import style
+from gearlink.cli.figures import style
 from gearlink.cli.scenes.linkages import Joints
 from gearlink.cli.scenes.scene import (
     TURN,
@@ -34,8 +34,8 @@ from gearlink.cli.scenes.scene import (
 from gearlink.cli.scenes.slider_crank import block
 
 if TYPE_CHECKING:
-    from gearlink.core.wide_swing_design import WideSwingDesign
-    from gearlink.core.wide_swing_outline import AnyCam
+    from gearlink.core.wide_swing.design import WideSwingDesign
+    from gearlink.core.wide_swing.outline import AnyCam
 
 
 @dataclass(frozen=True)
@@ -71,7 +71,7 @@ class Cycle:
 
     def _back(self, at: Reals) -> Reals:
         """k where the cam that swings back stands as it did in the stroke."""
-        from gearlink.core import fourbar_sweep
+        from gearlink.core.linkages import fourbar_sweep
 
         drive = self.design.drive
         k = np.linspace(0.0, 1.0, 20001)
@@ -136,7 +136,7 @@ def _cams(cycle: Cycle) -> list[Part]:
 
 def _cam(cycle: Cycle, cam: AnyCam, turn: Reals, color: str, *, mirrored: bool = False) -> list[Part]:
     """The contour of a stroke, open as it is known, and spokes to the cam axis."""
-    from gearlink.core.wide_swing_outline import contour
+    from gearlink.core.wide_swing.outline import contour
 
     run_up, slot, run_out = contour(cam, cycle.design.slot_of(cam), 160)
     outline = np.concatenate([run_up, slot[1:], run_out[1:]])

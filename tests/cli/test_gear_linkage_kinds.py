@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from gearlink.cli.plots.write import draw
+from gearlink.cli.figures.write import draw
 from gearlink.core.kinds import KINDS
 
 WORKED = {
@@ -22,8 +22,8 @@ PAIRS = [(kind, name) for kind, names in WORKED.items() for name in names]
 
 
 def design_of(path, command="analyze"):
+    from gearlink.cli.commands.design import evaluate
     from gearlink.cli.options import Options
-    from gearlink.cli.run import evaluate
 
     return evaluate(command, str(path), Options())[0]
 

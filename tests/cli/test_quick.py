@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-import gearlink.cli.run
+import gearlink.cli.commands.design
 from gearlink.cli import app
 from gearlink.cli.options import Format, PlotFormat
 from gearlink.cli.quick import DESIGN_COMMANDS, MOST_SAMPLES, SYNTH_COMMANDS, plain_line
@@ -38,7 +38,7 @@ def by_typer(arguments: list[str], monkeypatch: pytest.MonkeyPatch) -> Any:
     """What Typer hands to run_design; None where it refuses the line or asks for something else."""
     seen: list[Any] = []
     with monkeypatch.context() as patch:
-        patch.setattr(gearlink.cli.run, "run_design", lambda *line: seen.append(line) or 0)
+        patch.setattr(gearlink.cli.commands.design, "run_design", lambda *line: seen.append(line) or 0)
         app.invoke(arguments)
     return seen[0] if seen else None
 

@@ -13,7 +13,7 @@ import pytest
 from gearlink.core import nomenclature
 from gearlink.core.design import Design
 from gearlink.core.errors import GearlinkError
-from gearlink.core.gear_checks import GEAR_CHECKS
+from gearlink.core.gears.checks import GEAR_CHECKS
 from gearlink.core.kinds import KINDS
 from gearlink.core.nomenclature import TERMS, Term, term
 

@@ -15,10 +15,10 @@ from typing import Any
 
 import numpy as np
 
-from gearlink.core.gripper_forces import Masses
-from gearlink.core.gripper_linkage import GripperLinkage
-from gearlink.core.specs.swing_gripper import SwingGripperSpec
-from gearlink.core.swing_gripper import SwingGripper
+from gearlink.core.swing_gripper.design import SwingGripper
+from gearlink.core.swing_gripper.forces import Masses
+from gearlink.core.swing_gripper.linkage import GripperLinkage
+from gearlink.core.swing_gripper.spec import SwingGripperSpec
 
 REFERENCE = json.loads((Path(__file__).parents[1] / "reference" / "swing_gripper.json").read_text())
 CASES = {case["id"]: case for case in REFERENCE["cases"]}

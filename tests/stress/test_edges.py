@@ -7,18 +7,18 @@ import math
 import numpy as np
 import pytest
 
-from gearlink.core import fourbar, slider_crank
-from gearlink.core.cam_profile import profile, translating
+from gearlink.core.cams.profile import profile, translating
 from gearlink.core.errors import NoSolution
-from gearlink.core.fourbar import FourBar
-from gearlink.core.gear_linkage import GearTrain
-from gearlink.core.gear_linkage_dwells import dwell_positions
-from gearlink.core.gear_pair import GearPair
-from gearlink.core.involute import inverse_involute, involute
-from gearlink.core.momentary_dwell import momentary_frame_length, momentary_linkage
-from gearlink.core.unloading import ElasticLaw
-from gearlink.core.unloading_device import Pneumatic
-from gearlink.core.wide_swing import WideSwingCam
+from gearlink.core.gears.involute import inverse_involute, involute
+from gearlink.core.gears.pair import GearPair
+from gearlink.core.linkages import fourbar, slider_crank
+from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.three_gear.dwells import dwell_positions
+from gearlink.core.three_gear.momentary_dwell import momentary_frame_length, momentary_linkage
+from gearlink.core.three_gear.motion import GearTrain
+from gearlink.core.wide_swing.cam import WideSwingCam
+from gearlink.core.wide_swing.device import Pneumatic
+from gearlink.core.wide_swing.elastic_law import ElasticLaw
 
 EPS = 2.0**-52
 

@@ -30,18 +30,18 @@ from stress.test_random_drives import (
 )
 from stress.worst import EPS, LONGER_NUMBERS, Worst
 
-from gearlink.core import fourbar, slider_crank
-from gearlink.core.cam_profile import oscillating, profile, translating
+from gearlink.core.cams.laws import law
+from gearlink.core.cams.profile import oscillating, profile, translating
 from gearlink.core.errors import NoSolution
-from gearlink.core.fourbar import FourBar
-from gearlink.core.gear_linkage_sweep import dwell_angles, momentary_dwells
-from gearlink.core.gear_pair import GearPair
-from gearlink.core.momentary_dwell import eccentricity_range, momentary_frame_length
-from gearlink.core.motion_laws import law
-from gearlink.core.planet_linkage import PlanetLinkage
-from gearlink.core.symmetric_back_step import dwell_angle
-from gearlink.core.unloading import ElasticLaw
-from gearlink.core.unloading_device import Pneumatic, Spring
+from gearlink.core.gears.pair import GearPair
+from gearlink.core.linkages import fourbar, slider_crank
+from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.planet_linkages.planet import PlanetLinkage
+from gearlink.core.three_gear.momentary_dwell import eccentricity_range, momentary_frame_length
+from gearlink.core.three_gear.sweep import dwell_angles, momentary_dwells
+from gearlink.core.three_gear.symmetric_back_step import dwell_angle
+from gearlink.core.wide_swing.device import Pneumatic, Spring
+from gearlink.core.wide_swing.elastic_law import ElasticLaw
 
 SAMPLE = [1, pytest.param(20, marks=pytest.mark.stress)]
 sampled = pytest.mark.parametrize("count", SAMPLE)

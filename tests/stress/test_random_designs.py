@@ -14,16 +14,16 @@ import numpy as np
 import pytest
 from stress.worst import COUNTS, EPS, LONG, LONGER_NUMBERS, MANY, Worst
 
-from gearlink.core import fourbar, fourbar_sweep, slider_crank
-from gearlink.core.cam_profile import oscillating, profile, translating
+from gearlink.core.cams.laws import law
+from gearlink.core.cams.profile import oscillating, profile, translating
 from gearlink.core.errors import NoSolution
-from gearlink.core.fourbar import FourBar
-from gearlink.core.gear_linkage_sweep import dwell_angles, momentary_dwells
-from gearlink.core.gear_pair import GearPair
-from gearlink.core.motion_laws import law
-from gearlink.core.symmetric_back_step import dwell_angle
-from gearlink.core.unloading import ElasticLaw
-from gearlink.core.unloading_device import Pneumatic, Spring
+from gearlink.core.gears.pair import GearPair
+from gearlink.core.linkages import fourbar, fourbar_sweep, slider_crank
+from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.three_gear.sweep import dwell_angles, momentary_dwells
+from gearlink.core.three_gear.symmetric_back_step import dwell_angle
+from gearlink.core.wide_swing.device import Pneumatic, Spring
+from gearlink.core.wide_swing.elastic_law import ElasticLaw
 
 pytestmark = LONGER_NUMBERS
 

@@ -16,13 +16,13 @@ from oracles.long_drive import Drives
 from stress.random_drives import VARIANTS, Design, arrays, designs, turning
 from stress.worst import COUNTS, EPS, LONG, LONGER_NUMBERS, MANY, Worst
 
-from gearlink.core import gear_linkage, gear_linkage_dwells
 from gearlink.core.errors import NoSolution
-from gearlink.core.fourbar import FourBar
-from gearlink.core.gear_linkage import GearTrain
-from gearlink.core.gear_linkage_sweep import output_motion
 from gearlink.core.kinds import KINDS
-from gearlink.core.planet_linkage import PlanetLinkage
+from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.planet_linkages.planet import PlanetLinkage
+from gearlink.core.three_gear import dwells, motion
+from gearlink.core.three_gear.motion import GearTrain
+from gearlink.core.three_gear.sweep import output_motion
 
 pytestmark = LONGER_NUMBERS
 
@@ -43,9 +43,9 @@ def scalar(design: Design, phi: float) -> tuple[float, ...]:
     """Angle, speed and acceleration by the formulas for one position."""
     pair = design.linkage, design.train
     return (
-        gear_linkage.output_angle(*pair, phi),
-        gear_linkage.output_speed(*pair, phi),
-        gear_linkage.output_acceleration(*pair, phi),
+        motion.output_angle(*pair, phi),
+        motion.output_speed(*pair, phi),
+        motion.output_acceleration(*pair, phi),
     )
 
 
@@ -92,7 +92,7 @@ def test_net_turns_of_whole_drives(count: int) -> None:
     drawn = designs(np.random.default_rng(22), count // 10)
     drives = Drives.three_gears(*arrays(drawn))
     gained = drives.turned(np.full(len(drawn), TURN)) / TURN
-    ratios = np.array([gear_linkage.mean_ratio(design.linkage, design.train) for design in drawn])
+    ratios = np.array([motion.mean_ratio(design.linkage, design.train) for design in drawn])
     assert np.abs(gained / ratios - 1.0).max() <= 2.0 * EPS
 
 
@@ -109,7 +109,7 @@ def test_linkages_that_do_not_turn_are_no_drives(count: int) -> None:
         if linkage.kind() not in ("rocker-crank", "double-rocker"):
             continue
         kinds.add(linkage.kind())
-        for refused in (gear_linkage.check_linkage, lambda x, t=train: gear_linkage_dwells.dwell_positions(x, t)):
+        for refused in (motion.check_linkage, lambda x, t=train: dwells.dwell_positions(x, t)):
             with pytest.raises(NoSolution):
                 refused(linkage)
         low, high = linkage.crank_range()
@@ -118,7 +118,7 @@ def test_linkages_that_do_not_turn_are_no_drives(count: int) -> None:
     assert len(kinds) == 2
     columns = np.array(
         [
-            [f(design.linkage, design.train, x) for f in (gear_linkage.output_speed, gear_linkage.output_acceleration)]
+            [f(design.linkage, design.train, x) for f in (motion.output_speed, motion.output_acceleration)]
             for design, x in zip(drawn, phi, strict=True)
         ]
     ).T
@@ -190,13 +190,13 @@ class Analysed:
 
     def __init__(self, design: Design) -> None:
         pair = design.linkage, design.train
-        self.design, extremes = design, gear_linkage.speed_extremes(*pair)
+        self.design, extremes = design, motion.speed_extremes(*pair)
         self.speed_ratio_max, self.speed_ratio_min = extremes.greatest, extremes.least
-        self.dwell_crank_angles = gear_linkage_dwells.dwell_positions(*pair)
+        self.dwell_crank_angles = dwells.dwell_positions(*pair)
         if len(self.dwell_crank_angles) == 2:
-            step = gear_linkage_dwells.back_step(*pair)
+            step = dwells.back_step(*pair)
             self.back_step_crank_angle, self.back_step_angle = step.crank_angle, step.angle
-            self.dwell_angle = gear_linkage_dwells.dwell_angle(*pair, step)
+            self.dwell_angle = dwells.dwell_angle(*pair, step)
 
     def __str__(self) -> str:
         return str(self.design)
@@ -283,7 +283,7 @@ def test_momentary_dwells_stand_still_where_they_say(count: int) -> None:
     """The least speed of the second way is zero to the last digits and lies at the crank angle of the standstill."""
     drawn, worst = designs(np.random.default_rng(27), count, ("momentary-dwell",)), Worst()
     for design, turn in zip(drawn, turns(Drives.three_gears(*arrays(drawn)), count), strict=True):
-        (place,) = gear_linkage_dwells.dwell_positions(design.linkage, design.train)
+        (place,) = dwells.dwell_positions(design.linkage, design.train)
         rest = abs(turn.drive.speed(turn.least)) / (EPS * turn.drive.condition("speed", turn.least))
         worst.take("speed left", float(rest), str(design))
         gap = abs(math.remainder(place - float(turn.least), 2.0 * math.pi))

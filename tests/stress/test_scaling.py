@@ -13,12 +13,12 @@ from time import process_time
 import numpy as np
 import pytest
 
-from gearlink.core import fourbar_sweep
-from gearlink.core.blocks import BLOCK, turn_blocks
-from gearlink.core.cam_profile import profile, translating
-from gearlink.core.fourbar import FourBar
-from gearlink.core.gear_linkage import GearTrain
-from gearlink.core.gear_linkage_sweep import output_motion
+from gearlink.core.cams.profile import profile, translating
+from gearlink.core.linkages import fourbar_sweep
+from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.numerics.blocks import BLOCK, turn_blocks
+from gearlink.core.three_gear.motion import GearTrain
+from gearlink.core.three_gear.sweep import output_motion
 
 LINKAGE, TRAIN = FourBar(18.0, 50.0, 100.0, 121.4), GearTrain(20, 20, 60)
 SIZES = (100_000, 1_000_000, 10_000_000)

@@ -28,17 +28,17 @@ from stress.test_random_drives import (
 )
 from stress.worst import EPS, LONGER_NUMBERS, Worst
 
-from gearlink.core import fourbar, slider_crank
-from gearlink.core.cam_profile import oscillating, profile, translating
-from gearlink.core.fourbar import FourBar
-from gearlink.core.gear_linkage import GearTrain
-from gearlink.core.gear_linkage_sweep import dwell_angles, momentary_dwells
-from gearlink.core.gear_pair import GearPair
-from gearlink.core.momentary_dwell import least_eccentricity
-from gearlink.core.planet_linkage import PlanetLinkage
-from gearlink.core.symmetric_back_step import dwell_angle
-from gearlink.core.unloading import ElasticLaw
-from gearlink.core.unloading_device import Spring
+from gearlink.core.cams.profile import oscillating, profile, translating
+from gearlink.core.gears.pair import GearPair
+from gearlink.core.linkages import fourbar, slider_crank
+from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.planet_linkages.planet import PlanetLinkage
+from gearlink.core.three_gear.momentary_dwell import least_eccentricity
+from gearlink.core.three_gear.motion import GearTrain
+from gearlink.core.three_gear.sweep import dwell_angles, momentary_dwells
+from gearlink.core.three_gear.symmetric_back_step import dwell_angle
+from gearlink.core.wide_swing.device import Spring
+from gearlink.core.wide_swing.elastic_law import ElasticLaw
 
 
 @pytest.fixture(autouse=True)

@@ -1,0 +1,167 @@
+"""`gearlink animate`: the mechanism of a design file in motion, as GIF, mp4 or HTML."""
+
+from __future__ import annotations
+
+import math
+import re
+import sys
+from collections.abc import Iterable
+from dataclasses import dataclass
+from importlib import import_module
+from importlib.util import find_spec
+from typing import IO, TYPE_CHECKING, Any
+
+from gearlink.cli.commands.design import open_design, read_spec, show_refusal
+from gearlink.cli.exit_codes import ExitCode
+from gearlink.cli.files import CannotWrite, safe_stem, write_atomically
+from gearlink.cli.options import Options
+from gearlink.cli.reading.design_file import DesignFileError, LoadedFile, diagnose_no_solution
+from gearlink.cli.reading.diagnostics import Diagnostic
+from gearlink.core.errors import NoSolution
+from gearlink.core.kinds import KINDS, Kind
+
+if TYPE_CHECKING:
+    from gearlink.cli.moving.stage import Stage
+    from gearlink.cli.scenes.scene import Reals, Scene
+    from gearlink.core.design import Design
+
+_SIZE = re.compile(r"(\d{3,4})x(\d{3,4})")
+_LEAST_SIZE, _MOST_SIZE = 160, 3840
+_PROBES = 96
+_USUAL_SECONDS, _MOST_SECONDS = 4.0, 12.0
+# A pitch that moves on by more than half of itself from one picture to the next seems to run backwards.
+_PITCH_A_PICTURE = 0.35
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """A moving picture as the command line asks for it; without seconds, as long as its teeth want."""
+
+    format: str = "gif"
+    fps: int = 25
+    seconds: float | None = None
+    size: str = "960x720"
+
+
+def run_animate(source: str, asked: Asked, options: Options) -> int:
+    """Write NAME-motion.FORMAT and give the exit status."""
+    try:
+        width, height = _size(asked.size)
+        if asked.format == "mp4":
+            from gearlink.cli.moving.video import ffmpeg
+
+            ffmpeg()
+        design, scene = _scene(source, asked, options)
+        stage = _stage(design, scene, width, height)
+        path = options.out / f"{safe_stem(design.spec.name)}-motion.{asked.format}"
+        write_atomically(path, lambda stream: _write(stream, stage, asked, options))
+    except (DesignFileError, CannotWrite) as error:
+        return show_refusal(error, source, options)
+    if not options.quiet:
+        print(f"wrote {path}", file=sys.stderr)
+    return ExitCode.OK
+
+
+def moving_kinds() -> tuple[str, ...]:
+    """The kinds that have a scene."""
+    return tuple(name for name in KINDS if find_spec(_module(name)) is not None)
+
+
+def build(design: Design, fraction: Reals) -> Scene:
+    """The scene of a design over fractions of its loop; 0 and 1 look the same."""
+    scene: Scene = import_module(_module(design.kind)).build(design, fraction)
+    return scene
+
+
+def pictures_for(scene: Scene, fps: int) -> int:
+    """How many pictures let the teeth be seen to turn the right way, from a scene of evenly spread probes."""
+    import numpy as np
+
+    from gearlink.cli.scenes.scene import TURN, Body
+
+    bodies = [part for part in scene.parts if isinstance(part, Body) and part.repeats > 1]
+    steps = [float(np.abs(np.diff(body.turn)).max()) * body.repeats / TURN * len(body.turn) for body in bodies]
+    needed = max(steps, default=0.0) / _PITCH_A_PICTURE
+    return math.ceil(min(max(_USUAL_SECONDS * fps, needed), _MOST_SECONDS * fps))
+
+
+def _module(kind: str) -> str:
+    return "gearlink.cli.scenes." + kind.replace("-", "_")
+
+
+def _scene(source: str, asked: Asked, options: Options) -> tuple[Design, Scene]:
+    """The design of a file and its scene; whatever the mechanism refuses becomes a located error."""
+    import numpy as np
+
+    loaded, kind = open_design(source, options)
+    _require_motion(loaded, kind)
+    spec = read_spec(loaded, kind, source)
+    try:
+        design = kind.design(_command(spec), spec)
+        if asked.seconds is None:
+            count = pictures_for(build(design, np.arange(_PROBES) / _PROBES), asked.fps)
+        else:
+            count = max(2, round(asked.seconds * asked.fps))
+        return design, build(design, np.arange(count) / count)
+    except NoSolution as error:
+        raise DesignFileError([diagnose_no_solution(loaded, error)]) from error
+
+
+def _require_motion(loaded: LoadedFile, kind: Kind) -> None:
+    if find_spec(_module(kind.name)) is not None:
+        return
+    line, column, file = loaded.locate(("kind",))
+    message = f"a {kind.name} does not move; kinds that do: {', '.join(moving_kinds())}"
+    raise DesignFileError([Diagnostic("GL113", message, file=file, line=line, column=column, key="kind")])
+
+
+def _command(spec: Any) -> str:
+    """The command whose design class knows the links: an analysis of given ones before a synthesis."""
+    asked: tuple[str, ...] = spec.commands()
+    return "analyze" if "analyze" in asked else asked[0]
+
+
+def _size(text: str) -> tuple[int, int]:
+    """Width and height; even, as video wants them."""
+    found = _SIZE.fullmatch(text)
+    width, height = (int(found[1]), int(found[2])) if found else (0, 0)
+    if min(width, height) >= _LEAST_SIZE and max(width, height) <= _MOST_SIZE:
+        return width - width % 2, height - height % 2
+    words = f"{text!r} must be WIDTHxHEIGHT, each from {_LEAST_SIZE} to {_MOST_SIZE} pixels, as in 960x720"
+    raise DesignFileError([Diagnostic("GL115", words, "<--size>", key=text)])
+
+
+def _stage(design: Design, scene: Scene, width: int, height: int) -> Stage:
+    from gearlink.cli.moving.stage import Stage
+
+    return Stage(scene, design.spec.name, width, height)
+
+
+def _write(stream: IO[bytes], stage: Stage, asked: Asked, options: Options) -> None:
+    if asked.format == "html":
+        from gearlink.cli.moving.page import page
+
+        stream.write(page(stage, asked.fps).encode())
+        return
+    from gearlink.cli.moving.raster import Raster
+
+    raster, count = Raster(stage), stage.count
+    told = _told(count, options)
+    if asked.format == "mp4":
+        from gearlink.cli.moving.video import write_mp4
+
+        write_mp4(stream, raster, asked.fps, told)
+    else:
+        from gearlink.cli.moving.gif import write_gif
+
+        write_gif(stream, raster, count, asked.fps, told)
+
+
+def _told(count: int, options: Options) -> Iterable[int]:
+    """The numbers of the pictures, with a bar on a terminal."""
+    if options.quiet or not sys.stderr.isatty():
+        return range(count)
+    from rich.console import Console
+    from rich.progress import track
+
+    return track(range(count), "drawing", console=Console(stderr=True), transient=True)

@@ -1,0 +1,100 @@
+"""`gearlink check`: reads design files and runs their checks; every finding with its place in the file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+from gearlink.cli.batch.run import design_files
+from gearlink.cli.commands.design import open_design, read_spec
+from gearlink.cli.exit_codes import ExitCode
+from gearlink.cli.options import Options
+from gearlink.cli.reading.design_file import DesignFileError, LoadedFile, diagnose_no_solution, parse_path
+from gearlink.cli.reading.diagnostics import Diagnostic
+from gearlink.cli.texts.finding_keys import key_of
+from gearlink.core.errors import NoSolution
+from gearlink.core.report import Check
+
+if TYPE_CHECKING:
+    from gearlink.core.design import Design
+    from gearlink.core.kinds import Kind
+
+_STATUS = {"pass": ExitCode.OK, "warn": ExitCode.OK, "fail": ExitCode.FINDING, "error": ExitCode.WRONG_INPUT}
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """A check's outcome, or an error of the file, at a place in the design file.
+
+    `status` is pass, warn, fail, error or fault; `check` is None for errors and faults.
+    """
+
+    status: str
+    place: Diagnostic
+    command: str = ""
+    check: Check | None = None
+
+    def exit_status(self, *, strict: bool) -> int:
+        """What this finding alone would end the run with."""
+        if strict and self.status == "warn":
+            return ExitCode.FINDING
+        return _STATUS.get(self.status, ExitCode.FAULT)
+
+
+def run_check(places: Sequence[str], options: Options, *, verbose: bool = False) -> int:
+    """Check every design file of the places, print the findings, give the worst exit status."""
+    from gearlink.cli.commands.check_page import show_findings
+
+    try:
+        files = ["-"] if "-" in places else []
+        if named := [place for place in places if place != "-"]:
+            files += map(str, design_files(named))
+    except DesignFileError as error:
+        from gearlink.cli.render.errors import show_errors
+
+        show_errors(error.diagnostics, options)
+        return ExitCode.WRONG_INPUT
+    found = [finding for file in files for finding in findings(file, options)]
+    worst = max((finding.exit_status(strict=options.strict) for finding in found), default=ExitCode.OK)
+    show_findings(found, len(files), options, ok=worst == ExitCode.OK, verbose=verbose)
+    return worst
+
+
+def findings(file: str, options: Options) -> list[Finding]:
+    """Every finding of a file, in the order of its lines; nothing raised here ends the run."""
+    try:
+        loaded, kind = open_design(file, options)
+        spec = read_spec(loaded, kind, file)
+        # Two commands may say the same of one place.
+        found = {(finding.status, finding.place): finding for finding in _findings(loaded, kind, spec)}.values()
+    except DesignFileError as error:
+        return [Finding("error", diagnostic) for diagnostic in error.diagnostics]
+    except Exception as fault:
+        message = f"fault of the program: {type(fault).__name__}: {fault}"
+        return [Finding("fault", Diagnostic("GL199", message, file=file, severity="fault"))]
+    return sorted(found, key=lambda finding: (finding.place.line, finding.place.column))
+
+
+def _findings(loaded: LoadedFile, kind: Kind, spec: Any) -> Iterator[Finding]:
+    """Findings of every command that the file asks for; commands of one design class share its results."""
+    designs: dict[Any, Design] = {}
+    done: set[tuple[Any, str]] = set()
+    for command in spec.commands():
+        cls = kind.design_class(command)
+        try:
+            design = designs.setdefault(cls, kind.design(command, spec))
+            outline = design.outline(command)
+            names = [name for name in outline.checks if (cls, name) not in done]
+            done |= {(cls, name) for name in names}
+            for check in (check for name in names for check in design.check(name)):
+                yield Finding(check.status, _place(loaded, check), command, check)
+            design.require(command)  # not every check would notice that there is no mechanism
+        except NoSolution as error:
+            yield Finding("error", diagnose_no_solution(loaded, error), command)
+
+
+def _place(loaded: LoadedFile, check: Check) -> Diagnostic:
+    """The check as a diagnostic at the key that it is about."""
+    diagnostic = loaded.report(check.code, check.message, parse_path(key_of(loaded.data, check)) or ("kind",))
+    return replace(diagnostic, severity=check.status)

@@ -1,0 +1,322 @@
+"""`gearlink diff`: what changed between two designs, or between two results that were kept as JSON."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, nullcontext
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from gearlink.cli.commands.design import open_design
+from gearlink.cli.exit_codes import ExitCode
+from gearlink.cli.options import Options
+from gearlink.cli.reading.design_file import DesignFileError, diagnose_no_solution, validate
+from gearlink.cli.reading.diagnostics import Diagnostic
+from gearlink.cli.render.json_report import as_plain
+from gearlink.core.errors import NoSolution
+from gearlink.core.report import Report
+
+if TYPE_CHECKING:
+    from gearlink.core.design import Design
+    from gearlink.core.kinds import Kind
+
+TOLERANCE = 1e-9
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """One difference; `old` or `new` is None where one side does not have it.
+
+    Fields
+        name : str - 'gears.idler', 'frame_length', 'min_transmission_angle[1]', 'GL301 gear-collision'
+        relative : float - (new - old)/|old|; None for text, lists of other length and old = 0
+        command : str - the command whose result it is; empty for inputs
+        detail : str - 'pass -> fail' of a check, 'row 3' of a table
+    """
+
+    name: str
+    old: Any
+    new: Any
+    unit: str = ""
+    relative: float | None = None
+    command: str = ""
+    detail: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Difference:
+    """All that changed."""
+
+    old: str
+    new: str
+    tolerance: float
+    inputs: list[Change] = field(default_factory=list)
+    quantities: list[Change] = field(default_factory=list)
+    checks: list[Change] = field(default_factory=list)
+    tables: list[Change] = field(default_factory=list)
+
+    @property
+    def equal(self) -> bool:
+        """Nothing changed beyond the tolerance."""
+        return not (self.inputs or self.quantities or self.checks or self.tables)
+
+
+@dataclass(frozen=True, slots=True)
+class Side:
+    """One of the two files: inputs by key path (none in a result), and results by command."""
+
+    kind: str
+    inputs: dict[str, Any]
+    units: dict[str, str]
+    results: dict[str, dict[str, Any]]
+
+
+def run_diff(old: str, new: str, options: Options, tolerance: float = TOLERANCE) -> int:
+    """Print what changed from `old` to `new`; 0 where nothing did, 1 where something did."""
+    from gearlink.cli.commands.diff_page import show_difference
+    from gearlink.cli.render.errors import show_errors
+
+    try:
+        found = difference(old, new, options, tolerance)
+    except DesignFileError as error:
+        show_errors(error.diagnostics, options)
+        return ExitCode.WRONG_INPUT
+    show_difference(found, options)
+    return ExitCode.OK if found.equal else ExitCode.FINDING
+
+
+def difference(old: str, new: str, options: Options, tolerance: float = TOLERANCE) -> Difference:
+    """What changed between two design files or two results.
+
+    Parameters
+        old, new : str - file names, or - for one of them
+        tolerance : float - numbers count as equal within tolerance * max(1, |old|, |new|)
+    Raises
+        DesignFileError - for files that cannot be read, or not be compared with each other (GL117)
+    """
+    before, after = _side(old, options), _side(new, options)
+    if bool(before.inputs) != bool(after.inputs):
+        raise _incomparable(new, "one file is a design, the other a result: give two of a sort")
+    if before.kind != after.kind:
+        raise _incomparable(new, f"a {before.kind} and a {after.kind} cannot be compared: give two of one kind")
+    found = Difference(old, new, tolerance)
+    units = {**before.units, **after.units}
+    for path in _union(before.inputs, after.inputs):
+        values = before.inputs.get(path), after.inputs.get(path)
+        found.inputs.extend(_changes(path, *values, units.get(path.partition("[")[0], ""), tolerance))
+    # Results that the program has just computed are in its own form: an error there is its fault, not the user's.
+    with nullcontext() if before.inputs else _results_as_gearlink_writes_them(f"{old}, {new}"):
+        for command in _union(before.results, after.results):
+            _compare_results(found, command, before.results.get(command), after.results.get(command))
+    return found
+
+
+@contextmanager
+def _results_as_gearlink_writes_them(file: str) -> Iterator[None]:
+    """A result that was edited, or written by another program, is the user's to mend."""
+    try:
+        yield
+    except (KeyError, TypeError, AttributeError, IndexError, ValueError) as error:
+        raise _incomparable(file, f"not in the form of `--format json`: {type(error).__name__} {error}") from error
+
+
+# Reading
+
+
+def _side(file: str, options: Options) -> Side:
+    text = "" if file == "-" else _text(file)
+    if text.lstrip()[:1] == "{":
+        try:
+            data = json.loads(text)
+        except ValueError:
+            data = None
+        if isinstance(data, dict) and "gearlink" in data:
+            with _results_as_gearlink_writes_them(file):
+                return _result_side(file, data)
+    return _design_side(file, options)
+
+
+def _text(file: str) -> str:
+    """The text of a result; nothing for a file that only the reader of design files can judge."""
+    try:
+        return Path(file).read_bytes().decode()
+    except (OSError, ValueError):
+        return ""
+
+
+def _result_side(file: str, data: dict[str, Any]) -> Side:
+    """A result of a design command, or of a batch, whose designs are told apart by their names."""
+    several = isinstance(data.get("designs"), list)
+    if not several and "quantities" not in data:
+        message = "this JSON holds errors, not a result" if "errors" in data else "no result of a design in this JSON"
+        raise _incomparable(file, message)
+    named: dict[str, dict[str, Any]] = {}
+    for result in data["designs"] if several else [data]:
+        name = f"{result['name']}: {result['command']}" if several else str(result["command"])
+        named[f"{name} ({result['file']})" if name in named else name] = {"quantities": {}, "checks": (), **result}
+    return Side("batch" if several else str(data["kind"]), {}, {}, named)
+
+
+def _design_side(file: str, options: Options) -> Side:
+    """A design file: its inputs with defaults filled in, and the results of the commands that it asks for."""
+    loaded, kind = open_design(file, options)
+    spec = validate(loaded, kind.spec_model())
+    designs = {cls: cls(spec) for cls in {kind.design_class(command) for command in spec.commands()}}
+    try:
+        results = {c: as_plain(_report(designs[kind.design_class(c)], c)) for c in spec.commands()}
+    except NoSolution as error:
+        raise DesignFileError([diagnose_no_solution(loaded, error)]) from error
+    inputs = dict(_flat("", spec.model_dump(mode="json", by_alias=True)))
+    return Side(kind.name, inputs, _units(kind), results)
+
+
+def _report(design: Design, command: str) -> Report:
+    """The command's report without its tables, which follow from the inputs and are not compared."""
+    outline = design.outline(command)
+    quantities = [quantity for name in outline.quantities if (quantity := design.quantity(name)) is not None]
+    checks = [check for name in outline.checks for check in design.check(name)]
+    return Report(design.kind, design.spec.name, command, tuple(quantities), tuple(checks))
+
+
+def _units(kind: Kind) -> dict[str, str]:
+    from gearlink.cli.texts.spec_keys import spec_keys
+
+    return {key.path: key.unit for key in spec_keys(kind)}
+
+
+def _flat(path: str, value: Any) -> Iterator[tuple[str, Any]]:
+    """Values by key path; what is left out has no entry."""
+    if isinstance(value, dict):
+        for key, inner in value.items():
+            yield from _flat(f"{path}.{key}" if path else str(key), inner)
+    elif isinstance(value, list) and any(isinstance(item, dict) for item in value):
+        for place, item in enumerate(value):
+            yield from _flat(f"{path}[{place}]", item)
+    elif value is not None:
+        yield path, value
+
+
+def _incomparable(file: str, message: str) -> DesignFileError:
+    return DesignFileError([Diagnostic("GL117", message, file=file)])
+
+
+# Comparing
+
+
+def _compare_results(found: Difference, command: str, old: dict[str, Any] | None, new: dict[str, Any] | None) -> None:
+    """Add what changed in the result of a command; a result that only one side has is one change."""
+    if old is None or new is None:
+        has = ("asked for", None) if new is None else (None, "asked for")
+        found.inputs.append(Change(f"command {command}", *has))
+        return
+    for name in _union(old["quantities"], new["quantities"]):
+        was, now = (side["quantities"].get(name, {}) for side in (old, new))
+        unit = str(now.get("unit") or was.get("unit") or "")
+        changes = _changes(name, was.get("value"), now.get("value"), unit, found.tolerance, command)
+        # A quantity that several commands show is told once.
+        known = [(c.name, c.old, c.new) for c in found.quantities]
+        found.quantities.extend(c for c in changes if (c.name, c.old, c.new) not in known)
+    known_checks = [(c.name, c.old, c.new, c.detail) for c in found.checks]
+    changed = _changed_checks(command, old.get("checks", ()), new.get("checks", ()), found.tolerance)
+    found.checks.extend(c for c in changed if (c.name, c.old, c.new, c.detail) not in known_checks)
+    for name in _union(old.get("tables", {}), new.get("tables", {})):
+        tables = (old.get("tables", {}).get(name), new.get("tables", {}).get(name))
+        found.tables.extend(_changed_table(command, name, *tables, found.tolerance))
+
+
+def _changes(name: str, old: Any, new: Any, unit: str, tolerance: float, command: str = "") -> Iterator[Change]:
+    """The change of a value; lists of equal length are compared member by member."""
+    if isinstance(old, list) and isinstance(new, list) and len(old) == len(new):
+        for place, (was, now) in enumerate(zip(old, new, strict=True)):
+            yield from _changes(f"{name}[{place}]", was, now, unit, tolerance, command)
+    elif not same(old, new, tolerance):
+        yield Change(name, old, new, unit, relative_change(old, new), command)
+
+
+def same(old: Any, new: Any, tolerance: float) -> bool:
+    """Whether two values count as equal; numbers do within tolerance * max(1, |old|, |new|).
+
+    Example
+        >>> same(100.0, 100.0 + 1e-8, 1e-9), same(0.0, 1e-10, 1e-9), same("a", "b", 1.0)
+        (True, True, False)
+    """
+    if _number(old) and _number(new):
+        return bool(abs(new - old) <= tolerance * max(1.0, abs(old), abs(new)))
+    return bool(old == new) and isinstance(old, bool) == isinstance(new, bool)
+
+
+def relative_change(old: Any, new: Any) -> float | None:
+    """(new - old)/|old| of two numbers; None where there is none."""
+    if not (_number(old) and _number(new)) or old == 0:
+        return None
+    change = (new - old) / abs(old)
+    return change if math.isfinite(change) else None
+
+
+def _number(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def _changed_checks(
+    command: str, old: Sequence[dict[str, Any]], new: Sequence[dict[str, Any]], tolerance: float
+) -> Iterator[Change]:
+    """Checks whose status, value or limit changed; several of one name are told apart by their order."""
+    before, after = _numbered(old), _numbered(new)
+    for name in _union(before, after):
+        was, now = before.get(name), after.get(name)
+        if was is None or now is None:
+            only = f"only in {'new' if was is None else 'old'}: {(now or was or {}).get('status')}"
+            values = (was or {}).get("value"), (now or {}).get("value")
+            yield Change(name, *values, str((now or was or {}).get("unit", "")), None, command, only)
+        elif was["status"] != now["status"] or not all(same(was[k], now[k], tolerance) for k in ("value", "limit")):
+            status = f"{was['status']} -> {now['status']}" if was["status"] != now["status"] else now["status"]
+            if not same(was["limit"], now["limit"], tolerance):
+                status += f", limit {_short(was['limit'])} -> {_short(now['limit'])}"
+            # What is zero but for rounding has no relative change worth telling.
+            equal = same(was["value"], now["value"], tolerance)
+            relative = None if equal else relative_change(was["value"], now["value"])
+            yield Change(name, was["value"], now["value"], str(now.get("unit", "")), relative, command, status)
+
+
+def _short(value: Any) -> str:
+    return f"{value:.6g}" if _number(value) else "none"
+
+
+def _numbered(checks: Sequence[dict[str, Any]]) -> dict[str, dict[str, Any]]:
+    """Checks by code and name, the second of a name with #2."""
+    found: dict[str, dict[str, Any]] = {}
+    for check in checks:
+        name = plain = f"{check['code']} {check['name']}"
+        count = 1
+        while name in found:
+            count += 1
+            name = f"{plain} #{count}"
+        found[name] = check
+    return found
+
+
+def _changed_table(command: str, name: str, old: Any, new: Any, tolerance: float) -> Iterator[Change]:
+    """For each column of a table the row that changed most; a table of another shape is one change."""
+    shapes = [None if t is None else f"{len(t['rows'])} rows of {', '.join(t['columns'])}" for t in (old, new)]
+    if shapes[0] != shapes[1]:
+        yield Change(name, shapes[0], shapes[1], command=command)
+        return
+    for place, column in enumerate(old["columns"]):
+        pairs = [(a[place], b[place], row) for row, (a, b) in enumerate(zip(old["rows"], new["rows"], strict=True))]
+        changed = [pair for pair in pairs if not same(pair[0], pair[1], tolerance)]
+        if changed:
+            was, now, row = max(changed, key=lambda pair: _distance(pair[0], pair[1]))
+            detail = f"{len(changed)} of {len(pairs)} rows, most in row {row}"
+            unit = str(new["units"][place])
+            yield Change(f"{name}.{column}", was, now, unit, relative_change(was, now), command, detail)
+
+
+def _distance(old: Any, new: Any) -> float:
+    return float(abs(new - old)) if _number(old) and _number(new) else math.inf
+
+
+def _union(old: Any, new: Any) -> list[str]:
+    return list(dict.fromkeys([*old, *new]))

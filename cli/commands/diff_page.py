@@ -1,0 +1,94 @@
+"""What `gearlink diff` found, as tables on the terminal, JSON or Markdown."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+from typing import Any
+
+from gearlink.cli.commands.diff import Change, Difference
+from gearlink.cli.options import Format, Options
+from gearlink.cli.render.json_report import FORMAT
+
+_PARTS = ("inputs", "quantities", "checks", "tables")
+_HEADS = ("old", "new", "unit", "change", "command")
+
+
+def show_difference(found: Difference, options: Options) -> None:
+    """Print the difference."""
+    if options.format is Format.JSON:
+        print(json.dumps(_plain(found), ensure_ascii=False, allow_nan=False))
+    elif options.format is Format.MARKDOWN:
+        print(_as_markdown(found))
+    else:
+        _show(found, options)
+
+
+def _plain(found: Difference) -> dict[str, Any]:
+    head = {"gearlink": FORMAT, "command": "diff", "old": found.old, "new": found.new}
+    head |= {"tolerance": found.tolerance, "equal": found.equal}
+    return head | {part: [_record(change) for change in getattr(found, part)] for part in _PARTS}
+
+
+def _record(change: Change) -> dict[str, Any]:
+    return {
+        "name": change.name,
+        "command": change.command,
+        "old": change.old,
+        "new": change.new,
+        "unit": change.unit,
+        "relative": change.relative,
+        "detail": change.detail,
+    }
+
+
+def _parts(found: Difference, text: Callable[[object], str]) -> Iterator[tuple[str, list[Sequence[str]]]]:
+    """Each part that changed, as rows of text: name, old, new, unit, change, command."""
+    for part in _PARTS:
+        changes: list[Change] = getattr(found, part)
+        rows: list[Sequence[str]] = []
+        for c in changes:
+            percent = "" if c.relative is None else f"{100.0 * c.relative:+.3g} %"
+            told = "; ".join(words for words in (percent, c.detail) if words)
+            unit = "" if c.unit == "1" else c.unit
+            rows.append((c.name, text(c.old), text(c.new), unit, told, c.command))
+        if rows:
+            yield part, rows
+
+
+def _verdict(found: Difference) -> str:
+    if found.equal:
+        return f"{found.old} and {found.new} are equal (tolerance {found.tolerance:g})"
+    counts = ", ".join(f"{len(getattr(found, part))} {part}" for part in _PARTS if getattr(found, part))
+    return f"changed from {found.old} to {found.new}: {counts}"
+
+
+def _as_markdown(found: Difference) -> str:
+    from gearlink.cli.render.markdown_report import markdown_table, text_of
+
+    sections = [f"## {part}\n\n" + markdown_table((part, *_HEADS), rows) for part, rows in _parts(found, text_of)]
+    return "\n\n".join([*sections, _verdict(found)])
+
+
+def _show(found: Difference, options: Options) -> None:
+    from gearlink.cli.render.numbers import number
+    from gearlink.cli.render.terminal import console_for, grid_for
+
+    console = console_for(options)
+    for part, rows in _parts(found, partial(number, digits=9)):
+        grid = grid_for(console)
+        heads = (part, *_HEADS)
+        # A column that says nothing takes room from the numbers.
+        shown = [i for i, head in enumerate(heads) if head in (part, "old", "new") or any(row[i] for row in rows)]
+        if len({row[-1] for row in rows}) == 1:
+            shown = [i for i in shown if heads[i] != "command"]
+        for i in shown:
+            number_like = heads[i] in ("old", "new")
+            whole = number_like or i == 0
+            grid.add_column(heads[i], justify="right" if number_like else "left", no_wrap=whole, overflow="fold")
+        for row in rows:
+            grid.add_row(*(row[i] for i in shown))
+        console.print(grid)
+        console.print()
+    print(_verdict(found))

@@ -1,0 +1,286 @@
+"""`gearlink explain`: what a code, quantity, check, kind of design or law of motion means."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Iterator
+from dataclasses import dataclass
+from difflib import get_close_matches
+from typing import TYPE_CHECKING, Any
+
+from gearlink.cli.exit_codes import ExitCode
+from gearlink.cli.options import Format, Options
+
+if TYPE_CHECKING:
+    from gearlink.cli.texts.codes import Explanation
+    from gearlink.core.kinds import Kind
+
+_WIDTH = 100
+_LABELS = {"what": "What", "why": "Why", "formula": "Formula", "source": "Source", "mend": "How to mend"}
+
+
+@dataclass(frozen=True, slots=True)
+class Topic:
+    """An explanation: a headline and labelled paragraphs; `about` is code, quantity, check, kind or law."""
+
+    about: str
+    name: str
+    title: str
+    paragraphs: dict[str, str]
+
+
+def run_explain(subject: str | None, format: Format) -> int:
+    """Print what `subject` means, or the list of codes; give the exit status."""
+    topics = find(subject) if subject is not None else []
+    if subject is not None and not topics:
+        return _unknown(subject, format)
+    if subject is None:
+        print(_index(format))
+    elif format is Format.JSON:
+        print(_as_json(topics))
+    else:
+        page = _as_markdown if format is Format.MARKDOWN else _as_text
+        print("\n\n".join(page(topic) for topic in topics))
+    return ExitCode.OK
+
+
+def find(subject: str) -> list[Topic]:
+    """Every topic of a name; a name written with - for _ counts where nothing bears it as it stands."""
+    exact = list(_topics(subject))
+    if exact:
+        return exact
+    spellings = dict.fromkeys((subject.upper(), subject.lower().replace("_", "-"), subject.lower().replace("-", "_")))
+    return [topic for spelling in spellings if spelling != subject for topic in _topics(spelling)]
+
+
+def _topics(name: str) -> Iterator[Topic]:
+    from gearlink.cli.texts.codes import explanations
+    from gearlink.core.kinds import KINDS
+    from gearlink.core.nomenclature import TERMS
+
+    texts = explanations()
+    if name in texts:
+        yield _code(name, texts[name])
+    for code, text in texts.items():
+        if name in text.checks:
+            yield _check(name, code, text)
+    if name in KINDS:
+        yield _kind(KINDS[name])
+    if name.rpartition(".")[2] in TERMS:
+        yield _quantity(name.rpartition(".")[2])
+    if name in _laws():
+        yield _law(name)
+
+
+def names() -> tuple[str, ...]:
+    """Everything that can be explained."""
+    from gearlink.cli.texts.codes import explanations
+    from gearlink.core.kinds import KINDS
+    from gearlink.core.nomenclature import TERMS
+
+    texts = explanations()
+    checks = [check for text in texts.values() for check in text.checks]
+    return tuple(dict.fromkeys([*texts, *checks, *KINDS, *TERMS, *_laws()]))
+
+
+def _laws() -> tuple[str, ...]:
+    from gearlink.core.cams.laws import REST_TO_REST, REST_TO_SPEED
+
+    return (*REST_TO_REST, *REST_TO_SPEED, "half-345", "half-4567", "velocity-345", "velocity-4567")
+
+
+# Codes and checks
+
+
+def _code(code: str, text: Explanation) -> Topic:
+    paragraphs = {label: getattr(text, field) for field, label in _LABELS.items() if getattr(text, field)}
+    if text.checks:
+        paragraphs["Checks"] = ", ".join(text.checks)
+        paragraphs["Kinds"] = _kinds_with_checks(text.checks)
+    return Topic("code", code, text.title, {label: words for label, words in paragraphs.items() if words})
+
+
+def _check(name: str, code: str, text: Explanation) -> Topic:
+    topic = _code(code, text)
+    paragraphs = {**topic.paragraphs, "Checks": name, "Kinds": _kinds_with_checks((name,))}
+    return Topic("check", name, f"{text.title} ({code})", {k: v for k, v in paragraphs.items() if v})
+
+
+def _kinds_with_checks(checks: tuple[str, ...]) -> str:
+    """Kinds whose design class makes one of the checks, whether a command always shows it or a section calls for it."""
+    from gearlink.core.kinds import KINDS
+
+    methods = ["check_" + check.replace("-", "_") for check in checks]
+    found = []
+    for kind in KINDS.values():
+        classes = {kind.design_class(command) for command in kind.commands}
+        shown = {check for cls in classes for outline in cls.outlines.values() for check in outline.checks}
+        if shown.intersection(checks) or any(hasattr(cls, method) for cls in classes for method in methods):
+            found.append(kind.name)
+    return ", ".join(found)
+
+
+# Quantities
+
+
+def _quantity(name: str) -> Topic:
+    from gearlink.cli.texts.formulas import FORMULAS
+    from gearlink.core.nomenclature import term
+
+    entry = term(name)
+    paragraphs = {
+        "Meaning": entry.words,
+        "Symbol": entry.symbol,
+        "Unit": entry.unit if entry.unit != "1" else "1 (no dimension)",
+        "Formula": FORMULAS.get(name, ""),
+        "Source": entry.source,
+        "Given by": "; ".join(_givers(name)),
+    }
+    return Topic("quantity", name, entry.words, {label: words for label, words in paragraphs.items() if words})
+
+
+def _givers(name: str) -> Iterator[str]:
+    """Kinds that have the quantity and the commands that show it."""
+    from gearlink.core.kinds import KINDS
+
+    for kind in KINDS.values():
+        always, known = [], False
+        for command in kind.commands:
+            cls = kind.design_class(command)
+            shown = {quantity.rpartition(".")[2] for quantity in cls.outlines[command].quantities}
+            known = known or name in {q.rpartition(".")[2] for q in cls(None).quantity_names()}
+            if name in shown:
+                always.append(command)
+        if always:
+            yield f"{kind.name} ({', '.join(always)})"
+        elif known:
+            yield f"{kind.name} (where the file has the sections for it)"
+
+
+# Kinds and laws
+
+
+def _kind(kind: Kind) -> Topic:
+    from gearlink.cli.texts.spec_keys import spec_keys
+
+    model = kind.spec_model()
+    keys = [key for key in spec_keys(kind) if "." not in key.path and key.path != "kind"]
+    paragraphs = {
+        "What": (model.__doc__ or "").strip(),
+        "Commands": ", ".join(f"gearlink {command}" for command in kind.commands),
+        "Needs": ", ".join(key.path for key in keys if key.required),
+        "Takes": ", ".join(key.path for key in keys if not key.required),
+        "See also": f"`gearlink new {kind.name}` prints a design that runs, `gearlink schema {kind.name}` every key.",
+    }
+    return Topic("kind", kind.name, "kind of design", {k: v for k, v in paragraphs.items() if v})
+
+
+def _law(name: str) -> Topic:
+    from gearlink.core.cams.laws import law
+
+    found = law(name)
+    peaks = [("velocity Cv", found.peak_velocity), ("acceleration Ca", found.peak_acceleration)]
+    peaks += [("jerk Cj", found.peak_jerk), ("power Cm", found.peak_power)]
+    rest = found.kind == "rest-to-rest"
+    what = (
+        "Goes from rest to rest: rise 1 over x from 0 to 1."
+        if rest
+        else "Goes from rest to speed 1 over x from 0 to 1."
+    )
+    joins = (
+        "no: its acceleration is not zero at an end" if found.end_jumps else "yes: its acceleration is zero at the ends"
+    )
+    paragraphs = {
+        "What": what,
+        "Formula": _LAW_FORMULAS.get(name.removeprefix("half-").removeprefix("velocity-"), _MCV) + _LAW_USE[_use(name)],
+        "Peaks": ", ".join(f"{words} {value:.6g}" for words, value in peaks),
+        "Joins a dwell": joins,
+        "Source": "VDI 2143; SCCA family: own derivation",
+    }
+    if not rest:
+        paragraphs["Share"] = f"kappa = {found.kappa:.6g} of (end speed) x (time) is travelled"
+    return Topic("law", name, f"law of motion, {found.kind}", paragraphs)
+
+
+def _use(name: str) -> str:
+    return next((prefix for prefix in ("half-", "velocity-") if name.startswith(prefix)), "")
+
+
+_LAW_USE = {
+    "": "",
+    "half-": "; of this law the first half is taken, up to its peak velocity",
+    "velocity-": "; the velocity follows this rise",
+}
+_MCV = "modified sine whose middle runs NN percent of the time at constant velocity (33: one third)"
+_LAW_FORMULAS = {
+    "simple-harmonic": "s = (1 - cos(pi x))/2",
+    "cycloidal": "s = x - sin(2 pi x)/(2 pi)",
+    "modified-trapezoid": "acceleration: sine quarter over x = 1/8, constant over 1/4, cosine over 1/8, then mirrored",
+    "modified-sine": "acceleration: sine quarter over x = 1/8, cosine over 3/8, then mirrored",
+    "polynomial-345": "s = 10 x^3 - 15 x^4 + 6 x^5",
+    "polynomial-4567": "s = 35 x^4 - 84 x^5 + 70 x^6 - 20 x^7",
+    "345": "s = 10 x^3 - 15 x^4 + 6 x^5",
+    "4567": "s = 35 x^4 - 84 x^5 + 70 x^6 - 20 x^7",
+}
+
+
+# Pages
+
+
+def _as_text(topic: Topic) -> str:
+    lines = [f"{topic.name}: {topic.title}"]
+    for label, words in topic.paragraphs.items():
+        lines += textwrap.wrap(
+            f"{label}: {words}", _WIDTH, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False
+        )
+    return "\n".join(lines)
+
+
+def _as_markdown(topic: Topic) -> str:
+    parts = [f"# {topic.name}: {topic.title}"]
+    parts += [
+        f"**{label}:** " + (f"`{words}`" if label in ("Formula", "Symbol") else words)
+        for label, words in topic.paragraphs.items()
+    ]
+    return "\n\n".join(parts)
+
+
+def _as_json(topics: list[Topic]) -> str:
+    import json
+
+    from gearlink.cli.render.json_report import FORMAT
+
+    plain: list[dict[str, Any]] = [
+        {"about": topic.about, "name": topic.name, "title": topic.title}
+        | {label.lower().replace(" ", "_"): words for label, words in topic.paragraphs.items()}
+        for topic in topics
+    ]
+    return json.dumps({"gearlink": FORMAT, "command": "explain", "topics": plain}, ensure_ascii=False)
+
+
+def _index(format: Format) -> str:
+    """The list of codes."""
+    from gearlink.cli.texts.codes import explanations
+
+    rows = [(code, text.title, ", ".join(text.checks)) for code, text in explanations().items()]
+    if format is Format.JSON:
+        return _as_json([Topic("code", code, title, {}) for code, title, _ in rows])
+    if format is Format.MARKDOWN:
+        from gearlink.cli.render.markdown_report import markdown_table
+
+        return markdown_table(("code", "meaning", "check"), rows)
+    lines = [f"{code}  {title}" + (f" [{checks}]" if checks else "") for code, title, checks in rows]
+    more = "`gearlink explain NAME` takes a code, and the name of a check, quantity, kind of design or law of motion."
+    return "\n".join([*lines, "", more])
+
+
+def _unknown(subject: str, format: Format) -> int:
+    from gearlink.cli.reading.diagnostics import Diagnostic
+    from gearlink.cli.render.errors import show_errors
+
+    lower = {name.lower(): name for name in names()}
+    near = [lower[name] for name in get_close_matches(subject.lower(), lower, n=3, cutoff=0.5)]
+    remedy = f"nearest: {', '.join(near)}" if near else "`gearlink explain` lists the codes"
+    wrong = Diagnostic("GL115", f"nothing is named {subject!r}", file="<command line>", key=subject, help=remedy)
+    show_errors([wrong], Options(format=format))
+    return ExitCode.WRONG_INPUT

@@ -1,0 +1,21 @@
+"""A kind of design by name, or the nearest names on standard error."""
+
+from __future__ import annotations
+
+from difflib import get_close_matches
+
+from gearlink.cli.options import Options
+from gearlink.cli.reading.diagnostics import Diagnostic
+from gearlink.cli.render.errors import show_errors
+from gearlink.core.kinds import KINDS, Kind
+
+
+def kind_named(name: str) -> Kind | None:
+    """The kind, or None after the error has been shown."""
+    if name in KINDS:
+        return KINDS[name]
+    near = get_close_matches(name.lower().replace("_", "-"), KINDS, n=3, cutoff=0.4)
+    known = f"the kinds are {', '.join(KINDS)}"
+    remedy = f"nearest: {', '.join(near)}; {known}" if near else known
+    show_errors([Diagnostic("GL109", f"no kind {name!r}", "<command line>", key=name, help=remedy)], Options())
+    return None

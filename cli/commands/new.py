@@ -1,0 +1,137 @@
+"""`gearlink new`: the worked design of a kind as a template, with a list of the keys that it leaves out."""
+
+from __future__ import annotations
+
+import re
+import sys
+from functools import partial
+from importlib import resources
+from pathlib import Path
+from typing import IO, TYPE_CHECKING, Any
+
+from gearlink.cli.exit_codes import ExitCode
+
+if TYPE_CHECKING:
+    from gearlink.cli.texts.spec_keys import SpecKey
+    from gearlink.core.kinds import Kind
+
+_KIND = re.compile(r"^kind:\s*([\w-]+)", re.MULTILINE)
+
+
+def run_new(kind_name: str, out: Path | None, *, force: bool = False, quiet: bool = False) -> int:
+    """Print the template of a kind or write it to a file; give the exit status."""
+    from gearlink.cli.commands.kind_names import kind_named
+    from gearlink.cli.files import CannotWrite, write_atomically
+
+    kind = kind_named(kind_name)
+    if kind is None:
+        return ExitCode.WRONG_INPUT
+    text = template(kind)
+    if out is None:
+        sys.stdout.write(text)
+        return ExitCode.OK
+    try:
+        if out.exists() and not force:
+            raise CannotWrite(f"{out} is there already: give another --out, or --force to overwrite it")
+        write_atomically(out, partial(_write, text=text))
+    except CannotWrite as error:
+        return _refused(str(error), out)
+    if not quiet:
+        print(f"wrote {out}; try: gearlink {first_command(kind, text)} {out}", file=sys.stderr)
+    return ExitCode.OK
+
+
+def _write(stream: IO[bytes], text: str) -> None:
+    stream.write(text.encode())
+
+
+def _refused(message: str, out: Path) -> int:
+    from gearlink.cli.options import Options
+    from gearlink.cli.reading.diagnostics import Diagnostic
+    from gearlink.cli.render.errors import show_errors
+
+    show_errors([Diagnostic("GL116", message, file=str(out))], Options())
+    return ExitCode.WRONG_INPUT
+
+
+def template(kind: Kind) -> str:
+    """The text of a template: the schema's line, the worked design, and the keys that it leaves out as comments.
+
+    Raises
+        LookupError - for a kind without a worked design in `gearlink.designs`
+    """
+    design = worked_design(kind)
+    asked = first_command(kind, design)
+    head = (
+        f"# yaml-language-server: $schema={kind.name}.schema.json\n"
+        f"# (for editors that check as you type; make it by: gearlink schema {kind.name} > {kind.name}.schema.json)\n"
+        f"# Run it with: gearlink {asked} FILE      units: mm, deg, rev/min, sheets/h, N, kg, kg m^2, N m\n\n"
+    )
+    return head + design.rstrip("\n") + "\n" + _left_out(kind, design)
+
+
+def worked_design(kind: Kind) -> str:
+    """The text of the kind's worked design: the file that bears its name, else the first by name."""
+    texts = {
+        file.name.rpartition(".")[0]: file.read_text(encoding="utf-8")
+        for file in resources.files("gearlink.designs").iterdir()
+        if file.name.endswith(".yaml")
+    }
+    own = {stem: text for stem, text in texts.items() if (found := _KIND.search(text)) and found[1] == kind.name}
+    if not own:
+        raise LookupError(f"no worked design of kind {kind.name} in gearlink.designs")
+    return own.get(kind.name.replace("-", "_"), own[min(own)])
+
+
+def first_command(kind: Kind, text: str) -> str:
+    """The first command that a design file asks for."""
+    return str(_read(kind, text)[1].commands()[0])
+
+
+def _read(kind: Kind, text: str) -> tuple[dict[str, Any], Any]:
+    from gearlink.cli.reading.design_file import parse, validate
+
+    loaded = parse(text.encode(), "template")
+    return loaded.data, validate(loaded, kind.spec_model())
+
+
+def _left_out(kind: Kind, text: str) -> str:
+    """The keys that a design leaves out, as comments; nothing where it uses all."""
+    from gearlink.cli.texts.spec_keys import spec_keys
+
+    data, _ = _read(kind, text)
+    rows = []
+    for key in spec_keys(kind):
+        parent, _, name = key.path.rpartition(".")
+        section = _at(data, parent)
+        if not (isinstance(section, dict) and name in section):
+            # In a section that the file has, the whole path tells where the key belongs.
+            label = key.path if isinstance(section, dict) else "  " * key.path.count(".") + name
+            rows.append((f"# {label}:{_default(key)}", _meaning(key)))
+    if not rows:
+        return ""
+    width = max(len(label) for label, _ in rows)
+    lines = [f"{label:<{width}}   # {words}" for label, words in rows]
+    return "\n# Keys that this file leaves out, with their defaults; a.b stands for b in the section a:\n" + "\n".join(
+        [*lines, ""]
+    )
+
+
+def _at(data: Any, path: str) -> Any:
+    for step in path.split(".") if path else ():
+        data = data.get(step) if isinstance(data, dict) else None
+    return data
+
+
+def _default(key: SpecKey) -> str:
+    if key.section or key.default is None:
+        return ""
+    return f" {key.default:.12g}" if isinstance(key.default, float) else f" {key.default}"
+
+
+def _meaning(key: SpecKey) -> str:
+    """Unit, meaning and range."""
+    if key.section:
+        return key.words
+    unit = "" if key.unit in ("", "1") else f"{key.unit}: "
+    return unit + key.words + (f" ({key.range})" if key.range else "")

@@ -1,0 +1,141 @@
+"""`--suggest`: what a failing or refused design should change, tried round by round, and the mended design."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from gearlink.cli.commands.design import (
+    build,
+    exit_status,
+    open_design,
+    plot,
+    print_report,
+    read_spec,
+    require_command,
+    show_refusal,
+)
+from gearlink.cli.files import CannotWrite
+from gearlink.cli.options import Format, Options
+from gearlink.cli.reading.design_file import DesignFileError
+from gearlink.core.errors import NoSolution
+from gearlink.core.spec_paths import replaced, value_at
+
+if TYPE_CHECKING:
+    from gearlink.core.design import Design
+    from gearlink.core.kinds import Kind
+    from gearlink.core.report import Report
+
+_ROUNDS = 8
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """A key of the design file that was changed; None stands for a key that is left out."""
+
+    path: str
+    old: Any
+    new: Any
+    why: str
+
+
+def run_suggested(command: str, source: str, options: Options) -> int:
+    """Mend the design file `source` by its own suggestions, print changes and mended report, give its exit status."""
+    changes: list[Change] = []
+    try:
+        loaded, kind = open_design(source, options)
+        require_command(loaded, kind, command)
+        spec, changes = mend(kind, command, read_spec(loaded, kind, source), options)
+        design, report = build(loaded, kind, command, spec, options)
+        if options.plot:
+            plot(command, design, options)
+    except (DesignFileError, CannotWrite, NoSolution) as error:
+        _print_refused(changes, options)
+        return show_refusal(error, source, options)
+    _print(changes, report, options)
+    return exit_status(report, strict=options.strict)
+
+
+def mend(kind: Kind, command: str, spec: Any, options: Options) -> tuple[Any, list[Change]]:
+    """The spec after up to eight rounds, each the first suggestion of the design as it then stands.
+
+    Notes
+        Rounds end where nothing fails, where a design has nothing more to suggest, and where a value returns.
+    """
+    changes: list[Change] = []
+    seen = {spec.model_dump_json()}
+    for _ in range(_ROUNDS):
+        design: Any = kind.design(command, spec, options.samples)
+        if _holds(design, command):
+            break
+        tried = ((one, replaced(spec, one.path, one.value)) for one in design.suggestions())
+        fresh = next((pair for pair in tried if pair[1].model_dump_json() not in seen), None)
+        if fresh is None:
+            break
+        (path, value, why), changed = fresh
+        changes.append(Change(path, value_at(spec, path), value, why))
+        seen.add(changed.model_dump_json())
+        spec = changed
+    return spec, changes
+
+
+def _holds(design: Design, command: str) -> bool:
+    """Whether the design is refused nowhere and none of its checks fails."""
+    try:
+        return design.report(command).ok
+    except NoSolution:
+        return False
+
+
+def _as_plain(changes: Sequence[Change]) -> list[dict[str, Any]]:
+    return [{"path": c.path, "old": c.old, "new": c.new, "why": c.why} for c in changes]
+
+
+def _print(changes: Sequence[Change], report: Report, options: Options) -> None:
+    if options.format is Format.JSON:
+        from gearlink.cli.render.json_report import as_plain
+
+        whole = as_plain(report) | {"suggestions": _as_plain(changes)}
+        print(json.dumps(whole, ensure_ascii=False, allow_nan=False))
+        return
+    text = _as_text(changes, options)
+    if options.format is Format.TABLE and options.quantities:
+        # results alone belong on standard output
+        print(text, file=sys.stderr)
+    else:
+        sys.stdout.write(text + "\n")
+    print_report(report, options)
+
+
+def _print_refused(changes: Sequence[Change], options: Options) -> None:
+    """The changes that were tried in vain, apart from the error."""
+    if changes and options.format is not Format.JSON:
+        print(_as_text(changes, options), file=sys.stderr)
+
+
+def _as_text(changes: Sequence[Change], options: Options) -> str:
+    if options.format is Format.CSV:
+        stream = io.StringIO()
+        rows = [("change", "old", "new", "why"), *((c.path, c.old, c.new, c.why) for c in changes)]
+        csv.writer(stream, lineterminator="\n").writerows(rows)
+        return stream.getvalue()
+    if options.format is Format.MARKDOWN:
+        from gearlink.cli.render.markdown_report import markdown_table
+
+        rows = [(f"`{c.path}`", _shown(c.old), _shown(c.new), c.why) for c in changes]
+        return (
+            "## Suggestions\n\n" + (markdown_table(("change", "old", "new", "why"), rows) if changes else "none") + "\n"
+        )
+    if not changes:
+        return "suggestions: none\n"
+    lines = [f"  {c.path}: {_shown(c.old)} -> {_shown(c.new)}    {c.why}" for c in changes]
+    return "\n".join(["suggestions, tried in this order:", *lines, ""])
+
+
+def _shown(value: Any) -> str:
+    return "left out" if value is None else f"{value:.12g}"

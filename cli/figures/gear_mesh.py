@@ -1,0 +1,310 @@
+"""Gears in mesh: both gears to scale with their true teeth, the mesh zone magnified, and a table of values."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from gearlink.cli.figures import panels, style
+from gearlink.core.errors import NoSolution
+from gearlink.core.gears.mesh_geometry import MeshGeometry
+from gearlink.core.gears.pair import GearPair
+from gearlink.core.nomenclature import term
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from numpy.typing import NDArray
+
+COLORS = (style.BLUE, style.ORANGE)
+_MOST_TEETH = 600  # finer teeth would be a grey band at page width
+_DASHED: Any = (0, (6, 3))
+_CHAIN: Any = (0, (9, 2.5, 1.5, 2.5))
+_DOTTED: Any = (0, (1, 2))
+
+_OF_MESH = (
+    "center_distance",
+    "working_pressure_angle",
+    "contact_ratio",
+    "shift_sum",
+    "tip_shortening",
+)
+_OF_GEAR = (
+    "profile_shift",
+    "reference_radius",
+    "base_radius",
+    "working_radius",
+    "tip_radius",
+    "root_radius",
+    "tooth_thickness",
+    "tip_thickness",
+    "specific_sliding",
+)
+_WORDS = {
+    "reference_radius": "reference radius",
+    "working_radius": "working pitch radius",
+    "specific_sliding": "specific sliding at the foot of the flank",
+    "tip_shortening": "tip shortening coefficient",
+}
+_PLAIN = {
+    "alpha_wt": r"$\alpha_w$",
+    "a_w": "$a_w$",
+    "eps_alpha": r"$\varepsilon_\alpha$",
+    "r_b": "$r_b$",
+    "r_w": "$r_w$",
+    "r_a": "$r_a$",
+    "r_f": "$r_f$",
+    "s_a": "$s_a$",
+    "x1+x2": "$x_1+x_2$",
+    "zeta": r"$\zeta$",
+}
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """A gear pair as it is drawn: its name, and the numbers of its two gears."""
+
+    pair: GearPair
+    name: str = ""
+    gears: tuple[str, str] = ("1", "2")
+
+    @property
+    def geometry(self) -> MeshGeometry:
+        """Line of action and places of the teeth."""
+        return MeshGeometry(self.pair)
+
+
+def mesh_figure(title: str, meshes: Sequence[Mesh]) -> Figure:
+    """One row per mesh, whole gears and mesh zone, over a table of their values."""
+    rows = len(meshes)
+    figure = panels.page(title, 0.27 + 0.28 * rows)
+    grid = figure.add_gridspec(rows + 1, 2, height_ratios=[*[1.0] * rows, 0.78], width_ratios=(1.3, 1.0))
+    for row, mesh in enumerate(meshes):
+        whole_gears(figure.add_subplot(grid[row, 0]), mesh)
+        zone = figure.add_subplot(grid[row, 1])
+        mesh_zone(zone, mesh)
+        if row == rows - 1:
+            _legend(zone)
+    values(figure.add_subplot(grid[rows, :]), meshes)
+    return figure
+
+
+def whole_gears(axes: Axes, mesh: Mesh) -> None:
+    """Both gears to scale; beyond 600 teeth their tip and root circles alone."""
+    pair, geometry = mesh.pair, mesh.geometry
+    named = f"Gears {mesh.gears[0]} and {mesh.gears[1]}" + (f", {mesh.name} mesh" if mesh.name else "")
+    style.drawing(axes)
+    panels.heading(axes, named)
+    for gear in (0, 1):
+        center, color = geometry.axes[gear], COLORS[gear]
+        teeth = _whole_outline(mesh, gear)
+        if teeth is None:
+            for radius in (pair.tip_radius[gear], pair.root_radius[gear]):
+                style.circle(axes, center, radius, color=color, linewidth=1.0, gid=f"circle-{gear + 1}")
+        else:
+            axes.fill(teeth.real, teeth.imag, facecolor=color, alpha=0.15, linewidth=0)
+            axes.plot(teeth.real, teeth.imag, color=color, linewidth=0.8, gid=f"teeth-{gear + 1}")
+        style.circle(axes, center, pair.working_radius[gear], color=style.GREY, linewidth=0.7, linestyle=_CHAIN)
+        axes.plot([center.real], [center.imag], "+", color=style.BLACK, markersize=9)
+        note = f"{mesh.gears[gear]}: $z$ = {pair.teeth[gear]}"
+        axes.annotate(note, (center.real, center.imag), (0, 7), textcoords="offset points", ha="center", fontsize=8)
+    _axis_distance(axes, pair)
+    axes.margins(0.08)
+    axes.autoscale_view()
+
+
+def _axis_distance(axes: Axes, pair: GearPair) -> None:
+    """The centre distance, below the gears."""
+    drop = -1.12 * max(pair.tip_radius)
+    words = f"$a_w$ = {pair.center_distance:.6g} mm"
+    style.dimension(
+        axes,
+        complex(0.0, drop),
+        complex(pair.center_distance, drop),
+        words,
+        shift=(0, -4),
+        from_points=(0j, complex(pair.center_distance)),
+    )
+
+
+def _whole_outline(mesh: Mesh, gear: int) -> NDArray[Any] | None:
+    """All teeth of a gear; None where they are too many or the tool leaves none."""
+    pair, geometry = mesh.pair, mesh.geometry
+    if pair.teeth[gear] > _MOST_TEETH:
+        return None
+    return _teeth(mesh, gear, max(2e-3 * pair.module, 2e-4 * pair.tip_radius[gear]), None, geometry.first_space[gear])
+
+
+def _teeth(mesh: Mesh, gear: int, chord: float, count: int | None, first: float) -> NDArray[Any] | None:
+    from gearlink.core.gears.tooth_profile import ToothProfile, outline
+
+    try:
+        profile = ToothProfile.of(mesh.pair, gear)
+    except NoSolution:
+        return None
+    return outline(profile, chord, count, first) + mesh.geometry.axes[gear]
+
+
+def mesh_zone(axes: Axes, mesh: Mesh) -> None:
+    """The teeth in mesh, with line of action, path of contact, contact points and circles."""
+    pair, geometry = mesh.pair, mesh.geometry
+    pitch, m = geometry.pitch_point, pair.module
+    ends = (geometry.contact_start, geometry.contact_end)
+    high = max(2.6 * m, *(1.3 * abs((end - pitch).imag) for end in ends))
+    wide = max(2.7 * m, *(1.3 * abs((end - pitch).real) for end in ends), 0.95 * high)
+    style.drawing(axes)
+    panels.heading(axes, f"Mesh zone, gear {mesh.gears[0]} driving")
+    for gear in (0, 1):
+        _zone_teeth(axes, mesh, gear, high)
+        _zone_circles(axes, mesh, gear, high, wide)
+    _contact(axes, geometry, 3.0 * (high + wide))
+    axes.set_xlim(pitch.real - wide, pitch.real + wide)
+    axes.set_ylim(-high, high)
+    axes.set_aspect("equal", adjustable="box")
+    for gear, side in ((0, -0.94), (1, 0.94)):
+        place = (pitch.real + side * wide, -0.93 * high)
+        axes.text(*place, f"gear {mesh.gears[gear]}", color=style.BLACK, fontsize=8, ha="right" if gear else "left")
+
+
+def _zone_teeth(axes: Axes, mesh: Mesh, gear: int, high: float) -> None:
+    pair, geometry = mesh.pair, mesh.geometry
+    pitch_angle = 2.0 * math.pi / pair.teeth[gear]
+    beside = math.ceil(1.3 * high / (pair.root_radius[gear] * pitch_angle)) + 1 if pair.root_radius[gear] > 0 else 99
+    count = min(pair.teeth[gear], 2 * beside + 1)
+    first = geometry.first_space[gear] - pitch_angle * (count // 2)
+    teeth = _teeth(mesh, gear, 1e-3 * pair.module, count, first)
+    if teeth is None:
+        words = f"gear {mesh.gears[gear]}: its tool leaves no such teeth"
+        place, box = (0.5, 0.93 - 0.08 * gear), {"facecolor": "white", "edgecolor": style.RED, "linewidth": 0.6}
+        axes.text(*place, words, transform=axes.transAxes, ha="center", color=style.RED, fontsize=8, bbox=box, zorder=8)
+        return
+    center, color = geometry.axes[gear], COLORS[gear]
+    body = [*teeth, center]
+    axes.fill([p.real for p in body], [p.imag for p in body], facecolor=color, alpha=0.16, linewidth=0)
+    axes.plot(teeth.real, teeth.imag, color=color, linewidth=1.5, zorder=3, gid=f"zone-{gear + 1}")
+
+
+def _zone_circles(axes: Axes, mesh: Mesh, gear: int, high: float, wide: float) -> None:
+    """Base, working and tip circle as arcs, those that pass the zone."""
+    import numpy as np
+
+    pair, center = mesh.pair, mesh.geometry.axes[gear]
+    kinds = (
+        ("tip circle", pair.tip_radius, _DASHED, COLORS[gear]),
+        ("working pitch circle", pair.working_radius, _CHAIN, style.GREY),
+        ("base circle", pair.base_radius, _DOTTED, style.BLACK),
+    )
+    inward = 1.0 if gear else -1.0
+    for name, radius, dashes, color in kinds:
+        if abs(abs(mesh.geometry.pitch_point - center) - radius[gear]) > wide:
+            continue
+        reach = min(math.pi, 2.0 * high / radius[gear])
+        arc = center + inward * -1.0 * radius[gear] * np.exp(1j * np.linspace(-reach, reach, 181))
+        axes.plot(arc.real, arc.imag, color=color, linewidth=0.9, linestyle=dashes, label=name, zorder=2)
+
+
+def _contact(axes: Axes, geometry: MeshGeometry, length: float) -> None:
+    """Line of action, path of contact from A to E, and where flanks touch now."""
+    pitch, way = geometry.pitch_point, geometry.direction
+    line = [pitch - length * way, pitch + length * way]
+    axes.plot([p.real for p in line], [p.imag for p in line], color=style.BLACK, linewidth=0.8, label="line of action")
+    ends = [geometry.contact_start, geometry.contact_end]
+    axes.plot(
+        [p.real for p in ends],
+        [p.imag for p in ends],
+        color=style.RED,
+        linewidth=2.4,
+        marker="|",
+        markersize=11,
+        label="path of contact A–E",
+        zorder=5,
+    )
+    touching = geometry.contacts
+    axes.plot(
+        [p.real for p in touching],
+        [p.imag for p in touching],
+        "o",
+        color="white",
+        markeredgecolor=style.RED,
+        markersize=5.5,
+        label="contact points",
+        zorder=6,
+    )
+    for name, point, shift in (("A", ends[0], (8, -4)), ("C", pitch, (8, -4)), ("E", ends[1], (8, -2))):
+        _boxed(axes, name, point, shift)
+
+
+def _boxed(axes: Axes, name: str, point: complex, shift: tuple[float, float]) -> None:
+    box = {"boxstyle": "round,pad=0.15", "facecolor": "white", "edgecolor": "none", "alpha": 0.8}
+    place = (point.real, point.imag)
+    axes.annotate(name, place, shift, textcoords="offset points", fontsize=9, bbox=box, zorder=7)
+
+
+def _legend(axes: Axes) -> None:
+    handles, labels = axes.get_legend_handles_labels()
+    unique = dict(zip(labels, handles, strict=True))
+    axes.legend(
+        unique.values(),
+        unique.keys(),
+        loc="upper center",
+        bbox_to_anchor=(0.5, -0.11),
+        ncols=3,
+        frameon=False,
+        fontsize=7.5,
+        handlelength=2.4,
+        columnspacing=1.2,
+    )
+
+
+def values(axes: Axes, meshes: Sequence[Mesh]) -> None:
+    """Table of the values of every gear, and of every mesh in the column of its first gear."""
+    axes.set_axis_off()
+    columns = [f"gear {gear}\n{mesh.name}".strip() for mesh in meshes for gear in mesh.gears]
+    rows = [
+        ["teeth", "$z$", "", *_each(meshes, lambda pair, i: f"{pair.teeth[i]}")],
+        ["module", "$m$", "mm", *_each(meshes, lambda pair, _: f"{pair.module:g}")],
+    ]
+    for name in _OF_GEAR:
+        rows.append([*_headed(name), *_each(meshes, lambda pair, i, name=name: _text(pair, name, i))])  # type: ignore[misc]
+    for name in _OF_MESH:
+        rows.append([*_headed(name), *_each(meshes, lambda pair, i, name=name: "" if i else _text(pair, name))])  # type: ignore[misc]
+    _ruled(axes, ["", "", "unit", *columns], rows)
+
+
+def _ruled(axes: Axes, head: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
+    """Rows of text with light rules: words, symbol and unit on the left, numbers on the right."""
+    extra = 1.0 if "\n" in head[-1] else 0.0  # a head of two lines
+    axes.set_xlim(0.0, 1.0)
+    axes.set_ylim(len(rows) + 1.0 + extra, 0.0)
+    numbers = len(head) - 3
+    edges = [0.52 + 0.48 * (i + 1) / numbers - 0.01 for i in range(numbers)]
+    places = [(0.0, "left"), (0.38, "left"), (0.46, "left"), *((edge, "right") for edge in edges)]
+    for row, line in enumerate([head, *rows]):
+        middle = row + 0.5 + (extra if row else 0.5 * extra)
+        for (x, side), text in zip(places, line, strict=True):
+            weight = "normal" if row else "bold"
+            axes.text(x, middle, text, fontsize=7.5, ha=side, va="center", fontweight=weight)
+        axes.axhline(row + 1.0 + extra, color=style.LIGHT if row else style.GREY, linewidth=0.6)
+
+
+def _each(meshes: Sequence[Mesh], text: Callable[[GearPair, int], str]) -> list[str]:
+    return [text(mesh.pair, gear) for mesh in meshes for gear in (0, 1)]
+
+
+def _headed(name: str) -> tuple[str, str, str]:
+    """Words, symbol and unit of a quantity."""
+    entry = term(name)
+    words = _WORDS.get(name, entry.words)
+    symbol = _PLAIN.get(entry.symbol, f"${entry.symbol}$")
+    return words, symbol, "" if entry.unit == "1" else entry.unit
+
+
+def _text(pair: GearPair, name: str, gear: int | None = None) -> str:
+    """A value to six digits; what the pair does not have is a dash."""
+    try:
+        value = getattr(pair, name) if gear is None else getattr(pair, name)[gear]
+    except NoSolution:
+        return "–"
+    return f"{math.degrees(value) if term(name).unit == 'deg' else value:.6g}"

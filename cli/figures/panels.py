@@ -1,0 +1,307 @@
+"""Panels that several figures share: named phases over a turn, legends outside the curves, cams to scale."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from textwrap import fill
+from typing import TYPE_CHECKING, Any
+
+from gearlink.cli.figures import style
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from gearlink.core.cams.disc_cam import DiscCam
+
+_A4 = (8.27, 11.69)
+
+CAM_COLORS = (style.BLUE, style.RED)
+
+_TINTS = {
+    "lead-in": "#FBE3C8",
+    "accelerate": "#FBE3C8",
+    "sync": "#CFE8F7",
+    "constant": "#CFE8F7",
+    "transition": "#FDF3C0",
+    "decelerate": "#FDF3C0",
+    "return": "#E6D9EE",
+    "far-dwell": "#E4E4E4",
+    "dwell": "#F2F2F2",
+    "near-dwell": "#F2F2F2",
+}
+_LEGEND: dict[str, Any] = {
+    "frameon": False,
+    "fontsize": 7.5,
+    "borderpad": 0.1,
+    "borderaxespad": 0.2,
+    "handlelength": 1.8,
+    "columnspacing": 1.2,
+}
+_NAME_SIZE = 7.5
+_LINE = 112
+"""Characters of a legend that fill the width of a page."""
+
+
+@dataclass(frozen=True, slots=True)
+class Phase:
+    """A named stretch of a turn [deg]; it may begin before 0 or end after 360."""
+
+    name: str
+    start: float
+    end: float
+
+    def within_turn(self) -> list[tuple[float, float]]:
+        """The stretch in [0, 360], in two parts where it passes the end of the turn."""
+        start = self.start % 360.0
+        end = start + (self.end - self.start)
+        return [(start, end)] if end <= 360.0 else [(start, 360.0), (0.0, end - 360.0)]
+
+
+def page(title: str, share: float = 1.0) -> Figure:
+    """A figure as wide as a page, and as high as a share of it."""
+    width, height = _A4
+    made = style.figure(width, share * height, fill(title.replace("$", r"\$"), 70))
+    engine: Any = made.get_layout_engine()
+    engine.set(rect=(0.01, 0.005, 0.97, 0.99), w_pad=0.05, h_pad=0.05)
+    return made
+
+
+def shade(axes: Sequence[Axes], phases: Sequence[Phase]) -> None:
+    """Shade the phases in all axes, and name them along the top of the first."""
+    names: list[tuple[float, str]] = []
+    crowded = False
+    for phase in phases:
+        parts = phase.within_turn()
+        for start, end in parts:
+            for each in axes:
+                each.axvspan(start, end, color=_TINTS[phase.name], linewidth=0, zorder=0)
+        start, end = max(parts, key=lambda part: part[1] - part[0])
+        names.append((0.5 * (start + end), phase.name))
+        crowded |= _width_in_degrees(phase.name) > end - start
+    top = axes[0].secondary_xaxis("top")
+    top.set_xticks([place for place, _ in names], [name for _, name in names], fontsize=_NAME_SIZE)
+    top.tick_params(length=0, pad=2)
+    top.spines["top"].set_visible(False)
+    if crowded:
+        for label in top.get_xticklabels():
+            label.set(rotation=35, ha="left", va="bottom", rotation_mode="anchor")
+
+
+def _width_in_degrees(name: str) -> float:
+    """Width of a phase's name on axes that fill a page, with some space round it."""
+    return (len(name) + 1) * 0.6 * _NAME_SIZE / 72.0 / (_A4[0] - 1.2) * 360.0
+
+
+def heading(axes: Axes, title: str) -> None:
+    """The title of a panel, on the left, so that a legend finds room beside it."""
+    axes.set_title(title, loc="left", fontsize=9, fontweight="bold")
+
+
+def legend_above(axes: Axes, columns: int = 5) -> None:
+    """The legend above the right end of the panel, outside the curves; below the heading where they would meet."""
+    labels = axes.get_legend_handles_labels()[1]
+    title = str(axes.get_title(loc="left"))
+    one_row = len(labels) <= columns
+    if one_row and 1.4 * len(title) + sum(len(label) + 6 for label in labels) > _LINE:
+        axes.set_title(title, loc="left", fontsize=9, fontweight="bold", pad=17.0)
+    axes.legend(
+        loc="lower right",
+        bbox_to_anchor=(1.0, 1.0),
+        ncols=columns,
+        **_LEGEND,
+    )
+
+
+def legend_under_heading(axes: Axes, title: str, columns: int = 2) -> None:
+    """The heading of a panel, and between it and the curves a legend in as many rows as it needs."""
+    legend = axes.legend(
+        loc="lower left",
+        bbox_to_anchor=(0.0, 1.0),
+        ncols=columns,
+        **_LEGEND,
+    )
+    rows = math.ceil(len(legend.get_texts()) / columns)
+    axes.set_title(title, loc="left", fontsize=9, fontweight="bold", pad=7.0 + 12.0 * rows)
+
+
+def legend_below(axes: Axes, columns: int = 1) -> None:
+    """The legend of a drawing below its tick labels."""
+    from matplotlib.transforms import ScaledTranslation
+
+    down = ScaledTranslation(0.0, -0.29, axes.figure.dpi_scale_trans)
+    axes.legend(
+        loc="upper center",
+        bbox_to_anchor=(0.5, 0.0),
+        bbox_transform=axes.transAxes + down,
+        ncols=columns,
+        frameon=False,
+        fontsize=7.5,
+        borderaxespad=0.0,
+    )
+
+
+def drawing(axes: Axes, title: str) -> None:
+    """A drawing to scale among other panels; its unit stands in the heading, where no legend crosses it."""
+    style.drawing(axes)
+    heading(axes, f"{title} [mm]")
+    axes.set_xlabel("")
+    _few_ticks(axes, 7)
+
+
+def letters(axes: Axes, chain: Sequence[complex], names: str, numbered: int = -1) -> None:
+    """The letters of a chain's joints, each on the side where its links are not; farther out beside a number."""
+    box = {"boxstyle": "round,pad=0.08", "facecolor": "white", "edgecolor": "none", "alpha": 0.7}
+    for i, (point, name) in enumerate(zip(chain, names, strict=True)):
+        linked = [*chain[max(i - 1, 0) : i], *chain[i + 1 : i + 2]]
+        nearest = min((abs(other - point), index) for index, other in enumerate(chain) if other != point)[1]
+        away = sum(_unit(point - other) for other in dict.fromkeys([*linked, chain[nearest]]))
+        if abs(away) < 0.3:
+            away = 1j * _unit(point - linked[0])
+        shift = (17.0 if i == numbered else 10.0) * _unit(away)
+        axes.annotate(
+            name,
+            (point.real, point.imag),
+            (shift.real, shift.imag),
+            textcoords="offset points",
+            ha="center",
+            va="center",
+            fontsize=9,
+            bbox=box,
+            zorder=8,
+        )
+
+
+def _unit(vector: complex) -> complex:
+    return vector / abs(vector) if vector else 0j
+
+
+def legend_beside(axes: Axes, drawing: Axes, title: str = "") -> None:
+    """The legend of a drawing in an empty panel of its own."""
+    axes.set_axis_off()
+    handles, labels = drawing.get_legend_handles_labels()
+    axes.legend(handles, labels, loc="upper left", frameon=False, fontsize=8, title=title, borderaxespad=0.0)
+
+
+def small_ticks(axes: Axes) -> None:
+    """Tick labels and axis labels of a panel among several."""
+    axes.tick_params(labelsize=8)
+    axes.xaxis.label.set_fontsize(8.5)
+    axes.yaxis.label.set_fontsize(8.5)
+    _few_ticks(axes, 6)
+
+
+def _few_ticks(axes: Axes, most: int) -> None:
+    """Short tick labels whatever the size of the machine: a power of ten apart, not too many of them."""
+    from matplotlib.ticker import MaxNLocator
+
+    axes.ticklabel_format(scilimits=(-3, 5))
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.get_offset_text().set_fontsize(7)
+        axis.set_major_locator(MaxNLocator(most, steps=[1, 2, 2.5, 5, 10]))
+
+
+def turn_panel(axes: Axes, ylabel: str, xlabel: str = "") -> None:
+    """Curves over one turn; panels above others go without a label of the x axis."""
+    style.curves(axes, xlabel, ylabel)
+    small_ticks(axes)
+    style.full_turn(axes, 30)
+    if not xlabel:
+        axes.tick_params(labelbottom=False)
+
+
+def _turn_angles() -> Any:
+    import numpy as np
+
+    return np.arange(721) * 0.5
+
+
+def pressure_angles(axes: Axes, cams: Sequence[DiscCam], limit: float, xlabel: str) -> None:
+    """Pressure angle of each cam over the cam angle, its extreme and the limit [deg]."""
+    import numpy as np
+
+    degrees = _turn_angles()
+    turn_panel(axes, "pressure\nangle [deg]", xlabel)
+    heading(axes, "Pressure angle")
+    for cam, color in zip(cams, CAM_COLORS, strict=False):
+        values = np.degrees(cam.pressure_angle(np.radians(degrees)))
+        worst = cam.max_pressure_angle
+        place = math.degrees(worst.place)
+        sign = math.copysign(1.0, float(np.interp(place, degrees, values)))
+        label = f"{cam.name}, ≤ {math.degrees(worst.value):.4g}° at {place:.4g}°"
+        axes.plot(degrees, values, color=color, linewidth=1.5, label=label)
+        axes.plot([place], [sign * math.degrees(worst.value)], "o", color=color, markersize=4.5)
+    for sign in (1.0, -1.0):
+        named = f"limit ±{limit:g}°" if sign > 0.0 else None
+        axes.axhline(sign * limit, color=style.BLACK, linewidth=0.9, linestyle=(0, (5, 3)), label=named)
+    legend_above(axes)
+
+
+def curvatures(axes: Axes, cams: Sequence[DiscCam], xlabel: str) -> None:
+    """Curvature of each pitch curve over the cam angle, and the curvature of the roller, which undercuts."""
+    import numpy as np
+
+    degrees = _turn_angles()
+    turn_panel(axes, "curvature of the\npitch curve [1/mm]", xlabel)
+    heading(axes, "Curvature")
+    for cam, color in zip(cams, CAM_COLORS, strict=False):
+        least = cam.min_curvature_radius
+        values = cam.curvature(np.radians(degrees))
+        label = f"{cam.name}, ρ ≥ {least.value:.5g} mm"
+        axes.plot(degrees, values, color=color, linewidth=1.5, label=label)
+        if math.isfinite(least.value):
+            axes.plot([math.degrees(least.place)], [1.0 / least.value], "o", color=color, markersize=4.5)
+    for radius in sorted({cam.roller_radius for cam in cams}):
+        axes.axhline(
+            1.0 / radius,
+            color=style.BLACK,
+            linewidth=0.9,
+            linestyle=(0, (5, 3)),
+            label=f"undercut: 1/roller radius {radius:g} mm",
+        )
+    legend_above(axes)
+
+
+def cam_outline(axes: Axes, cam: DiscCam, color: str, axis: complex = 0j, *, pitch_curve: bool = True) -> complex:
+    """A cam at cam angle 0, to scale: profile, pitch curve dashed, roller; the roller's centre is returned."""
+    import numpy as np
+
+    pitch, profile = cam.points(np.radians(_turn_angles()))
+    pitch, profile = pitch + axis, profile + axis
+    roller = complex(cam.path(np.array([0.0]), 1).position.flat[0]) + axis
+    axes.fill(profile.real, profile.imag, color=color, alpha=0.08, linewidth=0)
+    axes.plot(profile.real, profile.imag, color=color, linewidth=1.7, label=f"{cam.name}, profile", zorder=3)
+    dashes: Any = (0, (5, 3))
+    if pitch_curve:
+        axes.plot(pitch.real, pitch.imag, color=color, linewidth=0.9, linestyle=dashes, label="pitch curve", zorder=3)
+    style.circle(axes, roller, cam.roller_radius, color=color, linewidth=1.4, zorder=4)
+    axes.plot([roller.real], [roller.imag], "+", color=color, markersize=7, zorder=5)
+    return roller
+
+
+def base_circles(axes: Axes, cams: Sequence[DiscCam], axis: complex = 0j) -> None:
+    """The base circle of each cam: the largest that its profile does not cut into."""
+    radii = {f"{cam.min_radius:.5g}": cam.min_radius for cam in cams}
+    colors = CAM_COLORS if len(radii) > 1 else (style.GREY,)
+    for (text, radius), color in zip(radii.items(), colors, strict=True):
+        dots: Any = (0, (1, 2))
+        style.circle(axes, axis, radius, color=color, linewidth=1.0, linestyle=dots, zorder=2)
+        axes.plot([], [], color=color, linewidth=1.0, linestyle=dots, label=f"base circle, {text} mm")
+
+
+def cam_axis(axes: Axes, axis: complex, cams: Sequence[DiscCam], sense: int, shaft_radius: float = 0.0) -> None:
+    """The cam axis with an arrow in the sense of rotation, clear of the shaft."""
+    import numpy as np
+
+    least, most = (
+        pick(getattr(cam, name) for cam in cams) for pick, name in ((min, "min_radius"), (max, "max_radius"))
+    )
+    radius = max(0.45 * least, 0.5 * (shaft_radius + least), 0.15 * most)
+    axes.plot([axis.real], [axis.imag], "+", color=style.BLACK, markersize=12, zorder=6)
+    axes.plot([axis.real], [axis.imag], "o", color="white", markeredgecolor=style.BLACK, markersize=6, zorder=6)
+    arc = axis + radius * np.exp(1j * np.radians(90.0 + sense * np.linspace(-70.0, 65.0, 61)))
+    axes.plot(arc.real, arc.imag, color=style.BLACK, linewidth=1.2, zorder=6)
+    end = complex(arc[-1])
+    style.arrow(axes, end, 0.12 * radius * 1j * sense * (end - axis) / radius, style.BLACK)

@@ -1,0 +1,70 @@
+"""The cams of a swing gripper: both with their rollers on the rocker, pressure angle, curvature."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from gearlink.cli.figures import panels, style
+from gearlink.cli.figures.swing_gripper_motion import phases
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from gearlink.core.swing_gripper.design import SwingGripper
+
+
+def draw(command: str, design: SwingGripper) -> Figure:
+    """Rocker, pressure angle and curvature over the cam angle; below them the cams to scale."""
+    import numpy as np
+
+    cams = design.cams
+    made = panels.page(f"{design.spec.name}: {command}")
+    rows: Any = made.add_gridspec(4, 1, height_ratios=(1.2, 1.3, 1.3, 5.2))
+    curves = [made.add_subplot(rows[i]) for i in range(3)]
+    table = type(design)(design.spec, 1440).table("motion")
+    panels.turn_panel(curves[0], "rocker\nangle [deg]")
+    angle = np.asarray(table.data[table.columns.index("input_angle")])
+    curves[0].plot(table.data[0], angle, color=style.BLUE, linewidth=1.6)
+    panels.heading(curves[0], "Cam rocker AC over the cam angle")
+    panels.pressure_angles(curves[1], cams, design.spec.limits.pressure_angle, "")
+    _accelerating(curves[1], design)
+    panels.curvatures(curves[2], cams, "cam angle [deg]")
+    panels.shade(curves, phases(design))
+    below: Any = rows[3].subgridspec(1, 2, width_ratios=(3.0, 1.0))
+    drawing = made.add_subplot(below[0])
+    _cams(drawing, design)
+    panels.legend_beside(made.add_subplot(below[1]), drawing)
+    made.align_ylabels(curves)
+    return made
+
+
+def _accelerating(axes: Axes, design: SwingGripper) -> None:
+    """The lower limit of the phase accelerate, which only warns."""
+    limit, end = design.spec.limits.accelerate_pressure_angle, design.law.starts[1]
+    for sign, label in ((1.0, f"accelerate ±{limit:g}°"), (-1.0, "_")):
+        axes.plot([0.0, end], [sign * limit] * 2, color=style.BLACK, linewidth=0.9, linestyle=":", label=label)
+    panels.legend_above(axes)
+
+
+def _cams(axes: Axes, design: SwingGripper) -> None:
+    """The cams about their axis at cam angle 0, the rollers on the rocker, the shaft."""
+    import numpy as np
+
+    spec, linkage = design.spec.cam, design.linkage
+    assert spec is not None, "the cams have asked for it"
+    panels.drawing(axes, "Cams at cam angle 0, to scale")
+    axis, pivot = design.cam_center, linkage.input_pivot
+    for cam, color in zip(design.cams, panels.CAM_COLORS, strict=False):
+        roller = panels.cam_outline(axes, cam, color, axis)
+        style.link(axes, [pivot, roller], style.BLACK, 1.8)
+    rocker = linkage.motion(np.array([0.0]), 0).input_angle[0]
+    c = pivot + linkage.input * complex(np.exp(1j * rocker))
+    style.link(axes, [pivot, c], style.GREY, 1.4)
+    panels.letters(axes, [pivot, c], "AC")
+    panels.base_circles(axes, design.cams, axis)
+    if spec.shaft_radius > 0.0:
+        style.circle(axes, axis, spec.shaft_radius, color=style.BLACK, linewidth=0.9)
+        axes.plot([], [], color=style.BLACK, linewidth=0.9, label=f"shaft, {spec.shaft_radius:g} mm")
+    panels.cam_axis(axes, axis, design.cams, spec.sense, spec.shaft_radius)
+    style.pivot(axes, pivot)

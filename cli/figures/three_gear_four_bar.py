@@ -1,0 +1,257 @@
+"""Figures of a three-gear four-bar: the mechanism in its dwell, and its output over a turn; its meshes for `gear`."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from gearlink.cli.figures import panels, style
+from gearlink.cli.figures.three_gear_mechanism import mechanism, numbers
+from gearlink.core.three_gear.design import ThreeGearFourBar
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+DWELL, BACKWARD = "#CFE8F7", "#FBE3C8"
+_DASHED: Any = (0, (5, 3))
+_DOTTED: Any = (0, (1, 2))
+_TURN = 360.0
+
+
+def draw(command: str, design: ThreeGearFourBar) -> Figure:
+    """The figure of a command on a three-gear four-bar."""
+    title = f"{design.spec.name}: {command}"
+    if command == "gear":
+        from gearlink.cli.figures.gear_mesh import Mesh, mesh_figure
+
+        names = (("crank-idler", ("1", "3")), ("idler-output", ("3", "5")))
+        pairs = design.meshes.values()
+        return mesh_figure(title, [Mesh(pair, *name) for pair, name in zip(pairs, names, strict=True)])
+    charts = [_output, *([_magnified] if design.dwell_crank_angles else []), _speed]
+    if command == "analyze":
+        charts += [_acceleration, _transmission]
+    return _page(title, design, charts)
+
+
+def _page(title: str, design: ThreeGearFourBar, charts: Sequence[Callable[[Axes, ThreeGearFourBar], None]]) -> Figure:
+    """The mechanism and its numbers over the charts, two to a row, an odd one as wide as the page."""
+    rows = math.ceil(len(charts) / 2)
+    figure = panels.page(title, min(0.42 + 0.19 * rows, 1.0))
+    halves = figure.add_gridspec(2, 1, height_ratios=[2.0, rows])
+    head = halves[0].subgridspec(1, 2, width_ratios=[1.75, 1.0])
+    drawing = figure.add_subplot(head[0])
+    mechanism(drawing, design)
+    numbers(figure.add_subplot(head[1]), drawing, design)
+    grid = halves[1].subgridspec(rows, 2)
+    for i, chart in enumerate(charts):
+        last_alone = i == len(charts) - 1 and i % 2 == 0
+        chart(figure.add_subplot(grid[i // 2, :] if last_alone else grid[i // 2, i % 2]), design)
+    return figure
+
+
+# The motion
+
+
+@dataclass(frozen=True, slots=True)
+class Stretch:
+    """A marked stretch of the turn [deg], from `start` over `width`; a momentary dwell has none."""
+
+    start: float
+    width: float
+
+
+def _dwell(design: ThreeGearFourBar) -> Stretch | None:
+    """phi13 from the start of the back-step; a point for a momentary dwell."""
+    if design.back_step is not None and design.dwell_angle is not None:
+        return Stretch(math.degrees(design.back_step.start), math.degrees(design.dwell_angle))
+    places = design.dwell_crank_angles
+    return Stretch(math.degrees(places[0]), 0.0) if places else None
+
+
+def _column(design: ThreeGearFourBar, name: str) -> tuple[Any, Any]:
+    """A column of the motion table over the crank angle [deg], closed at 360 deg."""
+    import numpy as np
+
+    table = design.table("motion")
+    data = dict(zip(table.columns, table.data, strict=True))
+    gained = _TURN * design.mean_ratio if name == "output_angle" else 0.0
+    return np.append(data["crank_angle"], _TURN), np.append(data[name], data[name][0] + gained)
+
+
+def _mark(axes: Axes, design: ThreeGearFourBar, label: bool = False) -> None:
+    """The dwell shaded, the back-step darker, lines at the standstills."""
+    dwell = _dwell(design)
+    if dwell is None:
+        return
+    if dwell.width:
+        _shade(axes, dwell, DWELL, "dwell $\\varphi_{13}$" if label else None)
+    if design.back_step is not None:
+        step = Stretch(dwell.start, math.degrees(design.back_step.crank_angle))
+        _shade(axes, step, BACKWARD, "back-step $\\varphi_{12}$" if label else None)
+    for i, place in enumerate(design.dwell_crank_angles):
+        words = "standstill" if label and i == 0 else None
+        axes.axvline(math.degrees(place), color=style.GREY, linewidth=0.8, linestyle=_DASHED, zorder=1, label=words)
+
+
+def _shade(axes: Axes, stretch: Stretch, color: str, label: str | None) -> None:
+    phase = panels.Phase("dwell", stretch.start, stretch.start + stretch.width)
+    for start, end in phase.within_turn():
+        axes.axvspan(start, end, color=color, linewidth=0, zorder=0, label=label)
+        label = None
+
+
+def _chart(axes: Axes, title: str, ylabel: str) -> None:
+    style.curves(axes, "crank angle [deg]", ylabel)
+    panels.small_ticks(axes)
+    style.full_turn(axes)
+    panels.heading(axes, title)
+
+
+def _output(axes: Axes, design: ThreeGearFourBar) -> None:
+    _chart(axes, "Output angle", "output angle [deg]")
+    _mark(axes, design, label=True)
+    x, y = _column(design, "output_angle")
+    axes.plot(x, y, color=style.BLUE, linewidth=1.6, gid="output-angle")
+    axes.plot(
+        [0.0, _TURN], [0.0, _TURN * design.mean_ratio], color=style.GREY, linewidth=0.9, linestyle=_DOTTED, label="mean"
+    )
+    panels.legend_above(axes, 2)
+
+
+def _magnified(axes: Axes, design: ThreeGearFourBar) -> None:
+    """The output about its dwell, counted from its place at the start of it."""
+    import numpy as np
+
+    from gearlink.core.three_gear.motion import output_angle
+    from gearlink.core.three_gear.sweep import output_motion
+
+    dwell = _dwell(design)
+    assert dwell is not None, "drawn only where the output stands still"
+    width = dwell.width or 60.0
+    low = dwell.start - (0.25 * width if dwell.width else 0.5 * width)
+    high = dwell.start + (1.25 * width if dwell.width else 0.5 * width)
+    degrees = np.linspace(low, high, 401)
+    at_start = output_angle(design.linkage, design.train, math.radians(dwell.start))
+    output = output_motion(design.linkage, design.train, np.radians(degrees)).output_angle - at_start
+    style.curves(axes, "crank angle [deg]", "output from its\nstandstill [deg]")
+    panels.small_ticks(axes)
+    panels.heading(axes, "Dwell, magnified")
+    axes.plot(degrees, np.degrees(output), color=style.BLUE, linewidth=1.6, gid="magnified")
+    axes.axhline(0.0, color=style.GREY, linewidth=0.8)
+    _tolerance(axes, design, at_start, low)
+    if dwell.width:
+        _back_step_marks(axes, design, dwell)
+    else:
+        axes.axvline(dwell.start, color=style.GREY, linewidth=0.8, linestyle=_DASHED)
+        axes.plot([dwell.start], [0.0], "o", color=style.RED, markersize=4.5)
+        axes.annotate(
+            f"{dwell.start % _TURN:.5g}°", (dwell.start, 0.0), (6, -12), textcoords="offset points", fontsize=8
+        )
+    axes.set_xlim(low, high)
+
+
+def _back_step_marks(axes: Axes, design: ThreeGearFourBar, dwell: Stretch) -> None:
+    """phi12 and phi13 shaded, the places 1, 2 and 3, and how far the output steps back."""
+    step = design.back_step
+    assert step is not None, "a dwell of some width comes from a back-step"
+    width, back = math.degrees(step.crank_angle), math.degrees(step.angle)
+    axes.axvspan(dwell.start, dwell.start + dwell.width, color=DWELL, linewidth=0, zorder=0)
+    axes.axvspan(dwell.start, dwell.start + width, color=BACKWARD, linewidth=0, zorder=0)
+    marks = ((1, 0.0, 0.0, "center", 6), (2, width, -back, "center", -6), (3, dwell.width, 0.0, "right", 6))
+    for number, after, level, side, lift in marks:
+        axes.plot([dwell.start + after], [level], "o", color=style.RED, markersize=4.5, zorder=5)
+        axes.annotate(
+            f"{number}: {(dwell.start + after) % _TURN:.5g}°",
+            (dwell.start + after, level),
+            (0 if side == "center" else -3, lift),
+            textcoords="offset points",
+            ha=side,
+            va="bottom" if lift > 0 else "top",
+            fontsize=7.5,
+        )
+    low, high = axes.get_ylim()
+    axes.set_ylim(min(low, -2.2 * back), max(high, 0.9 * back))
+
+
+def _tolerance(axes: Axes, design: ThreeGearFourBar, at_start: float, low: float) -> None:
+    """The band that the tolerance dwell keeps to, where the file asks for one."""
+    found = design.tolerance_dwell
+    if found is None or design.output_tolerance is None:
+        return
+    from gearlink.core.three_gear.motion import output_angle
+
+    turns = math.ceil((math.radians(low) - found.start) / (2.0 * math.pi) - 0.5)
+    start = found.start + 2.0 * math.pi * max(turns, 0)
+    shift = output_angle(design.linkage, design.train, start) - output_angle(design.linkage, design.train, found.start)
+    middle = math.degrees(found.output_angle + shift - at_start)
+    band = math.degrees(design.output_tolerance)
+    axes.fill_between(
+        [math.degrees(start), math.degrees(start + found.crank_angle)],
+        middle - band,
+        middle + band,
+        color=style.GREEN,
+        alpha=0.25,
+        linewidth=0,
+        label=f"within ±{band:g}° over {math.degrees(found.crank_angle):.5g}°",
+    )
+    panels.legend_above(axes, 1)
+
+
+def _extreme(axes: Axes, place: float, value: float, above: bool) -> None:
+    """A marked extreme with its value."""
+    degrees = math.degrees(place) % _TURN
+    axes.plot([degrees], [value], "o", color=style.RED, markersize=4.0, zorder=5)
+    side = "right" if degrees > 0.85 * _TURN else "left" if degrees < 0.15 * _TURN else "center"
+    axes.annotate(
+        f"{value:.5g} at {degrees:.5g}°",
+        (degrees, value),
+        (0, 5 if above else -5),
+        textcoords="offset points",
+        ha=side,
+        va="bottom" if above else "top",
+        fontsize=7.5,
+        zorder=6,
+    )
+
+
+def _speed(axes: Axes, design: ThreeGearFourBar) -> None:
+    _chart(axes, "Speed ratio", "output speed/\ncrank speed")
+    _mark(axes, design)
+    x, y = _column(design, "speed_ratio")
+    axes.axhline(0.0, color=style.BLACK, linewidth=0.8)
+    axes.axhline(design.mean_ratio, color=style.GREY, linewidth=0.9, linestyle=_DOTTED, label="mean")
+    axes.plot(x, y, color=style.BLUE, linewidth=1.6, gid="speed-ratio")
+    extremes = design.speed_extremes
+    _extreme(axes, extremes.greatest_angle, extremes.greatest, True)
+    _extreme(axes, extremes.least_angle, extremes.least, False)
+    axes.margins(y=0.18)
+    panels.legend_above(axes, 3)
+
+
+def _acceleration(axes: Axes, design: ThreeGearFourBar) -> None:
+    _chart(axes, "Acceleration ratio", "output acceleration/\n(crank speed)²")
+    _mark(axes, design)
+    x, y = _column(design, "acceleration_ratio")
+    axes.axhline(0.0, color=style.BLACK, linewidth=0.8)
+    axes.plot(x, y, color=style.PURPLE, linewidth=1.6, gid="acceleration-ratio")
+    extremes = design.acceleration_extremes
+    _extreme(axes, extremes.greatest_angle, extremes.greatest, True)
+    _extreme(axes, extremes.least_angle, extremes.least, False)
+    axes.margins(y=0.18)
+
+
+def _transmission(axes: Axes, design: ThreeGearFourBar) -> None:
+    _chart(axes, "Transmission angle", "transmission\nangle [deg]")
+    _mark(axes, design)
+    x, y = _column(design, "transmission_angle")
+    limit = design.spec.limits.transmission_angle
+    axes.plot(x, y, color=style.GREEN, linewidth=1.6, gid="transmission-angle")
+    axes.axhline(limit, color=style.RED, linewidth=1.1, linestyle=_DASHED, label=f"limit {limit:g}°")
+    least = math.degrees(design.min_transmission_angle)
+    axes.axhline(least, color=style.GREY, linewidth=0.8, linestyle=_DOTTED, label=f"least {least:.5g}°")
+    axes.set_ylim(0.0, 92.0)
+    axes.set_yticks(range(0, 91, 15))
+    panels.legend_above(axes, 1)

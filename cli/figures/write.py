@@ -1,0 +1,90 @@
+"""Writing a design's figure: the figure module of its kind is imported here and nowhere else."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable
+from importlib import import_module
+from pathlib import Path
+from typing import IO, TYPE_CHECKING, Any
+
+from gearlink.cli.files import safe_stem, write_atomically
+from gearlink.cli.options import Options
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from gearlink.core.design import Design
+
+_FIXED_METADATA: dict[str, dict[str, Any]] = {
+    "png": {"Software": "gearlink"},
+    "svg": {"Date": None, "Creator": "gearlink"},
+    "pdf": {"CreationDate": None, "Creator": "gearlink"},
+}
+
+
+_FIXED_STYLE = {"svg.hashsalt": "gearlink", "svg.fonttype": "path", "pdf.fonttype": 42}
+_ASIAN_FONTS = ("Noto Sans CJK SC", "Source Han Sans SC", "WenQuanYi Zen Hei", "Microsoft YaHei", "PingFang SC")
+
+
+def draw(command: str, design: Design) -> Figure:
+    """The figure of a command on a design, from the module named after the kind."""
+    module = import_module("gearlink.cli.figures." + design.kind.replace("-", "_"))
+    made: Figure = module.draw(command, design)
+    return settled(made)
+
+
+def settled(made: Figure) -> Figure:
+    """The figure with its panels placed for good, to the hundredth of a millimetre.
+
+    The solver of the constrained layout leaves last digits to chance; an SVG names its clips after them, and a
+    drawing to scale widens its limits by them. So the limits are those from before the layout.
+    """
+    limits = [(axes.get_xlim(), axes.get_ylim()) for axes in made.axes]
+    made.draw_without_rendering()
+    made.set_layout_engine("none")
+    for axes, (x, y) in zip(made.axes, limits, strict=True):
+        box = axes.get_position(original=True).bounds
+        axes.set_position(tuple(round(side, 5) for side in box))
+        axes.set_xlim(x, auto=None)
+        axes.set_ylim(y, auto=None)
+    return made
+
+
+def write_plot(command: str, design: Design, options: Options, *, stem: str = "") -> Path:
+    """Draw a design and write STEM-COMMAND.FORMAT into the folder of the options; the stem is its name by default.
+
+    Raises
+        CannotWrite - where the folder or the disk does not take the file
+        NoSolution - where the figure shows something that the design does not have
+    """
+    ending = options.plot_format.value
+    path = options.out / f"{stem or safe_stem(design.spec.name)}-{command.replace(' ', '-')}.{ending}"
+    write_atomically(path, lambda stream: picture(command, design, stream, ending))
+    return path
+
+
+def picture(command: str, design: Design, stream: IO[bytes], ending: str) -> None:
+    """Draw a design into a stream as png, svg or pdf; the same design gives the same bytes."""
+    save(lambda: draw(command, design), design.spec.name, stream, ending)
+
+
+def save(make: Callable[[], Figure], name: str, stream: IO[bytes], ending: str) -> None:
+    """Write the figure that `make` draws, in fonts that have the letters of `name`, as png, svg or pdf."""
+    import matplotlib
+
+    style: Any = {**_FIXED_STYLE, "font.family": families(name)}
+    with matplotlib.rc_context(style), warnings.catch_warnings():
+        # A script that no installed font has is drawn as boxes; the picture is still worth having.
+        warnings.filterwarnings("ignore", message="Glyph .* missing from font")
+        make().savefig(stream, format=ending, metadata=_FIXED_METADATA[ending])
+
+
+def families(name: str) -> list[str]:
+    """The usual font, and one for the script of the name where it needs one that is installed."""
+    if name.isascii():
+        return ["sans-serif"]
+    from matplotlib.font_manager import get_font_names
+
+    installed = set(get_font_names())
+    return ["sans-serif", *(font for font in _ASIAN_FONTS if font in installed)]

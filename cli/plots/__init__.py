@@ -1,1 +1,0 @@
-"""One figure module per kind of design."""

@@ -1,0 +1,349 @@
+"""A design file from its bytes to a validated spec; every error of it found in one run and located."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import re
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import nullcontext
+from dataclasses import dataclass, field, replace
+from difflib import get_close_matches
+from itertools import islice
+from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
+
+from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic, Source
+from gearlink.cli.reading.yaml_reader import (
+    CONTROL,
+    MAX_BYTES,
+    MAX_DEPTH,
+    Marks,
+    Tree,
+    compose,
+    format_path,
+    plain_value,
+    read,
+)
+from gearlink.core.errors import NoSolution
+
+if TYPE_CHECKING:
+    from pydantic import BaseModel
+
+    Model = TypeVar("Model", bound=BaseModel)
+
+__all__ = [
+    "DesignFileError",
+    "KeyPath",
+    "LoadedFile",
+    "diagnose_no_solution",
+    "load",
+    "parse",
+    "parse_path",
+    "read_kind",
+    "validate",
+]
+
+KeyPath = tuple[str | int, ...]
+"""A key path: `("teeth", 1)` for `teeth[1]`."""
+
+_STEP = re.compile(r"(?:(?:^|(?<=.)\.)([^.\[\]=\s]+)|\[([0-9]{1,6})\])")
+_ROOT: KeyPath = ()
+_LONGEST_KIND = 60
+LEAST_SIZE, LARGEST_SIZE = 1e-30, 1e12
+"""Between them the fourth powers of a number and of its ratios to others neither overflow nor vanish."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Override:
+    """A value that `--set` put in; its marks are positions in the argument."""
+
+    path: KeyPath
+    value: Any
+    marks: Marks | None
+    source: Source
+
+
+@dataclass(slots=True)
+class LoadedFile:
+    """A design file as plain data whose keys can be located."""
+
+    file: str
+    data: dict[str, Any]
+    tree: Tree
+    overrides: list[_Override] = field(default_factory=list)
+    problems: list[Diagnostic] = field(default_factory=list)
+    """Errors found in reading that did not hinder it (duplicate keys); `validate` reports them with its own."""
+
+    @property
+    def text(self) -> str:
+        """The decoded text of the file."""
+        return self.tree.source.text
+
+    def locate(self, path: KeyPath, *, value: bool = False) -> tuple[int, int, str]:
+        """Line, column and file of a key (or of its value); of the nearest parent where the key is missing."""
+        source, at = self._spot(path, value)
+        return *source.place(at), source.file
+
+    def place_in_file(self, path: KeyPath) -> tuple[int, int]:
+        """Line and column of a key, or of its nearest parent, in the file itself, whatever `--set` put over it."""
+        at, _ = _find(self.tree.marks, path, self.tree.at, False)
+        return self.tree.source.place(at)
+
+    def report(self, code: str, message: str, path: KeyPath, *, key: str | None = None, help: str = "") -> Diagnostic:
+        """A diagnostic that points at a key, or at the nearest parent of a missing one."""
+        source, at = self._spot(path)
+        return source.report(code, message, at, key=format_path(path) if key is None else key, help=help)
+
+    def _spot(self, path: KeyPath, value: bool = False) -> tuple[Source, int]:
+        for override in reversed(self.overrides):
+            depth = len(override.path)
+            if path[:depth] == override.path:
+                at, _ = _find(override.marks, path[depth:], 0, value)
+                return override.source, at
+        at, found = _find(self.tree.marks, path, self.tree.at, value)
+        if found < len(path):
+            for override in reversed(self.overrides):
+                common = _common(override.path, path)
+                if common > found:
+                    return override.source, 0
+        return self.tree.source, at
+
+
+def load(source: str | os.PathLike[str], *, overrides: Sequence[str] = (), stdin: BinaryIO | None = None) -> LoadedFile:
+    """The design file at a path, or on standard input for `-`.
+
+    Raises
+        DesignFileError - with everything that keeps it from being read (GL101 to GL104, GL110, GL114)
+    """
+    name = "<stdin>" if source == "-" else os.fspath(source)
+    try:
+        with nullcontext(stdin or sys.stdin.buffer) if source == "-" else open(name, "rb") as stream:
+            data = stream.read(MAX_BYTES + 1)
+    except (OSError, ValueError) as error:
+        raise DesignFileError([_unreadable(name, error)]) from None
+    return parse(data, name, overrides=overrides)
+
+
+def parse(data: bytes, file: str, *, overrides: Sequence[str] = ()) -> LoadedFile:
+    """The design file that some bytes hold, with `--set` arguments put in.
+
+    Raises
+        DesignFileError - as `load`
+    """
+    wrong: list[Diagnostic] = []
+    tree: Tree | None = None
+    try:
+        tree = read(data, file)
+    except DesignFileError as error:
+        wrong += error.diagnostics
+    loaded = LoadedFile(file, tree.data if tree else {}, tree or Tree(Source(file, ""), {}, None, 0))
+    loaded.problems += loaded.tree.problems
+    for argument in overrides:
+        try:
+            _apply(loaded, _override(argument))
+        except DesignFileError as error:
+            wrong += error.diagnostics
+    if wrong:
+        raise DesignFileError([*loaded.problems, *wrong])
+    return loaded
+
+
+def parse_path(text: str) -> KeyPath | None:
+    """The steps of a dotted key path, or None where it is none.
+
+    Example
+        >>> parse_path("pivots.input[1]"), parse_path("a..b")
+        (('pivots', 'input', 1), None)
+    """
+    steps: list[str | int] = []
+    at = 0
+    while match := _STEP.match(text, at):
+        steps.append(match[1] if match[2] is None else int(match[2]))
+        at = match.end()
+    return tuple(steps) if at == len(text) and steps and isinstance(steps[0], str) else None
+
+
+def read_kind(loaded: LoadedFile, kinds: Sequence[str]) -> str:
+    """The kind of a design file, one of `kinds`.
+
+    Raises
+        DesignFileError - GL106 where it is missing, GL109 where there is no such kind
+    """
+    known = f"the kinds are {', '.join(kinds)}"
+    if "kind" not in loaded.data:
+        wrong = loaded.report("GL106", "the key 'kind' is missing", _ROOT, key="kind", help=known)
+        raise DesignFileError([*loaded.problems, wrong])
+    kind = loaded.data["kind"]
+    if isinstance(kind, str) and kind in kinds:
+        return kind
+    if not isinstance(kind, str):
+        wrong = loaded.report("GL107", "kind must be one word of text", ("kind",), help=known)
+        raise DesignFileError([*loaded.problems, wrong])
+    near = get_close_matches(kind.lower().replace("_", "-"), kinds, n=1) if len(kind) <= _LONGEST_KIND else []
+    remedy = f"did you mean {near[0]}? {known}" if near else known
+    shown = repr(kind if len(kind) <= _LONGEST_KIND else kind[: _LONGEST_KIND - 3] + "...")
+    raise DesignFileError([*loaded.problems, loaded.report("GL109", f"no kind {shown}", ("kind",), help=remedy)])
+
+
+def diagnose_no_solution(loaded: LoadedFile, error: NoSolution) -> Diagnostic:
+    """What the engine refuses, at the key that it names or the nearest parent that the file has."""
+    path = parse_path(error.key) or _ROOT
+    return loaded.report(error.code, error.message, path, key=error.key)
+
+
+def validate(loaded: LoadedFile, model: type[Model]) -> Model:
+    """The file's data as an instance of a pydantic model.
+
+    Raises
+        DesignFileError - with everything that is wrong with the data, and the duplicate keys of the file
+    Notes
+        The data go in as JSON: in pydantic's strict mode a list then serves a tuple field and text an enum, while
+        a number stays a number. Floats survive, since both sides write and read shortest round-trip doubles.
+    """
+    from pydantic import ValidationError
+
+    wrong = list(loaded.problems)
+    odd = list(_odd_values(loaded.data, _ROOT))
+    wrong += [_no_size(loaded, path, value) for path, value in odd if not isinstance(value, bool)]
+    spec: Model | None = None
+    omitted = 0
+    try:
+        spec = model.model_validate_json(json.dumps(loaded.data))
+    except ValidationError as error:
+        from gearlink.cli.reading.model_errors import diagnose
+
+        found, omitted = diagnose(loaded, model, error)
+        seen = {diagnostic.key for diagnostic in wrong if diagnostic.code == "GL108"}
+        wrong += [diagnostic for diagnostic in found if diagnostic.key not in seen]
+    except NoSolution as error:
+        wrong.append(diagnose_no_solution(loaded, error))
+    if truths := [path for path, value in odd if isinstance(value, bool)]:
+        from gearlink.cli.reading.model_errors import diagnose_truth_values
+
+        seen = {diagnostic.key for diagnostic in wrong}
+        wrong += [d for d in diagnose_truth_values(loaded, model, truths) if d.key not in seen]
+    if wrong or spec is None:
+        raise DesignFileError(wrong, omitted)
+    return spec
+
+
+def _odd_values(node: Any, path: KeyPath) -> Iterator[tuple[KeyPath, Any]]:
+    """Numbers that no machine has, not finite ones too, and truth values, which Python takes for 1 and 0."""
+    items = node.items() if isinstance(node, dict) else enumerate(node)
+    for step, value in items:
+        if isinstance(value, (dict, list)):
+            yield from _odd_values(value, (*path, step))
+        elif isinstance(value, bool) or (isinstance(value, (int, float)) and not _has_size(value)):
+            yield (*path, step), value
+
+
+def _has_size(value: float) -> bool:
+    return value == 0 or LEAST_SIZE <= abs(value) <= LARGEST_SIZE
+
+
+def _no_size(loaded: LoadedFile, path: KeyPath, value: float) -> Diagnostic:
+    key = format_path(path)
+    if not math.isfinite(value):
+        return loaded.report("GL108", f"{key} is not a finite number", path, help="give a finite number")
+    message = f"{key} is {value:g}, which is no number of a machine"
+    remedy = f"allowed: 0, or {LEAST_SIZE:g} to {LARGEST_SIZE:g} in size"
+    return loaded.report("GL108", message, path, help=remedy)
+
+
+def _find(marks: Marks | None, path: KeyPath, root: int, value: bool = False) -> tuple[int, int]:
+    """Position of the deepest step of a path that is there, and how many steps that are."""
+    at, found = root, 0
+    for step in path:
+        if marks is None or step not in marks:
+            break
+        key_at, value_at, marks = marks[step]
+        found += 1
+        at = value_at if value and found == len(path) else key_at
+    return at, found
+
+
+def _common(one: KeyPath, other: KeyPath) -> int:
+    return next((i for i, (a, b) in enumerate(zip(one, other, strict=False)) if a != b), min(len(one), len(other)))
+
+
+def _override(argument: str) -> _Override:
+    source = Source("<--set>", argument)
+    name, sign, text = argument.partition("=")
+    path = parse_path(name.strip())
+    if not sign or path is None:
+        remedy = "write path=value, such as gears.crank=42 or teeth[1]=20"
+        message = "no '=' after the path" if not sign else f"{name!r} is no key path"
+        raise DesignFileError([source.report("GL114", message, 0, key=name.strip()[:100], help=remedy)])
+    if len(argument) > MAX_BYTES or len(path) > MAX_DEPTH:
+        raise DesignFileError([source.report("GL110", "too long or too deep", 0, key=name.strip()[:100])])
+    if control := CONTROL.search(argument):
+        message = f"character {control[0]!r} is no text"
+        raise DesignFileError([source.report("GL114", message, control.start(), key=format_path(path))])
+    text = text.strip()
+    if text[:1] not in ("[", "{", '"', "'"):
+        return _Override(path, plain_value(text), None, source)
+    try:
+        tree = compose(source, argument.index("=") + 1)
+    except DesignFileError as error:
+        raise DesignFileError(_as_set_errors(error, path)) from None
+    if tree.problems:
+        raise DesignFileError(tree.problems)
+    return _Override(path, tree.data, tree.marks, source)
+
+
+def _as_set_errors(error: DesignFileError, path: KeyPath) -> list[Diagnostic]:
+    return [replace(d, code="GL114" if d.code == "GL103" else d.code, key=format_path(path)) for d in error.diagnostics]
+
+
+def _apply(loaded: LoadedFile, override: _Override) -> None:
+    try:
+        loaded.data = _with(loaded.data, override.path, override.value, "")
+    except _NoPlace as error:
+        key = format_path(override.path)
+        raise DesignFileError([override.source.report("GL114", str(error), 0, key=key)]) from None
+    loaded.overrides.append(override)
+
+
+class _NoPlace(Exception):
+    """A path of `--set` that leads through something other than sections and lists."""
+
+
+def _with(node: Any, path: KeyPath, value: Any, name: str) -> Any:
+    """A copy of the data with one value put in; what is beside the path is shared, since aliases share it too."""
+    if not path:
+        return value
+    step, rest = path[0], path[1:]
+    inner = format_path((step,)) if not name else name + (f"[{step}]" if isinstance(step, int) else f".{step}")
+    if isinstance(step, int):
+        if not isinstance(node, list):
+            raise _NoPlace(f"{name} is not a list")
+        if step >= len(node):
+            raise _NoPlace(f"{name} has {len(node)} elements, counted from [0]")
+        return [*node[:step], _with(node[step], rest, value, inner), *node[step + 1 :]]
+    if node is not None and not isinstance(node, dict):
+        raise _NoPlace(f"{name} is not a section, so it has no key '{step}'")
+    section = {} if node is None else node
+    return {**section, step: _with(section.get(step), rest, value, inner)}
+
+
+def _unreadable(name: str, error: Exception) -> Diagnostic:
+    if isinstance(error, FileNotFoundError):
+        near = get_close_matches(os.path.basename(name), _neighbours(name), n=1)
+        remedy = f"did you mean {os.path.join(os.path.dirname(name), near[0])}?" if near else ""
+        return Diagnostic("GL101", "no such file", name, help=remedy)
+    if isinstance(error, IsADirectoryError):
+        return Diagnostic("GL101", "this is a folder", name, help="`gearlink batch` takes folders")
+    if isinstance(error, PermissionError):
+        return Diagnostic("GL101", "no permission to read it", name)
+    reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+    return Diagnostic("GL101", f"cannot be read: {reason}", name)
+
+
+def _neighbours(name: str) -> list[str]:
+    try:
+        with os.scandir(os.path.dirname(name) or ".") as entries:
+            return [entry.name for entry in islice(entries, 1000)]
+    except (OSError, ValueError):
+        return []

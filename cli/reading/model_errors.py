@@ -1,0 +1,250 @@
+"""What a pydantic model has against a design file, in a designer's words and at the file's own keys."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from difflib import get_close_matches
+from itertools import islice
+from typing import TYPE_CHECKING, Any
+
+from gearlink.cli.reading.diagnostics import Diagnostic
+from gearlink.cli.reading.model_shapes import allowed_range, fields_at, takes_truth_value
+from gearlink.cli.reading.value_words import (
+    WANTED,
+    bound,
+    choices,
+    number_remedy,
+    shown,
+    text_remedy,
+    truth_remedy,
+    whole_number_remedy,
+)
+from gearlink.cli.reading.yaml_reader import format_path
+
+if TYPE_CHECKING:
+    from pydantic import BaseModel, ValidationError
+
+    from gearlink.cli.reading.design_file import KeyPath, LoadedFile
+
+    Unions = tuple[tuple[KeyPath, str], ...]
+
+_MOST_ERRORS = 500
+_MOST_READINGS = 64
+_LISTED_KEYS = 24
+
+
+@dataclass(frozen=True, slots=True)
+class _Finding:
+    """One error of pydantic at a key path; `unions` are the places where a member of a union was tried, and which."""
+
+    kind: str
+    path: KeyPath
+    unions: Unions
+    value: Any
+    context: dict[str, Any]
+    text: str
+
+
+def diagnose(loaded: LoadedFile, model: type[BaseModel], error: ValidationError) -> tuple[list[Diagnostic], int]:
+    """Every error of a validation as a diagnostic, and how many were left aside beyond the first few hundred."""
+    raw = error.errors(include_url=False)
+    findings = [_finding(dict(item), loaded.data) for item in raw[:_MOST_ERRORS]]
+    wording = _Wording(loaded, model)
+    return [wording.diagnostic(group) for group in _without_other_members(findings)], len(raw) - len(findings)
+
+
+def diagnose_truth_values(loaded: LoadedFile, model: type[BaseModel], paths: Sequence[KeyPath]) -> Iterator[Diagnostic]:
+    """The places where true or false stands for a number: pydantic takes true for the 1 of a Literal."""
+    for path in paths:
+        if not takes_truth_value(model, path, loaded.data):
+            message = f"{format_path(path)} must be a number, not true or false"
+            yield loaded.report("GL107", message, path)
+
+
+def _finding(item: dict[str, Any], data: Any) -> _Finding:
+    loc, kind, value = tuple(item["loc"]), item["type"], item.get("input")
+    tail = loc[-1:] if kind == "missing" else ()
+    readings = list(islice(_readings(loc[: len(loc) - len(tail)], data, (), ()), _MOST_READINGS))
+    path, _, unions = next((r for r in readings if r[1] == value), readings[0])
+    return _Finding(kind, path + tail, unions, value, item.get("ctx") or {}, item["msg"])
+
+
+def _readings(
+    loc: tuple[str | int, ...], node: Any, path: KeyPath, unions: Unions
+) -> Iterator[tuple[KeyPath, Any, Unions]]:
+    """The key paths that a pydantic location can mean: it holds the names of union members among the keys."""
+    if not loc:
+        yield path, node, unions
+        return
+    step, rest = loc[0], loc[1:]
+    if isinstance(node, dict) and step in node:
+        yield from _readings(rest, node[step], (*path, step), unions)
+    if isinstance(node, list) and isinstance(step, int) and step < len(node):
+        yield from _readings(rest, node[step], (*path, step), unions)
+    yield from _readings(rest, node, path, (*unions, (path, str(step))))
+
+
+def _without_other_members(findings: Sequence[_Finding], level: int = 0) -> Iterator[list[_Finding]]:
+    """Single findings; where no member of a union fits, the nearest member's, or all members' as one group."""
+    places: dict[KeyPath, dict[str, list[_Finding]]] = {}
+    for finding in findings:
+        if len(finding.unions) <= level:
+            yield [finding]
+        else:
+            at, member = finding.unions[level]
+            places.setdefault(at, {}).setdefault(member, []).append(finding)
+    for at, members in places.items():
+        fitting = [group for group in members.values() if not any(_mismatch(f) and f.path == at for f in group)]
+        if len(members) == 1 or fitting:
+            yield from _without_other_members(min(fitting or members.values(), key=len), level + 1)
+        else:
+            yield [f for group in members.values() for f in group if _mismatch(f) and f.path == at]
+
+
+def _mismatch(finding: _Finding) -> bool:
+    return finding.kind in WANTED or finding.kind in ("literal_error", "enum")
+
+
+class _Wording:
+    """Turns findings into diagnostics."""
+
+    def __init__(self, loaded: LoadedFile, model: type[BaseModel]) -> None:
+        self.loaded = loaded
+        self.model = model
+
+    def diagnostic(self, group: list[_Finding]) -> Diagnostic:
+        finding = group[0]
+        if len(group) > 1 or _mismatch(finding):
+            return self._wrong_value(group)
+        if finding.kind.startswith("GL"):
+            return self._own(finding)
+        special = {
+            "missing": self._missing,
+            "extra_forbidden": self._unknown,
+            "union_tag_invalid": self._wrong_tag,
+            "union_tag_not_found": self._no_tag,
+            "too_short": self._wrong_length,
+            "too_long": self._wrong_length,
+            "finite_number": self._not_finite,
+        }
+        if finding.kind in special:
+            return special[finding.kind](finding)
+        if limit := bound(finding.kind, finding.context):
+            return self._out_of_range(finding, limit)
+        return self._other(finding)
+
+    def _say(self, code: str, finding: _Finding, message: str, help: str = "") -> Diagnostic:
+        return self.loaded.report(code, message, finding.path, help=help)
+
+    def _wrong_value(self, group: list[_Finding]) -> Diagnostic:
+        first = group[0]
+        words = [choices(f.context) if f.kind in ("literal_error", "enum") else [WANTED[f.kind]] for f in group]
+        wanted = list(dict.fromkeys(word for some in words for word in some))
+        listed = wanted[0] if len(wanted) == 1 else f"{', '.join(wanted[:-1])} or {wanted[-1]}"
+        only_choice = len(group) == 1 and first.kind in ("literal_error", "enum")
+        name = format_path(first.path) or "the file"
+        message = f"{name} must be {listed}, not {shown(first.value)}"
+        if first.value is None:
+            message = f"{name} is empty: it must be {listed}"
+        code = "GL108" if only_choice and isinstance(first.value, (str, int, float)) else "GL107"
+        return self._say(code, first, message, self._value_remedy(group, wanted))
+
+    def _value_remedy(self, group: list[_Finding], wanted: list[str]) -> str:
+        kinds, value = {f.kind for f in group}, group[0].value
+        if kinds & {"int_type", "int_from_float"} and isinstance(value, float):
+            return whole_number_remedy(value)
+        if isinstance(value, str):
+            known = {word.strip("'"): word for word in wanted if word.startswith("'")}
+            if near := get_close_matches(value[:100], known, n=1):
+                return f"did you mean {known[near[0]]}?"
+            if kinds & {"int_type", "float_type"}:
+                return number_remedy(value)
+            return truth_remedy(value) if "bool_type" in kinds else ""
+        return text_remedy(value) if kinds == {"string_type"} else ""
+
+    def _own(self, finding: _Finding) -> Diagnostic:
+        """An error that a model raised with a code of ours; its context may name a key below the model's own."""
+        from gearlink.cli.reading.design_file import parse_path
+
+        below = parse_path(str(finding.context.get("key", ""))) or ()
+        path = finding.path + below
+        return self.loaded.report(finding.kind, finding.text, path, help=str(finding.context.get("help", "")))
+
+    def _missing(self, finding: _Finding) -> Diagnostic:
+        *parent, last = finding.path
+        if isinstance(last, int):
+            return self._say("GL106", finding, f"{format_path(finding.path)} is missing: the list is too short")
+        fields = fields_at(self.model, tuple(parent), self.loaded.data)
+        meaning = fields[last].description if last in fields else None
+        where = f" in '{format_path(tuple(parent))}'" if parent else ""
+        message = f"the key '{last}' is missing{where}"
+        return self._say("GL106", finding, message, f"{last}: {meaning}" if meaning else "")
+
+    def _unknown(self, finding: _Finding) -> Diagnostic:
+        *parent, last = finding.path
+        key = str(last)
+        allowed = sorted(fields_at(self.model, tuple(parent), self.loaded.data))
+        where = f" in '{format_path(tuple(parent))}'" if parent else ""
+        message = f"unknown key {shown(key)}{where}"
+        return self._say("GL105", finding, message, self._unknown_remedy(key, tuple(parent), finding.value, allowed))
+
+    def _unknown_remedy(self, key: str, parent: KeyPath, value: Any, allowed: list[str]) -> str:
+        name, colon, rest = key.partition(":")
+        if colon and name in allowed:
+            return f"a space belongs after the colon: '{name}: {rest[:40].strip()}'"
+        if value is None and re.fullmatch(r"[0-9]+", key):
+            return "a comma separates entries: write decimals with a point"
+        few = allowed[:_LISTED_KEYS]
+        listed = f"allowed here: {', '.join(few)}{', ...' if len(few) < len(allowed) else ''}" if few else ""
+        plain = re.sub(r"[\s-]+", "_", key[:100].strip().lower())
+        if near := get_close_matches(plain, allowed, n=1):
+            return f"did you mean '{near[0]}'? {listed}"
+        sections = [path for path in self._sections() if path != parent and plain in self._keys(path)]
+        return f"it belongs into '{format_path(sections[0])}'; {listed}" if sections else listed
+
+    def _sections(self) -> list[KeyPath]:
+        return [(), *((name,) for name in self._keys(()))]
+
+    def _keys(self, path: KeyPath) -> list[str]:
+        return list(fields_at(self.model, path, self.loaded.data))
+
+    def _wrong_tag(self, finding: _Finding) -> Diagnostic:
+        tag = finding.context.get("discriminator", "").strip("'")
+        expected = re.findall(r"'([^']*)'", finding.context.get("expected_tags", ""))
+        path = (*finding.path, tag)
+        given = str(finding.context.get("tag", ""))
+        near = get_close_matches(given[:100], expected, n=1)
+        message = f"{format_path(path)} must be {' or '.join(expected)}, not {shown(given)}"
+        return self.loaded.report("GL108", message, path, help=f"did you mean {near[0]}?" if near else "")
+
+    def _no_tag(self, finding: _Finding) -> Diagnostic:
+        path = (*finding.path, finding.context.get("discriminator", "").strip("'"))
+        where = f" in '{format_path(finding.path)}'" if finding.path else ""
+        return self.loaded.report("GL106", f"the key '{path[-1]}' is missing{where}", path)
+
+    def _wrong_length(self, finding: _Finding) -> Diagnostic:
+        context = finding.context
+        least, most = context.get("min_length"), context.get("max_length")
+        wanted = f"at least {least}" if most is None else f"at most {most}"
+        count = context.get("actual_length")
+        message = f"{format_path(finding.path)} must have {wanted} entries, not {count}"
+        return self._say("GL107", finding, message)
+
+    def _not_finite(self, finding: _Finding) -> Diagnostic:
+        return self._say(
+            "GL108", finding, f"{format_path(finding.path)} is not a finite number", "give a finite number"
+        )
+
+    def _out_of_range(self, finding: _Finding, limit: str) -> Diagnostic:
+        message = f"{format_path(finding.path)} must be {limit}, not {shown(finding.value)}"
+        whole = allowed_range(self.model, finding.path, self.loaded.data)
+        return self._say("GL108", finding, message, f"allowed: {whole}" if whole else "")
+
+    def _other(self, finding: _Finding) -> Diagnostic:
+        """What a validator says in its own words: of a section it is a contradiction, of a value a wrong value."""
+        raised = finding.context.get("error")
+        message = str(raised) if isinstance(raised, Exception) and str(raised) else finding.text
+        section = isinstance(finding.value, dict)
+        return self._say("GL111" if section else "GL108", finding, message)

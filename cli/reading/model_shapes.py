@@ -1,0 +1,124 @@
+"""What a pydantic model allows at a key path: its keys, its range, whether true and false are welcome."""
+
+from __future__ import annotations
+
+import types
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Union, get_args, get_origin
+
+from pydantic import BaseModel
+from pydantic.fields import FieldInfo
+
+if TYPE_CHECKING:
+    from gearlink.cli.reading.design_file import KeyPath
+
+Shape = tuple[Any, tuple[Any, ...]]
+"""A type without unions around it, and the constraints that its annotations carry."""
+
+
+def fields_at(model: type[BaseModel], path: KeyPath, data: Any) -> dict[str, FieldInfo]:
+    """The keys that a section may have, by the name that a file writes."""
+    shapes, section = _shapes_at(model, path, data)
+    return {
+        name: field for shape, _ in shapes if _is_model(shape) and _fits(shape, section) for name, field in _keys(shape)
+    }
+
+
+def allowed_range(model: type[BaseModel], path: KeyPath, data: Any) -> str:
+    """The range of a number that is bounded on both sides, or nothing."""
+    low = high = ""
+    for _, constraints in _shapes_at(model, path, data)[0]:
+        for constraint in constraints:
+            low = _limit(constraint, ("gt", "above"), ("ge", "from")) or low
+            high = _limit(constraint, ("lt", "below"), ("le", "to")) or high
+    return f"{low} {'' if high.startswith('to') else 'and '}{high}" if low and high else ""
+
+
+def takes_truth_value(model: type[BaseModel], path: KeyPath, data: Any) -> bool:
+    """Whether true and false mean something at a path; False only where a Literal of numbers would take them."""
+    shapes = [shape for shape, _ in _shapes_at(model, path, data)[0]]
+    literals = [value for shape in shapes if get_origin(shape) is Literal for value in get_args(shape)]
+    numbers = any(type(value) is int for value in literals)
+    return not numbers or bool in shapes or Any in shapes or any(isinstance(value, bool) for value in literals)
+
+
+def _shapes_at(model: type[BaseModel], path: KeyPath, data: Any) -> tuple[list[Shape], Any]:
+    shapes: list[Shape] = [(model, ())]
+    for step in path:
+        shapes = [inner for shape, _ in shapes for inner in _inside(shape, step, data)]
+        data = _child(data, step)
+    return shapes, data
+
+
+def _child(node: Any, step: str | int) -> Any:
+    if isinstance(node, dict):
+        return node.get(step)
+    return node[step] if isinstance(node, list) and isinstance(step, int) and step < len(node) else None
+
+
+def _inside(shape: Any, step: str | int, section: Any) -> Iterator[Shape]:
+    """The shapes of a key of a section, or of an element of a list."""
+    if _is_model(shape):
+        if _fits(shape, section):
+            for name, field in _keys(shape):
+                if name == step:
+                    yield from _flat(field.annotation, tuple(field.metadata))
+        return
+    arguments = get_args(shape)
+    if get_origin(shape) is dict and isinstance(step, str):
+        yield from _flat(arguments[1])
+    elif get_origin(shape) is tuple and isinstance(step, int) and arguments[-1:] != (...,):
+        yield from _flat(arguments[step]) if step < len(arguments) else ()
+    elif get_origin(shape) in (list, tuple) and isinstance(step, int):
+        yield from _flat(arguments[0])
+
+
+def _flat(annotation: Any, constraints: tuple[Any, ...] = ()) -> Iterator[Shape]:
+    origin = get_origin(annotation)
+    if origin is Annotated:
+        inner, *extra = get_args(annotation)
+        yield from _flat(inner, constraints + tuple(_constraints(extra)))
+    elif origin in (Union, types.UnionType):
+        for member in get_args(annotation):
+            yield from _flat(member, constraints)
+    elif hasattr(annotation, "__value__"):
+        yield from _flat(annotation.__value__, constraints)
+    else:
+        yield annotation, constraints
+
+
+def _constraints(extra: Iterable[Any]) -> Iterator[Any]:
+    for item in extra:
+        if isinstance(item, FieldInfo):
+            yield from item.metadata
+        else:
+            yield item
+
+
+def _is_model(shape: Any) -> bool:
+    return isinstance(shape, type) and issubclass(shape, BaseModel)
+
+
+def _keys(model: type[BaseModel]) -> Iterator[tuple[str, FieldInfo]]:
+    for name, field in model.model_fields.items():
+        yield field.alias or name, field
+
+
+def _fits(model: type[BaseModel], section: Any) -> bool:
+    """Whether a section can be meant for this member of a union: its literal keys (`type: spring`) agree."""
+    if not isinstance(section, dict):
+        return True
+    for name, field in _keys(model):
+        if get_origin(field.annotation) is Literal and isinstance(section.get(name), str):
+            values = get_args(field.annotation)
+            if field.is_required() and len(values) == 1 and section[name] not in values:
+                return False
+    return True
+
+
+def _limit(constraint: Any, *sides: tuple[str, str]) -> str:
+    for attribute, word in sides:
+        value = getattr(constraint, attribute, None)
+        if value is not None:
+            return f"{word} {value:g}" if isinstance(value, (int, float)) else f"{word} {value}"
+    return ""

@@ -1,0 +1,125 @@
+"""Words for values that a design file gives and for those that it should give."""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import Any
+from unicodedata import normalize
+
+from gearlink.cli.reading.yaml_reader import plain_value
+from gearlink.cli.reading.yaml_remedies import ODD, odd_character, odd_remedy
+
+WANTED = {
+    "int_type": "a whole number",
+    "int_parsing": "a whole number",
+    "int_from_float": "a whole number",
+    "float_type": "a number",
+    "float_parsing": "a number",
+    "decimal_type": "a number",
+    "string_type": "text",
+    "bool_type": "true or false",
+    "bool_parsing": "true or false",
+    "list_type": "a list such as [1, 2]",
+    "tuple_type": "a list such as [1, 2]",
+    "set_type": "a list such as [1, 2]",
+    "dict_type": "a section of keys",
+    "mapping_type": "a section of keys",
+    "model_type": "a section of keys",
+    "model_attributes_type": "a section of keys",
+    "none_required": "empty",
+}
+_BOUNDS = {
+    "greater_than": ("gt", "greater than {}"),
+    "greater_than_equal": ("ge", "at least {}"),
+    "less_than": ("lt", "less than {}"),
+    "less_than_equal": ("le", "at most {}"),
+    "multiple_of": ("multiple_of", "a multiple of {}"),
+}
+_NUMBER = r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
+_WITH_UNIT = re.compile(rf"({_NUMBER})\s*(?:[a-zA-Zµ°%'\"][\w/^°%²]*)", re.ASCII)
+_LOOKALIKES = str.maketrans("OolI", "0011")
+_SHOWN_CHARACTERS = 40
+
+
+def shown(value: Any) -> str:
+    """A value as a message names it."""
+    if value is None:
+        return "empty"
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return repr(value if len(value) <= _SHOWN_CHARACTERS else value[: _SHOWN_CHARACTERS - 3] + "...")
+    if isinstance(value, list):
+        return "a list"
+    return "a section" if isinstance(value, dict) else repr(value)
+
+
+def bound(kind: str, context: dict[str, Any]) -> str:
+    """The limit that a number broke, or nothing where the error is another one."""
+    if kind not in _BOUNDS:
+        return ""
+    name, words = _BOUNDS[kind]
+    limit = context.get(name)
+    return words.format(f"{limit:g}" if isinstance(limit, float) else limit)
+
+
+def choices(context: dict[str, Any]) -> list[str]:
+    """The values of a literal, as pydantic lists them.
+
+    Example
+        >>> choices({"expected": "'arc', 'parabola' or 'quartic'"}), choices({"expected": "1 or -1"})
+        (["'arc'", "'parabola'", "'quartic'"], ['1', '-1'])
+    """
+    words = re.findall(r"'[^']*'|[^\s,']+", str(context.get("expected", "")))
+    return [word for word in words if word != "or"]
+
+
+def whole_number_remedy(value: float) -> str:
+    """What to write in place of a float where teeth or the like are counted."""
+    if not math.isfinite(value) or abs(value) >= 2.0**53:
+        return ""
+    return f"write {value:.0f}" if value == int(value) else f"write {math.floor(value)} or {math.ceil(value)}"
+
+
+def number_remedy(text: str) -> str:
+    """What to write in place of a text that was meant as a number; nothing where that is not plain.
+
+    Example
+        >>> number_remedy("38,857")
+        'write a decimal point: 38.857'
+    """
+    text = text[:200].strip(" ")
+    if isinstance(plain_value(text), (int, float)):
+        return "leave the quotation marks out"
+    if re.fullmatch(r"[-+]?[0-9]+,[0-9]+", text):
+        return f"write a decimal point: {text.replace(',', '.')}"
+    if re.fullmatch(r"[-+]?[0-9]+(:[0-5]?[0-9])+(\.[0-9]*)?", text):
+        return "write decimals, not minutes and seconds"
+    if re.fullmatch(r"[-+]?[0-9]{1,3}([_ '][0-9]{3})+(\.[0-9]+)?", text):
+        return f"write {re.sub('[_ ]', '', text.replace(chr(39), ''))}"
+    if odd := ODD.search(text):
+        plain = normalize("NFKC", text).replace("\u2212", "-").strip()
+        if re.fullmatch(_NUMBER, plain):
+            return f"it holds {odd_character(odd[0])}: write {plain}"
+        return f"it holds {odd_character(odd[0])}: {odd_remedy(odd[0])}"
+    if text.startswith("\u2212"):
+        return "it holds U+2212 (minus sign): write -"
+    digits = text.translate(_LOOKALIKES)
+    if re.fullmatch(_NUMBER, digits):
+        return f"a letter stands for a digit: write {digits}"
+    unit = _WITH_UNIT.fullmatch(text)
+    return f"keys carry no unit: write {unit[1]}" if unit else ""
+
+
+def text_remedy(value: Any) -> str:
+    """How a number or a truth value is written where text is wanted."""
+    if value is None or isinstance(value, (list, dict)):
+        return ""
+    return f'put it in quotes: "{shown(value)}"'
+
+
+def truth_remedy(text: str) -> str:
+    """What to write for the yes and no of YAML 1.1."""
+    word = {"yes": "true", "on": "true", "no": "false", "off": "false"}.get(text.lower())
+    return f"write {word}" if word else ""

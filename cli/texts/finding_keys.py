@@ -1,0 +1,33 @@
+"""The key of a design file that a check's finding is about."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from gearlink.cli.texts.codes import explanations
+from gearlink.core.report import Check
+
+_PATH = re.compile(r"\b[a-z][a-z0-9_]*(?:\.[a-z][a-z0-9_]*)+\b")
+
+
+def key_of(data: dict[str, Any], check: Check) -> str:
+    """The key of a file that a check is about: one that its message names, else the most telling one of its code.
+
+    Example
+        >>> key_of({"cam": {"base_radius": 9}}, Check("GL405", "constant-sum", "fail", "raise cam.base_radius"))
+        'cam.base_radius'
+    """
+    known = explanations().get(check.code)
+    for path in (*_PATH.findall(check.message), *(known.keys if known else ())):
+        if _has(data, path):
+            return str(path)
+    return "kind"
+
+
+def _has(data: Any, path: str) -> bool:
+    for step in path.split("."):
+        if not isinstance(data, dict) or data.get(step) is None:
+            return False
+        data = data[step]
+    return True

@@ -1,0 +1,88 @@
+"""Every key that a kind of design file may have: path, unit, range, default and meaning, read from its schema."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from gearlink.core.kinds import Kind
+
+Node = dict[str, Any]
+_BOUNDS = (("exclusiveMinimum", "above"), ("minimum", "from"), ("exclusiveMaximum", "below"), ("maximum", "to"))
+
+
+_MOST_CHOICES = 8
+
+
+@dataclass(frozen=True, slots=True)
+class SpecKey:
+    """A key of a design file.
+
+    Fields
+        path : str - dotted, 'gears.module'
+        unit, words : str - unit ('1': none), meaning
+        range : str - 'above 0, below 45', 'arc or parabola'; empty where anything goes
+        default : the value when the key is left out; None where there is none
+        required : bool - its section needs it
+        section : bool - it holds keys of its own
+    """
+
+    path: str
+    unit: str
+    words: str
+    range: str
+    default: Any
+    required: bool
+    section: bool
+
+
+def spec_keys(kind: Kind) -> list[SpecKey]:
+    """The keys of a kind in the order of its model, sections before what they hold, each once."""
+    from gearlink.cli.texts.schema import kind_schema
+
+    schema = kind_schema(kind)
+    found: dict[str, SpecKey] = {}
+    for key in _keys(schema, schema["definitions"], ""):
+        found.setdefault(key.path, key)
+    return list(found.values())
+
+
+def _keys(section: Node, definitions: Node, before: str) -> Iterator[SpecKey]:
+    required = section.get("required", ())
+    for name, node in section.get("properties", {}).items():
+        path = before + name
+        inner = [definitions[target] for target in _targets(node)]
+        yield SpecKey(
+            path,
+            node.get("unit", ""),
+            node.get("description", "").removesuffix(f" [{node.get('unit')}]"),
+            _range(node),
+            node.get("default"),
+            name in required,
+            bool(inner),
+        )
+        for part in inner:
+            yield from _keys(part, definitions, path + ".")
+
+
+def _targets(node: Node) -> Iterator[str]:
+    """Names of the sections that may stand at a node: itself, an alternative of it, but not elements of a list."""
+    if "$ref" in node:
+        yield str(node["$ref"]).rpartition("/")[2]
+    for combination in ("allOf", "anyOf", "oneOf"):
+        for part in node.get(combination, ()):
+            yield from _targets(part)
+
+
+def _range(node: Node) -> str:
+    """Bounds or choices of a node; of its alternatives or of its elements where it has none itself."""
+    choices = [node["const"]] if "const" in node else node.get("enum", ())
+    if choices:
+        return "" if len(choices) > _MOST_CHOICES else " or ".join(str(choice) for choice in choices)
+    bounds = [f"{word} {node[bound]:g}" for bound, word in _BOUNDS if bound in node]
+    if bounds:
+        return ", ".join(bounds)
+    inner = [*node.get("anyOf", ()), *([node["items"]] if isinstance(node.get("items"), dict) else [])]
+    return " or ".join(words for words in map(_range, inner) if words)

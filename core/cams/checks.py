@@ -1,0 +1,67 @@
+"""Checks that every cam pair has: pressure angle, undercut, steps at the joints of the law."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+from gearlink.core.report import Check, Status, safely_below
+
+if TYPE_CHECKING:
+    from gearlink.core.cams.disc_cam import DiscCam
+
+
+def pressure_angle_checks(cams: Sequence[DiscCam], limit: float, remedy: str) -> Iterator[Check]:
+    """GL401 for each cam; `limit` in degrees."""
+    for cam in cams:
+        worst = cam.max_pressure_angle
+        value = math.degrees(worst.value)
+        place = f"cam angle {math.degrees(worst.place):.5g} deg"
+        text = f"the pressure angle of the {cam.name} reaches {value:.6g} deg at {place}"
+        if value > limit:
+            text += f", above the limit {limit:g} deg: {remedy}"
+        yield Check("GL401", "pressure-angle", "fail" if value > limit else "pass", text, value, limit, "deg")
+
+
+def undercut_checks(cams: Sequence[DiscCam]) -> Iterator[Check]:
+    """GL402 for each cam: roller against the least convex curvature, and the profile against itself."""
+    for cam in cams:
+        least, roller = cam.min_curvature_radius, cam.roller_radius
+        share = roller / least.value
+        place = f"cam angle {math.degrees(least.place):.5g} deg"
+        text = (
+            f"roller radius {roller:g} mm of the {cam.name} against the least curvature radius {least.value:.6g} mm "
+            f"at {place}"
+        )
+        status: Status = "fail" if share >= 1.0 else "warn" if share > 0.8 else "pass"
+        if status == "pass" and cam.undercut.depth > 1e-9 * roller:
+            cut = cam.undercut
+            status = "fail"
+            text = (
+                f"the roller of the {cam.name} cuts {cut.depth:.4g} mm into its own profile at cam angle "
+                f"{math.degrees(cut.cam_angle):.5g} deg: enlarge the base circle or take a smaller roller"
+            )
+        elif status != "pass":
+            text += f": take a roller of at most {safely_below(0.8 * least.value)} mm or enlarge the base circle"
+        yield Check("GL402", "cam-undercut", status, text, share, 1.0)
+
+
+def step_check(
+    code: str, name: str, steps: Sequence[tuple[str, float]], peak: float, unit: str, bad: Status, remedy: str
+) -> Check:
+    """GL403 or GL404: the largest jump of a lift derivative at a joint.
+
+    Parameters
+        steps : (joint, jump) pairs
+        peak : float - largest magnitude of that derivative; a jump below 1e-5 of it is rounding of the input
+        bad : 'warn' or 'fail' - what a jump means
+    """
+    step = max((jump for _, jump in steps), key=abs)
+    quantity = name.removesuffix("-step")
+    limit = 1e-5 * peak
+    if abs(step) <= limit:
+        return Check(code, name, "pass", f"the lift's {quantity} is continuous at every joint", abs(step), limit, unit)
+    listed = ", ".join(f"{joint} {jump:+.4g}" for joint, jump in steps if abs(jump) > limit)
+    text = f"the lift's {quantity} jumps ({listed} {unit}): {remedy}"
+    return Check(code, name, bad, text, abs(step), limit, unit)

@@ -1,0 +1,118 @@
+"""A closed disc cam with a roller: its extremes, refined between the joints of its law, and its undercut."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from gearlink.core.cams import profile
+from gearlink.core.cams.profile import CamProfile, RollerPath
+from gearlink.core.cams.undercut import Undercut, undercut
+from gearlink.core.numerics.arrays import Points, Reals
+from gearlink.core.numerics.extremes import Extreme, least_convex_radius, maximum_over, minimum_over
+from gearlink.core.report import Table
+
+_TURN = 2.0 * math.pi
+
+
+@dataclass(frozen=True)
+class DiscCam:
+    """A cam over one turn; nothing is computed before it is asked for.
+
+    Parameters
+        name : str - what messages call it
+        path : function (cam angles (N,) [rad], order) -> RollerPath with that many derivatives filled
+        sense : +1 or -1 - the cam turns counter-clockwise or clockwise
+        roller_radius : float [mm]
+        joints : cam angles [rad] - where the law changes; extremes are sought on each side
+    """
+
+    name: str
+    path: Callable[[Reals, int], RollerPath]
+    sense: int
+    roller_radius: float
+    joints: tuple[float, ...] = ()
+
+    @cached_property
+    def _bounds(self) -> tuple[float, ...]:
+        return tuple(joint % _TURN for joint in self.joints)
+
+    def at(self, cam_angle: Reals) -> CamProfile:
+        """Points, pressure angle and curvature at cam angles [rad]."""
+        path = self.path(cam_angle, 2)
+        return profile.profile(cam_angle, path, sense=self.sense, roller_radius=self.roller_radius)
+
+    def pressure_angle(self, cam_angle: Reals) -> Reals:
+        """Signed pressure angle [rad] at cam angles."""
+        return profile.pressure_angle(cam_angle, self.path(cam_angle, 1), sense=self.sense)
+
+    def curvature(self, cam_angle: Reals) -> Reals:
+        """Curvature of the pitch curve [1/mm], convex positive, at cam angles."""
+        return profile.curvature(cam_angle, self.path(cam_angle, 2), sense=self.sense)
+
+    def points(self, cam_angle: Reals) -> tuple[Points, Points]:
+        """Pitch and profile points [mm] at cam angles, in the cam's frame."""
+        path = self.path(cam_angle, 1)
+        pitch = profile.pitch_points(cam_angle, path, sense=self.sense)
+        contact = profile.profile_points(cam_angle, path, sense=self.sense, roller_radius=self.roller_radius)
+        return pitch, contact
+
+    def radius(self, cam_angle: Reals) -> Reals:
+        """Distance of the profile from the cam axis [mm] at cam angles."""
+        return np.abs(self.points(cam_angle)[1])
+
+    @cached_property
+    def max_pressure_angle(self) -> Extreme:
+        """Greatest magnitude of the pressure angle [rad] and its place."""
+        return maximum_over(lambda phi: np.abs(self.pressure_angle(phi)), joints=self._bounds, samples=512)
+
+    @cached_property
+    def min_curvature_radius(self) -> Extreme:
+        """Least convex radius of the pitch curve [mm] and its place."""
+        return least_convex_radius(self.curvature, joints=self._bounds, samples=512)
+
+    @cached_property
+    def max_radius(self) -> float:
+        """Largest radius of the profile [mm]."""
+        return maximum_over(self.radius, joints=self._bounds, samples=512).value
+
+    @cached_property
+    def min_radius(self) -> float:
+        """Smallest radius of the profile [mm]."""
+        return minimum_over(self.radius, joints=self._bounds, samples=512).value
+
+    @cached_property
+    def undercut(self) -> Undercut:
+        """Deepest cut of the roller into the profile.
+
+        Notes
+            A profile without a cusp whose polar angle runs one way cannot cross itself, and an offset curve
+            that neither has a cusp nor crosses itself is the true one; the search for far cuts, and scipy with
+            it, is left to the others.
+        """
+        if self.roller_radius < self.min_curvature_radius.value and self._star_shaped():
+            return Undercut(0.0, 0.0, 0.0)
+        return undercut(self.points, self.roller_radius)
+
+    def _star_shaped(self) -> bool:
+        profile = self.points(np.linspace(0.0, _TURN, 2049))[1]
+        turn = -self.sense * np.imag(np.conj(profile[:-1]) * profile[1:])
+        return bool(np.all(turn > 0.0))
+
+    def table(self, name: str, degrees: Reals) -> Table:
+        """The cam as a table over cam angles in degrees."""
+        cam = self.at(np.radians(degrees))
+        columns = {
+            "cam_angle": (degrees, "deg"),
+            "pitch_x": (cam.pitch.real, "mm"),
+            "pitch_y": (cam.pitch.imag, "mm"),
+            "x": (cam.profile.real, "mm"),
+            "y": (cam.profile.imag, "mm"),
+            "pressure_angle": (np.degrees(cam.pressure_angle), "deg"),
+            "curvature_radius": (cam.curvature_radius, "mm"),
+        }
+        return Table.of(name, columns)

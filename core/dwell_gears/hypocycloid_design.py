@@ -1,0 +1,225 @@
+"""A dwell on an arc of a hypocycloid as a design: planet in a ring gear, rod, slider."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from gearlink.core.design import Outline
+from gearlink.core.dwell_gears import hypocycloid, hypocycloid_rod
+from gearlink.core.dwell_gears.hypocycloid import HypocycloidSlider
+from gearlink.core.errors import NoSolution, at_key
+from gearlink.core.gears.internal_mesh import InternalMesh
+from gearlink.core.gears.single_mesh import INTERNAL_QUANTITIES, MESH_CHECKS, SingleMesh
+from gearlink.core.linkages.checks import transmission_check
+from gearlink.core.report import Check, Table
+
+if TYPE_CHECKING:
+    from gearlink.core.dwell_gears.hypocycloid_spec import HypocycloidDwellSpec
+
+
+class HypocycloidDwell(SingleMesh):
+    """Slider that dwells while a point of the planet runs along an arc about its centre."""
+
+    kind = "hypocycloid-dwell"
+    spec: HypocycloidDwellSpec
+    outlines = {
+        "analyze": Outline(
+            (
+                "cusps",
+                "planet_teeth",
+                "ring_teeth",
+                "carrier_length",
+                "point_radius",
+                "rod_length",
+                "tangent_circle_length",
+                "osculating_length",
+                "dwell_carrier_angle",
+                "dwell_ripple",
+                "dwell_deviation_min",
+                "dwell_deviation_max",
+                "tolerance_carrier_angle",
+                "stroke",
+                "ripple_share",
+                "min_transmission_angle",
+                "contact_ratio",
+            ),
+            ("dwell-quality", "transmission-angle", *MESH_CHECKS),
+            ("motion",),
+        ),
+        "gear": Outline(INTERNAL_QUANTITIES, MESH_CHECKS),
+    }
+
+    # Gears and rod
+
+    @property
+    def planet_teeth(self) -> int:
+        """Teeth of the planet."""
+        return self.spec.gears.planet
+
+    @property
+    def ring_teeth(self) -> int:
+        """Teeth of the ring gear."""
+        return self.spec.gears.ring
+
+    @cached_property
+    def cusps(self) -> int:
+        """Cusps of the curve, ring teeth over planet teeth."""
+        planet, ring = self.planet_teeth, self.ring_teeth
+        if ring % planet:
+            near = max(3, round(ring / planet))
+            raise NoSolution(
+                f"ring {ring} over planet {planet} teeth is {ring / planet:.6g}: the curve does not close in one turn "
+                f"of the carrier; take a whole multiple, for example {near * planet}",
+                key="gears.ring",
+            )
+        with at_key("gears.ring"):
+            hypocycloid.require_cusps(self.point_radius, ring // planet)
+        return ring // planet
+
+    @property
+    def point_radius(self) -> float:
+        """Pitch radius of the planet, on which the point lies [mm]."""
+        return self.spec.gears.module * self.planet_teeth / 2.0
+
+    @property
+    def carrier_length(self) -> float:
+        """Centre distance of planet and ring [mm]."""
+        return self.mesh.center_distance
+
+    @cached_property
+    def mesh(self) -> InternalMesh:
+        """Planet and ring gear."""
+        gears = self.spec.gears
+        with at_key("gears"):
+            return InternalMesh(gears.module, (gears.planet, gears.ring), math.radians(gears.pressure_angle))
+
+    @property
+    def tangent_circle_length(self) -> float:
+        """Rod of the circle through the ends and the middle of the dwell [mm]."""
+        with at_key("dwell.angle"):
+            return hypocycloid.tangent_circle(self.point_radius, self.cusps, self.dwell_carrier_angle)
+
+    @property
+    def osculating_length(self) -> float:
+        """Rod of the circle of curvature [mm]."""
+        return hypocycloid.osculating(self.point_radius, self.cusps)
+
+    @property
+    def dwell_carrier_angle(self) -> float:
+        """Carrier angle of the dwell that is wanted [rad]."""
+        asked = self.spec.dwell.angle
+        return 2.0 * math.pi / self.cusps if asked is None else math.radians(asked)
+
+    @cached_property
+    def rod_length(self) -> float:
+        """Rod [mm], given, by rule or by target."""
+        if self.spec.target is not None:
+            return self._rod_for_target(self.spec.target.quality)
+        rod = self.spec.rod
+        if rod is not None and rod.length is not None:
+            return rod.length
+        rule = None if rod is None else rod.rule
+        if rule == "osculating":
+            return self.osculating_length
+        if rule == "tangent-circle":
+            return self.tangent_circle_length
+        with at_key("dwell.angle"):
+            return hypocycloid_rod.minimax(self.point_radius, self.cusps, self.dwell_carrier_angle)
+
+    def _rod_for_target(self, quality: str) -> float:
+        tolerance = self.spec.dwell.tolerance
+        if quality == "widest-dwell" and tolerance is not None:
+            with at_key("dwell.tolerance"):
+                return hypocycloid_rod.widest_dwell(self.point_radius, self.cusps, tolerance)
+        with at_key("dwell.angle"):
+            return hypocycloid_rod.least_ripple(self.point_radius, self.cusps, self.dwell_carrier_angle)
+
+    # Motion
+
+    @cached_property
+    def slider(self) -> HypocycloidSlider:
+        """The kernel's view of gears and rod."""
+        with at_key("rod" if self.spec.target is None else "target"):
+            return HypocycloidSlider(self.point_radius, self.cusps, self.rod_length)
+
+    @property
+    def stroke(self) -> float:
+        """Stroke of the slider [mm]."""
+        return self.slider.stroke
+
+    @property
+    def dwell_deviation_min(self) -> float:
+        """Least deviation in the dwell [mm]."""
+        return self.slider.deviation_range(self.dwell_carrier_angle)[0]
+
+    @property
+    def dwell_deviation_max(self) -> float:
+        """Greatest deviation in the dwell [mm]."""
+        return self.slider.deviation_range(self.dwell_carrier_angle)[1]
+
+    @property
+    def dwell_ripple(self) -> float:
+        """Range of the slider's place in the dwell [mm]."""
+        return self.dwell_deviation_max - self.dwell_deviation_min
+
+    @property
+    def ripple_share(self) -> float:
+        """Ripple over stroke."""
+        return self.dwell_ripple / self.stroke
+
+    @cached_property
+    def tolerance_carrier_angle(self) -> float | None:
+        """Widest carrier angle within the file's tolerance [rad]."""
+        if self.spec.dwell.tolerance is None:
+            return None
+        with at_key("dwell.tolerance"):
+            return self.slider.dwell_angle(self.spec.dwell.tolerance)
+
+    @property
+    def min_transmission_angle(self) -> float:
+        """Least angle between the rod and the normal of the slide line over the turn [rad]."""
+        return 0.5 * math.pi - self.slider.max_rod_angle
+
+    def table_motion(self) -> Table:
+        """Slider and point over a turn of the carrier; the middle of the dwell is at carrier angle 0."""
+        count, slider = self.samples or 360, self.slider
+        degrees = [360.0 * i / count for i in range(count)]
+        angles = [math.remainder(math.radians(x), 2.0 * math.pi) for x in degrees]
+        points = [slider.point(t) for t in angles]
+        columns = {
+            "carrier_angle": (degrees, "deg"),
+            "deviation": ([slider.deviation(t) for t in angles], "mm"),
+            "velocity": ([slider.speed(t) for t in angles], "mm/rad"),
+            "acceleration": ([slider.acceleration(t) for t in angles], "mm/rad^2"),
+            "rod_angle": ([math.degrees(slider.rod_angle(t)) for t in angles], "deg"),
+            "x": ([p.real for p in points], "mm"),
+            "y": ([p.imag for p in points], "mm"),
+        }
+        return Table.of("motion", columns)
+
+    # Checks
+
+    def check_dwell_quality(self) -> Iterator[Check]:
+        """GL311: the dwell that is reached within the tolerance against the one that is wanted."""
+        tolerance, reached = self.spec.dwell.tolerance, self.tolerance_carrier_angle
+        if tolerance is None or reached is None:
+            return
+        wanted, found = math.degrees(self.dwell_carrier_angle), math.degrees(reached)
+        text = f"the slider stays within +-{tolerance:g} mm for {found:.6g} deg of the carrier, {wanted:.6g} deg wanted"
+        if found >= wanted - 1e-9:
+            yield Check("GL311", "dwell-quality", "pass", text, found, wanted, "deg")
+            return
+        text += (
+            f"; over that angle it moves {self.dwell_ripple:.6g} mm: allow +-{0.5 * self.dwell_ripple * 1.001:.4g} mm"
+        )
+        if self.spec.target is None:
+            text += ", or leave rod out for target: {quality: least-ripple}"
+        yield Check("GL311", "dwell-quality", "fail", text, found, wanted, "deg")
+
+    def check_transmission_angle(self) -> Check:
+        """GL303: the rod against the slide line."""
+        remedy = "lengthen the rod, or take a curve with fewer cusps (fewer ring teeth)"
+        return transmission_check(self.min_transmission_angle, self.spec.limits.transmission_angle, remedy)

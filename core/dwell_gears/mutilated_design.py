@@ -1,0 +1,210 @@
+"""A long dwell by a mutilated gear as a design, with the four-bar that its driven gear turns."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from gearlink.core.design import Outline
+from gearlink.core.dwell_gears.mutilated import MutilatedGear
+from gearlink.core.errors import at_key
+from gearlink.core.gears.checks import GEAR_CHECKS
+from gearlink.core.gears.pair import GearPair
+from gearlink.core.gears.single_mesh import MESH_CHECKS, MESH_QUANTITIES, SingleMesh
+from gearlink.core.linkages.checks import transmission_check
+from gearlink.core.linkages.fourbar import FourBar, solve
+from gearlink.core.linkages.nearest_passes import joint_to_crank_pivot
+from gearlink.core.report import Check, Table
+from gearlink.core.three_gear.motion import check_linkage
+
+if TYPE_CHECKING:
+    from gearlink.core.dwell_gears.mutilated_spec import MutilatedGearDwellSpec
+
+_TURN = 2.0 * math.pi
+# A rocker that starts with less than this share of the driven gear's speed starts from rest.
+_AT_REST = 1e-6
+
+
+class MutilatedGearDwell(SingleMesh):
+    """Reduction, mutilated wheel and driven gear; the crank on its shaft stands while the gap passes."""
+
+    kind = "mutilated-gear-dwell"
+    spec: MutilatedGearDwellSpec
+    outlines = {
+        "analyze": Outline(
+            (
+                "cycle_turns",
+                "motion_turns",
+                "dwell_turns",
+                "motion_share",
+                "dwell_share",
+                "driven_turn",
+                "driven_speed_ratio",
+                "cycles_to_repeat",
+                "center_distance",
+                "contact_ratio",
+                "start_crank_angle",
+                "rocker_swing",
+                "rocker_start_speed",
+                "min_transmission_angle",
+            ),
+            ("start-shock", "transmission-angle", *GEAR_CHECKS),
+            ("motion",),
+        ),
+        "gear": Outline(MESH_QUANTITIES, MESH_CHECKS),
+    }
+
+    @cached_property
+    def mutilated(self) -> MutilatedGear:
+        """The kernel's view of the gears."""
+        gears = self.spec.gears
+        with at_key("gears"):
+            return MutilatedGear(
+                self.spec.reduction, gears.full_teeth, gears.group_teeth, gears.groups, gears.driven, gears.stops
+            )
+
+    @property
+    def cycle_turns(self) -> float:
+        """Input turns per output cycle."""
+        return self.mutilated.cycle_turns
+
+    @property
+    def motion_turns(self) -> float:
+        """Input turns of the motion."""
+        return self.mutilated.motion_turns
+
+    @property
+    def dwell_turns(self) -> float:
+        """Input turns of the dwell."""
+        return self.mutilated.dwell_turns
+
+    @property
+    def motion_share(self) -> float:
+        """Share of the cycle in motion."""
+        return self.mutilated.motion_share
+
+    @property
+    def dwell_share(self) -> float:
+        """Share of the cycle at rest."""
+        return self.mutilated.dwell_share
+
+    @property
+    def driven_turn(self) -> float:
+        """Turns of the driven gear per group."""
+        return self.mutilated.driven_turn
+
+    @property
+    def driven_speed_ratio(self) -> float:
+        """Driven speed over input speed in motion."""
+        return self.mutilated.speed_ratio
+
+    @property
+    def cycles_to_repeat(self) -> int:
+        """Cycles until everything repeats."""
+        return self.mutilated.cycles_to_repeat
+
+    @cached_property
+    def mesh(self) -> GearPair:
+        """Wheel and driven gear, where teeth meet."""
+        gears = self.spec.gears
+        alpha = math.radians(gears.pressure_angle)
+        with at_key("gears"):
+            return GearPair.from_shift(gears.module, (gears.full_teeth, gears.driven), pressure_angle=alpha)
+
+    # The four-bar
+
+    @cached_property
+    def linkage(self) -> FourBar | None:
+        """The four-bar on the driven shaft, where the file has one."""
+        links = self.spec.links
+        if links is None:
+            return None
+        with at_key("links"):
+            linkage = FourBar(links.crank, links.coupler, links.rocker, links.frame, self.spec.assembly)
+            check_linkage(linkage)
+        return linkage
+
+    @cached_property
+    def start_crank_angle(self) -> float | None:
+        """Crank angle of the dwell [rad]."""
+        if self.linkage is None:
+            return None
+        if self.spec.start_angle is not None:
+            return math.radians(self.spec.start_angle)
+        return self._dead_centers(self.linkage)[1]
+
+    @property
+    def rocker_swing(self) -> float | None:
+        """Swing of the rocker between its dead centres [rad]; a drag link has none."""
+        linkage = self.linkage
+        if linkage is None or linkage.kind() != "crank-rocker":
+            return None
+        folded, stretched = (solve(linkage, phi).rocker_angle for phi in self._dead_centers(linkage))
+        return abs(folded - stretched)
+
+    @property
+    def rocker_start_speed(self) -> float | None:
+        """Rocker speed over input speed right after the start, when the driven gear has taken up its own."""
+        if self.linkage is None or self.start_crank_angle is None:
+            return None
+        return self.driven_speed_ratio * solve(self.linkage, self.start_crank_angle, 1).rocker_velocity
+
+    @property
+    def min_transmission_angle(self) -> float | None:
+        """Least transmission angle of the turn [rad]."""
+        return None if self.linkage is None else self.linkage.min_transmission_angle()
+
+    @staticmethod
+    def _dead_centers(linkage: FourBar) -> tuple[float, float]:
+        """Crank angles where crank and coupler fold and stretch (in a drag link: nearest and farthest C) [rad]."""
+        folded, stretched = joint_to_crank_pivot(
+            linkage.crank, linkage.coupler, linkage.rocker, linkage.frame, linkage.assembly
+        )
+        return folded.crank_angle, stretched.crank_angle
+
+    def table_motion(self) -> Table:
+        """Driven gear and rocker over one cycle; the motion begins at input angle 0."""
+        count = self.samples or 360
+        cycle = _TURN * self.cycle_turns
+        inputs = [cycle * i / count for i in range(count)]
+        driven = [self.mutilated.driven_angle(angle) for angle in inputs]
+        speeds = [self.driven_speed_ratio if self.mutilated.moves(angle) else 0.0 for angle in inputs]
+        columns: dict[str, tuple[list[float], str]] = {
+            "input_angle": ([math.degrees(angle) for angle in inputs], "deg"),
+            "driven_angle": ([math.degrees(angle) for angle in driven], "deg"),
+            "driven_speed_ratio": (speeds, "1"),
+        }
+        if self.linkage is not None and self.start_crank_angle is not None:
+            start = self.start_crank_angle
+            states = [solve(self.linkage, start + angle, 1) for angle in driven]
+            columns["rocker_angle"] = ([math.degrees(state.rocker_angle) for state in states], "deg")
+            rocker = [state.rocker_velocity * speed for state, speed in zip(states, speeds, strict=True)]
+            columns["rocker_speed_ratio"] = (rocker, "1")
+        return Table.of("motion", columns)
+
+    # Checks
+
+    def check_start_shock(self) -> Check:
+        """GL310: the driven gear starts at once at full speed, and the model ends at the pitch circles."""
+        ratio = self.driven_speed_ratio
+        text = (
+            f"the driven gear starts and stops at once with {ratio:.6g} of the input speed; pitch circles do not show "
+            "the cut tips of the first and last tooth, nor the locking arcs: draw them, and add entry cams or springs"
+        )
+        rocker = self.rocker_start_speed
+        if rocker is not None and abs(rocker) > _AT_REST * ratio:
+            text += (
+                f"; the rocker starts with {rocker:.4g} of the input speed: leave start_angle out, at a dead centre it"
+            )
+            text += " would start from rest"
+        elif rocker is not None:
+            text += "; the rocker itself starts from rest, at a dead centre"
+        return Check("GL310", "start-shock", "warn", text, ratio, 0.0)
+
+    def check_transmission_angle(self) -> Iterator[Check]:
+        """GL303, where there is a four-bar."""
+        if self.min_transmission_angle is None:
+            return
+        yield transmission_check(self.min_transmission_angle, self.spec.limits.transmission_angle, "shorten the crank")

@@ -1,0 +1,42 @@
+"""The design file of a dwell by a mutilated gear."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from gearlink.core.linkages.spec_parts import FourLinks, LinkageLimits
+from gearlink.core.spec import Angle, Assembly, DesignSpec, Length, PressureAngle, Spec, Teeth
+
+
+class MutilatedGears(Spec):
+    """The mutilated wheel and the gear that it drives."""
+
+    module: Length = Field(description="module of both")
+    full_teeth: Teeth = Field(description="teeth for which the wheel's pitch circle has room")
+    group_teeth: Teeth = Field(description="teeth in a group")
+    groups: Teeth = Field(1, description="groups evenly round the wheel")
+    driven: Teeth = Field(description="teeth of the driven gear")
+    stops: Teeth = Field(1, description="locking arcs evenly round the driven gear")
+    pressure_angle: PressureAngle = Field(20.0, description="pressure angle of the reference profile")
+
+
+class MutilatedGearDwellSpec(DesignSpec):
+    """Reduction, mutilated wheel, driven gear and, on its shaft, the crank of a four-bar."""
+
+    kind: Literal["mutilated-gear-dwell"]
+    reduction: Annotated[float, Field(gt=0, le=1e6, json_schema_extra={"unit": "1"})] = Field(
+        description="input turns per turn of the mutilated wheel"
+    )
+    gears: MutilatedGears
+    links: FourLinks | None = Field(None, description="the four-bar that the driven gear turns")
+    assembly: Assembly = Field(1, description="+1: C left of the vector from B to D; -1: its mirror image")
+    start_angle: Angle | None = Field(
+        None, description="crank angle at which the crank stands; left out: crank and coupler stretched"
+    )
+    limits: LinkageLimits = LinkageLimits()
+
+    def commands(self) -> tuple[str, ...]:
+        """What the file asks for."""
+        return ("analyze", "gear")

@@ -1,0 +1,301 @@
+"""The geared five-bar as a design: a coupler point's path, or an output over the input angle."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from gearlink.core.design import Outline
+from gearlink.core.errors import NoSolution
+from gearlink.core.five_bar.parts import FiveBarParts
+from gearlink.core.gears.single_mesh import MESH_CHECKS, mesh_checks
+from gearlink.core.linkages.checks import target_check, transmission_check
+from gearlink.core.report import Check, Table
+
+if TYPE_CHECKING:
+    from gearlink.core.five_bar.spec import GearedFiveBarSpec
+    from gearlink.core.numerics.extremes import Extreme
+
+_SHOWN_TURNS = 100
+_POSITION_TOLERANCE = math.degrees(1e-9)
+
+
+class GearedFiveBar(FiveBarParts):
+    """A five-bar whose gears take away one of its two freedoms."""
+
+    kind = "geared-five-bar"
+    spec: GearedFiveBarSpec
+    outlines = {
+        "analyze": Outline(
+            (
+                "form",
+                "five_bar_ratio",
+                "coupler_ratio",
+                "period_turns",
+                "input_length",
+                "coupler_length",
+                "follower_length",
+                "output_length",
+                "frame_length",
+                "phase",
+                "assembly",
+                "point_along",
+                "point_across",
+                "span_min",
+                "span_min_at",
+                "span_max",
+                "span_max_at",
+                "min_transmission_angle",
+                "min_transmission_angle_at",
+                "path_width",
+                "path_height",
+                "phase_step",
+                "path_deviation_rms",
+                "path_deviation_max",
+                "position_errors",
+                "center_distance",
+                "contact_ratio",
+            ),
+            ("closure", "target", "transmission-angle", *MESH_CHECKS),
+            ("path", "function", "deviations"),
+        ),
+        "gear": Outline(("center_distance", "contact_ratio"), MESH_CHECKS),
+    }
+
+    @property
+    def input_length(self) -> float:
+        """Input link AB [mm]."""
+        return self.bar.input
+
+    @property
+    def coupler_length(self) -> float:
+        """Coupler BC [mm]."""
+        return self.bar.coupler
+
+    @property
+    def follower_length(self) -> float:
+        """Follower CD [mm]."""
+        return self.bar.follower
+
+    @property
+    def output_length(self) -> float:
+        """Output link DE [mm]."""
+        return self.bar.output
+
+    @property
+    def frame_length(self) -> float:
+        """Frame AE [mm]."""
+        return self.bar.frame
+
+    @property
+    def phase(self) -> float:
+        """Direction at input angle 0 of the output link (path) or the coupler (function) [rad]."""
+        return self.bar.phase
+
+    @property
+    def assembly(self) -> int:
+        """Assembly, as found or given."""
+        return self.bar.assembly
+
+    @property
+    def point_along(self) -> float | None:
+        """u of the coupler point [mm]."""
+        return self.offset.real if self.is_path else None
+
+    @property
+    def point_across(self) -> float | None:
+        """v of the coupler point [mm]."""
+        return self.offset.imag if self.is_path else None
+
+    # Closing
+
+    @cached_property
+    def _spans(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Least and greatest distance that the dyad spans, each with its input angle."""
+        if self.is_path:
+            return self.path_bar.span_extremes
+        return self.function_bar.reach_extremes(*self.input_range)
+
+    @property
+    def span_min(self) -> float:
+        """Least distance of the dyad's ends [mm]."""
+        return self._spans[0][1]
+
+    @property
+    def span_min_at(self) -> float:
+        """Input angle of it [rad]."""
+        return self._spans[0][0]
+
+    @property
+    def span_max(self) -> float:
+        """Greatest distance of the dyad's ends [mm]."""
+        return self._spans[1][1]
+
+    @property
+    def span_max_at(self) -> float:
+        """Input angle of it [rad]."""
+        return self._spans[1][0]
+
+    @cached_property
+    def _transmission(self) -> tuple[float, float]:
+        if self.is_path:
+            return self.path_bar.min_transmission_angle()
+        return self.function_bar.min_transmission_angle(*self.input_range)
+
+    @property
+    def min_transmission_angle(self) -> float:
+        """Least angle between the two links of the dyad [rad]."""
+        return self._transmission[0]
+
+    @property
+    def min_transmission_angle_at(self) -> float:
+        """Input angle of it [rad]."""
+        return self._transmission[1]
+
+    # Path
+
+    @cached_property
+    def _extent(self) -> tuple[Extreme, Extreme, Extreme, Extreme]:
+        from gearlink.core.five_bar.path import extent
+
+        return extent(self.path_bar, self.offset)
+
+    @property
+    def path_width(self) -> float | None:
+        """Extent of the path along the frame [mm]."""
+        return self._extent[1].value - self._extent[0].value if self.is_path else None
+
+    @property
+    def path_height(self) -> float | None:
+        """Extent of the path across the frame [mm]."""
+        return self._extent[3].value - self._extent[2].value if self.is_path else None
+
+    @property
+    def path_deviation_rms(self) -> float | None:
+        """Root of the mean square of the points' distances from the path [mm]."""
+        return None if self.fit is None else self.fit.rms
+
+    @property
+    def path_deviation_max(self) -> float | None:
+        """Greatest distance of a point from the path [mm]."""
+        return None if self.fit is None else float(self.fit.distance.max())
+
+    @cached_property
+    def position_errors(self) -> list[float] | None:
+        """Output angle reached less that asked for, at each position [rad]."""
+        if self.positions is None or self.is_path:
+            return None
+        from gearlink.core.five_bar.positions import position_errors
+
+        return position_errors(self.function_bar, self.positions)
+
+    # Tables
+
+    def table_names_shown(self) -> tuple[str, ...]:
+        """The tables of this form."""
+        if not self.is_path:
+            return ("function",)
+        return ("path",) if self.fit is None else ("path", "deviations")
+
+    def outline(self, command: str) -> Outline:
+        """Each form has its own tables."""
+        found = super().outline(command)
+        return replace(found, tables=self.table_names_shown()) if command == "analyze" else found
+
+    def table(self, name: str) -> Table:
+        """A table of this form; the other form's is refused as one that the design does not have."""
+        if name in self.table_names() and name not in self.table_names_shown():
+            raise NoSolution(f"the form {self.form} has no table {name}: it has {', '.join(self.table_names_shown())}")
+        return super().table(name)
+
+    @property
+    def shown_turns(self) -> int:
+        """Input turns that the path's table covers: the period, or the beginning of a long one."""
+        return min(self.period_turns, _SHOWN_TURNS)
+
+    def table_path(self) -> Table:
+        """Coupler point, its speed and the links over the period, or the first hundred turns of a longer one."""
+        import numpy as np
+
+        from gearlink.core.five_bar.path import sweep
+
+        turns = self.shown_turns
+        count = (self.samples or 360) * turns
+        degrees = np.arange(count) * (360.0 * turns / count)
+        bar = self.path_bar
+        found = sweep(bar, np.radians(degrees), self.offset)
+        gamma = found.transmission_angle
+        columns = {
+            "input_angle": (degrees, "deg"),
+            "output_angle": (math.degrees(bar.phase) + float(bar.ratio) * degrees, "deg"),
+            "coupler_angle": (np.degrees(found.coupler_angle), "deg"),
+            "x": (found.point.real, "mm"),
+            "y": (found.point.imag, "mm"),
+            "x_velocity": (found.velocity.real, "mm/rad"),
+            "y_velocity": (found.velocity.imag, "mm/rad"),
+            "transmission_angle": (np.degrees(np.minimum(gamma, np.pi - gamma)), "deg"),
+        }
+        return Table.of("path", columns)
+
+    def table_deviations(self) -> Table:
+        """Every point that is asked for and its distance from the path."""
+        target, fit = self.spec.target, self.fit
+        assert target is not None, "shown only with a fit"
+        assert target.points is not None, "shown only with a fit"
+        assert fit is not None, "shown only with a fit"
+        x, y = zip(*target.points, strict=True)
+        return Table.of("deviations", {"x": (x, "mm"), "y": (y, "mm"), "distance": (fit.distance, "mm")})
+
+    def table_function(self) -> Table:
+        """Output angle and speed over the range of the input, both ends included."""
+        start, end = self.input_range
+        count, bar = self.samples or 180, self.function_bar
+        angles = [start + (end - start) * i / count for i in range(count)] + [end]
+        columns = {
+            "input_angle": ([math.degrees(angle) for angle in angles], "deg"),
+            "output_angle": ([math.degrees(angle) for angle in bar.output_angles(angles)], "deg"),
+            "speed_ratio": ([bar.output_speed(angle) for angle in angles], "1"),
+        }
+        return Table.of("function", columns)
+
+    # Checks
+
+    def check(self, name: str) -> list[Check]:
+        """Gear checks run over every mesh."""
+        if name not in MESH_CHECKS:
+            return super().check(name)
+        limits = self.spec.limits
+        return [c for label, mesh in self.meshes.items() for c in mesh_checks(name, mesh, limits, label)]
+
+    def check_closure(self) -> Check:
+        """GL305: the dyad spans all distances; what does not close is refused before."""
+        bar = self.bar
+        links = (bar.coupler, bar.follower) if self.is_path else (bar.follower, bar.output)
+        room = min(sum(links) - self.span_max, self.span_min - abs(links[0] - links[1]))
+        low, high = math.degrees(self.span_min_at), math.degrees(self.span_max_at)
+        text = (
+            f"the five-bar stays closed: its dyad spans {self.span_min:.6g} mm (at {low:.5g} deg) to "
+            f"{self.span_max:.6g} mm (at {high:.5g} deg) of the possible "
+            f"{abs(links[0] - links[1]):.6g} to {sum(links):.6g} mm"
+        )
+        return Check("GL305", "closure", "pass", text, room, 0.0, "mm")
+
+    def check_target(self) -> Iterator[Check]:
+        """GL307, where the file asks for points (with a tolerance) or positions."""
+        if self.position_errors is not None:
+            worst = math.degrees(max(self.position_errors, key=abs))
+            yield target_check("the output angle of a position", worst, _POSITION_TOLERANCE, "deg")
+        target, worst_point = self.spec.target, self.path_deviation_max
+        if worst_point is not None and target is not None and target.tolerance is not None:
+            yield target_check("a point of the path", worst_point, target.tolerance, "mm")
+
+    def check_transmission_angle(self) -> Check:
+        """GL303."""
+        place = math.degrees(self.min_transmission_angle_at)
+        remedy = (
+            f"at input angle {place:.5g} deg; lengthen the two links of the dyad, or bring them nearer to each other"
+        )
+        return transmission_check(self.min_transmission_angle, self.spec.limits.transmission_angle, remedy)

@@ -1,0 +1,221 @@
+"""Gears, links and synthesis of a geared five-bar; what it does with them: `geared_five_bar`."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from gearlink.core.design import Design
+from gearlink.core.errors import NoSolution, at_key
+from gearlink.core.five_bar.function_motion import FunctionFiveBar as FunctionBar
+from gearlink.core.five_bar.path_motion import GearedFiveBar as PathBar
+from gearlink.core.gears.internal_mesh import InternalMesh
+from gearlink.core.gears.pair import GearPair
+
+if TYPE_CHECKING:
+    from gearlink.core.five_bar.fit import Fit
+    from gearlink.core.five_bar.spec import GearedFiveBarSpec
+
+_TURN = 2.0 * math.pi
+_LINK_TOLERANCE = 1e-9
+
+
+class FiveBarParts(Design):
+    """The five-bar of a design file, given or found, in either form."""
+
+    spec: GearedFiveBarSpec
+
+    @property
+    def form(self) -> str:
+        """path or function."""
+        return self.spec.form
+
+    @property
+    def is_path(self) -> bool:
+        """Whether the coupler point's path counts."""
+        return self.spec.form == "path"
+
+    # Gears
+
+    @cached_property
+    def meshes(self) -> dict[str, GearPair | InternalMesh]:
+        """The meshes by name."""
+        gears = self.spec.gears
+        with at_key("gears"):
+            if not self.is_path:
+                planet = gears.planet or 0
+                return {"": self._mesh(planet, gears.ring or gears.sun or 0, gears.ring is not None)}
+            z1, z4 = gears.input or 0, gears.output or 0
+            if gears.idler is None:
+                return {"": self._mesh(z1, z4, gears.mesh == "internal")}
+            return {
+                "input_idler": self._mesh(z1, gears.idler, False),
+                "idler_output": self._mesh(gears.idler, z4, False),
+            }
+
+    def _mesh(self, one: int, other: int, internal: bool) -> GearPair | InternalMesh:
+        gears = self.spec.gears
+        alpha = math.radians(gears.pressure_angle)
+        if internal:
+            return InternalMesh(gears.module, (min(one, other), max(one, other)), alpha)
+        return GearPair.from_shift(gears.module, (one, other), (0.0, 0.0), pressure_angle=alpha)
+
+    @property
+    def center_distance(self) -> list[float]:
+        """Centre distance of each mesh [mm]."""
+        return [mesh.center_distance for mesh in self.meshes.values()]
+
+    @property
+    def contact_ratio(self) -> list[float]:
+        """Contact ratio of each mesh."""
+        with at_key("gears"):
+            return [mesh.contact_ratio for mesh in self.meshes.values()]
+
+    @property
+    def ratio(self) -> Fraction:
+        """Path: k, output over input speed. Function: m, coupler over input speed."""
+        gears = self.spec.gears
+        if self.is_path:
+            same = gears.idler is not None or gears.mesh == "internal"
+            return Fraction(gears.input or 0, gears.output or 1) * (1 if same else -1)
+        turn = Fraction(gears.ring or gears.sun or 0, gears.planet or 1)
+        return 1 - turn if gears.ring is not None else 1 + turn
+
+    @property
+    def five_bar_ratio(self) -> float | None:
+        """k of the path form."""
+        return float(self.ratio) if self.is_path else None
+
+    @property
+    def coupler_ratio(self) -> float | None:
+        """m of the function form."""
+        return None if self.is_path else float(self.ratio)
+
+    @property
+    def period_turns(self) -> int:
+        """Input turns until everything repeats."""
+        return self.ratio.denominator
+
+    @property
+    def phase_step(self) -> float | None:
+        """Step in which the phase can be set by putting the gears together a tooth on [rad]."""
+        return _TURN / self.spec.gears.output if self.is_path and self.spec.gears.output else None
+
+    # Links
+
+    def _fixed_length(self, name: str) -> float:
+        """The link that is the gears' centre distance; given too, it must agree."""
+        given, distance = getattr(self.spec.links, name), self.center_distance[0]
+        if given is not None and abs(given - distance) > _LINK_TOLERANCE * distance:
+            raise NoSolution(
+                f"{name} {given:.9g} mm is not the centre distance of the gears, {distance:.9g} mm: leave it out, or "
+                "change module or teeth",
+                key=f"links.{name}",
+            )
+        return distance
+
+    def _frame(self) -> float:
+        """The frame of the path form."""
+        links = self.spec.links
+        if self.spec.gears.idler is None:
+            return self._fixed_length("frame")
+        frame, (first, second) = links.frame or 0.0, self.center_distance
+        if not abs(first - second) < frame < first + second:
+            raise NoSolution(
+                f"the idler does not reach: its centre distances are {first:g} and {second:g} mm, so the frame must "
+                f"lie between {abs(first - second):g} and {first + second:g} mm, not {frame:g}: change the idler",
+                key="links.frame",
+            )
+        return frame
+
+    @cached_property
+    def start_path(self) -> PathBar:
+        """The five-bar of the file, path form; with a target it is the start."""
+        links, frame = self.spec.links, self._frame()
+        with at_key("links"):
+            return PathBar(
+                links.input or 0.0,
+                links.coupler,
+                links.follower,
+                links.output,
+                frame,
+                self.ratio,
+                math.radians(self.spec.phase),
+                self.spec.assembly,
+            )
+
+    @cached_property
+    def fit(self) -> Fit | None:
+        """What the synthesis of a path found, where the file asks for one."""
+        target = self.spec.target
+        if not self.is_path or target is None or target.points is None:
+            return None
+        import numpy as np
+
+        from gearlink.core.five_bar.fit import fit_path
+
+        points = np.array([complex(x, y) for x, y in target.points])
+        with at_key("target.points"):
+            return fit_path(
+                self.start_path, self._start_offset, points, math.radians(self.spec.limits.transmission_angle)
+            )
+
+    @property
+    def _start_offset(self) -> complex:
+        point = self.spec.coupler_point
+        return 0j if point is None else complex(point.along, point.across)
+
+    @cached_property
+    def path_bar(self) -> PathBar:
+        """The five-bar of the path form, given or found; it closes over its whole period."""
+        bar = self.start_path if self.fit is None else self.fit.bar
+        with at_key("links"):
+            bar.closure()
+        return bar
+
+    @property
+    def offset(self) -> complex:
+        """The coupler point, u + i v [mm]."""
+        return self._start_offset if self.fit is None else self.fit.offset
+
+    @cached_property
+    def positions(self) -> list[tuple[float, float]] | None:
+        """Pairs of input and output angle that are asked for [rad]."""
+        target = self.spec.target
+        if target is None or target.positions is None:
+            return None
+        return [(math.radians(phi), math.radians(psi)) for phi, psi in target.positions]
+
+    @cached_property
+    def function_bar(self) -> FunctionBar:
+        """The five-bar of the function form, given or found; it closes over the range."""
+        links, positions = self.spec.links, self.positions
+        length = self._fixed_length("input")
+        lengths = (length, links.coupler, links.follower, links.output, links.frame or 0.0)
+        with at_key("links"):
+            bar = FunctionBar(*lengths, float(self.ratio), math.radians(self.spec.phase), self.spec.assembly)
+        if positions is not None:
+            from gearlink.core.five_bar.positions import five_bar_for_positions
+
+            with at_key("target.positions"):
+                bar = five_bar_for_positions(bar, positions, math.radians(self.spec.limits.transmission_angle))
+        with at_key("range" if self.spec.range is not None else "links"):
+            bar.closure(*self.input_range)
+        return bar
+
+    @cached_property
+    def input_range(self) -> tuple[float, float]:
+        """Input angles of the function form [rad]: given, from the first position to the last, or one period."""
+        asked = self.spec.range
+        if asked is not None:
+            return math.radians(asked.start), math.radians(asked.end)
+        if self.positions is not None:
+            return self.positions[0][0], self.positions[-1][0]
+        return 0.0, _TURN * self.period_turns
+
+    @property
+    def bar(self) -> PathBar | FunctionBar:
+        """The five-bar of either form."""
+        return self.path_bar if self.is_path else self.function_bar

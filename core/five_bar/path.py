@@ -1,0 +1,201 @@
+"""Path of the coupler point of a geared five-bar over arrays of input angles, and its distance from given points."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from gearlink.core.five_bar.family import near_places
+from gearlink.core.five_bar.path_motion import GearedFiveBar
+from gearlink.core.numerics.arrays import Points, Reals
+from gearlink.core.numerics.extremes import Extreme, maximum_over, minimum_over
+
+_PER_TURN, _FEW_TURNS, _PER_WAVE = 720, 4, 48
+# So many branches of a path that crosses itself are tried for each point.
+_BRANCHES = 3
+# Distances that are held at a time.
+_AT_ONCE = 1_000_000
+
+
+@dataclass(frozen=True, slots=True)
+class PathSweep:
+    """The five-bar over input angles: coupler angle continuous from the first row, rates per input angle."""
+
+    coupler_angle: Reals
+    transmission_angle: Reals
+    point: Points
+    velocity: Points
+
+
+def sweep(bar: GearedFiveBar, phi: Reals, offset: complex) -> PathSweep:
+    """Coupler angle, transmission angle, coupler point and its velocity.
+
+    w2 = Re[(B' - D') e^(-i t3)]/(b sin(t2 - t3)),   M' = B' + i w2 (M - B)
+
+    Parameters
+        bar : GearedFiveBar
+        phi : (N,) array [rad] - ascending
+        offset : complex [mm] - u + i v
+    Returns
+        sweep : PathSweep - angles [rad], point [mm], velocity [mm/rad]
+    Raises
+        NoSolution - where the five-bar opens anywhere in its period
+    Example
+        >>> from fractions import Fraction
+        >>> bar = GearedFiveBar(20.0, 60.0, 60.0, 20.0, 50.0, Fraction(-1), math.radians(90.0))
+        >>> point = sweep(bar, np.radians([60.0, 200.0]), 60.0 + 0j).point
+        >>> [complex(round(m.real, 9), round(m.imag, 9)) for m in point]
+        [(45.321887013+65.821686389j), (21.851649007+37.295106807j)]
+
+    Source
+        own derivation
+    """
+    bar.closure()
+    start, end, u2, u3, gamma = _position(bar, phi)
+    velocity = _velocity(bar, start, end, u2, u3, offset)
+    return PathSweep(_continuous(bar, phi), gamma, start + offset * u2, velocity)
+
+
+def points(bar: GearedFiveBar, phi: Reals, offset: complex) -> Points:
+    """The coupler point alone [mm]; closure is not checked (NaN where the five-bar opens).
+
+    Source
+        own derivation
+    """
+    start, _, u2, _, _ = _position(bar, phi)
+    result: Points = start + offset * u2
+    return result
+
+
+def _position(bar: GearedFiveBar, phi: Reals) -> tuple[Points, Points, Points, Points, Reals]:
+    """B, D, unit vectors of coupler (B->C) and follower (D->C), transmission angle."""
+    b, c = bar.coupler, bar.follower
+    start = bar.input * np.exp(1j * phi)
+    end = bar.frame + bar.output * np.exp(1j * (bar.phase + float(bar.ratio) * phi))
+    way = end - start
+    n = np.abs(way)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        near, far = (n - b + c) * (n + b - c), (b + c - n) * (b + c + n)
+        height = 0.5 * np.sqrt(near * far) / n
+        along = 0.5 * (n + (b - c) * (b + c) / n)
+        joint = start + way / n * (along + 1j * bar.assembly * height)
+        gamma = 2.0 * np.arctan2(np.sqrt(near), np.sqrt(far))
+    return start, end, (joint - start) / b, (joint - end) / c, gamma
+
+
+def _velocity(bar: GearedFiveBar, start: Points, end: Points, u2: Points, u3: Points, offset: complex) -> Points:
+    """Velocity of the coupler point, of what `_position` gives."""
+    speeds = 1j * start, 1j * float(bar.ratio) * (end - bar.frame)
+    w2 = ((speeds[0] - speeds[1]) * np.conj(u3)).real / (bar.coupler * (u2 * np.conj(u3)).imag)
+    velocity: Points = speeds[0] + 1j * w2 * offset * u2
+    return velocity
+
+
+def _continuous(bar: GearedFiveBar, phi: Reals) -> Reals:
+    """Coupler angle without jumps, however near the five-bar comes to its dead points.
+
+    The coupler stands within half a turn of BD, always on the same side: it winds as BD does.
+    """
+    start, end, u2, _, _ = _position(bar, phi)
+    angle, way = np.angle(u2), end - start
+    wound = np.concatenate(([0.0], np.cumsum(_windings(bar, phi[:-1], phi[1:]))))
+    turned = np.angle(way[:1]) + wound + np.angle(u2 * np.conj(way))
+    turns = np.round((turned - angle) / (2.0 * math.pi))
+    return np.asarray(angle + 2.0 * math.pi * (turns - turns[:1]))
+
+
+def _windings(bar: GearedFiveBar, left: Reals, right: Reals) -> Reals:
+    """Angles by which BD turns between pairs of input angles.
+
+    |D' - B'| <= a + |k| e: while BD moves by less than its length it turns by less than a right angle. Elsewhere the
+    step is halved.
+    """
+    fastest = bar.input + abs(float(bar.ratio)) * bar.output
+    first, last = _way(bar, left), _way(bar, right)
+    middle = 0.5 * (left + right)
+    split = (fastest * (right - left) >= np.abs(first)) & (left < middle) & (middle < right)
+    turned = np.angle(last * np.conj(first))
+    if np.any(split):
+        low, middle, high = left[split], middle[split], right[split]
+        halves = _windings(bar, np.concatenate((low, middle)), np.concatenate((middle, high)))
+        turned[split] = halves[: low.size] + halves[low.size :]
+    return np.asarray(turned)
+
+
+def _way(bar: GearedFiveBar, phi: Reals) -> Points:
+    """The vector BD."""
+    end = bar.frame + bar.output * np.exp(1j * (bar.phase + float(bar.ratio) * phi))
+    way: Points = end - bar.input * np.exp(1j * phi)
+    return way
+
+
+def extent(bar: GearedFiveBar, offset: complex) -> tuple[Extreme, Extreme, Extreme, Extreme]:
+    """Least and greatest x, least and greatest y of the path, refined, with their input angles.
+
+    Raises
+        NoSolution - where the five-bar opens
+    Source
+        own derivation
+    """
+    bar.closure()
+    end, count = bar.period, _places(bar)
+
+    def part(direction: complex) -> tuple[Extreme, Extreme]:
+        def along(phi: Reals) -> Reals:
+            return np.asarray((points(bar, phi, offset) * np.conj(direction)).real)
+
+        return minimum_over(along, 0.0, end, samples=count), maximum_over(along, 0.0, end, samples=count)
+
+    return (*part(1.0 + 0j), *part(1j))
+
+
+def distances(bar: GearedFiveBar, offset: complex, targets: Points) -> tuple[Reals, Reals]:
+    """Distance of each point from the path, and the input angle of the path's nearest place.
+
+    Parameters
+        bar : GearedFiveBar
+        offset : complex [mm] - u + i v
+        targets : (N,) complex array [mm]
+    Returns
+        distance, phi : (N,) arrays [mm], [rad] in [0, period)
+    Raises
+        NoSolution - where the five-bar opens
+    Notes
+        The three nearest branches of the path on a grid of 720 places a turn (48 a wave of the fastest part after four
+        turns), then golden section between the neighbours of each: the distance to rounding.
+    Source
+        own derivation
+    """
+    bar.closure()
+    step, middle = _near(bar, offset, targets)
+    low, high, aims = middle - step, middle + step, targets[:, None]
+    share = (math.sqrt(5.0) - 1.0) / 2.0
+    for _ in range(60):
+        p, q = high - share * (high - low), low + share * (high - low)
+        closer = np.abs(points(bar, p, offset) - aims) <= np.abs(points(bar, q, offset) - aims)
+        low, high = np.where(closer, low, p), np.where(closer, q, high)
+    phi = 0.5 * (low + high)
+    away = np.abs(points(bar, phi, offset) - aims)
+    rows, best = np.arange(targets.size), np.argmin(away, axis=1)
+    return away[rows, best], phi[rows, best] % bar.period
+
+
+def _near(bar: GearedFiveBar, offset: complex, targets: Points) -> tuple[float, Reals]:
+    """Step of a grid over the period, and its input angles (N, 3) at which the path passes the points nearest."""
+    count = _places(bar)
+    step, at_once = bar.period / count, max(1, _AT_ONCE // count)
+    grid = np.asarray(step * np.arange(count), dtype=np.float64)
+    start, end, u2, u3, _ = _position(bar, grid)
+    path, velocity = start + offset * u2, _velocity(bar, start, end, u2, u3, offset)
+    blocks = [targets[i : i + at_once] for i in range(0, targets.size, at_once)]
+    places = [near_places(path[None, :], velocity[None, :], step, block, _BRANCHES)[0] for block in blocks]
+    return step, grid[np.concatenate(places)]
+
+
+def _places(bar: GearedFiveBar) -> int:
+    """Places of a grid over the period on which no branch of the path is missed."""
+    k = float(bar.ratio)
+    waves = bar.period_turns * max(1.0, abs(k), abs(1.0 - k))
+    return max(_PER_TURN * min(bar.period_turns, _FEW_TURNS), math.ceil(_PER_WAVE * waves))

@@ -1,0 +1,151 @@
+"""The design file of a geared five-bar, for a path or for a function."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from gearlink.core.linkages.spec_parts import LinkageLimits
+from gearlink.core.spec import Angle, Assembly, DesignSpec, Length, PressureAngle, SignedLength, Spec, Teeth
+
+TurnAngle = Annotated[float, Field(ge=-3600, le=3600, json_schema_extra={"unit": "deg"})]
+
+
+class FiveBarGears(Spec):
+    """The gears: input and output for a path, planet and sun or ring for a function."""
+
+    module: Length = Field(description="module")
+    input: Teeth | None = Field(None, description="path: teeth z1 of the gear on the input link")
+    output: Teeth | None = Field(None, description="path: teeth z4 of the gear on the output link")
+    idler: Teeth | None = Field(None, description="path: teeth of an idler between them; then both turn the same way")
+    mesh: Literal["external", "internal"] = Field(
+        "external", description="path, without an idler: internal where the larger gear is a ring"
+    )
+    planet: Teeth | None = Field(None, description="function: teeth z2 of the gear fixed to the coupler at B")
+    sun: Teeth | None = Field(None, description="function: teeth z5 of the gear fixed to the frame at A")
+    ring: Teeth | None = Field(None, description="function: teeth z5 of a fixed ring gear about A, in place of sun")
+    pressure_angle: PressureAngle = Field(20.0, description="pressure angle of the reference profile")
+
+
+class FiveLinks(Spec):
+    """The links; with `target` they are a start."""
+
+    input: Length | None = Field(None, description="AB; function: left out, the centre distance of planet and sun")
+    coupler: Length = Field(description="BC")
+    follower: Length = Field(description="CD")
+    output: Length = Field(description="DE")
+    frame: Length | None = Field(
+        None, description="AE; path with gears in direct mesh: left out, their centre distance"
+    )
+
+
+class CouplerPoint(Spec):
+    """A point on the coupler."""
+
+    along: SignedLength = Field(description="from B towards C")
+    across: SignedLength = Field(0.0, description="to the left of B->C")
+
+
+class InputRange(Spec):
+    """Input angles over which a function is generated."""
+
+    start: TurnAngle = Field(0.0, description="first input angle")
+    end: TurnAngle = Field(description="last input angle")
+
+
+class FiveBarTarget(Spec):
+    """The links are found for it."""
+
+    points: (
+        Annotated[
+            list[Annotated[list[SignedLength], Field(min_length=2, max_length=2)]], Field(min_length=3, max_length=200)
+        ]
+        | None
+    ) = Field(None, description="path: points [x, y] through which the coupler point shall run, any order")
+    positions: (
+        Annotated[
+            list[Annotated[list[TurnAngle], Field(min_length=2, max_length=2)]], Field(min_length=2, max_length=5)
+        ]
+        | None
+    ) = Field(None, description="function: two to five pairs [input angle, output angle]")
+    tolerance: Length | None = Field(None, description="path: greatest distance of a point that is let pass")
+
+
+class GearedFiveBarSpec(DesignSpec):
+    """Two couplers between two links that gears hold in ratio."""
+
+    kind: Literal["geared-five-bar"]
+    form: Literal["path", "function"] = Field("path", description="path of a coupler point, or output over input angle")
+    gears: FiveBarGears
+    links: FiveLinks
+    phase: Angle = Field(
+        description="at input angle 0: direction of the output link (path) or of the coupler (function)"
+    )
+    coupler_point: CouplerPoint | None = Field(None, description="path: the point M")
+    range: InputRange | None = Field(None, description="function: left out, one turn of the input")
+    assembly: Assembly = Field(1, description="path, +1: C left of B->D; function, +1: D left of C->E")
+    target: FiveBarTarget | None = None
+    limits: LinkageLimits = LinkageLimits()
+
+    @model_validator(mode="after")
+    def _form(self) -> GearedFiveBarSpec:
+        for key, needed in _NEEDED[self.form].items():
+            section, _, name = key.partition(".")
+            value = getattr(self, section)
+            if (getattr(value, name) if name else value) is None:
+                raise PydanticCustomError("GL106", "the form {form} needs {needed}", {
+                    "key": key, "form": self.form, "needed": needed,
+                })  # fmt: skip
+        if self.form == "path":
+            self._path()
+        else:
+            self._function()
+        return self
+
+    def _path(self) -> None:
+        gears, links = self.gears, self.links
+        _refuse(self.target is not None and self.target.positions is not None, "target.positions",
+                "positions go with form: function; give points")  # fmt: skip
+        _refuse(self.range is not None, "range", "range goes with form: function; a path has its whole period")
+        _refuse(any(z is not None for z in (gears.planet, gears.sun, gears.ring)), "gears",
+                "planet, sun and ring go with form: function; give input and output")  # fmt: skip
+        _refuse(gears.mesh == "internal" and gears.idler is not None, "gears.mesh",
+                "an idler meshes outside both gears: leave mesh or idler out")  # fmt: skip
+        _refuse(gears.mesh == "internal" and gears.input == gears.output, "gears.output",
+                "a ring gear needs more teeth than the gear in it: change input or output")  # fmt: skip
+        _refuse(gears.idler is not None and links.frame is None, "links.frame",
+                "with an idler the gears do not fix the frame: give links.frame")  # fmt: skip
+
+    def _function(self) -> None:
+        gears = self.gears
+        _refuse(self.target is not None and self.target.points is not None, "target.points",
+                "points go with form: path; give positions")  # fmt: skip
+        _refuse(any(z is not None for z in (gears.input, gears.output, gears.idler)), "gears",
+                "input, output and idler go with form: path; give planet and sun or ring")  # fmt: skip
+        _refuse((gears.sun is None) == (gears.ring is None), "gears.sun", "give either sun or ring")
+        _refuse(gears.ring is not None and gears.planet is not None and gears.ring <= gears.planet, "gears.ring",
+                "a ring gear needs more teeth than the gear in it: change ring or planet")  # fmt: skip
+        _refuse(self.range is not None and self.range.end <= self.range.start, "range.end",
+                "the range ends before it starts: give a greater end")  # fmt: skip
+
+    def commands(self) -> tuple[str, ...]:
+        """What the file asks for."""
+        return ("analyze", "gear")
+
+
+_NEEDED = {
+    "path": {
+        "gears.input": "gears.input and gears.output",
+        "gears.output": "gears.input and gears.output",
+        "links.input": "links.input",
+        "coupler_point": "coupler_point: {along: mm, across: mm}",
+    },
+    "function": {"gears.planet": "gears.planet and gears.sun or gears.ring", "links.frame": "links.frame"},
+}
+
+
+def _refuse(wrong: bool, key: str, message: str) -> None:
+    if wrong:
+        raise PydanticCustomError("GL111", "{message}", {"key": key, "message": message})

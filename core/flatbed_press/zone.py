@@ -1,0 +1,112 @@
+"""The zone in which bed and cylinder of a flatbed press run together: where it starts and where it ends."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+from gearlink.core.errors import NoSolution
+from gearlink.core.flatbed_press.chains import BedChain, CylinderChain, difference
+from gearlink.core.numerics.roots import bracketed_root, maximum
+from gearlink.core.report import safely_below
+
+_TURN = 2.0 * math.pi
+_STEP = math.radians(3.0)
+
+
+def forward_stroke_end(bed: BedChain) -> float:
+    """Input angle at which the bed turns back [rad].
+
+    Notes
+        The slider's folded dead centre; found as the sign change of the bed's speed between a third of the
+        stroke's turn and the end.
+    """
+    steps = 36
+
+    def speed(angle: float) -> float:
+        return float(bed.travel(angle, 1).first)
+
+    last, last_speed = _TURN / steps, speed(_TURN / steps)
+    for i in range(2, steps + 1):
+        angle = _TURN * i / steps
+        here = speed(angle)
+        if last_speed > 0.0 >= here:
+            return bracketed_root(speed, last, angle)
+        last, last_speed = angle, here
+    raise NoSolution("the bed never turns back within a turn: check stroke, rod and offset of the bed")
+
+
+def equal_speed_angle(bed: BedChain, cylinder: CylinderChain) -> float:
+    """First input angle after the start at which bed and cylinder have the same speed [rad].
+
+    p'(phi) = q'(phi),  0 < phi < the bed's turning point
+
+    Raises
+        NoSolution - when the speeds never meet on the forward stroke; the message says which change of the
+            cylinder's initial crank angle makes them meet
+    Notes
+        Signs are taken every 3 deg; a crest that comes near zero between two points is refined first, so two
+        close roots are not stepped over. The root is then exact to the last bits.
+    Source
+        TY-460 report 3.2
+    """
+    end = forward_stroke_end(bed)
+    root = _first_root(bed, cylinder, end)
+    if root is None:
+        raise NoSolution(
+            "bed and cylinder never have the same speed on the forward stroke, so there is no synchronous zone "
+            f"without a jolt: {_shift_that_helps(bed, cylinder, end)}",
+            key="cylinder.initial_crank_angle",
+        )
+    return root
+
+
+def zone_end(cylinder: CylinderChain, start: float, length: float) -> float:
+    """Input angle at which the cylinder has turned `length` [mm] beyond `start` [rad].
+
+    Raises
+        NoSolution - when a whole turn is not enough
+    Source
+        TY-460 report 3.2
+    """
+    begin = float(cylinder.travel(start).value)
+    most = float(cylinder.travel(start + _TURN).value) - begin
+    if length >= most:
+        raise NoSolution(
+            f"the zone of {length:g} mm is not shorter than the cylinder's travel per sheet, {most:.6g} mm: set "
+            f"sync.length below {safely_below(most)} mm",
+            key="sync.length",
+        )
+    return bracketed_root(lambda phi: float(cylinder.travel(phi).value) - begin - length, start, start + _TURN)
+
+
+def _first_root(bed: BedChain, cylinder: CylinderChain, end: float) -> float | None:
+    def excess(phi: float) -> float:
+        return float(difference(bed, cylinder, phi, 1).first)
+
+    count = max(8, math.ceil(end / _STEP))
+    grid = [end * i / count for i in range(count + 1)]
+    values = [excess(grid[0]), excess(grid[1])]
+    for i in range(1, count + 1):
+        if values[i - 1] * values[i] < 0.0 or values[i] == 0.0:
+            return bracketed_root(excess, grid[i - 1], grid[i])
+        if i < count:
+            values.append(excess(grid[i + 1]))
+        crest = 1 <= i < count and abs(values[i]) <= min(abs(values[i - 1]), abs(values[i + 1]))
+        if crest:
+            sign = -1.0 if values[i] > 0.0 else 1.0
+            place, value = maximum(lambda phi, sign=sign: sign * excess(phi), grid[i - 1], grid[i + 1])  # type: ignore[misc]
+            if value >= 0.0:
+                return bracketed_root(excess, grid[i - 1], place)
+    return None
+
+
+def _shift_that_helps(bed: BedChain, cylinder: CylinderChain, end: float) -> str:
+    """The smallest whole-degree shift of the cylinder's crank for which the speeds meet."""
+    for degrees in range(1, 181):
+        for sign in (1, -1):
+            shifted = replace(cylinder, initial_angle=cylinder.initial_angle + math.radians(sign * degrees))
+            if _first_root(bed, shifted, end) is not None:
+                value = math.degrees(math.remainder(shifted.initial_angle, _TURN))
+                return f"they meet with initial_crank_angle {value:.9g} deg ({sign * degrees:+d} deg)"
+    return "no initial crank angle of the cylinder helps; change the cylinder's radius or the bed's stroke"

@@ -1,0 +1,166 @@
+"""An internal mesh without profile shift: pinion in a ring gear, at the reference centre distance."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+from gearlink.core.errors import NoSolution
+from gearlink.core.gears.involute import involute
+
+Pair = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class InternalMesh:
+    """Pinion and ring gear; a pair is (pinion, ring).
+
+    a = m (z_2 - z_1)/2
+
+    Parameters
+        module : float [mm]
+        teeth : (int, int) - pinion z_1, ring z_2 > z_1
+        pressure_angle : float [rad] - alpha
+        addendum, clearance : float [module] - h_a*, c*
+    Raises
+        NoSolution - for a module that is not positive, or a ring that is not larger than the pinion
+    Example
+        >>> mesh = InternalMesh(2.0, (48, 62))
+        >>> mesh.center_distance, round(mesh.contact_ratio, 6)
+        (14.0, 2.036356)
+
+    Source
+        ISO 21771
+    """
+
+    module: float
+    teeth: tuple[int, int]
+    pressure_angle: float = math.radians(20.0)
+    addendum: float = 1.0
+    clearance: float = 0.25
+
+    def __post_init__(self) -> None:
+        pinion, ring = self.teeth
+        if not 0.0 < self.module < math.inf:
+            raise NoSolution(f"module {self.module:g} mm: it must be positive")
+        if not 1 <= pinion < ring:
+            raise NoSolution(f"a ring gear of {ring} teeth does not take a gear of {pinion}: it needs more teeth")
+
+    @property
+    def center_distance(self) -> float:
+        """Centre distance, m (z_2 - z_1)/2 [mm].
+
+        Source
+            ISO 21771
+        """
+        return self.module * (self.teeth[1] - self.teeth[0]) / 2.0
+
+    @property
+    def reference_radius(self) -> Pair:
+        """Reference radii [mm], here the working ones too.
+
+        Source
+            ISO 21771
+        """
+        return self.module * self.teeth[0] / 2.0, self.module * self.teeth[1] / 2.0
+
+    @property
+    def base_radius(self) -> Pair:
+        """Base radii, r cos(alpha) [mm].
+
+        Source
+            ISO 21771
+        """
+        r_1, r_2 = self.reference_radius
+        return r_1 * math.cos(self.pressure_angle), r_2 * math.cos(self.pressure_angle)
+
+    @property
+    def tip_radius(self) -> Pair:
+        """Tip radii [mm]; the ring's tips point inward.
+
+        Source
+            ISO 21771
+        """
+        r_1, r_2 = self.reference_radius
+        return r_1 + self.addendum * self.module, r_2 - self.addendum * self.module
+
+    @property
+    def root_radius(self) -> Pair:
+        """Root radii [mm].
+
+        Source
+            ISO 21771
+        """
+        depth = (self.addendum + self.clearance) * self.module
+        r_1, r_2 = self.reference_radius
+        return r_1 - depth, r_2 + depth
+
+    @cached_property
+    def tip_pressure_angle(self) -> Pair:
+        """Pressure angles at the tips [rad].
+
+        Raises
+            NoSolution - where the ring's tips lie inside its base circle
+        Source
+            ISO 21771
+        """
+        (a_1, a_2), (b_1, b_2) = self.tip_radius, self.base_radius
+        if a_2 < b_2:
+            least = math.ceil(2.0 * self.addendum / (1.0 - math.cos(self.pressure_angle)))
+            raise NoSolution(
+                f"the tips of the ring gear ({a_2:.6g} mm) lie inside its base circle ({b_2:.6g} mm), where there is "
+                f"no involute: it needs at least {least} teeth"
+            )
+        return math.acos(b_1 / a_1), math.acos(b_2 / a_2)
+
+    @cached_property
+    def contact_ratio(self) -> float:
+        """Transverse contact ratio.
+
+        eps = (z_1 (tan alpha_a1 - tan alpha) - z_2 (tan alpha_a2 - tan alpha))/(2 pi)
+
+        Raises
+            NoSolution - as `tip_pressure_angle`
+        Source
+            ISO 21771
+        """
+        tip_1, tip_2 = (math.tan(angle) for angle in self.tip_pressure_angle)
+        reference = math.tan(self.pressure_angle)
+        return (self.teeth[0] * (tip_1 - reference) - self.teeth[1] * (tip_2 - reference)) / (2.0 * math.pi)
+
+    @cached_property
+    def interference_margin(self) -> float:
+        """How far the contact at the ring's tips stays from the pinion's base circle on the line of action [mm].
+
+        sqrt(r_a2^2 - r_b2^2) - a sin(alpha) >= 0
+
+        Raises
+            NoSolution - as `tip_pressure_angle`
+        Source
+            own derivation
+        """
+        reach = self.base_radius[1] * math.tan(self.tip_pressure_angle[1])
+        return reach - self.center_distance * math.sin(self.pressure_angle)
+
+    @cached_property
+    def tip_fouling_margin(self) -> float:
+        """Room between the tips where they leave each other, as an arc on the ring's tip circle [mm].
+
+        z_1 (inv alpha_a1 + delta_1) - z_2 (inv alpha_a2 + delta_2) + (z_2 - z_1) inv alpha >= 0,
+        delta_1, delta_2 the angles at the two axes from the line of centres to where the tip circles cross
+
+        Raises
+            NoSolution - as `tip_pressure_angle`
+        Notes
+            At 20 deg and full teeth the tips of rings with about 8 teeth more than the pinion come free.
+        Source
+            own derivation: a tip corner of the pinion against the ring's flank where the tip circles cross
+        """
+        (a_1, a_2), distance = self.tip_radius, self.center_distance
+        delta_1 = math.acos(((a_2 - a_1) * (a_2 + a_1) - distance**2) / (2.0 * a_1 * distance))
+        delta_2 = math.acos((distance**2 + (a_2 - a_1) * (a_2 + a_1)) / (2.0 * a_2 * distance))
+        inv_1, inv_2 = (involute(angle) for angle in self.tip_pressure_angle)
+        z_1, z_2 = self.teeth
+        room = z_1 * (inv_1 + delta_1) - z_2 * (inv_2 + delta_2) + (z_2 - z_1) * involute(self.pressure_angle)
+        return room / z_2 * a_2

@@ -1,0 +1,93 @@
+"""How the teeth of gears in mesh stand to each other while their axes move."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gearlink.core.gears.internal_mesh import InternalMesh
+from gearlink.core.numerics.arrays import Points, Reals
+
+
+def driven_turn(teeth: tuple[int, int], line_of_centres: ArrayLike, turn: ArrayLike) -> Reals:
+    """Place of the second gear of an external mesh for a place of the first.
+
+    z_1 (t_1 - psi) + z_2 (t_2 - psi - pi) = -pi
+
+    Parameters
+        teeth : (int, int) - z_1, z_2
+        line_of_centres : array [rad] - psi, direction from the first axis to the second; continuous over a motion
+        turn : array [rad] - t_1, direction of the middle of a tooth space of the first gear
+    Returns
+        turn : array [rad] - t_2, direction of the middle of a tooth space of the second gear
+    Notes
+        A tooth of gear 1 on the line of centres stands in the middle of a space of gear 2; from there both roll. In a
+        mesh without backlash both flanks then touch.
+    Example
+        >>> round(float(driven_turn((20, 40), 0.0, -math.pi / 20)), 9)
+        3.141592654
+
+    Source
+        own derivation: rolling of the working circles, counted from the line of centres
+    """
+    z1, z2 = teeth
+    psi, first = np.asarray(line_of_centres, dtype=float), np.asarray(turn, dtype=float)
+    return np.asarray(psi + math.pi - (math.pi + z1 * (first - psi)) / z2)
+
+
+def ring_turn(teeth: tuple[int, int], line_of_centres: ArrayLike, turn: ArrayLike) -> Reals:
+    """Place of a ring gear for a place of the gear inside it.
+
+    z_1 (t_1 - psi) = z_2 (t_2 - psi)
+
+    Parameters
+        teeth : (int, int) - z_1 of the gear, z_2 of the ring
+        line_of_centres : array [rad] - psi, direction from the ring's axis to that of the gear; continuous
+        turn : array [rad] - t_1, direction of the middle of a tooth space of the gear
+    Returns
+        turn : array [rad] - t_2, direction of the middle of a tooth of the ring
+    Example
+        >>> round(float(ring_turn((20, 40), 0.0, math.pi / 20)), 9)
+        0.078539816
+
+    Source
+        own derivation, as `driven_turn`
+    """
+    z1, z2 = teeth
+    psi, first = np.asarray(line_of_centres, dtype=float), np.asarray(turn, dtype=float)
+    return np.asarray(psi + z1 * (first - psi) / z2)
+
+
+def ring_outline(mesh: InternalMesh, points_on_flank: int = 6) -> Points:
+    """Inner outline of a ring gear with involute flanks, closed; the x axis is the middle of a tooth.
+
+    z(t) = r_b (1 - i t) exp(i (pi/(2 z) - inv(alpha) + t)),   tan(alpha_a2) <= t <= tan(alpha_f2)
+
+    Parameters
+        mesh : InternalMesh
+        points_on_flank : int - at least 2
+    Returns
+        points : (N,) array [mm] - counter-clockwise
+    Raises
+        NoSolution - where the ring's tips lie inside its base circle
+    Example
+        >>> ring = ring_outline(InternalMesh(2.0, (48, 62)))
+        >>> round(float(abs(ring).min()), 9), round(float(abs(ring).max()), 9)
+        (60.0, 64.5)
+
+    Source
+        own derivation: the space of the ring is the tooth of an outer gear of as many teeth
+    """
+    z, base, alpha = mesh.teeth[1], mesh.base_radius[1], mesh.pressure_angle
+    at_base = math.pi / (2.0 * z) - (math.tan(alpha) - alpha)
+    low = math.tan(mesh.tip_pressure_angle[1])
+    high = math.sqrt((mesh.root_radius[1] / base - 1.0) * (mesh.root_radius[1] / base + 1.0))
+    roll = np.linspace(low, high, points_on_flank)
+    flank = base * (1.0 - 1j * roll) * np.exp(1j * (at_base + roll))
+    half = np.concatenate([[mesh.tip_radius[1] + 0j], flank, [mesh.root_radius[1] * np.exp(1j * math.pi / z)]])
+    tooth = np.concatenate([half[:0:-1].conj(), half[:-1]])
+    turns = np.exp(2j * math.pi / z * np.arange(z))
+    ring: Points = (turns[:, None] * tooth[None, :]).ravel()
+    return np.concatenate([ring, ring[:1]])

@@ -1,0 +1,92 @@
+"""Designs with one gear mesh: its quantities by their plain names, its checks, external or internal."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cached_property
+from typing import Any
+
+from gearlink.core.design import Design
+from gearlink.core.errors import at_key
+from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, gear_check, gear_quantity
+from gearlink.core.gears.internal_mesh import InternalMesh
+from gearlink.core.gears.pair import GearPair
+from gearlink.core.gears.teeth import min_shift_no_undercut
+from gearlink.core.report import Check, Status, below
+
+INTERNAL_QUANTITIES = (
+    "center_distance",
+    "contact_ratio",
+    "reference_radius",
+    "base_radius",
+    "tip_radius",
+    "root_radius",
+    "tip_pressure_angle",
+    "tip_fouling_margin",
+)
+MESH_QUANTITIES = (*GEAR_QUANTITIES, "tip_fouling_margin")
+MESH_CHECKS = (*GEAR_CHECKS, "tip-fouling")
+
+
+class SingleMesh(Design):
+    """A design with one gear mesh; the gear first in its pairs is the one that the subclass names first."""
+
+    @cached_property
+    def mesh(self) -> GearPair | InternalMesh:
+        """The mesh."""
+        raise NotImplementedError
+
+    def raw(self, name: str) -> Any:
+        """The quantities of the mesh (None where this kind of mesh has none), and the design's own."""
+        if name not in MESH_QUANTITIES:
+            return super().raw(name)
+        known = GEAR_QUANTITIES if isinstance(self.mesh, GearPair) else INTERNAL_QUANTITIES
+        if name not in known:
+            return None
+        with at_key("gears"):
+            return gear_quantity(self.mesh, name) if isinstance(self.mesh, GearPair) else getattr(self.mesh, name)
+
+    def check(self, name: str) -> list[Check]:
+        """The checks of the mesh, and the design's own."""
+        if name not in MESH_CHECKS:
+            return super().check(name)
+        return mesh_checks(name, self.mesh, self.spec.limits)
+
+
+def mesh_checks(name: str, mesh: GearPair | InternalMesh, limits: Any, label: str = "") -> list[Check]:
+    """The findings of one of MESH_CHECKS on a mesh, which goes by a label where a design has several.
+
+    Source
+        ISO 21771 for the quantities
+    """
+    if isinstance(mesh, InternalMesh):
+        with at_key("gears"):
+            return list(_internal_check(name, mesh, limits))
+    return [] if name == "tip-fouling" else list(gear_check(name, mesh, limits, label))
+
+
+def _internal_check(name: str, mesh: InternalMesh, limits: Any) -> Iterator[Check]:
+    """The findings of one of MESH_CHECKS on an internal mesh; thickness and root clearance are the standard's."""
+    if name == "undercut":
+        least = min_shift_no_undercut(mesh.teeth[0], mesh.pressure_angle, mesh.addendum)
+        subject, remedy = "the room of the planet's root before undercut, -x_min,", "take more planet teeth"
+        yield below("GL201", name, 0.0 - least, 0.0 - limits.undercut, 0.0, "1", subject, remedy)
+    elif name == "contact-ratio":
+        limit = limits.contact_ratio
+        remedy = "take more teeth of a smaller module"
+        yield below("GL203", name, mesh.contact_ratio, limit, limit + 0.1, "1", "the contact ratio", remedy)
+    elif name == "involute-interference":
+        what, where = "the tips of the ring gear", "the planet's root inside its base circle"
+        remedy = "give both more teeth of a smaller module, or the planet alone more"
+        yield _margin("GL204", name, mesh.interference_margin, what, where, remedy)
+    elif name == "tip-fouling":
+        what, remedy = "the tips of planet and ring gear", "give the ring gear more teeth, or the planet fewer"
+        yield _margin("GL206", name, mesh.tip_fouling_margin, what, "each other", remedy)
+
+
+def _margin(code: str, name: str, margin: float, what: str, where: str, remedy: str) -> Check:
+    status: Status = "fail" if margin < 0.0 else "pass"
+    text = f"{what} keep {margin:.4g} mm from cutting into {where}"
+    if status == "fail":
+        text = f"{what} cut {-margin:.4g} mm into {where}: {remedy}"
+    return Check(code, name, status, text, margin, 0.0, "mm")

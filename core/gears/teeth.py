@@ -1,0 +1,127 @@
+"""Teeth of one involute spur gear: undercut, pressure angle at a radius, span measurement."""
+
+from __future__ import annotations
+
+import math
+
+from gearlink.core.errors import NoSolution
+from gearlink.core.gears.involute import involute
+from gearlink.core.report import safely_above
+
+
+def min_shift_no_undercut(teeth: int, pressure_angle: float, addendum: float = 1.0) -> float:
+    """Least profile shift at which a rack cutter does not undercut the tooth root.
+
+    x_min = h_a* - z sin^2(alpha)/2
+
+    Parameters
+        teeth : int - number of teeth z
+        pressure_angle : float [rad] - of the reference profile, alpha
+        addendum : float [module] - h_a* of the reference profile
+    Returns
+        x_min : float [module] - negative where the gear tolerates a negative shift
+    Example
+        >>> round(min_shift_no_undercut(12, math.radians(20.0)), 6)
+        0.298133
+
+    Source
+        own derivation: the cutter's tip line passes the point where the line of action touches the base circle
+    """
+    return addendum - teeth * math.sin(pressure_angle) ** 2 / 2.0
+
+
+def pressure_angle_rise(radius: float, increase: float, pressure_angle: float, *, what: str = "radius") -> float:
+    """Rise of an involute's pressure angle from one radius to another.
+
+    cos(alpha + rise) = r cos(alpha)/(r + increase)
+
+    Parameters
+        radius : float [mm] - first radius r > 0; a centre distance obeys the same equation
+        increase : float [mm] - second radius less the first, either sign
+        pressure_angle : float [rad] - alpha at the first radius, 0 < alpha < pi/2
+        what : str - word for the radius in the message of NoSolution
+    Returns
+        rise : float [rad] - of the sign of the increase, exactly 0 at 0
+    Raises
+        NoSolution - when the second radius lies below the base radius r cos(alpha)
+    Notes
+        With R = r + increase, u = sqrt(R^2 - r_b^2), v = r sin(alpha), no difference of arc cosines is taken:
+        sin(rise) = cos(alpha) (R^2 - r^2)/(R (u + v)), cos(rise) = (r cos^2(alpha) + u sin(alpha))/R.
+        Full relative precision; near the base circle the condition number tan(alpha)/tan(alpha + rise) of
+        u is the problem's own.
+    Example
+        >>> round(math.degrees(pressure_angle_rise(288.0, 2.2912330746487, math.radians(20.0))), 10)
+        1.2076131545
+
+    Source
+        own derivation
+    """
+    base = radius * math.cos(pressure_angle)
+    above = increase + 2.0 * radius * math.sin(pressure_angle / 2.0) ** 2
+    if not above >= 0.0:
+        raise NoSolution(
+            f"{what} {radius + increase:.6g} mm lies inside the base circle, where there is no involute: "
+            f"it must be at least {safely_above(base, 6)} mm"
+        )
+    u = math.sqrt(above * (above + 2.0 * base))
+    v = radius * math.sin(pressure_angle)
+    sine = math.cos(pressure_angle) * increase * (2.0 * radius + increase) / (u + v)
+    return math.atan2(sine, base * math.cos(pressure_angle) + u * math.sin(pressure_angle))
+
+
+def span_measurement(module: float, teeth: int, shift: float, pressure_angle: float, span_teeth: int) -> float:
+    """Distance of two parallel planes that touch opposite flanks over a number of teeth (base tangent length).
+
+    W_k = m cos(alpha) (pi (k - 1/2) + z inv(alpha)) + 2 x m sin(alpha)
+
+    Parameters
+        module : float [mm] - m
+        teeth : int - number of teeth z
+        shift : float [module] - profile shift x
+        pressure_angle : float [rad] - alpha
+        span_teeth : int - teeth between the planes, k >= 1
+    Returns
+        W_k : float [mm] - for no backlash
+    Example
+        >>> round(span_measurement(2.0, 40, 0.0, math.radians(20.0), 5), 4)
+        27.6896
+
+    Source
+        own derivation: k - 1 base pitches and the tooth thickness on the base circle
+    """
+    arc = math.pi * (span_teeth - 0.5) + teeth * involute(pressure_angle)
+    return module * (math.cos(pressure_angle) * arc + 2.0 * shift * math.sin(pressure_angle))
+
+
+def span_teeth(teeth: int, shift: float, pressure_angle: float) -> int:
+    """Number of teeth whose span measurement touches the flanks nearest to the circle r + x m.
+
+    R_k = sqrt(r_b^2 + (W_k/2)^2), |R_k - (r + x m)| least
+
+    Parameters
+        teeth : int - number of teeth z
+        shift : float [module] - profile shift x
+        pressure_angle : float [rad] - alpha
+    Returns
+        k : int - 1 <= k <= z; the smaller of two that are equally near
+    Notes
+        R_k grows with k, so that only the two whole numbers beside the exact solution compete.
+    Example
+        >>> span_teeth(40, 0.0, math.radians(20.0)), span_teeth(72, 0.29, math.radians(20.0))
+        (5, 9)
+
+    Source
+        own derivation
+    """
+    base = teeth / 2.0 * math.cos(pressure_angle)
+    wanted = teeth / 2.0 + shift
+    reach = math.sqrt((wanted - base) * (wanted + base)) if wanted > base else 0.0
+    pitch = math.pi * math.cos(pressure_angle)
+    exact = 1.0 + (2.0 * reach - span_measurement(1.0, teeth, shift, pressure_angle, 1)) / pitch
+
+    def distance(k: int) -> float:
+        half = span_measurement(1.0, teeth, shift, pressure_angle, k) / 2.0
+        return abs(math.hypot(base, half) - wanted)
+
+    low = max(1, min(teeth, math.floor(exact)))
+    return min((low, min(teeth, low + 1)), key=distance)

@@ -1,0 +1,27 @@
+"""The design file of a slider-crank."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import Field, model_validator
+
+from gearlink.core.spec import DesignSpec, Length, SignedLength, require_offset_below_rod
+
+
+class SliderCrankSpec(DesignSpec):
+    """An offset slider-crank given by its stroke."""
+
+    kind: Literal["slider-crank"]
+    stroke: Length = Field(description="stroke of the slider")
+    rod: Length = Field(description="connecting rod")
+    offset: SignedLength = Field(0.0, description="offset of the slide line from the crank's axis")
+
+    @model_validator(mode="after")
+    def _reachable(self) -> SliderCrankSpec:
+        require_offset_below_rod(self.rod, self.offset, "offset")
+        return self
+
+    def commands(self) -> tuple[str, ...]:
+        """What the file asks for."""
+        return ("crank",)

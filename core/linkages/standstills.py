@@ -1,0 +1,132 @@
+"""Extremes and standstills of a motion over one turn of the crank, from its speed and its acceleration ratio."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import pairwise
+
+from gearlink.core.numerics.roots import bracketed_root, sign_changes
+
+Function = Callable[[float], float]
+
+TURN = 2.0 * math.pi
+
+# Every 2 deg, and halving steps towards 0 and 180 deg: near a change point the rates peak there, as narrowly as the
+# coupler and the rocker come near to one line.
+_HALVINGS = [math.radians(2.0) * 0.5**j for j in range(1, 15)]
+_GRID = sorted(
+    {math.radians(2.0 * i) for i in range(181)}
+    | {
+        math.radians(place) + side * step
+        for place, side in ((0, 1), (180, -1), (180, 1), (360, -1))
+        for step in _HALVINGS
+    }
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Turning:
+    """An extreme of the speed ratio: crank angle [rad] in [0, 2 pi) and value."""
+
+    place: float
+    speed: float
+
+
+@dataclass(frozen=True, slots=True)
+class BackStep:
+    """A stretch of negative speed: crank angles [rad] of its start and end, start <= end < start + 2 pi."""
+
+    start: float
+    end: float
+
+    @property
+    def crank_angle(self) -> float:
+        """Crank angle of the back-step [rad]."""
+        return self.end - self.start
+
+
+def zeros_over_turn(f: Function) -> list[float]:
+    """Zeros of a periodic function at which its sign changes.
+
+    Parameters
+        f : function of the crank angle [rad]
+    Returns
+        zeros : list of float [rad] - ascending in [0, 2 pi)
+    Notes
+        Signs on a grid of 2 deg, refined towards 0 and 180 deg, then bracketed roots; two zeros within one step of
+        the grid are missed.
+    Example
+        >>> [round(x, 12) for x in zeros_over_turn(math.cos)]
+        [1.570796326795, 4.712388980385]
+
+    Source
+        own derivation
+    """
+    values = [f(x) for x in _GRID]
+    roots = [bracketed_root(f, _GRID[i], _GRID[i + 1]) for i in sign_changes(values)]
+    return sorted(dict.fromkeys(root % TURN for root in roots))
+
+
+def turnings(speed: Function, acceleration: Function) -> list[Turning]:
+    """Extremes of the speed ratio over the turn, by the zeros of its derivative.
+
+    Parameters
+        speed, acceleration : functions of the crank angle [rad], the second the derivative of the first
+    Returns
+        turnings : list of Turning - in the order of the crank angle
+    Example
+        >>> [round(t.speed, 12) for t in turnings(lambda x: 1 + 2 * math.sin(x), lambda x: 2 * math.cos(x))]
+        [3.0, -1.0]
+
+    Source
+        own derivation
+    """
+    return [Turning(place, speed(place)) for place in zeros_over_turn(acceleration)]
+
+
+def standstills(speed: Function, extremes: list[Turning], tolerance: float) -> list[float]:
+    """Crank angles at which the speed ratio is zero, touching zeros among them.
+
+    Parameters
+        speed : function of the crank angle [rad]
+        extremes : list of Turning - of that speed; between two of them it runs one way, so no zero is missed
+        tolerance : float - an extreme within it of zero is one momentary standstill
+    Returns
+        places : list of float [rad] - ascending in [0, 2 pi)
+    Example
+        >>> f, slope = (lambda x: 1 + 2 * math.sin(x)), (lambda x: 2 * math.cos(x))
+        >>> [round(math.degrees(x), 9) for x in standstills(f, turnings(f, slope), 1e-9)]
+        [210.0, 330.0]
+
+    Source
+        own derivation
+    """
+    places = [t.place for t in extremes if abs(t.speed) <= tolerance]
+    around = [*extremes, Turning(extremes[0].place + TURN, extremes[0].speed)] if extremes else []
+    for one, other in pairwise(around):
+        if min(abs(one.speed), abs(other.speed)) > tolerance and one.speed * other.speed < 0.0:
+            places.append(bracketed_root(speed, one.place, other.place) % TURN)
+    return sorted(places)
+
+
+def back_steps(speed: Function, places: list[float]) -> list[BackStep]:
+    """The stretches between neighbouring standstills in which the speed ratio is negative.
+
+    Parameters
+        speed : function of the crank angle [rad]
+        places : list of float [rad] - from `standstills`
+    Returns
+        steps : list of BackStep - a momentary standstill makes none
+    Example
+        >>> [round(math.degrees(s.crank_angle), 9) for s in back_steps(lambda x: 1 + 2 * math.sin(x), [3.66, 5.76])]
+        [120.321136977]
+
+    Source
+        own derivation
+    """
+    if len(places) < 2:
+        return []
+    around = [*places, places[0] + TURN]
+    return [BackStep(a, b) for a, b in pairwise(around) if speed(0.5 * (a + b)) < 0.0]

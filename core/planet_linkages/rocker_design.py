@@ -1,0 +1,244 @@
+"""A rocker with a multiplied swing as a design: a gear on the coupler drives one on the rocker's axis."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from gearlink.core.design import Outline
+from gearlink.core.errors import NoSolution, at_key
+from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES
+from gearlink.core.gears.pair import GearPair
+from gearlink.core.gears.single_mesh import SingleMesh
+from gearlink.core.linkages.checks import axis_check, target_check, transmission_check
+from gearlink.core.linkages.fourbar import FourBar, solve
+from gearlink.core.linkages.nearest_passes import joint_to_crank_pivot
+from gearlink.core.planet_linkages.planet import PlanetLinkage
+from gearlink.core.planet_linkages.rocker_synthesis import crank_for_swing, extreme_crank_angles
+from gearlink.core.report import Check, Table
+from gearlink.core.three_gear.motion import check_linkage
+
+if TYPE_CHECKING:
+    from gearlink.core.planet_linkages.rocker_spec import GearedRockerSpec
+
+_LINK_TOLERANCE = 1e-9
+# A root to the last bit leaves some ulp of the swing: far below what teeth can tell.
+_SWING_TOLERANCE = math.radians(1e-9)
+
+
+class GearedRocker(SingleMesh):
+    """Crank-rocker with a gear on the coupler at C and the output gear on D; the rocker is their centre distance."""
+
+    kind = "geared-rocker"
+    spec: GearedRockerSpec
+    outlines = {
+        "analyze": Outline(
+            (
+                "coupler_gear_teeth",
+                "output_teeth",
+                "gear_ratio",
+                "crank_length",
+                "coupler_length",
+                "rocker_length",
+                "frame_length",
+                "rocker_swing",
+                "output_swing",
+                "swing_multiple",
+                "naive_multiple",
+                "extreme_crank_angles",
+                "speed_ratio_max",
+                "speed_ratio_min",
+                "min_transmission_angle",
+                "swing_residual",
+                "contact_ratio",
+            ),
+            ("target", "shaft-clearance", "transmission-angle", *GEAR_CHECKS),
+            ("motion",),
+        ),
+        "gear": Outline(GEAR_QUANTITIES, GEAR_CHECKS),
+    }
+
+    # Gears and links
+
+    @property
+    def coupler_gear_teeth(self) -> int:
+        """Teeth of the gear on the coupler."""
+        return self.spec.gears.coupler
+
+    @property
+    def output_teeth(self) -> int:
+        """Teeth of the output gear."""
+        return self.spec.gears.output
+
+    @property
+    def gear_ratio(self) -> float:
+        """Ratio i = -z2/z5."""
+        return -self.coupler_gear_teeth / self.output_teeth
+
+    @cached_property
+    def mesh(self) -> GearPair:
+        """Coupler gear and output gear."""
+        gears = self.spec.gears
+        alpha = math.radians(gears.pressure_angle)
+        with at_key("gears"):
+            return GearPair.from_shift(gears.module, (gears.coupler, gears.output), (0.0, 0.0), pressure_angle=alpha)
+
+    @property
+    def rocker_length(self) -> float:
+        """Centre distance of the gears [mm]."""
+        return self.spec.gears.module * (self.coupler_gear_teeth + self.output_teeth) / 2.0
+
+    @property
+    def coupler_length(self) -> float:
+        """Coupler [mm]."""
+        return self.spec.links.coupler
+
+    @property
+    def frame_length(self) -> float:
+        """Frame [mm]."""
+        return self.spec.links.frame
+
+    @cached_property
+    def crank_length(self) -> float:
+        """Crank [mm], given or found from the target."""
+        links, target = self.spec.links, self.spec.target
+        if links.crank is not None or target is None:
+            return links.crank or 0.0
+        swing = math.radians(target.swing)
+        with at_key("target.swing"):
+            return crank_for_swing(
+                links.coupler, self.rocker_length, links.frame, self.spec.assembly, self.gear_ratio, swing
+            )
+
+    @cached_property
+    def linkage(self) -> FourBar:
+        """The four-bar: a crank-rocker."""
+        links, rocker = self.spec.links, self.rocker_length
+        if links.rocker is not None and abs(links.rocker - rocker) > _LINK_TOLERANCE * rocker:
+            raise NoSolution(
+                f"rocker {links.rocker:.9g} mm is not the centre distance of the gears, {rocker:.9g} mm: leave it out, "
+                "or change module or teeth",
+                key="links.rocker",
+            )
+        with at_key("links"):
+            linkage = FourBar(self.crank_length, links.coupler, rocker, links.frame, self.spec.assembly)
+            if check_linkage(linkage) != "crank-rocker":
+                raise NoSolution(
+                    f"the frame {links.frame:.6g} mm is the shortest link, so that the rocker goes all the way round: "
+                    f"make it longer than the crank, {self.crank_length:.6g} mm"
+                )
+        return linkage
+
+    # Motion
+
+    @cached_property
+    def drive(self) -> PlanetLinkage:
+        """The kernel's view of gears and links."""
+        return PlanetLinkage(self.linkage, self.gear_ratio, "rocker")
+
+    @cached_property
+    def extreme_crank_angles(self) -> list[float]:
+        """Crank angles at which the output reverses [rad]."""
+        return extreme_crank_angles(self.drive)
+
+    @property
+    def output_swing(self) -> float:
+        """Swing of the output gear [rad]."""
+        angles = [self.drive.angle(phi) for phi in self.extreme_crank_angles]
+        return max(angles) - min(angles)
+
+    @property
+    def rocker_swing(self) -> float:
+        """Swing of the rocker between the dead centres [rad]."""
+        links = self.linkage
+        ends = joint_to_crank_pivot(links.crank, links.coupler, links.rocker, links.frame, links.assembly)
+        folded, stretched = (solve(links, end.crank_angle).rocker_angle for end in ends)
+        return abs(folded - stretched)
+
+    @property
+    def swing_multiple(self) -> float:
+        """Output swing over rocker swing."""
+        return self.output_swing / self.rocker_swing
+
+    @property
+    def naive_multiple(self) -> float:
+        """1 + z2/z5, which leaves the turning of the coupler out."""
+        return 1.0 - self.gear_ratio
+
+    @property
+    def swing_residual(self) -> float | None:
+        """Swing reached less swing asked for [rad]."""
+        target = self.spec.target
+        return None if target is None else self.output_swing - math.radians(target.swing)
+
+    @cached_property
+    def _speeds(self) -> tuple[float, float]:
+        """Least and greatest speed ratio."""
+        from gearlink.core.linkages.standstills import turnings
+
+        found = [t.speed for t in turnings(self.drive.speed, self.drive.acceleration)]
+        return min(found), max(found)
+
+    @property
+    def speed_ratio_max(self) -> float:
+        """Greatest output speed per input speed."""
+        return self._speeds[1]
+
+    @property
+    def speed_ratio_min(self) -> float:
+        """Least output speed per input speed, on the way back."""
+        return self._speeds[0]
+
+    @property
+    def min_transmission_angle(self) -> float:
+        """Least transmission angle over the turn [rad]."""
+        return self.linkage.min_transmission_angle()
+
+    def table_motion(self) -> Table:
+        """Rocker and output over a turn of the crank; the output angle counts from its place at crank angle 0."""
+        import numpy as np
+
+        from gearlink.core.linkages import fourbar_sweep
+
+        count, ratio = self.samples or 360, self.gear_ratio
+        degrees = np.arange(count) * (360.0 / count)
+        sweep = fourbar_sweep.solve(self.linkage, np.radians(degrees), 2)
+        start = solve(self.linkage, 0.0)
+        rocker, coupler = sweep.rocker_angle - start.rocker_angle, sweep.coupler_angle - start.coupler_angle
+        columns = {
+            "crank_angle": (degrees, "deg"),
+            "rocker_angle": (np.degrees(sweep.rocker_angle), "deg"),
+            "output_angle": (np.degrees((1.0 - ratio) * rocker + ratio * coupler), "deg"),
+            "speed_ratio": ((1.0 - ratio) * sweep.rocker_velocity + ratio * sweep.coupler_velocity, "1"),
+            "acceleration_ratio": (
+                (1.0 - ratio) * sweep.rocker_acceleration + ratio * sweep.coupler_acceleration,
+                "1",
+            ),
+            "transmission_angle": (
+                np.degrees(np.minimum(sweep.transmission_angle, np.pi - sweep.transmission_angle)),
+                "deg",
+            ),
+        }
+        return Table.of("motion", columns)
+
+    # Checks
+
+    def check_target(self) -> Iterator[Check]:
+        """GL307, where the file asks for a swing."""
+        if self.swing_residual is not None:
+            degrees = math.degrees(self.swing_residual)
+            yield target_check("the swing of the output", degrees, math.degrees(_SWING_TOLERANCE), "deg")
+
+    def check_shaft_clearance(self) -> Iterator[Check]:
+        """GL302: both gears against the input axis."""
+        links, tips = self.linkage, self.mesh.tip_radius
+        nearest, _ = joint_to_crank_pivot(links.crank, links.coupler, links.rocker, links.frame, links.assembly)
+        yield axis_check("the coupler gear", "A", nearest.distance, tips[0])
+        yield axis_check("the output gear", "A", links.frame, tips[1])
+
+    def check_transmission_angle(self) -> Check:
+        """GL303."""
+        remedy = "shorten the crank, and gain the swing by more teeth on the coupler gear"
+        return transmission_check(self.min_transmission_angle, self.spec.limits.transmission_angle, remedy)

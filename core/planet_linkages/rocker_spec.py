@@ -1,0 +1,66 @@
+"""The design file of a rocker whose swing a gear multiplies."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from gearlink.core.linkages.spec_parts import LinkageLimits
+from gearlink.core.spec import Assembly, DesignSpec, Length, PressureAngle, Spec, Teeth
+
+
+class RockerGears(Spec):
+    """A gear fixed to the coupler at C, in mesh with the output gear on the rocker's axis."""
+
+    module: Length = Field(description="module")
+    coupler: Teeth = Field(description="teeth z2 of the gear fixed to the coupler at C")
+    output: Teeth = Field(description="teeth z5 of the output gear on D")
+    pressure_angle: PressureAngle = Field(20.0, description="pressure angle of the reference profile")
+
+
+class RockerLinks(Spec):
+    """The links that the gears do not fix."""
+
+    crank: Length | None = Field(None, description="crank AB; left out: found from target.swing")
+    coupler: Length = Field(description="coupler BC")
+    rocker: Length | None = Field(None, description="rocker CD; left out: the centre distance of the gears")
+    frame: Length = Field(description="frame AD")
+
+
+class SwingTarget(Spec):
+    """The crank is found for it."""
+
+    swing: Annotated[float, Field(gt=0, lt=3600, json_schema_extra={"unit": "deg"})] = Field(
+        description="swing of the output gear"
+    )
+
+
+class GearedRockerSpec(DesignSpec):
+    """A crank-rocker whose coupler carries a gear that drives one on the rocker's axis."""
+
+    kind: Literal["geared-rocker"]
+    gears: RockerGears
+    links: RockerLinks
+    assembly: Assembly = Field(1, description="+1: C left of the vector from B to D; -1: its mirror image")
+    target: SwingTarget | None = None
+    limits: LinkageLimits = LinkageLimits()
+
+    @model_validator(mode="after")
+    def _crank_or_swing(self) -> GearedRockerSpec:
+        if self.links.crank is None and self.target is None:
+            raise PydanticCustomError(
+                "GL106", "give links.crank, or target.swing from which it is found", {"key": "links.crank"}
+            )
+        if self.links.crank is not None and self.target is not None:
+            raise PydanticCustomError(
+                "GL111",
+                "links.crank and target.swing exclude each other: leave the crank out to have it found",
+                {"key": "links.crank"},
+            )
+        return self
+
+    def commands(self) -> tuple[str, ...]:
+        """What the file asks for."""
+        return ("analyze", "gear")

@@ -1,0 +1,335 @@
+"""The two-gear four-bar as a design: a gear on the coupler drives one that is free on the crank's axis."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from gearlink.core.design import Outline
+from gearlink.core.errors import NoSolution, at_key
+from gearlink.core.gears.internal_mesh import InternalMesh
+from gearlink.core.gears.pair import GearPair
+from gearlink.core.gears.single_mesh import MESH_CHECKS, MESH_QUANTITIES, SingleMesh
+from gearlink.core.linkages import standstills
+from gearlink.core.linkages.checks import axis_check, transmission_check
+from gearlink.core.linkages.fourbar import FourBar, solve
+from gearlink.core.linkages.standstills import BackStep, Turning
+from gearlink.core.planet_linkages.planet import PlanetLinkage, standstill_coupler_ratio
+from gearlink.core.report import Check, Table
+from gearlink.core.three_gear.motion import check_linkage
+
+if TYPE_CHECKING:
+    from gearlink.core.planet_linkages.two_gear_spec import TwoGearFourBarSpec
+
+# As in the three-gear four-bar: links that no workshop can tell apart have one standstill, not two or none.
+_STANDSTILL_TOLERANCE = 1e-9
+_LINK_TOLERANCE = 1e-9
+
+UNIDIRECTIONAL, MOMENTARY_DWELL, BACK_STEP = "unidirectional", "momentary-dwell", "back-step"
+
+
+class TwoGearFourBar(SingleMesh):
+    """Planet on the coupler, sun or ring gear on the crank's axis; the crank is their centre distance."""
+
+    kind = "two-gear-four-bar"
+    spec: TwoGearFourBarSpec
+    outlines = {
+        "analyze": Outline(
+            (
+                "planet_teeth",
+                "output_teeth",
+                "gear_ratio",
+                "linkage_kind",
+                "crank_length",
+                "coupler_length",
+                "rocker_length",
+                "frame_length",
+                "mean_ratio",
+                "speed_ratio_max",
+                "speed_ratio_min",
+                "speed_ratio_max_at",
+                "speed_ratio_min_at",
+                "nonuniformity",
+                "coupler_ratio_max",
+                "coupler_ratio_min",
+                "standstill_coupler_ratio",
+                "dwell_teeth_ratio",
+                "motion",
+                "dwell_crank_angles",
+                "back_step_angle",
+                "back_step_crank_angle",
+                "min_transmission_angle",
+                "contact_ratio",
+            ),
+            ("dwell-condition", "shaft-clearance", "transmission-angle", *MESH_CHECKS),
+            ("motion",),
+        ),
+        "gear": Outline(MESH_QUANTITIES, MESH_CHECKS),
+    }
+
+    # Gears and links
+
+    @property
+    def planet_teeth(self) -> int:
+        """Teeth of the gear on the coupler."""
+        return self.spec.gears.planet
+
+    @property
+    def internal(self) -> bool:
+        """Whether the output is a ring gear."""
+        return self.spec.gears.ring is not None
+
+    @property
+    def output_teeth(self) -> int:
+        """Teeth of the output gear."""
+        gears = self.spec.gears
+        return gears.ring or gears.sun or 0
+
+    @property
+    def gear_ratio(self) -> float:
+        """Ratio i of planet and output gear, negative for an external mesh."""
+        return self.planet_teeth / self.output_teeth * (1.0 if self.internal else -1.0)
+
+    @cached_property
+    def mesh(self) -> GearPair | InternalMesh:
+        """Planet and output gear."""
+        gears, teeth = self.spec.gears, (self.planet_teeth, self.output_teeth)
+        alpha = math.radians(gears.pressure_angle)
+        with at_key("gears"):
+            if self.internal:
+                return InternalMesh(gears.module, teeth, alpha)
+            return GearPair.from_shift(gears.module, teeth, (0.0, 0.0), pressure_angle=alpha)
+
+    @property
+    def crank_length(self) -> float:
+        """Centre distance of the gears [mm], m (z2 + z5)/2 or m (z5 - z2)/2."""
+        sign = -1 if self.internal else 1
+        return self.spec.gears.module * (self.output_teeth + sign * self.planet_teeth) / 2.0
+
+    @cached_property
+    def linkage(self) -> FourBar:
+        """The four-bar."""
+        links, crank = self.spec.links, self.crank_length
+        if links.crank is not None and abs(links.crank - crank) > _LINK_TOLERANCE * crank:
+            raise NoSolution(
+                f"crank {links.crank:.9g} mm is not the centre distance of the gears, {crank:.9g} mm: leave it out, or "
+                "change module or teeth",
+                key="links.crank",
+            )
+        with at_key("links"):
+            linkage = FourBar(crank, links.coupler, links.rocker, links.frame, self.spec.assembly)
+            check_linkage(linkage)
+        return linkage
+
+    @property
+    def linkage_kind(self) -> str:
+        """Class of the four-bar."""
+        return self.linkage.kind()
+
+    @property
+    def coupler_length(self) -> float:
+        """Coupler [mm]."""
+        return self.linkage.coupler
+
+    @property
+    def rocker_length(self) -> float:
+        """Rocker [mm]."""
+        return self.linkage.rocker
+
+    @property
+    def frame_length(self) -> float:
+        """Frame [mm]."""
+        return self.linkage.frame
+
+    # Motion
+
+    @cached_property
+    def drive(self) -> PlanetLinkage:
+        """The kernel's view of gears and links."""
+        return PlanetLinkage(self.linkage, self.gear_ratio, "crank")
+
+    @property
+    def mean_ratio(self) -> float:
+        """Net output turns per input turn."""
+        return self.drive.mean_ratio()
+
+    @cached_property
+    def coupler_turnings(self) -> list[Turning]:
+        """Extremes of the coupler's speed per crank speed; those of the output lie at the same crank angles."""
+        return standstills.turnings(
+            lambda phi: solve(self.linkage, phi, 1).coupler_velocity,
+            lambda phi: solve(self.linkage, phi, 2).coupler_acceleration,
+        )
+
+    @cached_property
+    def turnings(self) -> list[Turning]:
+        """Extremes of the speed ratio."""
+        return [Turning(t.place, self.drive.speed(t.place)) for t in self.coupler_turnings]
+
+    @property
+    def coupler_ratio_max(self) -> float:
+        """Greatest coupler speed per crank speed."""
+        return max(t.speed for t in self.coupler_turnings)
+
+    @property
+    def coupler_ratio_min(self) -> float:
+        """Least coupler speed per crank speed."""
+        return min(t.speed for t in self.coupler_turnings)
+
+    @property
+    def _fastest(self) -> Turning:
+        return max(self.turnings, key=lambda t: t.speed)
+
+    @property
+    def _slowest(self) -> Turning:
+        return min(self.turnings, key=lambda t: t.speed)
+
+    @property
+    def speed_ratio_max(self) -> float:
+        """Greatest output speed per input speed."""
+        return self._fastest.speed
+
+    @property
+    def speed_ratio_max_at(self) -> float:
+        """Crank angle of it [rad]."""
+        return self._fastest.place
+
+    @property
+    def speed_ratio_min(self) -> float:
+        """Least output speed per input speed."""
+        return self._slowest.speed
+
+    @property
+    def speed_ratio_min_at(self) -> float:
+        """Crank angle of it [rad]."""
+        return self._slowest.place
+
+    @property
+    def nonuniformity(self) -> float:
+        """(max - min)/mean of the speed ratio."""
+        return (self.speed_ratio_max - self.speed_ratio_min) / self.mean_ratio
+
+    @property
+    def standstill_coupler_ratio(self) -> float:
+        """Coupler speed per crank speed at which the output stands."""
+        return standstill_coupler_ratio(self.gear_ratio)
+
+    @property
+    def dwell_teeth_ratio(self) -> float | None:
+        """Greatest z5/z2 with which these links stop the output; none where no teeth do."""
+        reach = 1.0 - self.coupler_ratio_min if self.internal else self.coupler_ratio_max - 1.0
+        return reach if reach > (1.0 if self.internal else 0.0) else None
+
+    @cached_property
+    def dwell_crank_angles(self) -> list[float]:
+        """Crank angles of zero output speed [rad], ascending."""
+        tolerance = _STANDSTILL_TOLERANCE * (1.0 + 2.0 * abs(self.gear_ratio))
+        return standstills.standstills(self.drive.speed, self.turnings, tolerance)
+
+    @cached_property
+    def back_steps(self) -> list[BackStep]:
+        """Every back-step of the turn."""
+        return standstills.back_steps(self.drive.speed, self.dwell_crank_angles)
+
+    @cached_property
+    def motion(self) -> str:
+        """unidirectional, momentary-dwell or back-step."""
+        if self.back_steps:
+            return BACK_STEP
+        return MOMENTARY_DWELL if self.dwell_crank_angles else UNIDIRECTIONAL
+
+    @cached_property
+    def back_step(self) -> BackStep | None:
+        """The back-step that loses most, where there is one."""
+        return max(self.back_steps, key=self._lost, default=None)
+
+    def _lost(self, step: BackStep) -> float:
+        return self.drive.angle(step.start) - self.drive.angle(step.end)
+
+    @property
+    def back_step_angle(self) -> float | None:
+        """How far the output steps back [rad]."""
+        return None if self.back_step is None else self._lost(self.back_step)
+
+    @property
+    def back_step_crank_angle(self) -> float | None:
+        """Crank angle of the back-step [rad]."""
+        return None if self.back_step is None else self.back_step.crank_angle
+
+    @property
+    def min_transmission_angle(self) -> float:
+        """Least transmission angle over the turn [rad]."""
+        return self.linkage.min_transmission_angle()
+
+    def table_motion(self) -> Table:
+        """Output angle, speed and acceleration, coupler speed and transmission angle over a turn of the crank."""
+        import numpy as np
+
+        from gearlink.core.linkages import fourbar_sweep
+
+        count, ratio = self.samples or 360, self.gear_ratio
+        degrees = np.arange(count) * (360.0 / count)
+        sweep = fourbar_sweep.solve(self.linkage, np.radians(degrees), 2)
+        start = solve(self.linkage, 0.0).coupler_angle
+        output = (1.0 - ratio) * degrees + ratio * np.degrees(sweep.coupler_angle - start)
+        columns = {
+            "crank_angle": (degrees, "deg"),
+            "output_angle": (output, "deg"),
+            "speed_ratio": ((1.0 - ratio) + ratio * sweep.coupler_velocity, "1"),
+            "acceleration_ratio": (ratio * sweep.coupler_acceleration, "1"),
+            "coupler_ratio": (sweep.coupler_velocity, "1"),
+            "transmission_angle": (
+                np.degrees(np.minimum(sweep.transmission_angle, np.pi - sweep.transmission_angle)),
+                "deg",
+            ),
+        }
+        return Table.of("motion", columns)
+
+    # Checks
+
+    def check_dwell_condition(self) -> Check:
+        """GL306: whether the output stands still, by how much, and whether that is what the file asks for."""
+        needed = self.standstill_coupler_ratio
+        reached = self.coupler_ratio_min if self.internal else self.coupler_ratio_max
+        verb = "falls to" if self.internal else "rises to"
+        text = f"the output stands where w2/w1 = {needed:.6g}; the coupler {verb} {reached:.6g}: {self.motion}"
+        asked = None if self.spec.target is None else self.spec.target.motion
+        if asked is None or asked == self.motion:
+            return Check("GL306", "dwell-condition", "pass", text, reached, needed)
+        if self._never_stands() and asked != UNIDIRECTIONAL:
+            raise NoSolution(f"{asked} is impossible: {self._never_stands()}", key="target.motion")
+        return Check("GL306", "dwell-condition", "fail", f"{text}; {self._motion_remedy(asked)}", reached, needed)
+
+    def _never_stands(self) -> str:
+        """Why an external mesh on a crank-rocker never stops its output; empty for other drives."""
+        if self.internal or self.linkage_kind != "crank-rocker":
+            return ""
+        limit = math.floor((1.0 - self.coupler_ratio_min) * 1e4) / 1e4
+        return (
+            f"with a sun the output stands where w2/w1 = 1 + z5/z2 = {self.standstill_coupler_ratio:.6g}, but in a "
+            f"crank-rocker w2/w1 stays below 1 (here {self.coupler_ratio_max:.6g}), since A never comes onto the line "
+            f"CD; take a ring gear with z5/z2 up to {limit:g}, or a drag link (frame the shortest)"
+        )
+
+    def _motion_remedy(self, asked: str) -> str:
+        """What would bring the motion that is asked for."""
+        limit = self.dwell_teeth_ratio
+        have = self.output_teeth / self.planet_teeth
+        if limit is None:
+            return f"{asked} is asked for, but these links stop the output with no teeth: change the links"
+        side = {UNIDIRECTIONAL: "above", MOMENTARY_DWELL: "equal to", BACK_STEP: "below"}[asked]
+        return f"{asked} is asked for: make z5/z2 = {have:.6g} {side} {limit:.6g}"
+
+    def check_shaft_clearance(self) -> Iterator[Check]:
+        """GL302: the planet, and a sun, against the rocker's axis."""
+        tips, frame = self.mesh.tip_radius, self.frame_length
+        yield axis_check("the planet", "D", abs(frame - self.crank_length), tips[0])
+        if not self.internal:
+            yield axis_check("the sun", "D", frame, tips[1])
+
+    def check_transmission_angle(self) -> Check:
+        """GL303."""
+        remedy = "bring coupler and rocker nearer to a right angle (shorter crank, or shorter frame in a drag link)"
+        return transmission_check(self.min_transmission_angle, self.spec.limits.transmission_angle, remedy)

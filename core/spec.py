@@ -1,0 +1,73 @@
+"""What the spec models share: strictness, and number types that carry their unit into the JSON Schema."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+from pydantic_core import PydanticCustomError
+
+
+class Spec(BaseModel):
+    """A section of a design file: strict, frozen, no unknown keys, finite numbers only."""
+
+    model_config = ConfigDict(strict=True, frozen=True, extra="forbid", allow_inf_nan=False)
+
+
+class DesignSpec(Spec):
+    """The keys that every kind of design file has."""
+
+    name: str = Field("design", description="what the design is called; default: the file's stem")
+
+
+Length = Annotated[float, Field(gt=0, json_schema_extra={"unit": "mm"})]
+SignedLength = Annotated[float, Field(json_schema_extra={"unit": "mm"})]
+Distance = Annotated[float, Field(ge=0, json_schema_extra={"unit": "mm"})]
+Angle = Annotated[float, Field(ge=-360, le=360, json_schema_extra={"unit": "deg"})]
+PressureAngle = Annotated[float, Field(gt=0, lt=45, json_schema_extra={"unit": "deg"})]
+AcuteAngle = Annotated[float, Field(ge=0, lt=90, json_schema_extra={"unit": "deg"})]
+Teeth = Annotated[int, Field(ge=1, le=10_000, json_schema_extra={"unit": "teeth"})]
+Coefficient = Annotated[float, Field(gt=0, le=3, json_schema_extra={"unit": "1"})]
+Ratio = Annotated[float, Field(gt=0, json_schema_extra={"unit": "1"})]
+Share = Annotated[float, Field(ge=0, json_schema_extra={"unit": "1"})]
+Assembly = Literal[1, -1]
+
+
+class _LawNames:
+    """Tells editors the names of the motion laws; `gearlink.core.cams.laws.law` is what judges them."""
+
+    def __get_pydantic_json_schema__(self, core_schema: Any, handler: Any) -> dict[str, Any]:
+        from gearlink.core.cams.laws import REST_TO_REST, REST_TO_SPEED
+
+        short = ("half-345", "half-4567", "velocity-345", "velocity-4567")
+        four = {"type": "array", "items": {"type": "number"}, "minItems": 4, "maxItems": 4}
+        numbers = {"scca": four, "half-scca": four, "velocity-scca": four}
+        numbers |= {"quintic": {"type": "number"}, "septic": {"type": "number"}}
+        return {
+            "anyOf": [
+                {"enum": [*REST_TO_REST, *REST_TO_SPEED, *short]},
+                {"type": "string", "pattern": r"^(half-|velocity-)?mcv-[0-9.]+$"},
+                {"type": "object", "properties": numbers, "additionalProperties": False, "minProperties": 1},
+            ]
+        }
+
+
+MotionLaw = Annotated[str | dict[str, Any], _LawNames()]
+
+
+class GearLimits(Spec):
+    """Limits of the gear checks."""
+
+    undercut: Share = Field(0.05, description="profile shift below x_min that is let pass")
+    tip_thickness: Share = Field(0.25, description="least tip thickness over the module")
+    contact_ratio: Ratio = Field(1.1, description="least transverse contact ratio")
+
+
+def require_offset_below_rod(rod: float, offset: float, key: str) -> None:
+    """Refuse a slide line that the connecting rod cannot reach."""
+    if abs(offset) >= rod:
+        raise PydanticCustomError(
+            "GL111",
+            "offset {offset} mm is not below the rod's {rod} mm: lengthen the rod or bring the slide line nearer",
+            {"key": key, "offset": f"{offset:g}", "rod": f"{rod:g}"},
+        )

@@ -1,1 +1,0 @@
-"""The input of each kind of design as a strict, frozen model."""

@@ -1,0 +1,105 @@
+"""What the parts of a swing gripper's design share: its law, its linkage, and the motion at the tables' rows."""
+
+from __future__ import annotations
+
+import math
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+from gearlink.core.errors import MissingSection, NoSolution, at_key
+
+if TYPE_CHECKING:
+    from gearlink.core.numerics.arrays import Reals
+    from gearlink.core.swing_gripper.law import SixPhaseLaw
+    from gearlink.core.swing_gripper.linkage import GripperLinkage, GripperMotion
+    from gearlink.core.swing_gripper.spec import SwingGripperSpec
+
+_STATED = 1e-6
+
+
+class GripperBase:
+    """Reads the spec and the number of rows alone."""
+
+    spec: SwingGripperSpec
+    samples: int | None
+
+    def _require(self, section: str, words: str) -> Any:
+        value = getattr(self.spec, section)
+        if value is None:
+            raise MissingSection(f"this needs the section {section}: {words}", key=section)
+        return value
+
+    @cached_property
+    def shaft_speed(self) -> float:
+        """Angular velocity of the cylinder shaft [rad/s]: one turn a sheet."""
+        return self.spec.speed / 3600.0 * 2.0 * math.pi
+
+    @cached_property
+    def law(self) -> SixPhaseLaw:
+        """The six-phase law; its constant speed is R/l_EF."""
+        from gearlink.core.cams.laws import law
+        from gearlink.core.swing_gripper.law import SixPhaseLaw
+
+        spec, laws = self.spec, []
+        for key in ("accelerate", "decelerate", "return"):
+            with at_key(f"laws.{key}"):
+                laws.append(law(getattr(spec.laws, key if key != "return" else "return_")))
+        made = SixPhaseLaw(spec.phases.lengths(), spec.cylinder.radius / spec.arm.length, *laws)
+        self._require_swing_below_a_turn(made)
+        self._require_stated_swing(made)
+        return made
+
+    def _require_swing_below_a_turn(self, law: SixPhaseLaw) -> None:
+        swing = math.degrees(law.total_swing)
+        if swing < 360.0:
+            return
+        raise NoSolution(
+            f"the arm swings {swing:.6g} deg, a turn or more: the tip's speed R/l_EF = {law.speed:.6g} is too high for "
+            f"these phases; make the arm longer than {self.spec.arm.length * swing / 360.0:.6g} mm, the cylinder's "
+            f"radius less than {self.spec.cylinder.radius * 360.0 / swing:.6g} mm, or the phases shorter",
+            key="arm.length",
+        )
+
+    def _require_stated_swing(self, law: SixPhaseLaw) -> None:
+        stated, swing = self.spec.total_swing, math.degrees(law.total_swing)
+        if stated is None or abs(stated - swing) <= _STATED:
+            return
+        short = stated - swing
+        kappa = law.accelerate.kappa + short / (law.speed * self.spec.phases.accelerate)
+        free = f", or laws.accelerate to {{quintic: {kappa:.9g}}}" if 0.4 <= kappa <= 0.6 else ""
+        raise NoSolution(
+            f"total_swing is stated as {stated:g} deg, but laws, phases and R/l_EF give {swing:.9g} deg: change "
+            f"phases.constant by {short / law.speed:+.9g} deg (and another phase as much the other way){free}",
+            key="total_swing",
+        )
+
+    @cached_property
+    def linkage(self) -> GripperLinkage:
+        """The four-bar A-C-D-E driven by the law at ED."""
+        from gearlink.core.swing_gripper.linkage import GripperLinkage
+        from gearlink.core.swing_gripper.swing import require_swing
+
+        spec = self.spec
+        linkage = GripperLinkage(
+            law=self.law,
+            input_pivot=complex(*spec.pivots.input),
+            output_pivot=complex(*spec.pivots.output),
+            input=spec.links.input,
+            coupler=spec.links.coupler,
+            output=spec.links.output,
+            output_direction=math.radians(spec.output_direction),
+            swing_sense=spec.swing_sense,
+            assembly=spec.assembly,
+        )
+        with at_key("pivots"):
+            require_swing(linkage, math.radians(spec.limits.transmission_angle))
+        return linkage
+
+    @cached_property
+    def rows(self) -> tuple[Reals, GripperMotion]:
+        """Cylinder angles in degrees and the motion there, for the tables."""
+        import numpy as np
+
+        count = self.samples or 360
+        degrees: Reals = np.arange(count, dtype=np.float64) * (360.0 / count)
+        return degrees, self.linkage.motion(degrees, 2)

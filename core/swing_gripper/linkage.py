@@ -1,0 +1,166 @@
+"""The linkage of a swing gripper over the turn: gripper arm known, cam rocker sought.
+
+A is the pivot of the cam rocker AC, E that of the gripper ED; the coupler CD joins them. The gripper follows
+the six-phase law; the motion of rocker and coupler comes from the inverse four-bar. Derivatives are taken by
+the cylinder angle theta; multiply by powers of its angular velocity for rates in time.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from gearlink.core.errors import at_key
+from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.fourbar_sweep import FourBarInverseSweep, solve_inverse
+from gearlink.core.numerics.arrays import Reals
+from gearlink.core.numerics.extremes import Extreme
+from gearlink.core.swing_gripper.law import SixPhaseLaw
+
+
+@dataclass(frozen=True, slots=True)
+class GripperMotion:
+    """Angles [rad] and derivatives by theta at the angles asked for; arrays of one shape.
+
+    `input` is AC, `coupler` C->D, `output` E->D. Derivatives beyond the order asked for are empty.
+    """
+
+    theta: Reals
+    beta: Reals
+    input_angle: Reals
+    coupler_angle: Reals
+    output_angle: Reals
+    input_velocity: Reals
+    coupler_velocity: Reals
+    output_velocity: Reals
+    input_acceleration: Reals
+    coupler_acceleration: Reals
+    output_acceleration: Reals
+
+
+@dataclass(frozen=True)
+class GripperLinkage:
+    """Four-bar A-C-D-E driven at ED by the law of the gripper.
+
+    Parameters
+        law : SixPhaseLaw
+        input_pivot, output_pivot : complex [mm] - A and E
+        input, coupler, output : float [mm] - AC, CD, ED
+        output_direction : float [rad] - of ED at the bite
+        swing_sense : +1 or -1 - sense of the working stroke
+        assembly : +1 or -1 - sign of sin(input angle - coupler angle)
+    Source
+        swing-gripper paper (4)-(7), signs of l3 cos(theta3) put right
+    """
+
+    law: SixPhaseLaw
+    input_pivot: complex
+    output_pivot: complex
+    input: float
+    coupler: float
+    output: float
+    output_direction: float
+    swing_sense: int
+    assembly: int
+
+    @cached_property
+    def four_bar(self) -> FourBar:
+        """The linkage in the frame of its pivots, read from A to E."""
+        frame = abs(self.output_pivot - self.input_pivot)
+        return FourBar(self.input, self.coupler, self.output, frame, self.assembly)
+
+    @cached_property
+    def frame_direction(self) -> float:
+        """Direction of E seen from A [rad]."""
+        return cmath.phase(self.output_pivot - self.input_pivot)
+
+    def motion(self, degrees: Reals, order: int = 2) -> GripperMotion:
+        """Motion of all links at cylinder angles.
+
+        Parameters
+            degrees : (N,) array [deg]
+            order : 0, 1 or 2
+        Raises
+            NoSolution - where the linkage does not close; `gripper_swing.require_swing` says why beforehand
+        """
+        beta = self.law.evaluate(degrees, order)
+        return self.at(degrees, beta)
+
+    def at(self, degrees: Reals, beta: tuple[Reals, ...]) -> GripperMotion:
+        """Motion of all links where the swing angle and its derivatives are known already."""
+        order = len(beta) - 1
+        sense = self.swing_sense
+        output = self.output_direction + sense * beta[0]
+        nothing = np.empty(0)
+        velocity, acceleration = (sense * beta[n] if n <= order else nothing for n in (1, 2))
+        with at_key("links"):
+            state = solve_inverse(
+                self.four_bar,
+                output - self.frame_direction,
+                order,
+                velocity=velocity,
+                acceleration=acceleration if order > 1 else 0.0,
+            )
+        return GripperMotion(
+            theta=np.radians(degrees),
+            beta=beta[0],
+            input_angle=_start_in_first_turn(state.crank_angle + self.frame_direction),
+            coupler_angle=_start_in_first_turn(state.coupler_angle + self.frame_direction),
+            output_angle=_start_in_first_turn(output),
+            input_velocity=state.crank_velocity,
+            coupler_velocity=state.coupler_velocity,
+            output_velocity=velocity,
+            input_acceleration=state.crank_acceleration,
+            coupler_acceleration=state.coupler_acceleration,
+            output_acceleration=acceleration,
+        )
+
+    def ratios(self, beta: Reals) -> FourBarInverseSweep:
+        """Speed ratios w_input/w_output and w_coupler/w_output as geometry, defined in the dwells too."""
+        return solve_inverse(self.four_bar, self.local_output(beta), 1)
+
+    @cached_property
+    def least_transmission(self) -> tuple[Extreme, Extreme]:
+        """Least angle between CD and ED (at D) and between AC and CD (at C), folded [rad], and the swing [rad] there.
+
+        Notes
+            Refined on a grid of the swing, not of the turn: every row of the motion lies within it.
+        """
+        total = self.law.total_swing
+        swing = np.linspace(0.0, total, 181)
+        step = swing[1]
+        for _ in range(6):
+            values = self.transmission(self.local_output(swing))
+            least = [int(np.argmin(v)) for v in values]
+            found = [Extreme(float(v[i]), float(swing[i])) for v, i in zip(values, least, strict=True)]
+            swing = np.concatenate([np.linspace(e.place - step, e.place + step, 33) for e in found])
+            swing = np.clip(swing, 0.0, total)
+            step /= 16.0
+        return found[0], found[1]
+
+    def transmission(self, direction: Reals) -> tuple[Reals, Reals]:
+        """Angles between CD and ED and between AC and CD, folded [rad], at directions of ED from the frame line."""
+        state = solve_inverse(self.four_bar, direction)
+        return _folded(direction - state.coupler_angle), _folded(state.crank_angle - state.coupler_angle)
+
+    def local_output(self, beta: Reals) -> Reals:
+        """Direction of ED from the frame line A-E at swing angles [rad]."""
+        return self.output_direction - self.frame_direction + self.swing_sense * beta
+
+
+def _folded(angle: Reals) -> Reals:
+    """Angle between two lines, 0 to pi/2."""
+    folded: Reals = np.abs(np.arctan2(np.sin(angle), np.cos(angle)))
+    return np.minimum(folded, math.pi - folded)
+
+
+def _start_in_first_turn(angle: Reals) -> Reals:
+    """The same continuous angle, shifted by whole turns so that the first lies in (-pi, pi]."""
+    if not angle.size:
+        return angle
+    turns = math.ceil((float(angle.flat[0]) - math.pi) / (2.0 * math.pi))
+    return angle - 2.0 * math.pi * turns if turns else angle

@@ -1,0 +1,382 @@
+"""The three-gear four-bar as a design: analysis of given links. Its syntheses: `three_gear_synthesis`."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+from gearlink.core.design import Design, Outline
+from gearlink.core.errors import MissingSection, at_key
+from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, gear_check, gear_quantity
+from gearlink.core.gears.pair import GearPair
+from gearlink.core.linkages.checks import transmission_check
+from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.nearest_passes import joint_to_crank_pivot
+from gearlink.core.report import Check, Status, Table, safely_above, safely_below
+from gearlink.core.three_gear import dwells, motion
+from gearlink.core.three_gear.dwells import BackStep
+from gearlink.core.three_gear.idler_choice import idler_for_ratio
+from gearlink.core.three_gear.momentary_dwell import crank_with_room
+from gearlink.core.three_gear.motion import Extremes, GearTrain
+
+if TYPE_CHECKING:
+    from gearlink.core.three_gear.spec import ThreeGearSpec
+    from gearlink.core.three_gear.tolerance_dwell import ToleranceDwell
+
+QUANTITIES = (
+    "i3",
+    "crank_teeth",
+    "idler_teeth",
+    "output_teeth",
+    "frame_ratio",
+    "crank_length",
+    "coupler_length",
+    "rocker_length",
+    "frame_length",
+    "mean_ratio",
+    "speed_ratio_max",
+    "speed_ratio_min",
+    "motion",
+    "dwell_crank_angles",
+    "back_step_angle",
+    "back_step_crank_angle",
+    "dwell_angle",
+    "dwell_angle_approximate",
+    "min_transmission_angle",
+    "gear_gap",
+    "nonuniformity",
+)
+_ANALYSIS = ("acceleration_ratio_max", "acceleration_ratio_min", "tolerance_dwell_angle", "tolerance_dwell_start")
+CHECKS = ("gear-collision", "shaft-clearance", "transmission-angle", "rounded-ratio", *GEAR_CHECKS)
+MESHES = ("crank_idler", "idler_output")
+_MESH_QUANTITIES = tuple(f"{mesh}.{name}" for mesh in MESHES for name in GEAR_QUANTITIES)
+
+
+class ThreeGearFourBar(Design):
+    """A three-gear four-bar of given links; the syntheses replace `linkage`, `idler_teeth` and closed forms."""
+
+    kind = "three-gear-four-bar"
+    spec: ThreeGearSpec
+    outlines = {
+        "analyze": Outline((*QUANTITIES, *_ANALYSIS), CHECKS, ("motion",)),
+        "gear": Outline(_MESH_QUANTITIES, GEAR_CHECKS),
+    }
+    extra_tables = ("motion",)
+
+    # Gears and links
+
+    @cached_property
+    def idler_teeth(self) -> int:
+        """Teeth of the idler: given, from i3, or as the command chooses it."""
+        gears = self.spec.gears
+        if gears.idler is not None:
+            return gears.idler
+        if gears.i3 is None:
+            return self.chosen_idler()
+        with at_key("gears.i3"):
+            return idler_for_ratio(gears.i3, gears.output)
+
+    def chosen_idler(self) -> int:
+        """Teeth of an idler that the file leaves out; only a synthesis can choose one."""
+        raise MissingSection("this command needs gears.idler (teeth) or gears.i3", key="gears.idler")
+
+    @property
+    def crank_teeth(self) -> int:
+        """Teeth of the crank gear."""
+        return self.spec.gears.crank
+
+    @property
+    def output_teeth(self) -> int:
+        """Teeth of the output gear."""
+        return self.spec.gears.output
+
+    @cached_property
+    def train(self) -> GearTrain:
+        """The three gears."""
+        return GearTrain(self.crank_teeth, self.idler_teeth, self.output_teeth)
+
+    @property
+    def i3(self) -> float:
+        """Ratio of idler and output gear of the real teeth."""
+        return self.train.i3
+
+    @property
+    def coupler_length(self) -> float:
+        """Centre distance of crank gear and idler [mm]."""
+        return self.spec.gears.module * (self.crank_teeth + self.idler_teeth) / 2.0
+
+    @property
+    def rocker_length(self) -> float:
+        """Centre distance of idler and output gear [mm]."""
+        return self.spec.gears.module * (self.idler_teeth + self.output_teeth) / 2.0
+
+    @cached_property
+    def linkage(self) -> FourBar:
+        """The four-bar; coupler and rocker are the gears' centre distances."""
+        links = self.spec.links
+        if links is None:
+            raise MissingSection("`analyze` needs the section links: {crank: mm, frame: mm}", key="links")
+        linkage = FourBar(links.crank, self.coupler_length, self.rocker_length, links.frame, self.spec.assembly)
+        with at_key("links"):
+            motion.check_linkage(linkage)
+        return linkage
+
+    @property
+    def crank_length(self) -> float:
+        """Crank [mm]."""
+        return self.linkage.crank
+
+    @property
+    def frame_length(self) -> float:
+        """Frame [mm]."""
+        return self.linkage.frame
+
+    @property
+    def frame_ratio(self) -> float:
+        """Frame over crank."""
+        return self.linkage.frame / self.linkage.crank
+
+    # Motion
+
+    @cached_property
+    def mean_ratio(self) -> float:
+        """Net output turns per input turn."""
+        return motion.mean_ratio(self.linkage, self.train)
+
+    @cached_property
+    def speed_extremes(self) -> Extremes:
+        """Greatest and least speed ratio and their places."""
+        return motion.speed_extremes(self.linkage, self.train)
+
+    @cached_property
+    def acceleration_extremes(self) -> Extremes:
+        """Greatest and least acceleration ratio and their places."""
+        return motion.acceleration_extremes(self.linkage, self.train)
+
+    @property
+    def speed_ratio_max(self) -> float:
+        """Greatest output speed per input speed."""
+        return self.speed_extremes.greatest
+
+    @property
+    def speed_ratio_min(self) -> float:
+        """Least output speed per input speed."""
+        return self.speed_extremes.least
+
+    @property
+    def acceleration_ratio_max(self) -> float:
+        """Greatest output acceleration per square of the input speed."""
+        return self.acceleration_extremes.greatest
+
+    @property
+    def acceleration_ratio_min(self) -> float:
+        """Least output acceleration per square of the input speed."""
+        return self.acceleration_extremes.least
+
+    @cached_property
+    def dwell_crank_angles(self) -> list[float]:
+        """Crank angles of zero output speed [rad], ascending."""
+        return dwells.dwell_positions(self.linkage, self.train)
+
+    @cached_property
+    def motion(self) -> str:
+        """unidirectional, momentary-dwell or back-step."""
+        return dwells.motion(self.dwell_crank_angles)
+
+    @cached_property
+    def back_step(self) -> BackStep | None:
+        """The back-step, where there is one."""
+        return dwells.back_step(self.linkage, self.train) if self.motion == "back-step" else None
+
+    @property
+    def back_step_angle(self) -> float | None:
+        """How far the output steps back [rad]."""
+        return None if self.back_step is None else self.back_step.angle
+
+    @property
+    def back_step_crank_angle(self) -> float | None:
+        """Crank angle of the back-step, phi12 [rad]."""
+        return None if self.back_step is None else self.back_step.crank_angle
+
+    @cached_property
+    def dwell_angle(self) -> float | None:
+        """Crank angle until the output regains its place, phi13 [rad]."""
+        step = self.back_step
+        return None if step is None else dwells.dwell_angle(self.linkage, self.train, step)
+
+    @property
+    def dwell_angle_approximate(self) -> float | None:
+        """1.5 phi12 [rad] (thesis (4-17))."""
+        return None if self.back_step_crank_angle is None else 1.5 * self.back_step_crank_angle
+
+    @property
+    def nonuniformity(self) -> float:
+        """(max - min)/mean of the speed ratio."""
+        return (self.speed_ratio_max - self.speed_ratio_min) / self.mean_ratio
+
+    @cached_property
+    def tolerance_dwell(self) -> ToleranceDwell | None:
+        """The longest dwell within the tolerance of the output, where the file gives one."""
+        tolerance = self.output_tolerance
+        if tolerance is None:
+            return None
+        from gearlink.core.three_gear.tolerance_dwell import tolerance_dwell
+
+        with at_key("dwell_tolerance" if self.spec.dwell_backlash is None else "dwell_backlash"):
+            return tolerance_dwell(self.linkage, self.train, tolerance)
+
+    @property
+    def output_tolerance(self) -> float | None:
+        """Tolerance of the output angle to either side [rad]: given, or from the play at the output gear."""
+        if self.spec.dwell_backlash is not None:
+            from gearlink.core.three_gear.tolerance_dwell import tolerance_from_backlash
+
+            return tolerance_from_backlash(self.spec.dwell_backlash, self.spec.gears.module * self.output_teeth / 2.0)
+        return None if self.spec.dwell_tolerance is None else math.radians(self.spec.dwell_tolerance)
+
+    @property
+    def tolerance_dwell_angle(self) -> float | None:
+        """Crank angle of that dwell [rad]."""
+        return None if self.tolerance_dwell is None else self.tolerance_dwell.crank_angle
+
+    @property
+    def tolerance_dwell_start(self) -> float | None:
+        """Crank angle at its start [rad]."""
+        return None if self.tolerance_dwell is None else self.tolerance_dwell.start
+
+    @cached_property
+    def min_transmission_angle(self) -> float:
+        """Least transmission angle over the turn [rad]."""
+        return self.linkage.min_transmission_angle()
+
+    @cached_property
+    def gear_gap(self) -> float:
+        """Gap of the tips of gears 1 and 5 at the closest [mm]."""
+        return motion.gear_gap(self.linkage, self.train, self.spec.gears.module)
+
+    @cached_property
+    def meshes(self) -> dict[str, GearPair]:
+        """The two meshes as gear pairs without profile shift."""
+        gears = self.spec.gears
+        alpha = math.radians(gears.pressure_angle)
+        teeth = ((self.crank_teeth, self.idler_teeth), (self.idler_teeth, self.output_teeth))
+        return {
+            mesh: GearPair.from_shift(gears.module, pair, (0.0, 0.0), pressure_angle=alpha)
+            for mesh, pair in zip(MESHES, teeth, strict=True)
+        }
+
+    def raw(self, name: str) -> Any:
+        """Names that carry their mesh are the gear pair's, all others the design's own."""
+        mesh, _, quantity = name.rpartition(".")
+        return gear_quantity(self.meshes[mesh], quantity) if mesh else getattr(self, name)
+
+    def table_motion(self) -> Table:
+        """Output angle, speed and acceleration, transmission angle over a turn of the crank."""
+        import numpy as np
+
+        from gearlink.core.three_gear.sweep import output_motion
+
+        count = self.samples or 360
+        degrees = np.arange(count) * (360.0 / count)
+        sweep = output_motion(self.linkage, self.train, np.radians(degrees))
+        columns = {
+            "crank_angle": (degrees, "deg"),
+            "output_angle": (np.degrees(sweep.output_angle), "deg"),
+            "speed_ratio": (sweep.speed_ratio, "1"),
+            "acceleration_ratio": (sweep.acceleration_ratio, "1"),
+            "transmission_angle": (np.degrees(sweep.transmission_angle), "deg"),
+        }
+        return Table.of("motion", columns)
+
+    # Checks
+
+    def check(self, name: str) -> list[Check]:
+        """Gear checks run over both meshes."""
+        if name not in GEAR_CHECKS:
+            return super().check(name)
+        limits = self.spec.limits
+        return [c for mesh, pair in self.meshes.items() for c in gear_check(name, pair, limits, mesh)]
+
+    def check_gear_collision(self) -> Check:
+        """GL301: gears 1 and 5, over the whole turn."""
+        limit, gap = self.spec.limits.gear_gap, self.gear_gap
+        text = f"gears 1 (crank) and 5 (output) keep {gap:.6g} mm between their tips at the closest, |AD - AB|"
+        if gap >= limit:
+            return Check("GL301", "gear-collision", "pass", text, gap, limit, "mm")
+        if gap < 0.0:
+            text = (
+                f"gears 1 (crank) and 5 (output) collide by {-gap:.6g} mm: gear 1 travels with the crank pin, so "
+                f"AD - AB = {abs(self.frame_length - self.crank_length):.6g} mm counts, not AD"
+            )
+        return Check("GL301", "gear-collision", "fail", f"{text}; {self._gap_remedy(limit - gap)}", gap, limit, "mm")
+
+    def _gap_remedy(self, missing: float) -> str:
+        """What would give the gears room."""
+        module = self.spec.gears.module
+        words = (
+            f"make frame less crank {safely_above(missing)} mm longer, or the crank and output gears "
+            f"{math.ceil(2.0 * missing / module)} teeth smaller together"
+        )
+        shorter = self._longest_crank_with_room()
+        if shorter is not None:
+            most = safely_below(shorter)
+            words += f"; a momentary dwell has room with a crank of at most {most} mm (synth momentary-dwell)"
+        return words
+
+    def _longest_crank_with_room(self) -> float | None:
+        """Longest crank of a momentary dwell with these gears that keeps gears 1 and 5 apart [mm]."""
+        module = self.spec.gears.module
+        r1, r3, r5 = (0.5 * module * teeth for teeth in (self.crank_teeth, self.idler_teeth, self.output_teeth))
+        return crank_with_room(r1, r3, r5, r1 + r5 + 2.0 * module + self.spec.limits.gear_gap)
+
+    def check_shaft_clearance(self) -> Iterator[Check]:
+        """GL302: idler against the input shaft, crank gear and idler against the output shaft."""
+        shafts, module = self.spec.shafts, self.spec.gears.module
+        tip = {gear: module * (teeth + 2.0) / 2.0 for gear, teeth in ((1, self.crank_teeth), (3, self.idler_teeth))}
+        links = self.linkage
+        nearest = joint_to_crank_pivot(links.crank, links.coupler, links.rocker, links.frame, links.assembly)[0]
+        input_radius = shafts.input_radius if shafts else None
+        output_radius = shafts.output_radius if shafts else None
+        yield _shaft("the idler", "input", nearest.distance, tip[3], input_radius)
+        yield _shaft("the crank gear", "output", abs(links.frame - links.crank), tip[1], output_radius)
+        yield _shaft("the idler", "output", links.rocker, tip[3], output_radius)
+
+    def check_transmission_angle(self) -> Check:
+        """GL303."""
+        remedy = "shorten the crank or take a larger idler"
+        return transmission_check(self.min_transmission_angle, self.spec.limits.transmission_angle, remedy)
+
+    def check_rounded_ratio(self) -> Iterator[Check]:
+        """GL304 where the file gives i3: whole teeth may change it."""
+        asked = self.spec.gears.i3
+        if asked is None:
+            return
+        off = self.i3 - asked
+        same = abs(off) <= 1e-12 * abs(asked)
+        text = f"i3 = {asked:g} becomes {self.i3:.9g} with {self.idler_teeth} idler teeth"
+        if not same:
+            text += "; everything is computed with that: ask for a ratio of whole teeth, or accept it"
+        yield Check("GL304", "rounded-ratio", "pass" if same else "warn", text, self.i3, asked)
+
+
+def _shaft(gear: str, shaft: str, distance: float, tip: float, radius: float | None) -> Check:
+    """A tip circle against a shaft: fails where it reaches the shaft, warns where it crosses an unnamed one's axis."""
+    room = distance - tip
+    if radius is not None:
+        room -= radius
+        status: Status = "fail" if room < 0.0 else "pass"
+        text = f"{gear} keeps {room:.4g} mm from the {shaft} shaft (radius {radius:g} mm)"
+        if status == "fail":
+            text = f"{gear} comes {-room:.4g} mm into the {shaft} shaft (radius {radius:g} mm): overhang the shaft"
+            if distance > tip:
+                text += f", or set shafts.{shaft}_radius to at most {safely_below(distance - tip)} mm"
+        return Check("GL302", "shaft-clearance", status, text, room, 0.0, "mm")
+    text = f"{gear} stays {room:.4g} mm from the axis of the {shaft} shaft"
+    if room < 0.0:
+        text = (
+            f"the tips of {gear} ({tip:.6g} mm) pass the axis of the {shaft} shaft, {distance:.6g} mm away: the shaft "
+            f"must be overhung, or name its radius in shafts.{shaft}_radius"
+        )
+    return Check("GL302", "shaft-clearance", "warn" if room < 0.0 else "pass", text, room, 0.0, "mm")

@@ -1,0 +1,141 @@
+"""The design file of a three-gear four-bar."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from gearlink.core.spec import (
+    AcuteAngle,
+    Assembly,
+    DesignSpec,
+    GearLimits,
+    Length,
+    PressureAngle,
+    SignedLength,
+    Spec,
+    Teeth,
+)
+
+
+class Gears(Spec):
+    """The three gears in mesh; the idler stands on the pin of coupler and rocker."""
+
+    module: Length = Field(description="module of all three gears")
+    crank: Teeth = Field(description="teeth of the gear fixed to the crank")
+    idler: Teeth | None = Field(None, description="teeth of the idler; chosen by a synthesis when left out")
+    output: Teeth = Field(description="teeth of the output gear on the rocker's axis")
+    i3: Annotated[float, Field(lt=0, json_schema_extra={"unit": "1"})] | None = Field(
+        None, description="-idler/output, in place of idler"
+    )
+    pressure_angle: PressureAngle = Field(20.0, description="pressure angle of the reference profile")
+
+    @model_validator(mode="after")
+    def _one_ratio(self) -> Gears:
+        if self.i3 is not None and self.idler is not None:
+            raise PydanticCustomError("GL111", "i3 and idler exclude each other: give one", {"key": "i3"})
+        if self.i3 is not None and self.crank != self.output:
+            message = "i3 goes with equal crank and output teeth: set output to {crank}, or give idler in place of i3"
+            raise PydanticCustomError("GL111", message, {"key": "output", "crank": self.crank})
+        return self
+
+
+class Links(Spec):
+    """The links that the gears do not fix."""
+
+    crank: Length = Field(description="crank AB")
+    frame: Length = Field(description="frame AD")
+
+
+class Dwell(Spec):
+    """Asked of `synth dwell`."""
+
+    angle: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] = Field(
+        description="crank angle phi13 over which the output stands or comes back to its place"
+    )
+
+
+class BackStep(Spec):
+    """Asked of `synth back-step`."""
+
+    angle: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
+        None, description="back-step of the output"
+    )
+    crank_angle: Annotated[float, Field(ge=0, lt=180, json_schema_extra={"unit": "deg"})] | None = Field(
+        None, description="crank angle phi12 of the back-step"
+    )
+
+    @model_validator(mode="after")
+    def _something(self) -> BackStep:
+        if self.angle is None and self.crank_angle is None:
+            raise PydanticCustomError("GL106", "give angle, crank_angle or both", {"key": "angle"})
+        return self
+
+
+class Speed(Spec):
+    """Asked of `synth variable-speed`; the input turns at the mean of the two."""
+
+    min: Annotated[float, Field(json_schema_extra={"unit": "1/min"})] = Field(description="least output speed")
+    max: Annotated[float, Field(gt=0, json_schema_extra={"unit": "1/min"})] = Field(description="greatest output speed")
+
+
+class Momentary(Spec):
+    """Asked of `synth momentary-dwell`."""
+
+    eccentricity: Length = Field(description="crank length e")
+
+
+class Limits(GearLimits):
+    """Limits of the checks."""
+
+    transmission_angle: AcuteAngle = Field(40.0, description="least transmission angle")
+    gear_gap: SignedLength = Field(0.0, description="least gap between gears that do not mesh")
+
+
+class Shafts(Spec):
+    """Shafts that pass through the plane of the gears."""
+
+    input_radius: Length | None = Field(None, description="radius of the input shaft at A")
+    output_radius: Length | None = Field(None, description="radius of the output shaft at D")
+
+
+class ThreeGearSpec(DesignSpec):
+    """Gear on the crank, idler on the coupler pin, output gear on the rocker's axis."""
+
+    kind: Literal["three-gear-four-bar"]
+    gears: Gears
+    links: Links | None = None
+    assembly: Assembly = Field(1, description="+1: C left of the vector from B to D; -1: its mirror image")
+    dwell: Dwell | None = None
+    back_step: BackStep | None = None
+    speed: Speed | None = None
+    momentary: Momentary | None = None
+    dwell_tolerance: Annotated[float, Field(gt=0, json_schema_extra={"unit": "deg"})] | None = Field(
+        None, description="output tolerance +- for the tolerance dwell"
+    )
+    dwell_backlash: Length | None = Field(
+        None, description="play at the output gear's reference circle, in place of dwell_tolerance"
+    )
+    limits: Limits = Limits()
+    shafts: Shafts | None = None
+
+    @model_validator(mode="after")
+    def _one_tolerance(self) -> ThreeGearSpec:
+        if self.dwell_tolerance is not None and self.dwell_backlash is not None:
+            raise PydanticCustomError(
+                "GL111", "dwell_tolerance and dwell_backlash exclude each other: give one", {"key": "dwell_backlash"}
+            )
+        return self
+
+    def commands(self) -> tuple[str, ...]:
+        """What the file asks for: a synthesis per section, an analysis where the links are given."""
+        asked = {
+            "synth dwell": self.dwell,
+            "synth back-step": self.back_step,
+            "synth variable-speed": self.speed,
+            "synth momentary-dwell": self.momentary,
+            "analyze": self.links,
+        }
+        return tuple(command for command, section in asked.items() if section is not None) or ("analyze",)

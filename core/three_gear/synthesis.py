@@ -1,0 +1,293 @@
+"""Syntheses of the three-gear four-bar: from an output motion to its links, and to its idler where it is left out."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from functools import cached_property
+from typing import Any
+
+from gearlink.core.design import Outline
+from gearlink.core.errors import MissingSection, NoSolution, at_key
+from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.report import Check, safely_below
+from gearlink.core.three_gear import symmetric_back_step
+from gearlink.core.three_gear import symmetric_family as family
+from gearlink.core.three_gear.design import CHECKS, QUANTITIES, ThreeGearFourBar
+from gearlink.core.three_gear.dwells import BackStep
+from gearlink.core.three_gear.idler_choice import GREATEST_IDLER, LEAST_IDLER, idler_for_ratio, smallest_idler
+from gearlink.core.three_gear.momentary_dwell import momentary_crank_angle, momentary_linkage
+from gearlink.core.three_gear.motion import GearTrain, gear_gap
+
+_STANDSTILL = 1.5 * math.pi
+
+
+class Synthesis(ThreeGearFourBar):
+    """What the syntheses share: the choice of the idler; `linkage_of` gives the links for an idler."""
+
+    def linkage_of(self, idler: int) -> FourBar:
+        """The links that meet the task with an idler of so many teeth."""
+        raise NotImplementedError
+
+    def section(self, name: str, words: str) -> Any:
+        """A section of the file that this synthesis needs."""
+        value = getattr(self.spec, name)
+        if value is None:
+            raise MissingSection(f"this synthesis needs the section {name}: {words}", key=name)
+        return value
+
+    def chosen_idler(self) -> int:
+        """The smallest idler that keeps transmission angle and gear gap."""
+        gears, limits = self.spec.gears, self.spec.limits
+        try:
+            return smallest_idler(
+                self.linkage_of,
+                gears.crank,
+                gears.output,
+                gears.module,
+                min_transmission_angle=math.radians(limits.transmission_angle),
+                min_gear_gap=limits.gear_gap,
+            )
+        except MissingSection:
+            raise
+        except NoSolution as error:
+            if error.key in ("", "gears.idler") or not self.depends_on_idler(error):
+                raise
+            words = f"no idler from {LEAST_IDLER} to {GREATEST_IDLER} teeth meets the task: {error.message}"
+            raise NoSolution(words, key="gears.idler") from error
+
+    def depends_on_idler(self, _refusal: NoSolution) -> bool:
+        """Whether another idler could avoid a refusal of `linkage_of`."""
+        return True
+
+    @cached_property
+    def linkage(self) -> FourBar:
+        """The links that meet the task."""
+        return self.linkage_of(self.idler_teeth)
+
+    def _gap_remedy(self, missing: float) -> str:
+        larger = self._idler_with_room()
+        if larger is not None:
+            return f"take an idler of {larger} teeth or more"
+        return super()._gap_remedy(missing)
+
+    def _idler_with_room(self) -> int | None:
+        gears, limit = self.spec.gears, self.spec.limits.gear_gap
+        for idler in range(self.idler_teeth + 1, GREATEST_IDLER + 1):
+            try:
+                linkage = self.linkage_of(idler)
+            except NoSolution:
+                continue
+            if gear_gap(linkage, GearTrain(gears.crank, idler, gears.output), gears.module) >= limit:
+                return idler
+        return None
+
+
+class SymmetricSynthesis(Synthesis):
+    """The family I = 1 with equal gears 1 and 5 and equal coupler and rocker (thesis 4.1)."""
+
+    def frame_ratio_for(self, i3: float) -> float:
+        """Frame over crank that meets the task with a ratio i3."""
+        raise NotImplementedError
+
+    @cached_property
+    def train(self) -> GearTrain:
+        """The three gears; every closed form of the family asks for their ratio here."""
+        self._require_equal_gears()
+        return GearTrain(self.crank_teeth, self.idler_teeth, self.output_teeth)
+
+    def _require_equal_gears(self) -> None:
+        gears = self.spec.gears
+        if gears.crank != gears.output:
+            raise NoSolution(
+                f"this synthesis belongs to the family I = 1: crank ({gears.crank}) and output ({gears.output}) teeth "
+                f"must be equal; set output to {gears.crank}",
+                key="gears.output",
+            )
+
+    def linkage_of(self, idler: int) -> FourBar:
+        """Links of the family for an idler."""
+        self._require_equal_gears()
+        gears = self.spec.gears
+        ratio = self.frame_ratio_for(-idler / gears.output)
+        return family.symmetric_linkage(ratio, gears.module * (gears.crank + idler) / 2.0, self.spec.assembly)
+
+    def depends_on_idler(self, refusal: NoSolution) -> bool:
+        """Unequal gears are wrong with every idler."""
+        return refusal.key != "gears.output"
+
+    @cached_property
+    def frame_ratio(self) -> float:
+        """Frame over crank."""
+        return self.frame_ratio_for(self.i3)
+
+    @cached_property
+    def speed_limits(self) -> tuple[float, float]:
+        """Greatest and least speed ratio, in closed form (thesis (4-13))."""
+        return family.speed_ratio_limits(self.i3, self.frame_ratio)
+
+    @property
+    def speed_ratio_max(self) -> float:
+        """Greatest output speed per input speed."""
+        return self.speed_limits[0]
+
+    @property
+    def speed_ratio_min(self) -> float:
+        """Least output speed per input speed."""
+        return self.speed_limits[1]
+
+    @property
+    def _middle(self) -> float:
+        """Crank angle of the least speed: 270 deg, mirrored with the assembly."""
+        return _STANDSTILL if self.spec.assembly == 1 else math.pi - 0.5 * math.pi
+
+
+class BackStepFamily(SymmetricSynthesis):
+    """Syntheses that fix the crank angle phi12 of the back-step."""
+
+    def crank_angle_for(self, i3: float) -> float:
+        """phi12 [rad] that meets the task with a ratio i3."""
+        raise NotImplementedError
+
+    def frame_ratio_for(self, i3: float) -> float:
+        """Thesis (4-18)."""
+        return family.frame_ratio_for_back_step(i3, self.crank_angle_for(i3))
+
+    @cached_property
+    def _phi12(self) -> float:
+        return self.crank_angle_for(self.i3)
+
+    @cached_property
+    def dwell_crank_angles(self) -> list[float]:
+        """270 deg -+ phi12/2 (thesis (4-15)), or its mirror image."""
+        if self._phi12 == 0.0:
+            return [self._middle]
+        return [self._middle - 0.5 * self._phi12, self._middle + 0.5 * self._phi12]
+
+    @cached_property
+    def back_step(self) -> BackStep | None:
+        """In closed form (thesis (4-15), (4-19))."""
+        if self._phi12 == 0.0:
+            return None
+        angle = symmetric_back_step.back_step_angle(self.i3, self._phi12)
+        start, end = self.dwell_crank_angles
+        return BackStep(start, end, self._phi12, angle)
+
+    @cached_property
+    def dwell_angle(self) -> float | None:
+        """phi13 from its own equation."""
+        return None if self.back_step is None else symmetric_back_step.dwell_angle(self.i3, self._phi12)
+
+
+class DwellSynthesis(BackStepFamily):
+    """`synth dwell`: the crank angle phi13 of the dwell is given."""
+
+    outlines = {"synth dwell": Outline(QUANTITIES, CHECKS)}
+
+    def crank_angle_for(self, i3: float) -> float:
+        """phi12 whose exact phi13 is the one asked for."""
+        angle = self.section("dwell", "angle (deg)").angle
+        with at_key("dwell.angle"):
+            return symmetric_back_step.crank_angle_for_dwell(i3, math.radians(angle))
+
+    @cached_property
+    def dwell_angle(self) -> float | None:
+        """As asked for: phi12 was solved for it."""
+        self.linkage  # noqa: B018 - a task without a mechanism is refused here as well
+        return math.radians(self.section("dwell", "angle (deg)").angle)
+
+
+class BackStepSynthesis(BackStepFamily):
+    """`synth back-step`: back-step of the output, crank angle phi12, or both are given."""
+
+    outlines = {"synth back-step": Outline(QUANTITIES, ("back-step-target", *CHECKS))}
+
+    def chosen_idler(self) -> int:
+        """From angle and crank angle by thesis (4-19), rounded to teeth; else the smallest that keeps the limits."""
+        task = self.section("back_step", "angle, crank_angle (deg)")
+        if task.angle is None or task.crank_angle is None:
+            return super().chosen_idler()
+        with at_key("back_step.angle"):
+            i3 = symmetric_back_step.i3_for_back_step(math.radians(task.angle), math.radians(task.crank_angle))
+        with at_key("gears.idler"):
+            return idler_for_ratio(i3, self.spec.gears.output)
+
+    def crank_angle_for(self, i3: float) -> float:
+        """phi12 as given, or from the back-step."""
+        task = self.section("back_step", "angle, crank_angle (deg)")
+        if task.crank_angle is not None:
+            return math.radians(task.crank_angle)
+        with at_key("back_step.angle"):
+            return symmetric_back_step.crank_angle_for_back_step(i3, math.radians(task.angle))
+
+    def check_back_step_target(self) -> Iterator[Check]:
+        """GL304 where the file asks for a back-step besides the crank angle."""
+        asked = self.section("back_step", "angle, crank_angle (deg)").angle
+        if asked is None:
+            return
+        got = math.degrees(self.back_step_angle or 0.0)
+        off = abs(got - asked)
+        text = f"the back-step is {got:.6g} deg, {asked:g} deg were asked for"
+        if off > 0.5:
+            text += ": leave idler or crank_angle out, so that it can be chosen to fit"
+        yield Check("GL304", "back-step-target", "warn" if off > 0.5 else "pass", text, got, asked, "deg")
+
+
+class VariableSpeedSynthesis(SymmetricSynthesis):
+    """`synth variable-speed`: the output speed swings between two values, the input turns at their mean."""
+
+    outlines = {"synth variable-speed": Outline(QUANTITIES, CHECKS)}
+
+    def frame_ratio_for(self, i3: float) -> float:
+        """Thesis (4-20)."""
+        speed = self.section("speed", "min, max (rev/min)")
+        with at_key("speed.max" if speed.max <= speed.min else "speed.min"):
+            return family.frame_ratio_for_speed_band(i3, speed.min, speed.max)
+
+    def depends_on_idler(self, _refusal: NoSolution) -> bool:
+        """A wrong band is wrong with every idler."""
+        return False
+
+    @cached_property
+    def dwell_crank_angles(self) -> list[float]:
+        """None, or the one at 270 deg where the least speed is zero."""
+        self.linkage  # noqa: B018 - a band without a mechanism is refused here as well
+        return [self._middle] if self.section("speed", "min, max").min == 0.0 else []
+
+
+class MomentaryDwellSynthesis(Synthesis):
+    """`synth momentary-dwell`: any three gears and the crank length are given, the frame is sought."""
+
+    outlines = {"synth momentary-dwell": Outline(QUANTITIES, CHECKS)}
+
+    def _radii(self, idler: int) -> tuple[float, float, float]:
+        gears = self.spec.gears
+        return tuple(gears.module * teeth / 2.0 for teeth in (gears.crank, idler, gears.output))  # type: ignore[return-value]
+
+    @property
+    def _eccentricity(self) -> float:
+        return float(self.section("momentary", "eccentricity (mm)").eccentricity)
+
+    def linkage_of(self, idler: int) -> FourBar:
+        """Frame length in closed form, in place of thesis (4-26)..(4-33)."""
+        with at_key("momentary.eccentricity"):
+            return momentary_linkage(*self._radii(idler), self._eccentricity, self.spec.assembly)
+
+    def depends_on_idler(self, _refusal: NoSolution) -> bool:
+        """A crank not below the radius of gear 1 is too long with every idler."""
+        return self._eccentricity < self._radii(LEAST_IDLER)[0]
+
+    @cached_property
+    def dwell_crank_angles(self) -> list[float]:
+        """The one standstill, at full precision."""
+        self.linkage  # noqa: B018
+        return [momentary_crank_angle(*self._radii(self.idler_teeth), self._eccentricity, self.spec.assembly)]
+
+    def _gap_remedy(self, missing: float) -> str:
+        words = super()._gap_remedy(missing)
+        shorter = self._longest_crank_with_room()
+        return (
+            words
+            if shorter is None
+            else f"set momentary.eccentricity to at most {safely_below(shorter)} mm, or {words}"
+        )

@@ -1,0 +1,372 @@
+"""Oscillating cam of a wide-swing mechanism: the cam rides on the rocker of a crank-rocker.
+
+The cam does not turn evenly but swings by chi(k) between the dead centres of the crank-rocker while its crank
+turns evenly; the wide-swing rocker follows its law of motion over the same stroke.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from gearlink.core.errors import NoSolution
+from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.fourbar_sweep import solve
+from gearlink.core.numerics.arrays import Points, Reals
+from gearlink.core.numerics.extremes import maximum_over
+from gearlink.core.numerics.roots import bracketed_root
+from gearlink.core.report import safely_below
+from gearlink.core.wide_swing.cam import LEAST_SPEED_RATIO, CamPoints, too_small_swing
+from gearlink.core.wide_swing.curve import StrokeLaw
+
+REST_SHARE = 0.02
+"""Part of the stroke at either end in which the cam hardly moves: its curvature there is of no account."""
+
+
+@dataclass(frozen=True)
+class CrankRockerDrive:
+    """Swing of a cam on the rocker of a crank-rocker, from one dead centre to the other.
+
+    Parameters
+        linkage : FourBar - a crank-rocker
+        outward : bool - True from the extended to the folded dead centre, False back
+    Raises
+        NoSolution - for a linkage that is no crank-rocker
+    Example
+        >>> drive = CrankRockerDrive(FourBar(crank=1.0, coupler=3.0, rocker=2.5, frame=4.0))
+        >>> [round(math.degrees(x), 6) for x in (*drive.crank_angles, drive.swing)]
+        [36.419914, 210.75352, 47.643195]
+
+    Source
+        wide-swing dissertation, chapter 4, combined cam mechanisms; own derivation
+    """
+
+    linkage: FourBar
+    outward: bool = True
+
+    def __post_init__(self) -> None:
+        kind = self.linkage.kind()
+        if kind != "crank-rocker":
+            raise NoSolution(
+                f"the linkage is a {kind}: the cam needs a crank-rocker, in which the crank is the shortest link and "
+                "shortest plus longest are less than the other two together; change the link lengths"
+            )
+
+    @cached_property
+    def crank_angles(self) -> tuple[float, float]:
+        """Crank angles at the start and the end of the stroke [rad]."""
+        bar = self.linkage
+        side = float(bar.assembly)
+        extended = side * self._base_angle(bar.coupler + bar.crank)
+        folded = side * self._base_angle(bar.coupler - bar.crank) + math.pi
+        first, last = (extended, folded) if self.outward else (folded, extended)
+        return first, first + math.fmod(last - first + 4.0 * math.pi, 2.0 * math.pi)
+
+    def _base_angle(self, reach: float) -> float:
+        """Angle at the crank pivot of the triangle reach, frame, rocker."""
+        bar = self.linkage
+        over = (bar.rocker - bar.frame + reach) * (bar.rocker + bar.frame - reach)
+        under = (bar.frame + reach - bar.rocker) * (bar.frame + reach + bar.rocker)
+        return 2.0 * math.atan(math.sqrt(over / under))
+
+    @property
+    def crank_span(self) -> float:
+        """Crank angle of the stroke [rad]; not a half turn in general."""
+        return self.crank_angles[1] - self.crank_angles[0]
+
+    @cached_property
+    def _middle(self) -> tuple[float, float]:
+        """Rocker angle at k = 1/2, and the sign of its velocity."""
+        middle = solve(self.linkage, np.array([0.5 * sum(self.crank_angles)]), 1)
+        return float(middle.rocker_angle[0]), math.copysign(1.0, float(middle.rocker_velocity[0]))
+
+    def motion(self, k: Reals, order: int = 2) -> tuple[Reals, ...]:
+        """Cam angle from k = 1/2, counted in its direction of motion, and its derivatives after k.
+
+        Parameters
+            k : (N,) array - fraction of the stroke
+            order : int - 0 to 3
+        Returns
+            rates : tuple of order + 1 (N,) arrays [rad] - chi and its derivatives
+        """
+        sweep = solve(self.linkage, self.crank_angles[0] + k * self.crank_span, order, velocity=self.crank_span)
+        place, sign = self._middle
+        rates = (sweep.rocker_velocity, sweep.rocker_acceleration, sweep.rocker_jerk)[:order]
+        return (sign * (sweep.rocker_angle - place), *(sign * rate for rate in rates))
+
+    @property
+    def swing(self) -> float:
+        """Swing of the cam [rad]."""
+        ends = self.motion(np.array([0.0, 1.0]))[0]
+        return float(ends[1] - ends[0])
+
+
+@dataclass(frozen=True)
+class OscillatingCam:
+    """External cam on the rocker of a crank-rocker, guiding a wide-swing rocker.
+
+    z = e^{i chi}(-1 + lambda e^{i phi}) a, lambda = r/a = 1/(1 + gamma B/|chi'|) at mid-swing
+
+    Parameters
+        drive : CrankRockerDrive
+        law : StrokeLaw - law of motion of the wide-swing rocker
+        center_distance, roller_radius : float [mm] - a, r_p
+    Raises
+        NoSolution - for lengths that are not positive
+    Notes
+        The pitch curve has cusps at mid-swing and, because cam and rocker stop together, at both ends, where the
+        third derivative of the cam's motion leaves its curvature without bound.
+    Example
+        >>> from gearlink.core.wide_swing.elastic_law import ElasticLaw, Pneumatic
+        >>> drive = CrankRockerDrive(FourBar(crank=1.0, coupler=3.0, rocker=2.5, frame=4.0))
+        >>> cam = OscillatingCam(drive, ElasticLaw(Pneumatic(2.5), math.radians(120)), 1.0, 0.02)
+        >>> round(cam.rocker_radius, 12), round(math.degrees(cam.middle_pressure_angle), 9)
+        (0.267872782028, 1.946891616)
+
+    Source
+        wide-swing dissertation, chapter 4, combined cam mechanisms; own derivation
+    """
+
+    drive: CrankRockerDrive
+    law: StrokeLaw
+    center_distance: float
+    roller_radius: float
+
+    def __post_init__(self) -> None:
+        for name, value in (("centre distance", self.center_distance), ("roller radius", self.roller_radius)):
+            if not 0.0 < value < math.inf:
+                raise NoSolution(f"the {name} is {value:.6g} mm; it must be above 0")
+
+    @cached_property
+    def _middle(self) -> tuple[float, float]:
+        """chi' and chi'' at mid-swing."""
+        _, first, second = self.drive.motion(np.array([0.5]))
+        return float(first[0]), float(second[0])
+
+    @cached_property
+    def ratio(self) -> float:
+        """lambda = r/a."""
+        peak = self.law.swing * self.law.velocity_peak / self._middle[0]
+        if peak < LEAST_SPEED_RATIO:
+            raise too_small_swing(self.law.swing, peak)
+        return 1.0 / (1.0 + peak)
+
+    @property
+    def rocker_radius(self) -> float:
+        """r, from the rocker's pivot to the roller centre [mm]."""
+        return self.ratio * self.center_distance
+
+    @cached_property
+    def middle_pressure_angle(self) -> float:
+        """Pressure angle that remains at mid-swing, in the sign of `WideSwingCam` [rad].
+
+        tan delta = -(1 - lambda) chi''/(chi' phi'): zero only where the cam is at its speed extremum
+        """
+        first, second = self._middle
+        return -math.atan((1.0 - self.ratio) * second / (first * self.law.swing * self.law.velocity_peak))
+
+    @property
+    def cusp_bend(self) -> float:
+        """Sense of the cusp at mid-swing: positive for a cusp, negative for a loop.
+
+        Im(conj(z2) z3)/|z2|^2 with the second and third derivatives of z after k
+        """
+        return self._cusp[0]
+
+    @property
+    def loop_margin(self) -> float:
+        """What must be positive for the profile to exist: `cusp_bend`."""
+        return self._cusp[0]
+
+    @property
+    def transition_zone(self) -> float:
+        """Part Dk of the stroke each side of mid-swing where the roller, in its slot, has left the profile.
+
+        Dk = q r_p/p^2 = 2 r_p Im(conj(z2) z3)/(3 a |z2|^3), p = |z2|/2, q = Im(conj(z2) z3)/(6 |z2|)
+
+        Raises
+            NoSolution - where the pitch curve has a loop
+        Notes
+            Leading order in r_p/a, as `WideSwingCam.transition_zone`.
+        """
+        self.require_profile()
+        bend, second = self._cusp
+        return 2.0 * bend * self.roller_radius / (3.0 * second * self.center_distance)
+
+    @cached_property
+    def _cusp(self) -> tuple[float, float]:
+        """Im(conj(z2) z3)/|z2|^2 and |z2| at mid-swing."""
+        _, chi1, chi2, chi3 = (float(x[0]) for x in self.drive.motion(np.array([0.5]), 3))
+        phi1, phi3 = self.law.swing * self.law.velocity_peak, self.law.swing * self.law.middle_jerk
+        r = self.ratio
+        f, f1, f2, f3 = r - 1.0, 1j * r * phi1, -r * phi1**2, 1j * r * (phi3 - phi1**3)
+        second = f2 + 2j * chi1 * f1 + (1j * chi2 - chi1**2) * f
+        third = f3 + 3j * chi1 * f2 + 3.0 * (1j * chi2 - chi1**2) * f1
+        third += (1j * chi3 - 3.0 * chi1 * chi2 - 1j * chi1**3) * f
+        return (second.conjugate() * third).imag / abs(second) ** 2, abs(second)
+
+    @property
+    def middle_radius(self) -> float:
+        """Pitch radius at mid-swing, a - r [mm]."""
+        return (1.0 - self.ratio) * self.center_distance
+
+    @cached_property
+    def end_radius(self) -> float:
+        """Pitch radius at both ends of the stroke [mm]."""
+        half = 0.5 * self.law.swing
+        return self.center_distance * math.hypot(1.0 - self.ratio * math.cos(half), self.ratio * math.sin(half))
+
+    @property
+    def min_radius(self) -> float:
+        """Least pitch radius [mm]."""
+        return min(self.middle_radius, self.end_radius)
+
+    @property
+    def max_radius(self) -> float:
+        """Largest pitch radius [mm]."""
+        return max(self.middle_radius, self.end_radius)
+
+    @cached_property
+    def max_pressure_angle(self) -> float:
+        """Largest magnitude of the pressure angle over the whole stroke [rad].
+
+        Raises
+            NoSolution - for a pitch curve with a loop
+        """
+
+        def size(k: Reals) -> Reals:
+            return np.abs(self.pressure_angle(k))
+
+        # next to a standstill both rates vanish and their ratio has no digits; the end itself has the limit
+        inside = maximum_over(size, 1e-3, 1.0 - 1e-3, joints=(0.5,), samples=256).value
+        return max(inside, float(size(np.array([0.0, 1.0])).max()))
+
+    def pressure_angle(self, k: Reals) -> Reals:
+        """Pressure angle at fractions of the stroke [rad].
+
+        Raises
+            NoSolution - for a pitch curve with a loop
+        Source
+            own derivation
+        """
+        return self.points(k).pressure_angle
+
+    @cached_property
+    def min_curvature_radius(self) -> float:
+        """Least radius of the pitch curve where it bulges from the body [mm].
+
+        Raises
+            NoSolution - for a loop, or a transition zone that fills the stroke
+        Notes
+            Left out are the transition zone and the first and last fiftieth of the stroke, in which cam and rocker
+            come from or to a standstill and move by about 1/1000 of their swings.
+        """
+        zone = self.transition_zone
+        if zone >= 0.5 - REST_SHARE:
+            raise NoSolution(
+                f"the transition zone is {zone:.4g} of the stroke: make the roller radius less than "
+                f"{safely_below(0.4 * self.roller_radius / zone)} mm"
+            )
+        peak = max(
+            maximum_over(lambda k: 1.0 / self.points(k).curvature_radius, start, end, samples=128).value
+            for start, end in ((REST_SHARE, 0.5 - zone), (0.5 + zone, 1.0 - REST_SHARE))
+        )
+        return 1.0 / peak if peak > 0.0 else math.inf
+
+    def slot(self) -> tuple[float, float]:
+        """Fractions of the stroke between which the roller's slot at mid-swing has cut the profile away.
+
+        |z(k) + r_p n(k) - z(1/2)| = r_p
+
+        Raises
+            NoSolution - for a loop, or where the roller at mid-swing covers the profile of a whole half stroke
+        """
+        inner, far = 0.55 * self.transition_zone, 0.5 - REST_SHARE
+        if inner >= far or min(self._clearance(0.5 - far), self._clearance(0.5 + far)) <= 0.0:
+            raise NoSolution(
+                f"roller radius {self.roller_radius:.6g} mm: the roller at mid-swing covers the profile of half the "
+                f"stroke; make it at most {safely_below(0.1 * self.roller_radius / self.transition_zone)} mm"
+            )
+        return (
+            bracketed_root(self._clearance, 0.5 - far, 0.5 - inner),
+            bracketed_root(self._clearance, 0.5 + inner, 0.5 + far),
+        )
+
+    def _clearance(self, k: float) -> float:
+        """Distance of the contact point from the roller at mid-swing [mm]."""
+        points = self.points(np.array([k, 0.5]))
+        return abs(complex(points.profile[0] - points.pitch[1])) - self.roller_radius
+
+    def require_profile(self) -> None:
+        """Refuse a pitch curve with a loop.
+
+        Raises
+            NoSolution - with what to change
+        """
+        if self.cusp_bend <= 0.0:
+            raise NoSolution(
+                f"the pitch curve has a loop at mid-swing (measure {self.cusp_bend:.4g}, must be above 0): "
+                "put mid-swing nearer to the cam's largest speed by changing the link lengths"
+            )
+
+    def points(self, k: Reals) -> CamPoints:
+        """Pitch curve, profile, pressure angle and curvature at given fractions of the stroke.
+
+        tan delta = [lambda (chi' + phi') - chi' cos phi]/(chi' sin phi)
+
+        Parameters
+            k : (N,) array - fractions of the stroke, 0 to 1
+        Returns
+            points : CamPoints - cam_angle is chi, from mid-swing
+        Raises
+            NoSolution - for k outside 0 to 1, or a pitch curve with a loop at mid-swing
+        Notes
+            Curvature by the parametric formula; at k = 0, 1/2 and 1 its radius is zero.
+        Source
+            own derivation
+        """
+        self.require_profile()
+        view = self.law.middle_view(k)
+        chi, chi1, chi2 = self.drive.motion(k)
+        phi1, phi2 = self.law.swing * view.velocity, self.law.swing * view.acceleration
+        arm: Points = self.ratio * np.exp(1j * view.angle)
+        turn: Points = np.exp(1j * chi)
+        pitch = turn * (arm - 1.0)
+        first = 1j * turn * (chi1 * (arm - 1.0) + phi1 * arm)
+        second = turn * (
+            1j * (chi2 * (arm - 1.0) + phi2 * arm) - chi1**2 * (arm - 1.0) - phi1 * arm * (phi1 + 2.0 * chi1)
+        )
+        stop = (k == 0.0) | (k == 0.5) | (k == 1.0)
+        # where the curve stops its direction is that of the second derivative: before the stop it points back
+        along = np.where(stop, np.where(k == 0.0, second, -second), first)
+        size = np.where(stop, 1.0, np.abs(first))
+        bend = np.where(stop, math.inf, (np.conj(first) * second).imag / size**3)
+        profile = pitch + self.roller_radius / self.center_distance * 1j * along / np.abs(along)
+        with np.errstate(divide="ignore"):
+            radius = self.center_distance / bend
+        return CamPoints(
+            k=k,
+            cam_angle=chi,
+            polar_angle=np.angle(-pitch),
+            pitch=self.center_distance * pitch,
+            profile=self.center_distance * profile,
+            pressure_angle=self._pressure_angle(view.angle, (chi1, chi2), (phi1, phi2), k),
+            curvature_radius=radius,
+        )
+
+    def _pressure_angle(
+        self,
+        phi: Reals,
+        chi: tuple[Reals, Reals],
+        rate: tuple[Reals, Reals],
+        k: Reals,
+    ) -> Reals:
+        """delta; where cam and rocker stand still the ratio of their accelerations takes the velocities' place."""
+        end = (k == 0.0) | (k == 1.0)
+        cam, rocker = np.where(end, chi[1], chi[0]), np.where(end, rate[1], rate[0])
+        across, along = self.ratio * (cam + rocker) - cam * np.cos(phi), cam * np.sin(phi)
+        side = np.where(along < 0.0, -1.0, 1.0)
+        return np.where(k == 0.5, self.middle_pressure_angle, np.arctan2(across * side, np.abs(along)))

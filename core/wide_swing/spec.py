@@ -1,0 +1,188 @@
+"""The design file of a wide-swing cam mechanism with an unloading device."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, LiteralString, NoReturn
+
+from pydantic import Field, ValidationInfo, field_validator, model_validator
+from pydantic_core import PydanticCustomError
+
+from gearlink.core.spec import (
+    AcuteAngle,
+    Angle,
+    Assembly,
+    DesignSpec,
+    Distance,
+    Length,
+    Ratio,
+    Share,
+    SignedLength,
+    Spec,
+)
+
+
+def _refuse(key: str, message: LiteralString, code: LiteralString = "GL111", **words: str) -> NoReturn:
+    raise PydanticCustomError(code, message, {"key": key, **words})
+
+
+class Pneumatic(Spec):
+    """A cylinder under constant pressure."""
+
+    type: Literal["pneumatic"] = Field(description="kind of device")
+    pivot_ratio: Ratio = Field(description="pivot distance over arm, above 1")
+    arm: Length = Field(description="arm r_d on the rocker")
+    extension_ratio: Annotated[float, Field(gt=1, json_schema_extra={"unit": "1"})] = Field(
+        13 / 9, description="extended over retracted length, q"
+    )
+    residual: Annotated[float, Field(ge=0, le=1, json_schema_extra={"unit": "1"})] = Field(
+        0.0, description="share of the inertia torque that friction and force error leave at the design speed"
+    )
+
+
+class SpringDevice(Spec):
+    """A tension spring."""
+
+    type: Literal["spring"] = Field(description="kind of device")
+    pivot_ratio: Ratio = Field(description="pivot distance over arm, above 1")
+    arm: Length = Field(description="arm r_d on the rocker")
+    stretch_ratio: Share = Field(description="mounting stretch at mid-swing over the stroke")
+    closed_length: Length | None = Field(None, description="closed-coil length; then the pivot ratio is checked")
+    stretch_capacity: Ratio | None = Field(
+        None, description="allowable stretch over closed length, in place of closed_length; steel 1 to 2"
+    )
+    end_fittings: Distance = Field(0.0, description="length of the end fittings")
+    residual: Annotated[float, Field(ge=0, le=1, json_schema_extra={"unit": "1"})] = Field(
+        0.0, description="share of the inertia torque that friction and force error leave at the design speed"
+    )
+
+    @model_validator(mode="after")
+    def _one_length(self) -> SpringDevice:
+        if self.closed_length is not None and self.stretch_capacity is not None:
+            _refuse("stretch_capacity", "closed_length and stretch_capacity exclude each other: give one")
+        return self
+
+
+class SwingCam(Spec):
+    """The cam pair."""
+
+    center_distance: Length = Field(description="cam axis to rocker axis")
+    roller_radius: Length = Field(description="radius of the roller")
+    rocker_radius: Length | None = Field(None, description="rocker radius, in place of the one with no pressure angle")
+    shaft_radius: Distance = Field(0.0, description="cam shaft; 0: not checked")
+
+
+class SwingShaft(Spec):
+    """The drive of the cam shaft; with it go the dynamic coefficient and the torque of the cam shaft."""
+
+    natural_frequency: Annotated[float, Field(gt=0, json_schema_extra={"unit": "1/s"})] = Field(
+        description="natural frequency of the drive in torsion"
+    )
+    damping: Annotated[float, Field(ge=0, lt=1, json_schema_extra={"unit": "1"})] = Field(
+        0.0, description="damping ratio of the drive"
+    )
+    linkage_share: Share = Field(
+        0.0, description="torque of the links that the device does not unload, share of the rocker's inertia torque"
+    )
+
+
+class SwingSlider(Spec):
+    """A slider that the rocker moves through a rod."""
+
+    crank: Length = Field(description="arm of the rocker that the rod is joined to")
+    rod: Length = Field(description="connecting rod")
+    middle_angle: Angle = Field(description="that arm at mid-swing, from the direction in which the slider is farthest")
+    offset: SignedLength = Field(0.0, description="offset of the slide line")
+    mass: Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg"})] = Field(description="mass of the slider")
+
+
+class SwingDrive(Spec):
+    """A crank-rocker whose rocker carries the cam."""
+
+    crank: Length = Field(description="crank, turning evenly at `speed`")
+    coupler: Length = Field(description="coupler")
+    rocker: Length = Field(description="rocker that carries the cam")
+    frame: Length = Field(description="distance of the two pivots")
+    assembly: Assembly = Field(1, description="+1: the coupler's end left of the vector from crank pin to rocker pivot")
+    stroke: Literal["outward", "homeward"] = Field(
+        "outward", description="outward: from the extended to the folded dead centre; homeward: back"
+    )
+
+
+class SwingLimits(Spec):
+    """Limits of the checks."""
+
+    pressure_angle: AcuteAngle = Field(45.0, description="greatest pressure angle outside the transition zone")
+    transition_zone: Annotated[float, Field(gt=0, lt=0.5, json_schema_extra={"unit": "1"})] = Field(
+        0.05, description="largest half-width of the contact change at mid-swing, share of the stroke"
+    )
+
+
+class WideSwingSpec(DesignSpec):
+    """Twin-cam or twin-rocker mechanism with spring or pneumatic unloading."""
+
+    kind: Literal["wide-swing-cam"]
+    layout: Literal["twin-cam", "twin-rocker"] = Field(
+        description="twin-cam: external profile; twin-rocker: internal profile"
+    )
+    drive: SwingDrive | None = None
+    swing: Annotated[float, Field(gt=0, le=300, json_schema_extra={"unit": "deg"})] = Field(description="whole swing")
+    cycle_angle: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
+        None, validate_default=True, description="cam angle of one stroke; left out where a drive gives it"
+    )
+    speed: Annotated[float, Field(gt=0, json_schema_extra={"unit": "1/min"})] = Field(description="of the cam")
+    inertia: Annotated[float, Field(ge=0, json_schema_extra={"unit": "kg m^2"})] = Field(
+        description="moment of inertia on the rocker axis; 0 only where a slider carries the mass"
+    )
+    unloader: Pneumatic | SpringDevice = Field(discriminator="type", description="device that bears the inertia")
+    operating_speed_min: Annotated[float, Field(gt=0, json_schema_extra={"unit": "1/min"})] | None = Field(
+        None, description="least speed at which the machine works; then the device is checked for harm there"
+    )
+    method: Literal["exact", "iteration"] = Field(
+        "exact", description="iteration: show the source's own iteration and its error beside the exact law"
+    )
+    iteration_steps: Annotated[int, Field(ge=1, le=100_000, json_schema_extra={"unit": "1"})] = Field(
+        20, description="its steps per half stroke"
+    )
+    cam: SwingCam | None = None
+    slider: SwingSlider | None = None
+    shaft: SwingShaft | None = None
+    limits: SwingLimits = SwingLimits()
+
+    @field_validator("cycle_angle")
+    @classmethod
+    def _given_unless_driven(cls, value: float | None, info: ValidationInfo) -> float | None:
+        """With the other fields, so that a missing key is told together with every other error of the file."""
+        if value is None and info.data.get("drive", ...) is None:
+            words = "cycle_angle: cam angle of one stroke, run-up and run-out"
+            _refuse("cycle_angle", "the key 'cycle_angle' is missing", "GL106", help=words)
+        return value
+
+    @model_validator(mode="after")
+    def _sections_agree(self) -> WideSwingSpec:
+        if self.slider is None and self.inertia == 0.0:
+            _refuse("inertia", "inertia must be above 0 where no slider carries the mass", "GL108")
+        if self.drive is not None:
+            self._agree_with_drive()
+        if self.slider is not None:
+            for name in ("cam", "drive", "shaft"):
+                if getattr(self, name) is not None:
+                    _refuse(
+                        name,
+                        "a slider makes the law unsymmetric: leave out {name}, made for the rocker alone",
+                        name=name,
+                    )
+        return self
+
+    def _agree_with_drive(self) -> None:
+        if self.cycle_angle is not None:
+            _refuse("cycle_angle", "the drive's dead centres give the crank angle of the stroke: leave out cycle_angle")
+        if self.cam is None:
+            _refuse("cam", "a drive needs the section cam: center_distance, roller_radius", "GL106")
+        if self.layout != "twin-cam":
+            _refuse("layout", "an oscillating cam has an external profile: layout must be twin-cam")
+        if self.cam.rocker_radius is not None:
+            _refuse("cam.rocker_radius", "the drive gives the rocker radius: leave out cam.rocker_radius")
+
+    def commands(self) -> tuple[str, ...]:
+        """What the file asks for."""
+        return ("swing", "cam") if self.cam is not None else ("swing",)

@@ -1,0 +1,258 @@
+"""`batch`: whatever the format, the number of processes, the share or the cache, the outcomes are the same."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import pytest
+
+from gearlink.cli.exit_codes import ExitCode
+
+ROOT = Path(__file__).resolve().parents[3]
+CRANK = "kind: slider-crank\nstroke: {stroke}\nrod: 520\noffset: 50\n"
+BROKEN = "kind: slider-crank\nrod: 5\n"
+
+
+@pytest.fixture
+def folder(tmp_path: Path, designs: Path) -> Path:
+    """Designs of every verdict: pass, warn, fail, error; one in a sub-folder, one hidden, one not a design."""
+    (tmp_path / "sub").mkdir()
+    (tmp_path / ".hidden").mkdir()
+    (tmp_path / "pass.yaml").write_text(CRANK.format(stroke=310))
+    (tmp_path / "sub" / "warn.yaml").write_text((designs / "thesis_example_1.yaml").read_text())
+    (tmp_path / "fail.yml").write_text((designs / "thesis_example_3_as_printed.yaml").read_text())
+    (tmp_path / "wrong.yaml").write_text(BROKEN)
+    (tmp_path / ".hidden" / "x.yaml").write_text("not: seen")
+    (tmp_path / "notes.txt").write_text("not a design")
+    return tmp_path
+
+
+def plain(ended: Any) -> list[dict[str, Any]]:
+    """The designs of a JSON result without what may differ from run to run."""
+    return [{k: v for k, v in d.items() if k not in ("seconds", "cached")} for d in ended.json["designs"]]
+
+
+def test_verdicts(gearlink: Any, folder: Path) -> None:
+    ended = gearlink("batch", folder, "--format", "json")
+    verdicts = {Path(d["file"]).name: d["result"] for d in ended.json["designs"]}
+    assert verdicts == {"pass.yaml": "pass", "warn.yaml": "warn", "fail.yml": "fail", "wrong.yaml": "error"}
+    assert ended.status == ExitCode.WRONG_INPUT
+    assert not ended.json["ok"]
+
+
+def test_processes_change_nothing(gearlink: Any, folder: Path) -> None:
+    for i in range(24):
+        (folder / f"crank_{i:02}.yaml").write_text(CRANK.format(stroke=100 + i))
+    one = gearlink("batch", folder, "--format", "json", "-j", "1")
+    two = gearlink("batch", folder, "--format", "json", "-j", "2")
+    assert plain(one) == plain(two)
+    assert len(plain(one)) == 28
+
+
+def test_shares_make_up_the_whole(gearlink: Any, folder: Path) -> None:
+    whole = plain(gearlink("batch", folder, "--format", "json"))
+    parts = [d for i in (1, 2, 3) for d in plain(gearlink("batch", folder, "--format", "json", "--shard", f"{i}/3"))]
+    assert sorted(parts, key=lambda d: d["file"]) == whole
+
+
+@pytest.mark.parametrize("share", ["0/2", "3/2", "x", "1/", "-1/2"])
+def test_wrong_share(gearlink: Any, folder: Path, share: str) -> None:
+    assert gearlink("batch", folder, "--shard", share).status == ExitCode.WRONG_INPUT
+
+
+def test_warning_as_failure(gearlink: Any, folder: Path) -> None:
+    path = folder / "sub"
+    assert gearlink("batch", path).status == ExitCode.OK
+    assert gearlink("batch", path, "--fail-on", "warning").status == ExitCode.FINDING
+
+
+def test_pattern(gearlink: Any, folder: Path) -> None:
+    ended = gearlink("batch", f"{folder}/*.yml", "--format", "json")
+    assert [Path(d["file"]).name for d in ended.json["designs"]] == ["fail.yml"]
+
+
+class TestCache:
+    def test_second_run_is_kept_and_equal(self, gearlink: Any, folder: Path, tmp_path: Path) -> None:
+        cache = tmp_path / "cache"
+        first = gearlink("batch", folder, "--format", "json", "--cache", cache)
+        second = gearlink("batch", folder, "--format", "json", "--cache", cache)
+        assert plain(first) == plain(second)
+        assert [d["cached"] for d in first.json["designs"]] == [False] * 4
+        assert [d["cached"] for d in second.json["designs"]] == [True] * 4
+        assert first.status == second.status
+
+    def test_changed_file_is_computed(self, gearlink: Any, folder: Path, tmp_path: Path) -> None:
+        cache = tmp_path / "cache"
+        gearlink("batch", folder, "--format", "json", "--cache", cache)
+        (folder / "pass.yaml").write_text(CRANK.format(stroke=300))
+        again = gearlink("batch", folder, "--format", "json", "--cache", cache)
+        assert {Path(d["file"]).name for d in again.json["designs"] if not d["cached"]} == {"pass.yaml"}
+
+    def test_strictness_is_part_of_the_key(self, gearlink: Any, folder: Path, tmp_path: Path) -> None:
+        cache = tmp_path / "cache"
+        assert gearlink("batch", folder / "sub", "--cache", cache).status == ExitCode.OK
+        assert gearlink("batch", folder / "sub", "--cache", cache, "--strict").status == ExitCode.FINDING
+
+    def test_damaged_entry_counts_as_absent(self, gearlink: Any, folder: Path, tmp_path: Path) -> None:
+        cache = tmp_path / "cache"
+        first = gearlink("batch", folder, "--format", "json", "--cache", cache)
+        for entry in cache.iterdir():
+            entry.write_text("{")
+        assert plain(gearlink("batch", folder, "--format", "json", "--cache", cache)) == plain(first)
+
+
+class TestOut:
+    def test_reports_tables_and_plots(self, gearlink: Any, designs: Path, tmp_path: Path) -> None:
+        out = tmp_path / "out"
+        gearlink("batch", designs / "ty460_slider_crank.yaml", "--out", out, "--plot")
+        gearlink("batch", designs / "ty460.yaml", "--out", out)
+        names = {path.name for path in out.rglob("*") if path.is_file()}
+        assert {"ty460_slider_crank-crank.json", "ty460_slider_crank-crank.png", "ty460-press-positions.csv"} <= names
+        report = json.loads(next(out.rglob("ty460-cam.json")).read_text())
+        assert report["command"] == "cam"
+
+    def test_plot_without_place(self, gearlink: Any, designs: Path) -> None:
+        assert gearlink("batch", designs, "--plot").status == ExitCode.WRONG_INPUT
+
+    def test_place_that_cannot_be_written(self, gearlink: Any, folder: Path, tmp_path: Path) -> None:
+        blocked = tmp_path / "blocked"
+        blocked.write_text("")
+        ended = gearlink("batch", folder / "pass.yaml", "--out", blocked, "--format", "json")
+        assert ended.status == ExitCode.WRONG_INPUT
+        assert ended.json["designs"][0]["errors"][0]["code"] == "GL116"
+
+
+class TestFormats:
+    def test_json_lines(self, gearlink: Any, folder: Path) -> None:
+        ended = gearlink("batch", folder, "--format", "jsonl")
+        assert [json.loads(line)["result"] for line in ended.out.splitlines()] == ["fail", "pass", "warn", "error"]
+
+    def test_junit(self, gearlink: Any, folder: Path) -> None:
+        root = ElementTree.fromstring(gearlink("batch", folder, "--format", "junit").out.split("\n", 1)[1])
+        suites = {Path(s.get("name", "")).name: s for s in root.iter("testsuite")}
+        assert suites["fail.yml"].get("failures") == "1"
+        assert suites["wrong.yaml"].get("errors") == "1"
+        assert suites["pass.yaml"].find("testcase/failure") is None
+        failure = suites["fail.yml"].find("testcase/failure")
+        assert failure is not None
+        assert "collide" in failure.get("message", "")
+
+    def test_junit_says_hostile_names_as_they_are(self, gearlink: Any, tmp_path: Path) -> None:
+        name = """a"b'c <d> &amp; ]]> \u00e9\t"""
+        path = tmp_path / "x'&<.yaml"
+        path.write_text(f"kind: slider-crank\nname: {json.dumps(name)}\nstroke: 310\nrod: 520\noffset: 50\n")
+        text = gearlink("batch", path, "--format", "junit").out
+        (case,) = ElementTree.fromstring(text.split("\n", 1)[1]).iter("testcase")
+        (suite,) = ElementTree.fromstring(text.split("\n", 1)[1]).iter("testsuite")
+        assert suite.get("name") == str(path)
+        assert case.get("name") == f"{name}: crank"
+
+    def test_sarif(self, gearlink: Any, folder: Path) -> None:
+        sarif = json.loads(gearlink("batch", folder, "--format", "sarif").out)
+        run = sarif["runs"][0]
+        assert {rule["id"] for rule in run["tool"]["driver"]["rules"]} == {r["ruleId"] for r in run["results"]}
+        levels = {(r["ruleId"], r["level"]) for r in run["results"]}
+        assert {("GL301", "error"), ("GL302", "warning"), ("GL106", "error")} <= levels
+
+    @pytest.mark.parametrize("form", ["junit", "sarif", "github"])
+    def test_places_are_kept(self, gearlink: Any, folder: Path, tmp_path: Path, form: str) -> None:
+        line = ("batch", folder, "--format", form, "--cache", tmp_path / "cache")
+        first, again = (re.sub(r'time="[\d.]+"', "", gearlink(*line).out) for _ in range(2))
+        assert first == again
+        assert "fail.yml" in first
+
+    def test_what_is_set_over_a_file_keeps_its_line(self, gearlink: Any, folder: Path) -> None:
+        out = gearlink("batch", folder / "fail.yml", "--format", "github", "--set", "links.crank=25.01").out
+        line = next(
+            i for i, text in enumerate((folder / "fail.yml").read_text().splitlines(), 1) if text[:6] == "links:"
+        )
+        assert f"line={line}," in next(text for text in out.splitlines() if "GL301" in text)
+
+    def test_findings_stand_at_their_line(self, gearlink: Any, folder: Path) -> None:
+        results = json.loads(gearlink("batch", folder, "--format", "sarif").out)["runs"][0]["results"]
+        (collision,) = (r for r in results if r["ruleId"] == "GL301")
+        line = collision["locations"][0]["physicalLocation"]["region"]["startLine"]
+        assert (folder / "fail.yml").read_text().splitlines()[line - 1].startswith("links:")
+
+    def test_github(self, gearlink: Any, folder: Path) -> None:
+        lines = gearlink("batch", folder, "--format", "github").out.splitlines()
+        pattern = re.compile(r"::(error|warning) file=[^,]+,line=\d+,col=\d+,title=GL\d{3} [\w-]+::.+")
+        assert lines
+        assert all(pattern.fullmatch(line) for line in lines)
+
+    @pytest.mark.parametrize("form", ["table", "csv", "md"])
+    def test_readers(self, gearlink: Any, folder: Path, form: str) -> None:
+        out = gearlink("batch", folder, "--format", form).out
+        assert "collide by 1.6 mm" in out.replace("\n", " ")
+
+
+def test_only_json_computes_tables(gearlink: Any, designs: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from gearlink.core.flatbed_press.design import FlatbedPress
+
+    def fail(self: object) -> None:
+        raise AssertionError("a table that nobody reads")
+
+    monkeypatch.setattr(FlatbedPress, "table_positions", fail)
+    assert gearlink("batch", designs / "ty460.yaml").status == ExitCode.OK
+
+
+def test_interrupt_keeps_what_is_finished(tmp_path: Path, designs: Path) -> None:
+    press = (designs / "ty460.yaml").read_text()
+    for i in range(3000):
+        (tmp_path / f"press_{i:04}.yaml").write_text(press)
+    command = [sys.executable, "-m", "gearlink.cli.main", "batch", str(tmp_path), "--format", "jsonl"]
+    environment = {**os.environ, "PYTHONUNBUFFERED": "1"}
+    process = subprocess.Popen(
+        command,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        cwd=ROOT,
+        env=environment,
+        # A runner started in the background hands an ignored SIGINT down to its children.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
+    try:
+        time.sleep(2.5)
+        process.send_signal(signal.SIGINT)
+        sent = time.perf_counter()
+        out, err = process.communicate(timeout=20)
+    finally:
+        process.kill()
+        process.communicate()
+    assert process.returncode == ExitCode.INTERRUPTED, err
+    assert time.perf_counter() - sent < 10.0
+    assert b"Traceback" not in err
+    assert 0 < len(out.splitlines()) < 9000
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="forked processes")
+def test_a_process_that_dies_costs_its_own_files(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    from gearlink.cli.batch import pool
+    from gearlink.cli.batch.options import BatchOptions
+    from gearlink.cli.batch.run import Outcome
+
+    parent = os.getpid()
+
+    def outcome(path: Path, _: BatchOptions) -> list[Outcome]:
+        time.sleep(0.002)
+        if os.getpid() != parent and path.name >= "064":
+            os.kill(os.getpid(), signal.SIGKILL)
+        return [Outcome(str(path), "", path.stem, "", 0)]
+
+    monkeypatch.setattr(pool, "outcomes", outcome)
+    results, interrupted = pool.run_files([tmp_path / f"{i:03}" for i in range(100)], BatchOptions(jobs=2))
+    assert not interrupted
+    assert len(results) == len({result.file for result in results}) == 100
+    assert 0 < sum(bool(result.errors) for result in results) < 50
+    assert capfd.readouterr().err == ""

@@ -1,0 +1,218 @@
+"""`gearlink check`: the checks alone, each finding at its line. No tolerances: statuses and places."""
+
+from __future__ import annotations
+
+import csv
+import io
+import shutil
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from gearlink.cli.texts.finding_keys import key_of
+from gearlink.core.design import Design
+from gearlink.core.report import Check
+
+CRANK = "kind: slider-crank\nstroke: 310\nrod: 520\noffset: 50\n"
+PAIR = "kind: gear-pair\nmodule: 4\nteeth: [72, 72]\ncenter_distance: 290.2912330746487\n"
+COLLIDING = """kind: three-gear-four-bar
+gears: {module: 2.5, crank: 20, idler: 20, output: 60}
+limits: {gear_gap: 0.5}
+links: {crank: 18, frame: 121.4}
+"""
+WARNED = """kind: three-gear-four-bar
+gears: {module: 2, crank: 40, idler: 72, output: 40}
+dwell: {angle: 135}
+"""
+
+
+def write(folder: Path, **texts: str) -> Path:
+    for stem, text in texts.items():
+        (folder / f"{stem}.yaml").write_text(text)
+    return folder
+
+
+def test_a_design_that_passes_is_quiet(gearlink: Any, tmp_path: Path) -> None:
+    ended = gearlink("check", write(tmp_path, pair=PAIR) / "pair.yaml")
+    assert ended.status == 0
+    assert ended.out == "1 design: 9 pass\n"
+    assert ended.err == ""
+
+
+def test_a_failure_stands_at_the_key_that_its_message_or_its_code_names(gearlink: Any, tmp_path: Path) -> None:
+    path = write(tmp_path, colliding=COLLIDING) / "colliding.yaml"
+    ended = gearlink("check", path)
+    assert ended.status == 1
+    assert f"{path}:4:1: fail GL301 gear-collision: gears 1 (crank) and 5 (output) collide by 1.6 mm" in ended.out
+    assert "\n  links: {crank: 18, frame: 121.4}\n  ^\n" in ended.out
+    assert "gearlink explain CODE" in ended.err
+    assert gearlink("check", path, "--quiet").err == ""
+
+
+def test_json(gearlink: Any, tmp_path: Path) -> None:
+    path = write(tmp_path, colliding=COLLIDING) / "colliding.yaml"
+    whole = gearlink("check", path, "--format", "json").json
+    assert (whole["gearlink"], whole["command"], whole["ok"]) == (1, "check", False)
+    assert whole["summary"]["designs"] == 1
+    assert whole["summary"]["fail"] == 1
+    (failed,) = [finding for finding in whole["findings"] if finding["status"] == "fail"]
+    assert (failed["code"], failed["check"], failed["line"], failed["column"]) == ("GL301", "gear-collision", 4, 1)
+    assert failed["key"] == "links"
+    assert failed["limit"] == 0.5
+    # Passes too, in the form of the other commands' results, so that one reader does for all.
+    checks = [{**check, "file": None} for check in whole["checks"]]
+    collision = next(check for check in checks if check["name"] == "gear-collision")
+    assert (collision["status"], collision["limit"]) == ("fail", 0.5)
+    analyzed = gearlink("analyze", path, "--format", "json").json["checks"]
+    assert all({**check, "file": None} in checks for check in analyzed)
+    assert "errors" not in whole
+    assert not [finding for finding in whole["findings"] if finding["status"] == "pass"]
+
+
+def test_verbose_shows_passes(gearlink: Any, tmp_path: Path) -> None:
+    path = write(tmp_path, pair=PAIR) / "pair.yaml"
+    found = gearlink("check", path, "--verbose", "--format", "json").json["findings"]
+    assert len(found) == 9
+    assert {finding["status"] for finding in found} == {"pass"}
+    assert gearlink("check", path, "--verbose").out.count(": pass GL2") == 9
+
+
+def test_strict_makes_a_warning_count(gearlink: Any, tmp_path: Path) -> None:
+    path = write(tmp_path, warned=WARNED) / "warned.yaml"
+    assert gearlink("check", path).status == 0
+    ended = gearlink("check", path, "--strict")
+    assert ended.status == 1
+    assert ": warn GL302 shaft-clearance: " in ended.out
+    assert gearlink("check", path, "--strict", "--format", "json").json["ok"] is False
+
+
+def test_errors_of_the_file(gearlink: Any, tmp_path: Path) -> None:
+    path = write(tmp_path, wrong=CRANK.replace("stroke", "strok").replace("50", "abc")) / "wrong.yaml"
+    ended = gearlink("check", path, "--format", "json")
+    assert ended.status == 2
+    assert {(f["code"], f["line"]) for f in ended.json["findings"]} >= {("GL105", 2), ("GL107", 4)}
+    assert {f["status"] for f in ended.json["findings"]} == {"error"}
+    # The record of errors is the one that every command prints with status 2.
+    assert ended.json["errors"] == gearlink("crank", path, "--format", "json").json["errors"]
+
+
+def test_a_mechanism_that_does_not_exist_is_no_pass(gearlink: Any, tmp_path: Path) -> None:
+    """A slider-crank has no checks of its own, but a stroke beyond the rod's reach is refused all the same."""
+    path = write(tmp_path, long=CRANK.replace("310", "1040")) / "long.yaml"
+    ended = gearlink("check", path)
+    assert ended.status == 2
+    assert f"{path}:2:1: error GL112: " in ended.out
+
+
+def test_worst_of_a_folder(gearlink: Any, tmp_path: Path) -> None:
+    write(tmp_path, pair=PAIR, colliding=COLLIDING)
+    assert gearlink("check", tmp_path).status == 1
+    write(tmp_path, wrong="kind: gear-piar\n")
+    ended = gearlink("check", tmp_path)
+    assert ended.status == 2
+    assert ended.out.splitlines()[-1].startswith("3 designs: ")
+    assert "did you mean gear-pair" in ended.out
+
+
+def test_a_file_named_twice_is_checked_once(gearlink: Any, tmp_path: Path) -> None:
+    path = write(tmp_path, pair=PAIR) / "pair.yaml"
+    assert gearlink("check", path, path, tmp_path).out == "1 design: 9 pass\n"
+
+
+def test_set_overrides_a_key_and_findings_point_there(gearlink: Any, tmp_path: Path) -> None:
+    path = write(tmp_path, pair=PAIR) / "pair.yaml"
+    ended = gearlink("check", path, "--set", "limits.contact_ratio=2.5", "--format", "json")
+    assert ended.status == 1
+    assert {f["code"] for f in ended.json["findings"]} == {"GL203"}
+
+
+def test_standard_input(gearlink: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    class Stdin:
+        buffer = io.BytesIO(PAIR.encode())
+
+    monkeypatch.setattr("sys.stdin", Stdin)
+    assert gearlink("check", "-").out == "1 design: 9 pass\n"
+
+
+def test_csv_has_a_row_for_each_finding(gearlink: Any, tmp_path: Path) -> None:
+    path = write(tmp_path, colliding=COLLIDING) / "colliding.yaml"
+    rows = list(csv.DictReader(io.StringIO(gearlink("check", path, "--format", "csv").out)))
+    failed = next(row for row in rows if row["status"] == "fail")
+    assert (failed["file"], failed["line"], failed["column"], failed["code"]) == (str(path), "4", "1", "GL301")
+    assert float(failed["value"]) < float(failed["limit"])
+
+
+def test_markdown(gearlink: Any, tmp_path: Path) -> None:
+    path = write(tmp_path, colliding=COLLIDING) / "colliding.yaml"
+    out = gearlink("check", path, "--format", "md").out
+    assert out.startswith("| place | status | code | check | finding |")
+    assert f"| {path}:4:1 | fail | GL301 | gear-collision |" in out
+
+
+def test_no_such_place(gearlink: Any, tmp_path: Path) -> None:
+    ended = gearlink("check", tmp_path / "nowhere")
+    assert ended.status == 2
+    assert "GL101" in ended.err
+
+
+def test_no_table_is_computed(gearlink: Any, designs: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(self: Design, name: str) -> None:
+        raise AssertionError(f"table {name} of {self.kind} was computed")
+
+    monkeypatch.setattr(Design, "table", refuse)
+    ended = gearlink("check", designs)
+    assert ended.status == 1
+    assert "GL199" not in ended.out
+
+
+def test_agrees_with_batch_on_every_design(gearlink: Any, designs: Path, tmp_path: Path) -> None:
+    """Same exit status and the same failures, file by file."""
+    for path in sorted(designs.glob("*.yaml")):
+        alone = tmp_path / path.stem
+        alone.mkdir()
+        shutil.copy(path, alone)
+        batch = gearlink("batch", alone, "--format", "json")
+        check = gearlink("check", alone, "--format", "json")
+        assert check.status == batch.status, path.stem
+        reports = [check for design in batch.json["designs"] for check in design.get("checks", ())]
+        failed = {(c["code"], c["message"]) for c in reports if c["status"] != "pass"}
+        assert {(f["code"], f["message"]) for f in check.json["findings"]} == failed, path.stem
+
+
+def test_every_place_is_in_the_file(gearlink: Any, designs: Path) -> None:
+    for path in sorted(designs.glob("*.yaml")):
+        lines = path.read_text().splitlines()
+        for found in gearlink("check", path, "--verbose", "--format", "json").json["findings"]:
+            key = found["key"].rpartition(".")[2].partition("[")[0]
+            assert lines[found["line"] - 1][found["column"] - 1 :].startswith(key)
+
+
+def test_a_fault_ends_only_its_design(gearlink: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fault(self: Design, name: str) -> None:
+        raise ZeroDivisionError(name)
+
+    write(tmp_path, pair=PAIR)
+    monkeypatch.setattr("gearlink.core.gears.design.GearPairDesign.check", fault)
+    ended = gearlink("check", tmp_path)
+    assert ended.status == 3
+    assert "fault GL199" in ended.out
+
+
+@pytest.mark.parametrize(
+    ("message", "key"),
+    [
+        ("raise cam.base_radius", "cam.base_radius"),
+        ("set limits.pressure_angle", "cam"),
+        ("nothing is named", "cam"),
+        ("AD - AB = 103.4 mm, not 1.5", "cam"),
+    ],
+)
+def test_key_of_a_check(message: str, key: str) -> None:
+    data = {"kind": "flatbed-press", "cam": {"base_radius": 90.0, "lead_in": None}}
+    assert key_of(data, Check("GL401", "pressure-angle", "fail", message)) == key
+    assert key_of({"kind": "x"}, Check("GL401", "pressure-angle", "fail", message)) == "kind"
+
+
+def test_help_has_an_example(gearlink: Any) -> None:
+    assert "Example: gearlink check" in gearlink("check", "--help").out

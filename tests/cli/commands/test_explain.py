@@ -1,0 +1,182 @@
+"""Explanations: every code has one and every one a code; names lead to their topic. No tolerances: texts."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from gearlink.cli.commands.explain import names
+from gearlink.cli.texts.codes import explanations
+from gearlink.cli.texts.formulas import FORMULAS
+from gearlink.core.kinds import KINDS
+from gearlink.core.nomenclature import TERMS
+
+ROOT = Path(__file__).parents[3]
+SOURCES = [
+    path.read_text()
+    for top in ("core", "cli")
+    for path in sorted((ROOT / top).rglob("*.py"))
+    if not path.name.startswith("explanations")
+]
+
+
+def emitted() -> set[str]:
+    """The codes in the source of the program, but for the explanations themselves."""
+    return {code for text in SOURCES for code in re.findall(r"\bGL\d{3}\b", text)}
+
+
+def test_every_code_is_explained_and_every_explanation_has_a_code() -> None:
+    assert set(explanations()) == emitted()
+
+
+def test_every_check_is_explained_under_its_code() -> None:
+    """Code and name stand side by side where a check is made; two meanings of one code would show here."""
+    texts = explanations()
+    pairs = {pair for text in SOURCES for pair in re.findall(r'\(\s*"(GL\d{3})",\s*"([a-z-]+)"', text)}
+    assert len(pairs) > 10
+    assert [(code, name) for code, name in sorted(pairs) if name not in texts[code].checks] == []
+
+
+def test_every_check_of_a_design_is_explained() -> None:
+    explained = {check for text in explanations().values() for check in text.checks}
+    classes = {kind.design_class(command) for kind in KINDS.values() for command in kind.commands}
+    shown = {check for cls in classes for outline in cls.outlines.values() for check in outline.checks}
+    assert shown <= explained
+
+
+@pytest.mark.parametrize("code", explanations())
+def test_texts_are_whole(code: str) -> None:
+    text = explanations()[code]
+    assert text.title
+    for words in (text.what, text.why, text.mend):
+        assert words.endswith(".")
+    if not code.startswith("GL1"):
+        assert text.formula
+        assert text.source
+        assert text.checks
+        assert text.keys
+
+
+def test_no_check_stands_under_two_codes() -> None:
+    checks = [check for text in explanations().values() for check in text.checks]
+    assert len(checks) == len(set(checks))
+
+
+def test_keys_of_the_explanations_exist_in_a_kind() -> None:
+    """A finding of `gearlink check` is placed at them."""
+    from gearlink.cli.texts.spec_keys import spec_keys
+
+    paths = {key.path for kind in KINDS.values() for key in spec_keys(kind)}
+    missing = {(code, key) for code, text in explanations().items() for key in text.keys if key not in paths}
+    assert missing == set()
+
+
+def test_formulas_belong_to_quantities() -> None:
+    assert set(FORMULAS) <= set(TERMS)
+
+
+@pytest.mark.parametrize("name", names())
+def test_everything_can_be_explained(gearlink: Any, name: str) -> None:
+    ended = gearlink("explain", name)
+    assert (ended.status, ended.err) == (0, "")
+    assert ended.out.startswith(f"{name}: ")
+    assert max(map(len, ended.out.splitlines())) <= 120
+
+
+def test_code_says_what_why_formula_source_and_how_to_mend(gearlink: Any) -> None:
+    topic = gearlink("explain", "GL301", "--format", "json").json["topics"][0]
+    assert {"what", "why", "formula", "source", "how_to_mend", "checks", "kinds"} <= set(topic)
+    assert topic["about"] == "code"
+    assert topic["kinds"] == "three-gear-four-bar"
+
+
+@pytest.mark.parametrize("written", ["gl301", "GL301"])
+def test_case_does_not_matter(gearlink: Any, written: str) -> None:
+    assert gearlink("explain", written).out.startswith("GL301: ")
+
+
+def test_check_name_leads_to_its_code(gearlink: Any) -> None:
+    topic = gearlink("explain", "gear-collision", "--format", "json").json["topics"][0]
+    assert topic["about"] == "check"
+    assert "GL301" in topic["title"]
+
+
+def test_kinds_of_an_optional_check(gearlink: Any) -> None:
+    """The lift-off check is shown only where a file has spring and masses, but the kind has it."""
+    assert gearlink("explain", "lift-off", "--format", "json").json["topics"][0]["kinds"] == "swing-gripper"
+
+
+def test_quantity_says_unit_symbol_formula_and_who_gives_it(gearlink: Any) -> None:
+    topic = gearlink("explain", "quick_return_ratio", "--format", "json").json["topics"][0]
+    assert topic["symbol"] == "K"
+    assert topic["unit"] == "1 (no dimension)"
+    assert topic["formula"].startswith("K = (180 + t)/(180 - t)")
+    assert topic["source"] == "VDI 2142"
+    assert "slider-crank (crank, analyze)" in topic["given_by"]
+    assert "flatbed-press (crank)" in topic["given_by"]
+
+
+def test_every_shown_quantity_has_a_giver(gearlink: Any) -> None:
+    topic = gearlink("explain", "start_curvature_radius", "--format", "json").json["topics"][0]
+    assert "wide-swing-cam (" in topic["given_by"]
+
+
+def test_name_that_carries_its_mesh(gearlink: Any) -> None:
+    assert gearlink("explain", "crank_idler.contact_ratio").out.startswith("contact_ratio: ")
+
+
+def test_hyphen_for_underscore_finds_the_other_where_there_is_none(gearlink: Any) -> None:
+    assert gearlink("explain", "frame-length").out.startswith("frame_length: ")
+    assert gearlink("explain", "gear_collision").out.startswith("gear-collision: ")
+
+
+def test_kind_names_its_commands_and_keys(gearlink: Any) -> None:
+    out = gearlink("explain", "slider-crank").out
+    assert "gearlink crank" in out
+    assert "Needs: stroke, rod" in out
+
+
+def test_law_gives_its_peaks(gearlink: Any) -> None:
+    """Known closed values: Cv = 2, Ca = 2 pi, Cj = 4 pi^2."""
+    topic = gearlink("explain", "cycloidal", "--format", "json").json["topics"][0]
+    assert "velocity Cv 2, acceleration Ca 6.28319, jerk Cj 39.4784" in topic["peaks"]
+    assert gearlink("explain", "velocity-345").out.count("kappa = 0.5 ") == 1
+
+
+def test_list_of_codes(gearlink: Any) -> None:
+    ended = gearlink("explain")
+    assert ended.status == 0
+    assert [line[:5] for line in ended.out.splitlines() if line.startswith("GL")] == list(explanations())
+    listed = gearlink("explain", "--format", "json").json["topics"]
+    assert [topic["name"] for topic in listed] == list(explanations())
+    assert gearlink("explain", "--format", "md").out.startswith("| code | meaning | check |")
+
+
+def test_markdown(gearlink: Any) -> None:
+    out = gearlink("explain", "GL401", "--format", "md").out
+    assert out.startswith("# GL401: ")
+    assert "**How to mend:** " in out
+
+
+def test_unknown_name_gives_the_nearest(gearlink: Any) -> None:
+    ended = gearlink("explain", "GL901")
+    assert ended.status == 2
+    assert ended.out == ""
+    assert "nearest: GL" in ended.err
+    ended = gearlink("explain", "crank_lenght")
+    assert ended.status == 2
+    assert "nearest: crank_length" in ended.err
+    ended = gearlink("explain", "xyzzy", "--format", "json")
+    assert ended.status == 2
+    assert ended.json["errors"][0]["code"] == "GL115"
+
+
+def test_csv_is_refused(gearlink: Any) -> None:
+    assert gearlink("explain", "GL301", "--format", "csv").status == 2
+
+
+def test_help_has_an_example(gearlink: Any) -> None:
+    assert "Example: gearlink explain" in gearlink("explain", "--help").out

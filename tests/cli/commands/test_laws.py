@@ -1,0 +1,136 @@
+"""`gearlink laws`: constants and curves of the motion laws. Values are compared as printed, to the last bit of the
+reference's double where a closed form rounds once, else to 4 ulp."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from gearlink.cli.exit_codes import ExitCode
+from gearlink.core.cams.law_tables import MotionLaws
+from gearlink.core.cams.laws import REST_TO_REST, REST_TO_SPEED, law
+
+REFERENCE = json.loads((Path(__file__).parents[2] / "reference" / "swing_gripper.json").read_text())
+ULP = 2.0**-52
+
+
+def rows(table: dict[str, Any]) -> dict[str, dict[str, Any]]:
+    return {row[0]: dict(zip(table["columns"], row, strict=True)) for row in table["rows"]}
+
+
+def test_every_law_of_the_contract_is_listed(gearlink: Any) -> None:
+    tables = gearlink("laws", "--format", "json").json["tables"]
+    assert tuple(rows(tables["rest_to_rest"])) == REST_TO_REST
+    assert tuple(rows(tables["rest_to_speed"])) == (*REST_TO_SPEED, "quintic 0.5", "septic 0.5")
+
+
+def test_constants_are_those_of_the_reference(gearlink: Any) -> None:
+    found = rows(gearlink("laws", "--format", "json").json["tables"]["rest_to_rest"])
+    names = {"poly345": "polynomial-345", "poly4567": "polynomial-4567"}
+    for key, constants in REFERENCE["law_constants"].items():
+        name = names.get(key, key.replace("_", "-").replace("mcv", "mcv-").replace("mcv--", "mcv-"))
+        for column, value in constants.items():
+            if column in ("Cv", "Ca", "Cj", "Cm") and str(value) != "inf":
+                assert found[name][column] == pytest.approx(float(value), rel=8 * ULP, abs=0.0), (name, column)
+
+
+def test_kappa_and_jumps(gearlink: Any) -> None:
+    tables = gearlink("laws", "--format", "json").json["tables"]
+    rest, speed = rows(tables["rest_to_rest"]), rows(tables["rest_to_speed"])
+    assert {row["kappa"] for row in rest.values()} == {1.0}
+    assert rest["simple-harmonic"]["jumps"] == "at the ends"
+    assert {row["jumps"] for name, row in rest.items() if name != "simple-harmonic"} == {"none"}
+    assert speed["half-modified-sine"]["kappa"] == pytest.approx(0.568309886183791, rel=1e-14)
+    assert speed["half-polynomial-345"]["Ca"] == pytest.approx(1.53960071783900, rel=1e-14)
+    assert {row["Cv"] for row in speed.values()} == {1.0}
+
+
+def test_course_of_a_law(gearlink: Any) -> None:
+    tables = gearlink("laws", "--law", "modified-sine", "--samples", "8", "--format", "json").json["tables"]
+    assert list(tables) == ["rest_to_rest", "modified-sine"]
+    assert tables["modified-sine"]["columns"] == ["x", "s", "v", "a", "j"]
+    assert [row[0] for row in tables["modified-sine"]["rows"]] == [k / 8 for k in range(9)]
+    for row in tables["modified-sine"]["rows"]:
+        assert row[1:] == pytest.approx(law("modified-sine").evaluate(row[0], 3), rel=4 * ULP, abs=4 * ULP * 70)
+
+
+def test_several_laws_as_a_design_file_writes_them(gearlink: Any) -> None:
+    ended = gearlink("laws", "--law", "{scca: [0.25, 0, 0.75, 0]}", "--law", "{quintic: 0.55}", "--format", "json")
+    tables = ended.json["tables"]
+    assert list(tables) == ["rest_to_rest", "rest_to_speed", "scca [0.25, 0.0, 0.75, 0.0]", "quintic 0.55"]
+    assert tables["quintic 0.55"]["rows"][-1][1] == pytest.approx(0.55, rel=4 * ULP, abs=0.0)
+    assert len(tables["scca [0.25, 0.0, 0.75, 0.0]"]["rows"]) == 101
+
+
+def test_csv_and_markdown_hold_the_same_numbers(gearlink: Any) -> None:
+    text = gearlink("laws", "--format", "csv").out
+    first = next(csv.DictReader(io.StringIO(text)))
+    assert first["law"] == "simple-harmonic"
+    peak = law("simple-harmonic").peak_velocity
+    assert peak == pytest.approx(math.pi / 2, rel=4 * ULP, abs=0.0)
+    assert float(first["Cv"]) == peak
+    assert repr(peak) in gearlink("laws", "--format", "md").out
+
+
+def test_table_fits_a_terminal_of_eighty_columns(gearlink: Any) -> None:
+    ended = gearlink("laws")
+    assert ended.status == 0
+    assert max(len(line) for line in ended.out.splitlines()) <= 80
+    assert "velocity-mcv-20" in ended.out
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("modifed-sine", "did you mean 'modified-sine'"),
+        ("{quintic: 0.7}", "the nearest is 0.6"),
+        ("{quintic: 0.5", "never closed"),
+        ("{scca: [0.5, 0.5, 0.5, 0]}", "scca"),
+        ("half-simple-harmonic", "half-cycloidal"),
+    ],
+)
+def test_wrong_laws_are_refused(gearlink: Any, name: str, words: str) -> None:
+    ended = gearlink("laws", "--law", name, "--format", "json")
+    assert ended.status == ExitCode.WRONG_INPUT
+    (error,) = ended.json["errors"]
+    assert words in error["message"]
+    assert error["file"] == "<--law>"
+
+
+def test_plot_is_written_and_reproducible(gearlink: Any, tmp_path: Path) -> None:
+    for folder in ("one", "two"):
+        out = tmp_path / folder
+        ended = gearlink(
+            "laws", "--law", "cycloidal", "--law", "velocity-345", "--plot", "--plot-format", "svg", "--out", out
+        )
+        assert ended.status == 0
+        assert f"wrote {out / 'motion-laws.svg'}" in ended.err
+    one, two = ((tmp_path / folder / "motion-laws.svg").read_bytes() for folder in ("one", "two"))
+    assert one == two
+
+
+def test_plotted_curves_are_the_laws(monkeypatch: pytest.MonkeyPatch) -> None:
+    from gearlink.cli.figures.motion_laws import draw
+    from gearlink.core.cams.law_tables import LawChoice
+
+    chosen = (law("cycloidal"), law("half-modified-sine"))
+    figure = draw("laws", MotionLaws(LawChoice(chosen)))
+    assert len(figure.axes) == 8
+    for column, each in enumerate(chosen):
+        for order in range(4):
+            line = figure.axes[2 * order + column].lines[0]
+            x, y = line.get_data()
+            assert (y == each.evaluate(x, 3)[order]).all()
+
+
+def test_an_unwritable_folder_is_told(gearlink: Any, tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    ended = gearlink("laws", "--plot", "--out", tmp_path / "file")
+    assert ended.status == ExitCode.WRONG_INPUT
+    assert "cannot write" in ended.err

@@ -1,0 +1,49 @@
+"""`--profile` tells what was computed; without it nothing is in the way of the results."""
+
+from __future__ import annotations
+
+import pytest
+
+from gearlink.cli.commands.profile import Profile
+from gearlink.cli.main import run
+from gearlink.core.linkages.slider_crank_design import SliderCrankDesign
+
+CRANK = ["crank", "designs/ty460_slider_crank.yaml", "--quantity", "crank_length"]
+
+
+def test_profile_names_what_was_computed_and_no_more(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(CRANK) == 0
+    plain = capsys.readouterr()
+    assert run([*CRANK, "--profile"]) == 0
+    profiled = capsys.readouterr()
+    assert profiled.out == plain.out
+    computed = [line.split()[-1] for line in profiled.err.splitlines()[1:]]
+    assert "SliderCrank.crank_length" in computed
+    assert {"read", "validate", "formulas", "compute", "print"} <= set(computed)
+    assert not {name for name in computed if "dead_center" in name or "max_stroke" in name}
+
+
+def test_profile_leaves_no_trace() -> None:
+    before = dict(vars(SliderCrankDesign))
+    functions = {name: each.func for name, each in before.items() if hasattr(each, "func")}
+    assert run([*CRANK, "--profile"]) == 0
+    assert dict(vars(SliderCrankDesign)) == before
+    assert {name: each.func for name, each in before.items() if hasattr(each, "func")} == functions
+
+
+def test_profile_is_told_of_a_design_that_fails(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run([*CRANK, "--profile", "--set", "stroke=1e6"]) == 2
+    assert "compute" in capsys.readouterr().err
+
+
+def test_own_times_add_up_to_the_total() -> None:
+    profile = Profile()
+    with profile.step("outer"):
+        with profile.step("first"):
+            pass
+        with profile.step("second"), profile.step("inner"):
+            pass
+    outer, *inner = profile.steps
+    assert [step.depth for step in profile.steps] == [0, 1, 1, 2]
+    # sums of four doubles: a few ulp of the total
+    assert abs(outer.own + sum(step.own for step in inner) - outer.total) <= 8 * 2**-53 * max(1.0, outer.total)

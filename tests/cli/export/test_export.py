@@ -1,0 +1,310 @@
+"""`gearlink export` as a user meets it: files, header, formats, exit status, failures.
+
+Tolerances: coordinates of an SVG are rounded to a thousandth of the tolerance, so half of that (5e-7 mm) is allowed
+against the CSV of the same run; numbers in a CSV are shortest round-trip doubles and compared exactly.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+import re
+import subprocess
+import sys
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+from typing import Any
+
+import ezdxf
+import pytest
+
+from gearlink.cli.export.header import rounded_up
+
+ROOT = Path(__file__).resolve().parents[3]
+CASES = ROOT / "tests" / "reference" / "contract"
+PRESS = ROOT / "designs" / "ty460.yaml"
+GEARS = ROOT / "designs" / "ty460_input_gears.yaml"
+
+
+def case(command: str, number: int = 0) -> Any:
+    """Spec of a reference case."""
+    return json.loads((CASES / f"{command}.json").read_text())[number]["spec"]
+
+
+@pytest.fixture
+def swing(tmp_path: Path) -> Path:
+    path = tmp_path / "swing.yaml"
+    path.write_text(json.dumps(case("swing")))
+    return path
+
+
+def comments(path: Path) -> dict[str, str]:
+    """Header lines of an exported CSV."""
+    lines = [line[2:] for line in path.read_text().splitlines() if line.startswith("# ")]
+    return dict(line.split(": ", 1) for line in lines)
+
+
+def table(path: Path) -> list[dict[str, str]]:
+    """Rows of an exported CSV."""
+    return list(csv.DictReader(line for line in path.read_text().splitlines() if not line.startswith("#")))
+
+
+@pytest.mark.parametrize(
+    ("design", "parts"),
+    [
+        ("ty460.yaml", {"main_cam", "return_cam", "gear1", "gear2"}),
+        ("ty460_input_gears.yaml", {"gear1", "gear2"}),
+        ("candy_feed.yaml", {"gear1", "gear3", "gear5"}),
+        ("thesis_example_1.yaml", {"gear1", "gear3", "gear5"}),
+        ("thesis_example_2.yaml", {"gear1", "gear3", "gear5"}),
+        ("thesis_example_3_as_printed.yaml", {"gear1", "gear3", "gear5"}),
+        ("thesis_example_3_mended.yaml", {"gear1", "gear3", "gear5"}),
+        ("swing_gripper.yaml", {"main_cam", "return_cam"}),
+        ("wide_swing_twin_cam.yaml", {"main_cam", "return_cam"}),
+        ("wide_swing_twin_rocker.yaml", {"main_cam", "return_cam"}),
+        ("wide_swing_oscillating_cam.yaml", {"main_cam"}),
+        ("two_gear_drag_link.yaml", {"gear2", "gear5"}),
+        ("two_gear_ring.yaml", {"gear2"}),
+        ("wide_lever.yaml", {"gear2", "gear5"}),
+    ],
+)
+def test_every_part_of_every_design(gearlink: Any, tmp_path: Path, design: str, parts: set[str]) -> None:
+    ended = gearlink("export", ROOT / "designs" / design, "--out", tmp_path, "--tolerance", 0.05)
+    assert (ended.status, ended.err) == (0, "")
+    assert {path.stem.rpartition("-")[2] for path in tmp_path.glob("*.dxf")} == parts
+    assert len(ended.out.splitlines()) == len(parts)
+
+
+def test_a_gripper_without_return_roller_has_one_cam(gearlink: Any, tmp_path: Path) -> None:
+    spec = case("gripper")
+    del spec["cam"]["return_roller"]
+    del spec["spring"], spec["inertia"]
+    (tmp_path / "one.yaml").write_text(json.dumps(spec))
+    assert gearlink("export", tmp_path / "one.yaml", "--as", "csv", "--out", tmp_path / "out").status == 0
+    assert [path.name for path in (tmp_path / "out").iterdir()] == ["one-main_cam.csv"]
+
+
+def test_the_reached_error_is_the_same_in_print_and_in_every_file(gearlink: Any, tmp_path: Path) -> None:
+    formats = [word for name in ("dxf", "svg", "csv") for word in ("--as", name)]
+    ended = gearlink("export", PRESS, "--part", "main_cam", *formats, "--out", tmp_path)
+    (said,) = set(re.findall(r"chord error (\S+) mm \(tolerance 0.001 mm\)", ended.out))
+    assert 0.0 < float(said) <= 0.001
+    assert comments(tmp_path / "TY-460-main_cam.csv")["chord_error"] == f"{said} mm"
+    document = ezdxf.readfile(tmp_path / "TY-460-main_cam.dxf")
+    assert document.header.custom_vars.get("CHORD_ERROR") == f"{said} mm"
+    texts = [entity.dxf.text for entity in document.modelspace().query("TEXT")]
+    assert f"chord_error: {said} mm" in texts
+    svg = (tmp_path / "TY-460-main_cam.svg").read_text()
+    stated = float(re.search(r"chord_error: (\S+) mm", svg)[1])  # type: ignore[index]
+    assert float(said) <= stated <= float(said) + 2e-6  # its own rounding is added
+
+
+def test_csv_says_what_it_is(gearlink: Any, tmp_path: Path) -> None:
+    gearlink("export", PRESS, "--part", "main_cam", "--as", "csv", "--out", tmp_path)
+    said = comments(tmp_path / "TY-460-main_cam.csv")
+    assert said["unit"] == "mm"
+    assert said["tolerance"] == "0.001 mm"
+    assert re.fullmatch(r"[0-9a-f]{64}", said["design_sha256"])
+    rows = table(tmp_path / "TY-460-main_cam.csv")
+    names = ["x [mm]", "y [mm]", "pitch_x [mm]", "pitch_y [mm]", "pressure_angle [deg]", "curvature_radius [mm]"]
+    assert list(rows[0]) == ["cam_angle [deg]", *names, "curve"]
+    angles = [float(row["cam_angle [deg]"]) for row in rows]
+    assert angles == sorted(angles)
+    assert (angles[0], angles[-1]) == (0.0, 360.0)
+    assert [rows[-1][name] for name in names[:4]] == [rows[0][name] for name in names[:4]]
+
+
+def test_the_hash_is_the_designs(gearlink: Any, tmp_path: Path) -> None:
+    """Comments, order and defaults of the file do not matter; every number does, --set included."""
+
+    def digest(path: Path, *more: str) -> str:
+        gearlink("export", path, "--part", "gear1", "--as", "csv", "--tolerance", 0.1, "--out", tmp_path, *more)
+        return comments(tmp_path / "TY-460-input-gears-gear1.csv")["design_sha256"]
+
+    same = tmp_path / "other.yaml"
+    same.write_text(
+        "# another file\naddendum: 1\nteeth: [72, 72]\nmodule: 4.0\ncenter_distance: 290.2912330746487\n"
+        "name: TY-460-input-gears\nkind: gear-pair\n"
+    )
+    assert digest(GEARS) == digest(same)
+    assert digest(GEARS) != digest(GEARS, "--set", "center_distance=290.3")
+
+
+def test_svg_is_to_scale_and_holds_the_points_of_the_csv(gearlink: Any, tmp_path: Path) -> None:
+    gearlink("export", PRESS, "--part", "main_cam", "--as", "csv", "--as", "svg", "--out", tmp_path)
+    root = ElementTree.parse(tmp_path / "TY-460-main_cam.svg").getroot()
+    left, top, width, height = (float(word) for word in root.attrib["viewBox"].split())
+    assert (root.attrib["width"], root.attrib["height"]) == (f"{width:.0f}mm", f"{height:.0f}mm")
+    path = root.find(".//{*}path[@class='PROFILE']")
+    assert path is not None
+    data = path.attrib["d"]
+    assert data.startswith("M")
+    assert data.endswith("Z")
+    drawn = [tuple(map(float, pair.split())) for pair in data[1:-1].split("L")]
+    rows = table(tmp_path / "TY-460-main_cam.csv")[:-1]
+    assert len(drawn) == len(rows)
+    for (x, y), row in zip(drawn, rows, strict=True):
+        assert x == pytest.approx(float(row["x [mm]"]), rel=0.0, abs=5.1e-7)
+        assert y == pytest.approx(float(row["y [mm]"]), rel=0.0, abs=5.1e-7)
+    pitch = [float(row["pitch_x [mm]"]) for row in rows]
+    assert left < min(pitch)
+    assert left + width > max(pitch)
+    assert top < -max(float(row["pitch_y [mm]"]) for row in rows)
+
+
+@pytest.mark.parametrize("curve", ["polyline", "spline"])
+def test_the_same_design_gives_the_same_bytes(gearlink: Any, tmp_path: Path, curve: str) -> None:
+    """Also in another process with another hash seed."""
+    words = ["export", str(PRESS), "--part", "main_cam", "--as", "dxf", "--as", "svg", "--as", "csv", "--curve", curve]
+    for folder in ("a", "b"):
+        assert gearlink(*words, "--out", tmp_path / folder).status == 0
+    command = [sys.executable, "-m", "gearlink.cli.main", *words, "--out", str(tmp_path / "c")]
+    subprocess.run(command, check=True, capture_output=True, env={**os.environ, "PYTHONHASHSEED": "7"}, cwd=ROOT)
+    for path in (tmp_path / "a").iterdir():
+        data = path.read_bytes()
+        assert (tmp_path / "b" / path.name).read_bytes() == data
+        assert (tmp_path / "c" / path.name).read_bytes() == data
+
+
+def test_the_library_is_left_as_it_was(gearlink: Any, tmp_path: Path) -> None:
+    before = ezdxf.options.write_fixed_meta_data_for_testing
+    gearlink("export", GEARS, "--tolerance", 0.1, "--out", tmp_path)
+    assert ezdxf.options.write_fixed_meta_data_for_testing == before
+
+
+def test_a_kind_without_profiles(gearlink: Any, tmp_path: Path) -> None:
+    ended = gearlink("export", ROOT / "designs" / "ty460_slider_crank.yaml", "--out", tmp_path)
+    assert ended.status == 2
+    assert "slider-crank has no profile" in ended.err
+    assert "gear-pair" in ended.err
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("command", ["gripper", "swing"])
+def test_a_design_without_its_cam(gearlink: Any, tmp_path: Path, command: str) -> None:
+    spec = case(command)
+    del spec["cam"]
+    path = tmp_path / "bare.yaml"
+    path.write_text(json.dumps(spec))
+    ended = gearlink("export", path, "--out", tmp_path / "out")
+    assert ended.status == 2
+    assert "no section cam" in ended.err
+
+
+def test_a_press_with_gears_alone(gearlink: Any, tmp_path: Path) -> None:
+    bare = re.sub(r"^cam:\n( .*\n)+", "", PRESS.read_text(), flags=re.MULTILINE)
+    (tmp_path / "bare.yaml").write_text(bare)
+    assert gearlink("export", tmp_path / "bare.yaml", "--as", "svg", "--out", tmp_path / "out").status == 0
+    assert {path.name for path in (tmp_path / "out").iterdir()} == {"TY-460-gear1.svg", "TY-460-gear2.svg"}
+
+
+def test_an_unknown_part_names_the_nearest(gearlink: Any, tmp_path: Path) -> None:
+    ended = gearlink("export", PRESS, "--part", "main-cam", "--out", tmp_path)
+    assert ended.status == 2
+    assert "nearest: main_cam" in ended.err
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("tolerance", ["0", "-1", "1e-9", "nan", "inf", "11", "fine"])
+def test_a_tolerance_out_of_range(gearlink: Any, tmp_path: Path, tolerance: str) -> None:
+    ended = gearlink("export", PRESS, "--tolerance", tolerance, "--out", tmp_path)
+    assert ended.status == 2
+    assert "tolerance" in ended.err
+    assert not list(tmp_path.iterdir())
+
+
+def test_more_points_than_a_file_should_hold(gearlink: Any, tmp_path: Path) -> None:
+    many = ("--set", "teeth=[9000, 9000]", "--set", "center_distance=36000")
+    ended = gearlink("export", GEARS, *many, "--tolerance", 1e-5, "--out", tmp_path)
+    assert ended.status == 2
+    assert "raise --tolerance" in ended.err
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_wrong_file_is_located(gearlink: Any, tmp_path: Path) -> None:
+    ended = gearlink("export", PRESS, "--set", "cam.roller_radius=-1", "--out", tmp_path)
+    assert ended.status == 2
+    assert "roller_radius" in ended.err
+
+
+def test_a_profile_that_does_not_exist(gearlink: Any, swing: Path, tmp_path: Path) -> None:
+    ended = gearlink("export", swing, "--set", "cam.roller_radius=150", "--out", tmp_path / "out")
+    assert ended.status == 2
+    assert "GL112" in ended.err
+    assert "smaller" in ended.err
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("key", ["cam.roller_radius=60", "sync.start=20"])
+def test_a_profile_that_the_roller_cuts_is_told(gearlink: Any, tmp_path: Path, key: str) -> None:
+    more = ("--set", key, "--set", "cam.lead_in=0", "--part", "main_cam", "--as", "csv")
+    ended = gearlink("export", PRESS, *more, "--out", tmp_path)
+    assert ended.status == 1
+    assert "main_cam" in ended.err
+    assert "warning_1" in comments(tmp_path / "TY-460-main_cam.csv")
+
+
+def test_without_the_dxf_library(gearlink: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "ezdxf", None)
+    ended = gearlink("export", GEARS, "--out", tmp_path)
+    assert ended.status == 2
+    assert "pip install 'gearlink[dxf]'" in ended.err
+    assert not list(tmp_path.iterdir())
+    assert gearlink("export", GEARS, "--as", "svg", "--as", "csv", "--tolerance", 0.1, "--out", tmp_path).status == 0
+
+
+def test_svg_and_csv_import_no_dxf_library(tmp_path: Path) -> None:
+    probe = (
+        "import sys\nfrom gearlink.cli.main import run\n"
+        f"status = run(['export', {str(GEARS)!r}, '--as', 'svg', '--as', 'csv', '-q', '--out', {str(tmp_path)!r}])\n"
+        "print(int(status), sorted({m.partition('.')[0] for m in sys.modules} & {'ezdxf', 'scipy', 'matplotlib'}))"
+    )
+    done = subprocess.run([sys.executable, "-c", probe], capture_output=True, text=True, check=True)
+    assert done.stdout == "0 []\n"
+
+
+def test_a_full_disk_leaves_nothing(gearlink: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("gearlink.cli.files.os.replace", full)
+    ended = gearlink("export", PRESS, "--as", "dxf", "--as", "svg", "--tolerance", 0.1, "--out", tmp_path)
+    assert ended.status == 2
+    assert "No space left" in ended.err
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_file_in_the_way_of_the_folder(gearlink: Any, tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    ended = gearlink("export", GEARS, "--as", "csv", "--tolerance", 0.1, "--out", tmp_path / "file")
+    assert ended.status == 2
+    assert "cannot write" in ended.err
+
+
+@pytest.mark.parametrize("name", ["../../x", "a--b -->", "ü漢字", "</svg>", "line\\nbreak"])
+def test_a_name_breaks_no_file(gearlink: Any, tmp_path: Path, name: str) -> None:
+    formats = [word for form in ("dxf", "svg", "csv") for word in ("--as", form)]
+    path = tmp_path / "named.yaml"
+    path.write_text(
+        f'{{"kind": "gear-pair", "name": "{name}", "module": 1, "teeth": [20, 30], "profile_shift": [0, 0]}}'
+    )
+    assert gearlink("export", path, "--part", "gear1", *formats, "--out", tmp_path / "out").status == 0
+    (svg,) = (tmp_path / "out").glob("*.svg")
+    ElementTree.parse(svg)
+    (dxf,) = (tmp_path / "out").glob("*.dxf")
+    assert not ezdxf.readfile(dxf).audit().errors
+    (rows,) = (tmp_path / "out").glob("*.csv")
+    assert table(rows)[0]["curve"] == "tip circle"
+
+
+def test_standard_input_and_quiet(gearlink: Any, tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "gearlink.cli.main", "export", "-", "--as", "csv", "-q", "--out", str(tmp_path)]
+    done = subprocess.run(command, input=GEARS.read_bytes(), capture_output=True, check=True)
+    assert done.stdout == b""
+    assert len(list(tmp_path.iterdir())) == 2
+
+
+@pytest.mark.parametrize("value", [0.00087212, 0.000999999, 1.0, 9.995, 3e-14])
+def test_a_stated_error_is_never_below_the_reached_one(value: float) -> None:
+    assert value <= float(rounded_up(value)) <= 1.011 * value

@@ -1,0 +1,104 @@
+"""Figures of gears in mesh: true teeth, line of action, table; odd pairs draw too.
+
+Tolerances
+* teeth on their circles: the figures' own chord error, 2e-3 module at most; contact points: 1e-12 relative.
+"""
+
+import math
+
+import numpy as np
+import pytest
+
+from gearlink.cli.figures.gear_mesh import Mesh, mesh_figure
+from gearlink.cli.figures.write import draw, write_plot
+from gearlink.cli.options import Options
+from gearlink.core.gears.design import GearPairDesign
+from gearlink.core.gears.mesh_geometry import MeshGeometry
+from gearlink.core.gears.pair import GearPair
+from gearlink.core.gears.spec import GearPairSpec
+
+
+def design(**keys):
+    given = {"kind": "gear-pair", "name": "pair", "module": 4.0, "teeth": [20, 31], "profile_shift": [0.3, 0.1]}
+    return GearPairDesign(GearPairSpec(**{**given, **keys}))
+
+
+def lines(figure, gid):
+    return [line for axes in figure.axes for line in axes.lines if line.get_gid() == gid]
+
+
+def labelled(axes, label):
+    return [line for line in axes.lines if line.get_label() == label]
+
+
+def words(figure):
+    return [text.get_text() for axes in figure.axes for text in axes.texts]
+
+
+@pytest.mark.parametrize("command", ["gear", "analyze"])
+def test_whole_gears_have_their_teeth(command):
+    made = design()
+    pair, figure = made.gear_pair, draw(command, made)
+    for gear, center in ((0, 0.0), (1, pair.center_distance)):
+        (line,) = lines(figure, f"teeth-{gear + 1}")
+        radius = np.hypot(np.asarray(line.get_xdata()) - center, line.get_ydata())
+        assert radius.max() == pytest.approx(pair.tip_radius[gear], rel=1e-9)
+        assert radius.min() == pytest.approx(pair.root_radius[gear], abs=2e-3 * pair.module)
+        outside = radius > pair.working_radius[gear]
+        assert np.count_nonzero(np.diff(outside.astype(int)) == 1) == pair.teeth[gear]
+
+
+def test_mesh_zone_shows_the_path_of_contact():
+    made = design()
+    geometry = MeshGeometry(made.gear_pair)
+    zone = draw("gear", made).axes[1]
+    (path,) = labelled(zone, "path of contact A–E")
+    ends = np.asarray(path.get_xdata()) + 1j * np.asarray(path.get_ydata())
+    assert ends == pytest.approx(np.array([geometry.contact_start, geometry.contact_end]), rel=1e-12)
+    (points,) = labelled(zone, "contact points")
+    assert len(points.get_xdata()) == len(geometry.contacts)
+    low, high = zone.get_ylim()
+    assert low < ends.imag.min() < ends.imag.max() < high
+
+
+def test_table_gives_the_designs_values():
+    made = design()
+    shown = words(draw("gear", made))
+    for name in ("center_distance", "working_pressure_angle", "contact_ratio"):
+        assert f"{made.quantity(name).value:.6g}" in shown
+    for name in ("tip_radius", "base_radius", "tooth_thickness", "specific_sliding"):
+        for value in made.quantity(name).value:
+            assert f"{value:.6g}" in shown
+
+
+ODD = [
+    {"teeth": [12, 12], "profile_shift": [0.0, 0.0]},  # undercut
+    {"teeth": [30, 40], "addendum": 2.5, "profile_shift": [0.0, 0.0]},  # a pointed tool
+    {"teeth": [1, 2]},
+    {"teeth": [7, 900], "module": 1e6},
+    {"teeth": [25, 10000], "module": 1e-6},
+    {"teeth": [20, 20], "profile_shift": [2.5, 0.0]},  # pointed teeth
+    {"teeth": [40, 40], "pressure_angle": 3.0, "profile_shift": [0.0, 0.0]},
+    {"teeth": [40, 40], "pressure_angle": 44.0, "addendum": 0.3, "clearance": 0.0},
+    {"teeth": [60, 18], "profile_shift": None, "center_distance": 158.0, "shift_split": 0.1},
+]
+
+
+@pytest.mark.parametrize("keys", [*ODD[:4], *(pytest.param(keys, marks=pytest.mark.slow) for keys in ODD[4:])])
+def test_odd_pairs_draw(keys, tmp_path):
+    write_plot("gear", design(**keys), Options(out=tmp_path))
+    assert [path.name for path in tmp_path.iterdir()] == ["pair-gear.png"]
+
+
+def test_teeth_that_no_tool_cuts_are_said_to_be_none():
+    figure = draw("gear", design(teeth=[30, 40], addendum=2.5, profile_shift=[0.0, 0.0]))
+    assert "gear 1: its tool leaves no such teeth" in words(figure)
+    assert not lines(figure, "teeth-1")
+
+
+def test_two_meshes_stand_in_one_figure():
+    pairs = [GearPair.from_shift(2.0, (20, 30)), GearPair.from_shift(2.0, (30, 25))]
+    figure = mesh_figure("train", [Mesh(pairs[0], "first", ("1", "3")), Mesh(pairs[1], "second", ("3", "5"))])
+    assert len(figure.axes) == 5
+    assert "gear 3\nsecond" in words(figure)
+    assert f"{math.degrees(pairs[1].working_pressure_angle):.6g}" in words(figure)

@@ -1,0 +1,169 @@
+"""The figures of a wide-swing mechanism: what is plotted is what tables and cams say.
+
+Tolerances: plotted values are the numbers of the tables, compared exactly; lengths come back from coordinates of a few
+hundred mm within 1e-9 mm; the files of two runs are compared byte by byte.
+"""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+from gearlink.cli.commands.design import open_design, read_spec
+from gearlink.cli.figures.write import draw
+from gearlink.cli.options import Options
+from gearlink.core.errors import NoSolution
+
+DESIGNS = Path(__file__).resolve().parents[3] / "designs"
+
+
+def design(name: str, command: str, *overrides: str) -> Any:
+    path = str(DESIGNS / f"wide_swing_{name}.yaml")
+    loaded, kind = open_design(path, Options(overrides=overrides))
+    return kind.design(command, read_spec(loaded, kind, path))
+
+
+def drawn(name: str, command: str, *overrides: str) -> tuple[Any, Figure]:
+    made = design(name, command, *overrides)
+    return made, draw(command, made)
+
+
+def panel(figure: Figure, title: str) -> Any:
+    return next(axes for axes in figure.axes if axes.get_title(loc="left").startswith(title))
+
+
+def lines(axes: Any) -> dict[str, Any]:
+    return {line.get_label(): line for line in axes.get_lines() if not line.get_label().startswith("_")}
+
+
+def laid_out(figure: Figure) -> None:
+    figure.draw_without_rendering()
+
+
+@pytest.mark.parametrize("name", ["twin_cam", "twin_rocker", "slider", "oscillating_cam"])
+def test_law_is_the_table_s(name: str) -> None:
+    made, figure = drawn(name, "swing")
+    data = made.table("law").data
+    for i, title in enumerate(("Displacement", "Velocity", "Acceleration"), 1):
+        curves = lines(panel(figure, title))
+        np.testing.assert_array_equal(curves["unloaded law"].get_xdata(), data[0])
+        np.testing.assert_array_equal(curves["unloaded law"].get_ydata(), data[i])
+        assert {"harmonic", "cycloidal"} <= set(curves)
+    harmonic = lines(panel(figure, "Velocity"))["harmonic"].get_ydata()
+    np.testing.assert_allclose(harmonic, 0.5 * math.pi * np.sin(math.pi * data[0]), atol=1e-14)
+
+
+def test_balance_is_the_table_s() -> None:
+    made, figure = drawn("twin_cam", "swing")
+    axes, data = panel(figure, "Torque on the rocker axis"), made.table("balance").data
+    for label, column in (("without device", 1), ("with device", 2)):
+        np.testing.assert_array_equal(lines(axes)[label].get_xdata(), data[0])
+        np.testing.assert_array_equal(lines(axes)[label].get_ydata(), data[column])
+    verticals = {float(line.get_xdata()[0]) for line in axes.get_lines() if len(set(line.get_xdata())) == 1}
+    assert {100.0, 100.0 / math.sqrt(2.0), 80.0} <= verticals
+    assert {text.get_text() for text in axes.texts} >= {r"$n_0/\sqrt{2}$", "$n_0$"}
+
+
+def test_slider_is_the_table_s() -> None:
+    made, figure = drawn("slider", "swing")
+    table, curves = made.table("slider"), lines(panel(figure, "Slider"))
+    for name in ("displacement", "velocity", "acceleration"):
+        np.testing.assert_array_equal(curves[name].get_ydata(), table.data[table.columns.index(name)])
+
+
+@pytest.mark.parametrize(
+    ("name", "titles"),
+    [
+        ("twin_cam", ("Cam of the working stroke", "Cam of the return stroke")),
+        ("twin_rocker", ("Internal profile", "External profile")),
+        ("oscillating_cam", ("Oscillating cam",)),
+    ],
+)
+@pytest.mark.parametrize("command", ["swing", "cam"])
+def test_cams_are_drawn_to_scale(name: str, titles: tuple[str, ...], command: str) -> None:
+    made, figure = drawn(name, command)
+    cams = [made.cam, made.return_cam or made.cam]
+    tables = [made.table("main_cam"), *(() if made.spec.drive else (made.table("return_cam"),))]
+    for title, cam, table in zip(titles, cams, tables, strict=False):
+        axes = panel(figure, title)
+        assert axes.get_aspect() == 1.0
+        curves = lines(axes)
+        for place in ("start", "mid-swing", "end"):
+            x, y = curves[f"rocker, {place}"].get_data()
+            assert math.hypot(x[1] - x[0], y[1] - y[0]) == pytest.approx(cam.rocker_radius, abs=1e-9)
+            assert math.hypot(x[0], y[0]) == pytest.approx(cam.center_distance, abs=1e-9)
+        columns = dict(zip(table.columns, table.data, strict=True))
+        pitch = curves["pitch curve"].get_xydata()
+        np.testing.assert_allclose(pitch[[0, -1], 0], columns["pitch_x"][[0, -1]], atol=1e-9)
+        np.testing.assert_allclose(pitch[[0, -1], 1], columns["pitch_y"][[0, -1]], atol=1e-9)
+        start = curves["profile"].get_xydata()[0]
+        np.testing.assert_allclose(start, [columns["x"][0], columns["y"][0]], atol=1e-9)
+        slot = curves["slot, in which the roller changes sides"].get_xydata()
+        x, y = curves["rocker, mid-swing"].get_data()
+        np.testing.assert_allclose(np.hypot(slot[:, 0] - x[1], slot[:, 1] - y[1]), cam.roller_radius, atol=1e-9)
+
+
+def test_contour_has_no_gap_and_no_corner_at_the_dwells() -> None:
+    from gearlink.core.wide_swing.outline import contour, dwell_arc
+
+    for name in ("twin_cam", "twin_rocker"):
+        made = design(name, "cam")
+        cam = made.cam
+        run_up, slot, run_out = contour(cam, made.slot_of(cam))
+        rest = dwell_arc(cam)
+        closed = ((run_up, slot), (slot, run_out), (run_out, rest), (rest, run_up))
+        for one, other in closed:
+            assert abs(one[-1] - other[0]) < 1e-9
+        # the rocker stands still at the end, so the profile runs into a circle about the cam axis
+        np.testing.assert_allclose(np.abs(rest), abs(run_up[0]), rtol=1e-12)
+        assert cam.points(np.array([1.0])).profile[0] == pytest.approx(run_out[-1], abs=1e-12)
+
+
+def test_pressure_angle_and_curvature() -> None:
+    made, figure = drawn("twin_rocker", "cam")
+    axes = panel(figure, "Pressure angle")
+    inner = next(line for label, line in lines(axes).items() if label.startswith("internal profile"))
+    points = made.cam.points(np.asarray(inner.get_xdata()))
+    np.testing.assert_array_equal(inner.get_ydata(), np.degrees(points.pressure_angle))
+    assert f"limit ±{made.spec.limits.pressure_angle:g}°" in lines(axes)
+    curvature = lines(panel(figure, "Curvature radius"))
+    assert curvature["roller radius 4 mm"].get_ydata()[0] == 4.0
+    outer = next(line for label, line in curvature.items() if label.startswith("external profile"))
+    found = made.return_cam.points(np.asarray(outer.get_xdata())).curvature_radius
+    drawn_radius = np.asarray(outer.get_ydata())
+    np.testing.assert_array_equal(drawn_radius[found > 0.0], found[found > 0.0])
+
+
+ODD = [
+    ("twin_cam", ("swing=300", "unloader.pivot_ratio=5.3")),
+    ("twin_cam", ("swing=20", "cam.roller_radius=2")),
+    ("twin_cam", ("cam.rocker_radius=60",)),
+    ("twin_cam", ("cam.rocker_radius=74.5",)),
+    ("twin_cam", ("cam.center_distance=2e-4", "cam.roller_radius=8e-6", "cam.shaft_radius=0")),
+    ("twin_cam", ("cam.center_distance=2e8", "cam.roller_radius=8e6", "cam.shaft_radius=2.5e7")),
+    ("twin_rocker", ("swing=260", "unloader.pivot_ratio=6")),
+    ("twin_rocker", ("cycle_angle=140",)),
+    ("oscillating_cam", ("drive.stroke=homeward", "drive.assembly=-1")),
+]
+
+
+@pytest.mark.parametrize(("name", "overrides"), ODD)
+@pytest.mark.parametrize("command", ["swing", "cam"])
+def test_odd_designs_draw(name: str, overrides: tuple[str, ...], command: str) -> None:
+    _, figure = drawn(name, command, *overrides)
+    laid_out(figure)
+
+
+def test_design_without_cam_or_profile() -> None:
+    looped = ("swing=160", "cycle_angle=150", "unloader.stretch_ratio=0.05", "unloader.pivot_ratio=4")
+    for name, overrides in (("slider", ()), ("twin_rocker", looped), ("twin_cam", ("cam.roller_radius=100",))):
+        _, figure = drawn(name, "swing", *overrides)
+        laid_out(figure)
+        assert not [axes for axes in figure.axes if axes.get_title(loc="left").startswith("Cam of")]
+    with pytest.raises(NoSolution, match="loop"):
+        drawn("twin_rocker", "cam", *looped)

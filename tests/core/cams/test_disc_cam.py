@@ -1,0 +1,149 @@
+"""A closed disc cam: extremes, undercut and checks against circles and closed forms.
+
+Tolerances
+* eccentric circle: 1e-13 of its radius for radii, 1e-12 rad for angles: some ten operations on numbers of that size.
+  Largest values are flat: they are exact to rounding, their places to sqrt(eps).
+* two lobes rho = R + D cos(2 t): extremes of curvature and the neck in closed form, 1e-13; the depth of a far cut
+  is sought to 1e-10 of the angle, which at a flat minimum leaves 1e-13 mm.
+"""
+
+import math
+
+import numpy as np
+import pytest
+
+from gearlink.core.cams.checks import pressure_angle_checks, step_check, undercut_checks
+from gearlink.core.cams.disc_cam import DiscCam
+from gearlink.core.cams.profile import translating
+
+ANGLES = np.radians(np.arange(0.0, 360.0, 1.0))
+
+
+def eccentric(radius: float, offset: float, roller: float, sense: int = 1) -> DiscCam:
+    """In-line follower on a circle of pitch radius R whose centre stands e off the axis: rho = e cos t + sqrt(...)."""
+
+    def path(t, order):
+        root = np.sqrt(radius**2 - (offset * np.sin(t)) ** 2)
+        bend = offset**2 * np.sin(t) * np.cos(t)
+        first = -offset * np.sin(t) - bend / root
+        second = -offset * np.cos(t) - offset**2 * np.cos(2.0 * t) / root - bend**2 / root**3
+        return translating(offset * np.cos(t) + root, first, second if order > 1 else 0.0)
+
+    return DiscCam("circle", path, sense, roller)
+
+
+def lobes(size: float, depth: float, roller: float) -> DiscCam:
+    """Two lobes: rho = R + D cos(2 t), with a neck of half-width R - D."""
+
+    def path(t, order):
+        second = -4.0 * depth * np.cos(2.0 * t)
+        return translating(size + depth * np.cos(2.0 * t), -2.0 * depth * np.sin(2.0 * t), second if order > 1 else 0.0)
+
+    return DiscCam("two lobes", path, 1, roller)
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+@pytest.mark.parametrize(("radius", "offset", "roller"), [(60.0, 20.0, 15.0), (100.0, 5.0, 80.0), (0.05, 0.01, 0.02)])
+def test_eccentric_circle(radius, offset, roller, sense):
+    cam = eccentric(radius, offset, roller, sense)
+    pitch, profile = cam.points(ANGLES)
+    np.testing.assert_allclose(np.abs(pitch - offset), radius, rtol=1e-13)
+    np.testing.assert_allclose(np.abs(profile - offset), radius - roller, rtol=1e-12)
+    np.testing.assert_allclose(cam.curvature(ANGLES), 1.0 / radius, rtol=1e-12)
+    # the normal passes through the circle's centre: sin(alpha) = e sin(t)/R
+    sine = np.abs(offset * np.sin(ANGLES)) / radius
+    np.testing.assert_allclose(np.abs(cam.pressure_angle(ANGLES)), np.arcsin(sine), atol=1e-12)
+    assert cam.max_pressure_angle.value == pytest.approx(math.asin(offset / radius), abs=1e-13)
+    assert math.cos(cam.max_pressure_angle.place) == pytest.approx(0.0, abs=1e-6)
+    assert cam.min_curvature_radius.value == pytest.approx(radius, rel=1e-12)
+    assert cam.max_radius == pytest.approx(radius - roller + offset, rel=1e-13)
+    assert cam.min_radius == pytest.approx(abs(radius - roller - offset), rel=1e-13)
+    assert cam.undercut.depth <= 1e-12 * radius
+
+
+def test_sense_of_rotation_mirrors_cam_and_pressure_angle():
+    left, right = eccentric(60.0, 20.0, 15.0, 1), eccentric(60.0, 20.0, 15.0, -1)
+    np.testing.assert_allclose(left.points(ANGLES)[1], np.conj(right.points(ANGLES)[1]), atol=1e-13)
+    np.testing.assert_allclose(left.pressure_angle(ANGLES), -right.pressure_angle(ANGLES), atol=1e-15)
+
+
+def test_axis_outside_the_profile_is_no_undercut():
+    cam = eccentric(60.0, 50.0, 20.0)  # the axis stands 10 mm outside the profile, which is a plain circle
+    assert not cam._star_shaped()
+    assert cam.undercut.depth <= 1e-10
+    assert [check.status for check in undercut_checks([cam])] == ["pass"]
+
+
+@pytest.mark.parametrize(("size", "depth"), [(100.0, 20.0), (100.0, 60.0), (0.1, 0.06)])
+def test_least_convex_radius_of_two_lobes(size, depth):
+    # at the tip rho = R + D, rho'' = -4 D: rho^2/(rho - rho'')
+    tip = (size + depth) ** 2 / (size + 5.0 * depth)
+    cam = lobes(size, depth, 0.1 * size)
+    assert cam.min_curvature_radius.value == pytest.approx(tip, rel=1e-13)
+    assert (cam.max_radius, cam.min_radius) == pytest.approx((0.9 * size + depth, 0.9 * size - depth), rel=1e-13)
+
+
+@pytest.mark.parametrize("roller", [44.8, 50.0, 60.0])
+def test_roller_that_cuts_through_the_neck_from_the_other_side(roller):
+    # No cusp: the least convex radius is 64 mm. But the neck is 2 x 40 mm wide, and the roller takes its radius
+    # from both sides.
+    cam = lobes(100.0, 60.0, roller)
+    assert cam.min_curvature_radius.value == pytest.approx(64.0, rel=1e-13)
+    assert cam.undercut.depth == pytest.approx(2.0 * (roller - 40.0), rel=1e-12)
+    (check,) = undercut_checks([cam])
+    assert (check.code, check.name, check.status) == ("GL402", "cam-undercut", "fail" if roller < 0.8 * 64 else "warn")
+    if roller < 0.8 * 64.0:
+        assert f"cuts {2.0 * (roller - 40.0):.4g} mm into its own profile" in check.message
+
+
+def test_star_shaped_profile_needs_no_search_and_agrees_with_it():
+    from gearlink.core.cams.undercut import undercut
+
+    cam = lobes(100.0, 20.0, 50.0)
+    assert cam._star_shaped()
+    assert cam.undercut.depth == 0.0
+    assert undercut(cam.points, cam.roller_radius).depth <= 1e-11
+
+
+@pytest.mark.parametrize(
+    ("share", "status"), [(0.5, "pass"), (0.799, "pass"), (0.801, "warn"), (1.0, "fail"), (2, "fail")]
+)
+def test_roller_against_the_least_convex_radius(share, status):
+    cam = eccentric(64.0, 2.0, 64.0 * share)  # a power of two: the curvature radius is exact
+    (check,) = undercut_checks([cam])
+    assert check.status == status
+    assert check.value == pytest.approx(share, rel=1e-12)
+    if status != "pass":
+        assert "at most 51." in check.message
+        assert [c.status for c in undercut_checks([eccentric(64.0, 2.0, 51.199)])] == ["pass"]
+
+
+@pytest.mark.parametrize(("limit", "status"), [(19.4, "fail"), (19.5, "pass")])
+def test_pressure_angle_against_its_limit(limit, status):
+    # asin(1/3) = 19.4712 deg
+    (check,) = pressure_angle_checks([eccentric(60.0, 20.0, 15.0)], limit, "enlarge the base circle")
+    assert (check.code, check.status, check.unit) == ("GL401", status, "deg")
+    assert check.value == pytest.approx(math.degrees(math.asin(1.0 / 3.0)), rel=1e-13)
+    assert "19.4712 deg" in check.message
+    assert ("above the limit 19.4 deg: enlarge" in check.message) == (status == "fail")
+
+
+def test_steps_below_a_share_of_the_peak_are_rounding():
+    steps = [("a/b at 1 deg", 1e-4), ("b/a at 2 deg", -2e-3)]
+    quiet = step_check("GL403", "velocity-step", steps, 201.0, "mm/rad", "fail", "mend it")
+    assert (quiet.status, quiet.value, quiet.limit) == ("pass", 2e-3, pytest.approx(2.01e-3))
+    loud = step_check("GL403", "velocity-step", steps, 199.0, "mm/rad", "fail", "mend it")
+    assert (loud.status, loud.value) == ("fail", 2e-3)
+    assert "velocity jumps (b/a at 2 deg -0.002 mm/rad): mend it" in loud.message
+    assert "a/b" not in loud.message
+
+
+def test_table_has_the_columns_of_every_cam():
+    cam = eccentric(60.0, 20.0, 15.0)
+    table = cam.table("main_cam", np.degrees(ANGLES))
+    assert table.columns == ("cam_angle", "pitch_x", "pitch_y", "x", "y", "pressure_angle", "curvature_radius")
+    assert table.units == ("deg", "mm", "mm", "mm", "mm", "deg", "mm")
+    rows = np.array(table.rows())
+    np.testing.assert_allclose(rows[:, 3] + 1j * rows[:, 4], cam.points(ANGLES)[1], atol=1e-13)
+    np.testing.assert_allclose(rows[:, 5], np.degrees(cam.pressure_angle(ANGLES)), atol=1e-12)
+    np.testing.assert_allclose(rows[:, 6], 60.0, rtol=1e-12)

@@ -1,0 +1,130 @@
+"""The mutilated gear and the four-bar that it turns.
+
+Tolerances: the ratios are single divisions, exact or 2 ulp; angles 1e-13 relative (a few operations). Rocker angles are
+compared with `fourbar.solve` at the same crank angle, so only the table's own rounding shows.
+"""
+
+import json
+import math
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from gearlink.core.dwell_gears.mutilated import MutilatedGear
+from gearlink.core.dwell_gears.mutilated_design import MutilatedGearDwell
+from gearlink.core.dwell_gears.mutilated_spec import MutilatedGearDwellSpec
+from gearlink.core.errors import NoSolution
+from gearlink.core.linkages.fourbar import FourBar, solve
+
+REFERENCE = Path(__file__).parents[2] / "reference"
+CASES = {case["id"]: case for case in json.loads((REFERENCE / "gear_linkage.json").read_text())["cases"]}
+TURN = 2.0 * math.pi
+LINKS = {"crank": 40.0, "coupler": 120.0, "rocker": 100.0, "frame": 140.0}
+
+
+def design(samples=None, **keys):
+    gears = {"module": 3.0, "full_teeth": 80, "group_teeth": 20, "driven": 20} | keys.pop("gears", {})
+    data = {"kind": "mutilated-gear-dwell", "reduction": 6.0, "gears": gears} | keys
+    return MutilatedGearDwell(MutilatedGearDwellSpec.model_validate(data), samples)
+
+
+def test_reference_case():
+    given_, out = CASES["mutilated_k6"]["inputs"], CASES["mutilated_k6"]["outputs"]
+    gear = MutilatedGear(given_["i_red"], given_["Z_M"], given_["n"], given_["groups"], given_["Z_F"])
+    found = {
+        "input_turns_per_cycle": gear.cycle_turns,
+        "driven_turn_per_group": gear.driven_turn,
+        "motion_fraction": gear.motion_share,
+        "dwell_fraction": gear.dwell_share,
+        "dwell_input_turns": gear.dwell_turns,
+        "motion_input_turns": gear.motion_turns,
+        "ratio_during_motion": gear.speed_ratio,
+    }
+    assert found == pytest.approx(out, rel=4e-16, abs=0.0)
+
+
+@settings(max_examples=150)
+@given(st.integers(10, 200), st.integers(1, 60), st.integers(1, 5), st.integers(8, 80), st.fractions(1, 30))
+def test_against_fractions(full, group, groups, driven, reduction):
+    if group * groups >= full:
+        return
+    stops = driven // math.gcd(driven, group)
+    gear = MutilatedGear(float(reduction), full, group, groups, driven, stops)
+    exact = Fraction(float(reduction))
+    assert gear.motion_turns == pytest.approx(float(exact * group / full), rel=1e-15, abs=0.0)
+    assert gear.dwell_turns == pytest.approx(float(exact / groups - exact * group / full), rel=1e-15, abs=0.0)
+    # the driven gear does in the motion what its speed says
+    assert gear.speed_ratio * gear.motion_turns == pytest.approx(gear.driven_turn, rel=1e-15, abs=0.0)
+    assert gear.cycles_to_repeat * Fraction(group, driven) == int(gear.cycles_to_repeat * Fraction(group, driven))
+
+
+def test_driven_angle_runs_stands_and_goes_on():
+    gear = MutilatedGear(6.0, 80, 10, 2, 20, stops=2)
+    assert gear.cycle_turns == 3.0
+    assert gear.cycles_to_repeat == 2
+    for turns, driven in ((0.375, 0.25), (0.75, 0.5), (2.9, 0.5), (3.375, 0.75), (-0.1, 0.0), (9.0, 1.5)):
+        assert gear.driven_angle(TURN * turns) == pytest.approx(TURN * driven, rel=1e-13, abs=1e-13)
+    assert [gear.moves(TURN * t) for t in (0.0, 0.7, 0.8, 3.1)] == [True, True, False, True]
+
+
+@pytest.mark.parametrize(
+    ("numbers", "words"),
+    [
+        ((0.0, 80, 20, 1, 20), "reduction"),
+        ((6.0, 80, 20, 4, 20), "at most 19 teeth"),
+        ((6.0, 80, 15, 1, 20), "take 4 stops, or a multiple of 20 teeth"),
+        ((6.0, 80, 0, 1, 20), "group teeth"),
+    ],
+)
+def test_refusals(numbers, words):
+    with pytest.raises(NoSolution, match=words):
+        MutilatedGear(*numbers)
+
+
+def test_refusal_names_the_section():
+    with pytest.raises(NoSolution) as refused:
+        _ = design(gears={"group_teeth": 15}).mutilated
+    assert refused.value.key == "gears"
+
+
+def test_rocker_starts_from_rest_at_its_dead_centre():
+    made = design(links=LINKS, samples=400)
+    linkage = FourBar(40.0, 120.0, 100.0, 140.0)
+    assert abs(made.rocker_start_speed) < 1e-15
+    start = made.start_crank_angle
+    swing = [solve(linkage, TURN * i / 20000).rocker_angle for i in range(20000)]
+    assert made.rocker_swing == pytest.approx(max(swing) - min(swing), rel=1e-7)  # from samples: error h^2/2
+    data = dict(zip(made.table("motion").columns, made.table("motion").data, strict=True))
+    assert data["rocker_angle"][0] == pytest.approx(data["rocker_angle"][399], rel=1e-13)
+    quarter = data["rocker_angle"][50]  # after 0.75 turns of the input the driven gear has made half a turn
+    assert math.radians(quarter) == pytest.approx(solve(linkage, start + math.pi).rocker_angle, rel=1e-14)
+    assert data["driven_speed_ratio"][:2] == [made.driven_speed_ratio] * 2
+    assert data["driven_speed_ratio"][100] == 0.0
+    (shock,) = made.check("start-shock")
+    assert shock.status == "warn"
+    assert "starts from rest" in shock.message
+
+
+def test_rocker_that_starts_with_a_jerk_is_named():
+    made = design(links=LINKS, start_angle=120.0)
+    linkage = FourBar(40.0, 120.0, 100.0, 140.0)
+    expected = made.driven_speed_ratio * solve(linkage, math.radians(120.0), 1).rocker_velocity
+    assert made.rocker_start_speed == pytest.approx(expected, rel=1e-15)
+    assert "leave start_angle out" in made.check("start-shock")[0].message
+
+
+def test_without_links_there_is_no_rocker():
+    made = design()
+    names = [q.name for q in made.report("analyze").quantities]
+    assert "rocker_swing" not in names
+    assert "min_transmission_angle" not in names
+    assert made.table("motion").columns == ("input_angle", "driven_angle", "driven_speed_ratio")
+
+
+def test_linkage_that_does_not_turn_is_refused():
+    with pytest.raises(NoSolution) as refused:
+        _ = design(links=LINKS | {"crank": 90.0}).start_crank_angle
+    assert refused.value.key == "links"

@@ -1,0 +1,349 @@
+"""The flatbed press as a design: the report's numbers, positions by a second way, refusals, checks, laziness.
+
+Tolerances
+* published (TY-460 report): half a unit of the last printed digit where the report is right. Its working radius
+  144 copies the reference radius; r_a, s_a, alpha_a and eps follow from a y rounded to 0.57 and are missed by what
+  that makes.
+* contract: 1e-11 relative, as it states itself.
+* positions against the oracle (cosine rule, 40 digits): 1e-12 of the peak of the column; transmission angles from the
+  triangle's sides: 1e-11 deg.
+"""
+
+import json
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import mpmath as mp
+import numpy as np
+import pytest
+import yaml
+from oracles.press import PRESSES, TY460, Press
+
+from gearlink.core.errors import MissingSection, NoSolution
+from gearlink.core.flatbed_press.design import FlatbedPress
+from gearlink.core.flatbed_press.spec import FlatbedPressSpec
+
+ROOT = Path(__file__).parents[3]
+CONTRACT = [
+    case
+    for name in ("press", "gear", "crank", "cam")
+    for case in json.loads((ROOT / "tests" / "reference" / "contract" / f"{name}.json").read_text())
+    if case["spec"]["kind"] == "flatbed-press"
+]
+GEARS = {"module": 4.0, "horizontal_distance": 290.0}
+CAM = {"base_radius": 90.0, "roller_radius": 25.0, "transition_end": 125.0, "return_angle": 100.0}
+
+
+@pytest.fixture(autouse=True)
+def _digits():
+    with mp.workdps(40):
+        yield
+
+
+def press(oracle: Press = TY460, samples=None, **sections) -> FlatbedPress:
+    given = {"sync": {"length": 420.0, "print_length": 320.0}} | sections
+    return FlatbedPress(FlatbedPressSpec.model_validate(oracle.spec(**given)), samples)
+
+
+def computed(design) -> set[str]:
+    """Names of the results that a design has worked out."""
+    return set(vars(design)) - {"spec", "samples"}
+
+
+# Published
+
+
+def test_worked_design_gives_the_numbers_of_the_report():
+    spec = FlatbedPressSpec.model_validate(yaml.safe_load((ROOT / "designs" / "ty460.yaml").read_text()))
+    design = FlatbedPress(spec)
+    for name, printed, half in (
+        ("crank_length", 154.21, 5e-3),
+        ("initial_crank_angle", 115.66, 5e-3),
+        ("center_distance", 290.29, 5e-3),
+        ("shift_sum", 0.589, 6e-4),  # the report cuts 0.58955 off
+        ("tip_shortening", 0.019, 3e-3),  # and rounds y before it takes the difference
+    ):
+        assert design.quantity(name).value == pytest.approx(printed, abs=half), name
+    base, root = (design.quantity(name).value[0] for name in ("base_radius", "root_radius"))
+    assert (base, root) == pytest.approx((135.316, 140.178), abs=1.2e-3)
+    assert design.quantity("working_pressure_angle").value == pytest.approx(21.207, abs=7e-4)
+    assert round(design.quantity("sync_start").value) == 34
+
+
+def test_working_radius_is_not_the_reference_radius():
+    design = press(input_gears=GEARS)
+    assert design.quantity("reference_radius").value == [144.0, 144.0]
+    assert design.quantity("working_radius").value == pytest.approx([145.14561653732433] * 2, rel=1e-13)
+    assert abs(design.quantity("working_radius").value[0] - 144.0) > 1.0
+    assert design.gear_pair.teeth == (72, 72)
+    assert design.quantity("tip_radius").value[0] == pytest.approx(149.102, abs=0.011)
+    assert design.quantity("tip_thickness").value[0] == pytest.approx(3.10, abs=0.03)
+
+
+@pytest.mark.parametrize("case", CONTRACT, ids=[case["id"] for case in CONTRACT])
+def test_contract(case):
+    spec = case["spec"]
+    design = FlatbedPress(FlatbedPressSpec.model_validate(spec))
+    for name, wanted in case["quantities"].items():
+        assert design.quantity(name).value == pytest.approx(wanted, rel=1e-11, abs=1e-12), name
+
+
+# A second way
+
+
+@pytest.mark.parametrize("name", PRESSES)
+def test_positions_against_the_cosine_rule(name):
+    oracle = PRESSES[name]
+    table = press(oracle, samples=9).table("positions")
+    rows = np.array(table.rows())
+    omega = mp.mpf(4500) / 3600 * 2 * mp.pi
+
+    def fold(gamma):
+        return min(mp.degrees(gamma), 180 - mp.degrees(gamma))
+
+    def transmission(links, crank):
+        a, b, c, d, _ = links
+        reach = abs(a * mp.expj(crank) - d)
+        return fold(mp.acos((b * b + c * c - reach * reach) / (2 * b * c)))
+
+    exact = []
+    for i in range(9):
+        phi = 2 * mp.pi * i / 9
+        exact.append(
+            [
+                mp.degrees(phi),
+                mp.degrees(oracle.cam(phi)),
+                oracle.p(phi),
+                omega * mp.diff(oracle.p, phi),
+                oracle.q(phi),
+                omega * mp.diff(oracle.q, phi),
+                transmission(oracle.bed, oracle.crank_start + phi),
+                transmission(oracle.cylinder, mp.radians(oracle.initial_crank_angle) - phi),
+            ]
+        )
+    exact = np.array([[float(value) for value in row] for row in exact])
+    peak = np.abs(exact).max(axis=0)
+    np.testing.assert_allclose(rows / peak, exact / peak, rtol=0.0, atol=1e-12)
+    assert table.units == ("deg", "deg", "mm", "mm/s", "mm", "mm/s", "deg", "deg")
+
+
+@pytest.mark.parametrize("name", PRESSES)
+def test_least_transmission_angle_stands_with_the_crank_on_the_frame(name):
+    oracle, design = PRESSES[name], press(PRESSES[name])
+    for links, found in (
+        (oracle.bed, design.min_transmission_angle_bed),
+        (oracle.cylinder, design.min_transmission_angle_cylinder),
+    ):
+        a, b, c, d = (mp.mpf(x) for x in links[:4])
+        gammas = [mp.acos((b * b + c * c - (a + s * d) ** 2) / (2 * b * c)) for s in (1, -1)]
+        assert found == pytest.approx(float(min(min(g, mp.pi - g) for g in gammas)), abs=1e-14)
+
+
+@pytest.mark.parametrize("name", PRESSES)
+def test_zone_quantities_against_the_oracle(name):
+    oracle = PRESSES[name]
+    length = 0.5 * oracle.stroke
+    design = press(oracle, sync={"length": length})
+    start = oracle.equal_speed
+    end = oracle.end_of(start, length)
+    for quantity, wanted in (
+        ("sync_start", mp.degrees(start)),
+        ("sync_end", mp.degrees(end)),
+        ("cam_sync_start", mp.degrees(oracle.cam(start))),
+        ("cam_sync_end", mp.degrees(oracle.cam(end))),
+        ("compensation", oracle.gap(end) - oracle.gap(start)),
+    ):
+        assert design.quantity(quantity).value == pytest.approx(float(wanted), abs=1e-10), quantity
+    assert design.zone_length == pytest.approx(length, rel=1e-13)
+
+
+@pytest.mark.parametrize("k", [1e-3, 1e3])
+def test_scale(k):
+    small, large = press(), press(TY460.scaled(k), sync={"length": 420.0 * k, "print_length": 320.0 * k})
+    for name in ("sync_start", "sync_end", "cam_sync_end", "min_transmission_angle_bed", "initial_crank_angle"):
+        assert large.quantity(name).value == pytest.approx(small.quantity(name).value, abs=1e-10)
+    for name in ("crank_length", "compensation"):
+        assert large.quantity(name).value == pytest.approx(k * small.quantity(name).value, rel=1e-10)
+
+
+# Input gears
+
+
+@pytest.mark.parametrize(("module", "distance"), [(0.7, 286.3), (0.3, 290.1), (0.1, 0.7), (0.9, 290.7), (4.0, 288.0)])
+def test_centre_distance_of_whole_teeth_keeps_them_all(module, distance):
+    # with the offset equal to the frame DA both axes stand at one height
+    level = replace(TY460, offset=37.0)
+    design = press(level, input_gears={"module": module, "horizontal_distance": distance})
+    assert design.gear_pair.teeth[0] == round(distance / module)
+    assert design.quantity("shift_sum").value == pytest.approx(0.0, abs=1e-9)
+
+
+def test_module_that_leaves_no_tooth():
+    with pytest.raises(NoSolution, match=r"module 300 mm.*290\.291 mm") as refusal:
+        _ = press(input_gears={"module": 300.0, "horizontal_distance": 290.0}).gear_pair
+    assert refusal.value.key == "input_gears.module"
+
+
+@pytest.mark.parametrize(("module", "pressure_angle", "code"), [(32.0, 20.0, "GL201"), (4.0, 44.0, "GL202")])
+def test_input_gears_beyond_undercut_or_pointed_tips_fail(module, pressure_angle, code):
+    gears = {"module": module, "horizontal_distance": 290.0, "pressure_angle": pressure_angle}
+    found = [check for name in ("undercut", "tip-thickness") for check in press(input_gears=gears).check(name)]
+    assert {check.code for check in found if check.status == "fail"} == {code}
+
+
+# Refusals
+
+
+def test_stroke_that_the_rod_cannot_make():
+    # the slider makes half the bed's 2000 mm; the largest stroke of rod 520 and offset 50 is 988.74 mm
+    with pytest.raises(NoSolution, match=r"988\.7") as refusal:
+        _ = press(replace(TY460, stroke=2000.0)).crank_length
+    assert refusal.value.key == "bed.stroke"
+
+
+@pytest.mark.parametrize("chain", ["bed", "cylinder"])
+def test_chain_that_is_no_drag_link(chain):
+    links = {"bed": {"bed": (30.0, 100.0, 100.0, 116.0, 1)}, "cylinder": {"cylinder": (30.0, 100.0, 95.0, 100.0, -1)}}
+    with pytest.raises(NoSolution, match="crank-rocker") as refusal:
+        press(replace(TY460, **links[chain])).quantity("sync_start")
+    assert refusal.value.key == f"{chain}.double_crank"
+
+
+def test_no_equal_speed_and_the_shift_that_helps():
+    large = replace(TY460, radius=170.0)
+    with pytest.raises(NoSolution, match="never have the same speed") as refusal:
+        press(large).report("press")
+    assert refusal.value.key == "cylinder.initial_crank_angle"
+    angle = float(re.search(r"initial_crank_angle ([\d.]+) deg", refusal.value.message)[1])
+    assert press(replace(large, initial_crank_angle=angle)).report("press").checks
+
+
+@pytest.mark.parametrize("end", [20.0, 34.0])
+def test_zone_that_ends_before_it_starts(end):
+    design = press(sync={"start": 34.0, "end": end})
+    with pytest.raises(NoSolution, match=rf"{end:g} deg, but starts at 34 deg: set sync\.end above 34 deg") as refusal:
+        _ = design.sync_end
+    assert refusal.value.key == "sync.end"
+
+
+def test_zone_longer_than_the_cylinders_circumference():
+    with pytest.raises(NoSolution) as refusal:
+        _ = press(sync={"length": 1000.0}).sync_end
+    assert refusal.value.key == "sync.length"
+
+
+@pytest.mark.parametrize(("command", "key"), [("cam", "cam"), ("gear", "input_gears")])
+def test_commands_without_their_section(command, key):
+    with pytest.raises(MissingSection) as refusal:
+        press().report(command)
+    assert (refusal.value.key, refusal.value.code) == (key, "GL113")
+
+
+@pytest.mark.parametrize("return_law", ["half-cycloidal", "velocity-345", {"quintic": 0.5}])
+def test_return_wants_a_law_from_rest_to_rest(return_law):
+    with pytest.raises(NoSolution, match="rest-to-rest") as refusal:
+        _ = press(cam=CAM | {"return_law": return_law}).follower
+    assert refusal.value.key == "cam.return_law"
+
+
+def test_unknown_return_law_names_the_nearest():
+    with pytest.raises(NoSolution, match="cycloidal") as refusal:
+        _ = press(cam=CAM | {"return_law": "cyclodial"}).follower
+    assert refusal.value.key == "cam.return_law"
+
+
+# Checks
+
+
+@pytest.mark.parametrize(
+    ("ratio", "status", "mended"), [(1.0, "pass", 0), (2.0, "pass", 0), (0.5, "fail", 1), (1.4, "fail", 1)]
+)
+def test_register(ratio, status, mended):
+    (check,) = press(replace(TY460, gear_ratio=ratio, radius=140.0 / ratio)).check("register")
+    assert (check.code, check.status) == ("GL506", status)
+    if status == "fail":
+        assert f"set cylinder.gear_ratio to {mended}" in check.message
+        assert press(replace(TY460, gear_ratio=float(mended))).check("register")[0].status == "pass"
+
+
+@pytest.mark.parametrize(("start", "status"), [(None, "pass"), (34.0, "pass"), (40.0, "fail")])
+def test_speeds_at_the_start_of_the_zone(start, status):
+    (check,) = press(sync={"start": start, "end": 150.0}).check("sync-speed")
+    assert (check.code, check.status) == ("GL501", status)
+    phi = mp.radians(start) if start else TY460.equal_speed
+    share = abs(mp.diff(TY460.gap, phi) / mp.diff(TY460.q, phi))
+    assert check.value == pytest.approx(float(share), abs=1e-13)
+    assert ("leave sync.start out" in check.message) == (status == "fail")
+
+
+@pytest.mark.parametrize(("print_length", "status"), [(0.0, "pass"), (320.0, "pass"), (420.0, "pass"), (420.1, "fail")])
+def test_zone_against_the_print(print_length, status):
+    (check,) = press(sync={"length": 420.0, "print_length": print_length}).check("sync-length")
+    assert (check.code, check.status, check.unit) == ("GL502", status, "mm")
+    assert check.value == 420.0
+
+
+@pytest.mark.parametrize(
+    ("limit", "statuses"),
+    [(30.0, ["pass", "pass"]), (31.0, ["pass", "warn"]), (36.0, ["pass", "fail"]), (47.0, ["fail", "fail"])],
+)
+def test_transmission_angles_of_both_chains(limit, statuses):
+    found = press(limits={"transmission_angle": limit}).check("transmission-angle")
+    assert [check.status for check in found] == statuses
+    assert [check.value for check in found] == pytest.approx([46.531948123073, 35.723697488383266], rel=1e-13)
+    assert "bed.double_crank" in found[0].message or statuses[0] == "pass"
+    assert "cylinder.double_crank" in found[1].message or statuses[1] == "pass"
+
+
+# Nothing but what is asked for
+
+
+def test_crank_length_touches_nothing_else():
+    design = press(input_gears=GEARS, cam=CAM)
+    design.quantity("crank_length")
+    assert computed(design) == {"slider_crank", "crank_length"}
+
+
+def test_start_position_and_bed_touch_nothing_of_the_cylinder():
+    design = press(input_gears=GEARS, cam=CAM)
+    design.quantity("initial_crank_angle")
+    design.quantity("min_transmission_angle_bed")
+    assert not computed(design) & {"cylinder", "sync_start", "gear_pair", "follower"}
+
+
+def test_gears_touch_no_chain():
+    design = press(input_gears=GEARS, cam=CAM)
+    design.report("gear")
+    assert computed(design) == {"gear_pair"}
+
+
+def test_cam_never_sizes_gears_nor_press_the_cam():
+    design = press(input_gears=GEARS, cam=CAM)
+    design.report("cam")
+    assert "gear_pair" not in computed(design)
+    assert "main_cam" in computed(design)
+    design = press(input_gears=GEARS, cam=CAM)
+    design.report("press")
+    assert not computed(design) & {"gear_pair", "follower", "main_cam", "return_cam"}
+
+
+def test_stroke_of_the_follower_draws_no_cam():
+    design = press(cam=CAM)
+    design.quantity("follower_stroke")
+    assert not computed(design) & {"main_cam", "return_cam"}
+
+
+def test_impossible_cylinder_does_not_stand_in_the_way_of_the_crank():
+    design = press(replace(TY460, cylinder=(30.0, 100.0, 95.0, 100.0, -1)))
+    assert design.quantity("crank_length").value == pytest.approx(154.21159203908383, rel=1e-14)
+
+
+def test_analyze_shows_the_cams_where_the_file_has_them():
+    bare, full = press(), press(cam=CAM)
+    assert "max_pressure_angle" not in bare.outline("analyze").quantities
+    assert "max_pressure_angle" in full.outline("analyze").quantities
+    names = [table.name for table in full.report("analyze").tables]
+    assert names == ["positions", "follower", "main_cam", "return_cam"]
+    codes = [check.name for check in full.report("analyze").checks]
+    assert codes.count("sync-length") == 1

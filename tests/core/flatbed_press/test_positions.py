@@ -1,0 +1,103 @@
+"""Joints of the press chains: link lengths, velocities and equal-speed points.
+
+Tolerances
+    1e-9 mm: lengths of some 500 mm come back from coordinates within a few ulp, 1e-13 of them each.
+    1e-6 relative: a central difference of step 1e-5 loses half the digits.
+    1e-7 deg: equal-speed points of the reference are printed to so many digits.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from gearlink.core.flatbed_press.chains import BedChain, CylinderChain
+from gearlink.core.flatbed_press.positions import (
+    bed_positions,
+    cylinder_positions,
+    equal_speed_angles,
+    least_transmission_input,
+)
+from gearlink.core.linkages.fourbar import FourBar
+
+PHI = np.radians(np.arange(0.0, 360.0, 7.5))
+
+
+@pytest.fixture
+def bed() -> BedChain:
+    return BedChain(FourBar(116.0, 100.0, 100.0, 37.0), math.radians(177.0), 154.21159203908383, 520.0, 50.0)
+
+
+@pytest.fixture
+def cylinder() -> CylinderChain:
+    return CylinderChain(FourBar(100.0, 100.0, 95.0, 40.0, -1), math.radians(57.109), 140.0, 1.0)
+
+
+def test_links_of_the_bed_chain_keep_their_lengths(bed: BedChain) -> None:
+    at = bed_positions(bed, PHI)
+    for start, end, length in ((at.a, at.b, 116.0), (at.b, at.c, 100.0), (at.c, at.d, 100.0)):
+        np.testing.assert_allclose(np.abs(end - start), length, atol=1e-9)
+    np.testing.assert_allclose(np.abs(at.e - at.d), bed.slider_crank_length, atol=1e-9)
+    np.testing.assert_allclose(np.abs(at.f - at.e), 520.0, atol=1e-9)
+    np.testing.assert_allclose(at.f.real, -13.0, atol=1e-9)
+
+
+def test_crank_offset_angle_is_that_between_driven_crank_and_slider_crank(bed: BedChain) -> None:
+    at = bed_positions(bed, PHI)
+    np.testing.assert_allclose(np.angle((at.c - at.d) / (at.e - at.d)), math.radians(177.0), atol=1e-12)
+
+
+def test_slider_makes_half_the_travel_of_the_bed(bed: BedChain) -> None:
+    at = bed_positions(bed, PHI)
+    np.testing.assert_allclose(2.0 * (at.f.imag - at.f[0].imag), bed.travel(PHI).value, atol=1e-9)
+
+
+def test_assemblies_are_those_of_the_chains(bed: BedChain, cylinder: CylinderChain) -> None:
+    left, right = bed_positions(bed, PHI), cylinder_positions(cylinder, PHI)
+    assert np.all(np.imag(np.conj(left.d - left.b) * (left.c - left.b)) > 0.0)
+    assert np.all(np.imag(np.conj(right.n - right.h) * (right.m - right.h)) < 0.0)
+
+
+def test_links_of_the_cylinder_chain_keep_their_lengths(cylinder: CylinderChain) -> None:
+    at = cylinder_positions(cylinder, PHI)
+    for start, end, length in ((at.g, at.h, 100.0), (at.h, at.m, 100.0), (at.m, at.n, 95.0)):
+        np.testing.assert_allclose(np.abs(end - start), length, atol=1e-9)
+
+
+def test_velocities_are_the_derivatives_of_the_positions(bed: BedChain, cylinder: CylinderChain) -> None:
+    step = 1e-5
+    f = (bed_positions(bed, PHI + step).f - bed_positions(bed, PHI - step).f) / (2.0 * step)
+    m = (cylinder_positions(cylinder, PHI + step).m - cylinder_positions(cylinder, PHI - step).m) / (2.0 * step)
+    np.testing.assert_allclose(bed_positions(bed, PHI).f_velocity, f, rtol=1e-6, atol=1e-6)
+    np.testing.assert_allclose(cylinder_positions(cylinder, PHI).m_velocity, m, rtol=1e-6, atol=1e-6)
+
+
+def test_surface_of_the_cylinder_runs_as_the_pin_m_on_its_radius(cylinder: CylinderChain) -> None:
+    pin = np.abs(cylinder_positions(cylinder, PHI).m_velocity)
+    np.testing.assert_allclose(cylinder.travel(PHI, 1).first, pin * 140.0 / 95.0, rtol=1e-12)
+
+
+def test_least_transmission_angle_stands_where_it_is_said_to(bed: BedChain, cylinder: CylinderChain) -> None:
+    phi = np.array([least_transmission_input(bed), least_transmission_input(cylinder)])
+    left, right = bed_positions(bed, phi[:1]), cylinder_positions(cylinder, phi[1:])
+    for angle, least in (
+        (np.angle((left.b - left.c) / (left.d - left.c))[0], 46.531948123073),
+        (np.angle((right.h - right.m) / (right.n - right.m))[0], 35.723697488383266),
+    ):
+        folded = min(abs(angle), math.pi - abs(angle))
+        assert math.degrees(folded) == pytest.approx(least, abs=1e-10)
+
+
+def test_equal_speed_points_of_the_press(bed: BedChain, cylinder: CylinderChain) -> None:
+    found = equal_speed_angles(bed, cylinder)
+    assert math.degrees(found[0]) == pytest.approx(33.99992349092281, abs=1e-7)
+    assert [round(math.degrees(phi), 1) for phi in found] == [34.0, 55.2, 78.4, 179.2]
+    for phi in found:
+        assert bed.travel(phi, 1).first == pytest.approx(cylinder.travel(phi, 1).first, rel=1e-12)
+
+
+def test_speeds_that_never_meet_give_no_points(bed: BedChain) -> None:
+    giant = CylinderChain(FourBar(100.0, 100.0, 95.0, 40.0, -1), 1.0, 14000.0, 1.0)
+    assert equal_speed_angles(bed, giant) == ()

@@ -1,0 +1,63 @@
+"""Mesh geometry: line of action, path of contact, places of the teeth.
+
+Tolerances
+* identities of the line of action: 1e-12 of the centre distance, some ten operations on it.
+* contact points against the outlines of the teeth: 2e-6 module, twice the chord error of the outlines.
+"""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from gearlink.core.gears.mesh_geometry import MeshGeometry
+from gearlink.core.gears.pair import GearPair
+from gearlink.core.gears.tooth_profile import ToothProfile, outline
+
+PAIRS = st.builds(
+    lambda m, z1, z2, x1, x2: GearPair.from_shift(m, (z1, z2), (x1, x2)),
+    st.sampled_from([1e-6, 2.5, 1e6]),
+    st.integers(18, 120),
+    st.integers(18, 120),
+    st.floats(-0.2, 0.5),
+    st.floats(-0.2, 0.5),
+)
+
+
+@given(PAIRS)
+@settings(max_examples=60)
+def test_line_of_action(pair):
+    mesh, near = MeshGeometry(pair), 1e-12 * pair.center_distance
+    for gear in (0, 1):
+        radius = mesh.base_tangents[gear] - mesh.axes[gear]
+        assert abs(radius) == pytest.approx(pair.base_radius[gear], abs=near)
+        assert abs((radius * mesh.direction.conjugate()).real) < near
+    assert abs(mesh.contact_start - mesh.axes[1]) == pytest.approx(pair.tip_radius[1], abs=near)
+    assert abs(mesh.contact_end - mesh.axes[0]) == pytest.approx(pair.tip_radius[0], abs=near)
+    length = abs(mesh.contact_end - mesh.contact_start)
+    assert length / mesh.base_pitch == pytest.approx(pair.contact_ratio, rel=1e-9)
+    assert len(mesh.contacts) in (math.floor(pair.contact_ratio), math.ceil(pair.contact_ratio))
+    assert (mesh.contact_end - mesh.contact_start).imag > 0.0
+
+
+def distance(point, line):
+    chord = np.diff(line)
+    along = (point - line[:-1]) * chord.conj() / np.abs(chord)
+    beyond = np.maximum(np.maximum(-along.real, along.real - np.abs(chord)), 0.0)
+    return np.hypot(along.imag, beyond).min()
+
+
+@pytest.mark.parametrize(
+    ("teeth", "shift"),
+    [((40, 72), (0.0, 0.0)), ((18, 31), (0.4, 0.1)), ((25, 25), (-0.1, 0.3)), ((90, 20), (0.0, 0.2))],
+)
+def test_both_outlines_pass_every_contact_point(teeth, shift):
+    pair = GearPair.from_shift(3.0, teeth, shift)
+    mesh = MeshGeometry(pair)
+    assert mesh.pitch_point in mesh.contacts
+    for gear in (0, 1):
+        flanks = outline(ToothProfile.of(pair, gear), 3e-6, first=mesh.first_space[gear]) + mesh.axes[gear]
+        for point in mesh.contacts:
+            assert distance(point, flanks) < 6e-6

@@ -1,0 +1,22 @@
+"""Checks that several gear-linkages share."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from gearlink.core.linkages.checks import transmission_check
+
+
+@pytest.mark.parametrize(("degrees", "status"), [(39.9, "fail"), (40.1, "warn"), (45.1, "pass")])
+def test_transmission_angle_against_its_limit(degrees: float, status: str) -> None:
+    check = transmission_check(math.radians(degrees), 40.0, "shorten the crank")
+    assert check.status == status
+    assert "condition number" not in check.message
+
+
+@pytest.mark.parametrize(("angle", "shown"), [(1e-3, "1e+03"), (0.0, "inf"), (math.radians(1.5), "38.2")])
+def test_near_a_dead_point_the_condition_number_is_named(angle: float, shown: str) -> None:
+    check = transmission_check(angle, 40.0, "shorten the crank")
+    assert f"up to {shown} times as large (condition number); shorten the crank" in check.message

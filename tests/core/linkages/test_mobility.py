@@ -1,0 +1,191 @@
+"""Degrees of freedom of linkages with gear trains.
+
+No tolerances: everything is whole numbers. The second method counts the rank of the velocity constraints of pins and
+meshes at a random position, with a threshold of 1e-9 of the largest singular value (the nearest ones differ by 1e-3).
+"""
+
+import cmath
+import json
+import math
+import random
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from gearlink.core.errors import NoSolution
+from gearlink.core.linkages.mobility import common_links, linkage_mobility, mobility, pin_names, train_change
+from gearlink.core.linkages.mobility_design import GearTrainMobility
+from gearlink.core.linkages.mobility_spec import GearTrainMobilitySpec
+
+REFERENCE = Path(__file__).parents[2] / "reference"
+CASES = {case["id"]: case for case in json.loads((REFERENCE / "gear_linkage.json").read_text())["cases"]}
+FOUR_BAR = {"frame": "AD", "crank": "AB", "coupler": "BC", "rocker": "CD"}
+FIVE_BAR = {"frame": "AE", "input": "AB", "left": "BC", "right": "CD", "output": "DE"}
+SIX_LOOP = {"frame": "AF", "p": "AB", "q": "BC", "r": "CD", "s": "DE", "t": "EF"}
+WATT = {"frame": "ADG", "crank": "AB", "coupler": "BC", "plate": "CDE", "link": "EF", "output": "FG"}
+
+
+def design(links, trains, wanted=1):
+    data = {
+        "kind": "gear-train-mobility",
+        "links": {name: {"pins": list(pins)} for name, pins in links.items()},
+        "trains": trains,
+        "mobility": wanted,
+    }
+    return GearTrainMobility(GearTrainMobilitySpec.model_validate(data))
+
+
+def train(*gears, **keys):
+    """A train from pins: "A" is free, "A:crank" fixed to the crank."""
+    parts = [gear.partition(":") for gear in gears]
+    return {"gears": [{"at": pin, **({"fixed_to": link} if link else {})} for pin, _, link in parts], **keys}
+
+
+def freedom_by_rank(links, trains, seed=1):
+    """Degrees of freedom from the rank of the velocity constraints, the first link at rest."""
+    draw = random.Random(seed)
+    places = {pin: cmath.rect(1.0, draw.uniform(0.0, 2.0 * math.pi)) for pin in pin_names(links)}
+    names = list(links)
+    free = [(i, j) for i, t in enumerate(trains) for j, gear in enumerate(t["gears"]) if "fixed_to" not in gear]
+    size = 3 * len(names) + len(free)
+    rows = []
+
+    def spin(i, j):
+        gear = trains[i]["gears"][j]
+        row = np.zeros(size)
+        row[3 * names.index(gear["fixed_to"]) + 2 if "fixed_to" in gear else 3 * len(names) + free.index((i, j))] = 1.0
+        return row
+
+    def velocity(link, pin):
+        x, y = np.zeros(size), np.zeros(size)
+        k = 3 * names.index(link)
+        x[k], x[k + 2], y[k + 1], y[k + 2] = 1.0, -places[pin].imag, 1.0, places[pin].real
+        return x, y
+
+    for pin in places:
+        first, *others = [name for name in names if pin in links[name]]
+        for other in others:
+            rows += [p - q for p, q in zip(velocity(first, pin), velocity(other, pin), strict=True)]
+    for i, t in enumerate(trains):
+        for j in range(len(t["gears"]) - 1):
+            one, other = t["gears"][j]["at"], t["gears"][j + 1]["at"]
+            carrier = np.zeros(size)
+            carrier[3 * names.index(common_links(links, one, other)[0]) + 2] = 1.0
+            share = draw.uniform(0.2, 0.8)
+            rows.append(share * (spin(i, j) - carrier) + (1.0 - share) * (spin(i, j + 1) - carrier))
+    for k in range(3):
+        row = np.zeros(size)
+        row[k] = 1.0
+        rows.append(row)
+    values = np.linalg.svd(np.array(rows), compute_uv=False)
+    return size - int(np.sum(values > 1e-9 * values[0]))
+
+
+def test_reference_cases():
+    case = CASES["structure"]
+    found = [mobility(f, [r]) for f, _, r in case["inputs"]["cases"]]
+    assert found == case["outputs"]["F"]
+    assert mobility(3, [2, 2]) == case["outputs"]["six_bar_two_trains_R2"]
+
+
+@pytest.mark.parametrize(("links", "expected"), [(FOUR_BAR, 1), (FIVE_BAR, 2), (SIX_LOOP, 3), (WATT, 1)])
+def test_linkages(links, expected):
+    assert linkage_mobility(links) == expected == freedom_by_rank(links, [])
+
+
+@pytest.mark.parametrize("gears", [2, 3, 7])
+@pytest.mark.parametrize("fixed", [0, 1, 2])
+def test_rule_counts_bodies_and_joints(gears, fixed):
+    assert train_change(fixed) == 3 * (gears - fixed) - 2 * (gears - fixed) - (gears - 1)
+
+
+@pytest.mark.parametrize(
+    ("links", "trains"),
+    [
+        (FOUR_BAR, [train("B:crank", "C", "D")]),
+        (FOUR_BAR, [train("A", "B:coupler")]),
+        (FOUR_BAR, [train("B", "C", "D")]),
+        (FOUR_BAR, [train("B:crank", "C", "D:frame")]),
+        (FIVE_BAR, [train("A:input", "E:output")]),
+        (FIVE_BAR, [train("A:frame", "B:left")]),
+        (SIX_LOOP, [train("A:frame", "B:q"), train("F:frame", "E:s")]),
+        (WATT, [train("C:coupler", "E:link")]),
+    ],
+)
+def test_rule_against_the_rank_of_the_constraints(links, trains):
+    made = design(links, trains, 0)
+    assert made.mobility == freedom_by_rank(links, trains)
+    assert [c.status for c in made.check("train-fit")] == ["pass"] * len(trains)
+
+
+def test_ends_on_one_link_take_no_freedom_away():
+    """The rule counts -1, the rank shows that nothing is lost: the check says so."""
+    trains = [train("B:coupler", "C:coupler")]
+    made = design(FOUR_BAR, trains)
+    assert (made.mobility, freedom_by_rank(FOUR_BAR, trains)) == (0, 1)
+    (found,) = made.check("train-fit")
+    assert found.status == "fail"
+    assert "carries the whole train" in found.message
+
+
+@pytest.mark.parametrize(
+    ("gears", "words"),
+    [
+        (("A", "C"), "no link carries both"),
+        (("B", "C:rocker", "D"), "only end gears"),
+        (("B:frame", "C"), "fix it to crank or coupler"),
+        (("B", "B"), "same pin B"),
+    ],
+)
+def test_reasons(gears, words):
+    found = design(FOUR_BAR, [train(*gears)]).check("train-fit")
+    assert any(c.status == "fail" and words in c.message for c in found)
+
+
+def test_centre_distance_against_the_link():
+    data = train("A", "B:coupler", module=2.0)
+    data["gears"][0]["teeth"], data["gears"][1]["teeth"] = 18, 36
+    spec = {"kind": "gear-train-mobility", "links": {n: {"pins": list(p)} for n, p in FOUR_BAR.items()}}
+    spec["trains"] = [data]
+    for length, status in ((54.0, "pass"), (54.001, "fail")):
+        spec["links"]["crank"]["length"] = length
+        (found,) = GearTrainMobility(GearTrainMobilitySpec.model_validate(spec)).check("train-fit")
+        assert found.status == status
+    assert "54 mm" in found.message
+    data["gears"][0]["ring"], data["gears"][0]["teeth"] = True, 90
+    spec["links"]["crank"]["length"] = 54.0
+    (found,) = GearTrainMobility(GearTrainMobilitySpec.model_validate(spec)).check("train-fit")
+    assert found.status == "pass"
+
+
+@pytest.mark.parametrize(
+    ("links", "trains", "remedy"),
+    [
+        (FOUR_BAR, [train("B:crank", "C", "D:frame")], "free one end gear"),
+        (FOUR_BAR, [train("B", "C", "D")], "fix one end gear"),
+        (FIVE_BAR, [train("A:input", "E")], "fix one end gear"),
+        (FIVE_BAR, [], "both ends of 1 more train,"),
+        (SIX_LOOP, [], "both ends of 2 more trains,"),
+    ],
+)
+def test_wrong_freedom_names_the_remedy(links, trains, remedy):
+    (found,) = design(links, trains).check("mobility")
+    assert found.status == "fail"
+    assert remedy in found.message
+
+
+@pytest.mark.parametrize(
+    ("links", "trains", "key"),
+    [
+        (FOUR_BAR, [train("B", "X")], "trains[0].gears[1].at"),
+        (FOUR_BAR, [train("B:lever", "C")], "trains[0].gears[0].fixed_to"),
+        (FOUR_BAR, [train("B:crank", "C:rocker", "D:frame")], "trains[0].gears"),
+        ({"frame": "AD", "crank": "BC"}, [], "links"),
+        ({"frame": "AD", "crank": "DAD"}, [], "links"),
+    ],
+)
+def test_refusals(links, trains, key):
+    with pytest.raises(NoSolution) as refused:
+        _ = design(links, trains).mobility
+    assert refused.value.key == key

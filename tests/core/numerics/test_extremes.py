@@ -1,0 +1,85 @@
+"""Refined extremes over a turn.
+
+Tolerances
+    Values at smooth maxima and at kinks: 4 ulp. Places: sqrt(eps) of the turn at a smooth maximum (the function is
+    flat there), 1e-14 at a kink.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from gearlink.core.numerics.extremes import TURN, largest_magnitude, least_convex_radius, maximum_over, minimum_over
+
+EPS = 2.0**-52
+PLACE = 2e-7
+
+
+@given(peak=st.floats(0.0, TURN), height=st.floats(-5.0, 5.0))
+@settings(max_examples=100)
+def test_smooth_maximum(peak: float, height: float) -> None:
+    top = maximum_over(lambda x: np.cos(x - peak) + height)
+    assert top.value == pytest.approx(1.0 + height, abs=4 * EPS * (1.0 + abs(height)))
+    assert abs(math.remainder(top.place - peak, TURN)) < PLACE
+
+
+@given(kink=st.floats(0.0, TURN), left=st.floats(0.1, 10.0), right=st.floats(0.1, 10.0))
+@settings(max_examples=100)
+def test_kink(kink: float, left: float, right: float) -> None:
+    bottom = minimum_over(lambda x: np.where(x < kink, left * (kink - x), right * (x - kink)))
+    assert bottom.value <= 40.0 * math.ulp(TURN) * max(left, right)
+    assert bottom.place == pytest.approx(kink, abs=40.0 * math.ulp(TURN) * max(left, right) / min(left, right))
+
+
+def test_one_sided_value_at_a_joint() -> None:
+    # 1 + x up to the joint, then 0: the limit from the left is never attained
+    top = maximum_over(lambda x: np.where(x < 1.0, 1.0 + x, 0.0), 0.0, 2.0, joints=[1.0])
+    assert top.value == pytest.approx(2.0, abs=1e-14)
+    assert top.place == 1.0
+    bottom = minimum_over(lambda x: np.where(x < 1.0, 1.0, x - 2.0), 0.0, 2.0, joints=[1.0])
+    assert bottom.value == pytest.approx(-1.0, abs=1e-14)
+
+
+def test_short_segments_are_sampled_too() -> None:
+    # a hump 1e-4 wide between two joints, far narrower than the step
+    def hump(x: np.ndarray) -> np.ndarray:
+        return np.where(np.abs(x - 2.0) < 5e-5, 1.0 - ((x - 2.0) / 5e-5) ** 2, 0.0)
+
+    assert maximum_over(hump, joints=[2.0 - 5e-5, 2.0 + 5e-5]).value == pytest.approx(1.0, abs=1e-12)
+
+
+def test_the_higher_of_two_humps_between_samples() -> None:
+    # the lower hump stands on a sample, the higher by 1e-9 between two, whose values are 1e-6 lower
+    step = TURN / 2048.0
+
+    def humps(x: np.ndarray) -> np.ndarray:
+        return np.maximum(np.cos(x - 300.0 * step), np.cos(x - 1300.5 * step) + 1e-9)
+
+    top = maximum_over(humps)
+    assert top.value == pytest.approx(1.0 + 1e-9, abs=4 * EPS)
+    assert top.place == pytest.approx(1300.5 * step, abs=PLACE)
+
+
+def test_plateau() -> None:
+    top = maximum_over(lambda x: np.minimum(np.sin(x), 0.5))
+    assert top.value == 0.5
+
+
+def test_ends_count() -> None:
+    top = maximum_over(lambda x: x * x, -1.0, 2.0)
+    assert (top.value, top.place) == (pytest.approx(4.0, abs=1e-13), 2.0)
+
+
+def test_magnitude_keeps_its_sign() -> None:
+    assert largest_magnitude(lambda x: np.sin(x) - 0.5).value == pytest.approx(-1.5, abs=4 * EPS)
+    assert largest_magnitude(lambda x: np.sin(x) + 0.5).value == pytest.approx(1.5, abs=4 * EPS)
+
+
+def test_no_convex_part_has_no_least_radius() -> None:
+    assert least_convex_radius(lambda x: -0.01 + 0.0 * x).value == math.inf
+    assert least_convex_radius(lambda x: 0.01 * np.cos(x)).value == pytest.approx(100.0, rel=4 * EPS)

@@ -1,0 +1,281 @@
+"""The swing gripper as a design: its cams, the whole machine turned and mirrored, and everything it refuses.
+
+Tolerances, EPS = 2^-52:
+* cam points: 1e-13 of the largest radius's neighbourhood, 200 mm; curvature 1e-14 1/mm (32 EPS of its terms divided
+  by |D1|); pressure angles 32 EPS of a half turn - lever over lever, both of a few roundings;
+* extremes: values as the points, places to the root of that;
+* turned machines: cam radii, pressure angles and torques keep 64 EPS of their size, for pivots are rounded anew;
+  points turn with the machine. A mirrored machine is the same to 16 EPS.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+from oracles.gripper import CASES, EXAMPLE, REFERENCE, TABLE, machine, mirrored, turned
+from pydantic import ValidationError
+
+from gearlink.core.errors import NoSolution
+from gearlink.core.swing_gripper.design import SwingGripper
+from gearlink.core.swing_gripper.spec import SwingGripperSpec
+
+EPS = 2.0**-52
+ROOT = Path(__file__).parents[3]
+DESIGN = machine()
+POINT = 1e-13 * 200.0
+ANGLE = 32 * EPS * 180.0
+CURVATURE = 1e-14
+
+
+@pytest.mark.parametrize("row", TABLE, ids=lambda row: str(row["theta_deg"]))
+def test_both_cams_of_the_table(row: dict) -> None:
+    angle = np.radians([float(row["theta_deg"])])
+    for number, cam in enumerate(DESIGN.cams, start=1):
+        at = cam.at(angle)
+        expected = {key: float(row[f"cam{number}_{key}"]) for key in ("x", "y", "alpha_deg", "rho_pitch")}
+        assert abs(at.profile[0] - complex(expected["x"], expected["y"])) <= POINT
+        assert math.degrees(at.pressure_angle[0]) == pytest.approx(expected["alpha_deg"], rel=0.0, abs=ANGLE)
+        assert at.curvature[0] == pytest.approx(1.0 / expected["rho_pitch"], rel=0.0, abs=CURVATURE)
+
+
+@pytest.mark.parametrize("name", ["CAM-01", "CAM-03", "CAM-05"])
+def test_points_of_the_reference(name: str) -> None:
+    case = CASES[name]
+    expected = {key: float(value) for key, value in case["expected"].items()}
+    cam = DESIGN.cams[case["inputs"]["roller"] - 1]
+    at = cam.at(np.radians([case["inputs"]["theta_deg"]]))
+    assert abs(at.pitch[0] - complex(expected["px"], expected["py"])) <= POINT
+    assert abs(at.profile[0] - complex(expected["cx"], expected["cy"])) <= POINT
+    assert abs(at.profile[0]) == pytest.approx(expected["r_c"], rel=0.0, abs=POINT)
+    assert at.pressure_angle[0] == pytest.approx(expected["alpha"], rel=0.0, abs=math.radians(ANGLE))
+    assert at.curvature[0] == pytest.approx(expected["kappa_p"], rel=0.0, abs=CURVATURE)
+    assert at.profile_curvature[0] == pytest.approx(expected["kappa_c"], rel=0.0, abs=2 * CURVATURE)
+
+
+def test_extremes_of_the_reference() -> None:
+    expected = {key: float(value) for key, value in CASES["EXT-01"]["expected"].items()}
+    main, back = (cam.max_pressure_angle for cam in DESIGN.cams)
+    assert math.degrees(main.value) == pytest.approx(-expected["alpha1_min_deg"], rel=0.0, abs=ANGLE)
+    assert math.degrees(back.value) == pytest.approx(expected["alpha2_max_deg"], rel=0.0, abs=ANGLE)
+    assert math.degrees(main.place) == pytest.approx(expected["at_alpha1_min_deg"], rel=0.0, abs=1e-5)
+    assert math.degrees(back.place) == pytest.approx(expected["at_alpha2_max_deg"], rel=0.0, abs=1e-5)
+    degrees = np.linspace(180.0, 190.0, 100001)
+    peak = np.abs(DESIGN.linkage.motion(degrees, 2).input_acceleration).max() * DESIGN.shaft_speed**2
+    assert peak == pytest.approx(expected["psi_dd_max"], rel=1e-9, abs=0.0)
+    scan = REFERENCE["example_extremes_1deg_scan"]
+    for value, key in zip(DESIGN.min_curvature_radius, ("kappa1", "kappa2"), strict=True):
+        # The least curvature radius is that of the dwell circle, in both cams at a dwell that the scan met.
+        assert value == pytest.approx(1.0 / float(scan[key]["max"]), rel=1e-10, abs=0.0)
+    assert DESIGN.min_radius == pytest.approx((93.990, 94.667), rel=0.0, abs=5e-4)
+    assert DESIGN.max_radius == pytest.approx((165.461, 166.158), rel=0.0, abs=5e-4)
+
+
+def test_quantities_of_the_example() -> None:
+    report = DESIGN.report("gripper")
+    assert report.ok
+    assert {check.status for check in report.checks} == {"pass"}
+    values = {quantity.name: quantity.value for quantity in report.quantities}
+    assert values["total_swing"] == pytest.approx(39.15, rel=8 * EPS, abs=0.0)
+    assert 0.0 < DESIGN.newton_agreement <= 16 * EPS
+    assert values["newton_agreement"] == math.degrees(DESIGN.newton_agreement)
+    assert values["newton_iterations"] <= 4
+    assert values["condition_number"] == pytest.approx(1.0 / math.sin(math.radians(69.7178346241)), rel=1e-11)
+    assert values["lift_off_speed"] == pytest.approx(14151.0, rel=0.0, abs=0.5)
+
+
+def test_the_worked_design_is_the_reference_machine() -> None:
+    data = yaml.safe_load((ROOT / "designs" / "swing_gripper.yaml").read_text())
+    spec, known = SwingGripperSpec.model_validate(data), SwingGripperSpec.model_validate(EXAMPLE)
+    for name in ("speed", "cylinder", "arm", "links", "pivots", "phases", "laws", "handover", "inertia", "spring"):
+        assert getattr(spec, name) == getattr(known, name), name
+    assert spec.cam.model_copy(update={"shaft_radius": 0.0}) == known.cam
+    assert {check.status for check in SwingGripper(spec).report("analyze").checks} == {"pass"}
+
+
+def test_the_contract_is_the_same_machine() -> None:
+    cases = json.loads((ROOT / "tests" / "reference" / "contract" / "gripper.json").read_text())
+    spec = (cases if isinstance(cases, list) else cases["cases"])[0]["spec"]
+    assert SwingGripperSpec.model_validate(spec) == SwingGripperSpec.model_validate(EXAMPLE)
+
+
+@pytest.mark.parametrize("angle", [30.0, -145.0])
+def test_turning_the_whole_machine_changes_nothing(angle: float) -> None:
+    other = turned(angle, 12.0 + 70.0j)
+    for name in ("handover_speed", "total_swing", "min_transmission_angle", "lift_off_speed", "max_pressure_angle"):
+        assert getattr(other, name) == pytest.approx(getattr(DESIGN, name), rel=64 * EPS, abs=0.0), name
+    for name in ("min_curvature_radius", "min_radius", "max_radius"):
+        assert getattr(other, name) == pytest.approx(getattr(DESIGN, name), rel=64 * EPS, abs=0.0), name
+    angles = np.radians(np.arange(0.0, 360.0, 3.0))
+    for one, two in zip(DESIGN.cams, other.cams, strict=True):
+        turn = np.exp(1j * math.radians(angle))
+        assert np.abs(two.at(angles).profile - turn * one.at(angles).profile).max() <= 10 * POINT
+        assert np.abs(two.at(angles).curvature - one.at(angles).curvature).max() <= 4 * CURVATURE
+    torque = [design.inertia_torques(np.arange(0.0, 360.0, 3.0))[0] for design in (DESIGN, other)]
+    assert np.abs(torque[1] - torque[0]).max() <= 512 * EPS * 293.0
+    moved = complex(DESIGN.handover_center) * np.exp(1j * math.radians(angle)) + 12.0 + 70.0j
+    assert abs(other.handover_center - moved) <= 1e-12
+
+
+def test_the_mirrored_machine_is_the_same_machine() -> None:
+    other = mirrored()
+    for name in ("handover_speed", "total_swing", "min_transmission_angle", "lift_off_speed", "max_pressure_angle"):
+        assert getattr(other, name) == pytest.approx(getattr(DESIGN, name), rel=16 * EPS, abs=0.0), name
+    angles = np.radians(np.arange(0.0, 360.0, 3.0))
+    for one, two in zip(DESIGN.cams, other.cams, strict=True):
+        assert np.abs(two.at(angles).profile - np.conj(one.at(angles).profile)).max() <= POINT
+        assert np.abs(np.abs(two.at(angles).pressure_angle) - np.abs(one.at(angles).pressure_angle)).max() <= 32 * EPS
+    assert other.lift_sense == -DESIGN.lift_sense
+    assert abs(other.handover_center - DESIGN.handover_center.conjugate()) <= 1e-12
+    assert {check.status for check in other.report("analyze").checks} == {"pass"}
+
+
+def test_profile_keeps_the_roller_off_itself() -> None:
+    angles = np.linspace(0.0, 2.0 * math.pi, 721)[:-1]
+    for cam in DESIGN.cams:
+        pitch, profile = cam.points(angles)
+        gaps = np.abs(profile[:, None] - pitch[None, :])
+        assert gaps.min() == pytest.approx(30.0, rel=0.0, abs=1e-12)
+
+
+def test_rows_of_the_tables() -> None:
+    design = SwingGripper(SwingGripperSpec.model_validate(EXAMPLE), samples=24)
+    motion = design.table("motion")
+    assert [row[0] for row in motion.rows()] == [15.0 * k for k in range(24)]
+    newton = design.table("newton")
+    assert newton.columns == ("theta", "deviation", "iterations", "residual", "error")
+    assert newton.units == ("deg", "deg", "1", "mm", "deg")
+    assert max(row[1] for row in newton.rows()) <= math.degrees(16 * EPS)
+
+
+@pytest.mark.parametrize(
+    ("changes", "key", "words"),
+    [
+        ({"links__coupler": 115.5}, "links", "lengthen input or coupler by 70.4 mm, or turn output_direction"),
+        ({"output_direction": 23.7}, "links", "dead point, off it by 0.021 deg where at least 0.057 deg are needed"),
+        ({"pivots__output": [230.0, 0.0]}, "pivots", "frame length is 0 mm"),
+        ({"laws__return": "simple-harmonic"}, "laws.return", "take cycloidal, modified-sine or polynomial-345"),
+        ({"laws__accelerate": "cycloidal"}, "laws.accelerate", "take velocity-345 or half-cycloidal"),
+        ({"laws__accelerate": {"quintic": 0.7}}, "laws.accelerate", "keep kappa in 2/5 to 3/5"),
+        ({"laws__accelerate": "half-simple-harmonic"}, "laws.accelerate", "half-cycloidal or velocity-345"),
+        ({"total_swing": 40.0}, "total_swing", r"phases.constant by \+1.88888889 deg"),
+        ({"arm__length": 20.0}, "arm.length", "swings 587.25 deg, a turn or more.*arm longer than 32.625 mm"),
+        ({"cylinder__radius": 1e12}, "arm.length", "radius less than 1241.38 mm"),
+        (
+            {"output_direction": 38.0, "limits": {"transmission_angle": 1.0}},
+            "cam.center",
+            "pressure angle 90 deg.*for 45 deg: set cam.center to",
+        ),
+        ({"cam__return_roller__angle": 20.0}, "cam.return_roller.angle", "above 30.94 deg"),
+    ],
+    ids=lambda value: str(value)[:40],
+)
+def test_refusals_name_key_value_and_remedy(changes: dict, key: str, words: str) -> None:
+    with pytest.raises(NoSolution, match=words) as refused:
+        machine(**changes).report("gripper")
+    assert refused.value.key == key
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"phases__constant": 13.0}, "add up to 361 deg, not 360"),
+        ({"phases__constant": -12.0}, "greater than 0"),
+        ({"handover": 99.0}, "set it from 100 to 112 deg"),
+        ({"arm__length": 0.0}, "greater than 0"),
+        ({"cylinder__radius": math.inf}, "finite"),
+        ({"spring": {"torque": 400.0, "arms": [1.0, 2.0]}}, "exclude each other"),
+        ({"spring": {"arms": [1.0, 2.0]}}, "angle, preload missing"),
+        ({"spring": {"arms": [1.0, 2.0], "angle": 90.0, "preload": 1.0, "rate": 2.0}}, "go together"),
+    ],
+    ids=lambda value: str(value)[:40],
+)
+def test_files_that_are_refused(changes: dict, words: str) -> None:
+    with pytest.raises(ValidationError, match=words):
+        machine(**changes)
+
+
+@pytest.mark.parametrize(
+    ("changes", "code", "status", "words"),
+    [
+        ({"output_direction": 150.0}, "GL303", "fail", "turn output_direction by -12.81 deg"),
+        ({"output_direction": 137.2}, "GL303", "warn", "for transmission angles of 45 deg"),
+        ({"limits": {"pressure_angle": 20.0}}, "GL401", "fail", "the least for both rollers is 24.1 deg"),
+        ({"limits": {"accelerate_pressure_angle": 24.5}}, "GL401", "warn", "while it accelerates the gripper"),
+        ({"cam__center": [150.0, 0.0]}, "GL401", "fail", r"set cam.center to \[69.0, 62.7\]"),
+        ({"cam__roller__radius": 110.0}, "GL402", "warn", "take a roller of at most 99.192 mm"),
+        ({"cam__roller__radius": 124.0}, "GL402", "fail", "take a roller"),
+        ({"cam__shaft_radius": 80.0}, "GL302", "warn", "take a shaft_radius of at most 62.66 mm"),
+        ({"cam__shaft_radius": 95.0}, "GL302", "fail", "comes 1.01 mm into its shaft"),
+        ({"laws__return": {"scca": [0.5, 0.5, 0.0, 0.0]}}, "GL404", "warn", "within phase return"),
+        ({"limits": {"jerk_step": 1.0}}, "GL407", "warn", "-5.167 rad/rad"),
+        ({"spring": {"torque": 250.0}}, "GL406", "fail", "raise spring.torque to 348.1 N m"),
+        ({"spring": {"torque": 300.0}}, "GL406", "warn", "for a tenth of speed in reserve"),
+        ({"spring": {"torque": 400.0, "reserve": 120.0}}, "GL406", "fail", "and 120 N m are to remain"),
+    ],
+    ids=lambda value: str(value)[:40],
+)
+def test_findings_say_what_to_change(changes: dict, code: str, status: str, words: str) -> None:
+    found = [check for check in machine(**changes).report("gripper").checks if check.code == code]
+    bad = [check for check in found if check.status == status]
+    assert bad, found
+    assert any(re.search(words, check.message) for check in bad), bad
+
+
+@pytest.mark.parametrize("limit", [26.0, 30.0, 45.0])
+def test_the_centre_that_is_recommended_keeps_the_limit(limit: float) -> None:
+    design = machine(cam__center=[150.0, 0.0], limits={"pressure_angle": limit})
+    check = next(c for c in design.check("pressure-angle") if c.status == "fail")
+    x, y = (float(part) for part in check.message.split("set cam.center to [")[1].split("]")[0].split(","))
+    mended = machine(cam__center=[x, y], limits={"pressure_angle": limit})
+    assert all(c.status != "fail" for c in mended.check("pressure-angle"))
+
+
+def test_the_recommended_centre_of_the_mirrored_machine_is_the_mirrored_centre() -> None:
+    assert abs(mirrored()._center_for(28.0) - DESIGN._center_for(28.0).conjugate()) <= 1e-10
+
+
+@pytest.mark.parametrize("direction", [24.4, 23.9])
+def test_near_a_dead_point_the_report_tells_what_remains(direction: float) -> None:
+    design = machine(output_direction=direction, limits={"transmission_angle": 0.0})
+    check = design.check("conditioning")[0]
+    assert (check.code, check.status) == ("GL312", "warn")
+    assert check.value > 100.0
+    assert "0.01 mm of play turns the gripper by" in check.message
+    turn = float(check.message.split("turn output_direction by ")[1].split()[0])
+    mended = machine(output_direction=direction + turn, limits={"transmission_angle": 0.0})
+    assert mended.check("conditioning")[0].status == "pass"
+
+
+def test_a_change_point_linkage_warns() -> None:
+    # A parallelogram of the pivots' distance.
+    frame = abs(complex(498.0, 55.0) - 230.0)
+    design = machine(links={"input": 100.0, "coupler": frame, "output": 100.0})
+    check = design.check("conditioning")[0]
+    assert check.status == "warn"
+    assert "in line with the frame the assembly is not determined" in check.message
+
+
+@pytest.mark.parametrize("stated", [40.0, 36.0, 45.0])
+def test_the_constant_phase_that_is_recommended_gives_the_swing(stated: float) -> None:
+    with pytest.raises(NoSolution) as refused:
+        _ = machine(total_swing=stated).law
+    change = float(refused.value.message.split("phases.constant by ")[1].split()[0])
+    mended = machine(
+        phases__constant=12.0 + change, phases__near_dwell=70.0 - change, total_swing=stated, handover=101.0
+    )
+    assert math.degrees(mended.law.total_swing) == pytest.approx(stated, rel=0.0, abs=1e-6)
+
+
+def test_kappa_that_is_recommended_gives_the_swing() -> None:
+    with pytest.raises(NoSolution) as refused:
+        _ = machine(total_swing=40.0).law
+    kappa = float(refused.value.message.split("{quintic: ")[1].split("}")[0])
+    assert math.degrees(machine(total_swing=40.0, laws__accelerate={"quintic": kappa}).total_swing) == pytest.approx(
+        40.0
+    )

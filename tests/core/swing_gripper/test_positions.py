@@ -1,0 +1,49 @@
+"""Joints of the swing gripper: link lengths, agreement with the motion, the drum on the line of centres.
+
+Tolerances: 1e-9 mm, for lengths of some 500 mm come back from coordinates within a few ulp, 1e-13 of them each.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from gearlink.core.cams.laws import law
+from gearlink.core.swing_gripper.law import SixPhaseLaw
+from gearlink.core.swing_gripper.linkage import GripperLinkage
+from gearlink.core.swing_gripper.positions import drum_center, positions
+
+DEGREES = np.arange(0.0, 360.0, 7.5)
+ARM = 300.0, math.radians(125.0)
+
+
+@pytest.fixture
+def linkage() -> GripperLinkage:
+    phases = (100.0, 12.0, 50.0, 8.0, 120.0, 70.0)
+    motion = SixPhaseLaw(phases, 0.45, law("velocity-345"), law("half-cycloidal"), law("modified-sine"))
+    return GripperLinkage(motion, 230.0 + 0j, 498.0 + 55.0j, 150.0, 260.0, 100.0, math.radians(110.0), -1, 1)
+
+
+def test_links_keep_their_lengths(linkage: GripperLinkage) -> None:
+    at = positions(linkage, *ARM, DEGREES)
+    for start, end, length in ((at.a, at.c, 150.0), (at.c, at.d, 260.0), (at.d, at.e, 100.0), (at.e, at.f, 300.0)):
+        np.testing.assert_allclose(np.abs(end - start), length, atol=1e-9)
+
+
+def test_arm_is_rigid_with_the_output_link(linkage: GripperLinkage) -> None:
+    at = positions(linkage, *ARM, DEGREES)
+    np.testing.assert_allclose(np.angle((at.f - at.e) / (at.d - at.e), deg=True), 15.0, atol=1e-10)
+
+
+def test_assembly_puts_c_left_of_the_way_to_d(linkage: GripperLinkage) -> None:
+    at = positions(linkage, *ARM, DEGREES)
+    assert np.all(np.imag(np.conj(at.d - at.a) * (at.c - at.a)) > 0.0)
+
+
+def test_drum_of_the_reference_machine(linkage: GripperLinkage) -> None:
+    tip = complex(positions(linkage, *ARM, np.array([106.0])).f[0])
+    center = drum_center(linkage.output_pivot, tip, 135.0)
+    assert center == pytest.approx(498.0 + 55.0j + 435.0 * np.exp(1j * math.radians(99.8)), abs=1e-9)
+    assert abs(center - tip) == pytest.approx(135.0, abs=1e-9)

@@ -1,0 +1,118 @@
+"""Smallest cams: of the gripper by their centre, of the press by their base radius.
+
+Tolerances, EPS = 2^-52: the centre of the reference (25 digits) to 1e-11 mm - it is the corner of two half-planes
+whose touching angles are found to the root of rounding, which enters squared; pressure angles at the limit to
+1e-12 rad, for the same reason; a centre or radius a little smaller must break the limit.
+"""
+
+from __future__ import annotations
+
+import copy
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import yaml
+from oracles.gripper import CASES, machine
+
+from gearlink.core.errors import MissingSection, NoSolution
+from gearlink.core.flatbed_press.design import FlatbedPress
+from gearlink.core.flatbed_press.spec import FlatbedPressSpec
+
+TY460 = yaml.safe_load((Path(__file__).parents[3] / "designs" / "ty460.yaml").read_text())
+
+
+def sized(limit: float, **keys: Any):
+    return machine(lambda data: data["cam"].pop("center"), size__pressure_angle=limit, **keys)
+
+
+def test_apex_of_the_reference() -> None:
+    expected = {key: float(value) for key, value in CASES["FEAS-01"]["expected"].items()}
+    design = machine(
+        lambda data: [data["cam"].pop("center"), data["cam"].pop("return_roller")],
+        size={"pressure_angle": 25.0, "side": 1},
+    )
+    assert abs(design.cam_center - complex(expected["Ox"], expected["Oy"])) <= 1e-11
+    (largest,) = design.max_pressure_angle
+    assert largest == pytest.approx(math.radians(25.0), rel=0.0, abs=1e-12)
+    prime = abs(design.main_cam.points(np.array([0.0]))[0][0])
+    assert prime == pytest.approx(expected["r_pitch_min"], rel=0.0, abs=1e-11)
+
+
+@pytest.mark.parametrize("limit", [26.0, 28.0, 35.0])
+def test_both_rollers_keep_the_limit_and_no_smaller_cam_does(limit: float) -> None:
+    design = sized(limit)
+    center = design.cam_center
+    assert max(design.max_pressure_angle) == pytest.approx(math.radians(limit), rel=0.0, abs=1e-12)
+    roller = design.main_cam.path(np.array([0.0]), 1).position[0] + center
+    for turn in range(0, 360, 15):
+        nearer = center + 0.2 * np.exp(1j * math.radians(turn))
+        if abs(nearer - roller) < abs(center - roller) - 1e-3:
+            other = machine(cam__center=[nearer.real, nearer.imag])
+            assert max(other.max_pressure_angle) > math.radians(limit)
+
+
+def test_the_chosen_centre_is_reported_and_may_be_given() -> None:
+    design = sized(28.0)
+    for command in ("gripper", "cam", "analyze"):
+        quantity = design.report(command).quantities
+        found = {each.name: each.value for each in quantity}["cam_center"]
+    again = machine(cam__center=found)
+    assert again.max_pressure_angle == design.max_pressure_angle
+    assert "cam_center" not in again.outline("cam").quantities
+
+
+def test_one_roller_must_say_where_the_cam_is() -> None:
+    design = sized(28.0, cam__return_roller=None)
+    with pytest.raises(NoSolution, match=r"size\.side") as refused:
+        _ = design.cam_center
+    assert refused.value.key == "size"
+
+
+def test_neither_centre_nor_size() -> None:
+    with pytest.raises(MissingSection, match=r"cam\.center"):
+        _ = machine(lambda data: data["cam"].pop("center")).cam_center
+
+
+def test_a_limit_that_no_centre_keeps() -> None:
+    with pytest.raises(NoSolution, match="no cam centre") as refused:
+        _ = sized(15.0).cam_center
+    assert refused.value.key == "size.pressure_angle"
+
+
+def press(**changes: Any) -> FlatbedPress:
+    data = copy.deepcopy(TY460)
+    for key, value in changes.items():
+        if value is None:
+            data["cam"].pop(key)
+        else:
+            data[key] = value
+    return FlatbedPress(FlatbedPressSpec.model_validate(data))
+
+
+@pytest.mark.parametrize("limit", [8.0, 15.0, 25.0])
+def test_press_cams_keep_the_limit_and_touch_it(limit: float) -> None:
+    design = press(base_radius=None, size={"pressure_angle": limit})
+    largest = [cam.max_pressure_angle.value for cam in (design.main_cam, design.return_cam)]
+    assert max(largest) == pytest.approx(math.radians(limit), rel=0.0, abs=1e-12)
+    shown = design.quantity("cam_base_radius")
+    assert shown is not None
+    assert shown.value == design.cam_base_radius
+
+
+def test_a_given_base_radius_stands() -> None:
+    assert press(size={"pressure_angle": 25.0}).cam_base_radius == 90.0
+
+
+def test_press_without_radius_and_size() -> None:
+    with pytest.raises(MissingSection) as missing:
+        _ = press(base_radius=None).cam_base_radius
+    assert missing.value.key == "cam.base_radius"
+
+
+def test_press_whose_roller_alone_is_larger() -> None:
+    with pytest.raises(NoSolution, match="the roller alone takes 25 mm") as refused:
+        _ = press(base_radius=None, size={"pressure_angle": 80.0}).cam_base_radius
+    assert refused.value.key == "size.pressure_angle"

@@ -1,0 +1,105 @@
+"""Choice of the idler. Tolerances: none, teeth are whole numbers; the choice is compared with a plain walk."""
+
+import math
+
+import pytest
+
+from gearlink.core.errors import NoSolution
+from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.three_gear.idler_choice import idler_for_ratio, smallest_idler
+from gearlink.core.three_gear.momentary_dwell import momentary_linkage
+from gearlink.core.three_gear.motion import GearTrain, gear_gap
+from gearlink.core.three_gear.symmetric_back_step import crank_angle_for_dwell
+from gearlink.core.three_gear.symmetric_family import (
+    frame_ratio_for_back_step,
+    frame_ratio_for_speed_band,
+    symmetric_linkage,
+)
+
+LIMITS = {"min_transmission_angle": math.radians(40.0), "min_gear_gap": 0.0}
+
+
+def dwell_design(module, teeth, phi13):
+    def design(idler):
+        i3 = -idler / teeth
+        d = frame_ratio_for_back_step(i3, crank_angle_for_dwell(i3, phi13))
+        return symmetric_linkage(d, module * (teeth + idler) / 2.0)
+
+    return design
+
+
+def holds(linkage, idler, module, teeth, angle, gap):
+    train = GearTrain(teeth, idler, teeth)
+    return linkage.min_transmission_angle() >= angle and gear_gap(linkage, train, module) >= gap
+
+
+@pytest.mark.parametrize("phi13", [60.0, 90.0, 135.0, 180.0])
+def test_smallest_idler_of_a_dwell(phi13):
+    design = dwell_design(2.0, 40, math.radians(phi13))
+    idler = smallest_idler(design, 40, 40, 2.0, **LIMITS)
+    assert holds(design(idler), idler, 2.0, 40, math.radians(40.0), 0.0)
+    assert not any(holds(design(z), z, 2.0, 40, math.radians(40.0), 0.0) for z in range(17, idler))
+
+
+def test_smallest_idler_of_example_2():
+    """The thesis takes 21 teeth for a gap of 3 modules; 20 give 2.5 modules."""
+
+    def design(idler):
+        return symmetric_linkage(frame_ratio_for_speed_band(-idler / 20, 100.0, 300.0), float(20 + idler))
+
+    limits = {"min_transmission_angle": math.radians(60.0)}
+    assert smallest_idler(design, 20, 20, 2.0, min_gear_gap=4.5, **limits) == 20
+    assert smallest_idler(design, 20, 20, 2.0, min_gear_gap=6.0, **limits) == 21
+
+
+def test_idlers_without_a_design_are_passed_over():
+    """270 deg of dwell need -i3 above 2: the first idlers have no frame at all."""
+    design = dwell_design(2.0, 40, math.radians(270.0))
+    with pytest.raises(NoSolution):
+        design(80)
+    limits = {"min_transmission_angle": 0.0, "min_gear_gap": -1e9}
+    assert smallest_idler(design, 40, 40, 2.0, **limits) == 81
+
+
+def test_first_idler_is_17():
+    assert smallest_idler(dwell_design(2.0, 17, 1.0), 17, 17, 2.0, min_transmission_angle=0.0, min_gear_gap=-1e9) == 17
+
+
+def test_nearest_idler_of_a_ratio():
+    assert idler_for_ratio(-1.7798080356711419, 40) == 71
+    assert idler_for_ratio(-0.5, 41) == 21
+    with pytest.raises(NoSolution, match=r"at most -0\.05"):
+        idler_for_ratio(-0.01, 20)
+    with pytest.raises(NoSolution, match="one tooth"):
+        idler_for_ratio(math.nan, 20)
+
+
+def test_names_the_gap_as_the_obstacle():
+    with pytest.raises(NoSolution, match=r"gap of crank and output gear reaches .* below 1000 mm") as caught:
+        smallest_idler(dwell_design(2.0, 40, 2.0), 40, 40, 2.0, min_transmission_angle=0.0, min_gear_gap=1000.0)
+    assert caught.value.key == "gears.idler"
+
+
+def test_names_the_transmission_angle_as_the_obstacle():
+    limits = {"min_transmission_angle": math.radians(89.0), "min_gear_gap": -1000.0}
+    with pytest.raises(NoSolution, match=r"transmission angle reaches .* deg at most \(idler 400\), below 89 deg"):
+        smallest_idler(dwell_design(2.0, 40, 2.0), 40, 40, 2.0, **limits)
+
+
+def test_names_both_limits_where_only_both_together_fail():
+    """A frame that shrinks as the idler grows: the transmission angle rises and the gear gap falls."""
+
+    def design(idler):
+        return FourBar(10.0, 60.0, 60.0, 109.0 - 0.1 * idler)
+
+    angle, gap = design(100).min_transmission_angle(), gear_gap(design(99), GearTrain(40, 99, 40), 2.0)
+    with pytest.raises(NoSolution, match=r"\(idler 99\), below .*; lower one of the limits") as caught:
+        smallest_idler(design, 40, 40, 2.0, min_transmission_angle=angle, min_gear_gap=gap)
+    assert caught.value.key == "gears.idler"
+
+
+def test_a_task_that_no_idler_can_do_keeps_its_own_refusal():
+    """The design class names the key of the task, so it stays open here."""
+    with pytest.raises(NoSolution, match="step back") as caught:
+        smallest_idler(lambda z: momentary_linkage(25.0, 1.25 * z, 75.0, 26.0), 20, 60, 2.5, **LIMITS)
+    assert caught.value.key == ""

@@ -1,0 +1,100 @@
+"""Sweeps of the three-gear four-bar against the scalar kernels.
+
+Tolerances: 1e-13 for rates of order one (both methods' rounding, gamma well away from 0 and 180 deg); closed forms
+2e-15 relative; roots 1e-13 relative, the condition of the dwell angle's equation at small back-steps.
+"""
+
+import math
+
+import numpy as np
+import pytest
+
+from gearlink.core.errors import NoSolution
+from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.three_gear.momentary_dwell import momentary_crank_angle, momentary_frame_length, tangency_range
+from gearlink.core.three_gear.motion import GearTrain, output_acceleration, output_angle, output_speed
+from gearlink.core.three_gear.sweep import (
+    dwell_angles,
+    momentary_dwells,
+    output_motion,
+    turn,
+)
+from gearlink.core.three_gear.symmetric_back_step import dwell_angle
+
+EX3 = FourBar(18.0, 50.0, 100.0, 121.4)
+EX3_TRAIN = GearTrain(20, 20, 60)
+DRAG = FourBar(50.47, 35.785689262214326, 40.265643369620086, 20.88, -1)
+DRAG_TRAIN = GearTrain(23.441236459944996, 12.003476037635881, 27.87850422292809)
+
+
+@pytest.mark.parametrize(("linkage", "train"), [(EX3, EX3_TRAIN), (DRAG, DRAG_TRAIN)])
+def test_motion_agrees_with_the_scalar_kernels(linkage, train):
+    phi = np.linspace(-7.0, 14.0, 301)
+    motion = output_motion(linkage, train, phi)
+    assert motion.crank_angle.tolist() == phi.tolist()
+    for rate, scalar in (
+        (motion.output_angle, output_angle),
+        (motion.speed_ratio, output_speed),
+        (motion.acceleration_ratio, output_acceleration),
+    ):
+        assert rate == pytest.approx(np.array([scalar(linkage, train, x) for x in phi]), abs=1e-13 * 10)
+    assert np.all((motion.transmission_angle > 0.0) & (motion.transmission_angle <= math.pi / 2))
+    assert motion.transmission_angle.min() >= linkage.min_transmission_angle() - 1e-15
+
+
+def test_motion_starts_at_zero_and_gains_the_mean_ratio():
+    motion = output_motion(EX3, EX3_TRAIN, turn(8))
+    assert motion.output_angle[0] == 0.0
+    assert output_motion(EX3, EX3_TRAIN, 2.0 * math.pi).output_angle == pytest.approx(2.0 * math.pi / 3.0, abs=1e-14)
+    assert output_motion(DRAG, DRAG_TRAIN, 2.0 * math.pi).output_angle == pytest.approx(2.0 * math.pi, abs=1e-13)
+
+
+def test_motion_keeps_the_shape_of_the_angles():
+    grid = turn(360).reshape(60, 6)
+    assert output_motion(EX3, EX3_TRAIN, grid).speed_ratio.shape == (60, 6)
+
+
+def test_momentary_dwells_agree_with_the_scalar_forms():
+    rng = np.random.default_rng(3)
+    r1, r3, r5 = rng.uniform(5.0, 100.0, (3, 200))
+    low = np.array([tangency_range(*radii)[0] for radii in zip(r1, r3, r5, strict=True)])
+    e = np.abs(low + rng.uniform(-0.2, 1.2, 200) * (r1 - low))
+    found = momentary_dwells(r1, r3, r5, e)
+    assert 0 < found.exists.sum() < 200
+    for i in range(200):
+        if found.exists[i]:
+            assert found.frame[i] == pytest.approx(momentary_frame_length(r1[i], r3[i], r5[i], e[i]), rel=2e-15)
+            assert found.crank_angle[i] == pytest.approx(momentary_crank_angle(r1[i], r3[i], r5[i], e[i]), rel=4e-15)
+        else:
+            assert math.isnan(found.frame[i])
+            assert math.isnan(found.crank_angle[i])
+            with pytest.raises(NoSolution):
+                momentary_frame_length(r1[i], r3[i], r5[i], e[i])
+
+
+def test_dwell_angles_agree_with_the_scalar_root():
+    i3 = -np.geomspace(0.04, 12.0, 15)[:, None]
+    phi12 = np.concatenate([np.geomspace(1e-4, 0.3, 12), np.linspace(0.35, 3.1, 20)])
+    found = dwell_angles(i3, phi12)
+    exact = np.array([[dwell_angle(float(r), float(p)) for p in phi12] for r in i3[:, 0]])
+    assert np.max(np.abs(found / exact - 1.0)) < 1e-13
+
+
+def test_single_designs_need_no_array():
+    assert dwell_angles(-2.0, 1.0) == pytest.approx(1.5, rel=1e-14)
+    assert dwell_angles(-2.0, 0.1) == pytest.approx(0.15, rel=1e-14)
+
+
+def test_refuses_values_outside_their_range():
+    with pytest.raises(NoSolution, match="below 180 deg"):
+        dwell_angles(-1.0, [1.0, math.pi])
+    with pytest.raises(NoSolution, match="negative"):
+        dwell_angles([-1.0, 0.0], 1.0)
+    with pytest.raises(NoSolution, match="negative"):
+        dwell_angles(math.nan, 1.0)
+    with pytest.raises(NoSolution, match="positive and finite"):
+        momentary_dwells(25.0, 25.0, 0.0, 16.0)
+    with pytest.raises(NoSolution, match="take at least 1"):
+        turn(0)
+    with pytest.raises(NoSolution):
+        output_motion(FourBar(150.0, 160.0, 100.0, 300.0), EX3_TRAIN, turn())

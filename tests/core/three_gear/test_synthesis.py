@@ -1,0 +1,466 @@
+"""Syntheses of the three-gear four-bar: the task is met, the idler is the smallest, the limits are refused.
+
+Tolerances
+* contract: as it states, 1e-11 relative.
+* closed forms against the analysis of the links they give: 1e-9 relative where a standstill is asked for (its
+  condition number d/|d - d*| stays below 100), 1e-12 otherwise.
+* oracle (tests/oracles/three_gear.py, 30 digits): 1e-10.
+* the idler is a whole number: a brute search over every smaller one decides, with no tolerance.
+"""
+
+import json
+import math
+import re
+from pathlib import Path
+
+import mpmath as mp
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from oracles.three_gear import Drive
+from pydantic import ValidationError
+
+from gearlink.core.errors import MissingSection, NoSolution
+from gearlink.core.three_gear.design import ThreeGearFourBar
+from gearlink.core.three_gear.spec import ThreeGearSpec
+from gearlink.core.three_gear.synthesis import (
+    BackStepSynthesis,
+    DwellSynthesis,
+    MomentaryDwellSynthesis,
+    VariableSpeedSynthesis,
+)
+
+CASES = json.loads((Path(__file__).parents[2] / "reference" / "contract" / "synth.json").read_text())
+KINDS = {
+    "synth dwell": DwellSynthesis,
+    "synth back-step": BackStepSynthesis,
+    "synth variable-speed": VariableSpeedSynthesis,
+    "synth momentary-dwell": MomentaryDwellSynthesis,
+}
+EQUAL = {"module": 2.0, "crank": 40, "output": 40}
+ANY = {"module": 2.5, "crank": 20, "output": 60}
+# a task for each synthesis; without idler
+TASKS = {
+    "dwell": (DwellSynthesis, {"gears": EQUAL, "dwell": {"angle": 135.0}}),
+    "long dwell": (DwellSynthesis, {"gears": EQUAL, "dwell": {"angle": 230.0}}),
+    "short dwell": (DwellSynthesis, {"gears": EQUAL, "dwell": {"angle": 20.0}}),
+    "back-step": (BackStepSynthesis, {"gears": EQUAL, "back_step": {"angle": 20.0}}),
+    "large back-step": (BackStepSynthesis, {"gears": EQUAL, "back_step": {"angle": 200.0}}),
+    "crank angle": (BackStepSynthesis, {"gears": EQUAL, "back_step": {"crank_angle": 90.0}}),
+    "no crank angle": (BackStepSynthesis, {"gears": EQUAL, "back_step": {"crank_angle": 0.0}}),
+    "speeds": (VariableSpeedSynthesis, {"gears": EQUAL, "speed": {"min": 100.0, "max": 300.0}}),
+    "speed to zero": (VariableSpeedSynthesis, {"gears": EQUAL, "speed": {"min": 0.0, "max": 300.0}}),
+    "momentary": (MomentaryDwellSynthesis, {"gears": ANY, "momentary": {"eccentricity": 18.0}}),
+    "momentary, long crank": (MomentaryDwellSynthesis, {"gears": ANY, "momentary": {"eccentricity": 20.0}}),
+}
+
+
+@pytest.fixture(autouse=True)
+def _digits():
+    with mp.workdps(30):
+        yield
+
+
+def design(kind, **sections):
+    return kind(ThreeGearSpec.model_validate({"kind": "three-gear-four-bar"} | sections))
+
+
+def value(found, name):
+    quantity = found.quantity(name)
+    return None if quantity is None else quantity.value
+
+
+def command(found):
+    return next(iter(found.outlines))
+
+
+def drive(found):
+    links = found.linkage
+    teeth = (found.crank_teeth, found.idler_teeth, found.output_teeth)
+    return Drive(links.crank, links.coupler, links.rocker, links.frame, teeth, links.assembly)
+
+
+def with_idler(sections, idler):
+    return sections | {"gears": sections["gears"] | {"idler": idler}}
+
+
+@pytest.mark.parametrize("case", CASES, ids=[case["id"] for case in CASES])
+def test_contract(case):
+    found = design(KINDS[case["command"]], **{k: v for k, v in case["spec"].items() if k != "kind"})
+    for name, wanted in case["quantities"].items():
+        if isinstance(wanted, str):
+            assert value(found, name) == wanted
+        else:
+            assert value(found, name) == pytest.approx(wanted, rel=case["rtol"], abs=1e-10), name
+
+
+# The task is met
+
+
+@pytest.mark.parametrize("assembly", [1, -1])
+@pytest.mark.parametrize("task", TASKS)
+def test_analysis_of_the_links_finds_what_was_asked_for(task, assembly):
+    kind, sections = TASKS[task]
+    made = design(kind, **sections, assembly=assembly)
+    links = {"crank": made.linkage.crank, "frame": made.linkage.frame}
+    gears = sections["gears"] | {"idler": made.idler_teeth}
+    found = design(ThreeGearFourBar, gears=gears, links=links, assembly=assembly)
+    assert value(found, "motion") == value(made, "motion")
+    for quantity in made.report(command(made)).quantities:
+        other = value(found, quantity.name)
+        if isinstance(quantity.value, str | int):
+            assert other == quantity.value
+        elif quantity.name == "dwell_crank_angles":
+            assert other == pytest.approx(quantity.value, abs=1e-7)
+        else:
+            assert other == pytest.approx(quantity.value, rel=1e-9, abs=1e-12), quantity.name
+
+
+@pytest.mark.parametrize("assembly", [1, -1])
+@pytest.mark.parametrize("task", ["dwell", "long dwell", "short dwell"])
+def test_output_regains_its_place_after_the_dwell(task, assembly):
+    kind, sections = TASKS[task]
+    made = design(kind, **sections, assembly=assembly)
+    oracle = drive(made)
+    begin = mp.radians(value(made, "dwell_crank_angles")[0])
+    end = begin + mp.radians(sections["dwell"]["angle"])
+    assert oracle.speed(begin) == pytest.approx(0.0, abs=1e-12)
+    assert float(oracle.output(end) - oracle.output(begin)) == pytest.approx(0.0, abs=1e-12)
+    assert value(made, "dwell_angle") == pytest.approx(sections["dwell"]["angle"], rel=1e-15)
+
+
+@pytest.mark.parametrize("assembly", [1, -1])
+@pytest.mark.parametrize("task", ["back-step", "large back-step", "crank angle"])
+def test_back_step_by_the_output_angle_itself(task, assembly):
+    kind, sections = TASKS[task]
+    made = design(kind, **sections, assembly=assembly)
+    oracle = drive(made)
+    begin, end = (mp.radians(v) for v in value(made, "dwell_crank_angles"))
+    back = mp.degrees(oracle.output(begin) - oracle.output(end))
+    assert value(made, "back_step_angle") == pytest.approx(float(back), rel=1e-10)
+    wanted = sections["back_step"]
+    if "angle" in wanted:
+        assert float(back) == pytest.approx(wanted["angle"], rel=1e-11)
+    else:
+        assert float(mp.degrees(end - begin)) == pytest.approx(wanted["crank_angle"], rel=1e-13)
+
+
+@pytest.mark.parametrize("assembly", [1, -1])
+@pytest.mark.parametrize(("low", "high"), [(100.0, 300.0), (0.0, 300.0), (10.0, 11.0)])
+def test_speeds_of_the_band_at_their_mean(low, high, assembly):
+    made = design(VariableSpeedSynthesis, gears=EQUAL, speed={"min": low, "max": high}, assembly=assembly)
+    oracle, mean = drive(made), (low + high) / 2.0
+    fast, slow = (mp.pi / 2, 3 * mp.pi / 2) if assembly == 1 else (3 * mp.pi / 2, mp.pi / 2)
+    assert float(mean * oracle.speed(fast)) == pytest.approx(high, rel=1e-12)
+    assert float(mean * oracle.speed(slow)) == pytest.approx(low, rel=1e-12, abs=1e-12 * mean)
+    assert float(oracle.acceleration(fast)) == pytest.approx(0.0, abs=1e-12)
+    assert value(made, "motion") == ("unidirectional" if low else "momentary-dwell")
+
+
+@pytest.mark.parametrize("assembly", [1, -1])
+@pytest.mark.parametrize("teeth", [(20, 20, 60), (20, 33, 17), (60, 30, 20), (40, 17, 40)])
+@pytest.mark.parametrize("share", [0.02, 0.5, 0.98])
+def test_momentary_dwell_is_a_double_root_of_the_speed(teeth, share, assembly):
+    from gearlink.core.three_gear.momentary_dwell import eccentricity_range
+
+    low, high = eccentricity_range(*(1.25 * z for z in teeth))
+    gears = dict(zip(("crank", "idler", "output"), teeth, strict=True)) | {"module": 2.5}
+    eccentricity = low + share * (high - low)
+    made = design(MomentaryDwellSynthesis, gears=gears, momentary={"eccentricity": eccentricity}, assembly=assembly)
+    oracle = drive(made)
+    (degrees,) = value(made, "dwell_crank_angles")
+    phi = mp.radians(degrees)
+    # near the ends of the range the linkage comes near to folding: rates of 1/sin(mu) and its square
+    steep = 1.0 / math.sin(made.min_transmission_angle)
+    assert float(oracle.speed(phi)) == pytest.approx(0.0, abs=1e-14 * steep**3)
+    assert float(oracle.acceleration(phi)) == pytest.approx(0.0, abs=1e-13 * steep**5)
+    assert value(made, "motion") == "momentary-dwell"
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_mirror_image(task):
+    kind, sections = TASKS[task]
+    one, other = (design(kind, **sections, assembly=s) for s in (1, -1))
+    assert other.linkage.assembly == -1
+    for name in one.quantity_names():
+        here, there = value(one, name), value(other, name)
+        if name == "dwell_crank_angles":
+            assert there == pytest.approx([360.0 - v for v in reversed(here)], abs=1e-10)
+        elif isinstance(here, float):
+            assert there == pytest.approx(here, rel=1e-11, abs=1e-12), name
+        else:
+            assert there == here
+    for check, image in zip(one.report(command(one)).checks, other.report(command(other)).checks, strict=True):
+        assert (check.code, check.status) == (image.code, image.status)
+
+
+@pytest.mark.parametrize("k", [1e-3, 1e3])
+@pytest.mark.parametrize("task", TASKS)
+def test_scale(task, k):
+    kind, sections = TASKS[task]
+    larger = sections | {"gears": sections["gears"] | {"module": k * sections["gears"]["module"]}}
+    if "momentary" in sections:
+        larger |= {"momentary": {"eccentricity": k * sections["momentary"]["eccentricity"]}}
+    one, other = design(kind, **sections), design(kind, **larger)
+    assert other.idler_teeth == one.idler_teeth
+    for name in ("crank_length", "frame_length", "gear_gap"):
+        assert value(other, name) == pytest.approx(k * value(one, name), rel=1e-10)
+
+
+# The idler
+
+
+def keeps_the_limits(kind, sections, idler):
+    """Whether a design with this idler exists and keeps transmission angle and gear gap."""
+    made = design(kind, **with_idler(sections, idler))
+    try:
+        angle, gap = made.min_transmission_angle, made.gear_gap
+    except NoSolution:
+        return False
+    limits = made.spec.limits
+    return angle >= math.radians(limits.transmission_angle) and gap >= limits.gear_gap
+
+
+@pytest.mark.parametrize("limits", [{}, {"transmission_angle": 60.0}, {"gear_gap": 7.5}, {"transmission_angle": 20.0}])
+@pytest.mark.parametrize("task", TASKS)
+def test_idler_left_out_is_the_smallest_that_keeps_the_limits(task, limits):
+    kind, sections = TASKS[task]
+    sections = sections | {"limits": limits}
+    keeping = (idler for idler in range(17, 401) if keeps_the_limits(kind, sections, idler))
+    first = next(keeping, None)
+    if first is None:
+        with pytest.raises(NoSolution) as refusal:
+            _ = design(kind, **sections).idler_teeth
+        assert refusal.value.key == "gears.idler"
+        return
+    chosen = design(kind, **sections).idler_teeth
+    assert chosen == first
+    # and the design with that idler given is the same
+    one, other = design(kind, **sections), design(kind, **with_idler(sections, chosen))
+    assert value(one, "frame_length") == value(other, "frame_length")
+
+
+@settings(max_examples=60)
+@given(share=st.floats(0.002, 0.99), crank_angle=st.floats(30.0, 170.0))
+def test_idler_from_back_step_and_crank_angle(share, crank_angle):
+    h = mp.radians(crank_angle) / 2
+    back = float(share * mp.degrees(2 * mp.tan(h) - 2 * h))  # the share of an infinite idler's back-step
+    assume(back < 360.0)
+
+    def step(n):
+        return 2 * n * mp.atan(mp.tan(h) / n) - 2 * h
+
+    inverse = mp.findroot(lambda v: step(1 / v) - mp.radians(back), (mp.mpf("1e-6"), 1), solver="anderson")
+    exact = float(40 * (1 / inverse - 1))
+    made = design(BackStepSynthesis, gears=EQUAL, back_step={"angle": back, "crank_angle": crank_angle})
+    if exact < 0.5:
+        with pytest.raises(NoSolution) as refusal:
+            _ = made.idler_teeth
+        assert refusal.value.key == "gears.idler"
+        return
+    # nearest to -i3 z5: half a tooth and the rounding of the root
+    assert abs(made.idler_teeth - exact) <= 0.5 + 1e-9 * exact
+    assert value(made, "back_step_crank_angle") == pytest.approx(crank_angle, rel=1e-14)
+    got = mp.degrees(step(1 + mp.mpf(made.idler_teeth) / 40))
+    assert value(made, "back_step_angle") == pytest.approx(float(got), rel=1e-12)
+
+
+@pytest.mark.parametrize(("ratio", "teeth", "status"), [(-1.8, 72, "pass"), (-1.79, 72, "warn")])
+@pytest.mark.parametrize("task", ["dwell", "back-step", "crank angle", "speeds"])
+def test_ratio_given_in_place_of_the_idler(task, ratio, teeth, status):
+    kind, sections = TASKS[task]
+    made = design(kind, **sections | {"gears": EQUAL | {"i3": ratio}})
+    exact = design(kind, **with_idler(sections, teeth))
+    (check,) = made.check("rounded-ratio")
+    assert (check.code, check.status) == ("GL304", status)
+    assert value(made, "i3") == -teeth / 40
+    for name in ("frame_length", "back_step_angle", "speed_ratio_max"):
+        assert value(made, name) == value(exact, name)
+
+
+@pytest.mark.parametrize(
+    ("angle", "status"), [(20.0614, "pass"), (20.55, "pass"), (20.57, "warn"), (19.57, "pass"), (19.55, "warn")]
+)
+def test_back_step_that_an_idler_given_misses(angle, status):
+    # 20.06141 deg of example 1; a warning beyond half a degree
+    back_step = {"angle": angle, "crank_angle": 90.0}
+    made = design(BackStepSynthesis, gears=EQUAL | {"idler": 72}, back_step=back_step)
+    (check,) = made.check("back-step-target")
+    assert (check.code, check.name, check.status, check.unit) == ("GL304", "back-step-target", status, "deg")
+    assert check.value == pytest.approx(20.061414725098526, rel=1e-13)
+    if status == "warn":
+        for mended in (
+            design(BackStepSynthesis, gears=EQUAL, back_step=back_step),
+            design(BackStepSynthesis, gears=EQUAL | {"idler": 72}, back_step={"angle": angle}),
+        ):
+            assert [c.status for c in mended.check("back-step-target")] == ["pass"]
+
+
+def test_ratio_with_unequal_gears_is_refused_at_the_output_gear():
+    """The key of unequal gears is the same whether the file gives the idler or its ratio."""
+    with pytest.raises(ValidationError) as refusal:
+        design(BackStepSynthesis, gears=EQUAL | {"output": 30, "i3": -1.8}, back_step={"crank_angle": 90.0})
+    (error,) = refusal.value.errors()
+    assert error["type"] == "GL111"
+    assert error["ctx"]["key"] == "output"
+    assert "set output to 40" in error["msg"]
+
+
+def test_no_target_no_check():
+    assert (
+        design(BackStepSynthesis, gears=EQUAL | {"idler": 72}, back_step={"crank_angle": 90.0}).check(
+            "back-step-target"
+        )
+        == []
+    )
+
+
+# Refusals
+
+
+@pytest.mark.parametrize(("idler", "limit"), [(20, 216.0), (40, 240.0), (72, 360.0 * 2.8 / 3.8)])
+def test_dwell_angle_below_its_limit(idler, limit):
+    gears = EQUAL | {"idler": idler}
+    assert value(design(DwellSynthesis, gears=gears, dwell={"angle": 0.999 * limit}), "dwell_angle") > 0.99 * limit
+    beyond = design(DwellSynthesis, gears=gears, dwell={"angle": limit * (1.0 + 1e-12)})
+    with pytest.raises(NoSolution, match="out of reach") as refusal:
+        beyond.report("synth dwell")
+    assert refusal.value.key == "dwell.angle"
+    needed = float(re.search(r"take -i3 above ([\d.]+)", refusal.value.message)[1])
+    more = math.floor(40.0 * needed) + 1
+    assert value(design(DwellSynthesis, gears=EQUAL | {"idler": more}, dwell={"angle": limit}), "frame_ratio") > 1.0
+
+
+def test_dwell_beyond_every_idler():
+    with pytest.raises(NoSolution, match=r"no idler from 17 to 400.*350 deg") as refusal:
+        design(DwellSynthesis, gears=EQUAL, dwell={"angle": 350.0}).report("synth dwell")
+    assert refusal.value.key == "gears.idler"
+
+
+@pytest.mark.parametrize("angle", [90.0001, 180.0, 359.0])
+def test_back_step_beyond_its_ratio(angle):
+    # -i3 180 deg = 90 deg with 20 idler teeth
+    made = design(BackStepSynthesis, gears=EQUAL | {"idler": 20}, back_step={"angle": angle})
+    with pytest.raises(NoSolution, match="90 deg") as refusal:
+        made.report("synth back-step")
+    assert refusal.value.key == "back_step.angle"
+
+
+def test_back_step_beyond_its_crank_angle():
+    # 2 tan(45 deg) - 90 deg = 24.59 deg, with an infinite idler
+    made = design(BackStepSynthesis, gears=EQUAL, back_step={"angle": 25.0, "crank_angle": 90.0})
+    with pytest.raises(NoSolution, match=r"24\.59") as refusal:
+        made.report("synth back-step")
+    assert refusal.value.key == "back_step.angle"
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "key"), [(300.0, 100.0, "speed.max"), (100.0, 100.0, "speed.max"), (-1.0, 9.0, "speed.min")]
+)
+@pytest.mark.parametrize("idler", [None, 30])
+def test_speeds_that_are_no_band(low, high, key, idler):
+    made = design(VariableSpeedSynthesis, gears=EQUAL | {"idler": idler}, speed={"min": low, "max": high})
+    for name in ("frame_ratio", "motion", "dwell_crank_angles", "crank_length", "speed_ratio_max"):
+        with pytest.raises(NoSolution) as refusal:
+            made.quantity(name)
+        assert refusal.value.key == key
+
+
+@pytest.mark.parametrize("idler", [None, 60])
+@pytest.mark.parametrize("task", [task for task, (kind, _) in TASKS.items() if kind is not MomentaryDwellSynthesis])
+def test_unequal_teeth_are_refused_by_every_result(task, idler):
+    kind, sections = TASKS[task]
+    made = design(kind, **sections | {"gears": EQUAL | {"output": 30, "idler": idler}})
+    for name in ("i3", "frame_ratio", "frame_length", "speed_ratio_max", "dwell_crank_angles", "motion", "gear_gap"):
+        with pytest.raises(NoSolution, match=r"crank \(40\) and output \(30\) teeth must be equal") as refusal:
+            made.quantity(name)
+        assert refusal.value.key == "gears.output"
+
+
+@pytest.mark.parametrize("assembly", [1, -1])
+@pytest.mark.parametrize("eccentricity", [2.0, 5.628, 25.0, 26.0, 300.0])
+def test_crank_outside_the_range_of_a_momentary_dwell(eccentricity, assembly):
+    # 5.6287 < e < 25 for 20, 20 and 60 teeth of 2.5 mm
+    made = design(
+        MomentaryDwellSynthesis, gears=ANY | {"idler": 20}, momentary={"eccentricity": eccentricity}, assembly=assembly
+    )
+    with pytest.raises(NoSolution, match=r"5\.6287.* and 25") as refusal:
+        made.report("synth momentary-dwell")
+    assert refusal.value.key == "momentary.eccentricity"
+
+
+@pytest.mark.parametrize(("eccentricity", "key"), [(26.0, "momentary.eccentricity"), (2.0, "gears.idler")])
+def test_momentary_dwell_that_no_idler_makes(eccentricity, key):
+    # a crank beyond gear 1 is too long with every idler; a short one only spoils the transmission angle
+    with pytest.raises(NoSolution) as refusal:
+        _ = design(MomentaryDwellSynthesis, gears=ANY, momentary={"eccentricity": eccentricity}).idler_teeth
+    assert refusal.value.key == key
+
+
+@pytest.mark.parametrize(
+    ("kind", "key"),
+    [
+        (DwellSynthesis, "dwell"),
+        (BackStepSynthesis, "back_step"),
+        (VariableSpeedSynthesis, "speed"),
+        (MomentaryDwellSynthesis, "momentary"),
+    ],
+)
+@pytest.mark.parametrize("idler", [None, 40])
+def test_section_of_the_task(kind, key, idler):
+    made = design(kind, gears=EQUAL | {"idler": idler})
+    with pytest.raises(MissingSection) as refusal:
+        made.report(command(made))
+    assert refusal.value.key == key
+
+
+def test_limits_that_no_idler_keeps():
+    with pytest.raises(NoSolution, match=r"no idler from 17 to 400") as refusal:
+        _ = design(DwellSynthesis, gears=EQUAL, dwell={"angle": 230.0}, limits={"transmission_angle": 89.0}).idler_teeth
+    assert refusal.value.key == "gears.idler"
+
+
+# Advice
+
+
+@pytest.mark.parametrize("limit", [0.0, 3.3, 20.0])
+@pytest.mark.parametrize(("task", "idler"), [("dwell", 50), ("back-step", 45), ("crank angle", 47), ("speeds", 22)])
+def test_idler_that_is_named_keeps_the_gears_apart(task, idler, limit):
+    kind, sections = TASKS[task]
+    sections = sections | {"limits": {"gear_gap": limit}}
+    (check,) = design(kind, **with_idler(sections, idler)).check("gear-collision")
+    assert (check.code, check.status) == ("GL301", "fail")
+    named = int(re.search(r"take an idler of (\d+) teeth or more", check.message)[1])
+    for more in (named, named + 1, named + 10, 400):
+        assert [c.status for c in design(kind, **with_idler(sections, more)).check("gear-collision")] == ["pass"]
+    (last,) = design(kind, **with_idler(sections, named - 1)).check("gear-collision")
+    assert last.status == "fail"
+    assert f"take an idler of {named} teeth" in last.message
+
+
+@pytest.mark.parametrize("gears", [ANY | {"idler": 20}, {"module": 2.5, "crank": 40, "idler": 20, "output": 20}])
+def test_crank_that_is_named_keeps_the_gears_apart(gears):
+    sections = {"gears": gears, "momentary": {"eccentricity": 24.0}}
+    (check,) = design(MomentaryDwellSynthesis, **sections).check("gear-collision")
+    assert check.status == "fail"
+    crank = float(re.search(r"momentary\.eccentricity to at most ([\d.]+) mm", check.message)[1])
+    idler = int(re.search(r"an idler of (\d+) teeth", check.message)[1])
+    for mended in (sections | {"momentary": {"eccentricity": crank}}, with_idler(sections, idler)):
+        assert [c.status for c in design(MomentaryDwellSynthesis, **mended).check("gear-collision")] == ["pass"]
+    longer = sections | {"momentary": {"eccentricity": crank + 0.002}}
+    assert [c.status for c in design(MomentaryDwellSynthesis, **longer).check("gear-collision")] == ["fail"]
+
+
+# Nothing but what is asked for
+
+
+def test_frame_ratio_of_a_given_idler_makes_no_linkage():
+    made = design(BackStepSynthesis, gears=EQUAL | {"idler": 72}, back_step={"crank_angle": 90.0})
+    assert value(made, "frame_ratio") == pytest.approx(3.951703805053557, rel=1e-14)
+    assert not set(vars(made)) & {"linkage", "meshes", "speed_extremes", "dwell_angle"}
+
+
+def test_closed_forms_replace_the_search_for_extremes():
+    made = design(DwellSynthesis, gears=EQUAL | {"idler": 72}, dwell={"angle": 135.0})
+    made.report("synth dwell")
+    assert not set(vars(made)) & {"speed_extremes", "acceleration_extremes", "tolerance_dwell"}

@@ -1,0 +1,96 @@
+"""Contact about mid-swing: exact limits, leading order, and the dissertation's estimates.
+
+Tolerances: 1e-12 in k for roots of functions known to a few ulp; the leading order in the roller radius is met to
+the first order of what it leaves out, checked by making the roller ten times smaller.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from gearlink.core.errors import NoSolution
+from gearlink.core.wide_swing.cam import Layout, WideSwingCam
+from gearlink.core.wide_swing.contact import (
+    contact_end,
+    middle_radius_estimate,
+    start_radius_estimate,
+    undercut_start,
+)
+from gearlink.core.wide_swing.elastic_law import ElasticLaw, Pneumatic
+
+CASES = {
+    case["id"]: case["outputs_float"]
+    for case in json.loads((Path(__file__).parents[2] / "reference" / "wide_swing.json").read_text())["cases"]
+}
+LAW = ElasticLaw(Pneumatic(2.5), math.radians(120.0))
+BOTH = [("D13", "twin-cam"), ("D15", "twin-rocker")]
+
+
+def cam(layout: Layout) -> WideSwingCam:
+    """The cams of D13 and D15."""
+    cycle, roller = (120.0, 0.04) if layout == "twin-cam" else (80.0, 0.02)
+    return WideSwingCam(layout, LAW, math.radians(cycle), 1.0, roller)
+
+
+@pytest.mark.parametrize(("case", "layout"), BOTH)
+def test_reference_limits_and_estimates(case: str, layout: Layout) -> None:
+    expected, mechanism = CASES[case], cam(layout)
+    assert undercut_start(mechanism) == pytest.approx(expected["k_R_eq_rp"], abs=1e-12)
+    leading = 0.5 - 0.75 * mechanism.transition_zone
+    assert leading == pytest.approx(expected["k_R_eq_rp_leading"], abs=1e-14)
+    assert start_radius_estimate(mechanism) == pytest.approx(expected["R_eq23(k=0.1)"], rel=1e-13)
+    # the angle at k = 0.45 is a difference of two numbers a hundred times larger
+    assert middle_radius_estimate(mechanism) == pytest.approx(expected["R_eq27(k=0.45)"], rel=1e-12)
+
+
+@pytest.mark.parametrize(("case", "layout"), BOTH)
+def test_no_profile_point_in_contact_is_cut_by_the_roller(case: str, layout: Layout) -> None:
+    """The roller's envelope by brute force: points before the end of contact stay clear of every roller place."""
+    mechanism = cam(layout)
+    end = contact_end(mechanism)
+    rollers = mechanism.points(np.linspace(0.0, 0.5, 2001)).pitch
+    before = mechanism.points(np.linspace(0.0, end - 1e-6, 300)).profile
+    after = mechanism.points(np.linspace(end + 1e-3, 0.5 - 1e-4, 50)).profile
+    radius = mechanism.roller_radius
+    assert np.abs(before[:, None] - rollers[None, :]).min() >= radius * (1 - 1e-12)
+    assert np.all(np.abs(after[:, None] - rollers[None, :]).min(axis=1) < radius * (1 - 1e-9))
+
+
+@pytest.mark.parametrize(("case", "layout"), BOTH)
+def test_four_thirds(case: str, layout: Layout) -> None:
+    mechanism = cam(layout)
+    excess = []
+    for roller in (mechanism.roller_radius, 0.1 * mechanism.roller_radius):
+        smaller = replace(mechanism, roller_radius=roller)
+        lost, cut = 0.5 - contact_end(smaller), 0.5 - undercut_start(smaller)
+        excess.append(abs(lost / cut - 4.0 / 3.0))
+        assert lost == pytest.approx(smaller.transition_zone, rel=0.03 * roller / mechanism.roller_radius + 1e-6)
+    assert excess[0] < 2e-3
+    assert excess[1] < 0.2 * excess[0]
+
+
+def test_estimate_of_the_middle_is_three_eighths() -> None:
+    """(27) against the curvature at its own place: 3/8 to the leading order of the cusp."""
+    mechanism = cam("twin-cam")
+    true = float(mechanism.points(np.array([0.499])).curvature_radius[0])
+    assert middle_radius_estimate(mechanism, 0.499) == pytest.approx(0.375 * true, rel=1e-3)
+
+
+def test_estimate_of_the_start_serves_the_twin_cam_alone() -> None:
+    """(23) leaves the pressure angle at the start out: 3 % high to 11 % low where that is small."""
+    external, internal = cam("twin-cam"), cam("twin-rocker")
+    assert -0.11 < start_radius_estimate(external) / external.start_curvature_radius - 1.0 < 0.03
+    assert abs(start_radius_estimate(internal) / internal.start_curvature_radius - 1.0) > 0.5
+
+
+def test_roller_too_large() -> None:
+    with pytest.raises(NoSolution, match=r"radius at the start is 0\.466804 mm; make the roller smaller"):
+        undercut_start(replace(cam("twin-cam"), roller_radius=0.5))
+    with pytest.raises(NoSolution, match="make"):
+        contact_end(replace(cam("twin-cam"), roller_radius=0.47))

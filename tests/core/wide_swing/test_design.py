@@ -1,0 +1,520 @@
+"""The wide-swing design class: reference cases through the design file, checks, refusals, remedies, laziness.
+
+Tolerances: 1e-12 relative against references of 20 digits (the law keeps 1e-14, the profile 1e-13); the remedies are
+applied as they are printed, so their tests have no tolerance at all.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from pydantic import ValidationError
+
+from gearlink.core.errors import MissingSection, NoSolution
+from gearlink.core.spec_paths import replaced, value_at
+from gearlink.core.wide_swing.design import WideSwingDesign
+from gearlink.core.wide_swing.spec import WideSwingSpec
+
+CASES = {
+    case["id"]: case["outputs_float"]
+    for case in json.loads((Path(__file__).parents[2] / "reference" / "wide_swing.json").read_text())["cases"]
+}
+PNEUMATIC = {"type": "pneumatic", "pivot_ratio": 2.6, "arm": 120.0}
+SPRING = {"type": "spring", "pivot_ratio": 4.0, "stretch_ratio": 0.5, "arm": 60.0}
+CAM = {"center_distance": 200.0, "roller_radius": 8.0, "shaft_radius": 25.0}
+SLIDER = {"crank": 150.0, "rod": 450.0, "middle_angle": 90.0, "mass": 6.0}
+DRIVE = {"crank": 60.0, "coupler": 180.0, "rocker": 150.0, "frame": 240.0}
+
+
+def design(**changes: Any) -> WideSwingDesign:
+    """The twin-cam design with top-level keys changed; None takes a key out."""
+    data: dict[str, Any] = {
+        "kind": "wide-swing-cam",
+        "layout": "twin-cam",
+        "swing": 120.0,
+        "cycle_angle": 120.0,
+        "speed": 100.0,
+        "inertia": 0.5,
+        "unloader": PNEUMATIC,
+        "cam": CAM,
+    }
+    data |= changes
+    return WideSwingDesign(WideSwingSpec.model_validate({k: v for k, v in data.items() if v is not None}))
+
+
+def driven(**changes: Any) -> WideSwingDesign:
+    return design(**({"cycle_angle": None, "drive": DRIVE} | changes))
+
+
+def looped(**changes: Any) -> WideSwingDesign:
+    soft = SPRING | {"stretch_ratio": 0.05}
+    return design(**({"layout": "twin-rocker", "swing": 160.0, "cycle_angle": 150.0, "unloader": soft} | changes))
+
+
+def value(made: WideSwingDesign, name: str) -> Any:
+    quantity = made.quantity(name)
+    assert quantity is not None
+    return quantity.value
+
+
+def close(number: float) -> Any:
+    return pytest.approx(number, rel=1e-12, abs=0.0)
+
+
+def statuses(made: WideSwingDesign, name: str) -> list[str]:
+    return [check.status for check in made.check(name)]
+
+
+def table(made: WideSwingDesign, name: str) -> dict[str, Any]:
+    found = made.table(name)
+    return dict(zip(found.columns, found.data, strict=True))
+
+
+class TestReferences:
+    """D-cases through the design file."""
+
+    def test_law_and_sizing(self) -> None:
+        law, sizing = CASES["D02"], CASES["D20"]
+        made = design(speed=60.0 * 1.66, unloader=PNEUMATIC | {"pivot_ratio": 2.5})
+        assert value(made, "energy_parameter") == close(law["N"])
+        assert value(made, "velocity_peak") == close(law["B"])
+        assert value(made, "acceleration_peak") == close(law["C_peak"])
+        assert value(made, "force") == close(sizing["P_force_N"])
+        assert value(made, "power_peak") == close(sizing["bc_max"])
+        assert value(made, "drive_torque_peak") == close(sizing["M_drive_max"])
+        assert made.quantity("spring_rate") is None
+
+    def test_balance(self) -> None:
+        made = design(speed=60.0 * 1.66, unloader=PNEUMATIC | {"pivot_ratio": 2.5})
+        rows = table(made, "balance")
+        at_design = rows["torque_without"][np.argmin(np.abs(rows["speed"] - 60.0 * 1.66))]
+        assert at_design == close(CASES["D20"]["M_in_max"])
+        # null in the table where nothing is left
+        assert None in [row[3] for row in made.table("balance").rows()]
+
+    def test_balance_keeps_its_speeds_with_samples(self) -> None:
+        """`--samples` divides turn and stroke; the speeds of the balance are no part of either."""
+        finer = WideSwingDesign(design().spec, 40)
+        assert len(finer.table("law").rows()) == 41
+        assert finer.table("balance").rows() == design().table("balance").rows()
+
+    def test_spring(self) -> None:
+        made = design(swing=180.0, speed=60.0 * 1.66, unloader=SPRING | {"arm": 120.0}, cam=None)
+        assert value(made, "energy_parameter") == close(CASES["D08"]["N"])
+        assert value(made, "spring_rate") == close(CASES["D20"]["spring_c_N_per_m"] / 1000.0)
+        assert made.quantity("force") is None
+        assert made.quantity("min_pivot_ratio") is None
+        assert made.check("unloader-turnability") == []
+
+    def test_twin_cam(self) -> None:
+        want = CASES["D13"]
+        made = design(unloader=PNEUMATIC | {"pivot_ratio": 2.5})
+        assert value(made, "rocker_radius") == close(200.0 * want["lam_c"])
+        assert value(made, "profile_correction") == close(want["xi_ext_deg"])
+        assert value(made, "largest_profile_correction") == close(math.degrees(want["xi_max"]))
+        assert value(made, "phase_angle") == close(want["phase_deg"])
+        assert value(made, "start_curvature_radius") == close(200.0 * want["R0_closed"])
+        assert value(made, "start_radius_estimate") == close(200.0 * want["R_eq23(k=0.1)"])
+        assert value(made, "middle_radius_estimate") == close(200.0 * want["R_eq27(k=0.45)"])
+        p, q = want["cusp_p"], want["cusp_q"]
+        assert value(made, "transition_zone") == close(q * 0.04 / (p * p * math.radians(120.0)))
+        rows = table(made, "main_cam")
+        row = int(np.argmin(np.abs(rows["k"] - 0.25)))
+        assert rows["x"][row] == close(200.0 * want["prof_x(0.25)"])
+        assert rows["y"][row] == close(200.0 * want["prof_y(0.25)"])
+        assert rows["pressure_angle"][row] == close(want["delta_deg(0.25)"])
+
+    def test_twin_rocker(self) -> None:
+        want = CASES["D15"]
+        made = design(
+            layout="twin-rocker",
+            cycle_angle=80.0,
+            unloader=PNEUMATIC | {"pivot_ratio": 2.5},
+            cam=CAM | {"roller_radius": 4.0},
+        )
+        assert value(made, "rocker_radius") == close(200.0 * want["lam_c"])
+        assert value(made, "start_curvature_radius") == close(200.0 * want["R0_closed"])
+        assert value(made, "middle_radius_estimate") == close(200.0 * want["R_eq27(k=0.45)"])
+        rows, back = table(made, "main_cam"), table(made, "return_cam")
+        row = int(np.argmin(np.abs(rows["k"] - 0.25)))
+        assert math.hypot(rows["pitch_x"][row], rows["pitch_y"][row]) == close(200.0 * want["rho(0.25)"])
+        # the return stroke is guided by the external profile of the same cam
+        external = design(cycle_angle=80.0, unloader=PNEUMATIC | {"pivot_ratio": 2.5}, cam=CAM | {"roller_radius": 4.0})
+        np.testing.assert_array_equal(back["x"], table(external, "main_cam")["x"])
+
+    def test_turnability(self) -> None:
+        for swing in (30, 60, 90, 120, 180, 240, 300):
+            assert value(design(swing=float(swing), cam=None), "min_pivot_ratio") == close(
+                CASES["D12"][f"pneu_{swing}"]
+            )
+            unloader = {
+                "type": "spring",
+                "pivot_ratio": 4.0,
+                "stretch_ratio": 0.2,
+                "arm": 100.0,
+                "stretch_capacity": 1.5,
+                "end_fittings": 30.0,
+            }
+            made = design(swing=float(swing), unloader=unloader, cam=None)
+            assert value(made, "min_pivot_ratio") == close(CASES["D12"][f"spring_{swing}"])
+
+    def test_slider(self) -> None:
+        want = CASES["D17"]
+        slider = {"crank": 100.0, "rod": 300.0, "middle_angle": 90.0, "mass": 5.0}
+        made = design(unloader=PNEUMATIC | {"pivot_ratio": 2.5}, cam=None, slider=slider, inertia=0.0)
+        assert value(made, "energy_parameter") == close(want["N"])
+        assert value(made, "middle_place") == close(want["k_mid"])
+        assert value(made, "slider_stroke") == close(100.0 * want["H_over_R"])
+        assert value(made, "rocker_share") == 0.0
+        # N = 2 P r_d T^2/(m H^2), by hand
+        time, stroke = 120.0 / 600.0, 0.1 * want["H_over_R"]
+        assert value(made, "force") == close(want["N"] * 5.0 * stroke**2 / (2.0 * 0.12 * time**2))
+        rows = table(made, "slider")
+        assert rows["travel"][-1] == close(-100.0 * want["H_over_R"])
+
+    def test_oscillating_cam(self) -> None:
+        want = CASES["D19"]
+        made = driven(unloader=PNEUMATIC | {"pivot_ratio": 2.5})
+        assert value(made, "crank_span") == close(want["crank_span_deg"])
+        assert value(made, "cam_swing") == close(want["cam_swing_deg"])
+        assert value(made, "rocker_radius") == close(200.0 * want["r_over_a"])
+        # the reference counts the angle in the other sense
+        assert value(made, "middle_pressure_angle") == close(-want["delta_mid_deg"])
+
+    def test_dynamic_coefficient(self) -> None:
+        """The law of a very long device at a small swing is the harmonic one of the reference."""
+        for product in (10.0, 20.0, 40.0):
+            shaft = {"natural_frequency": product / (2.0 * math.pi * 0.2)}
+            made = design(swing=0.01, unloader=PNEUMATIC | {"pivot_ratio": 1e5}, cam=None, shaft=shaft)
+            want = CASES["D21"][f"Kd(omegaT={product:.0f})"]
+            # the pendulum law differs from the harmonic one by (swing/4)^2 or so
+            assert value(made, "dynamic_coefficient") == pytest.approx(want, rel=1e-7, abs=0.0)
+
+
+class TestCombined:
+    def test_slider_of_no_mass_is_the_plain_law(self) -> None:
+        light = design(cam=None, slider=SLIDER | {"mass": 1e-12})
+        assert value(light, "energy_parameter") == pytest.approx(value(design(), "energy_parameter"), rel=1e-9, abs=0.0)
+        assert value(light, "force") == pytest.approx(value(design(), "force"), rel=1e-9, abs=0.0)
+        np.testing.assert_allclose(
+            table(light, "balance")["torque_with"], table(design(), "balance")["torque_with"], rtol=1e-9
+        )
+
+    def test_device_torque_with_slider(self) -> None:
+        """The device's largest torque is that of the plain law with as much inertia as asks for the same force."""
+        made = design(cam=None, slider=SLIDER)
+        plain = design(cam=None, inertia=made.even_inertia)
+        assert value(plain, "force") == pytest.approx(value(made, "force"), rel=1e-13, abs=0.0)
+
+    def test_zone_of_oscillating_cam(self) -> None:
+        """To leading order the radius has fallen to the roller's three quarters of the way into the zone."""
+        cam = driven(cam=CAM | {"roller_radius": 0.01}).oscillating_cam
+        k = np.array([0.5 - 0.75 * cam.transition_zone, 0.5 + 0.75 * cam.transition_zone])
+        # next order: a share of the size of the zone, 5e-5, times its slope
+        np.testing.assert_allclose(cam.points(k).curvature_radius, 0.01, rtol=1e-3)
+        start, end = cam.slot()
+        assert (0.5 - start) / cam.transition_zone == pytest.approx(1.0, rel=1e-3)
+        assert (end - 0.5) / cam.transition_zone == pytest.approx(1.0, rel=1e-3)
+
+    def test_pressure_angle_of_oscillating_cam_has_no_noise_at_the_ends(self) -> None:
+        cam = driven().oscillating_cam
+        sampled = np.abs(cam.points(np.linspace(0.0, 1.0, 2001)).pressure_angle).max()
+        assert cam.max_pressure_angle == pytest.approx(float(sampled), rel=1e-6, abs=0.0)
+
+    def test_homeward_stroke_is_the_mirror_of_the_mirrored_drive(self) -> None:
+        home = driven(drive=DRIVE | {"stroke": "homeward"})
+        assert value(home, "crank_span") == close(360.0 - CASES["D19"]["crank_span_deg"])
+        assert value(home, "cam_swing") == close(CASES["D19"]["cam_swing_deg"])
+        mirrored = driven(drive=DRIVE | {"assembly": -1})
+        assert value(mirrored, "cam_swing") == close(CASES["D19"]["cam_swing_deg"])
+
+    def test_no_cam_of_even_rotation_beside_a_drive(self) -> None:
+        assert driven().outline("cam").tables == ("main_cam",)
+        for name in ("phase_angle", "start_radius_estimate"):
+            with pytest.raises(NoSolution, match="leave out drive"):
+                driven().quantity(name)
+        with pytest.raises(NoSolution, match="leave out drive"):
+            driven().table("return_cam")
+
+    def test_slider_has_no_power_peak(self) -> None:
+        with pytest.raises(NoSolution, match="leave out slider"):
+            design(cam=None, slider=SLIDER).quantity("power_peak")
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"cycle_angle": None}, "the key 'cycle_angle' is missing"),
+        ({"drive": DRIVE}, "leave out cycle_angle"),
+        ({"drive": DRIVE, "cycle_angle": None, "cam": None}, "needs the section cam"),
+        ({"drive": DRIVE, "cycle_angle": None, "layout": "twin-rocker"}, "external profile"),
+        ({"drive": DRIVE, "cycle_angle": None, "cam": CAM | {"rocker_radius": 70.0}}, "leave out cam.rocker_radius"),
+        ({"slider": SLIDER}, "leave out cam"),
+        ({"slider": SLIDER, "cam": None, "shaft": {"natural_frequency": 50.0}}, "leave out shaft"),
+        ({"inertia": 0.0}, "inertia must be above 0"),
+        ({"swing": 301.0}, "less than or equal to 300"),
+        ({"unloader": SPRING | {"stretch_ratio": -0.1}}, "greater than or equal to 0"),
+        ({"unloader": SPRING | {"closed_length": 90.0, "stretch_capacity": 1.5}}, "exclude each other"),
+    ],
+)
+def test_contradictions_of_the_file(changes: dict[str, Any], words: str) -> None:
+    with pytest.raises(ValidationError, match=words):
+        design(**changes)
+
+
+@pytest.mark.parametrize("factor", [1e-6, 1e-3, 1e6])
+def test_similar_designs(factor: float) -> None:
+    """Lengths scale; angles, zones, ratios and findings stay."""
+
+    def scaled(made: WideSwingDesign) -> WideSwingDesign:
+        spec = made.spec
+        for path in ("cam.center_distance", "cam.roller_radius", "cam.shaft_radius", "unloader.arm"):
+            spec = replaced(spec, path, factor * value_at(spec, path))
+        return WideSwingDesign(spec)
+
+    rocker = design(layout="twin-rocker", swing=150.0, cycle_angle=90.0, unloader=SPRING)
+    for made in (design(), rocker):
+        for name in made.outline("analyze").quantities:
+            if name in ("force", "spring_rate") or made.quantity(name) is None:
+                continue
+            scale = factor if made.quantity(name).unit == "mm" else 1.0  # type: ignore[union-attr]
+            assert value(scaled(made), name) == pytest.approx(scale * value(made, name), rel=1e-11, abs=0.0), name
+        for name in made.outline("cam").checks:
+            assert statuses(scaled(made), name) == statuses(made, name)
+
+
+class TestLoops:
+    """A profile that does not exist is a finding of its own; nothing else is said of it."""
+
+    def test_finding(self) -> None:
+        made = looped()
+        report = made.report("swing")
+        failing = [check for check in report.checks if check.status == "fail"]
+        assert [check.code for check in failing] == ["GL505"]
+        assert "cycle angle to 113.19 deg" in failing[0].message
+        names = {quantity.name for quantity in report.quantities}
+        assert {"phase_angle", "rocker_radius", "start_curvature_radius"} <= names
+        absent = {"transition_zone", "max_pressure_angle", "min_curvature_radius", "contact_end"}
+        assert not names & (absent | {"start_radius_estimate", "middle_radius_estimate"})
+        # the external profile of the same cam exists and is judged
+        assert len(made.check("pressure-angle")) == 1
+        assert {table.name for table in made.report("analyze").tables} == {"law", "balance"}
+
+    @pytest.mark.parametrize("name", ["transition_zone", "max_pressure_angle", "contact_end", "middle_radius_estimate"])
+    def test_asked_for_by_name(self, name: str) -> None:
+        with pytest.raises(NoSolution, match="loop") as refusal:
+            looped().quantity(name)
+        assert refusal.value.key == "cycle_angle"
+
+    def test_tables_are_refused(self) -> None:
+        for name in ("main_cam",):
+            with pytest.raises(NoSolution, match="reduce the cycle angle") as refusal:
+                looped().table(name)
+            assert refusal.value.key == "cycle_angle"
+        longer = design(cam=CAM | {"rocker_radius": 80.0})
+        with pytest.raises(NoSolution, match="loop") as refusal:
+            longer.table("main_cam")
+        assert refusal.value.key == "cam.rocker_radius"
+        assert statuses(longer, "profile-exists") == ["fail"]
+
+    def test_positive_phase_angle_is_not_enough(self) -> None:
+        """The source's condition Phi > 0 holds here, and for arms much longer than the distance the loop is gone."""
+        assert value(looped(), "phase_angle") > 19.0
+        assert [statuses(looped(cycle_angle=angle), "profile-exists") for angle in (113.19, 225.0)] == [["pass"]] * 2
+
+    def test_slow_rocker_is_refused(self) -> None:
+        with pytest.raises(NoSolution, match=r"best to 48\.119 deg") as refusal:
+            design(layout="twin-rocker", swing=60.0).report("swing")
+        assert refusal.value.key == "cycle_angle"
+
+
+MENDED: list[tuple[WideSwingDesign, str, str]] = [
+    (design(unloader=PNEUMATIC | {"pivot_ratio": 0.9}), "unloader-turnability", "unloader.pivot_ratio"),
+    (design(unloader=PNEUMATIC | {"pivot_ratio": 2.5}), "unloader-turnability", "unloader.pivot_ratio"),
+    (
+        design(swing=150.0, unloader=SPRING | {"pivot_ratio": 3.0, "closed_length": 90.0, "end_fittings": 30.0}),
+        "unloader-turnability",
+        "unloader.pivot_ratio",
+    ),
+    (
+        design(swing=150.0, unloader=SPRING | {"pivot_ratio": 1.6, "stretch_capacity": 1.2}),
+        "unloader-turnability",
+        "unloader.pivot_ratio",
+    ),
+    (design(cycle_angle=200.0, cam=CAM | {"roller_radius": 3.0}), "cycle-angles", "cycle_angle"),
+    (design(cam=CAM | {"shaft_radius": 130.0}), "shaft-clearance", "cam.center_distance"),
+    (design(layout="twin-rocker", swing=60.0), "profile-exists", "cycle_angle"),
+    (looped(), "profile-exists", "cycle_angle"),
+    (looped(cycle_angle=130.5), "profile-exists", "cycle_angle"),
+    (design(cam=CAM | {"rocker_radius": 80.0}), "profile-exists", "cam.rocker_radius"),
+    (design(swing=300.0, unloader=PNEUMATIC | {"pivot_ratio": 5.3}), "pressure-angle", "swing"),
+    (design(layout="twin-rocker", swing=80.0, cycle_angle=80.0), "pressure-angle", "swing"),
+    (
+        design(layout="twin-rocker", cycle_angle=100.0, cam=CAM | {"roller_radius": 2.0}),
+        "pressure-angle",
+        "cycle_angle",
+    ),
+    (design(cam=CAM | {"roller_radius": 12.0}), "transition-zone", "cam.roller_radius"),
+    (design(cam=CAM | {"roller_radius": 100.0, "shaft_radius": 0.0}), "cam-undercut", "cam.roller_radius"),
+    (driven(cam=CAM | {"roller_radius": 20.0}), "transition-zone", "cam.roller_radius"),
+    (driven(limits={"pressure_angle": 32.0}), "pressure-angle", "drive.crank"),
+    (design(cam=None, slider=SLIDER | {"rod": 100.0}), "", "slider.rod"),
+    (design(cam=None, slider=SLIDER | {"middle_angle": 40.0}, inertia=0.0), "", "slider.middle_angle"),
+    (design(cam=None, slider=SLIDER | {"middle_angle": 0.0}), "", "slider.middle_angle"),
+    (driven(drive=DRIVE | {"crank": 160.0}), "", "drive.crank"),
+    (driven(drive=DRIVE | {"frame": 340.0}), "", "drive.frame"),
+]
+
+
+@pytest.mark.parametrize(("made", "check", "path"), MENDED)
+def test_recommendation_as_given_mends_the_finding(made: WideSwingDesign, check: str, path: str) -> None:
+    suggestion = next(each for each in made.suggestions() if each.path == path)
+    assert suggestion.why
+    mended = WideSwingDesign(WideSwingSpec.model_validate(replaced(made.spec, path, suggestion.value).model_dump()))
+    if check:
+        try:
+            before = statuses(made, check)
+        except NoSolution:
+            before = ["fail"]
+        assert "fail" in before or made.spec.unloader.pivot_ratio < 1.0
+        assert "fail" not in statuses(mended, check)
+    else:
+        with pytest.raises(NoSolution):
+            made.report("swing")
+        mended.report("swing")
+    assert path not in [again.path for again in mended.suggestions() if again.why == suggestion.why]
+
+
+@pytest.mark.parametrize("made", [case[0] for case in MENDED])
+def test_recommended_numbers_stand_in_the_message(made: WideSwingDesign) -> None:
+    """What `suggestions` gives is what the finding prints."""
+    try:
+        messages = [check.message for check in made.report("swing").checks if check.status == "fail"]
+    except NoSolution as refusal:
+        messages = [refusal.message]
+    for suggestion in made.suggestions():
+        number = suggestion.path if suggestion.value is None else f"{suggestion.value:.12g}"
+        wanted = "leave the rocker radius out" if suggestion.value is None else number
+        assert any(wanted in message for message in messages), (wanted, messages)
+
+
+def test_good_designs_suggest_nothing() -> None:
+    assert design().suggestions() == []
+    assert driven().suggestions() == []
+    assert design(cam=None, slider=SLIDER).suggestions() == []
+
+
+class TestChecks:
+    def test_spring_without_stretch_is_slack(self) -> None:
+        slack = design(swing=60.0, unloader=SPRING | {"stretch_ratio": 0.0}, cam=None)
+        assert statuses(slack, "force-closure") == ["warn"]
+        taut = design(swing=60.0, unloader=SPRING | {"stretch_ratio": 0.1}, cam=None)
+        assert statuses(taut, "force-closure") == ["pass"]
+        assert design().check("force-closure") == []
+
+    @pytest.mark.parametrize("residual", [0.0, 0.22])
+    def test_harmful_speed(self, residual: float) -> None:
+        """The ratio of the table crosses 1 where the check says so; the share that it recommends helps there."""
+        unloader = PNEUMATIC | {"residual": residual}
+        made = design(unloader=unloader, operating_speed_min=60.0)
+        rows = table(made, "balance")
+        np.testing.assert_array_equal(rows["ratio"] > 1.0, rows["speed"] > made.harmful_speed)
+        (check,) = made.check("balancing")
+        assert check.status == "warn"
+        share = float(check.message.split("rate to ")[1].split(" ")[0])
+        lowered = design(unloader=unloader, speed=60.0, operating_speed_min=60.0)
+        assert value(lowered, "force") / value(made, "force") == pytest.approx(share, rel=1e-12)
+        assert statuses(lowered, "balancing") == ["pass"]
+
+    def test_source_s_estimate_warns_only(self) -> None:
+        made = design(layout="twin-rocker", cycle_angle=80.0, cam=CAM | {"roller_radius": 5.0})
+        assert statuses(made, "cam-undercut")[-1] == "warn"
+        most = float(made.check("cam-undercut")[-1].message.split("at most ")[1].split(" ")[0])
+        smaller = design(layout="twin-rocker", cycle_angle=80.0, cam=CAM | {"roller_radius": most})
+        assert len(smaller.check("cam-undercut")) == 2
+
+    def test_cam_over_the_rocker_s_axis(self) -> None:
+        wide = design(swing=300.0, unloader=PNEUMATIC | {"pivot_ratio": 5.3})
+        assert statuses(wide, "shaft-clearance") == ["warn", "pass"]
+        assert statuses(design(), "shaft-clearance") == ["pass"]
+
+    def test_no_remedy_is_said_so(self) -> None:
+        made = design(limits={"pressure_angle": 1.0}, layout="twin-rocker", swing=150.0, cycle_angle=90.0)
+        assert any("no cycle_angle and no swing alone" in check.message for check in made.check("pressure-angle"))
+
+    def test_shorter_rocker_has_no_cusp(self) -> None:
+        """60 mm in place of 74.55 mm: the pitch curve turns smoothly and nothing of the profile is cut away."""
+        made = design(cam=CAM | {"rocker_radius": 60.0})
+        assert value(made, "contact_end") == 0.5
+        assert not np.isnan(table(made, "main_cam")["x"]).any()
+        nearly = design(cam=CAM | {"rocker_radius": made.even_cam.nominal_rocker_radius * (1.0 - 1e-9)})
+        assert value(nearly, "contact_end") == pytest.approx(value(design(), "contact_end"), rel=1e-6)
+
+
+class TestSections:
+    def test_shaft(self) -> None:
+        made = design(shaft={"natural_frequency": 60.0, "damping": 0.05, "linkage_share": 0.25})
+        assert value(made, "drive_balancing_ratio") == 5.0
+        assert 1.0 < value(made, "dynamic_coefficient") < 2.1
+        at_design = np.argmin(np.abs(table(made, "balance")["speed"] - 100.0))
+        assert table(made, "balance")["drive_ratio"][at_design] == close(5.0)
+        assert design(shaft={"natural_frequency": 60.0}).quantity("drive_balancing_ratio") is None
+
+    @pytest.mark.parametrize(
+        ("name", "key"),
+        [
+            ("dynamic_coefficient", "shaft"),
+            ("slider_stroke", "slider"),
+            ("cam_swing", "drive"),
+            ("rocker_radius", "cam"),
+        ],
+    )
+    def test_missing_section_is_named(self, name: str, key: str) -> None:
+        with pytest.raises(MissingSection) as refusal:
+            design(cam=None).quantity(name)
+        assert refusal.value.key == key
+
+    def test_iteration(self) -> None:
+        made = design(method="iteration", iteration_steps=10)
+        assert value(made, "iteration_error") == pytest.approx(2.65e-3, rel=0.05)
+        assert value(made, "iteration_passes") < 25
+        errors = table(made, "iteration")["relative_error"]
+        # trapezoidal rule: ten times the steps, a hundredth of the error
+        assert errors[1] / errors[4] == pytest.approx(100.0, rel=0.02)
+        assert "iteration_error" not in design().outline("swing").quantities
+
+    def test_every_quantity_of_every_outline_is_known(self) -> None:
+        rocker = design(layout="twin-rocker", swing=150.0, cycle_angle=90.0, unloader=SPRING, method="iteration")
+        for made in (design(), rocker, driven(), design(cam=None, slider=SLIDER)):
+            for command in ("swing", "analyze"):
+                assert set(made.outline(command).quantities) <= set(made.quantity_names())
+                made.report(command)
+
+
+def test_laziness() -> None:
+    """Asking for the velocity peak computes no profile, no drive and no balance."""
+    made = design()
+    made.report("swing", quantities=("velocity_peak",))
+    assert set(made.__dict__) <= {"spec", "samples", "swing", "device", "plain_law"}
+    made.report("swing", quantities=("min_pivot_ratio",))
+    fresh = design()
+    fresh.report("swing", quantities=("min_pivot_ratio",))
+    assert "plain_law" not in fresh.__dict__
+
+
+def test_spring_of_given_length_is_judged_by_formula_4() -> None:
+    """(4) at the file's own ratio; above or below it together with the ratio that just fits."""
+    unloader = {"type": "spring", "stretch_ratio": 0.5, "arm": 120, "closed_length": 150, "end_fittings": 40}
+    for ratio in (2.2, 2.9, 2.92, 4.0):
+        made = design(unloader={**unloader, "pivot_ratio": ratio}, cam=None)
+        half = 0.5 * made.swing
+        longest = math.sqrt(1.0 + ratio * ratio - 2.0 * ratio * math.cos(half))
+        stretch = 0.5 * 120.0 * (longest - (ratio - 1.0))
+        assert made.min_pivot_ratio == close(1.0 + (150.0 + 40.0 + stretch) / 120.0)
+        assert made.fitting_pivot_ratio is not None
+        assert (ratio >= made.min_pivot_ratio) == (ratio >= made.fitting_pivot_ratio)

@@ -1,0 +1,73 @@
+"""The dissertation's iteration against the quadrature.
+
+Tolerances: the trapezoid's error is known to fall with dk^2, so the ratio of errors at half the step is 4 to a few
+per cent (the next term is dk^4); the sizes quoted in its docstring hold to half a unit of their digit.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from gearlink.core.errors import NoSolution
+from gearlink.core.wide_swing.device import Device, Pneumatic, Spring
+from gearlink.core.wide_swing.elastic_law import ElasticLaw
+from gearlink.core.wide_swing.iteration import legacy_law
+
+DEVICES = [(Pneumatic(2.5), 120.0), (Spring(4.0, 0.5), 180.0), (Pneumatic(5.3), 300.0), (Spring(2.0, 0.0), 60.0)]
+
+
+@pytest.mark.parametrize(("device", "swing"), DEVICES)
+def test_error_falls_with_the_square_of_the_step(device: Device, swing: float) -> None:
+    exact = ElasticLaw(device, math.radians(swing))
+    laws = [legacy_law(device, math.radians(swing), steps=n) for n in (10, 20, 40)]
+    errors = [abs(law.energy_parameter / exact.energy_parameter - 1.0) for law in laws]
+    assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.05)
+    assert errors[1] / errors[2] == pytest.approx(4.0, rel=0.02)
+    # B goes with the root of N
+    for law, error in zip(laws, errors, strict=True):
+        assert abs(law.velocity_peak / exact.velocity_peak - 1.0) == pytest.approx(error / 2.0, rel=0.02)
+
+
+def test_extrapolation_to_zero_step_meets_the_quadrature() -> None:
+    exact = ElasticLaw(Pneumatic(2.5), math.radians(120.0)).energy_parameter
+    coarse, fine = (legacy_law(Pneumatic(2.5), math.radians(120.0), steps=n).energy_parameter for n in (40, 80))
+    # Richardson's step leaves the dk^4 term, 16 times smaller a halving: below 1e-7 here
+    assert (4.0 * fine - coarse) / 3.0 == pytest.approx(exact, rel=1e-7)
+
+
+def test_invariants_along_the_march() -> None:
+    device, swing = Spring(4.0, 0.5), math.radians(180.0)
+    legacy, exact = legacy_law(device, swing, steps=100), ElasticLaw(device, swing)
+    a, b, c = exact.invariants(np.linspace(0.0, 0.5, 101))
+    assert len(legacy.displacement) == 101
+    assert legacy.displacement[0] == 0.0
+    assert legacy.displacement[-1] == pytest.approx(0.5, abs=1e-12)
+    np.testing.assert_allclose(legacy.displacement, a, atol=1e-4)
+    np.testing.assert_allclose(legacy.velocity, b, atol=5e-4)
+    np.testing.assert_allclose(legacy.acceleration, c, atol=2e-3)
+
+
+@pytest.mark.parametrize(("device", "swing"), DEVICES)
+def test_passes_follow_the_contraction(device: Device, swing: float) -> None:
+    b = ElasticLaw(device, math.radians(swing)).velocity_peak
+    passes = legacy_law(device, math.radians(swing), steps=20, tolerance=1e-10).passes
+    # |1 - B/2| a pass from an error of about that size down to 1e-10
+    expected = math.log(1e-10) / math.log(abs(1.0 - 0.5 * b))
+    assert passes == pytest.approx(expected, abs=4)
+
+
+def test_squared_scale_is_slow_and_fails_beyond_two() -> None:
+    swing = math.radians(120.0)
+    slow = legacy_law(Pneumatic(2.5), swing, exponent=2, tolerance=1e-10)
+    assert slow.passes > 45
+    assert slow.energy_parameter == pytest.approx(legacy_law(Pneumatic(2.5), swing).energy_parameter, rel=1e-9)
+    with pytest.raises(NoSolution, match=r"not settled after 30 passes.*use exponent 1"):
+        legacy_law(Pneumatic(5.3), math.radians(300.0), steps=10, exponent=2, max_passes=30)
+
+
+def test_no_steps() -> None:
+    with pytest.raises(NoSolution, match="at least 1"):
+        legacy_law(Pneumatic(2.5), 2.0, steps=0)

@@ -1,0 +1,131 @@
+"""Oscillating cam on a crank-rocker.
+
+Tolerances: 1e-14 against 20-digit references; curvature against complex differentiation in mpmath 1e-12 times the
+cusp's condition, since both speeds of the parametric formula vanish at its stops.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import mpmath as mp
+import numpy as np
+import pytest
+from oracles.unloading_limits import pendulum_stretch_ratio
+
+from gearlink.core.errors import NoSolution
+from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.wide_swing.elastic_law import ElasticLaw, Pneumatic, Spring
+from gearlink.core.wide_swing.oscillating_cam import CrankRockerDrive, OscillatingCam
+
+EXPECTED = next(
+    case["outputs_float"]
+    for case in json.loads((Path(__file__).parents[2] / "reference" / "wide_swing.json").read_text())["cases"]
+    if case["id"] == "D19"
+)
+SWING = math.radians(120.0)
+BAR = FourBar(crank=1.0, coupler=3.0, rocker=2.5, frame=4.0)
+DRIVE = CrankRockerDrive(BAR)
+CAM = OscillatingCam(DRIVE, ElasticLaw(Pneumatic(2.5), SWING), 1.0, 0.02)
+
+
+def test_reference() -> None:
+    first, last = (math.degrees(x) for x in DRIVE.crank_angles)
+    assert (first, last) == pytest.approx((EXPECTED["theta_dead1_deg"], EXPECTED["theta_dead2_deg"]), rel=1e-14)
+    assert math.degrees(DRIVE.crank_span) == pytest.approx(EXPECTED["crank_span_deg"], rel=1e-14)
+    assert math.degrees(DRIVE.swing) == pytest.approx(EXPECTED["cam_swing_deg"], rel=1e-14)
+    _, velocity, acceleration = DRIVE.motion(np.array([0.5]))
+    assert velocity[0] == pytest.approx(EXPECTED["dchi_dk_mid"], rel=1e-14)
+    assert acceleration[0] == pytest.approx(EXPECTED["d2chi_dk2_mid"], rel=1e-13)
+    assert CAM.rocker_radius == pytest.approx(EXPECTED["r_over_a"], rel=1e-14)
+    # the reference counts the residual angle against the sense of the twin-cam's pressure angle
+    assert math.degrees(CAM.middle_pressure_angle) == pytest.approx(-EXPECTED["delta_mid_deg"], rel=1e-13)
+
+
+def test_pressure_angle_runs_through_its_special_places() -> None:
+    """The limits at both ends and at mid-swing against their neighbourhood, 2^-26 of a stroke away."""
+    step = 2.0**-26
+    angles = CAM.points(np.array([0.0, step, 0.5 - step, 0.5, 0.5 + step, 1.0 - step, 1.0])).pressure_angle
+    assert np.abs(np.diff(angles[[0, 1]])).max() < 1e-6
+    assert np.abs(np.diff(angles[[2, 3, 4]])).max() < 1e-6
+    assert np.abs(np.diff(angles[[5, 6]])).max() < 1e-6
+
+
+@pytest.mark.parametrize("outward", [True, False])
+def test_dead_centres_stop_the_cam(outward: bool) -> None:
+    drive = CrankRockerDrive(BAR, outward)
+    chi, velocity, _ = drive.motion(np.array([0.0, 0.5, 1.0]))
+    assert np.abs(velocity[[0, 2]]).max() < 1e-14
+    assert chi[1] == 0.0
+    assert chi[2] > 0.0 > chi[0]
+    assert drive.swing == pytest.approx(DRIVE.swing, rel=1e-14)
+    assert drive.crank_span + CrankRockerDrive(BAR, not outward).crank_span == pytest.approx(2 * math.pi, rel=1e-15)
+
+
+def test_mirrored_linkage_swaps_the_strokes() -> None:
+    mirror = CrankRockerDrive(FourBar(1.0, 3.0, 2.5, 4.0, -1))
+    back = CrankRockerDrive(BAR, outward=False)
+    assert mirror.crank_span == pytest.approx(back.crank_span, rel=1e-15)
+    assert mirror.swing == pytest.approx(back.swing, rel=1e-14)
+
+
+def test_curvature_by_differentiating_the_curve() -> None:
+    law = ElasticLaw(Spring(3.0, pendulum_stretch_ratio(3.0, SWING)), SWING)
+    cam = OscillatingCam(DRIVE, law, 1.0, 0.02)
+    k = np.array([0.02, 0.2, 0.45, 0.5 - 2.0**-7, 0.6, 0.9])
+    points = cam.points(k)
+    with mp.workdps(40):
+        gamma = mp.mpf(SWING)
+        m = mp.sin(gamma / 4)
+        quarter = mp.ellipk(m * m)
+        first = mp.acos((mp.mpf(16) + 16 - mp.mpf("6.25")) / 32)
+        last = mp.pi + mp.acos((mp.mpf(4) + 16 - mp.mpf("6.25")) / 16)
+
+        def rocker(k: Any) -> Any:
+            """Angle of the rocker against the frame by the cosine rule."""
+            pin = mp.expj(first + k * (last - first)) - 4
+            reach = mp.sqrt(mp.re(pin) ** 2 + mp.im(pin) ** 2)
+            inner = mp.acos((reach**2 + mp.mpf("6.25") - 9) / (5 * reach))
+            return mp.atan2(mp.im(pin), mp.re(pin)) % (2 * mp.pi) - inner
+
+        middle = rocker(mp.mpf("0.5"))
+        speed = mp.diff(rocker, mp.mpf("0.5"))
+        ratio = 1 / (1 + 4 * quarter * m / speed)
+
+        def curve(k: Any) -> Any:
+            phi = -2 * mp.asin(m * mp.ellipfun("sn", quarter * (1 - 2 * k), m=m * m))
+            return mp.expj(rocker(k) - middle) * (-1 + ratio * mp.expj(phi))
+
+        for i, place in enumerate(k.tolist()):
+            z, d1, d2 = (mp.diff(curve, mp.mpf(place), n) for n in range(3))
+            assert points.pitch[i] == pytest.approx(complex(z), abs=1e-14)
+            radius = float(abs(d1) ** 3 / mp.im(mp.conj(d1) * d2))
+            # the formula's speed is a difference of numbers of order 1
+            assert points.curvature_radius[i] == pytest.approx(radius, rel=1e-12 / float(abs(d1)))
+            assert points.profile[i] == pytest.approx(complex(z + 0.02j * d1 / abs(d1)), abs=1e-13)
+
+
+def test_stops_have_no_curvature_radius() -> None:
+    points = CAM.points(np.array([0.0, 0.5, 1.0]))
+    assert points.curvature_radius.tolist() == [0.0, 0.0, 0.0]
+    np.testing.assert_allclose(np.abs(points.profile - points.pitch), 0.02, rtol=1e-13)
+    near = CAM.points(np.array([2.0**-20, 0.5 - 2.0**-20, 1.0 - 2.0**-20]))
+    np.testing.assert_allclose(points.profile, near.profile, atol=1e-6)
+
+
+def test_cusp_bend_is_the_sign_of_the_curvature_there() -> None:
+    assert CAM.cusp_bend > 0.0
+    assert np.all(CAM.points(np.array([0.49, 0.51])).curvature_radius > 0.0)
+
+
+def test_refusals() -> None:
+    with pytest.raises(NoSolution, match="is a double-rocker: the cam needs a crank-rocker"):
+        CrankRockerDrive(FourBar(3.0, 1.0, 2.5, 4.0))
+    with pytest.raises(NoSolution, match="centre distance is 0 mm"):
+        OscillatingCam(DRIVE, CAM.law, 0.0, 1.0)
+    with pytest.raises(NoSolution, match=r"too small to reckon a cam with.*set swing to at least") as refused:
+        _ = OscillatingCam(DRIVE, ElasticLaw(Pneumatic(2.5), 1e-14), 1.0, 0.02).ratio
+    assert refused.value.key == "swing"
