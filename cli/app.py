@@ -22,7 +22,7 @@ from gearlink.cli.options import Format, Options, PlotFormat
 
 _HELP = """Design calculator for the mechanisms of printing machines.
 
-A design is a YAML file; `gearlink analyze FILE` says all there is to say of it.
+A design is a YAML file; `gearlink analyze FILE` gives its full analysis.
 
 Exit status: 0 all checks pass, 1 a check fails, 2 the input is wrong or no such mechanism exists, 3 a fault.
 """
@@ -46,9 +46,9 @@ TableOption = Annotated[list[str], typer.Option("--table", metavar="NAME", help=
 SamplesOption = Annotated[int | None, typer.Option("--samples", min=2, max=10_000_000, help="rows per turn or stroke")]
 StrictOption = Annotated[bool, typer.Option("--strict", help="a warning counts as a failure")]
 NoColorOption = Annotated[bool, typer.Option("--no-color", help="no colours, as with NO_COLOR=1")]
-SuggestOption = Annotated[bool, typer.Option("--suggest", help="try the recommended changes, show the mended design")]
-ProfileOption = Annotated[bool, typer.Option("--profile", help="tell what was computed and how long each took")]
-QuietOption = Annotated[bool, typer.Option("--quiet", "-q", help="no talk on standard error")]
+SuggestOption = Annotated[bool, typer.Option("--suggest", help="try the recommended changes, show the repaired design")]
+ProfileOption = Annotated[bool, typer.Option("--profile", help="report what was computed and how long each took")]
+QuietOption = Annotated[bool, typer.Option("--quiet", "-q", help="print no notes on standard error")]
 
 
 _WITH_SUGGESTIONS = {"swing"}
@@ -151,7 +151,9 @@ def _batch(
     plot_format: PlotFormatOption = PlotFormat.PNG,
     cache: Annotated[Path | None, typer.Option(metavar="DIR", help="keep results; skip unchanged designs")] = None,
     shard: Annotated[str, typer.Option(metavar="I/N", help="the I-th of N shares of the files")] = "1/1",
-    jobs: Annotated[int, typer.Option("--jobs", "-j", min=0, help="processes; 0: as many as pay")] = 0,
+    jobs: Annotated[
+        int, typer.Option("--jobs", "-j", min=0, help="number of processes; 0: chosen by the work at hand")
+    ] = 0,
     set_: SetOption = [],  # noqa: B006 - Typer copies it
     strict: StrictOption = False,
     no_color: NoColorOption = False,

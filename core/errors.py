@@ -6,7 +6,7 @@ from typing import Literal
 
 
 class GearlinkError(Exception):
-    """Base of every error that is the user's to mend."""
+    """Base of every error that is the user's to repair."""
 
 
 class NoSolution(GearlinkError):

@@ -88,7 +88,7 @@ _PRESS = {
     "min_transmission_angle_bed": Term("mu_ABCD", "deg", "least transmission angle of the bed chain", "VDI 2142"),
     "min_transmission_angle_cylinder": Term("mu_GHMN", "deg", "least transmission angle of the cylinder chain"),
     "cam_base_radius": Term("r_b", "mm", "cam axis to roller centre at zero lift, given or chosen by size"),
-    "end_slope": Term("k1", "mm/rad", "slope of the lift at the end of the zone", "TY-460 report 3.3, mended"),
+    "end_slope": Term("k1", "mm/rad", "slope of the lift at the end of the zone", "TY-460 report 3.3, repaired"),
     "transition_rise": Term("dx", "mm", "rise over the transition", "TY-460 report 3.3"),
     "follower_stroke": Term("h", "mm", "stroke of the follower", "TY-460 report 3.3"),
     "return_end": Term("theta_r", "deg", "cam angle at which the return ends"),

@@ -30,7 +30,7 @@ class Quantity:
 
 @dataclass(frozen=True, slots=True)
 class Check:
-    """One finding: `status` follows from comparing `value` with `limit`; the message says what would mend it."""
+    """One finding: `status` follows from comparing `value` with `limit`; the message says what would repair it."""
 
     code: str
     name: str

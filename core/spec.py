@@ -34,7 +34,7 @@ Assembly = Literal[1, -1]
 
 
 class _LawNames:
-    """Tells editors the names of the motion laws; `gearlink.core.cams.laws.law` is what judges them."""
+    """Gives editors the names of the motion laws; `gearlink.core.cams.laws.law` is what judges them."""
 
     def __get_pydantic_json_schema__(self, core_schema: Any, handler: Any) -> dict[str, Any]:
         from gearlink.core.cams.laws import REST_TO_REST, REST_TO_SPEED
@@ -58,7 +58,7 @@ MotionLaw = Annotated[str | dict[str, Any], _LawNames()]
 class GearLimits(Spec):
     """Limits of the gear checks."""
 
-    undercut: Share = Field(0.05, description="profile shift below x_min that is let pass")
+    undercut: Share = Field(0.05, description="how far the profile shift may lie below x_min")
     tip_thickness: Share = Field(0.25, description="least tip thickness over the module")
     contact_ratio: Ratio = Field(1.1, description="least transverse contact ratio")
 

@@ -10,7 +10,7 @@ from gearlink.core.nomenclature import TERMS
 TARGET = Path(__file__).parent / "nomenclature.md"
 _HEAD = """# Nomenclature
 
-Names are law: a quantity is called the same in design files, results, code and messages. Gears follow ISO 21771,
+A quantity has one name, the same in design files, results, code and messages. Gears follow ISO 21771,
 laws of motion and cams VDI 2142 and VDI 2143. Units are those of design files and results; inside the engine an
 angle is in radians. This page is written by `make docs` from `core/nomenclature.py`.
 

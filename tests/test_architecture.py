@@ -1,40 +1,107 @@
-"""docs/architecture.md against the modules that exist: each has a room, and each room that is named exists."""
+"""The floor plan: no circle of imports, lazy ones counted, and nothing imports what stands above it."""
 
 from __future__ import annotations
 
-import re
-from fnmatch import fnmatchcase
+import ast
+from collections.abc import Iterator
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
+import pytest
+
 ROOT = Path(__file__).parents[1]
+MACHINES = {"three_gear", "planet_linkages", "dwell_gears", "five_bar", "flatbed_press", "swing_gripper", "wide_swing"}
+FOUNDATION = {"core.errors", "core.report"}
+"""What the numerics may import of core: how a refusal is raised and a finding is worded."""
 
 
-def rooms() -> list[str]:
-    """The files and folders that the table names, each with its folder; a name without one stands in that before it."""
-    named: list[str] = []
-    for line in (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8").splitlines():
-        folder = ""
-        for name in re.findall(r"`([^`]+)`", line.split("|")[1]) if line.startswith("| `") else []:
-            folder = name.rpartition("/")[0] if "/" in name else folder
-            named.append(name if "/" in name else f"{folder}/{name}")
-    return named
+def _modules() -> dict[str, Path]:
+    found = {}
+    for top in ("core", "cli"):
+        for path in (ROOT / top).rglob("*.py"):
+            name = path.relative_to(ROOT).with_suffix("").as_posix().replace("/", ".")
+            found[name.removesuffix(".__init__")] = path
+    return found
 
 
-def test_every_module_has_a_room() -> None:
-    named = rooms()
-    modules = [
-        path.relative_to(ROOT).as_posix()
-        for folder in ("core", "cli")
-        for path in (ROOT / folder).rglob("*.py")
-        if path.name != "__init__.py"
-    ]
-    homeless = [
-        module
-        for module in modules
-        if not any(module.startswith(room) if room.endswith("/") else fnmatchcase(module, room) for room in named)
-    ]
-    assert homeless == []
+MODULES = _modules()
 
 
-def test_every_room_exists() -> None:
-    assert [room for room in rooms() if not list(ROOT.glob(room))] == []
+def _imported(node: ast.AST) -> Iterator[str]:
+    """Modules that a piece of code imports when it runs, at its head or inside a function; annotations do not run."""
+    for child in ast.iter_child_nodes(node):
+        if isinstance(child, ast.If) and "TYPE_CHECKING" in ast.dump(child.test):
+            continue
+        if isinstance(child, ast.ImportFrom) and child.module and child.module.startswith("gearlink."):
+            base = child.module.removeprefix("gearlink.")
+            for alias in child.names:
+                yield f"{base}.{alias.name}" if f"{base}.{alias.name}" in MODULES else base
+        elif isinstance(child, ast.Import):
+            yield from (alias.name.removeprefix("gearlink.") for alias in child.names)
+        yield from _imported(child)
+
+
+ARROWS = {
+    name: {other for other in _imported(ast.parse(path.read_text(encoding="utf-8"))) if other in MODULES} - {name}
+    for name, path in MODULES.items()
+}
+
+
+def _room(module: str) -> str:
+    """The package that a module stands in, or the module itself where it stands at the top of core or cli."""
+    return ".".join(module.split(".")[:2])
+
+
+def _circle(arrows: dict[str, set[str]]) -> list[str]:
+    try:
+        TopologicalSorter(arrows).prepare()
+    except CycleError as error:
+        return list(error.args[1])
+    return []
+
+
+def test_the_walk_sees_imports() -> None:
+    assert "core.design" in ARROWS["core.gears.design"]
+    assert "cli.batch.cache" in ARROWS["cli.batch.one_file"]  # a lazy one
+
+
+def test_no_circle_of_modules() -> None:
+    assert _circle(ARROWS) == []
+
+
+def test_no_circle_of_rooms() -> None:
+    rooms: dict[str, set[str]] = {}
+    for module, others in ARROWS.items():
+        rooms.setdefault(_room(module), set()).update(_room(other) for other in others)
+    assert _circle({room: others - {room} for room, others in rooms.items()}) == []
+
+
+def test_core_does_not_know_the_command_line() -> None:
+    assert not [(a, b) for a, others in ARROWS.items() for b in others if a.startswith("core") and b.startswith("cli")]
+
+
+@pytest.mark.parametrize("machine", sorted(MACHINES))
+def test_no_machine_imports_another(machine: str) -> None:
+    others = {f"core.{name}" for name in MACHINES - {machine}}
+    own = [name for name in MODULES if name.startswith(f"core.{machine}.")]
+    assert own
+    assert not [(a, b) for a in own for b in ARROWS[a] if _room(b) in others]
+
+
+@pytest.mark.parametrize("library", ["numerics", "cams", "linkages", "gears"])
+def test_libraries_are_free_of_machines(library: str) -> None:
+    own = [name for name in MODULES if name.startswith(f"core.{library}.")]
+    assert own
+    assert not [(a, b) for a in own for b in ARROWS[a] if _room(b).removeprefix("core.") in MACHINES]
+
+
+def test_numerics_know_no_mechanism() -> None:
+    own = [name for name in MODULES if name.startswith("core.numerics.")]
+    allowed = {"core.numerics", *FOUNDATION}
+    assert not [(a, b) for a in own for b in ARROWS[a] if _room(b) not in allowed]
+
+
+def test_each_package_says_what_stands_there() -> None:
+    for path in (ROOT / top for top in ("core", "cli")):
+        for init in path.rglob("__init__.py"):
+            assert ast.get_docstring(ast.parse(init.read_text(encoding="utf-8"))), init

@@ -9,7 +9,7 @@ from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.batch.run import Outcome
+from gearlink.cli.batch.outcome import Outcome
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import write_atomically
 from gearlink.cli.reading.diagnostics import Diagnostic

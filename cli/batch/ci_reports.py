@@ -9,17 +9,17 @@ from pathlib import PurePath
 from typing import Any
 from xml.sax.saxutils import escape, quoteattr
 
-from gearlink.cli.batch.run import Outcome
+from gearlink.cli.batch.outcome import Outcome
 from gearlink.core.version import VERSION
 
 _SARIF_LEVEL = {"fail": "error", "warn": "warning"}
 
 
 def _findings(outcome: Outcome) -> Iterator[tuple[str, str, str, str, int, int]]:
-    """Status, code, name, message, line, column of everything to mend."""
+    """Status, code, name, message, line, column of everything to repair."""
     for error in outcome.errors:
         yield "fail", error.code, "input", error.message, error.line, error.column
-    for check, (line, column) in zip(outcome.to_mend, outcome.places, strict=True):
+    for check, (line, column) in zip(outcome.to_repair, outcome.places, strict=True):
         yield check.status, check.code, check.name, check.message, line, column
 
 

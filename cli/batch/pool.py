@@ -12,8 +12,9 @@ from multiprocessing import active_children, get_all_start_methods, get_context
 from pathlib import Path
 from time import perf_counter
 
+from gearlink.cli.batch.one_file import outcomes
 from gearlink.cli.batch.options import BatchOptions
-from gearlink.cli.batch.run import Outcome, outcomes
+from gearlink.cli.batch.outcome import Outcome
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.reading.diagnostics import Diagnostic
 
@@ -28,7 +29,7 @@ def run_files(files: Sequence[Path], options: BatchOptions) -> tuple[list[Outcom
     """Outcomes of the files that were finished, and whether the user interrupted.
 
     Notes
-        A sample from the whole list runs here; how long it takes tells whether more processes pay for the rest.
+        A sample from the whole list runs here; how long it takes decides whether more processes pay for the rest.
     """
     results: list[Outcome] = []
     with _progress(len(files), options) as advance:

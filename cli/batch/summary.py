@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from typing import IO, TYPE_CHECKING, Any
 
 from gearlink.cli.batch.options import BatchFormat, BatchOptions
-from gearlink.cli.batch.run import Outcome, summary
+from gearlink.cli.batch.outcome import Outcome, summary
 from gearlink.cli.render.json_report import FORMAT, as_plain
 
 if TYPE_CHECKING:

@@ -151,7 +151,7 @@ def _spline_method(theta: Array, points: Points, between: Array) -> Method:
 def press(quick: bool) -> Family:
     """Both chains, zone and both cams of the worked press at 3600 positions, from the validated spec on."""
     import gearlink.designs as designs
-    from gearlink.cli.commands.design import open_design, read_spec
+    from gearlink.cli.evaluate import open_design, read_spec
     from gearlink.cli.options import Options
 
     source = str(Path(str(designs.__file__)).parent / "ty460.yaml")

@@ -36,7 +36,7 @@ def _bench(
     format: Annotated[
         BenchFormat, typer.Option("--format", "-f", help="how the tables are printed")
     ] = BenchFormat.TABLE,
-    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="no talk on standard error")] = False,
+    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="print no notes on standard error")] = False,
 ) -> None:
     """Time per result against error for every family of solvers, beside the textbook ways; needs gearlink[bench].
 

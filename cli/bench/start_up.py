@@ -154,7 +154,7 @@ def write_designs(folder: Path, count: int, kinds: tuple[str, ...] = SMALL) -> l
 
 
 def _validate(files: list[Path]) -> None:
-    from gearlink.cli.commands.design import open_design, read_spec
+    from gearlink.cli.evaluate import open_design, read_spec
     from gearlink.cli.options import Options
 
     for path in files:

@@ -11,12 +11,14 @@ from importlib import import_module
 from importlib.util import find_spec
 from typing import IO, TYPE_CHECKING, Any
 
-from gearlink.cli.commands.design import open_design, read_spec, show_refusal
+from gearlink.cli.commands.design import show_refusal
+from gearlink.cli.evaluate import open_design, read_spec
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite, safe_stem, write_atomically
 from gearlink.cli.options import Options
-from gearlink.cli.reading.design_file import DesignFileError, LoadedFile, diagnose_no_solution
-from gearlink.cli.reading.diagnostics import Diagnostic
+from gearlink.cli.reading.design_file import diagnose_no_solution
+from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
+from gearlink.cli.reading.loaded_file import LoadedFile
 from gearlink.core.errors import NoSolution
 from gearlink.core.kinds import KINDS, Kind
 

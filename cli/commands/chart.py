@@ -8,13 +8,14 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import TYPE_CHECKING
 
-from gearlink.cli.commands.design import open_design, print_report, read_spec, show_refusal
+from gearlink.cli.commands.design import print_report, show_refusal
+from gearlink.cli.evaluate import open_design, read_spec
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.figures.chart_list import CHARTS, DesignChart
 from gearlink.cli.files import CannotWrite
 from gearlink.cli.options import Format, Options
-from gearlink.cli.reading.design_file import DesignFileError, diagnose_no_solution
-from gearlink.cli.reading.diagnostics import Diagnostic
+from gearlink.cli.reading.design_file import diagnose_no_solution
+from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.report import Quantity, Report
 

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.batch.run import design_files
-from gearlink.cli.commands.design import open_design, read_spec
+from gearlink.cli.commands.finding import Finding
+from gearlink.cli.evaluate import open_design, read_spec
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import Options
-from gearlink.cli.reading.design_file import DesignFileError, LoadedFile, diagnose_no_solution, parse_path
-from gearlink.cli.reading.diagnostics import Diagnostic
+from gearlink.cli.reading.design_file import diagnose_no_solution
+from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
+from gearlink.cli.reading.loaded_file import LoadedFile, parse_path
+from gearlink.cli.reading.places import design_files
 from gearlink.cli.texts.finding_keys import key_of
 from gearlink.core.errors import NoSolution
 from gearlink.core.report import Check
@@ -19,27 +21,6 @@ from gearlink.core.report import Check
 if TYPE_CHECKING:
     from gearlink.core.design import Design
     from gearlink.core.kinds import Kind
-
-_STATUS = {"pass": ExitCode.OK, "warn": ExitCode.OK, "fail": ExitCode.FINDING, "error": ExitCode.WRONG_INPUT}
-
-
-@dataclass(frozen=True, slots=True)
-class Finding:
-    """A check's outcome, or an error of the file, at a place in the design file.
-
-    `status` is pass, warn, fail, error or fault; `check` is None for errors and faults.
-    """
-
-    status: str
-    place: Diagnostic
-    command: str = ""
-    check: Check | None = None
-
-    def exit_status(self, *, strict: bool) -> int:
-        """What this finding alone would end the run with."""
-        if strict and self.status == "warn":
-            return ExitCode.FINDING
-        return _STATUS.get(self.status, ExitCode.FAULT)
 
 
 def run_check(places: Sequence[str], options: Options, *, verbose: bool = False) -> int:

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
-from gearlink.cli.commands.check import Finding
+from gearlink.cli.commands.finding import Finding
 from gearlink.cli.options import Format, Options
 from gearlink.cli.render.json_report import FORMAT, plain_check
 
@@ -35,7 +35,7 @@ def show_findings(found: Sequence[Finding], designs: int, options: Options, *, o
     verdict = f"{designs} design{'s' if designs != 1 else ''}: {words}"
     print(_as_markdown(shown, verdict) if options.format is Format.MARKDOWN else _as_text(shown, verdict))
     if shown and not options.quiet:
-        print("`gearlink explain CODE` tells what a code means and how to mend the design", file=sys.stderr)
+        print("`gearlink explain CODE` says what a code means and how to repair the design", file=sys.stderr)
 
 
 def _as_results(found: Sequence[Finding]) -> dict[str, Any]:

@@ -3,27 +3,17 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
-from difflib import get_close_matches
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable
+from contextlib import AbstractContextManager, nullcontext
+from typing import TYPE_CHECKING
 
+from gearlink.cli.evaluate import build, exit_status, open_design, read_spec, require_command
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite
 from gearlink.cli.options import Format, Options
-from gearlink.cli.reading.design_file import (
-    DesignFileError,
-    LoadedFile,
-    diagnose_no_solution,
-    load,
-    read_kind,
-    validate,
-)
-from gearlink.cli.reading.diagnostics import Diagnostic
+from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.errors import show_errors
-from gearlink.core.design import UnknownName
 from gearlink.core.errors import NoSolution
-from gearlink.core.kinds import KINDS, Kind
 
 if TYPE_CHECKING:
     from gearlink.core.design import Design
@@ -32,17 +22,39 @@ if TYPE_CHECKING:
 
 def run_design(command: str, source: str, options: Options) -> int:
     """Run `command` on the design file `source`, print the result, and give the exit status."""
-    if options.profile:
-        from gearlink.cli.commands.profile import run_profiled
+    if not options.profile:
+        return _run(command, source, options, _untimed)
+    from gearlink.cli.commands.profile import Profile
 
-        return run_profiled(command, source, options)
+    profile = Profile()
     try:
-        design, report = evaluate(command, source, options)
+        return _run(command, source, options, profile.stage)
+    finally:
+        print("\n".join(profile.lines()), file=sys.stderr)
+
+
+def _untimed(_: str) -> AbstractContextManager[None]:
+    return nullcontext()
+
+
+def _run(command: str, source: str, options: Options, step: Callable[[str], AbstractContextManager[None]]) -> int:
+    try:
+        with step("read"):
+            loaded, kind = open_design(source, options)
+            require_command(loaded, kind, command)
+        with step("validate"):
+            spec = read_spec(loaded, kind, source)
+        with step("load the formulas"):
+            kind.design_class(command)
+        with step("compute"):
+            design, report = build(loaded, kind, command, spec, options)
         if options.plot:
-            plot(command, design, options)
+            with step("draw"):
+                plot(command, design, options)
     except (DesignFileError, CannotWrite, NoSolution) as error:
         return show_refusal(error, source, options)
-    print_report(report, options)
+    with step("print"):
+        print_report(report, options)
     return exit_status(report, strict=options.strict)
 
 
@@ -58,75 +70,6 @@ def show_refusal(error: DesignFileError | CannotWrite | NoSolution, source: str,
     else:
         show_errors([Diagnostic("GL116", str(error), file=source, line=1, column=1, key="")], options)
     return ExitCode.WRONG_INPUT
-
-
-def evaluate(command: str, source: str, options: Options) -> tuple[Design, Report]:
-    """The design of a file and the report of a command on it.
-
-    Raises
-        DesignFileError - for everything that is wrong with the file, the command for it, or the mechanism
-    """
-    loaded, kind = open_design(source, options)
-    require_command(loaded, kind, command)
-    return build(loaded, kind, command, read_spec(loaded, kind, source), options)
-
-
-def open_design(source: str, options: Options) -> tuple[LoadedFile, Kind]:
-    """The text of a design file as located data, and its kind."""
-    loaded = load(source, overrides=options.overrides)
-    return loaded, KINDS[read_kind(loaded, tuple(KINDS))]
-
-
-def read_spec(loaded: LoadedFile, kind: Kind, source: str) -> Any:
-    """The validated spec, named after the file where it names no design."""
-    return named(validate(loaded, kind.spec_model()), source)
-
-
-def build(
-    loaded: LoadedFile, kind: Kind, command: str, spec: Any, options: Options, *, findings_only: bool = False
-) -> tuple[Design, Report]:
-    """The design of a validated spec and its report; what the mechanism refuses becomes a located error."""
-    only = bool(options.tables) and options.format is Format.CSV
-    wanted = {"quantities": options.quantities, "tables": options.tables, "only": only, "findings_only": findings_only}
-    try:
-        design = kind.design(command, spec, options.samples)
-        report = design.report(command, **wanted)  # type: ignore[arg-type]
-    except NoSolution as error:
-        raise DesignFileError([diagnose_no_solution(loaded, error)]) from error
-    except UnknownName as error:
-        raise DesignFileError([_unknown_name(error)]) from error
-    return design, report
-
-
-def named(spec: Any, source: str) -> Any:
-    """The spec with the file's stem for a name where the file gives none."""
-    if "name" in spec.model_fields_set or source == "-":
-        return spec
-    return spec.model_copy(update={"name": Path(source).stem})
-
-
-def require_command(loaded: LoadedFile, kind: Kind, command: str) -> None:
-    """Refuse a command that this kind of design does not understand.
-
-    Raises
-        DesignFileError - naming the commands that it does understand
-    """
-    if command in kind.commands:
-        return
-    message = f"`{command}` does not apply to a {kind.name}; this kind understands: {', '.join(kind.commands)}"
-    raise DesignFileError([loaded.report("GL113", message, ("kind",))])
-
-
-def exit_status(report: Report, *, strict: bool = False) -> int:
-    """0 where all checks pass, 1 where one fails (with `strict`, also where one warns)."""
-    bad = {"fail", "warn"} if strict else {"fail"}
-    return ExitCode.FINDING if any(check.status in bad for check in report.checks) else ExitCode.OK
-
-
-def _unknown_name(error: UnknownName) -> Diagnostic:
-    near: Sequence[str] = get_close_matches(error.name, error.known, n=3, cutoff=0.5)
-    remedy = f"nearest: {', '.join(near)}" if near else f"known: {', '.join(error.known)}"
-    return Diagnostic("GL115", str(error), file=f"<--{error.what}>", line=1, column=1, key=error.name, help=remedy)
 
 
 def plot(command: str, design: Design, options: Options) -> None:

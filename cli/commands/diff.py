@@ -6,15 +6,16 @@ import json
 import math
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, nullcontext
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.commands.design import open_design
+from gearlink.cli.commands.difference import Change, Difference
+from gearlink.cli.evaluate import open_design
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import Options
-from gearlink.cli.reading.design_file import DesignFileError, diagnose_no_solution, validate
-from gearlink.cli.reading.diagnostics import Diagnostic
+from gearlink.cli.reading.design_file import diagnose_no_solution, validate
+from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.json_report import as_plain
 from gearlink.core.errors import NoSolution
 from gearlink.core.report import Report
@@ -24,44 +25,6 @@ if TYPE_CHECKING:
     from gearlink.core.kinds import Kind
 
 TOLERANCE = 1e-9
-
-
-@dataclass(frozen=True, slots=True)
-class Change:
-    """One difference; `old` or `new` is None where one side does not have it.
-
-    Fields
-        name : str - 'gears.idler', 'frame_length', 'min_transmission_angle[1]', 'GL301 gear-collision'
-        relative : float - (new - old)/|old|; None for text, lists of other length and old = 0
-        command : str - the command whose result it is; empty for inputs
-        detail : str - 'pass -> fail' of a check, 'row 3' of a table
-    """
-
-    name: str
-    old: Any
-    new: Any
-    unit: str = ""
-    relative: float | None = None
-    command: str = ""
-    detail: str = ""
-
-
-@dataclass(frozen=True, slots=True)
-class Difference:
-    """All that changed."""
-
-    old: str
-    new: str
-    tolerance: float
-    inputs: list[Change] = field(default_factory=list)
-    quantities: list[Change] = field(default_factory=list)
-    checks: list[Change] = field(default_factory=list)
-    tables: list[Change] = field(default_factory=list)
-
-    @property
-    def equal(self) -> bool:
-        """Nothing changed beyond the tolerance."""
-        return not (self.inputs or self.quantities or self.checks or self.tables)
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,7 +79,7 @@ def difference(old: str, new: str, options: Options, tolerance: float = TOLERANC
 
 @contextmanager
 def _results_as_gearlink_writes_them(file: str) -> Iterator[None]:
-    """A result that was edited, or written by another program, is the user's to mend."""
+    """A result that was edited, or written by another program, is the user's to repair."""
     try:
         yield
     except (KeyError, TypeError, AttributeError, IndexError, ValueError) as error:
@@ -148,7 +111,7 @@ def _text(file: str) -> str:
 
 
 def _result_side(file: str, data: dict[str, Any]) -> Side:
-    """A result of a design command, or of a batch, whose designs are told apart by their names."""
+    """A result of a design command, or of a batch, whose designs are distinguished by their names."""
     several = isinstance(data.get("designs"), list)
     if not several and "quantities" not in data:
         message = "this JSON holds errors, not a result" if "errors" in data else "no result of a design in this JSON"
@@ -216,7 +179,7 @@ def _compare_results(found: Difference, command: str, old: dict[str, Any] | None
         was, now = (side["quantities"].get(name, {}) for side in (old, new))
         unit = str(now.get("unit") or was.get("unit") or "")
         changes = _changes(name, was.get("value"), now.get("value"), unit, found.tolerance, command)
-        # A quantity that several commands show is told once.
+        # A quantity that several commands show is listed once.
         known = [(c.name, c.old, c.new) for c in found.quantities]
         found.quantities.extend(c for c in changes if (c.name, c.old, c.new) not in known)
     known_checks = [(c.name, c.old, c.new, c.detail) for c in found.checks]
@@ -263,7 +226,7 @@ def _number(value: Any) -> bool:
 def _changed_checks(
     command: str, old: Sequence[dict[str, Any]], new: Sequence[dict[str, Any]], tolerance: float
 ) -> Iterator[Change]:
-    """Checks whose status, value or limit changed; several of one name are told apart by their order."""
+    """Checks whose status, value or limit changed; several of one name are distinguished by their order."""
     before, after = _numbered(old), _numbered(new)
     for name in _union(before, after):
         was, now = before.get(name), after.get(name)

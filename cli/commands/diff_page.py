@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from typing import Any
 
-from gearlink.cli.commands.diff import Change, Difference
+from gearlink.cli.commands.difference import Change, Difference
 from gearlink.cli.options import Format, Options
 from gearlink.cli.render.json_report import FORMAT
 

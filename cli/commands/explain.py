@@ -12,11 +12,12 @@ from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import Format, Options
 
 if TYPE_CHECKING:
-    from gearlink.cli.texts.codes import Explanation
+    from gearlink.cli.texts.explanation import Explanation
     from gearlink.core.kinds import Kind
 
 _WIDTH = 100
-_LABELS = {"what": "What", "why": "Why", "formula": "Formula", "source": "Source", "mend": "How to mend"}
+_JSON_NAMES = {"How to repair": "how_to_mend"}  # scripts depend on the name
+_LABELS = {"what": "What", "why": "Why", "formula": "Formula", "source": "Source", "repair": "How to repair"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -252,7 +253,7 @@ def _as_json(topics: list[Topic]) -> str:
 
     plain: list[dict[str, Any]] = [
         {"about": topic.about, "name": topic.name, "title": topic.title}
-        | {label.lower().replace(" ", "_"): words for label, words in topic.paragraphs.items()}
+        | {_JSON_NAMES.get(label, label.lower().replace(" ", "_")): words for label, words in topic.paragraphs.items()}
         for topic in topics
     ]
     return json.dumps({"gearlink": FORMAT, "command": "explain", "topics": plain}, ensure_ascii=False)

@@ -26,7 +26,7 @@ def laws(
     plot_format: Annotated[PlotFormat, typer.Option("--plot-format", help="kind of picture")] = PlotFormat.PNG,
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="folder for files that are written")] = Path(),
     no_color: Annotated[bool, typer.Option("--no-color", help="no colours, as with NO_COLOR=1")] = False,
-    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="no talk on standard error")] = False,
+    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="print no notes on standard error")] = False,
 ) -> None:
     """Constants Cv, Ca, Cj, Cm, kappa of every motion law; with --law, the course of one over x.
 

@@ -21,7 +21,7 @@ class MovingFormat(StrEnum):
 
 OutOption = Annotated[Path, typer.Option("--out", metavar="DIR", help="folder for files that are written")]
 SetOption = Annotated[list[str], typer.Option("--set", metavar="PATH=VALUE", help="override a key (repeatable)")]
-QuietOption = Annotated[bool, typer.Option("--quiet", "-q", help="no talk on standard error")]
+QuietOption = Annotated[bool, typer.Option("--quiet", "-q", help="print no notes on standard error")]
 
 
 def register(app: typer.Typer) -> None:

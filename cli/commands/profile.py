@@ -1,23 +1,15 @@
-"""`--profile`: what a command computed and how long each took, told on standard error."""
+"""`--profile`: what a command computed and how long each took, reported on standard error."""
 
 from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass, field, replace
+from contextlib import contextmanager, nullcontext
+from dataclasses import dataclass, field
 from functools import cached_property, wraps
 from time import perf_counter
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from gearlink.cli.commands import design
-
-if TYPE_CHECKING:
-    from gearlink.cli.options import Options
-    from gearlink.cli.reading.design_file import LoadedFile
-    from gearlink.core.kinds import Kind
-
-_STAGES = {"open_design": "read", "read_spec": "validate", "plot": "draw", "print_report": "print"}
 _RESULTS = ("table_", "check_")
 
 
@@ -55,6 +47,12 @@ class Profile:
             if self._open:
                 self._open[-1].own -= took
 
+    @contextmanager
+    def stage(self, name: str) -> Iterator[None]:
+        """Time a stage of a command; while it computes, every result of gearlink.core is a step below it."""
+        with watched(self) if name == "compute" else nullcontext(), self.step(name):
+            yield
+
     def lines(self) -> list[str]:
         """The profile as text, one line per step, indented under the one that asked for it.
 
@@ -88,33 +86,6 @@ def watched(profile: Profile) -> Iterator[None]:
     finally:
         for each in undo:
             each()
-
-
-def run_profiled(command: str, source: str, options: Options) -> int:
-    """Run a command, print the profile on standard error besides, and give the exit status."""
-    profile = Profile()
-    build = design.build
-
-    def watched_build(loaded: LoadedFile, kind: Kind, wanted: str, *rest: Any, **named: Any) -> Any:
-        with profile.step("load the formulas"):
-            kind.design_class(wanted)
-        with watched(profile), profile.step("compute"):
-            return build(loaded, kind, wanted, *rest, **named)
-
-    undo = [_replace(design, "build", watched_build)]
-    for name, label in _STAGES.items():
-        undo.append(_replace(design, name, _timed(profile, label, getattr(design, name))))
-    try:
-        return design.run_design(command, source, replace(options, profile=False))
-    finally:
-        for each in undo:
-            each()
-        show(profile)
-
-
-def show(profile: Profile) -> None:
-    """Print the profile on standard error."""
-    print("\n".join(profile.lines()), file=sys.stderr)
 
 
 def _classes() -> Iterator[type]:

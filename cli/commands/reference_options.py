@@ -23,7 +23,7 @@ KindArgument = Annotated[str, typer.Argument(metavar="KIND", help="kind of desig
 FormatOption = Annotated[Format, typer.Option("--format", "-f", help="how findings are printed")]
 PageOption = Annotated[PageFormat, typer.Option("--format", "-f", help="how the answer is printed")]
 NoColorOption = Annotated[bool, typer.Option("--no-color", help="no colours, as with NO_COLOR=1")]
-QuietOption = Annotated[bool, typer.Option("--quiet", "-q", help="no talk on standard error")]
+QuietOption = Annotated[bool, typer.Option("--quiet", "-q", help="print no notes on standard error")]
 
 
 def register(app: typer.Typer) -> None:
@@ -62,7 +62,7 @@ def _schema(
 
     Example: gearlink schema gear-pair > gear-pair.schema.json
     """
-    from gearlink.cli.texts.schema import run_schema
+    from gearlink.cli.commands.schema import run_schema
 
     raise typer.Exit(run_schema(kind))
 

@@ -14,12 +14,11 @@ from collections.abc import Iterable, Iterator, Sequence
 from html import escape
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.commands.design import build, exit_status, open_design, read_spec
+from gearlink.cli.evaluate import build, exit_status, open_design, read_spec
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite, safe_stem, write_atomically
 from gearlink.cli.options import Options
-from gearlink.cli.reading.design_file import DesignFileError
-from gearlink.cli.reading.diagnostics import Diagnostic
+from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.errors import show_errors
 from gearlink.cli.render.numbers import number, readable_rows
 from gearlink.core.nomenclature import term

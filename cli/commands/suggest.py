@@ -1,4 +1,4 @@
-"""`--suggest`: what a failing or refused design should change, tried round by round, and the mended design."""
+"""`--suggest`: what a failing or refused design should change, tried round by round, and the repaired design."""
 
 from __future__ import annotations
 
@@ -10,19 +10,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.commands.design import (
-    build,
-    exit_status,
-    open_design,
-    plot,
-    print_report,
-    read_spec,
-    require_command,
-    show_refusal,
-)
+from gearlink.cli.commands.design import plot, print_report, show_refusal
+from gearlink.cli.evaluate import build, exit_status, open_design, read_spec, require_command
 from gearlink.cli.files import CannotWrite
 from gearlink.cli.options import Format, Options
-from gearlink.cli.reading.design_file import DesignFileError
+from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.core.errors import NoSolution
 from gearlink.core.spec_paths import replaced, value_at
 
@@ -45,12 +37,12 @@ class Change:
 
 
 def run_suggested(command: str, source: str, options: Options) -> int:
-    """Mend the design file `source` by its own suggestions, print changes and mended report, give its exit status."""
+    """Repair the design file `source` by its own suggestions, print changes and report, give its exit status."""
     changes: list[Change] = []
     try:
         loaded, kind = open_design(source, options)
         require_command(loaded, kind, command)
-        spec, changes = mend(kind, command, read_spec(loaded, kind, source), options)
+        spec, changes = repair(kind, command, read_spec(loaded, kind, source), options)
         design, report = build(loaded, kind, command, spec, options)
         if options.plot:
             plot(command, design, options)
@@ -61,7 +53,7 @@ def run_suggested(command: str, source: str, options: Options) -> int:
     return exit_status(report, strict=options.strict)
 
 
-def mend(kind: Kind, command: str, spec: Any, options: Options) -> tuple[Any, list[Change]]:
+def repair(kind: Kind, command: str, spec: Any, options: Options) -> tuple[Any, list[Change]]:
     """The spec after up to eight rounds, each the first suggestion of the design as it then stands.
 
     Notes

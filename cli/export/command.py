@@ -8,13 +8,14 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.commands.design import open_design, read_spec
+from gearlink.cli.evaluate import open_design, read_spec
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.export import parts
 from gearlink.cli.export.options import Export, FileFormat
 from gearlink.cli.files import CannotWrite, safe_stem, write_atomically
-from gearlink.cli.reading.design_file import DesignFileError, LoadedFile, diagnose_no_solution
-from gearlink.cli.reading.diagnostics import Diagnostic
+from gearlink.cli.reading.design_file import diagnose_no_solution
+from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
+from gearlink.cli.reading.loaded_file import LoadedFile
 from gearlink.cli.render.errors import show_errors
 from gearlink.core.errors import GearlinkError, NoSolution
 from gearlink.core.kinds import Kind

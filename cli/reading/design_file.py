@@ -5,21 +5,20 @@ from __future__ import annotations
 import json
 import math
 import os
-import re
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import nullcontext
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from difflib import get_close_matches
 from itertools import islice
 from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
 
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic, Source
+from gearlink.cli.reading.loaded_file import KeyPath, LoadedFile, Override, parse_path
 from gearlink.cli.reading.yaml_reader import (
     CONTROL,
     MAX_BYTES,
     MAX_DEPTH,
-    Marks,
     Tree,
     compose,
     format_path,
@@ -33,82 +32,10 @@ if TYPE_CHECKING:
 
     Model = TypeVar("Model", bound=BaseModel)
 
-__all__ = [
-    "DesignFileError",
-    "KeyPath",
-    "LoadedFile",
-    "diagnose_no_solution",
-    "load",
-    "parse",
-    "parse_path",
-    "read_kind",
-    "validate",
-]
-
-KeyPath = tuple[str | int, ...]
-"""A key path: `("teeth", 1)` for `teeth[1]`."""
-
-_STEP = re.compile(r"(?:(?:^|(?<=.)\.)([^.\[\]=\s]+)|\[([0-9]{1,6})\])")
 _ROOT: KeyPath = ()
 _LONGEST_KIND = 60
 LEAST_SIZE, LARGEST_SIZE = 1e-30, 1e12
 """Between them the fourth powers of a number and of its ratios to others neither overflow nor vanish."""
-
-
-@dataclass(frozen=True, slots=True)
-class _Override:
-    """A value that `--set` put in; its marks are positions in the argument."""
-
-    path: KeyPath
-    value: Any
-    marks: Marks | None
-    source: Source
-
-
-@dataclass(slots=True)
-class LoadedFile:
-    """A design file as plain data whose keys can be located."""
-
-    file: str
-    data: dict[str, Any]
-    tree: Tree
-    overrides: list[_Override] = field(default_factory=list)
-    problems: list[Diagnostic] = field(default_factory=list)
-    """Errors found in reading that did not hinder it (duplicate keys); `validate` reports them with its own."""
-
-    @property
-    def text(self) -> str:
-        """The decoded text of the file."""
-        return self.tree.source.text
-
-    def locate(self, path: KeyPath, *, value: bool = False) -> tuple[int, int, str]:
-        """Line, column and file of a key (or of its value); of the nearest parent where the key is missing."""
-        source, at = self._spot(path, value)
-        return *source.place(at), source.file
-
-    def place_in_file(self, path: KeyPath) -> tuple[int, int]:
-        """Line and column of a key, or of its nearest parent, in the file itself, whatever `--set` put over it."""
-        at, _ = _find(self.tree.marks, path, self.tree.at, False)
-        return self.tree.source.place(at)
-
-    def report(self, code: str, message: str, path: KeyPath, *, key: str | None = None, help: str = "") -> Diagnostic:
-        """A diagnostic that points at a key, or at the nearest parent of a missing one."""
-        source, at = self._spot(path)
-        return source.report(code, message, at, key=format_path(path) if key is None else key, help=help)
-
-    def _spot(self, path: KeyPath, value: bool = False) -> tuple[Source, int]:
-        for override in reversed(self.overrides):
-            depth = len(override.path)
-            if path[:depth] == override.path:
-                at, _ = _find(override.marks, path[depth:], 0, value)
-                return override.source, at
-        at, found = _find(self.tree.marks, path, self.tree.at, value)
-        if found < len(path):
-            for override in reversed(self.overrides):
-                common = _common(override.path, path)
-                if common > found:
-                    return override.source, 0
-        return self.tree.source, at
 
 
 def load(source: str | os.PathLike[str], *, overrides: Sequence[str] = (), stdin: BinaryIO | None = None) -> LoadedFile:
@@ -148,21 +75,6 @@ def parse(data: bytes, file: str, *, overrides: Sequence[str] = ()) -> LoadedFil
     if wrong:
         raise DesignFileError([*loaded.problems, *wrong])
     return loaded
-
-
-def parse_path(text: str) -> KeyPath | None:
-    """The steps of a dotted key path, or None where it is none.
-
-    Example
-        >>> parse_path("pivots.input[1]"), parse_path("a..b")
-        (('pivots', 'input', 1), None)
-    """
-    steps: list[str | int] = []
-    at = 0
-    while match := _STEP.match(text, at):
-        steps.append(match[1] if match[2] is None else int(match[2]))
-        at = match.end()
-    return tuple(steps) if at == len(text) and steps and isinstance(steps[0], str) else None
 
 
 def read_kind(loaded: LoadedFile, kinds: Sequence[str]) -> str:
@@ -252,23 +164,7 @@ def _no_size(loaded: LoadedFile, path: KeyPath, value: float) -> Diagnostic:
     return loaded.report("GL108", message, path, help=remedy)
 
 
-def _find(marks: Marks | None, path: KeyPath, root: int, value: bool = False) -> tuple[int, int]:
-    """Position of the deepest step of a path that is there, and how many steps that are."""
-    at, found = root, 0
-    for step in path:
-        if marks is None or step not in marks:
-            break
-        key_at, value_at, marks = marks[step]
-        found += 1
-        at = value_at if value and found == len(path) else key_at
-    return at, found
-
-
-def _common(one: KeyPath, other: KeyPath) -> int:
-    return next((i for i, (a, b) in enumerate(zip(one, other, strict=False)) if a != b), min(len(one), len(other)))
-
-
-def _override(argument: str) -> _Override:
+def _override(argument: str) -> Override:
     source = Source("<--set>", argument)
     name, sign, text = argument.partition("=")
     path = parse_path(name.strip())
@@ -283,21 +179,21 @@ def _override(argument: str) -> _Override:
         raise DesignFileError([source.report("GL114", message, control.start(), key=format_path(path))])
     text = text.strip()
     if text[:1] not in ("[", "{", '"', "'"):
-        return _Override(path, plain_value(text), None, source)
+        return Override(path, plain_value(text), None, source)
     try:
         tree = compose(source, argument.index("=") + 1)
     except DesignFileError as error:
         raise DesignFileError(_as_set_errors(error, path)) from None
     if tree.problems:
         raise DesignFileError(tree.problems)
-    return _Override(path, tree.data, tree.marks, source)
+    return Override(path, tree.data, tree.marks, source)
 
 
 def _as_set_errors(error: DesignFileError, path: KeyPath) -> list[Diagnostic]:
     return [replace(d, code="GL114" if d.code == "GL103" else d.code, key=format_path(path)) for d in error.diagnostics]
 
 
-def _apply(loaded: LoadedFile, override: _Override) -> None:
+def _apply(loaded: LoadedFile, override: Override) -> None:
     try:
         loaded.data = _with(loaded.data, override.path, override.value, "")
     except _NoPlace as error:

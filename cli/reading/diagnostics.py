@@ -75,7 +75,7 @@ class DesignFileError(GearlinkError):
 
 
 class Source:
-    """A named text whose character positions can be told as line and column."""
+    """A named text whose character positions can be given as line and column."""
 
     def __init__(self, file: str, text: str) -> None:
         self.file = file

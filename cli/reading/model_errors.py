@@ -10,6 +10,7 @@ from itertools import islice
 from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.reading.diagnostics import Diagnostic
+from gearlink.cli.reading.loaded_file import KeyPath, LoadedFile, parse_path
 from gearlink.cli.reading.model_shapes import allowed_range, fields_at, takes_truth_value
 from gearlink.cli.reading.value_words import (
     WANTED,
@@ -25,8 +26,6 @@ from gearlink.cli.reading.yaml_reader import format_path
 
 if TYPE_CHECKING:
     from pydantic import BaseModel, ValidationError
-
-    from gearlink.cli.reading.design_file import KeyPath, LoadedFile
 
     Unions = tuple[tuple[KeyPath, str], ...]
 
@@ -166,8 +165,6 @@ class _Wording:
 
     def _own(self, finding: _Finding) -> Diagnostic:
         """An error that a model raised with a code of ours; its context may name a key below the model's own."""
-        from gearlink.cli.reading.design_file import parse_path
-
         below = parse_path(str(finding.context.get("key", ""))) or ()
         path = finding.path + below
         return self.loaded.report(finding.kind, finding.text, path, help=str(finding.context.get("help", "")))
@@ -202,7 +199,7 @@ class _Wording:
         if near := get_close_matches(plain, allowed, n=1):
             return f"did you mean '{near[0]}'? {listed}"
         sections = [path for path in self._sections() if path != parent and plain in self._keys(path)]
-        return f"it belongs into '{format_path(sections[0])}'; {listed}" if sections else listed
+        return f"it belongs to '{format_path(sections[0])}'; {listed}" if sections else listed
 
     def _sections(self) -> list[KeyPath]:
         return [(), *((name,) for name in self._keys(()))]

@@ -10,7 +10,7 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
 if TYPE_CHECKING:
-    from gearlink.cli.reading.design_file import KeyPath
+    from gearlink.cli.reading.loaded_file import KeyPath
 
 Shape = tuple[Any, tuple[Any, ...]]
 """A type without unions around it, and the constraints that its annotations carry."""

@@ -35,7 +35,7 @@ _BOMS = (
     (b"\xfe\xff", "UTF-16"),
 )
 CONTROL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u2028\u2029\ud800-\udfff\ufffe\uffff]")
-"""What is no text; told by what is left out it would take 20 times as long to compile."""
+"""What is no text; stated by what is left out it would take 20 times as long to compile."""
 _DIRECTIVE = re.compile(r"(?:[ \t]*(?:#[^\r\n]*)?[\r\n]+)*+%")
 _NOTHING = re.compile(r"(?:\s++|#[^\r\n]*+)*+")
 _INTEGER = re.compile(r"[-+]?[0-9]+|0o[0-7]+|0x[0-9a-fA-F]+")

@@ -1,8 +1,8 @@
-"""Texts of the codes GL2xx to GL5xx: what the checks compare, and what mends a design that fails them."""
+"""Texts of the codes GL2xx to GL5xx: what the checks compare, and what repairs a design that fails them."""
 
 from __future__ import annotations
 
-from gearlink.cli.texts.codes import Explanation
+from gearlink.cli.texts.explanation import Explanation
 
 _TEETH = ("profile_shift", "teeth", "gears", "input_gears")
 _CAM = ("cam",)
@@ -185,7 +185,7 @@ CHECKS: dict[str, Explanation] = {
     "GL407": Explanation(
         "jerk of the lift jumps",
         "At a joint of the law the third derivative of the motion has a step larger than limits.jerk_step (a warning; "
-        "without that key it is only told).",
+        "without that key it is only reported).",
         "A step of the jerk excites vibration at high speed, though far less than a step of the acceleration.",
         "Take laws that end without jerk: polynomial-4567, velocity-4567 or {septic: 0.5}.",
         "|s'''(t+) - s'''(t-)| <= limits.jerk_step",

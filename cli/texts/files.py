@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gearlink.cli.texts.codes import Explanation
+from gearlink.cli.texts.explanation import Explanation
 
 FILES: dict[str, Explanation] = {
     "GL101": Explanation(
@@ -42,7 +42,7 @@ FILES: dict[str, Explanation] = {
         "key missing",
         "A key that has no default is missing, or none of several alternatives is given.",
         "Without it the design is not determined.",
-        "Add the key; the message tells its meaning. `gearlink new KIND` prints a complete file.",
+        "Add the key; the message says what it means. `gearlink new KIND` prints a complete file.",
     ),
     "GL107": Explanation(
         "wrong type of value",
@@ -68,7 +68,7 @@ FILES: dict[str, Explanation] = {
         "too large, or too much",
         "The file is too large, nested too deeply or has too many values; or more errors were found than are shown.",
         "No design needs it; the caps keep a wrong or hostile file from filling the memory.",
-        "Check that it is the right file. Mend the errors that are shown first, the others often follow from them.",
+        "Check that it is the right file. Repair the errors that are shown first, the others often follow from them.",
     ),
     "GL111": Explanation(
         "keys contradict each other",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gearlink.cli.texts.codes import Explanation
+from gearlink.cli.texts.explanation import Explanation
 
 LINKAGES: dict[str, Explanation] = {
     "GL206": Explanation(

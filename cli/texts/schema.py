@@ -1,4 +1,4 @@
-"""`gearlink schema`: the keys of the design files as JSON Schema draft-07, the dialect that editors read.
+"""The keys of the design files as JSON Schema draft-07, the dialect that editors read.
 
 pydantic writes the 2020-12 dialect. The differences that matter here: `$defs` is `definitions`, keys beside `$ref`
 are ignored, a list with a schema per place is an `items` list, and `discriminator` belongs to OpenAPI.
@@ -6,7 +6,6 @@ are ignored, a list with a schema per place is an `items` list, and `discriminat
 
 from __future__ import annotations
 
-import json
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -16,22 +15,6 @@ Node = dict[str, Any]
 DRAFT = "http://json-schema.org/draft-07/schema#"
 _LISTS = ("anyOf", "oneOf", "allOf")
 _DROPPED = ("title", "discriminator", "$defs", "description", "unit")
-
-
-def run_schema(kind_name: str | None) -> int:
-    """Print the schema of a kind, or the one of all kinds; give the exit status."""
-    from gearlink.cli.commands.kind_names import kind_named
-    from gearlink.cli.exit_codes import ExitCode
-    from gearlink.core.kinds import KINDS
-
-    if kind_name is None:
-        whole = all_kinds_schema(list(KINDS.values()))
-    elif (kind := kind_named(kind_name)) is not None:
-        whole = kind_schema(kind)
-    else:
-        return ExitCode.WRONG_INPUT
-    print(json.dumps(whole, indent=2, ensure_ascii=False, allow_nan=False))
-    return ExitCode.OK
 
 
 def kind_schema(kind: Kind) -> Node:

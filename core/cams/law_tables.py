@@ -97,9 +97,6 @@ def course(law: Law, steps: int) -> Table:
     Example
         >>> course(law("polynomial-345"), 2).rows()[1]
         [0.5, 0.5, 1.875, 0.0, -30.0]
-
-    Source
-        own derivation
     """
     import numpy as np
 

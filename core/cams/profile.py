@@ -85,9 +85,6 @@ def oscillating(pivot: complex, arm: float, angle: ArrayLike, first: ArrayLike, 
     Example
         >>> oscillating(200.0, 50.0, [0.0], [0.1]).first
         array([0.+5.j])
-
-    Source
-        own derivation
     """
     psi, psi1, psi2 = np.broadcast_arrays(*(np.asarray(a, dtype=float) for a in (angle, first, second)))
     e = _unit(psi, 1)
@@ -121,9 +118,6 @@ def translating(
     Example
         >>> translating([90.0], [0.0], direction=1j, offset=10.0).position
         array([10.+90.j])
-
-    Source
-        own derivation
     """
     if not abs(abs(direction) - 1.0) <= 1e-9:
         raise NoSolution(f"direction of travel {direction} has length {abs(direction):.9g}: give a unit vector")
@@ -146,9 +140,6 @@ def pitch_points(cam_angle: ArrayLike, path: RollerPath, *, sense: int) -> Point
     Example
         >>> pitch_points([0.0], translating([90.0], [0.0]), sense=1)
         array([90.+0.j])
-
-    Source
-        own derivation
     """
     return _back_turn(cam_angle, sense) * path.position
 
@@ -243,9 +234,6 @@ def curvature(cam_angle: ArrayLike, path: RollerPath, *, sense: int) -> Reals:
     Example
         >>> curvature([0.0], translating([90.0], [0.0]), sense=1)
         array([0.01111111])
-
-    Source
-        own derivation
     """
     d1 = _pitch_rate(path, sense)
     return _curvature(path, sense, d1, _speed(cam_angle, path, d1))
@@ -273,9 +261,6 @@ def profile(cam_angle: ArrayLike, path: RollerPath, *, sense: int, roller_radius
     Example
         >>> profile([0.0], translating([90.0], [0.0]), sense=1, roller_radius=25.0).curvature_radius
         array([90.])
-
-    Source
-        own derivation
     """
     phi = np.asarray(cam_angle, dtype=float)
     shape = np.broadcast_shapes(phi.shape, path.position.shape)

@@ -56,11 +56,7 @@ class HypocycloidSlider:
             )
 
     def point(self, t: float) -> complex:
-        """The point on the planet [mm].
-
-        Source
-            own derivation
-        """
+        """The point on the planet [mm]."""
         return _point(self.planet_radius, self.cusps, t)
 
     def deviation(self, t: float) -> float:
@@ -74,27 +70,17 @@ class HypocycloidSlider:
             deviation : float [mm]
         Notes
             No difference of large lengths is taken.
-        Source
-            own derivation
         """
         y = self.point(t).imag
         return y * y / (self.rod + math.sqrt(self.rod**2 - y * y)) - _advance(self.planet_radius, self.cusps, t)
 
     def speed(self, t: float) -> float:
-        """Slider's speed outwards per carrier speed, ds/dt [mm/rad].
-
-        Source
-            own derivation
-        """
+        """Slider's speed outwards per carrier speed, ds/dt [mm/rad]."""
         (x_1, y_1), y = self._rates(t), self.point(t).imag
         return x_1 - y * y_1 / math.sqrt(self.rod**2 - y * y)
 
     def acceleration(self, t: float) -> float:
-        """Slider's acceleration outwards at constant carrier speed, d2s/dt2 [mm/rad^2].
-
-        Source
-            own derivation
-        """
+        """Slider's acceleration outwards at constant carrier speed, d2s/dt2 [mm/rad^2]."""
         k = self.cusps - 1
         _, y_1 = self._rates(t)
         y, w = self.point(t).imag, math.sqrt(self.rod**2 - self.point(t).imag ** 2)
@@ -108,29 +94,17 @@ class HypocycloidSlider:
         return scale * (math.sin(k * t) - math.sin(t)), scale * (math.cos(k * t) + math.cos(t))
 
     def rod_angle(self, t: float) -> float:
-        """Angle of the rod to the slide line [rad].
-
-        Source
-            own derivation
-        """
+        """Angle of the rod to the slide line [rad]."""
         return math.asin(self.point(t).imag / self.rod)
 
     @property
     def max_rod_angle(self) -> float:
-        """Greatest angle of the rod to the slide line over the turn [rad].
-
-        Source
-            own derivation
-        """
+        """Greatest angle of the rod to the slide line over the turn [rad]."""
         return math.asin(widest_offset(self.planet_radius, self.cusps) / self.rod)
 
     @cached_property
     def extremes(self) -> list[tuple[float, float]]:
-        """Carrier angles in [0, pi] where the slider reverses or rests, 0 and pi among them, and its deviations there.
-
-        Source
-            own derivation
-        """
+        """Carrier angles in [0, pi] where the slider reverses or rests, with 0 and pi, and its deviations there."""
         count = _STEPS_PER_ARC * self.cusps
         grid = [math.pi * (i + 0.5) / count for i in range(count)]
         speeds = [self.speed(t) for t in grid]
@@ -139,11 +113,7 @@ class HypocycloidSlider:
 
     @property
     def stroke(self) -> float:
-        """Stroke of the slider [mm].
-
-        Source
-            own derivation
-        """
+        """Stroke of the slider [mm]."""
         values = [value for _, value in self.extremes]
         return max(values) - min(values)
 
@@ -158,20 +128,13 @@ class HypocycloidSlider:
             >>> least, greatest = HypocycloidSlider(1.0, 3, 7.5).deviation_range(math.radians(120.0))
             >>> round(least, 12), round(greatest, 12)
             (-0.035623639735, 0.005358514097)
-
-        Source
-            own derivation
         """
         half = 0.5 * angle
         values = [value for t, value in self.extremes if t <= half] + [self.deviation(half)]
         return min(values), max(values)
 
     def ripple(self, angle: float) -> float:
-        """Range of the deviation over a carrier angle about the middle of the arc [mm].
-
-        Source
-            own derivation
-        """
+        """Range of the deviation over a carrier angle about the middle of the arc [mm]."""
         least, greatest = self.deviation_range(angle)
         return greatest - least
 
@@ -189,9 +152,6 @@ class HypocycloidSlider:
         Example
             >>> round(math.degrees(HypocycloidSlider(1.0, 3, 7.0).dwell_angle(0.0111)), 6)
             140.881311
-
-        Source
-            own derivation
         """
         limit = 0.5 * self.stroke
         if not 0.0 < tolerance < limit:
@@ -203,7 +163,7 @@ class HypocycloidSlider:
             if max(high, value) - min(low, value) > 2.0 * tolerance:
                 edge = low + 2.0 * tolerance if value > high else high - 2.0 * tolerance
                 return 2.0 * bracketed_root(lambda t, edge=edge: self.deviation(t) - edge, t_0, t_1)  # type: ignore[misc]
-                low, high = min(low, value), max(high, value)
+            low, high = min(low, value), max(high, value)
         raise NoSolution(f"the slider stays within +-{tolerance:g} mm over the whole turn: ask for less")
 
 
@@ -232,9 +192,6 @@ def widest_offset(planet_radius: float, cusps: int) -> float:
     Example
         >>> round(widest_offset(1.0, 3), 9), round(widest_offset(1.0, 4), 9)
         (2.598076211, 2.828427125)
-
-    Source
-        own derivation
     """
     places = [math.pi * k / cusps for k in range(1, 2 * cusps, 2)]
     places += [math.pi * k / (cusps - 2) for k in range(1, 2 * cusps - 4, 2)]
@@ -282,9 +239,6 @@ def osculating(planet_radius: float, cusps: int) -> float:
     Example
         >>> osculating(1.0, 3)
         8.0
-
-    Source
-        own derivation
     """
     require_cusps(planet_radius, cusps)
     return 4.0 * planet_radius * (cusps - 1) / (cusps - 2)

@@ -30,9 +30,6 @@ def minimax(planet_radius: float, cusps: int, angle: float) -> float:
     Example
         >>> round(minimax(1.0, 3, math.radians(120.0)), 6)
         7.191266
-
-    Source
-        own derivation
     """
 
     def greatest(rod: float) -> float:
@@ -58,9 +55,6 @@ def least_ripple(planet_radius: float, cusps: int, angle: float) -> float:
     Example
         >>> round(least_ripple(1.0, 3, math.radians(120.0)), 6)
         7.0
-
-    Source
-        own derivation
     """
 
     def quality(rod: float) -> float:
@@ -87,9 +81,6 @@ def widest_dwell(planet_radius: float, cusps: int, tolerance: float) -> float:
         >>> rod = widest_dwell(1.0, 3, 0.0111)
         >>> HypocycloidSlider(1.0, 3, rod).dwell_angle(0.0111) >= HypocycloidSlider(1.0, 3, 7.0).dwell_angle(0.0111)
         True
-
-    Source
-        own derivation
     """
 
     def quality(rod: float) -> float:

@@ -78,74 +78,42 @@ class MutilatedGear:
 
     @property
     def cycle_turns(self) -> float:
-        """Input turns from the start of one motion to the start of the next, i_r/g.
-
-        Source
-            own derivation
-        """
+        """Input turns from the start of one motion to the start of the next, i_r/g."""
         return self.reduction / self.groups
 
     @property
     def motion_share(self) -> float:
-        """Share of the cycle in which the driven gear turns, n g/Z_M.
-
-        Source
-            own derivation
-        """
+        """Share of the cycle in which the driven gear turns, n g/Z_M."""
         return self.group_teeth * self.groups / self.full_teeth
 
     @property
     def dwell_share(self) -> float:
-        """Share of the cycle in which it stands, 1 - n g/Z_M.
-
-        Source
-            own derivation
-        """
+        """Share of the cycle in which it stands, 1 - n g/Z_M."""
         return (self.full_teeth - self.group_teeth * self.groups) / self.full_teeth
 
     @property
     def motion_turns(self) -> float:
-        """Input turns of the motion, i_r n/Z_M.
-
-        Source
-            own derivation
-        """
+        """Input turns of the motion, i_r n/Z_M."""
         return self.reduction * self.group_teeth / self.full_teeth
 
     @property
     def dwell_turns(self) -> float:
-        """Input turns of the dwell, i_r/g - i_r n/Z_M.
-
-        Source
-            own derivation
-        """
+        """Input turns of the dwell, i_r/g - i_r n/Z_M."""
         return self.cycle_turns * self.dwell_share
 
     @property
     def driven_turn(self) -> float:
-        """Turns of the driven gear per group of teeth, n/Z_F.
-
-        Source
-            own derivation
-        """
+        """Turns of the driven gear per group of teeth, n/Z_F."""
         return self.group_teeth / self.driven_teeth
 
     @property
     def speed_ratio(self) -> float:
-        """Speed of the driven gear over that of the input while it turns, Z_M/(Z_F i_r); pitch circles only.
-
-        Source
-            own derivation
-        """
+        """Speed of the driven gear over that of the input while it turns, Z_M/(Z_F i_r); pitch circles only."""
         return self.full_teeth / (self.driven_teeth * self.reduction)
 
     @cached_property
     def cycles_to_repeat(self) -> int:
-        """Cycles after which the driven gear stands at the same place again, Z_F/gcd(Z_F, n).
-
-        Source
-            own derivation
-        """
+        """Cycles after which the driven gear stands at the same place again, Z_F/gcd(Z_F, n)."""
         return self.driven_teeth // math.gcd(self.driven_teeth, self.group_teeth)
 
     def driven_angle(self, input_angle: float) -> float:
@@ -161,9 +129,6 @@ class MutilatedGear:
             >>> gear = MutilatedGear(6.0, 80, 20, 1, 20)
             >>> [round(gear.driven_angle(2.0 * math.pi * turns) / (2.0 * math.pi), 12) for turns in (0.75, 3.0, 6.75)]
             [0.5, 1.0, 1.5]
-
-        Source
-            own derivation
         """
         cycles, rest = divmod(input_angle, 2.0 * math.pi * self.cycle_turns)
         step = 2.0 * math.pi * self.driven_turn
@@ -176,8 +141,5 @@ class MutilatedGear:
             >>> gear = MutilatedGear(6.0, 80, 20, 1, 20)
             >>> [gear.moves(2.0 * math.pi * turns) for turns in (0.0, 1.4, 1.6)]
             [True, True, False]
-
-        Source
-            own derivation
         """
         return input_angle % (2.0 * math.pi * self.cycle_turns) < 2.0 * math.pi * self.motion_turns

@@ -13,11 +13,10 @@ from gearlink.core.errors import at_key
 from gearlink.core.gears.checks import GEAR_CHECKS
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.gears.single_mesh import MESH_CHECKS, MESH_QUANTITIES, SingleMesh
-from gearlink.core.linkages.checks import transmission_check
+from gearlink.core.linkages.checks import check_linkage, transmission_check
 from gearlink.core.linkages.fourbar import FourBar, solve
 from gearlink.core.linkages.nearest_passes import joint_to_crank_pivot
 from gearlink.core.report import Check, Table
-from gearlink.core.three_gear.motion import check_linkage
 
 if TYPE_CHECKING:
     from gearlink.core.dwell_gears.mutilated_spec import MutilatedGearDwellSpec

@@ -110,8 +110,6 @@ def matched(problem: PathProblem, x: Reals, phi: Reals | None = None) -> Reals:
         phi : (K, N) array [rad]
     Notes
         Of the three nearest branches on the grid, the feet of the perpendiculars in three steps of Gauss and Newton.
-    Source
-        own derivation
     """
     family = problem.family
     point, velocity = family.path(x, family.grid[None, :])
@@ -183,11 +181,7 @@ def _solved(problem: PathProblem, x: Reals, rows: Reals, value: Reals, damping: 
 
 
 def thinned(problem: PathProblem, most: int) -> PathProblem:
-    """The same with at most so many of the targets, evenly taken from their row.
-
-    Source
-        own derivation
-    """
+    """The same with at most so many of the targets, evenly taken from their row."""
     count = problem.targets.size
     if count <= most:
         return problem

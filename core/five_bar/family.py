@@ -103,8 +103,6 @@ class FiveBarFamily:
 
         Returns
             start, unit : (K, count) complex arrays
-        Source
-            own derivation
         """
         start, output = self._pins(x, self._turns)
         return start, self._couplers(x, start, output)[0]
@@ -113,9 +111,6 @@ class FiveBarFamily:
         """Coupler points and their velocities at (K, N) input angles.
 
         w2 = Im[(k E - B) e^(-i t3)]/(b sin(t2 - t3)),   M = B + m e^(i t2),   M' = i B + i w2 m e^(i t2)
-
-        Source
-            own derivation
         """
         start, output = self._pins(x, self._turned(phi))
         unit, follower = self._couplers(x, start, output)
@@ -159,8 +154,6 @@ class FiveBarFamily:
             slopes : (K, 8, 7) array - by the unknowns
         Notes
             Above 1 the five-bar opens. The place of an extreme moves too, but that does not count to first order.
-        Source
-            own derivation
         """
         start, output, there = self._extreme_pins(x)
         way = self.frame + output - start
@@ -196,11 +189,7 @@ class FiveBarFamily:
         return way
 
     def spans(self, x: Reals) -> tuple[Reals, Reals]:
-        """Least and greatest |BD| at the grid's places, one each for every row; coupler and follower do not count.
-
-        Source
-            own derivation
-        """
+        """Least and greatest |BD| at the grid's places, one each for every row; coupler and follower do not count."""
         square = _square(self._way(x, self._turns))
         return np.sqrt(square.min(axis=1)), np.sqrt(square.max(axis=1))
 
@@ -239,8 +228,6 @@ def nearest(path: Points, targets: Points) -> Places:
         targets : (N,) complex array
     Returns
         places : (K, N) array
-    Source
-        own derivation
     """
     middle = np.mean(targets)
     known = np.where(np.isfinite(path), path - middle, _FAR)
@@ -260,8 +247,6 @@ def near_places(path: Points, velocity: Points, step: float, targets: Points, mo
     Notes
         A place counts by the distance from the stretch of tangent that belongs to it: where a path crosses itself, or
         is dense, the nearest place need not lie on the nearest branch.
-    Source
-        own derivation
     """
     known = np.isfinite(path) & np.isfinite(velocity)
     middle, size = np.mean(targets), max(np.max(np.abs(targets)), np.max(np.abs(path), where=known, initial=0.0))

@@ -51,8 +51,6 @@ def judge(bar: GearedFiveBar, offset: complex, targets: Points) -> Fit:
 
     Raises
         NoSolution - where the five-bar opens
-    Source
-        own derivation
     """
     return Fit(bar, offset, distances(bar, offset, targets)[0])
 

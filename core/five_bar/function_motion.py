@@ -56,11 +56,7 @@ class FunctionFiveBar:
         )
 
     def joint(self, phi: float) -> complex:
-        """The pin C [mm].
-
-        Source
-            own derivation
-        """
+        """The pin C [mm]."""
         return cmath.rect(self.input, phi) + cmath.rect(self.coupler, self.phase + self.coupler_ratio * phi)
 
     def end(self, phi: float) -> complex:
@@ -68,8 +64,6 @@ class FunctionFiveBar:
 
         Raises
             NoSolution - where follower and output do not reach
-        Source
-            own derivation
         """
         return close_dyad(self.joint(phi), complex(self.frame), self.follower, self.output, self.assembly)
 
@@ -78,8 +72,6 @@ class FunctionFiveBar:
 
         Raises
             NoSolution - where follower and output do not reach
-        Source
-            own derivation
         """
         return direction(self.end(phi) - self.frame)
 
@@ -90,8 +82,6 @@ class FunctionFiveBar:
 
         Raises
             NoSolution - where follower and output do not reach
-        Source
-            own derivation
         """
         speed = 1j * cmath.rect(self.input, phi)
         speed += 1j * self.coupler_ratio * cmath.rect(self.coupler, self.phase + self.coupler_ratio * phi)
@@ -101,11 +91,7 @@ class FunctionFiveBar:
 
     @cached_property
     def reach_squared(self) -> HarmonicSum:
-        """|CE|^2 over the input angle.
-
-        Source
-            own derivation
-        """
+        """|CE|^2 over the input angle."""
         a, b, d, m = self.input, self.coupler, self.frame, self.coupler_ratio
         terms = (
             (2.0 * a * b, m - 1.0, self.phase),
@@ -115,11 +101,7 @@ class FunctionFiveBar:
         return HarmonicSum(math.fsum((a * a, b * b, d * d)), terms)
 
     def reach_extremes(self, start: float, end: float) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Least and greatest |CE| over a range of the input, each as (input angle [rad], distance [mm]).
-
-        Source
-            own derivation
-        """
+        """Least and greatest |CE| over a range of the input, each as (input angle [rad], distance [mm])."""
         (low, least), (high, greatest) = self.reach_squared.extremes(start, end)
         return (low, math.sqrt(max(least, 0.0))), (high, math.sqrt(greatest))
 
@@ -130,8 +112,6 @@ class FunctionFiveBar:
 
         Raises
             NoSolution - naming the worst input angle, the distance there, the limit, and by how much to change it
-        Source
-            own derivation
         """
         (low, least), (high, greatest) = self.reach_extremes(start, end)
         longest, shortest = self.follower + self.output, abs(self.follower - self.output)
@@ -173,8 +153,6 @@ class FunctionFiveBar:
         Notes
             Between two of them the angle is followed in steps in which it cannot turn by half a turn:
             |w4| <= (a + |m| b)/(e sin(mu)).
-        Source
-            own derivation
         """
         least, _ = self.min_transmission_angle(angles[0], angles[-1])
         bound = (self.input + abs(self.coupler_ratio) * self.coupler) / (self.output * math.sin(least))

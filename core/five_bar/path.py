@@ -48,9 +48,6 @@ def sweep(bar: GearedFiveBar, phi: Reals, offset: complex) -> PathSweep:
         >>> point = sweep(bar, np.radians([60.0, 200.0]), 60.0 + 0j).point
         >>> [complex(round(m.real, 9), round(m.imag, 9)) for m in point]
         [(45.321887013+65.821686389j), (21.851649007+37.295106807j)]
-
-    Source
-        own derivation
     """
     bar.closure()
     start, end, u2, u3, gamma = _position(bar, phi)
@@ -59,11 +56,7 @@ def sweep(bar: GearedFiveBar, phi: Reals, offset: complex) -> PathSweep:
 
 
 def points(bar: GearedFiveBar, phi: Reals, offset: complex) -> Points:
-    """The coupler point alone [mm]; closure is not checked (NaN where the five-bar opens).
-
-    Source
-        own derivation
-    """
+    """The coupler point alone [mm]; closure is not checked (NaN where the five-bar opens)."""
     start, _, u2, _, _ = _position(bar, phi)
     result: Points = start + offset * u2
     return result
@@ -136,8 +129,6 @@ def extent(bar: GearedFiveBar, offset: complex) -> tuple[Extreme, Extreme, Extre
 
     Raises
         NoSolution - where the five-bar opens
-    Source
-        own derivation
     """
     bar.closure()
     end, count = bar.period, _places(bar)
@@ -165,8 +156,6 @@ def distances(bar: GearedFiveBar, offset: complex, targets: Points) -> tuple[Rea
     Notes
         The three nearest branches of the path on a grid of 720 places a turn (48 a wave of the fastest part after four
         turns), then golden section between the neighbours of each: the distance to rounding.
-    Source
-        own derivation
     """
     bar.closure()
     step, middle = _near(bar, offset, targets)

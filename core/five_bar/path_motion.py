@@ -64,28 +64,16 @@ class GearedFiveBar:
 
     @property
     def period_turns(self) -> int:
-        """Input turns after which everything repeats: the denominator of the reduced ratio.
-
-        Source
-            own derivation
-        """
+        """Input turns after which everything repeats: the denominator of the reduced ratio."""
         return self.ratio.denominator
 
     @property
     def period(self) -> float:
-        """Input angle of the period [rad].
-
-        Source
-            own derivation
-        """
+        """Input angle of the period [rad]."""
         return TURN * self.period_turns
 
     def ends(self, phi: float) -> tuple[complex, complex]:
-        """The pins B and D [mm].
-
-        Source
-            own derivation
-        """
+        """The pins B and D [mm]."""
         pin = cmath.rect(self.input, phi)
         return pin, self.frame + cmath.rect(self.output, self.phase + float(self.ratio) * phi)
 
@@ -94,9 +82,6 @@ class GearedFiveBar:
         """|BD|^2 over the input angle.
 
         a^2 + d^2 + e^2 + 2 d e cos(delta + k phi) - 2 a d cos(phi) - 2 a e cos((1 - k) phi - delta)
-
-        Source
-            own derivation
         """
         a, d, e, k = self.input, self.frame, self.output, float(self.ratio)
         terms = (
@@ -114,9 +99,6 @@ class GearedFiveBar:
             >>> bar = GearedFiveBar(20.0, 60.0, 60.0, 20.0, 50.0, Fraction(-1), math.radians(90.0))
             >>> [round(distance, 9) for _, distance in bar.span_extremes]
             [35.355339059, 83.237173935]
-
-        Source
-            own derivation
         """
         (low, least), (high, greatest) = self.span_squared.extremes(0.0, self.period)
         return (low % self.period, math.sqrt(max(least, 0.0))), (high % self.period, math.sqrt(greatest))
@@ -128,8 +110,6 @@ class GearedFiveBar:
 
         Raises
             NoSolution - naming the worst input angle, the distance there, the limit, and by how much to change it
-        Source
-            own derivation
         """
         (low, least), (high, greatest) = self.span_extremes
         longest, shortest = self.coupler + self.follower, abs(self.coupler - self.follower)
@@ -169,8 +149,6 @@ class GearedFiveBar:
 
         Raises
             NoSolution - where the five-bar opens at that input angle
-        Source
-            own derivation
         """
         start, end = self.ends(phi)
         return direction(close_dyad(start, end, self.coupler, self.follower, self.assembly) - start)
@@ -183,8 +161,6 @@ class GearedFiveBar:
             offset : complex [mm] - u + i v: u along B->C, v to its left
         Raises
             NoSolution - as `coupler_angle`
-        Source
-            own derivation
         """
         start, end = self.ends(phi)
         joint = close_dyad(start, end, self.coupler, self.follower, self.assembly)

@@ -43,8 +43,6 @@ def position_errors(bar: FunctionFiveBar, positions: Positions) -> list[float]:
         NoSolution - where the five-bar opens between the first and the last
     Notes
         Whole turns count: a linkage that reaches the second angle by going round the other way misses it.
-    Source
-        own derivation
     """
     reached = bar.output_angles([phi for phi, _ in positions])
     turns = 2.0 * math.pi * round((reached[0] - positions[0][1]) / (2.0 * math.pi))

@@ -70,7 +70,7 @@ class FiveBarTarget(Spec):
         ]
         | None
     ) = Field(None, description="function: two to five pairs [input angle, output angle]")
-    tolerance: Length | None = Field(None, description="path: greatest distance of a point that is let pass")
+    tolerance: Length | None = Field(None, description="path: greatest distance of a point that is accepted")
 
 
 class GearedFiveBarSpec(DesignSpec):

@@ -23,11 +23,7 @@ _SHARES = (1.0, 0.5, 0.25, 0.0)
 
 
 def bounds(first: Reals) -> tuple[Reals, Reals]:
-    """Least and greatest unknowns of a search: lengths from e^-2.5 to e^2.5 times those of the start.
-
-    Source
-        own derivation
-    """
+    """Least and greatest unknowns of a search: lengths from e^-2.5 to e^2.5 times those of the start."""
     reach = np.where(np.arange(UNKNOWNS) < 4, _WIDEST, math.inf)
     return first - reach, first + reach
 
@@ -44,8 +40,6 @@ def scattered_starts(family: FiveBarFamily, first: Reals, targets: Points, trans
         x : (K, 7) array - up to 600 rows, by the mean square of the targets' distances from their paths
     Notes
         Couplers that do not reach, or not with this transmission angle, are made as long as the spans need.
-    Source
-        own derivation
     """
     share = np.array([halton(i, UNKNOWNS) for i in range(1, min(_TRIED, _ROUND // (targets.size * family.count)) + 1)])
     x = np.tile(first, (len(share), 1))

@@ -149,7 +149,7 @@ class BedChain:
             order : 0, 1 or 2
             cam : Travel - the cam angle at `input_angle` where the caller has it already
         Source
-            TY-460 report 2.2, with the product of cosines in its program put right as a sum
+            TY-460 report 2.2, with the product of cosines in its program corrected to a sum
         """
         cam = self.cam_angle(input_angle, order) if cam is None else cam
         depth = self._slider(self._start[0] + cam.value, order)

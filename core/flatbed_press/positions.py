@@ -147,7 +147,7 @@ def equal_speed_angles(bed: BedChain, cylinder: CylinderChain) -> tuple[float, .
 
     Notes
         Sign changes on a grid of half a degree, each refined to the last bits; two equalities closer than that
-        are not told apart from none.
+        are not distinguished from none.
     Source
         TY-460 report 3.2
     """

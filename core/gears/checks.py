@@ -105,7 +105,7 @@ def _tip_thickness(pair: GearPair, gear: int, limits: Limits, before: str, shift
     limit = limits.tip_thickness
     warn = limit + 0.15
     aims = [aim for aim in (warn, limit) if share < aim]
-    remedy = next(filter(None, (_mended(pair, gear, limits, aim, shift_key) for aim in aims)), "")
+    remedy = next(filter(None, (_repaired(pair, gear, limits, aim, shift_key) for aim in aims)), "")
     return below(
         "GL202",
         "tip-thickness",
@@ -118,13 +118,13 @@ def _tip_thickness(pair: GearPair, gear: int, limits: Limits, before: str, shift
     )
 
 
-def _mended(pair: GearPair, gear: int, limits: Limits, tip_thickness: float, shift_key: str) -> str:
-    """The shifts that mend a tip, after the words of a remedy; nothing where none do or the file has no such key."""
+def _repaired(pair: GearPair, gear: int, limits: Limits, tip_thickness: float, shift_key: str) -> str:
+    """The shifts that repair a tip, after the words of a remedy; nothing where none do or the file has no such key."""
     if not shift_key:
         return ""
-    from gearlink.core.gears.remedies import mended_shifts
+    from gearlink.core.gears.remedies import repaired_shifts
 
-    shifts = mended_shifts(pair, gear, tip_thickness, limits.contact_ratio)
+    shifts = repaired_shifts(pair, gear, tip_thickness, limits.contact_ratio)
     if shifts is None:
         return ""
     return f"; {shift_key} [{shifts[0]:.9g}, {shifts[1]:.9g}] does it at the same centre distance"
@@ -138,7 +138,7 @@ def _interference(pair: GearPair, gear: int, limits: Limits, before: str, shift_
         text = (
             f"{before}the tip of gear {gear + 1} goes {-margin:.4g} mm beyond the mate's base tangent point: "
             f"raise the profile shift of gear {2 - gear} or lower the addendum of gear {gear + 1}"
-            f"{_mended(pair, gear, limits, limits.tip_thickness, shift_key)}"
+            f"{_repaired(pair, gear, limits, limits.tip_thickness, shift_key)}"
         )
     return Check("GL204", "involute-interference", status, text, margin, 0.0, "mm")
 

@@ -137,8 +137,6 @@ class InternalMesh:
 
         Raises
             NoSolution - as `tip_pressure_angle`
-        Source
-            own derivation
         """
         reach = self.base_radius[1] * math.tan(self.tip_pressure_angle[1])
         return reach - self.center_distance * math.sin(self.pressure_angle)

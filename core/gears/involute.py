@@ -73,9 +73,6 @@ def inverse_involute(v: float) -> float:
     Example
         >>> inverse_involute(involute(0.35))
         0.35
-
-    Source
-        own derivation
     """
     if not 0.0 <= v < math.inf:
         raise NoSolution(
@@ -146,9 +143,6 @@ def rise_of_involute(alpha: float, difference: float) -> float:
     Example
         >>> rise_of_involute(0.35, involute_rise(0.35, 1e-9))
         1e-09
-
-    Source
-        own derivation
     """
     rise = inverse_involute(involute(alpha) + difference) - alpha
     if abs(rise) > alpha / 2:

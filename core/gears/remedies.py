@@ -1,4 +1,4 @@
-"""Profile shifts that mend a gear pair and keep its centre distance."""
+"""Profile shifts that repair a gear pair and keep its centre distance."""
 
 from __future__ import annotations
 
@@ -18,7 +18,9 @@ def shared_anew(pair: GearPair, gear: int, x: float) -> GearPair:
     return replace(pair, given_shift=shifts, given_distance=None, given_first_shift=None)
 
 
-def mended_shifts(pair: GearPair, gear: int, tip_thickness: float, contact_ratio: float) -> tuple[float, float] | None:
+def repaired_shifts(
+    pair: GearPair, gear: int, tip_thickness: float, contact_ratio: float
+) -> tuple[float, float] | None:
     """Profile shifts at the same centre distance, smaller at a gear whose tip is too thin or too high.
 
     Parameters
@@ -27,17 +29,14 @@ def mended_shifts(pair: GearPair, gear: int, tip_thickness: float, contact_ratio
         tip_thickness : float [module] - what both tips must have
         contact_ratio : float - what the pair must have, if it has it now
     Returns
-        shifts : (x_1, x_2) [module] - the nearest that mend it; None where none do
+        shifts : (x_1, x_2) [module] - the nearest that repair it; None where none do
     Notes
         The mate takes over the difference. No tip may then be too thin or reach beyond the mate's base tangent
         point, no tooth be undercut.
     Example
-        >>> x_1, x_2 = mended_shifts(GearPair.from_shift(2.0, (12, 40), (0.9, -0.2)), 0, 0.4, 1.1)
+        >>> x_1, x_2 = repaired_shifts(GearPair.from_shift(2.0, (12, 40), (0.9, -0.2)), 0, 0.4, 1.1)
         >>> x_1, round(x_2, 9)
         (0.473, 0.227)
-
-    Source
-        own derivation
     """
 
     def good(x: float) -> bool:

@@ -52,9 +52,6 @@ def pressure_angle_rise(radius: float, increase: float, pressure_angle: float, *
     Example
         >>> round(math.degrees(pressure_angle_rise(288.0, 2.2912330746487, math.radians(20.0))), 10)
         1.2076131545
-
-    Source
-        own derivation
     """
     base = radius * math.cos(pressure_angle)
     above = increase + 2.0 * radius * math.sin(pressure_angle / 2.0) ** 2
@@ -109,9 +106,6 @@ def span_teeth(teeth: int, shift: float, pressure_angle: float) -> int:
     Example
         >>> span_teeth(40, 0.0, math.radians(20.0)), span_teeth(72, 0.29, math.radians(20.0))
         (5, 9)
-
-    Source
-        own derivation
     """
     base = teeth / 2.0 * math.cos(pressure_angle)
     wanted = teeth / 2.0 + shift

@@ -29,7 +29,7 @@ from gearlink.core.report import safely_below
 
 Curve = Callable[[Reals], Points]
 
-_LEAST_CHORD_ERROR = 1e-7  # module; below it the points of large gears would be told apart by rounding alone
+_LEAST_CHORD_ERROR = 1e-7  # module; below it the points of large gears would be distinguished by rounding alone
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -290,9 +290,6 @@ def half_tooth(profile: ToothProfile, chord_error: float) -> Points:
         >>> points = half_tooth(ToothProfile.of(GearPair.from_shift(2.0, (40, 72)), 0), 1e-3)
         >>> round(float(points[0].real), 9), round(float(abs(points[-1])), 9)
         (37.5, 42.0)
-
-    Source
-        own derivation
     """
     least = _LEAST_CHORD_ERROR * profile.module
     if not chord_error >= least:
@@ -336,9 +333,6 @@ def outline(profile: ToothProfile, chord_error: float, teeth: int | None = None,
         >>> gear = outline(ToothProfile.of(GearPair.from_shift(2.0, (40, 72)), 0), 1e-3)
         >>> bool(gear[0] == gear[-1])
         True
-
-    Source
-        own derivation
     """
     space = tooth_space(profile, chord_error)
     count = profile.teeth if teeth is None else teeth

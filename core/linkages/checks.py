@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import math
 
-from gearlink.core.report import Check, below
+from gearlink.core.errors import NoSolution
+from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.report import Check, below, safely_above
 
 _POOR = math.radians(3.0)
 
@@ -25,11 +27,7 @@ def transmission_check(
 
 
 def axis_check(gear: str, axis: str, distance: float, tip: float) -> Check:
-    """GL302: warns where the tips of a gear [mm] pass an axis that comes within `distance` [mm] of its own.
-
-    Source
-        own derivation
-    """
+    """GL302: warns where the tips of a gear [mm] pass an axis that comes within `distance` [mm] of its own."""
     room = distance - tip
     text = f"{gear} stays {room:.4g} mm from the axis {axis}"
     if room < 0.0:
@@ -41,13 +39,38 @@ def axis_check(gear: str, axis: str, distance: float, tip: float) -> Check:
 
 
 def target_check(what: str, residual: float, tolerance: float, unit: str) -> Check:
-    """GL307: the residual of a synthesis, measured on the motion of the design that it gives.
-
-    Source
-        own derivation
-    """
+    """GL307: the residual of a synthesis, measured on the motion of the design that it gives."""
     met = abs(residual) <= tolerance
     text = f"{what} is missed by {residual:.3g} {unit}"
     if not met:
         text += f", more than {tolerance:.3g} {unit}: ask for less, or free more of the links"
     return Check("GL307", "target", "pass" if met else "fail", text, residual, tolerance, unit)
+
+
+def check_linkage(linkage: FourBar) -> str:
+    """Kind of a linkage that may drive the gears, 'crank-rocker' or 'drag-link'; any other is refused.
+
+    Raises
+        NoSolution - for a linkage whose crank does not turn fully, and for a change-point linkage
+    Example
+        >>> check_linkage(FourBar(18.0, 50.0, 100.0, 121.4))
+        'crank-rocker'
+
+    Source
+        thesis 4.1.4: the input must turn; Grashof's rule
+    """
+    kind = linkage.kind()
+    if kind in ("crank-rocker", "drag-link"):
+        return kind
+    shortest, p, q, longest = sorted((linkage.crank, linkage.coupler, linkage.rocker, linkage.frame))
+    excess = math.fsum((shortest, longest, -p, -q))
+    remedy = (
+        f"shorten the longest link, {longest:.9g} mm, by more than {safely_above(max(excess, 0.0), 3)} mm"
+        if excess >= 0.0 or kind in ("change-point", "impossible")
+        else "make crank or frame the shortest link"
+    )
+    raise NoSolution(
+        f"crank {linkage.crank:.9g}, coupler {linkage.coupler:.9g}, rocker {linkage.rocker:.9g}, frame "
+        f"{linkage.frame:.9g} mm form a {kind} linkage, but the drive needs a crank-rocker or a drag link: shortest + "
+        f"longest link must be below the sum of the other two, crank or frame the shortest; {remedy}"
+    )

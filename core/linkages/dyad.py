@@ -49,9 +49,6 @@ def transmission_angle(distance: float, first: float, second: float) -> float:
     Example
         >>> round(math.degrees(transmission_angle(5.0, 3.0, 4.0)), 12)
         90.0
-
-    Source
-        own derivation
     """
     require_dyad(distance, first, second)
     near = (distance - first + second) * (distance + first - second)
@@ -64,8 +61,6 @@ def require_lengths(**links: float) -> None:
 
     Raises
         NoSolution - with the link's name and length
-    Source
-        own derivation
     """
     for name, length in links.items():
         if not 0.0 < length < math.inf:
@@ -77,8 +72,6 @@ def require_dyad(distance: float, first: float, second: float) -> None:
 
     Raises
         NoSolution - with the limit that is passed
-    Source
-        own derivation
     """
     longest, shortest = first + second, abs(first - second)
     if distance > longest:
@@ -94,9 +87,5 @@ def require_dyad(distance: float, first: float, second: float) -> None:
 
 
 def direction(vector: complex) -> float:
-    """Direction of a vector in (-pi, pi].
-
-    Source
-        own derivation
-    """
+    """Direction of a vector in (-pi, pi]."""
     return cmath.phase(vector)

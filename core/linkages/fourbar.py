@@ -182,7 +182,7 @@ class FourBarState:
     """Four-bar at one crank angle: angles [rad], and rates as far as their order was asked for.
 
     The rates are time derivatives for the driving velocity, acceleration and jerk given to `solve`; with its
-    defaults they are the derivatives after the crank angle. Rates that were not asked for are NaN.
+    defaults they are the derivatives with respect to the crank angle. Rates that were not asked for are NaN.
     """
 
     coupler_angle: float
@@ -233,7 +233,7 @@ def solve(
         crank_angle : float [rad] - any real angle
         order : 0..3 - 0 angles only, 1 velocities, 2 accelerations, 3 jerks too
         velocity, acceleration, jerk : float [rad/s, rad/s2, rad/s3] - motion of the crank; the defaults give
-            the derivatives after the crank angle
+            the derivatives with respect to the crank angle
     Returns
         state : FourBarState - both angles are continuous in the crank angle, over any number of turns: where
             the crank is shorter than the frame neither winds, where it is longer both go round with it
@@ -249,7 +249,7 @@ def solve(
         (146.168778216, -0.044209716)
 
     Source
-        thesis (4-3), (4-4); swing-gripper paper (5)-(7) with the sign of l3 cos theta3 put right; rates: own
+        thesis (4-3), (4-4); swing-gripper paper (5)-(7) with the sign of l3 cos theta3 corrected; rates: own
         derivation from the angles of the triangle BCD
     """
     return FourBarState(*solve_loop(linkage.reading, crank_angle, order, (velocity, acceleration, jerk)))

@@ -161,9 +161,6 @@ def refusal(reading: Reading, phi: float, p: float, q: float) -> str:
         >>> reading = make_reading(150.0, 160.0, 100.0, 300.0, 1)
         >>> refusal(reading, math.pi / 2, -1.0, 1.0)[:91]
         'the four-bar does not close at crank angle 90 deg: |BD| = 335.410197 mm is 75.4 mm too long'
-
-    Source
-        own derivation
     """
     a, b, c, d = reading[:4]
     driver, ends, far = ("crank", "BD", "rocker") if d > 0.0 else ("rocker", "AC", "crank")

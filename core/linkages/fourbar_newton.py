@@ -82,7 +82,7 @@ def newton_step(
         (1.257, 2.646)
 
     Source
-        swing-gripper paper (4), there called Newton-Simpson, with the sign of l3 cos theta3 put right
+        swing-gripper paper (4), there called Newton-Simpson, with the sign of l3 cos theta3 corrected
     """
     phi, b, c = (np.asarray(x, dtype=np.float64) for x in (crank_angle, coupler_angle, rocker_angle))
     e_a, e_b, e_c = (unit_vector(x) for x in (phi, b, c))
@@ -110,9 +110,6 @@ def start_is_safe(
         >>> linkage = FourBar(18.0, 50.0, 100.0, 121.4)
         >>> bool(start_is_safe(linkage, 0.0, 1.26, 2.65)), bool(start_is_safe(linkage, 0.0, -1.26, -2.65))
         (True, False)
-
-    Source
-        own derivation
     """
     phi, b, c = (np.asarray(x, dtype=np.float64) for x in (crank_angle, coupler_angle, rocker_angle))
     e_a, e_b, e_c = (unit_vector(x) for x in (phi, b, c))

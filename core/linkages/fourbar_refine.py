@@ -25,9 +25,6 @@ def dead_point_distance(transmission_angle: ArrayLike) -> Reals:
     Example
         >>> dead_point_distance(np.radians([30.0, 170.0])).round(6).tolist()
         [0.523599, 0.174533]
-
-    Source
-        own derivation
     """
     gamma = np.asarray(transmission_angle, dtype=np.float64)
     return np.minimum(gamma, np.pi - gamma)
@@ -72,9 +69,6 @@ def loop_residual(
         >>> x, y = loop_residual(FourBar(3.0, 4.0, 3.0, 4.0), 0.5, 0.0, 0.5)
         >>> float(x), float(y)
         (0.0, 0.0)
-
-    Source
-        own derivation
     """
     phi, b, c = np.broadcast_arrays(
         *(np.asarray(x, dtype=np.float64) for x in (crank_angle, coupler_angle, rocker_angle))
@@ -116,9 +110,6 @@ def refine(
         >>> x, y = loop_residual(linkage, 1.04848, coupler, rocker)
         >>> bool(np.hypot(x, y) < 1e-13)
         True
-
-    Source
-        own derivation
     """
     phi, b, c = (np.array(x, dtype=np.float64) for x in (crank_angle, coupler_angle, rocker_angle))
     for _ in range(steps):

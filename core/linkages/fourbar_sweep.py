@@ -75,7 +75,7 @@ def solve(
         crank_angle : array of any shape [rad]
         order : 0..3 - 0 angles only, 1 velocities, 2 accelerations, 3 jerks too
         velocity, acceleration, jerk : float or array that broadcasts [rad/s, rad/s2, rad/s3] - motion of the
-            crank; the defaults give the derivatives after the crank angle
+            crank; the defaults give the derivatives with respect to the crank angle
     Returns
         sweep : FourBarSweep - angles continuous in the crank angle as in `fourbar.solve`
     Raises
@@ -139,7 +139,7 @@ def unit_vectors(linkage: FourBar, crank_angle: Reals, order: int = 2, out: Real
     Parameters
         linkage : FourBar
         crank_angle : (N,) array [rad]
-        order : 0..3 - highest derivative after the crank angle
+        order : 0..3 - highest derivative with respect to the crank angle
         out : (4 + 2 order, N) array - filled and returned when given
     Returns
         rows : (4 + 2 order, N) array - coupler x, y, rocker x, y; then for each order the pair coupler, rocker

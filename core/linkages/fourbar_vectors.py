@@ -23,9 +23,6 @@ def unit_vector(angle: Reals) -> NDArray[np.complex128]:
     Example
         >>> unit_vector(np.array([0.0])).tolist()
         [(1+0j)]
-
-    Source
-        own derivation
     """
     return np.asarray(np.cos(angle) + 1j * np.sin(angle))
 
@@ -63,7 +60,7 @@ def loop_rates(
         linkage, crank_angle, coupler_angle, rocker_angle - a position, as `newton_step`
         order : 1..3
         velocity, acceleration, jerk : float or arrays - motion of the crank; the defaults give the derivatives
-            after the crank angle
+            with respect to the crank angle
     Returns
         rates : tuple of 2 order arrays - coupler and rocker velocity, acceleration, jerk
     Raises
@@ -78,7 +75,7 @@ def loop_rates(
         [-0.174081238, -0.174081238]
 
     Source
-        swing-gripper paper (6), (7) with the sign of l3 cos theta3 put right; thesis (4-24), (4-25); jerk: own
+        swing-gripper paper (6), (7) with the sign of l3 cos theta3 corrected; thesis (4-24), (4-25); jerk: own
         derivation
     """
     angles = (np.asarray(x, dtype=np.float64) for x in (crank_angle, coupler_angle, rocker_angle))

@@ -63,9 +63,6 @@ def joint_to_crank_pivot(
         >>> near, far = joint_to_crank_pivot(38.85708906, 112.0, 112.0, 153.5517067)
         >>> round(near.distance, 3), round(far.distance, 3)
         (73.143, 150.857)
-
-    Source
-        own derivation
     """
     _require_full_turn(crank, coupler, rocker, frame)
     a, b, c, d = crank, coupler, rocker, frame

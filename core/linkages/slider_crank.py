@@ -146,9 +146,6 @@ def quick_return_ratio(crank: float, rod: float, offset: float = 0.0) -> float:
     Example
         >>> round(quick_return_ratio(154.21159203908383, 520.0, 50.0), 9)
         1.040855858
-
-    Source
-        own derivation
     """
     return _ratio(*_reaches(crank, rod, offset), stroke(crank, rod, offset), offset)
 

@@ -60,9 +60,6 @@ def zeros_over_turn(f: Function) -> list[float]:
     Example
         >>> [round(x, 12) for x in zeros_over_turn(math.cos)]
         [1.570796326795, 4.712388980385]
-
-    Source
-        own derivation
     """
     values = [f(x) for x in _GRID]
     roots = [bracketed_root(f, _GRID[i], _GRID[i + 1]) for i in sign_changes(values)]
@@ -79,9 +76,6 @@ def turnings(speed: Function, acceleration: Function) -> list[Turning]:
     Example
         >>> [round(t.speed, 12) for t in turnings(lambda x: 1 + 2 * math.sin(x), lambda x: 2 * math.cos(x))]
         [3.0, -1.0]
-
-    Source
-        own derivation
     """
     return [Turning(place, speed(place)) for place in zeros_over_turn(acceleration)]
 
@@ -99,9 +93,6 @@ def standstills(speed: Function, extremes: list[Turning], tolerance: float) -> l
         >>> f, slope = (lambda x: 1 + 2 * math.sin(x)), (lambda x: 2 * math.cos(x))
         >>> [round(math.degrees(x), 9) for x in standstills(f, turnings(f, slope), 1e-9)]
         [210.0, 330.0]
-
-    Source
-        own derivation
     """
     places = [t.place for t in extremes if abs(t.speed) <= tolerance]
     around = [*extremes, Turning(extremes[0].place + TURN, extremes[0].speed)] if extremes else []
@@ -122,9 +113,6 @@ def back_steps(speed: Function, places: list[float]) -> list[BackStep]:
     Example
         >>> [round(math.degrees(s.crank_angle), 9) for s in back_steps(lambda x: 1 + 2 * math.sin(x), [3.66, 5.76])]
         [120.321136977]
-
-    Source
-        own derivation
     """
     if len(places) < 2:
         return []

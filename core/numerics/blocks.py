@@ -35,9 +35,6 @@ def turn_blocks(samples: int, block: int = BLOCK) -> Iterator[Reals]:
         >>> fastest = max(solve(linkage, phi, 1).rocker_velocity.max() for phi in turn_blocks(100_000))
         >>> round(float(fastest), 6)
         0.212891
-
-    Source
-        own derivation
     """
     if samples < 1 or block < 1:
         raise NoSolution(f"{samples} samples in blocks of {block} divide no turn; take at least 1 of both")

@@ -130,9 +130,6 @@ def cos_sin(angle: Reals) -> tuple[Pair, Pair]:
         >>> cosine, sine = cos_sin(np.array([1.0]))
         >>> float(sine.high[0]), float(sine.low[0])
         (0.8414709848078965, 1.776845092935536e-18)
-
-    Source
-        own derivation
     """
     angle = np.asarray(angle, dtype=np.float64)
     count = np.rint(angle / _STEP[0])

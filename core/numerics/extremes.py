@@ -58,9 +58,6 @@ def maximum_over(
         >>> top = maximum_over(lambda x: np.cos(x - 1.0))
         >>> top.value, round(top.place, 6)
         (1.0, 1.0)
-
-    Source
-        own derivation
     """
     bounds = [start, *sorted(j for j in joints if start < j < end), end]
     grids = [

@@ -21,28 +21,17 @@ class HarmonicSum:
     Example
         >>> HarmonicSum(1.0, ((2.0, 3.0, 0.0),)).value(0.0)
         3.0
-
-    Source
-        own derivation
     """
 
     constant: float
     terms: tuple[tuple[float, float, float], ...]
 
     def value(self, x: float) -> float:
-        """The sum at x.
-
-        Source
-            own derivation
-        """
+        """The sum at x."""
         return math.fsum((self.constant, *(a * math.cos(f * x + p) for a, f, p in self.terms)))
 
     def slope(self, x: float) -> float:
-        """Its derivative at x.
-
-        Source
-            own derivation
-        """
+        """Its derivative at x."""
         return math.fsum(-a * f * math.sin(f * x + p) for a, f, p in self.terms)
 
     def extremes(self, start: float, end: float) -> tuple[tuple[float, float], tuple[float, float]]:
@@ -58,9 +47,6 @@ class HarmonicSum:
         Example
             >>> HarmonicSum(5.0, ((2.0, 1.0, 0.0),)).extremes(-1.0, 1.0)[1]
             (0.0, 7.0)
-
-        Source
-            own derivation
         """
         fastest = max((abs(f) for _, f, _ in self.terms), default=0.0)
         count = max(8, math.ceil(_STEPS_PER_WAVE * fastest * (end - start) / (2.0 * math.pi)))

@@ -1,4 +1,4 @@
-"""The search for the number that a remedy names: the nearest one that mends a finding."""
+"""The search for the number that a remedy names: the nearest one that repairs a finding."""
 
 from __future__ import annotations
 
@@ -17,9 +17,6 @@ def nearest_good(bad: float, limit: float, good: Callable[[float], bool]) -> flo
     Example
         >>> nearest_good(100.0, 20.0, lambda x: x * x < 3000.0), nearest_good(1.0, 2.0, lambda x: x > 5.0)
         (54.77, None)
-
-    Source
-        own derivation
     """
     last, found = bad, None
     for i in range(1, _STEPS + 1):

@@ -92,8 +92,6 @@ class PlanetLinkage:
 
         Raises
             NoSolution - where the linkage does not close
-        Source
-            own derivation
         """
         state = solve(self.linkage, crank_angle, 2)
         carrier = 0.0 if self.carrier == "crank" else state.rocker_acceleration

@@ -12,13 +12,12 @@ from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.gears.single_mesh import SingleMesh
-from gearlink.core.linkages.checks import axis_check, target_check, transmission_check
+from gearlink.core.linkages.checks import axis_check, check_linkage, target_check, transmission_check
 from gearlink.core.linkages.fourbar import FourBar, solve
 from gearlink.core.linkages.nearest_passes import joint_to_crank_pivot
 from gearlink.core.planet_linkages.planet import PlanetLinkage
 from gearlink.core.planet_linkages.rocker_synthesis import crank_for_swing, extreme_crank_angles
 from gearlink.core.report import Check, Table
-from gearlink.core.three_gear.motion import check_linkage
 
 if TYPE_CHECKING:
     from gearlink.core.planet_linkages.rocker_spec import GearedRockerSpec

@@ -45,9 +45,6 @@ def output_swing(drive: PlanetLinkage) -> float:
     Example
         >>> round(math.degrees(output_swing(PlanetLinkage(FourBar(20.0, 70.0, 60.0, 80.0), -1.5, "rocker"))), 9)
         101.175579602
-
-    Source
-        own derivation
     """
     angles = [drive.angle(phi) for phi in extreme_crank_angles(drive)]
     return max(angles) - min(angles)
@@ -95,9 +92,6 @@ def crank_for_swing(coupler: float, rocker: float, frame: float, assembly: int, 
     Example
         >>> round(crank_for_swing(70.0, 60.0, 80.0, 1, -1.5, math.radians(120.0)), 9)
         23.507018829
-
-    Source
-        own derivation
     """
     limit = _LARGEST * longest_crank(coupler, rocker, frame)
 

@@ -13,12 +13,11 @@ from gearlink.core.gears.internal_mesh import InternalMesh
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.gears.single_mesh import MESH_CHECKS, MESH_QUANTITIES, SingleMesh
 from gearlink.core.linkages import standstills
-from gearlink.core.linkages.checks import axis_check, transmission_check
+from gearlink.core.linkages.checks import axis_check, check_linkage, transmission_check
 from gearlink.core.linkages.fourbar import FourBar, solve
 from gearlink.core.linkages.standstills import BackStep, Turning
 from gearlink.core.planet_linkages.planet import PlanetLinkage, standstill_coupler_ratio
 from gearlink.core.report import Check, Table
-from gearlink.core.three_gear.motion import check_linkage
 
 if TYPE_CHECKING:
     from gearlink.core.planet_linkages.two_gear_spec import TwoGearFourBarSpec

@@ -59,7 +59,7 @@ class GripperCams(GripperBase):
         if side is None and back is not None:
             side = 1 if math.remainder(back.angle, 360.0) > 0.0 else -1
         if side is None:
-            raise NoSolution("one roller alone does not tell where the cam is: give size.side, 1 or -1", key="size")
+            raise NoSolution("one roller alone does not fix where the cam is: give size.side, 1 or -1", key="size")
         arms = [RollerArm(cam.roller.arm, math.radians(cam.roller.angle), side)]
         if back is not None:
             arms.append(RollerArm(back.arm, math.radians(cam.roller.angle + back.angle), -side))

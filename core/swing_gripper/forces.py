@@ -86,8 +86,6 @@ def contact_torques(spring: float, inertia: Reals, return_inertia: Reals, lift_s
         inertia : (N,) array [N m] - T_in of rocker 1
         return_inertia : (N,) array [N m] - J_2 psi_2'' of rocker 2
         lift_sense : +1 or -1 - sign of the rocker's turn that lifts roller 1
-    Source
-        own derivation
     """
     return spring + lift_sense * inertia, spring - lift_sense * return_inertia
 
@@ -106,9 +104,6 @@ def lift_off_speed(speed: float, spring: float, worst: float) -> float:
     Example
         >>> round(lift_off_speed(12000.0, 400.0, 287.6326512))
         14151
-
-    Source
-        own derivation
     """
     return speed * math.sqrt(spring / worst) if worst > 0.0 else math.inf
 

@@ -50,9 +50,6 @@ def tip_path(arm: float, radius: float, distance: float, lead: Reals, turned: Re
         >>> turned = np.radians([0.0, 1.0, 6.0])
         >>> tip_path(300.0, 135.0, 435.0, 0.45 * turned, turned).gap.round(6).tolist()
         [0.0, 0.029811, 1.068889]
-
-    Source
-        own derivation
     """
     offset = distance - arm
     swell = 4.0 * arm * distance * np.sin(0.5 * lead) ** 2
@@ -82,8 +79,6 @@ def speed_difference(path: TipPath, lead: Reals, tip_speed: Reals, drum_speed: f
         radius : float [mm] - R
     Returns
         difference : (N,) array [mm/s]
-    Source
-        own derivation
     """
     turn = np.sin(0.5 * (lead + path.drum_angle)) ** 2
     difference: Reals = (tip_speed - radius * drum_speed) - 2.0 * tip_speed * turn - path.gap * drum_speed
@@ -105,9 +100,6 @@ def widest_window(arm: float, radius: float, gap: float) -> float:
     Example
         >>> round(math.degrees(widest_window(300.0, 135.0, 0.03)), 4)
         1.0032
-
-    Source
-        own derivation
     """
     if gap >= 2.0 * arm:
         raise NoSolution(
@@ -144,9 +136,6 @@ def misplacement(pivot: complex, tip: complex, center: complex, radius: float) -
         >>> off = misplacement(0j, 300.0 + 0j, 436.0 + 0j, 135.0)
         >>> off.place, off.turn, off.distance
         (1.0, 0.0, 1.0)
-
-    Source
-        own derivation
     """
     line = center - pivot
     contact = center - radius * line / abs(line)

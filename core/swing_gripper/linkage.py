@@ -54,7 +54,7 @@ class GripperLinkage:
         swing_sense : +1 or -1 - sense of the working stroke
         assembly : +1 or -1 - sign of sin(input angle - coupler angle)
     Source
-        swing-gripper paper (4)-(7), signs of l3 cos(theta3) put right
+        swing-gripper paper (4)-(7), signs of l3 cos(theta3) corrected
     """
 
     law: SixPhaseLaw

@@ -43,8 +43,6 @@ def smallest_cam_center(
         best : CamCenter - in the machine's frame
     Raises
         NoSolution - no centre serves
-    Source
-        own derivation
     """
     rollers = [_rocking_roller(linkage, arm) for arm in arms]
     joints = tuple(math.radians(start) for start in linkage.law.starts[1:-1])

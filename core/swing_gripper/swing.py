@@ -86,8 +86,6 @@ def clear_turn(linkage: GripperLinkage, limit: float) -> tuple[float | None, flo
         widest : float [rad] - the largest swing that keeps the limit with these links; 0 where none does
     Notes
         Directions of ED are tried every 0.1 deg; the result lies inside the exact range.
-    Source
-        own derivation
     """
     four_bar = linkage.four_bar
     directions = np.arange(-math.pi, 3.0 * math.pi, _STEP)

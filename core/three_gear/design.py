@@ -11,7 +11,7 @@ from gearlink.core.design import Design, Outline
 from gearlink.core.errors import MissingSection, at_key
 from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, gear_check, gear_quantity
 from gearlink.core.gears.pair import GearPair
-from gearlink.core.linkages.checks import transmission_check
+from gearlink.core.linkages.checks import check_linkage, transmission_check
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.linkages.nearest_passes import joint_to_crank_pivot
 from gearlink.core.report import Check, Status, Table, safely_above, safely_below
@@ -120,7 +120,7 @@ class ThreeGearFourBar(Design):
             raise MissingSection("`analyze` needs the section links: {crank: mm, frame: mm}", key="links")
         linkage = FourBar(links.crank, self.coupler_length, self.rocker_length, links.frame, self.spec.assembly)
         with at_key("links"):
-            motion.check_linkage(linkage)
+            check_linkage(linkage)
         return linkage
 
     @property

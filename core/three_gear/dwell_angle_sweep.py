@@ -56,9 +56,6 @@ def regained(ratio: Reals, h: Reals) -> tuple[Reals, NDArray[np.bool_]]:
         >>> y, settled = regained(np.array([-2.0]), np.array([math.pi / 4]))
         >>> round(math.degrees(y[0] + math.pi / 4), 12), settled.tolist()
         (135.0, [True])
-
-    Source
-        own derivation
     """
     y, settled = np.empty(h.size), np.empty(h.size, dtype=bool)
     space = np.empty((9, min(_BLOCK, h.size)))

@@ -11,6 +11,7 @@ import math
 from dataclasses import dataclass
 
 from gearlink.core.errors import NoSolution
+from gearlink.core.linkages.checks import check_linkage
 from gearlink.core.linkages.fourbar import FourBar, solve
 from gearlink.core.numerics.gauss import integral
 from gearlink.core.numerics.roots import bracketed_root
@@ -21,14 +22,7 @@ from gearlink.core.three_gear.momentary_dwell import (
     tangency_range,
     wrap,
 )
-from gearlink.core.three_gear.motion import (
-    GearTrain,
-    check_linkage,
-    output_acceleration,
-    output_angle,
-    output_jerk,
-    output_speed,
-)
+from gearlink.core.three_gear.motion import GearTrain, output_acceleration, output_angle, output_jerk, output_speed
 
 UNIDIRECTIONAL = "unidirectional"
 MOMENTARY_DWELL = "momentary-dwell"

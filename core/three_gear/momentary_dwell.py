@@ -93,9 +93,6 @@ def eccentricity_range(r1: float, r3: float, r5: float) -> tuple[float, float]:
         [5.628705664, 25.0]
         >>> [round(e, 9) for e in eccentricity_range(13.0, 5.0, 5.0)]
         [6.294646736, 9.403059008]
-
-    Source
-        own derivation
     """
     low = least_eccentricity(r1, r3, r5)
     high = r1 - 2.0 * max(0.0, r1 - r5) * (r1 / _pole_sum(r1, r3, r5)) ** 2
@@ -185,9 +182,6 @@ def momentary_crank_angle(r1: float, r3: float, r5: float, eccentricity: float, 
     Example
         >>> round(math.degrees(momentary_crank_angle(25.0, 25.0, 75.0, 18.0)), 10)
         284.240687259
-
-    Source
-        own derivation
     """
     found = _wanted(r1, r3, r5, eccentricity)
     w = found.pole_offset * found.cos_beta
@@ -202,9 +196,6 @@ def momentary_linkage(r1: float, r3: float, r5: float, eccentricity: float, asse
     Example
         >>> momentary_linkage(25.0, 25.0, 75.0, 16.0).kind()
         'crank-rocker'
-
-    Source
-        own derivation
     """
     return FourBar(eccentricity, r1 + r3, r3 + r5, momentary_frame_length(r1, r3, r5, eccentricity), assembly)
 
@@ -228,9 +219,6 @@ def wrap(angle: float) -> float:
     Example
         >>> wrap(-1e-20), wrap(7.0) == 7.0 - 2.0 * math.pi
         (0.0, True)
-
-    Source
-        own derivation
     """
     turned = angle % (2.0 * math.pi)
     return turned if turned < 2.0 * math.pi else 0.0
@@ -274,9 +262,6 @@ def crank_with_room(r1: float, r3: float, r5: float, distance: float) -> float |
     Example
         >>> round(crank_with_room(25.0, 25.0, 75.0, 105.0), 3)
         16.418
-
-    Source
-        own derivation
     """
     try:
         low, high = eccentricity_range(r1, r3, r5)

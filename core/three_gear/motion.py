@@ -14,9 +14,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from gearlink.core.errors import NoSolution
+from gearlink.core.linkages.checks import check_linkage
 from gearlink.core.linkages.fourbar import FourBar, solve
 from gearlink.core.linkages.standstills import zeros_over_turn
-from gearlink.core.report import safely_above
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,7 +24,7 @@ class GearTrain:
     """The three gears: crank gear 1, idler 3 and output gear 5, in external mesh.
 
     Parameters
-        crank, idler, output : float - teeth, or anything in proportion to them (charts need broken numbers)
+        crank, idler, output : float - teeth, or anything in proportion to them (charts need fractions)
     Raises
         NoSolution - for a number that is not positive and finite
     Example
@@ -148,7 +148,7 @@ def output_acceleration(linkage: FourBar, train: GearTrain, crank_angle: float) 
 
 
 def output_jerk(linkage: FourBar, train: GearTrain, crank_angle: float) -> float:
-    """Jerk ratio of the output, the derivative of the acceleration ratio after the crank angle.
+    """Jerk ratio of the output, the derivative of the acceleration ratio with respect to the crank angle.
 
     Returns
         jerk_ratio : float [1/rad^2]
@@ -184,35 +184,6 @@ def mean_ratio(linkage: FourBar, train: GearTrain) -> float:
         thesis (4-1) for the crank-rocker; own derivation for the drag link
     """
     return train.ratio if check_linkage(linkage) == "crank-rocker" else 1.0
-
-
-def check_linkage(linkage: FourBar) -> str:
-    """Kind of a linkage that may drive the gears, 'crank-rocker' or 'drag-link'; any other is refused.
-
-    Raises
-        NoSolution - for a linkage whose crank does not turn fully, and for a change-point linkage
-    Example
-        >>> check_linkage(FourBar(18.0, 50.0, 100.0, 121.4))
-        'crank-rocker'
-
-    Source
-        thesis 4.1.4: the input must turn; Grashof's rule
-    """
-    kind = linkage.kind()
-    if kind in ("crank-rocker", "drag-link"):
-        return kind
-    shortest, p, q, longest = sorted((linkage.crank, linkage.coupler, linkage.rocker, linkage.frame))
-    excess = math.fsum((shortest, longest, -p, -q))
-    remedy = (
-        f"shorten the longest link, {longest:.9g} mm, by more than {safely_above(max(excess, 0.0), 3)} mm"
-        if excess >= 0.0 or kind in ("change-point", "impossible")
-        else "make crank or frame the shortest link"
-    )
-    raise NoSolution(
-        f"crank {linkage.crank:.9g}, coupler {linkage.coupler:.9g}, rocker {linkage.rocker:.9g}, frame "
-        f"{linkage.frame:.9g} mm form a {kind} linkage, but the drive needs a crank-rocker or a drag link: shortest + "
-        f"longest link must be below the sum of the other two, crank or frame the shortest; {remedy}"
-    )
 
 
 def speed_extremes(linkage: FourBar, train: GearTrain) -> Extremes:

@@ -60,9 +60,6 @@ def turn(samples: int = 360) -> Reals:
     Example
         >>> np.degrees(turn(4)).tolist()
         [0.0, 90.0, 180.0, 270.0]
-
-    Source
-        own derivation
     """
     if samples < 1:
         raise NoSolution(f"{samples} samples divide no turn; take at least 1")

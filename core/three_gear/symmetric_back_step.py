@@ -159,9 +159,6 @@ def dwell_angle_limit(i3: float) -> float:
     Example
         >>> round(math.degrees(dwell_angle_limit(-1.0)), 9)
         240.0
-
-    Source
-        own derivation
     """
     check_ratio(i3)
     return 2.0 * math.pi * (1.0 - i3) / (2.0 - i3)

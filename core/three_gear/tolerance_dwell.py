@@ -69,9 +69,6 @@ def tolerance_from_backlash(backlash: float, output_radius: float) -> float:
     Example
         >>> round(math.degrees(tolerance_from_backlash(0.3419089045018483, 75.0)), 9)
         0.130599581
-
-    Source
-        own derivation
     """
     if not (backlash > 0.0 and output_radius > 0.0):
         raise NoSolution(

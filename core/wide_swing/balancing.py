@@ -165,9 +165,6 @@ def power_peak(law: ElasticLaw) -> float:
         >>> from gearlink.core.wide_swing.elastic_law import Pneumatic
         >>> round(power_peak(ElasticLaw(Pneumatic(2.5), math.radians(120))), 12)
         4.608259092935
-
-    Source
-        own derivation
     """
 
     def product(k: Reals) -> Reals:

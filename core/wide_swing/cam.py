@@ -267,9 +267,6 @@ class WideSwingCam:
         """Pressure angle at fractions k < 1/2 of the stroke [rad], of the pitch curve even where it has a loop.
 
         tan delta = (lambda A - cos phi)/sin phi
-
-        Source
-            own derivation
         """
         return self.curve.pressure_angle(self.curve.state(k))
 
@@ -349,7 +346,7 @@ class WideSwingCam:
 
 
 def too_small_swing(swing: float, speed_ratio_peak: float) -> NoSolution:
-    """The refusal of a swing whose cam rounding would not tell from a circle.
+    """The refusal of a swing whose cam rounding would not distinguish from a circle.
 
     Parameters
         swing : float [rad]
@@ -359,13 +356,10 @@ def too_small_swing(swing: float, speed_ratio_peak: float) -> NoSolution:
     Example
         >>> print(too_small_swing(math.radians(1e-9), 1e-11).message.partition("; ")[2])
         set swing to at least 1.0001e-08 deg
-
-    Source
-        own derivation
     """
     least = safely_above(math.degrees(swing * LEAST_SPEED_RATIO / speed_ratio_peak))
     return NoSolution(
-        f"a swing of {math.degrees(swing):.6g} deg is too small to reckon a cam with: the roller "
+        f"a swing of {math.degrees(swing):.6g} deg is too small to compute a cam with: the roller "
         f"would hardly leave the cam's own circle; set swing to at least {least} deg",
         key="swing",
     )

@@ -26,9 +26,6 @@ def undercut_start(cam: WideSwingCam) -> float:
         >>> law = ElasticLaw(Pneumatic(2.5), math.radians(120))
         >>> round(undercut_start(WideSwingCam("twin-cam", law, math.radians(120), 200.0, 8.0)), 9)
         0.471778076
-
-    Source
-        own derivation
     """
     limit = cam.center_distance / cam.roller_radius
 
@@ -62,9 +59,6 @@ def contact_end(cam: WideSwingCam) -> float:
         >>> law = ElasticLaw(Pneumatic(2.5), math.radians(120))
         >>> round(contact_end(WideSwingCam("twin-cam", law, math.radians(120), 200.0, 8.0)), 9)
         0.462338155
-
-    Source
-        own derivation
     """
     middle = -(1.0 - cam.ratio)
     diameter = 2.0 * cam.roller_radius / cam.center_distance

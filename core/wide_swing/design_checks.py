@@ -83,8 +83,8 @@ class WideSwingChecks(WideSwingMending):
         try:
             self.cam.require_profile()
         except NoSolution as error:
-            mend = self.mended_profile if self.spec.drive is not None else None
-            text = error.message + (f": make {mend.path} at most {mend.value:.12g} mm" if mend else "")
+            repair = self.repaired_profile if self.spec.drive is not None else None
+            text = error.message + (f": make {repair.path} at most {repair.value:.12g} mm" if repair else "")
             return Check("GL505", "profile-exists", "fail", text, shown, 0.0)
         text = "the pitch curve has no loop"
         if self.spec.drive is None:
@@ -104,13 +104,13 @@ class WideSwingChecks(WideSwingMending):
             yield Check("GL401", "pressure-angle", "fail" if value > limit else "pass", text, value, limit, "deg")
 
     def _pressure_remedy(self) -> str:
-        mend = self.mended_pressure
-        if mend is None:
+        repair = self.repaired_pressure
+        if repair is None:
             keys = "cycle_angle and no swing" if self.spec.drive is None else "drive.crank and no swing"
             return f"no {keys} alone was found that keeps it; a twin-cam wants a swing near 2 acos(r/a)"
-        if mend.value is None:
-            return f"leave out {mend.path}"
-        return f"make {mend.path} {mend.value:.12g}"
+        if repair.value is None:
+            return f"leave out {repair.path}"
+        return f"make {repair.path} {repair.value:.12g}"
 
     def check_cam_undercut(self) -> Iterator[Check]:
         """GL402: roller against the curvature outside the transition zone, and against the source's (27)."""
@@ -124,7 +124,7 @@ class WideSwingChecks(WideSwingMending):
                 "outside the transition zone"
             )
             if status != "pass":
-                most = self.mended_roller_for_curvature
+                most = self.repaired_roller_for_curvature
                 text += f": take a roller of at most {most:.12g} mm or a larger cam.center_distance"
             yield Check("GL402", "cam-undercut", status, text, share, 1.0)
         if self.spec.layout == "twin-rocker" and self.has_profile:
@@ -149,7 +149,7 @@ class WideSwingChecks(WideSwingMending):
             if zone > limit:
                 text += (
                     f", above the limit {limit:g}: take a roller of at most "
-                    f"{self.mended_roller_radius:.12g} mm or a larger cam.center_distance"
+                    f"{self.repaired_roller_radius:.12g} mm or a larger cam.center_distance"
                 )
             yield Check("GL507", "transition-zone", "fail" if zone > limit else "pass", text, zone, limit)
 
@@ -169,7 +169,7 @@ class WideSwingChecks(WideSwingMending):
                 text = (
                     f"the roller of the {words} comes {-room:.4g} mm into the cam shaft (radius "
                     f"{section.shaft_radius:g} mm): make cam.center_distance at least "
-                    f"{self.mended_center_distance:.12g} mm, or the roller smaller"
+                    f"{self.repaired_center_distance:.12g} mm, or the roller smaller"
                 )
             yield Check("GL302", "shaft-clearance", "fail" if room <= 0.0 else "pass", text, room, 0.0, "mm")
 
@@ -189,7 +189,7 @@ class WideSwingChecks(WideSwingMending):
     # Suggestions
 
     def suggestions(self) -> list[Suggestion]:
-        """Changes of the design file that mend what fails or is refused, the first to be tried first.
+        """Changes of the design file that repair what fails or is refused, the first to be tried first.
 
         Returns
             suggestions : list of (path, value, why) - value None: leave the key out; each path once
@@ -201,13 +201,13 @@ class WideSwingChecks(WideSwingMending):
         """
         found: dict[str, Suggestion] = {}
         for step in (
-            self._mend_device,
-            self._mend_combination,
-            self._mend_cycle,
-            self._mend_shaft,
-            self._mend_profile,
-            self._mend_pressure,
-            self._mend_roller,
+            self._repair_device,
+            self._repair_combination,
+            self._repair_cycle,
+            self._repair_shaft,
+            self._repair_profile,
+            self._repair_pressure,
+            self._repair_roller,
         ):
             try:
                 suggestion = step()
@@ -221,41 +221,41 @@ class WideSwingChecks(WideSwingMending):
     def _fails(self, name: str) -> bool:
         return any(check.status == "fail" for check in self.check(name))
 
-    def _mend_device(self) -> Suggestion | None:
+    def _repair_device(self) -> Suggestion | None:
         least, ratio = self.usual_pivot_ratio, self.spec.unloader.pivot_ratio
         if ratio <= 1.0 or self._fails("unloader-turnability"):
             value = float(safely_above(least))
             return Suggestion("unloader.pivot_ratio", value, f"the device needs a pivot ratio of {least:.6g} or more")
         return None
 
-    def _mend_combination(self) -> Suggestion | None:
+    def _repair_combination(self) -> Suggestion | None:
         if self.spec.drive is not None:
             try:
                 _ = self.drive
             except NoSolution:
-                return self.mended_drive()
+                return self.repaired_drive()
         section = self.spec.slider
         if section is None:
             return None
         if section.rod <= section.crank + abs(section.offset):
-            return Suggestion("slider.rod", self.mended_slider_rod, "the rod must exceed crank plus offset")
+            return Suggestion("slider.rod", self.repaired_slider_rod, "the rod must exceed crank plus offset")
         try:
             _ = self.slider_law.energy_parameter
         except NoSolution:
-            return self.mended_slider_angle()
+            return self.repaired_slider_angle()
         return None
 
-    def _mend_cycle(self) -> Suggestion | None:
+    def _repair_cycle(self) -> Suggestion | None:
         if self._fails("cycle-angles"):
             return Suggestion("cycle_angle", 180.0, "both strokes must find room in one turn of the cam")
         return None
 
-    def _mend_shaft(self) -> Suggestion | None:
+    def _repair_shaft(self) -> Suggestion | None:
         if self.spec.cam is not None and self._fails("shaft-clearance"):
-            return Suggestion("cam.center_distance", self.mended_center_distance, "a roller comes into the cam shaft")
+            return Suggestion("cam.center_distance", self.repaired_center_distance, "a roller comes into the cam shaft")
         return None
 
-    def _mend_profile(self) -> Suggestion | None:
+    def _repair_profile(self) -> Suggestion | None:
         if self.spec.cam is None:
             return None
         try:
@@ -264,20 +264,20 @@ class WideSwingChecks(WideSwingMending):
             if self.spec.layout != "twin-rocker":
                 raise
             # a twin-rocker whose rocker is slower than its cam
-            return Suggestion("cycle_angle", self.mended_cycle_angle, "a twin-rocker must turn faster than its cam")
-        return None if cam.loop_margin > 0.0 and self.has_profile else self.mended_profile
+            return Suggestion("cycle_angle", self.repaired_cycle_angle, "a twin-rocker must turn faster than its cam")
+        return None if cam.loop_margin > 0.0 and self.has_profile else self.repaired_profile
 
-    def _mend_pressure(self) -> Suggestion | None:
+    def _repair_pressure(self) -> Suggestion | None:
         if self.spec.cam is None or not self._fails("pressure-angle"):
             return None
-        return self.mended_pressure
+        return self.repaired_pressure
 
-    def _mend_roller(self) -> Suggestion | None:
+    def _repair_roller(self) -> Suggestion | None:
         if self.spec.cam is None:
             return None
         values = []
         if self._fails("transition-zone"):
-            values.append((self.mended_roller_radius, "the contact changes sides over too much of the stroke"))
+            values.append((self.repaired_roller_radius, "the contact changes sides over too much of the stroke"))
         if self._fails("cam-undercut"):
-            values.append((self.mended_roller_for_curvature, "the roller is too large for the pitch curve"))
+            values.append((self.repaired_roller_for_curvature, "the roller is too large for the pitch curve"))
         return Suggestion("cam.roller_radius", *min(values)) if values else None

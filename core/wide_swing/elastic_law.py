@@ -170,9 +170,6 @@ class ElasticLaw:
             >>> law = ElasticLaw(Pneumatic(2.5), math.radians(120))
             >>> [f"{law.energy_parameter_with(n) - law.energy_parameter:.0e}" for n in (2, 4, 8)]
             ['-4e-03', '-1e-06', '-2e-13']
-
-        Source
-            own derivation
         """
         span = complete_integral(self.modulus_complement)
         return (2.0 / self.swing * span * midpoint_mean(self._integrand, span, nodes)) ** 2
@@ -290,8 +287,6 @@ class ElasticLaw:
             view : MiddleView
         Raises
             NoSolution - for k outside 0 to 1
-        Source
-            own derivation
         """
         sine, cosine, second = self._pendulum(k)
         g = self.geometry

@@ -249,8 +249,6 @@ class OscillatingCam:
 
         Raises
             NoSolution - for a pitch curve with a loop
-        Source
-            own derivation
         """
         return self.points(k).pressure_angle
 
@@ -325,8 +323,6 @@ class OscillatingCam:
             NoSolution - for k outside 0 to 1, or a pitch curve with a loop at mid-swing
         Notes
             Curvature by the parametric formula; at k = 0, 1/2 and 1 its radius is zero.
-        Source
-            own derivation
         """
         self.require_profile()
         view = self.law.middle_view(k)

@@ -54,8 +54,6 @@ def contour(cam: AnyCam, slot: tuple[float, float], count: int = 400) -> tuple[P
         run_up, slot, run_out : complex arrays [mm] - each begins where the one before it ends
     Raises
         NoSolution - for a profile that does not exist
-    Source
-        own derivation
     """
     run_up = cam.points(np.linspace(0.0, slot[0], count)).profile
     run_out = cam.points(np.linspace(slot[1], 1.0, count)).profile
@@ -82,8 +80,6 @@ def dwell_arc(cam: AnyCam, count: int = 181) -> Points:
         arc : (N,) complex array [mm] - a circle's where the cam turns evenly and the rocker dwells
     Raises
         NoSolution - for a profile that does not exist
-    Source
-        own derivation
     """
     last, first = (complex(z) for z in cam.points(np.array([1.0, 0.0])).profile)
     middle = complex(cam.points(np.array([0.5])).pitch[0])

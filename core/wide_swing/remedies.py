@@ -1,4 +1,4 @@
-"""What to change in a wide-swing design that fails: numbers that, put into the design file, mend the finding."""
+"""What to change in a wide-swing design that fails: numbers that, put into the design file, repair the finding."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _STRICTLY = 1.0 + 1e-6
 
 
 class Suggestion(NamedTuple):
-    """A key of the design file, the value that mends a finding (None: leave the key out), and the finding."""
+    """A key of the design file, the value that repairs a finding (None: leave the key out), and the finding."""
 
     path: str
     value: Value
@@ -34,7 +34,7 @@ class Suggestion(NamedTuple):
 
 
 class WideSwingMending(WideSwingProfile):
-    """The design with the numbers that mend it; every one is computed when a finding asks for it."""
+    """The design with the numbers that repair it; every one is computed when a finding asks for it."""
 
     def changed(self, path: str, value: Value) -> WideSwingMending:
         """The design with one key changed; the law is kept where it does not depend on the key."""
@@ -46,7 +46,7 @@ class WideSwingMending(WideSwingProfile):
     # Lengths that follow from similarity
 
     @cached_property
-    def mended_center_distance(self) -> float:
+    def repaired_center_distance(self) -> float:
         """Centre distance at which the rollers clear the cam shaft [mm]."""
         section = self.section
         needed = section.shaft_radius + section.roller_radius
@@ -56,14 +56,14 @@ class WideSwingMending(WideSwingProfile):
         return float(safely_above(section.center_distance * needed / least * _STRICTLY))
 
     @cached_property
-    def mended_roller_radius(self) -> float:
+    def repaired_roller_radius(self) -> float:
         """Roller radius that brings every cam's transition zone within the limit [mm]."""
         limit, roller = self.spec.limits.transition_zone, self.section.roller_radius
         zones = [cam.transition_zone for cam in self.cams.values() if cam is not self.cam or self.has_profile]
         return float(safely_below(roller * limit / max(zones) / _STRICTLY))
 
     @cached_property
-    def mended_roller_for_curvature(self) -> float:
+    def repaired_roller_for_curvature(self) -> float:
         """Roller radius that keeps well below every cam's least curvature radius [mm]."""
         least = min(cam.min_curvature_radius for cam in self.cams.values() if self.has_zone(cam))
         return float(safely_below(0.8 * least / _STRICTLY))
@@ -71,22 +71,22 @@ class WideSwingMending(WideSwingProfile):
     # Angles
 
     @property
-    def mended_cycle_angle(self) -> float:
+    def repaired_cycle_angle(self) -> float:
         """Cycle angle at which a twin-rocker's arm is as long as the centre distance; no loop at or below it [deg]."""
         return float(safely_below(0.5 * math.degrees(self.plain_law.velocity_peak * self.swing)))
 
     @cached_property
-    def mended_profile(self) -> Suggestion | None:
+    def repaired_profile(self) -> Suggestion | None:
         """What frees the pitch curve of its loop."""
         if self.spec.drive is not None:
             value = nearest_good(self.spec.drive.crank, 0.05 * self.spec.drive.crank, self._try("drive.crank", _exists))
             return None if value is None else Suggestion("drive.crank", value, "the pitch curve has a loop")
         if self.section.rocker_radius is not None:
             return Suggestion("cam.rocker_radius", None, "the pitch curve has a loop with a longer rocker")
-        return Suggestion("cycle_angle", self.mended_cycle_angle, "the pitch curve has a loop at mid-swing")
+        return Suggestion("cycle_angle", self.repaired_cycle_angle, "the pitch curve has a loop at mid-swing")
 
     @cached_property
-    def mended_pressure(self) -> Suggestion | None:
+    def repaired_pressure(self) -> Suggestion | None:
         """What brings the pressure angle of every cam within the limit, by the least change that was found."""
         why = f"the pressure angle exceeds the limit of {self.spec.limits.pressure_angle:g} deg"
         if self.section.rocker_radius is not None and _pressure_holds(self.changed("cam.rocker_radius", None)):
@@ -126,7 +126,7 @@ class WideSwingMending(WideSwingProfile):
         except MissingSection:
             raise
         except NoSolution as error:
-            raise _with_number(error, self.mended_drive()) from error
+            raise _with_number(error, self.repaired_drive()) from error
 
     @cached_property
     def slider_law(self) -> SliderLaw:
@@ -136,16 +136,16 @@ class WideSwingMending(WideSwingProfile):
         except NoSolution as error:
             if error.key != "slider.middle_angle":
                 raise
-            raise _with_number(error, self.mended_slider_angle()) from error
+            raise _with_number(error, self.repaired_slider_angle()) from error
 
     @property
-    def mended_slider_rod(self) -> float:
+    def repaired_slider_rod(self) -> float:
         """A usual length of the connecting rod [mm]."""
         section = self.spec.slider
         assert section is not None
         return float(safely_above(3.0 * (section.crank + abs(section.offset))))
 
-    def mended_slider_angle(self) -> Suggestion:
+    def repaired_slider_angle(self) -> Suggestion:
         """The arm's angle at mid-swing, or the swing, that keeps the slider off its dead centres."""
         section = self.spec.slider
         assert section is not None
@@ -161,7 +161,7 @@ class WideSwingMending(WideSwingProfile):
             return Suggestion("slider.middle_angle", round(angle, 3), why)
         return Suggestion("swing", float(safely_below(math.degrees(1.9 * room))), why)
 
-    def mended_drive(self) -> Suggestion:
+    def repaired_drive(self) -> Suggestion:
         """A length that makes the drive a crank-rocker."""
         section = self.spec.drive
         assert section is not None
@@ -177,8 +177,8 @@ class WideSwingMending(WideSwingProfile):
         return Suggestion("drive.crank", float(safely_below(0.5 * least)), why)
 
 
-def _with_number(error: NoSolution, mend: Suggestion) -> NoSolution:
-    return NoSolution(f"{error.message}: make {mend.path} {mend.value:.12g}", key=mend.path)
+def _with_number(error: NoSolution, repair: Suggestion) -> NoSolution:
+    return NoSolution(f"{error.message}: make {repair.path} {repair.value:.12g}", key=repair.path)
 
 
 def _exists(trial: WideSwingMending) -> bool:

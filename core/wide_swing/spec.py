@@ -151,7 +151,7 @@ class WideSwingSpec(DesignSpec):
     @field_validator("cycle_angle")
     @classmethod
     def _given_unless_driven(cls, value: float | None, info: ValidationInfo) -> float | None:
-        """With the other fields, so that a missing key is told together with every other error of the file."""
+        """With the other fields, so that a missing key is reported together with every other error of the file."""
         if value is None and info.data.get("drive", ...) is None:
             words = "cycle_angle: cam angle of one stroke, run-up and run-out"
             _refuse("cycle_angle", "the key 'cycle_angle' is missing", "GL106", help=words)

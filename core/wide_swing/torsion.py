@@ -40,9 +40,6 @@ def acceleration_series(acceleration: Callable[[Reals], Reals]) -> CosineSeries:
         >>> series = acceleration_series(lambda k: 0.5 * math.pi**2 * np.cos(math.pi * k))
         >>> round(float(series.coefficients[1]), 12), float(np.abs(series.coefficients[2:]).max()) < 1e-14
         (4.934802200545, True)
-
-    Source
-        own derivation
     """
     probe = cosine_series(lambda k: acceleration(k) * np.cos(math.pi * k), 1.0, first=32)
     values = acceleration((np.arange(probe.nodes) + 0.5) / probe.nodes)

@@ -254,7 +254,7 @@ def test_a_fault_is_said_in_one_line(gearlink: Any, crank: Path, monkeypatch: py
     def broken(*_: object) -> None:
         raise ZeroDivisionError("planted")
 
-    monkeypatch.setattr("gearlink.cli.commands.design.evaluate", broken)
+    monkeypatch.setattr("gearlink.cli.commands.design.build", broken)
     ended = gearlink("crank", crank)
     assert ended.status == ExitCode.FAULT
     assert "ZeroDivisionError: planted" in ended.err
@@ -291,16 +291,16 @@ class TestBatch:
     ) -> None:
         for name in ("a", "b"):
             (tmp_path / f"{name}.yaml").write_text(CRANK)
-        from gearlink.cli.batch import run
+        from gearlink.cli.batch import one_file
 
-        original = run.build
+        original = one_file.build
 
         def sometimes(loaded: Any, kind: Any, command: str, spec: Any, *rest: Any, **options: Any) -> Any:
             if spec.name == "a":
                 raise ZeroDivisionError("planted")
             return original(loaded, kind, command, spec, *rest, **options)
 
-        monkeypatch.setattr(run, "build", sometimes)
+        monkeypatch.setattr(one_file, "build", sometimes)
         ended = gearlink("batch", tmp_path, "--format", "json")
         assert ended.status == ExitCode.FAULT
         assert [d["result"] for d in ended.json["designs"]] == ["fault", "pass"]

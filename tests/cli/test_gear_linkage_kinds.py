@@ -22,7 +22,7 @@ PAIRS = [(kind, name) for kind, names in WORKED.items() for name in names]
 
 
 def design_of(path, command="analyze"):
-    from gearlink.cli.commands.design import evaluate
+    from gearlink.cli.evaluate import evaluate
     from gearlink.cli.options import Options
 
     return evaluate(command, str(path), Options())[0]

@@ -113,7 +113,7 @@ def test_every_term_names_a_result_of_the_engine():
     engine = Path(nomenclature.__file__).parent
     used = {
         word
-        for path in engine.glob("*.py")
+        for path in engine.rglob("*.py")
         if path.name != "nomenclature.py"
         for word in re.findall(r"\w+", path.read_text())
     }

@@ -126,7 +126,7 @@ def dwell_angle(i3: float, phi12: float) -> Any:
 
 
 def momentary_frame(r1: float, r3: float, r5: float, e: float) -> Any:
-    """Frame of the momentary dwell, step by step as in the thesis (4-26)..(4-33), with its slips put right."""
+    """Frame of the momentary dwell, step by step as in the thesis (4-26)..(4-33), with its slips corrected."""
     r1, r3, r5, e = map(mp.mpf, (r1, r3, r5, e))
     s = r1 + 2 * r3 + r5
     k = r1**2 * ((r5**2 - r1**2) ** 2 - 2 * (r5**2 + r1**2) * s**2 + s**4)

@@ -1,4 +1,4 @@
-"""The worked example of the swing gripper as data, machines derived from it, and its kinetic energy told apart.
+"""The worked example of the swing gripper as data, machines derived from it, and its kinetic energy taken apart.
 
 The energy is summed over the links from velocities alone; nothing of it goes through the principle of virtual work
 that the program takes.

@@ -1,4 +1,4 @@
-"""Geared four-bars told again over arrays in 80-bit numbers: loop by circle intersection, gears mesh by mesh.
+"""Geared four-bars computed again over arrays in 80-bit numbers: loop by circle intersection, gears mesh by mesh.
 
 No formula is the program's. The joint C comes from the two circles about B and D, the rates from the loop's linear
 system by Cramer's rule. Angles are continuous by what a linkage cannot do, not by counting turns: a rocker never

@@ -1,4 +1,4 @@
-"""A flatbed press told a second time, in 40 digits: circles, law of cosines, roots and numerical derivatives.
+"""A flatbed press computed a second time, in 40 digits: circles, law of cosines, roots and numerical derivatives.
 
 Nothing here is shared with the program: the four-bars are solved by the cosine rule, not by half angles; the crank
 of the slider by a root, not in closed form; derivatives by mpmath, not by the chain rule; the polynomials of the lift

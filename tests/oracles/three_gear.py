@@ -1,4 +1,4 @@
-"""The three-gear four-bar told a second time: the triangle BCD by the cosine rule, speeds by numerical derivatives."""
+"""The three-gear four-bar once more: the triangle BCD by the cosine rule, speeds by numerical derivatives."""
 
 from __future__ import annotations
 

@@ -240,7 +240,7 @@ def test_a_process_that_dies_costs_its_own_files(
 ) -> None:
     from gearlink.cli.batch import pool
     from gearlink.cli.batch.options import BatchOptions
-    from gearlink.cli.batch.run import Outcome
+    from gearlink.cli.batch.outcome import Outcome
 
     parent = os.getpid()
 

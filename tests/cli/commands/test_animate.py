@@ -23,7 +23,7 @@ from matplotlib.path import Path as Outline
 from PIL import Image
 
 from gearlink.cli.commands.animate import _command, build, moving_kinds, pictures_for
-from gearlink.cli.commands.design import open_design, read_spec
+from gearlink.cli.evaluate import open_design, read_spec
 from gearlink.cli.moving.page import page
 from gearlink.cli.moving.raster import Raster
 from gearlink.cli.moving.stage import Stage

@@ -51,7 +51,7 @@ def test_every_check_of_a_design_is_explained() -> None:
 def test_texts_are_whole(code: str) -> None:
     text = explanations()[code]
     assert text.title
-    for words in (text.what, text.why, text.mend):
+    for words in (text.what, text.why, text.repair):
         assert words.endswith(".")
     if not code.startswith("GL1"):
         assert text.formula
@@ -158,7 +158,7 @@ def test_list_of_codes(gearlink: Any) -> None:
 def test_markdown(gearlink: Any) -> None:
     out = gearlink("explain", "GL401", "--format", "md").out
     assert out.startswith("# GL401: ")
-    assert "**How to mend:** " in out
+    assert "**How to repair:** " in out
 
 
 def test_unknown_name_gives_the_nearest(gearlink: Any) -> None:

@@ -31,7 +31,7 @@ def test_profile_leaves_no_trace() -> None:
     assert {name: each.func for name, each in before.items() if hasattr(each, "func")} == functions
 
 
-def test_profile_is_told_of_a_design_that_fails(capsys: pytest.CaptureFixture[str]) -> None:
+def test_profile_reports_a_design_that_fails(capsys: pytest.CaptureFixture[str]) -> None:
     assert run([*CRANK, "--profile", "--set", "stroke=1e6"]) == 2
     assert "compute" in capsys.readouterr().err
 

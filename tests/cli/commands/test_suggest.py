@@ -1,4 +1,4 @@
-"""`gearlink swing --suggest`: the changes that are tried, the mended report, formats and exit status."""
+"""`gearlink swing --suggest`: the changes that are tried, the repaired report, formats and exit status."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def loop(tmp_path: Path) -> Path:
     return path
 
 
-def test_loop_is_mended_step_by_step(gearlink: Any, loop: Path) -> None:
+def test_loop_is_repaired_step_by_step(gearlink: Any, loop: Path) -> None:
     assert gearlink("swing", loop).status == ExitCode.FINDING
     ended = gearlink("swing", loop, "--suggest", "--format", "json")
     assert ended.status == ExitCode.OK
@@ -42,15 +42,15 @@ def test_loop_is_mended_step_by_step(gearlink: Any, loop: Path) -> None:
 
 
 def test_changes_put_in_by_hand_give_the_same_report(gearlink: Any, loop: Path) -> None:
-    mended = gearlink("swing", loop, "--suggest", "--format", "json").json
-    overrides = [f"--set={change['path']}={json.dumps(change['new'])}" for change in mended["suggestions"]]
+    repaired = gearlink("swing", loop, "--suggest", "--format", "json").json
+    overrides = [f"--set={change['path']}={json.dumps(change['new'])}" for change in repaired["suggestions"]]
     by_hand = gearlink("swing", loop, *overrides, "--format", "json")
     assert by_hand.status == ExitCode.OK
-    mended.pop("suggestions")
-    assert by_hand.json == mended
+    repaired.pop("suggestions")
+    assert by_hand.json == repaired
 
 
-def test_refused_design_is_mended(gearlink: Any, tmp_path: Path) -> None:
+def test_refused_design_is_repaired(gearlink: Any, tmp_path: Path) -> None:
     path = tmp_path / "stuck.yaml"
     path.write_text(CANNOT_TURN)
     assert gearlink("swing", path).status == ExitCode.WRONG_INPUT
@@ -93,7 +93,7 @@ def test_quantity_stays_alone_on_standard_output(gearlink: Any, loop: Path) -> N
     assert "cycle_angle: 150 -> 113.19" in ended.err
 
 
-def test_what_cannot_be_mended_keeps_its_status(gearlink: Any, designs: Path, tmp_path: Path) -> None:
+def test_what_cannot_be_repaired_keeps_its_status(gearlink: Any, designs: Path, tmp_path: Path) -> None:
     path = designs / "wide_swing_twin_rocker.yaml"
     ended = gearlink("swing", path, "--set", "limits.pressure_angle=1", "--suggest", "--format", "json")
     assert ended.status == ExitCode.FINDING
@@ -107,7 +107,7 @@ def test_what_cannot_be_mended_keeps_its_status(gearlink: Any, designs: Path, tm
     assert no_folder.status == ExitCode.WRONG_INPUT
 
 
-def test_figure_is_that_of_the_mended_design(gearlink: Any, loop: Path, tmp_path: Path) -> None:
+def test_figure_is_that_of_the_repaired_design(gearlink: Any, loop: Path, tmp_path: Path) -> None:
     ended = gearlink("swing", loop, "--suggest", "--plot", "--out", tmp_path, "--quiet")
     assert ended.status == ExitCode.OK
     assert (tmp_path / "loop-swing.png").stat().st_size > 50_000

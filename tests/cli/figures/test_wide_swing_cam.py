@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from gearlink.cli.commands.design import open_design, read_spec
+from gearlink.cli.evaluate import open_design, read_spec
 from gearlink.cli.figures.write import draw
 from gearlink.cli.options import Options
 from gearlink.core.errors import NoSolution

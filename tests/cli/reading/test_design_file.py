@@ -24,16 +24,9 @@ from hypothesis import strategies as st
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.cli.reading.design_file import (
-    DesignFileError,
-    diagnose_no_solution,
-    load,
-    parse,
-    parse_path,
-    read_kind,
-    validate,
-)
-from gearlink.cli.reading.diagnostics import Diagnostic
+from gearlink.cli.reading.design_file import diagnose_no_solution, load, parse, read_kind, validate
+from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
+from gearlink.cli.reading.loaded_file import parse_path
 from gearlink.cli.reading.value_words import number_remedy
 from gearlink.core.errors import NoSolution
 
@@ -369,7 +362,7 @@ def test_each_error_in_our_own_words(text: str, code: str, key: str, message: st
 @pytest.mark.parametrize(
     ("text", "column", "help"),
     [
-        ("crank: 3", 1, "it belongs into 'gears'; allowed here: "),
+        ("crank: 3", 1, "it belongs to 'gears'; allowed here: "),
         ("Teeth: [1, 2]", 1, "did you mean 'teeth'? allowed here: "),
         ("gears: {module: 2, crank: 1, pressure-angle: 20}", 30, "did you mean 'pressure_angle'?"),
         ("gears: {module: 38,5, crank: 1}", 20, "a comma separates entries: write decimals with a point"),

@@ -366,7 +366,7 @@ def test_json_is_read_as_it_was_written(tree: dict[str, Any], indent: int | None
     text = json.dumps(tree, indent=indent, ensure_ascii=ascii_only)
     got = read(text.encode(), "f")
     assert got.data == tree
-    assert json.dumps(got.data) == json.dumps(tree)  # 1 and 1.0, true and 1 are told apart
+    assert json.dumps(got.data) == json.dumps(tree)  # 1 and 1.0, true and 1 are distinguished
     assert got.marks is not None
     for key, (at, value_at, _) in got.marks.items():
         assert text.startswith(json.dumps(key), at)

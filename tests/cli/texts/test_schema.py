@@ -11,7 +11,8 @@ from typing import Any
 import pytest
 from jsonschema import Draft7Validator
 
-from gearlink.cli.reading.design_file import DesignFileError, load, parse, validate
+from gearlink.cli.reading.design_file import load, parse, validate
+from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.cli.texts.schema import all_kinds_schema, kind_schema
 from gearlink.cli.texts.spec_keys import spec_keys
 from gearlink.core.kinds import KINDS

@@ -130,7 +130,7 @@ def test_a_path_that_exists_is_found_whatever_the_ratio(ratio):
     assert fit.distance.max() < 1e-9
 
 
-def test_a_start_that_opens_is_mended():
+def test_a_start_that_opens_is_repaired():
     start = replace(BAR, coupler=30.0, follower=30.0)
     with pytest.raises(NoSolution):
         start.closure()

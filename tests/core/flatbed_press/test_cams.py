@@ -1,4 +1,4 @@
-"""The compensation cam pair: report, envelope, pressure angle and curvature by a second way, checks that mend.
+"""The compensation cam pair: report, envelope, pressure angle and curvature by a second way, checks that repair.
 
 Tolerances
 * published (TY-460 report): the report's largest radius 79.925 and roller distance 194.925 carry its wrong rise 0.778;
@@ -239,11 +239,11 @@ def test_roller_radius_against_the_cams(roller, expected):
     assert check.value == pytest.approx(roller / 44.06171463650046, rel=1e-9)
     if expected != "pass":
         most = re.search(r"a roller of at most ([\d.]+) mm", check.message)[1]
-        mended = press(sync=REPORT, transition="arc", roller_radius=float(most))
-        assert status(mended, "cam-undercut") == ["pass", "pass"]
+        repaired = press(sync=REPORT, transition="arc", roller_radius=float(most))
+        assert status(repaired, "cam-undercut") == ["pass", "pass"]
 
 
-def test_zone_started_elsewhere_fails_the_velocity_step_and_leaving_it_out_mends():
+def test_zone_started_elsewhere_fails_the_velocity_step_and_leaving_it_out_repairs():
     design = press(sync={"start": 40.0, "end": 150.0}, lead_in=0.0)
     (check,) = design.check("velocity-step")
     assert (check.code, check.status, check.unit) == ("GL403", "fail", "mm/rad")
@@ -277,7 +277,7 @@ def test_base_radius_below_the_dip_of_the_lead_in_breaks_the_constant_sum():
     assert check.value == pytest.approx(0.2 * dip, rel=1e-3)
 
 
-def test_print_longer_than_the_zone_fails_and_the_advice_mends():
+def test_print_longer_than_the_zone_fails_and_the_advice_repairs():
     short = press(sync={"length": 300.0, "print_length": 320.0})
     (check,) = short.check("sync-length")
     assert (check.code, check.status, check.value, check.limit) == ("GL502", "fail", pytest.approx(300.0), 320.0)

@@ -1,4 +1,4 @@
-"""The two chains of a flatbed press against the report's numbers and a second reckoning in 40 digits.
+"""The two chains of a flatbed press against the report's numbers and a second calculation in 40 digits.
 
 Tolerances
 * published (TY-460 report): half a unit of the last printed digit.

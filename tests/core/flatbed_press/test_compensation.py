@@ -1,4 +1,4 @@
-"""The lift of the compensation follower: the report's numbers, its erratum, and a second reckoning in 40 digits.
+"""The lift of the compensation follower: the report's numbers, its erratum, and a second calculation in 40 digits.
 
 Tolerances
 * published (TY-460 report): half a unit of the last printed digit. Where the report divides by the input's speed in
@@ -377,7 +377,7 @@ def test_transition_must_end_after_the_zone():
     assert follower(TY460, transition_end=116.535).segments
 
 
-def test_zone_that_fills_the_turn_cannot_be_mended_by_the_transition():
+def test_zone_that_fills_the_turn_cannot_be_repaired_by_the_transition():
     lift = follower(TY460, start=330.0, length=420.0)
     with pytest.raises(NoSolution, match="shorten the zone") as refusal:
         _ = lift.segments

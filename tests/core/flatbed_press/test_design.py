@@ -257,14 +257,14 @@ def test_unknown_return_law_names_the_nearest():
 
 
 @pytest.mark.parametrize(
-    ("ratio", "status", "mended"), [(1.0, "pass", 0), (2.0, "pass", 0), (0.5, "fail", 1), (1.4, "fail", 1)]
+    ("ratio", "status", "repaired"), [(1.0, "pass", 0), (2.0, "pass", 0), (0.5, "fail", 1), (1.4, "fail", 1)]
 )
-def test_register(ratio, status, mended):
+def test_register(ratio, status, repaired):
     (check,) = press(replace(TY460, gear_ratio=ratio, radius=140.0 / ratio)).check("register")
     assert (check.code, check.status) == ("GL506", status)
     if status == "fail":
-        assert f"set cylinder.gear_ratio to {mended}" in check.message
-        assert press(replace(TY460, gear_ratio=float(mended))).check("register")[0].status == "pass"
+        assert f"set cylinder.gear_ratio to {repaired}" in check.message
+        assert press(replace(TY460, gear_ratio=float(repaired))).check("register")[0].status == "pass"
 
 
 @pytest.mark.parametrize(("start", "status"), [(None, "pass"), (34.0, "pass"), (40.0, "fail")])

@@ -147,9 +147,9 @@ def test_the_shift_that_is_named_makes_the_speeds_meet(radius, initial):
     value, shift = float(named[1]), int(named[2])
     assert -360.0 <= value <= 360.0
     assert math.remainder(value - initial - shift, 360.0) == pytest.approx(0.0, abs=1e-6)
-    mended = replace(cylinder, initial_angle=math.radians(value))
-    start = equal_speed_angle(bed, mended)
-    assert difference(bed, mended, start, 1).first == pytest.approx(0.0, abs=1e-9)
+    repaired = replace(cylinder, initial_angle=math.radians(value))
+    start = equal_speed_angle(bed, repaired)
+    assert difference(bed, repaired, start, 1).first == pytest.approx(0.0, abs=1e-9)
     # and it is the smallest: a degree less does not help
     less = replace(cylinder, initial_angle=math.radians(initial + shift - math.copysign(1.0, shift)))
     with pytest.raises(NoSolution):

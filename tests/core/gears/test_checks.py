@@ -1,4 +1,4 @@
-"""Gear checks at their limits: one status on each side, the number that is named mends, no sliding without an involute.
+"""Gear checks at their limits: one status on each side, what a remedy names repairs, no sliding without an involute.
 
 Tolerances: limits are met from both sides at 1e-9 of the datum; quantities themselves are held in test_gear_pair.py.
 Undercut begins at x_min = h_a* - z sin^2(alpha)/2; tip thickness and contact ratio fall as x grows, so the shifts at

@@ -71,7 +71,7 @@ def test_published_value():
 @pytest.mark.parametrize("invert", [inverse_involute, involute_sweep.inverse_involute])
 def test_zero_and_the_ends_of_the_range(invert):
     assert float(invert(0.0)) == 0.0
-    # the cube of such an angle has no digits left to mend the rational start, good to 3e-9, of the sweep
+    # the cube of such an angle has no digits left to repair the rational start, good to 3e-9, of the sweep
     assert float(invert(5e-324)) == pytest.approx(float(mp.cbrt(3 * mp.mpf(5e-324))), rel=3e-9, abs=0.0)
     assert float(invert(1e-300)) == pytest.approx(float(mp.cbrt(mp.mpf(3e-300))), rel=1e-15, abs=0.0)
     assert float(invert(1e300)) == math.pi / 2

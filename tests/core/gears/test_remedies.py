@@ -29,16 +29,16 @@ def failing(pair: GearPair, *names: str) -> list[str]:
 
 
 @given(st.integers(8, 30), st.integers(20, 90), st.floats(0.5, 1.4), st.floats(-0.6, 0.3))
-def test_recommended_shifts_mend_tips_and_interference(z1: int, z2: int, x1: float, x2: float) -> None:
+def test_recommended_shifts_repair_tips_and_interference(z1: int, z2: int, x1: float, x2: float) -> None:
     pair = GearPair.from_shift(2.5, (z1, z2), (x1, x2))
     for message in failing(pair, "tip-thickness", "involute-interference"):
         if found := SHIFTS.search(message):
-            mended = GearPair.from_shift(2.5, (z1, z2), (float(found[1]), float(found[2])))
-            assert mended.center_distance == pytest.approx(pair.center_distance, abs=1e-8, rel=0.0)
-            assert not failing(mended, "tip-thickness", "involute-interference", "undercut")
+            repaired = GearPair.from_shift(2.5, (z1, z2), (float(found[1]), float(found[2])))
+            assert repaired.center_distance == pytest.approx(pair.center_distance, abs=1e-8, rel=0.0)
+            assert not failing(repaired, "tip-thickness", "involute-interference", "undercut")
 
 
-def test_a_pointed_tip_is_mended() -> None:
+def test_a_pointed_tip_is_repaired() -> None:
     (message,) = failing(GearPair.from_shift(4.0, (12, 40), (0.9, -0.2)), "tip-thickness")
     assert message.endswith("; profile_shift [0.473, 0.227] does it at the same centre distance")
 
@@ -78,7 +78,7 @@ def test_the_contact_ratio_stays() -> None:
         assert not failing(shared_anew(pair, 0, float(found[1])), "contact-ratio")
 
 
-def test_interference_is_mended() -> None:
+def test_interference_is_repaired() -> None:
     pair = GearPair.from_shift(2.0, (12, 80))
     (message,) = failing(pair, "involute-interference")
     found = SHIFTS.search(message)
@@ -98,5 +98,5 @@ def test_the_file_takes_what_is_named(gearlink: Any, tmp_path: Path) -> None:
     assert ended.status == 1
     found = SHIFTS.search(next(c["message"] for c in ended.json["checks"] if c["status"] == "fail"))
     assert found
-    mended = f"profile_shift=[{found[1]}, {found[2]}]"
-    assert gearlink("gear", path, "--set", mended, "--set", "shift_split=equal", "--strict").status == 0
+    repaired = f"profile_shift=[{found[1]}, {found[2]}]"
+    assert gearlink("gear", path, "--set", repaired, "--set", "shift_split=equal", "--strict").status == 0

@@ -297,7 +297,7 @@ def test_the_way_back_passes_on_the_error_of_a_rounded_rocker_angle(
     lengths: tuple[float, ...], assembly: int, phi: float
 ) -> None:
     """Against 50 digits: the crank angle comes back off by (error of psi) d phi/d psi, but for the way back's own
-    rounding; so the gain belongs into the condition of the exchange."""
+    rounding; so the gain belongs to the condition of the exchange."""
     linkage = FourBar(*lengths, assembly)
     there, exact = solve(linkage, phi), oracle(linkage, phi, 1)[1]
     side = math.sin(phi - there.coupler_angle)

@@ -232,8 +232,8 @@ def test_the_centre_that_is_recommended_keeps_the_limit(limit: float) -> None:
     design = machine(cam__center=[150.0, 0.0], limits={"pressure_angle": limit})
     check = next(c for c in design.check("pressure-angle") if c.status == "fail")
     x, y = (float(part) for part in check.message.split("set cam.center to [")[1].split("]")[0].split(","))
-    mended = machine(cam__center=[x, y], limits={"pressure_angle": limit})
-    assert all(c.status != "fail" for c in mended.check("pressure-angle"))
+    repaired = machine(cam__center=[x, y], limits={"pressure_angle": limit})
+    assert all(c.status != "fail" for c in repaired.check("pressure-angle"))
 
 
 def test_the_recommended_centre_of_the_mirrored_machine_is_the_mirrored_centre() -> None:
@@ -248,8 +248,8 @@ def test_near_a_dead_point_the_report_tells_what_remains(direction: float) -> No
     assert check.value > 100.0
     assert "0.01 mm of play turns the gripper by" in check.message
     turn = float(check.message.split("turn output_direction by ")[1].split()[0])
-    mended = machine(output_direction=direction + turn, limits={"transmission_angle": 0.0})
-    assert mended.check("conditioning")[0].status == "pass"
+    repaired = machine(output_direction=direction + turn, limits={"transmission_angle": 0.0})
+    assert repaired.check("conditioning")[0].status == "pass"
 
 
 def test_a_change_point_linkage_warns() -> None:
@@ -266,10 +266,10 @@ def test_the_constant_phase_that_is_recommended_gives_the_swing(stated: float) -
     with pytest.raises(NoSolution) as refused:
         _ = machine(total_swing=stated).law
     change = float(refused.value.message.split("phases.constant by ")[1].split()[0])
-    mended = machine(
+    repaired = machine(
         phases__constant=12.0 + change, phases__near_dwell=70.0 - change, total_swing=stated, handover=101.0
     )
-    assert math.degrees(mended.law.total_swing) == pytest.approx(stated, rel=0.0, abs=1e-6)
+    assert math.degrees(repaired.law.total_swing) == pytest.approx(stated, rel=0.0, abs=1e-6)
 
 
 def test_kappa_that_is_recommended_gives_the_swing() -> None:

@@ -155,8 +155,8 @@ def test_levers_serve_in_place_of_the_torque() -> None:
     check = design.check_lift_off()
     assert check.status == "fail"
     preload = float(check.message.split("raise spring.preload to ")[1].split()[0])
-    mended = machine(lambda data: data.update(spring={**levers, "preload": preload}))
-    assert mended.check_lift_off().status == "pass"
+    repaired = machine(lambda data: data.update(spring={**levers, "preload": preload}))
+    assert repaired.check_lift_off().status == "pass"
 
 
 @pytest.mark.parametrize("torque", [250.0, 300.0])

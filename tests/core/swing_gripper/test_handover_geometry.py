@@ -107,8 +107,8 @@ def test_a_drum_out_of_place_is_told_what_to_change(turn: float, along: float) -
     if turn:
         change = float(place.message.split("turn arm.direction by ")[1].split()[0])
         assert change == pytest.approx(turn, rel=0.0, abs=1e-5)
-        mended = machine(cylinder__center=[off.real, off.imag], arm__direction=125.0 + change)
-        assert mended.check("handover")[1].value == pytest.approx(abs(along), rel=0.0, abs=1e-4)
+        repaired = machine(cylinder__center=[off.real, off.imag], arm__direction=125.0 + change)
+        assert repaired.check("handover")[1].value == pytest.approx(abs(along), rel=0.0, abs=1e-4)
     assert ("change arm.length" in place.message) == bool(along)
 
 

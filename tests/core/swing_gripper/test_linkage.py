@@ -235,8 +235,8 @@ def test_the_turn_that_is_recommended_serves(direction: float) -> None:
     turn, widest = clear_turn(linkage, limit)
     assert turn is not None
     assert widest >= linkage.law.total_swing
-    mended = machine(output_direction=direction + math.degrees(turn)).linkage
-    assert min(least.value for least in mended.least_transmission) >= limit
+    repaired = machine(output_direction=direction + math.degrees(turn)).linkage
+    assert min(least.value for least in repaired.least_transmission) >= limit
     if turn:
         short = machine(output_direction=direction + math.degrees(turn) * 0.9).linkage
         assert min(least.value for least in short.least_transmission) < limit + math.radians(1.0)

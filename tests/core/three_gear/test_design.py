@@ -1,4 +1,4 @@
-"""The three-gear four-bar as a design: analysis by a second way, mirror image, checks that mend, refusals.
+"""The three-gear four-bar as a design: analysis by a second way, mirror image, checks that repair, refusals.
 
 Tolerances
 * oracle (tests/oracles/three_gear.py, 30 digits): 1e-11 relative for speeds and angles. The linkages keep 20 deg and
@@ -288,18 +288,18 @@ def test_ratio_of_less_than_a_tooth():
 
 @pytest.mark.parametrize("limit", [0.0, 0.7, 12.34567])
 @pytest.mark.parametrize("name", ["example 3", "short frame"])
-def test_collision_remedies_mend_the_design(name, limit):
+def test_collision_remedies_repair_the_design(name, limit):
     gears, links = DESIGNS[name]["gears"], DESIGNS[name]["links"]
     limits = {"gear_gap": limit}
     (check,) = design(gears=gears, links=links, limits=limits).check("gear-collision")
     assert check.status == "fail"
     longer = float(re.search(r"frame less crank ([\d.]+) mm longer", check.message)[1])
     teeth = int(re.search(r"output gears (\d+) teeth smaller together", check.message)[1])
-    mended = (
+    repaired = (
         {"gears": gears, "links": links | {"crank": links["crank"] - longer / 2, "frame": links["frame"] + longer / 2}},
         {"gears": gears | {"output": gears["output"] - teeth}, "links": links},
     )
-    for sections in mended:
+    for sections in repaired:
         oracle = drive(sections)
         z1, _, z5 = oracle.teeth
         gap = oracle.frame - oracle.crank - sections["gears"]["module"] * (z1 + z5 + 4) / 2
@@ -312,8 +312,8 @@ def test_collision_remedies_mend_the_design(name, limit):
 def test_longer_frame_as_advised_passes_example_3():
     (check,) = design(**EXAMPLE_3).check("gear-collision")
     longer = float(re.search(r"frame less crank ([\d.]+) mm longer", check.message)[1])
-    mended = design(gears=EXAMPLE_3["gears"], links={"crank": 18.0, "frame": 121.4 + longer})
-    assert [c.status for c in mended.check("gear-collision")] == ["pass"]
+    repaired = design(gears=EXAMPLE_3["gears"], links={"crank": 18.0, "frame": 121.4 + longer})
+    assert [c.status for c in repaired.check("gear-collision")] == ["pass"]
 
 
 def test_crank_that_is_named_gives_a_momentary_dwell_with_room():

@@ -47,7 +47,7 @@ def test_published_example_3():
     assert extremes == pytest.approx(out["gamma_ext_deg"][:2], rel=1e-15)
 
 
-def test_published_example_3_mended():
+def test_published_example_3_repaired():
     out = CASES["ex3_e16"]["outputs"]
     linkage = momentary_linkage(*EX3, 16.0)
     assert linkage.frame == pytest.approx(out["d"], rel=1e-15)

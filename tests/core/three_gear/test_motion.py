@@ -15,11 +15,11 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from gearlink.core.errors import NoSolution
+from gearlink.core.linkages.checks import check_linkage
 from gearlink.core.linkages.fourbar import FourBar, solve
 from gearlink.core.three_gear.motion import (
     GearTrain,
     acceleration_extremes,
-    check_linkage,
     gear_gap,
     mean_ratio,
     nonuniformity,

@@ -289,11 +289,11 @@ def test_back_step_that_an_idler_given_misses(angle, status):
     assert (check.code, check.name, check.status, check.unit) == ("GL304", "back-step-target", status, "deg")
     assert check.value == pytest.approx(20.061414725098526, rel=1e-13)
     if status == "warn":
-        for mended in (
+        for repaired in (
             design(BackStepSynthesis, gears=EQUAL, back_step=back_step),
             design(BackStepSynthesis, gears=EQUAL | {"idler": 72}, back_step={"angle": angle}),
         ):
-            assert [c.status for c in mended.check("back-step-target")] == ["pass"]
+            assert [c.status for c in repaired.check("back-step-target")] == ["pass"]
 
 
 def test_ratio_with_unequal_gears_is_refused_at_the_output_gear():
@@ -445,8 +445,8 @@ def test_crank_that_is_named_keeps_the_gears_apart(gears):
     assert check.status == "fail"
     crank = float(re.search(r"momentary\.eccentricity to at most ([\d.]+) mm", check.message)[1])
     idler = int(re.search(r"an idler of (\d+) teeth", check.message)[1])
-    for mended in (sections | {"momentary": {"eccentricity": crank}}, with_idler(sections, idler)):
-        assert [c.status for c in design(MomentaryDwellSynthesis, **mended).check("gear-collision")] == ["pass"]
+    for repaired in (sections | {"momentary": {"eccentricity": crank}}, with_idler(sections, idler)):
+        assert [c.status for c in design(MomentaryDwellSynthesis, **repaired).check("gear-collision")] == ["pass"]
     longer = sections | {"momentary": {"eccentricity": crank + 0.002}}
     assert [c.status for c in design(MomentaryDwellSynthesis, **longer).check("gear-collision")] == ["fail"]
 

@@ -372,22 +372,22 @@ MENDED: list[tuple[WideSwingDesign, str, str]] = [
 
 
 @pytest.mark.parametrize(("made", "check", "path"), MENDED)
-def test_recommendation_as_given_mends_the_finding(made: WideSwingDesign, check: str, path: str) -> None:
+def test_recommendation_as_given_repairs_the_finding(made: WideSwingDesign, check: str, path: str) -> None:
     suggestion = next(each for each in made.suggestions() if each.path == path)
     assert suggestion.why
-    mended = WideSwingDesign(WideSwingSpec.model_validate(replaced(made.spec, path, suggestion.value).model_dump()))
+    repaired = WideSwingDesign(WideSwingSpec.model_validate(replaced(made.spec, path, suggestion.value).model_dump()))
     if check:
         try:
             before = statuses(made, check)
         except NoSolution:
             before = ["fail"]
         assert "fail" in before or made.spec.unloader.pivot_ratio < 1.0
-        assert "fail" not in statuses(mended, check)
+        assert "fail" not in statuses(repaired, check)
     else:
         with pytest.raises(NoSolution):
             made.report("swing")
-        mended.report("swing")
-    assert path not in [again.path for again in mended.suggestions() if again.why == suggestion.why]
+        repaired.report("swing")
+    assert path not in [again.path for again in repaired.suggestions() if again.why == suggestion.why]
 
 
 @pytest.mark.parametrize("made", [case[0] for case in MENDED])

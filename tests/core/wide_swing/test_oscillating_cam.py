@@ -126,6 +126,6 @@ def test_refusals() -> None:
         CrankRockerDrive(FourBar(3.0, 1.0, 2.5, 4.0))
     with pytest.raises(NoSolution, match="centre distance is 0 mm"):
         OscillatingCam(DRIVE, CAM.law, 0.0, 1.0)
-    with pytest.raises(NoSolution, match=r"too small to reckon a cam with.*set swing to at least") as refused:
+    with pytest.raises(NoSolution, match=r"too small to compute a cam with.*set swing to at least") as refused:
         _ = OscillatingCam(DRIVE, ElasticLaw(Pneumatic(2.5), 1e-14), 1.0, 0.02).ratio
     assert refused.value.key == "swing"

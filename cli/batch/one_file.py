@@ -1,0 +1,71 @@
+"""Every command that one design file of a batch asks for; nothing that it does can end the batch."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from time import perf_counter
+
+from gearlink.cli.batch.options import BatchOptions
+from gearlink.cli.batch.outcome import Outcome
+from gearlink.cli.evaluate import build, exit_status, open_design, read_spec
+from gearlink.cli.exit_codes import ExitCode
+from gearlink.cli.files import CannotWrite
+from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
+from gearlink.cli.reading.loaded_file import LoadedFile, parse_path
+from gearlink.core.report import Report
+
+
+def outcomes(path: Path, options: BatchOptions) -> list[Outcome]:
+    """What became of each command that a file asks for; nothing raised here ends a batch."""
+    if options.cache is None:
+        return list(_computed(path, options))
+    from gearlink.cli.batch.cache import cached_outcomes
+
+    return cached_outcomes(path, options, lambda: list(_computed(path, options)))
+
+
+def _computed(path: Path, options: BatchOptions) -> Iterator[Outcome]:
+    file, kind_name, name, command = str(path), "", path.stem, ""
+    start = perf_counter()
+
+    def ended(
+        status: int,
+        report: Report | None = None,
+        errors: Sequence[Diagnostic] = (),
+        places: tuple[tuple[int, int], ...] = (),
+    ) -> Outcome:
+        seconds = perf_counter() - start
+        return Outcome(file, kind_name, name, command, status, report, tuple(errors), places, seconds)
+
+    try:
+        loaded, kind = open_design(file, options.design)
+        kind_name = kind.name
+        spec = read_spec(loaded, kind, file)
+        name = spec.name
+        for command in spec.commands():
+            try:
+                design, report = build(loaded, kind, command, spec, options.design, findings_only=options.findings_only)
+                if options.out is not None:
+                    from gearlink.cli.batch.out import write_results
+
+                    write_results(path, design, report, options)
+                places = _places(loaded, report) if options.with_places else ()
+                yield ended(exit_status(report, strict=options.design.strict), report, places=places)
+            except DesignFileError as error:
+                yield ended(ExitCode.WRONG_INPUT, errors=error.diagnostics)
+            except CannotWrite as error:
+                yield ended(ExitCode.WRONG_INPUT, errors=[Diagnostic("GL116", str(error), file=file)])
+            start = perf_counter()
+    except DesignFileError as error:
+        yield ended(ExitCode.WRONG_INPUT, errors=error.diagnostics)
+    except Exception as fault:
+        message = f"fault of the program: {type(fault).__name__}: {fault}"
+        yield ended(ExitCode.FAULT, errors=[Diagnostic("GL199", message, file=file)])
+
+
+def _places(loaded: LoadedFile, report: Report) -> tuple[tuple[int, int], ...]:
+    from gearlink.cli.texts.finding_keys import key_of
+
+    bad = (check for check in report.checks if check.status != "pass")
+    return tuple(loaded.place_in_file(parse_path(key_of(loaded.data, check)) or ("kind",)) for check in bad)

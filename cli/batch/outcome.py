@@ -1,0 +1,60 @@
+"""What became of one command on one design file of a batch."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from gearlink.cli.exit_codes import ExitCode
+from gearlink.cli.reading.diagnostics import Diagnostic
+from gearlink.core.report import Check, Report
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What became of one command on one design file.
+
+    `places` holds line and column of each check that did not pass, where the output of the batch shows them.
+    """
+
+    file: str
+    kind: str
+    name: str
+    command: str
+    status: int
+    report: Report | None = None
+    errors: tuple[Diagnostic, ...] = ()
+    places: tuple[tuple[int, int], ...] = ()
+    seconds: float = 0.0
+    cached: bool = False
+
+    @property
+    def verdict(self) -> str:
+        """One word: pass, warn, fail, error or fault."""
+        if self.report is None:
+            return "error" if self.status == ExitCode.WRONG_INPUT else "fault"
+        found = {check.status for check in self.to_repair}
+        return "fail" if "fail" in found else "warn" if "warn" in found else "pass"
+
+    @property
+    def finding(self) -> str:
+        """The first thing to repair, or nothing."""
+        if self.errors:
+            return f"{self.errors[0].line}:{self.errors[0].column} {self.errors[0].code}: {self.errors[0].message}"
+        if self.report is None:
+            return ""
+        worst = [c for wanted in ("fail", "warn") for c in self.to_repair if c.status == wanted]
+        return f"{worst[0].code} {worst[0].name}: {worst[0].message}" if worst else ""
+
+    @property
+    def to_repair(self) -> list[Check]:
+        """The checks that did not pass."""
+        return [] if self.report is None else [c for c in self.report.checks if c.status != "pass"]
+
+
+def summary(results: Sequence[Outcome]) -> dict[str, int]:
+    """How many designs came out how."""
+    counts = dict.fromkeys(("pass", "warn", "fail", "error", "fault"), 0)
+    for outcome in results:
+        counts[outcome.verdict] += 1
+    return counts

@@ -1,0 +1,102 @@
+"""A design file as plain data whose keys can be located in its text."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from typing import Any
+
+from gearlink.cli.reading.diagnostics import Diagnostic, Source
+from gearlink.cli.reading.yaml_reader import Marks, Tree, format_path
+
+KeyPath = tuple[str | int, ...]
+"""A key path: `("teeth", 1)` for `teeth[1]`."""
+
+_STEP = re.compile(r"(?:(?:^|(?<=.)\.)([^.\[\]=\s]+)|\[([0-9]{1,6})\])")
+
+
+@dataclass(frozen=True, slots=True)
+class Override:
+    """A value that `--set` put in; its marks are positions in the argument."""
+
+    path: KeyPath
+    value: Any
+    marks: Marks | None
+    source: Source
+
+
+@dataclass(slots=True)
+class LoadedFile:
+    """A design file as plain data whose keys can be located."""
+
+    file: str
+    data: dict[str, Any]
+    tree: Tree
+    overrides: list[Override] = field(default_factory=list)
+    problems: list[Diagnostic] = field(default_factory=list)
+    """Errors found in reading that did not hinder it (duplicate keys); `validate` reports them with its own."""
+
+    @property
+    def text(self) -> str:
+        """The decoded text of the file."""
+        return self.tree.source.text
+
+    def locate(self, path: KeyPath, *, value: bool = False) -> tuple[int, int, str]:
+        """Line, column and file of a key (or of its value); of the nearest parent where the key is missing."""
+        source, at = self._spot(path, value)
+        return *source.place(at), source.file
+
+    def place_in_file(self, path: KeyPath) -> tuple[int, int]:
+        """Line and column of a key, or of its nearest parent, in the file itself, whatever `--set` put over it."""
+        at, _ = _find(self.tree.marks, path, self.tree.at, False)
+        return self.tree.source.place(at)
+
+    def report(self, code: str, message: str, path: KeyPath, *, key: str | None = None, help: str = "") -> Diagnostic:
+        """A diagnostic that points at a key, or at the nearest parent of a missing one."""
+        source, at = self._spot(path)
+        return source.report(code, message, at, key=format_path(path) if key is None else key, help=help)
+
+    def _spot(self, path: KeyPath, value: bool = False) -> tuple[Source, int]:
+        for override in reversed(self.overrides):
+            depth = len(override.path)
+            if path[:depth] == override.path:
+                at, _ = _find(override.marks, path[depth:], 0, value)
+                return override.source, at
+        at, found = _find(self.tree.marks, path, self.tree.at, value)
+        if found < len(path):
+            for override in reversed(self.overrides):
+                common = _common(override.path, path)
+                if common > found:
+                    return override.source, 0
+        return self.tree.source, at
+
+
+def parse_path(text: str) -> KeyPath | None:
+    """The steps of a dotted key path, or None where it is none.
+
+    Example
+        >>> parse_path("pivots.input[1]"), parse_path("a..b")
+        (('pivots', 'input', 1), None)
+    """
+    steps: list[str | int] = []
+    at = 0
+    while match := _STEP.match(text, at):
+        steps.append(match[1] if match[2] is None else int(match[2]))
+        at = match.end()
+    return tuple(steps) if at == len(text) and steps and isinstance(steps[0], str) else None
+
+
+def _find(marks: Marks | None, path: KeyPath, root: int, value: bool = False) -> tuple[int, int]:
+    """Position of the deepest step of a path that is there, and how many steps that are."""
+    at, found = root, 0
+    for step in path:
+        if marks is None or step not in marks:
+            break
+        key_at, value_at, marks = marks[step]
+        found += 1
+        at = value_at if value and found == len(path) else key_at
+    return at, found
+
+
+def _common(one: KeyPath, other: KeyPath) -> int:
+    return next((i for i, (a, b) in enumerate(zip(one, other, strict=False)) if a != b), min(len(one), len(other)))
