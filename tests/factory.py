@@ -1,0 +1,57 @@
+"""The one place where tests make designs: from the data of a design file, or from a worked design, with changes."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from gearlink.core.kinds import KINDS
+
+DESIGNS = Path(__file__).resolve().parents[1] / "designs"
+
+
+def design(
+    given: str | Mapping[str, Any], /, *, command: str = "analyze", samples: int | None = None, **keys: Any
+) -> Any:
+    """The design of a file's data.
+
+    Parameters
+        given : the data, or the name of a worked design ("ty460")
+        command : str - whose design class it is; "analyze" stands for all but the four of `synth`
+        samples : int - as `--samples`
+        keys - changes as in `changed`
+    """
+    data = changed(worked(given) if isinstance(given, str) else given, **keys)
+    kind = KINDS[data["kind"]]
+    return kind.design(command, kind.spec_model().model_validate(data), samples)
+
+
+def changed(data: Mapping[str, Any], **keys: Any) -> dict[str, Any]:
+    """A copy of the data of a design file with values set by their keys, `cam__roller_radius=8.0` for a key of a
+    section (sections are made where they are missing); None takes a key out."""
+    copied = copy.deepcopy(dict(data))
+    for path, value in keys.items():
+        *sections, last = path.split("__")
+        place = copied
+        for section in sections:
+            place = place.setdefault(section, {})
+        if value is None:
+            place.pop(last, None)
+        else:
+            place[last] = copy.deepcopy(value)
+    return copied
+
+
+def worked(name: str) -> dict[str, Any]:
+    """The data of a worked design by the name of its file, named after it where it has no name, as the program does."""
+    return copy.deepcopy(_read(name))
+
+
+@cache
+def _read(name: str) -> dict[str, Any]:
+    return {"name": name} | yaml.safe_load((DESIGNS / f"{name}.yaml").read_text(encoding="utf-8"))
