@@ -5,11 +5,14 @@ from __future__ import annotations
 import json
 import os
 from dataclasses import dataclass
+from functools import wraps
 from pathlib import Path
 from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, settings
+from hypothesis.internal.conjecture import providers
+from hypothesis.internal.constants_ast import Constants
 
 from gearlink.cli.main import run
 
@@ -25,6 +28,19 @@ settings.register_profile(
     suppress_health_check=[HealthCheck.too_slow],
 )
 settings.load_profile("steady")
+
+_NONE = Constants()
+
+
+@wraps(providers._get_local_constants)
+def _no_local_constants() -> Constants:
+    """Hypothesis strews constants of the loaded modules of the project among its examples. Which modules are loaded
+    depends on the tests that ran before in the same process, so the examples would too, seeds or no seeds. There is
+    no setting for it; tests/test_examples.py says whether this way of switching it off still works."""
+    return _NONE
+
+
+providers._get_local_constants = _no_local_constants
 
 
 @dataclass(frozen=True)
