@@ -70,12 +70,10 @@ def _invoke(arguments: list[str]) -> int:
         print(f"gearlink {VERSION}")
         return ExitCode.OK
     if "_GEARLINK_COMPLETE" not in os.environ:  # else a shell asks for completions
-        from gearlink.cli.quick import plain_line
+        from gearlink.cli.quick import plain_line, run_line
 
         if line := plain_line(arguments):
-            from gearlink.cli.commands.design import run_design
-
-            return run_design(*line)
+            return run_line(*line)
     from gearlink.cli.app import invoke
 
     return invoke(arguments)

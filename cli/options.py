@@ -1,10 +1,16 @@
-"""The options that the design commands share."""
+"""What may stand on a command line: the commands on a design file, and the options that commands share.
+
+One table for both readers of a line: `gearlink.cli.quick` reads plain lines by it, `gearlink.cli.typer_options` makes
+Typer's parameters of it.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from enum import StrEnum
 from pathlib import Path
+from typing import Any
 
 
 class Format(StrEnum):
@@ -40,3 +46,61 @@ class Options:
     color: bool = True
     quiet: bool = False
     profile: bool = False
+    suggest: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Option:
+    """An option as it is written: names, type of its value, what --help says of it.
+
+    Parameters
+        flags : names, the long one first
+        help : str
+        type : makes the value from its text; bool: the option has no value
+        metavar : str or None - what stands for the value in --help; None: its type
+        least, most : bounds of a number
+        repeatable : bool - each use adds a value
+        stands_for : bool - what an option without a value sets
+    """
+
+    flags: tuple[str, ...]
+    help: str
+    type: Callable[[str], Any] = bool
+    metavar: str | None = None
+    least: float | None = None
+    most: float | None = None
+    repeatable: bool = False
+    stands_for: bool = True
+
+
+OPTIONS = {
+    "format": Option(("--format", "-f"), "how results are printed", Format),
+    "plot": Option(("--plot",), "write the picture NAME-COMMAND.png"),
+    "plot_format": Option(("--plot-format",), "file format of the picture", PlotFormat),
+    "out": Option(("--out",), "folder for files that are written", Path, "DIR"),
+    "overrides": Option(("--set",), "override a key (repeatable)", str, "PATH=VALUE", repeatable=True),
+    "quantities": Option(("--quantity",), "print only this quantity (repeatable)", str, "NAME", repeatable=True),
+    "tables": Option(("--table",), "add a table (repeatable)", str, "NAME", repeatable=True),
+    "samples": Option(("--samples",), "rows per turn or stroke", int, least=2, most=10_000_000),
+    "strict": Option(("--strict",), "treat a warning as a failure"),
+    "color": Option(("--no-color",), "no colours, as with NO_COLOR=1", stands_for=False),
+    "quiet": Option(("--quiet", "-q"), "print no notes on standard error"),
+    "profile": Option(("--profile",), "list on standard error what was computed and how long it took"),
+    "suggest": Option(("--suggest",), "try the recommended changes and show the repaired design"),
+}
+"""The options that commands share, by the field of `Options` that keeps their value."""
+
+COMMANDS = {
+    "analyze": "Full analysis of a design: kinematics over a turn, dwells, all checks.",
+    "gear": "Gear pairs: a gear-pair design, or the pairs inside a press or a geared linkage.",
+    "crank": "Crank length from the stroke of a slider-crank.",
+    "press": "Flatbed press: both chains, 12 positions, velocities, synchronous zone.",
+    "gripper": "Swing gripper: six-phase law, vector loop, handover, cams, force closure.",
+    "swing": "Wide-swing cam mechanism with unloading device: law, sizing, profile, balancing.",
+    "cam": "The cams of a design: follower motion, profiles, pressure angle, curvature.",
+    "synth dwell": "Size the linkage for a dwell over a given crank angle.",
+    "synth back-step": "Size the linkage for a back-step.",
+    "synth variable-speed": "Size the linkage for an output speed that varies between two values.",
+    "synth momentary-dwell": "Size the frame for one momentary standstill per turn.",
+}
+"""The commands on one design file and what each does; `gearlink.core.kinds` says which kind understands which."""

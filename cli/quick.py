@@ -7,42 +7,15 @@ A test holds the two readings to the same result.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from pathlib import Path
+from collections.abc import Iterator
 from typing import Any, TypeAlias
 
-from gearlink.cli.options import Format, Options, PlotFormat
-
-DESIGN_COMMANDS = frozenset({"analyze", "gear", "crank", "press", "gripper", "swing", "cam"})
-SYNTH_COMMANDS = frozenset({"dwell", "back-step", "variable-speed", "momentary-dwell"})
-MOST_SAMPLES = 10_000_000
-"""Rows of a table at most; the least are 2."""
+from gearlink.cli.options import COMMANDS, OPTIONS, Option, Options
 
 Line: TypeAlias = tuple[str, str, Options]
 """Command, design file, options."""
 
-_FLAGS = {"--plot": ("plot", True), "--strict": ("strict", True), "--profile": ("profile", True)} | {
-    "--no-color": ("color", False),
-    "--quiet": ("quiet", True),
-    "-q": ("quiet", True),
-}
-
-
-def _samples(text: str) -> int:
-    number = int(text) if text.isascii() and text.isdecimal() else 0
-    if not 2 <= number <= MOST_SAMPLES:
-        raise ValueError(text)
-    return number
-
-
-_VALUES: dict[str, tuple[str, Callable[[str], Any]]] = {
-    "--format": ("format", Format),
-    "-f": ("format", Format),
-    "--plot-format": ("plot_format", PlotFormat),
-    "--out": ("out", Path),
-    "--samples": ("samples", _samples),
-}
-_LISTS = {"--set": "overrides", "--quantity": "quantities", "--table": "tables"}
+_BY_FLAG = {flag: name for name, option in OPTIONS.items() for flag in option.flags}
 
 
 def plain_line(arguments: list[str]) -> Line | None:
@@ -65,12 +38,21 @@ def plain_line(arguments: list[str]) -> Line | None:
     return (command, sources[0], Options(**chosen)) if len(sources) == 1 else None
 
 
+def run_line(command: str, source: str, options: Options) -> int:
+    """Run a command on a design file as the options ask, and give the exit status."""
+    if options.suggest:
+        from gearlink.cli.commands.suggest import run_suggested
+
+        return run_suggested(command, source, options)
+    from gearlink.cli.commands.design import run_design
+
+    return run_design(command, source, options)
+
+
 def _command(arguments: list[str]) -> tuple[str, list[str]]:
-    if arguments[:1] == ["synth"] and len(arguments) > 1 and arguments[1] in SYNTH_COMMANDS:
-        return f"synth {arguments[1]}", arguments[2:]
-    if arguments and arguments[0] in DESIGN_COMMANDS:
-        return arguments[0], arguments[1:]
-    return "", []
+    words = 2 if arguments[:1] == ["synth"] else 1
+    command = " ".join(arguments[:words])
+    return (command, arguments[words:]) if command in COMMANDS else ("", [])
 
 
 def _read(rest: Iterator[str]) -> tuple[list[str], dict[str, Any]]:
@@ -78,24 +60,28 @@ def _read(rest: Iterator[str]) -> tuple[list[str], dict[str, Any]]:
     sources: list[str] = []
     chosen: dict[str, Any] = {}
     for argument in rest:
-        if argument in _FLAGS:
-            name, value = _FLAGS[argument]
-            chosen[name] = value
-        elif argument == "-" or not argument.startswith("-"):
+        if argument == "-" or not argument.startswith("-"):
             sources.append(argument)
+            continue
+        flag, sign, text = argument.partition("=") if argument.startswith("--") else (argument, "", "")
+        name = _BY_FLAG[flag]
+        option = OPTIONS[name]
+        if option.type is not bool:
+            value = _value(option, text if sign else next(rest))
+            chosen[name] = (*chosen.get(name, ()), value) if option.repeatable else value
+        elif sign:
+            raise ValueError(argument)
         else:
-            _value(argument, rest, chosen)
+            chosen[name] = option.stands_for
     return sources, chosen
 
 
-def _value(argument: str, rest: Iterator[str], chosen: dict[str, Any]) -> None:
-    option, sign, text = argument.partition("=") if argument.startswith("--") else (argument, "", "")
-    if not sign:
-        text = next(rest)
+def _value(option: Option, text: str) -> Any:
+    """The value of an option; raises where it is not plain."""
     if not text or text.startswith("-"):
         raise ValueError(text)
-    if option in _LISTS:
-        chosen[_LISTS[option]] = (*chosen.get(_LISTS[option], ()), text)
-    else:
-        name, read = _VALUES[option]
-        chosen[name] = read(text)
+    if option.least is None or option.most is None:
+        return option.type(text)
+    if not (text.isascii() and text.isdecimal() and option.least <= int(text) <= option.most):
+        raise ValueError(text)
+    return int(text)

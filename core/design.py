@@ -86,6 +86,10 @@ class Design:
         found: Check | Iterable[Check] = getattr(self, "check_" + name.replace("-", "_"))()
         return [found] if isinstance(found, Check) else list(found)
 
+    def suggestions(self) -> Sequence[Any]:
+        """Changes of keys that would repair the design, each (path, value, why); a kind that has none gives none."""
+        return ()
+
     def require(self, command: str) -> None:
         """Compute every quantity of a command: where no mechanism exists, one of them says so.
 

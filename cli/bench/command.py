@@ -12,6 +12,8 @@ import typer
 
 from gearlink.cli.bench.families import FAMILIES, measured
 from gearlink.cli.exit_codes import ExitCode
+from gearlink.cli.options import Options
+from gearlink.cli.typer_options import option, takes
 
 NAMES = tuple(FAMILIES)
 
@@ -29,20 +31,19 @@ def register(app: typer.Typer) -> None:
     app.command("bench")(_bench)
 
 
+@takes("quiet")
 def _bench(
+    options: Options,
     families: Annotated[list[str] | None, typer.Argument(metavar="FAMILY", help=", ".join(NAMES))] = None,
     quick: Annotated[bool, typer.Option("--quick", help="fewer rounds, nothing above 1e5")] = False,
-    out: Annotated[Path | None, typer.Option("--out", metavar="DIR", help="write a picture of each family")] = None,
-    format: Annotated[
-        BenchFormat, typer.Option("--format", "-f", help="how the tables are printed")
-    ] = BenchFormat.TABLE,
-    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="print no notes on standard error")] = False,
+    out: Annotated[Path | None, option("out", help="write a picture of each family")] = None,
+    format: Annotated[BenchFormat, option("format", help="how the tables are printed")] = BenchFormat.TABLE,
 ) -> None:
-    """Time per result against error for every family of solvers, beside the textbook ways; needs gearlink[bench].
+    """Measure time per result against error for each family of solvers and its textbook equivalents; needs mpmath.
 
     Example: gearlink bench involute dwell --quick
     """
-    raise typer.Exit(run_bench(families or NAMES, format, quick=quick, out=out, quiet=quiet))
+    raise typer.Exit(run_bench(families or NAMES, format, quick=quick, out=out, quiet=options.quiet))
 
 
 def run_bench(names: Sequence[str], form: BenchFormat, *, quick: bool, out: Path | None, quiet: bool) -> int:

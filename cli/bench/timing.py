@@ -71,7 +71,7 @@ def mpmath(digits: int = 30) -> Any:
     try:
         module = import_module("mpmath")
     except ImportError:
-        raise BenchNeedsMpmath("bench compares with 30 digits of mpmath: pip install 'gearlink[bench]'") from None
+        raise BenchNeedsMpmath("bench compares with 30 digits of mpmath: pip install mpmath") from None
     module.mp.dps = digits
     return module
 

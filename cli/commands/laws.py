@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
+from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from gearlink.cli.exit_codes import ExitCode
-from gearlink.cli.options import Format, Options, PlotFormat
+from gearlink.cli.options import Options
+from gearlink.cli.typer_options import option, takes
 
 if TYPE_CHECKING:
     from gearlink.cli.reading.diagnostics import Diagnostic
@@ -18,26 +19,19 @@ if TYPE_CHECKING:
 _WHERE = "<--law>"
 
 
+@takes("format", "plot", "plot_format", "out", "color", "quiet", plot="write the picture motion-laws.png")
 def laws(
+    options: Options,
     law: Annotated[list[str], typer.Option("--law", metavar="NAME", help="s, v, a, j of this law (repeatable)")] = [],  # noqa: B006 - Typer copies it
-    samples: Annotated[int | None, typer.Option("--samples", min=1, max=10_000_000, help="steps of x, 100")] = None,
-    format: Annotated[Format, typer.Option("--format", "-f", help="how results are printed")] = Format.TABLE,
-    plot: Annotated[bool, typer.Option("--plot", help="write motion-laws.png")] = False,
-    plot_format: Annotated[PlotFormat, typer.Option("--plot-format", help="kind of picture")] = PlotFormat.PNG,
-    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="folder for files that are written")] = Path(),
-    no_color: Annotated[bool, typer.Option("--no-color", help="no colours, as with NO_COLOR=1")] = False,
-    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="print no notes on standard error")] = False,
+    samples: Annotated[int | None, option("samples", help="steps of x; default: 100", least=1)] = None,
 ) -> None:
-    """Constants Cv, Ca, Cj, Cm, kappa of every motion law; with --law, the course of one over x.
+    """Constants Cv, Ca, Cj, Cm, kappa of every motion law; with --law, s, v, a, j of one law over x.
 
     NAME is written as in a design file: modified-sine, mcv-33, velocity-345, '{scca: [0.25, 0, 0.75, 0]}'.
 
     Example: gearlink laws --law modified-sine --law polynomial-345 --plot
     """
-    options = Options(
-        format=format, plot=plot, plot_format=plot_format, out=out, samples=samples, color=not no_color, quiet=quiet
-    )
-    raise typer.Exit(run_laws(law, options))
+    raise typer.Exit(run_laws(law, replace(options, samples=samples)))
 
 
 def run_laws(names: Sequence[str], options: Options) -> int:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
@@ -9,6 +10,7 @@ from typing import Annotated
 import typer
 
 from gearlink.cli.options import Format, Options
+from gearlink.cli.typer_options import option, takes
 
 
 class PageFormat(StrEnum):
@@ -19,11 +21,7 @@ class PageFormat(StrEnum):
     MARKDOWN = "md"
 
 
-KindArgument = Annotated[str, typer.Argument(metavar="KIND", help="kind of design, such as gear-pair")]
-FormatOption = Annotated[Format, typer.Option("--format", "-f", help="how findings are printed")]
-PageOption = Annotated[PageFormat, typer.Option("--format", "-f", help="how the answer is printed")]
-NoColorOption = Annotated[bool, typer.Option("--no-color", help="no colours, as with NO_COLOR=1")]
-QuietOption = Annotated[bool, typer.Option("--quiet", "-q", help="print no notes on standard error")]
+PageOption = Annotated[PageFormat, option("format", help="how the answer is printed")]
 
 
 def register(app: typer.Typer) -> None:
@@ -38,27 +36,28 @@ def register(app: typer.Typer) -> None:
         app.command(name)(command)
 
 
+@takes("quiet")
 def _new(
-    kind: KindArgument,
-    out: Annotated[Path | None, typer.Option("--out", metavar="FILE", help="write it there, not to the screen")] = None,
+    kind: Annotated[str, typer.Argument(metavar="KIND", help="kind of design, such as gear-pair")],
+    options: Options,
+    out: Annotated[Path | None, option("out", metavar="FILE", help="file to write; default: the screen")] = None,
     force: Annotated[bool, typer.Option("--force", help="overwrite the file")] = False,
-    quiet: QuietOption = False,
 ) -> None:
-    """A commented design file of a kind that runs as it stands, to begin from.
+    """Write a commented example of a design file, ready to run and to change.
 
     Example: gearlink new gear-pair --out pair.yaml
     """
     from gearlink.cli.commands.new import run_new
 
-    raise typer.Exit(run_new(kind, out, force=force, quiet=quiet))
+    raise typer.Exit(run_new(kind, out, force=force, quiet=options.quiet))
 
 
 def _schema(
-    kind: Annotated[str | None, typer.Argument(metavar="KIND", help="kind of design; left out: all kinds")] = None,
+    kind: Annotated[str | None, typer.Argument(metavar="KIND", help="kind of design; default: all kinds")] = None,
 ) -> None:
     """JSON Schema (draft-07) of the design files, for editors that check and complete while you type.
 
-    Name it in the first line of the design: `# yaml-language-server: $schema=gear-pair.schema.json`.
+    Give its name in the first line of the design: `# yaml-language-server: $schema=gear-pair.schema.json`.
 
     Example: gearlink schema gear-pair > gear-pair.schema.json
     """
@@ -71,7 +70,7 @@ def _explain(
     name: Annotated[str | None, typer.Argument(metavar="NAME", help="code, check, quantity, kind or law")] = None,
     format: PageOption = PageFormat.TABLE,
 ) -> None:
-    """What a code, a check, a quantity, a kind of design or a law of motion means; without NAME the list of codes.
+    """Explain a code, a check, a quantity, a kind of design or a motion law; without NAME, list the codes.
 
     Example: gearlink explain GL301
     """
@@ -80,37 +79,35 @@ def _explain(
     raise typer.Exit(run_explain(name, Format(format.value)))
 
 
+@takes("format", "overrides", "strict", "quiet")
 def _check(
     places: Annotated[list[str], typer.Argument(metavar="SPEC|DIR", help="design files, folders, or -")],
-    format: FormatOption = Format.TABLE,
+    options: Options,
     verbose: Annotated[bool, typer.Option("--verbose", "-v", help="show passed checks as well")] = False,
-    set_: Annotated[list[str], typer.Option("--set", metavar="PATH=VALUE", help="override a key (repeatable)")] = [],  # noqa: B006
-    strict: Annotated[bool, typer.Option("--strict", help="a warning counts as a failure")] = False,
-    quiet: QuietOption = False,
 ) -> None:
-    """Reads, validates and runs the checks alone; each finding with its line in the design file.
+    """Run only the checks of designs; each finding is shown with its line in the design file.
 
     Example: gearlink check designs --strict
     """
     from gearlink.cli.commands.check import run_check
 
-    options = Options(format=format, overrides=tuple(set_), strict=strict, quiet=quiet)
     raise typer.Exit(run_check(places, options, verbose=verbose))
 
 
+@takes("color")
 def _diff(
     old: Annotated[str, typer.Argument(metavar="OLD", help="design file, or result written with --format json")],
     new: Annotated[str, typer.Argument(metavar="NEW", help="the same sort of file")],
+    options: Options,
     format: PageOption = PageFormat.TABLE,
     tolerance: Annotated[
         float, typer.Option(min=0.0, help="numbers are equal within this times max(1, magnitude)")
     ] = 1e-9,
-    no_color: NoColorOption = False,
 ) -> None:
-    """What changed between two designs or two results: inputs, quantities, checks. Exit 0 equal, 1 different.
+    """Compare two designs or two results: inputs, quantities, checks. Exit status 0: equal, 1: different.
 
     Example: gearlink diff press.yaml press-new.yaml --tolerance 1e-6
     """
     from gearlink.cli.commands.diff import run_diff
 
-    raise typer.Exit(run_diff(old, new, Options(format=Format(format.value), color=not no_color), tolerance))
+    raise typer.Exit(run_diff(old, new, replace(options, format=Format(format.value)), tolerance))

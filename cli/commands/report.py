@@ -20,7 +20,7 @@ from gearlink.cli.files import CannotWrite, safe_stem, write_atomically
 from gearlink.cli.options import Options
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.errors import show_errors
-from gearlink.cli.render.numbers import number, readable_rows
+from gearlink.cli.render.numbers import number, readable_rows, thinning
 from gearlink.core.nomenclature import term
 from gearlink.core.version import VERSION
 
@@ -153,7 +153,7 @@ def _data(table: Table) -> str:
         f"{c.replace('_', ' ')} [{u}]" if u != "1" else c.replace("_", " ")
         for c, u in zip(table.columns, table.units, strict=True)
     ]
-    note = f'<p class="note">every {step}th of {count} rows</p>' if step > 1 else ""
+    note = f'<p class="note">{thinning(step, table)}</p>' if step > 1 else ""
     title = escape(table.name.replace("_", " "))
     return f"<h3>{title}</h3>{note}" + _table(heads, readable_rows(table, step), numeric=range(len(heads)))
 

@@ -25,6 +25,18 @@ def number(value: object, digits: int = 7) -> str:
     return str(value)
 
 
+def thinning(step: int, table: Table) -> str:
+    """Which rows of a table are shown, in words.
+
+    Example
+        >>> table = Table("t", ("x",), ("1",), (range(360),))
+        >>> thinning(2, table), thinning(15, table)
+        ('every 2nd of 360 rows', 'every 15th of 360 rows')
+    """
+    ending = "th" if step % 100 in (11, 12, 13) else {1: "st", 2: "nd", 3: "rd"}.get(step % 10, "th")
+    return f"every {step}{ending} of {table.length} rows"
+
+
 def readable_rows(table: Table, step: int = 1, digits: int = 6) -> list[list[str]]:
     """Every `step`-th row as text; values that are rounding beside their column's largest are shown as 0."""
     noise = [_noise(column) for column in table.data]

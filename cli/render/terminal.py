@@ -13,7 +13,7 @@ from rich.table import Table as Grid
 from rich.text import Text
 
 from gearlink.cli.options import Options
-from gearlink.cli.render.numbers import number, readable_rows
+from gearlink.cli.render.numbers import number, readable_rows, thinning
 from gearlink.core.report import Check, Quantity, Report, Table
 
 _MOST_ROWS = 24
@@ -114,9 +114,7 @@ def _show_table(table: Table, console: Console) -> None:
     if step > 1:
         step = next((s for s in (2, 5, 10, 15, 30) if s >= step), step)
     cells = readable_rows(table, step)
-    thinned = (
-        f", every {step}th of {table.length} rows (all with --table {table.name} --format csv)" if step > 1 else ""
-    )
+    thinned = f", {thinning(step, table)} (all with --table {table.name} --format csv)" if step > 1 else ""
     console.print(Text(f"\n{table.name}{thinned}", style="bold"))
     for columns in _folds(table, cells, console.width):
         grid = grid_for(console)

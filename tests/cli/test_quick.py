@@ -10,16 +10,31 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import gearlink.cli.commands.design
+import gearlink.cli.commands.suggest
 from gearlink.cli import app
-from gearlink.cli.options import Format, PlotFormat
-from gearlink.cli.quick import DESIGN_COMMANDS, MOST_SAMPLES, SYNTH_COMMANDS, plain_line
+from gearlink.cli.options import COMMANDS, OPTIONS, Format, Options, PlotFormat
+from gearlink.cli.quick import plain_line
 from gearlink.core.kinds import KINDS
 
-COMMANDS = [*sorted(DESIGN_COMMANDS), *(f"synth {name}" for name in sorted(SYNTH_COMMANDS))]
 WORDS = st.sampled_from(["x.yaml", "a b", "-", "speed=4500", "teeth[1]=20", "crank_length", "press", "."])
-OPTIONS = st.one_of(
+WRITTEN = st.one_of(
     st.sampled_from(
-        ["--plot", "--strict", "--profile", "--no-color", "--quiet", "-q", "-h", "--help", "--unknown", "--", "-", ""]
+        [
+            "--plot",
+            "--strict",
+            "--profile",
+            "--suggest",
+            "--no-color",
+            "--quiet",
+            "-q",
+            "--quiet=1",
+            "-h",
+            "--help",
+            "--unknown",
+            "--",
+            "-",
+            "",
+        ]
     ),
     WORDS,
     st.tuples(
@@ -39,12 +54,13 @@ def by_typer(arguments: list[str], monkeypatch: pytest.MonkeyPatch) -> Any:
     seen: list[Any] = []
     with monkeypatch.context() as patch:
         patch.setattr(gearlink.cli.commands.design, "run_design", lambda *line: seen.append(line) or 0)
+        patch.setattr(gearlink.cli.commands.suggest, "run_suggested", lambda *line: seen.append(line) or 0)
         app.invoke(arguments)
     return seen[0] if seen else None
 
 
 @settings(max_examples=300)
-@given(st.sampled_from(COMMANDS), st.lists(OPTIONS, max_size=4), WORDS, st.integers(0, 4))
+@given(st.sampled_from(list(COMMANDS)), st.lists(WRITTEN, max_size=4), WORDS, st.integers(0, 4))
 def test_plain_lines_are_read_as_typer_reads_them(command: str, options: list[str], source: str, at: int) -> None:
     line = [part for option in [*options[:at], source, *options[at:]] for part in option.split("\0")]
     arguments = [*command.split(), *line]
@@ -75,17 +91,28 @@ def test_every_common_line_is_plain(monkeypatch: pytest.MonkeyPatch) -> None:
         ["press", "a.yaml", "--set", "--plot"],
         ["press", "a.yaml", "--format", "xml"],
         ["press", "a.yaml", "--samples", "1"],
-        ["press", "a.yaml", "--samples", str(MOST_SAMPLES + 1)],
+        ["press", "a.yaml", "--samples", "10000001"],
         ["press", "a.yaml", "--samples", "²"],
         ["press", "a.yaml", "--plo"],
         ["press", "a.yaml", "-qf", "json"],
-        ["press", "a.yaml", "--suggest"],
+        ["press", "a.yaml", "--quiet=1"],
         ["synth", "a.yaml"],
         ["batch", "designs"],
     ],
 )
 def test_anything_else_is_left_to_typer(arguments: list[str]) -> None:
     assert plain_line(arguments) is None
+
+
+def test_every_shared_option_is_plain(monkeypatch: pytest.MonkeyPatch) -> None:
+    texts = {"format": "md", "plot_format": "svg", "out": "pictures", "samples": "12"}
+    for name, option in OPTIONS.items():
+        for flag in option.flags:
+            arguments = ["press", "x.yaml", flag, *([] if option.type is bool else [texts.get(name, "a=1")])]
+            quick = plain_line(arguments)
+            assert quick is not None
+            assert getattr(quick[2], name) != getattr(Options(), name)
+            assert quick == by_typer(arguments, monkeypatch)
 
 
 def test_commands_and_forms_are_those_of_the_program() -> None:

@@ -54,7 +54,7 @@ def test_without_mpmath_the_remedy_is_named(
     with pytest.raises(BenchNeedsMpmath):
         mpmath()
     assert run(["bench", "involute"]) == 2
-    assert "gearlink[bench]" in capsys.readouterr().err
+    assert "pip install mpmath" in capsys.readouterr().err
 
 
 def test_reference_of_the_four_bar_is_the_loop_itself() -> None:

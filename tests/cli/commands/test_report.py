@@ -10,6 +10,8 @@ from typing import Any
 import pytest
 
 from gearlink.cli.exit_codes import ExitCode
+from gearlink.cli.render.numbers import thinning
+from gearlink.core.report import Table
 
 
 class Page(HTMLParser):
@@ -87,3 +89,11 @@ def test_wrong_design_writes_nothing(gearlink: Any, crank: Path, tmp_path: Path)
     ended = gearlink("report", crank, "--set", "stroke=99999", "--out", tmp_path / "out")
     assert ended.status == ExitCode.WRONG_INPUT
     assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(
+    ("step", "words"), [(1, "1st"), (2, "2nd"), (3, "3rd"), (11, "11th"), (12, "12th"), (23, "23rd")]
+)
+def test_rows_left_out_are_counted_in_english(step: int, words: str) -> None:
+    table = Table("positions", ("x",), ("1",), (range(360),))
+    assert thinning(step, table) == f"every {words} of 360 rows"

@@ -1,0 +1,71 @@
+"""The shared options as parameters that Typer reads."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import wraps
+from inspect import Parameter, signature
+from typing import Annotated, Any
+
+import typer
+from typer.models import OptionInfo
+
+from gearlink.cli.options import OPTIONS, Options
+
+Spec = Annotated[str, typer.Argument(metavar="SPEC", help="design file, or - for standard input")]
+
+
+def option(name: str, **changed: Any) -> OptionInfo:
+    """Typer's form of a shared option, with whatever a command changes in it.
+
+    Example
+        >>> option("samples", help="rows of the table", most=1000).max
+        1000
+    """
+    shared = replace(OPTIONS[name], **changed)
+    info: OptionInfo = typer.Option(
+        *shared.flags, help=shared.help, metavar=shared.metavar, min=shared.least, max=shared.most
+    )
+    return info
+
+
+def takes(*names: str, **words: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    """Give a command the named shared options, collected in its parameter `options`.
+
+    Parameters
+        names : fields of `Options`
+        words : help texts of options for which this command has its own
+    """
+
+    def decorated(command: Callable[..., None]) -> Callable[..., None]:
+        @wraps(command)
+        def run(**given: Any) -> None:
+            chosen = {name: _value(name, given.pop(name)) for name in names}
+            command(**given, options=Options(**chosen))
+
+        whole = signature(command, eval_str=True)
+        own = [each for each in whole.parameters.values() if each.name != "options"]
+        shared = [_parameter(name, words.get(name, OPTIONS[name].help)) for name in names]
+        run.__signature__ = whole.replace(parameters=[*own, *shared])  # type: ignore[attr-defined]
+        return run
+
+    return decorated
+
+
+def _parameter(name: str, words: str) -> Parameter:
+    kind: Any = OPTIONS[name].type
+    default = _value(name, getattr(Options(), name))
+    if OPTIONS[name].repeatable:
+        kind, default = list[kind], []
+    elif default is None:
+        kind = kind | None
+    annotation = Annotated[kind, option(name, help=words)]
+    return Parameter(name, Parameter.KEYWORD_ONLY, default=default, annotation=annotation)
+
+
+def _value(name: str, given: Any) -> Any:
+    """What `Options` keeps of a value that Typer gives, and the other way round."""
+    if not OPTIONS[name].stands_for:
+        return not given
+    return tuple(given) if isinstance(given, list) else given
