@@ -48,9 +48,15 @@ def build(
 ) -> tuple[Design, Report]:
     """The design of a validated spec and its report; what the mechanism refuses becomes a located error."""
     only = bool(options.tables) and options.format is Format.CSV
-    wanted = {"quantities": options.quantities, "tables": options.tables, "only": only, "findings_only": findings_only}
+    wanted = {
+        "quantities": options.quantities,
+        "tables": options.tables,
+        "only": only,
+        "samples": options.samples,
+        "findings_only": findings_only,
+    }
     try:
-        design = kind.design(command, spec, options.samples)
+        design = kind.design(command, spec)
         report = design.report(command, **wanted)  # type: ignore[arg-type]
     except NoSolution as error:
         raise DesignFileError([diagnose_no_solution(loaded, error)]) from error

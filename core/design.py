@@ -42,9 +42,8 @@ class Design:
     outlines: ClassVar[dict[str, Outline]]
     extra_tables: ClassVar[tuple[str, ...]] = ()
 
-    def __init__(self, spec: Any, samples: int | None = None) -> None:
+    def __init__(self, spec: Any) -> None:
         self.spec = spec
-        self.samples = samples
 
     def outline(self, command: str) -> Outline:
         """The outline of a command."""
@@ -74,11 +73,18 @@ class Design:
         entry = term(name)
         return Quantity(name, _in_unit(value, entry.unit), entry.unit, entry.symbol, entry.words)
 
-    def table(self, name: str) -> Table:
-        """A table by name, in the units of the design files."""
+    def table(self, name: str, *, samples: int | None = None) -> Table:
+        """A table by name, in the units of the design files.
+
+        Parameters
+            name : str
+            samples : int - rows per turn or stroke; without it the table's own number of rows
+        Raises
+            UnknownName
+        """
         if name not in self.table_names():
             raise UnknownName("table", name, self.table_names())
-        table: Table = getattr(self, f"table_{name}")()
+        table: Table = getattr(self, f"table_{name}")(samples)
         return table
 
     def check(self, name: str) -> list[Check]:
@@ -105,6 +111,7 @@ class Design:
         *,
         quantities: Sequence[str] = (),
         tables: Sequence[str] = (),
+        samples: int | None = None,
         only: bool = False,
         findings_only: bool = False,
     ) -> Report:
@@ -114,6 +121,7 @@ class Design:
             command : str - "synth dwell", "press", ...
             quantities : names - give these alone, without checks and tables of the command
             tables : names - tables to give besides those of the command
+            samples : int - rows of the tables per turn or stroke; without it each table's own number
             only : bool - give the named tables alone
             findings_only : bool - give the checks that do not pass alone; the command's quantities are computed all
                 the same, since a mechanism that does not exist has none, its tables are not
@@ -139,7 +147,7 @@ class Design:
                 for check in self.check(name)
                 if check.status != "pass" or not findings_only
             ),
-            tables=tuple(self.table(name) for name in asked),
+            tables=tuple(self.table(name, samples=samples) for name in asked),
         )
 
 

@@ -22,9 +22,9 @@ class Kind:
         """The pydantic model of the kind's design file."""
         return _load(f"gearlink.core.{self.spec}")
 
-    def design(self, command: str, spec: Any, samples: int | None = None) -> Design:
+    def design(self, command: str, spec: Any) -> Design:
         """The design of a spec, of the class that the command needs."""
-        design: Design = self.design_class(command)(spec, samples)
+        design: Design = self.design_class(command)(spec)
         return design
 
     def design_class(self, command: str) -> Any:

@@ -160,7 +160,7 @@ def press(quick: bool) -> Family:
     theta = np.linspace(0.0, 2.0 * math.pi, 3600, endpoint=False)
 
     def whole() -> None:
-        design: Any = kind.design("cam", spec, 3600)
+        design: Any = kind.design("cam", spec)
         _ = design.sync_end
         design.bed.travel(theta, 2)
         design.cylinder.travel(theta, 2)
@@ -168,9 +168,9 @@ def press(quick: bool) -> Family:
         design.return_cam.at(theta)
 
     def tables() -> None:
-        design: Any = kind.design("cam", spec, 3600)
+        design: Any = kind.design("cam", spec)
         for name in ("positions", "follower", "main_cam", "return_cam"):
-            design.table(name)
+            design.table(name, samples=3600)
 
     rows = measure(
         [Method("chains, zone, both cams", 1, whole), Method("all four tables", 1, tables)],

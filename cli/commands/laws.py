@@ -56,13 +56,13 @@ def run_laws(names: Sequence[str], options: Options) -> int:
     if wrong:
         show_errors(wrong, options)
         return ExitCode.WRONG_INPUT
-    design = MotionLaws(LawChoice(tuple(dict.fromkeys(chosen))), options.samples)
+    design = MotionLaws(LawChoice(tuple(dict.fromkeys(chosen))))
     try:
         if options.plot:
             draw("laws", design, options)
     except CannotWrite as error:
         return show_refusal(error, "<--out>", options)
-    print_report(design.report("laws"), options)
+    print_report(design.report("laws", samples=options.samples), options)
     return ExitCode.OK
 
 

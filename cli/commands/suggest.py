@@ -42,7 +42,7 @@ def run_suggested(command: str, source: str, options: Options) -> int:
     try:
         loaded, kind = open_design(source, options)
         require_command(loaded, kind, command)
-        spec, changes = repair(kind, command, read_spec(loaded, kind, source), options)
+        spec, changes = repair(kind, command, read_spec(loaded, kind, source))
         design, report = build(loaded, kind, command, spec, options)
         if options.plot:
             plot(command, design, options)
@@ -53,7 +53,7 @@ def run_suggested(command: str, source: str, options: Options) -> int:
     return exit_status(report, strict=options.strict)
 
 
-def repair(kind: Kind, command: str, spec: Any, options: Options) -> tuple[Any, list[Change]]:
+def repair(kind: Kind, command: str, spec: Any) -> tuple[Any, list[Change]]:
     """The spec after up to eight rounds, each the first suggestion of the design as it then stands.
 
     Notes
@@ -62,7 +62,7 @@ def repair(kind: Kind, command: str, spec: Any, options: Options) -> tuple[Any, 
     changes: list[Change] = []
     seen = {spec.model_dump_json()}
     for _ in range(_ROUNDS):
-        design: Any = kind.design(command, spec, options.samples)
+        design: Any = kind.design(command, spec)
         if _holds(design, command):
             break
         tried = ((one, replaced(spec, one.path, one.value)) for one in design.suggestions())

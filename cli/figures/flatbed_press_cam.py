@@ -45,7 +45,7 @@ def _phases(design: FlatbedPress) -> list[panels.Phase]:
 
 def _follower(axes: list[Axes], design: FlatbedPress) -> None:
     """The table `follower` and the steps that are left at its joints."""
-    table = type(design)(design.spec, _ROWS).table("follower")
+    table = design.table("follower", samples=_ROWS)
     degrees = table.data[0]
     names = (("lift", "lift [mm]"), ("velocity", "velocity\n[mm/rad]"), ("acceleration", "acceleration\n[mm/rad²]"))
     for each, (name, ylabel) in zip(axes, names, strict=True):

@@ -194,8 +194,8 @@ def _lanes(axes: Axes, points: list[complex], speed: Any, top: float) -> None:
 
 def _curves(axes: list[Axes], design: FlatbedPress) -> None:
     """Travel and speed over the input angle: the table `positions`, its twelve rows marked."""
-    dense = type(design)(design.spec, _ROWS).table("positions")
-    twelve = type(design)(design.spec, POSITIONS).table("positions")
+    dense = design.table("positions", samples=_ROWS)
+    twelve = design.table("positions", samples=POSITIONS)
     start, end = math.degrees(design.sync_start), math.degrees(design.sync_end)
     for each, what, ylabel in zip(axes, ("displacement", "velocity"), ("travel [mm]", "speed [mm/s]"), strict=True):
         panels.turn_panel(each, ylabel, "input angle [deg]" if what == "velocity" else "")

@@ -31,4 +31,4 @@ def _slider_crank(design: FlatbedPress) -> SliderCrankDesign:
     spec = SliderCrankSpec(
         kind="slider-crank", name=design.spec.name, stroke=part.stroke, rod=part.rod, offset=part.offset
     )
-    return SliderCrankDesign(spec, design.samples)
+    return SliderCrankDesign(spec)

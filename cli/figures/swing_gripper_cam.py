@@ -22,7 +22,7 @@ def draw(command: str, design: SwingGripper) -> Figure:
     made = panels.page(f"{design.spec.name}: {command}")
     rows: Any = made.add_gridspec(4, 1, height_ratios=(1.2, 1.3, 1.3, 5.2))
     curves = [made.add_subplot(rows[i]) for i in range(3)]
-    table = type(design)(design.spec, 1440).table("motion")
+    table = design.table("motion", samples=1440)
     panels.turn_panel(curves[0], "rocker\nangle [deg]")
     angle = np.asarray(table.data[table.columns.index("input_angle")])
     curves[0].plot(table.data[0], angle, color=style.BLUE, linewidth=1.6)

@@ -95,7 +95,7 @@ def _torques(axes: Axes, design: SwingGripper) -> None:
     """Contact torques of both rollers: spring and inertia; what is left above zero keeps them on their cams."""
     import numpy as np
 
-    table = type(design)(design.spec, _ROWS).table("forces")
+    table = design.table("forces", samples=_ROWS)
     column = dict(zip(table.columns, table.data, strict=True))
     panels.turn_panel(axes, "torque [N m]")
     axes.plot(column["theta"], column["inertia_torque"], color=style.GREEN, linewidth=1.2, label="inertia")

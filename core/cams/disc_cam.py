@@ -12,7 +12,7 @@ import numpy as np
 from gearlink.core.cams import profile
 from gearlink.core.cams.profile import CamProfile, RollerPath
 from gearlink.core.cams.undercut import Undercut, undercut
-from gearlink.core.numerics.arrays import Points, Reals
+from gearlink.core.numerics.arrays import Points, Reals, turn_degrees
 from gearlink.core.numerics.extremes import Extreme, least_convex_radius, maximum_over, minimum_over
 from gearlink.core.report import Table
 
@@ -103,8 +103,9 @@ class DiscCam:
         turn = -self.sense * np.imag(np.conj(profile[:-1]) * profile[1:])
         return bool(np.all(turn > 0.0))
 
-    def table(self, name: str, degrees: Reals) -> Table:
-        """The cam as a table over cam angles in degrees."""
+    def table(self, name: str, samples: int | None = None) -> Table:
+        """The cam as a table over the cam angle, as many rows as asked for."""
+        degrees = turn_degrees(samples)
         cam = self.at(np.radians(degrees))
         columns = {
             "cam_angle": (degrees, "deg"),

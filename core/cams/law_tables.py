@@ -38,10 +38,10 @@ class MotionLaws(Design):
         found = {name: [law for law in laws if law.kind == kind] for name, kind in kinds.items()}
         return {name: group for name, group in found.items() if group}
 
-    def report(self, command: str, **_asked: Any) -> Report:
+    def report(self, command: str, *, samples: int | None = None, **_asked: Any) -> Report:
         """The tables of constants, and a table for each law that was asked for."""
         tables = [constants(name, group) for name, group in self.groups.items()]
-        tables += [course(law, self.samples or 100) for law in self.spec.laws]
+        tables += [course(law, samples or 100) for law in self.spec.laws]
         return Report(self.kind, self.spec.name, command, tables=tuple(tables))
 
 

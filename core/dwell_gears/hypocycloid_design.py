@@ -183,9 +183,9 @@ class HypocycloidDwell(SingleMesh):
         """Least angle between the rod and the normal of the slide line over the turn [rad]."""
         return 0.5 * math.pi - self.slider.max_rod_angle
 
-    def table_motion(self) -> Table:
+    def table_motion(self, samples: int | None = None) -> Table:
         """Slider and point over a turn of the carrier; the middle of the dwell is at carrier angle 0."""
-        count, slider = self.samples or 360, self.slider
+        count, slider = samples or 360, self.slider
         degrees = [360.0 * i / count for i in range(count)]
         angles = [math.remainder(math.radians(x), 2.0 * math.pi) for x in degrees]
         points = [slider.point(t) for t in angles]

@@ -163,9 +163,9 @@ class MutilatedGearDwell(SingleMesh):
         )
         return folded.crank_angle, stretched.crank_angle
 
-    def table_motion(self) -> Table:
+    def table_motion(self, samples: int | None = None) -> Table:
         """Driven gear and rocker over one cycle; the motion begins at input angle 0."""
-        count = self.samples or 360
+        count = samples or 360
         cycle = _TURN * self.cycle_turns
         inputs = [cycle * i / count for i in range(count)]
         driven = [self.mutilated.driven_angle(angle) for angle in inputs]

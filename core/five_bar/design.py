@@ -205,26 +205,26 @@ class GearedFiveBar(FiveBarParts):
         found = super().outline(command)
         return replace(found, tables=self.table_names_shown()) if command == "analyze" else found
 
-    def table(self, name: str) -> Table:
+    def table(self, name: str, *, samples: int | None = None) -> Table:
         """A table of this form; the other form's is refused as one that the design does not have."""
         if name in self.table_names() and name not in self.table_names_shown():
             raise NoSolution(f"the form {self.form} has no table {name}: it has {', '.join(self.table_names_shown())}")
-        return super().table(name)
+        return super().table(name, samples=samples)
 
     @property
     def shown_turns(self) -> int:
         """Input turns that the path's table covers: the period, or the beginning of a long one."""
         return min(self.period_turns, _SHOWN_TURNS)
 
-    def table_path(self) -> Table:
+    def table_path(self, samples: int | None = None) -> Table:
         """Coupler point, its speed and the links over the period, or the first hundred turns of a longer one."""
         import numpy as np
 
         from gearlink.core.five_bar.path import sweep
+        from gearlink.core.numerics.arrays import turn_degrees
 
         turns = self.shown_turns
-        count = (self.samples or 360) * turns
-        degrees = np.arange(count) * (360.0 * turns / count)
+        degrees = turn_degrees(samples, turns)
         bar = self.path_bar
         found = sweep(bar, np.radians(degrees), self.offset)
         gamma = found.transmission_angle
@@ -240,7 +240,7 @@ class GearedFiveBar(FiveBarParts):
         }
         return Table.of("path", columns)
 
-    def table_deviations(self) -> Table:
+    def table_deviations(self, _samples: int | None = None) -> Table:
         """Every point that is asked for and its distance from the path."""
         target, fit = self.spec.target, self.fit
         assert target is not None, "shown only with a fit"
@@ -249,10 +249,10 @@ class GearedFiveBar(FiveBarParts):
         x, y = zip(*target.points, strict=True)
         return Table.of("deviations", {"x": (x, "mm"), "y": (y, "mm"), "distance": (fit.distance, "mm")})
 
-    def table_function(self) -> Table:
+    def table_function(self, samples: int | None = None) -> Table:
         """Output angle and speed over the range of the input, both ends included."""
         start, end = self.input_range
-        count, bar = self.samples or 180, self.function_bar
+        count, bar = samples or 180, self.function_bar
         angles = [start + (end - start) * i / count for i in range(count)] + [end]
         columns = {
             "input_angle": ([math.degrees(angle) for angle in angles], "deg"),

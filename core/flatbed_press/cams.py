@@ -26,7 +26,6 @@ class PressCams:
     """Mixed into the press design; reads its `follower`."""
 
     spec: FlatbedPressSpec
-    samples: int | None
 
     @property
     def follower(self) -> Compensation:
@@ -130,18 +129,13 @@ class PressCams:
         joints = tuple(segment.start for segment in self.follower.segments)
         return DiscCam(name, path, 1, self._cam.roller_radius, joints)
 
-    @property
-    def _cam_degrees(self) -> Any:
-        import numpy as np
-
-        count = self.samples or 360
-        return np.arange(count) * (360.0 / count)
-
-    def table_follower(self) -> Table:
+    def table_follower(self, samples: int | None = None) -> Table:
         """Lift of the follower over the cam angle (TY-460 report 3.4)."""
         import numpy as np
 
-        degrees = self._cam_degrees
+        from gearlink.core.numerics.arrays import turn_degrees
+
+        degrees = turn_degrees(samples)
         lift, phases = self.follower.evaluate(np.radians(degrees), 2)
         columns = {
             "cam_angle": (degrees, "deg"),
@@ -152,13 +146,13 @@ class PressCams:
         }
         return Table.of("follower", columns)
 
-    def table_main_cam(self) -> Table:
+    def table_main_cam(self, samples: int | None = None) -> Table:
         """The main cam, point for point (TY-460 report 3.5)."""
-        return self.main_cam.table("main_cam", self._cam_degrees)
+        return self.main_cam.table("main_cam", samples)
 
-    def table_return_cam(self) -> Table:
+    def table_return_cam(self, samples: int | None = None) -> Table:
         """The return cam, point for point (TY-460 report 3.6)."""
-        return self.return_cam.table("return_cam", self._cam_degrees)
+        return self.return_cam.table("return_cam", samples)
 
     def check_pressure_angle(self) -> Iterator[Check]:
         """GL401 for both cams."""

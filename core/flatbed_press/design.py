@@ -195,12 +195,13 @@ class FlatbedPress(PressCams, Design):
 
     # Tables and checks
 
-    def table_positions(self) -> Table:
+    def table_positions(self, samples: int | None = None) -> Table:
         """Both chains at equal steps of the input angle (TY-460 report 1.2, 2.2)."""
         import numpy as np
 
-        count = self.samples or 12
-        degrees = np.arange(count) * (360.0 / count)
+        from gearlink.core.numerics.arrays import turn_degrees
+
+        degrees = turn_degrees(samples or 12)
         phi = np.radians(degrees)
         cam, speed = self.bed.cam_angle(phi, 1), self.input_speed
         p, q = self.bed.travel(phi, 1, cam), self.cylinder.travel(phi, 1)

@@ -73,7 +73,7 @@ class GearTrainMobility(Design):
         """Degrees of freedom of the whole."""
         return self.linkage_mobility + sum(self.mobility_changes)
 
-    def table_trains(self) -> Table:
+    def table_trains(self, _samples: int | None = None) -> Table:
         """A row per train: its gears, where they sit, fixed ends, change of the degrees of freedom."""
         trains = self.spec.trains
         columns: dict[str, tuple[list[Any], str]] = {

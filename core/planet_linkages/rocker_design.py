@@ -195,14 +195,14 @@ class GearedRocker(SingleMesh):
         """Least transmission angle over the turn [rad]."""
         return self.linkage.min_transmission_angle()
 
-    def table_motion(self) -> Table:
+    def table_motion(self, samples: int | None = None) -> Table:
         """Rocker and output over a turn of the crank; the output angle counts from its place at crank angle 0."""
         import numpy as np
 
         from gearlink.core.linkages import fourbar_sweep
+        from gearlink.core.numerics.arrays import turn_degrees
 
-        count, ratio = self.samples or 360, self.gear_ratio
-        degrees = np.arange(count) * (360.0 / count)
+        degrees, ratio = turn_degrees(samples), self.gear_ratio
         sweep = fourbar_sweep.solve(self.linkage, np.radians(degrees), 2)
         start = solve(self.linkage, 0.0)
         rocker, coupler = sweep.rocker_angle - start.rocker_angle, sweep.coupler_angle - start.coupler_angle

@@ -262,14 +262,14 @@ class TwoGearFourBar(SingleMesh):
         """Least transmission angle over the turn [rad]."""
         return self.linkage.min_transmission_angle()
 
-    def table_motion(self) -> Table:
+    def table_motion(self, samples: int | None = None) -> Table:
         """Output angle, speed and acceleration, coupler speed and transmission angle over a turn of the crank."""
         import numpy as np
 
         from gearlink.core.linkages import fourbar_sweep
+        from gearlink.core.numerics.arrays import turn_degrees
 
-        count, ratio = self.samples or 360, self.gear_ratio
-        degrees = np.arange(count) * (360.0 / count)
+        degrees, ratio = turn_degrees(samples), self.gear_ratio
         sweep = fourbar_sweep.solve(self.linkage, np.radians(degrees), 2)
         start = solve(self.linkage, 0.0).coupler_angle
         output = (1.0 - ratio) * degrees + ratio * np.degrees(sweep.coupler_angle - start)

@@ -18,10 +18,9 @@ _STATED = 1e-6
 
 
 class GripperBase:
-    """Reads the spec and the number of rows alone."""
+    """Reads the spec alone."""
 
     spec: SwingGripperSpec
-    samples: int | None
 
     def _require(self, section: str, words: str) -> Any:
         value = getattr(self.spec, section)
@@ -95,11 +94,9 @@ class GripperBase:
             require_swing(linkage, math.radians(spec.limits.transmission_angle))
         return linkage
 
-    @cached_property
-    def rows(self) -> tuple[Reals, GripperMotion]:
+    def rows(self, samples: int | None = None) -> tuple[Reals, GripperMotion]:
         """Cylinder angles in degrees and the motion there, for the tables."""
-        import numpy as np
+        from gearlink.core.numerics.arrays import turn_degrees
 
-        count = self.samples or 360
-        degrees: Reals = np.arange(count, dtype=np.float64) * (360.0 / count)
+        degrees = turn_degrees(samples)
         return degrees, self.linkage.motion(degrees, 2)

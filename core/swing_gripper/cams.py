@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from gearlink.core.errors import MissingSection, NoSolution, at_key
 from gearlink.core.report import Check, Status, Table, safely_below
@@ -131,22 +131,15 @@ class GripperCams(GripperBase):
         """Smallest radius of each profile [mm]."""
         return tuple(cam.min_radius for cam in self.cams)
 
-    @property
-    def _cam_degrees(self) -> Any:
-        import numpy as np
-
-        count = self.samples or 360
-        return np.arange(count) * (360.0 / count)
-
-    def table_main_cam(self) -> Table:
+    def table_main_cam(self, samples: int | None = None) -> Table:
         """The main cam, point for point."""
-        return self.main_cam.table("main_cam", self._cam_degrees)
+        return self.main_cam.table("main_cam", samples)
 
-    def table_return_cam(self) -> Table:
+    def table_return_cam(self, samples: int | None = None) -> Table:
         """The return cam, point for point."""
         if self.return_cam is None:
             raise MissingSection("the table needs cam.return_roller: arm, angle, radius", key="cam.return_roller")
-        return self.return_cam.table("return_cam", self._cam_degrees)
+        return self.return_cam.table("return_cam", samples)
 
     # Checks
 

@@ -134,13 +134,14 @@ class GripperClosure(GripperCams):
             text += f": {remedy} for a tenth of speed in reserve, or lower the speed"
         return Check("GL406", "lift-off", status, text, speed, self.spec.speed, "sheets/h")
 
-    def table_forces(self) -> Table:
+    def table_forces(self, samples: int | None = None) -> Table:
         """Inertia and contact torques and normal forces over the turn."""
         import numpy as np
 
+        from gearlink.core.numerics.arrays import turn_degrees
         from gearlink.core.swing_gripper.forces import contact_torques
 
-        degrees, spring = self._cam_degrees, self.closing_torque
+        degrees, spring = turn_degrees(samples), self.closing_torque
         main, back = self.inertia_torques(degrees)
         torques = contact_torques(spring, main, back, self.lift_sense)
         columns: dict[str, tuple[Any, str]] = {"theta": (degrees, "deg"), "inertia_torque": (main, "N m")}

@@ -15,6 +15,7 @@ from gearlink.core.swing_gripper.closure import GripperClosure
 from gearlink.core.swing_gripper.handover import GripperHandover
 
 if TYPE_CHECKING:
+    from gearlink.core.numerics.arrays import Reals
     from gearlink.core.swing_gripper.loop import TwoWays
     from gearlink.core.swing_gripper.spec import SwingGripperSpec
 
@@ -93,11 +94,11 @@ class SwingGripper(GripperHandover, GripperClosure, Design):
         at_d, at_c = self.linkage.least_transmission
         return at_d.value, at_c.value
 
-    def table_motion(self) -> Table:
+    def table_motion(self, samples: int | None = None) -> Table:
         """Angles, velocities and accelerations of both rockers over the turn."""
         import numpy as np
 
-        degrees, motion = self.rows
+        degrees, motion = self.rows(samples)
         speed, square = self.shaft_speed, self.shaft_speed**2
         columns = {
             "theta": (degrees, "deg"),
@@ -116,10 +117,14 @@ class SwingGripper(GripperHandover, GripperClosure, Design):
 
     @cached_property
     def loop(self) -> TwoWays:
-        """Closed form against Newton-Raphson at the rows of the motion."""
+        """Closed form against Newton-Raphson at every degree of the turn."""
+        return self._loop_at()[1]
+
+    def _loop_at(self, samples: int | None = None) -> tuple[Reals, TwoWays]:
         from gearlink.core.swing_gripper.loop import two_ways
 
-        return two_ways(self.linkage, self.rows[1])
+        degrees, motion = self.rows(samples)
+        return degrees, two_ways(self.linkage, motion)
 
     @property
     def newton_agreement(self) -> float:
@@ -136,13 +141,13 @@ class SwingGripper(GripperHandover, GripperClosure, Design):
         """Largest condition number of the loop over the swing, 1/sin(mu), mu the lesser of the angles at C and D."""
         return 1.0 / math.sin(min(self.min_transmission_angle))
 
-    def table_newton(self) -> Table:
+    def table_newton(self, samples: int | None = None) -> Table:
         """Both ways side by side: deviation of the angles, steps, opening of the loop, error of the closed form."""
         import numpy as np
 
-        loop = self.loop
+        degrees, loop = self._loop_at(samples)
         columns = {
-            "theta": (self.rows[0], "deg"),
+            "theta": (degrees, "deg"),
             "deviation": (np.degrees(loop.deviation), "deg"),
             "iterations": (loop.iterations, "1"),
             "residual": (loop.residual, "mm"),

@@ -74,7 +74,7 @@ class GripperHandover(GripperBase):
         turned = np.radians(degrees - self.spec.handover)
         return lead, arm * rate * self.shaft_speed, tip_path(arm, radius, distance, lead, turned, lead_0)
 
-    def table_handover_window(self) -> Table:
+    def table_handover_window(self, _samples: int | None = None) -> Table:
         """Gap of the tip to the pitch circle, slip and speed difference round the handover."""
         import numpy as np
 

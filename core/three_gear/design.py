@@ -272,14 +272,14 @@ class ThreeGearFourBar(Design):
         mesh, _, quantity = name.rpartition(".")
         return gear_quantity(self.meshes[mesh], quantity) if mesh else getattr(self, name)
 
-    def table_motion(self) -> Table:
+    def table_motion(self, samples: int | None = None) -> Table:
         """Output angle, speed and acceleration, transmission angle over a turn of the crank."""
         import numpy as np
 
+        from gearlink.core.numerics.arrays import turn_degrees
         from gearlink.core.three_gear.sweep import output_motion
 
-        count = self.samples or 360
-        degrees = np.arange(count) * (360.0 / count)
+        degrees = turn_degrees(samples)
         sweep = output_motion(self.linkage, self.train, np.radians(degrees))
         columns = {
             "crank_angle": (degrees, "deg"),

@@ -307,24 +307,24 @@ class WideSwingLaw(Design):
 
     # Tables
 
-    @property
-    def _k(self) -> Any:
+    @staticmethod
+    def _k(samples: int | None) -> Any:
         import numpy as np
 
-        count = self.samples or 100
+        count = samples or 100
         return np.arange(count + 1) / count
 
-    def table_law(self) -> Table:
+    def table_law(self, samples: int | None = None) -> Table:
         """The invariants of the law over the stroke."""
-        k = self._k
+        k = self._k(samples)
         a, b, c = self.law.invariants(k, 2)
         return Table.of(
             "law", {"k": (k, "1"), "displacement": (a, "1"), "velocity": (b, "1"), "acceleration": (c, "1")}
         )
 
-    def table_slider(self) -> Table:
+    def table_slider(self, samples: int | None = None) -> Table:
         """The slider's invariants over the stroke, its travel and its speed at the design speed."""
-        k, law = self._k, self.slider_law
+        k, law = self._k(samples), self.slider_law
         a, b, c = law.slider_invariants(k)
         columns = {
             "k": (k, "1"),
@@ -336,7 +336,7 @@ class WideSwingLaw(Design):
         }
         return Table.of("slider", columns)
 
-    def table_balance(self) -> Table:
+    def table_balance(self, _samples: int | None = None) -> Table:
         """Torque on the rocker axis with and without the device, over the speed."""
         import numpy as np
 
@@ -357,7 +357,7 @@ class WideSwingLaw(Design):
             columns["drive_ratio"] = (drive_balancing_ratio(share, self.spec.shaft.linkage_share), "1")
         return Table.of("balance", columns)
 
-    def table_iteration(self) -> Table:
+    def table_iteration(self, _samples: int | None = None) -> Table:
         """Steps of the iteration against its error (run time against error of the source's own method)."""
         from gearlink.core.wide_swing.iteration import legacy_law
 

@@ -171,21 +171,21 @@ class WideSwingProfile(WideSwingLaw):
 
     # Tables
 
-    def table_main_cam(self) -> Table:
+    def table_main_cam(self, samples: int | None = None) -> Table:
         """The cam of the working stroke; where the slot at mid-swing cuts the profile away, x and y are empty."""
-        return self._cam_table("main_cam", self.cam, 1.0)
+        return self._cam_table("main_cam", self.cam, 1.0, samples)
 
-    def table_return_cam(self) -> Table:
+    def table_return_cam(self, samples: int | None = None) -> Table:
         """The cam of the return stroke: the mirror image (twin-cam), or the external profile of the twin-rocker."""
         if self.return_cam is None:
-            return self._cam_table("return_cam", self.even_cam, -1.0)
-        return self._cam_table("return_cam", self.return_cam, 1.0)
+            return self._cam_table("return_cam", self.even_cam, -1.0, samples)
+        return self._cam_table("return_cam", self.return_cam, 1.0, samples)
 
-    def _cam_table(self, name: str, cam: WideSwingCam | OscillatingCam, mirror: float) -> Table:
+    def _cam_table(self, name: str, cam: WideSwingCam | OscillatingCam, mirror: float, samples: int | None) -> Table:
         import numpy as np
 
         start, end = self.slot_of(cam)
-        points = cam.points(self._k)
+        points = cam.points(self._k(samples))
         gone = (points.k > start) & (points.k < end)
         columns = {
             "k": (points.k, "1"),

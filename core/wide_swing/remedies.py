@@ -38,7 +38,7 @@ class WideSwingMending(WideSwingProfile):
 
     def changed(self, path: str, value: Value) -> WideSwingMending:
         """The design with one key changed; the law is kept where it does not depend on the key."""
-        trial = type(self)(replaced(self.spec, path, value), self.samples)
+        trial = type(self)(replaced(self.spec, path, value))
         if path.startswith(("cam", "cycle_angle", "drive")) and self.spec.slider is None:
             trial.__dict__["plain_law"] = self.plain_law
         return trial

@@ -63,11 +63,11 @@ class Toy(Design):
     def check_nothing(self):
         return iter(())
 
-    def table_positions(self):
+    def table_positions(self, _samples):
         return Table("positions", ("input_angle", "phase"), ("deg", "1"), (np.array([0.0, 30.0]), ["sync", "dwell"]))
 
-    def table_motion(self):
-        return Table("motion", ("speed",), ("1",), (np.array([math.inf, math.nan, -0.0]),))
+    def table_motion(self, samples):
+        return Table("motion", ("speed",), ("1",), (np.array([math.inf, math.nan, -0.0] * (samples or 1)),))
 
 
 @pytest.fixture
@@ -128,9 +128,9 @@ def test_unknown_table_names_the_known_ones(toy):
 
 
 def test_results_are_computed_when_asked_for_and_kept(toy):
-    assert set(vars(toy)) == {"spec", "samples"}
+    assert set(vars(toy)) == {"spec"}
     toy.quantity("crank_length")
-    assert set(vars(toy)) == {"spec", "samples", "crank_length"}
+    assert set(vars(toy)) == {"spec", "crank_length"}
     toy.report("gear")
     assert "trap" not in vars(toy)
 
@@ -167,6 +167,13 @@ def test_one_failing_check_fails_the_report(toy):
 def test_table_rows_turn_columns_and_leave_out_what_is_no_number(toy):
     assert toy.table("positions").rows() == [[0.0, "sync"], [30.0, "dwell"]]
     assert toy.table("motion").rows() == [[None], [None], [-0.0]]
+
+
+def test_rows_are_an_argument_of_the_table(toy):
+    assert len(toy.table("motion", samples=4).rows()) == 12
+    report = toy.report("press", tables=("motion",), samples=2)
+    assert [len(table.rows()) for table in report.tables] == [2, 6]
+    assert set(vars(toy)) == {"spec", "crank_length", "sync_start"}
 
 
 def test_rows_run_on_from_block_to_block():

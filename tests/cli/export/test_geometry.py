@@ -274,9 +274,8 @@ SWING_CAMS = [
 @pytest.mark.parametrize(("build", "name"), SWING_CAMS)
 def test_swing_cams_are_open_and_follow_the_table(build: Any, name: str, form: CurveForm) -> None:
     design = build()
-    design.samples = 2000
     exported = made(design, name, form)
-    table = design.table(name)
+    table = design.table(name, samples=2000)
     column = dict(zip(table.columns, table.data, strict=True))
     profiles = drawn(exported, "PROFILE")
     assert len(profiles) == 2

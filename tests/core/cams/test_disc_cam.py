@@ -140,10 +140,11 @@ def test_steps_below_a_share_of_the_peak_are_rounding():
 
 def test_table_has_the_columns_of_every_cam():
     cam = eccentric(60.0, 20.0, 15.0)
-    table = cam.table("main_cam", np.degrees(ANGLES))
+    table = cam.table("main_cam", 7)
+    angles = 2.0 * np.pi / 7 * np.arange(7)
     assert table.columns == ("cam_angle", "pitch_x", "pitch_y", "x", "y", "pressure_angle", "curvature_radius")
     assert table.units == ("deg", "mm", "mm", "mm", "mm", "deg", "mm")
     rows = np.array(table.rows())
-    np.testing.assert_allclose(rows[:, 3] + 1j * rows[:, 4], cam.points(ANGLES)[1], atol=1e-13)
-    np.testing.assert_allclose(rows[:, 5], np.degrees(cam.pressure_angle(ANGLES)), atol=1e-12)
+    np.testing.assert_allclose(rows[:, 3] + 1j * rows[:, 4], cam.points(angles)[1], atol=1e-13)
+    np.testing.assert_allclose(rows[:, 5], np.degrees(cam.pressure_angle(angles)), atol=1e-12)
     np.testing.assert_allclose(rows[:, 6], 60.0, rtol=1e-12)

@@ -25,10 +25,10 @@ TURN = 2.0 * math.pi
 LINKS = {"crank": 40.0, "coupler": 120.0, "rocker": 100.0, "frame": 140.0}
 
 
-def design(samples=None, **keys):
+def design(**keys):
     gears = {"module": 3.0, "full_teeth": 80, "group_teeth": 20, "driven": 20} | keys.pop("gears", {})
     data = {"kind": "mutilated-gear-dwell", "reduction": 6.0, "gears": gears} | keys
-    return MutilatedGearDwell(MutilatedGearDwellSpec.model_validate(data), samples)
+    return MutilatedGearDwell(MutilatedGearDwellSpec.model_validate(data))
 
 
 def test_reference_case():
@@ -91,13 +91,14 @@ def test_refusal_names_the_section():
 
 
 def test_rocker_starts_from_rest_at_its_dead_centre():
-    made = design(links=LINKS, samples=400)
+    made = design(links=LINKS)
     linkage = FourBar(40.0, 120.0, 100.0, 140.0)
     assert abs(made.rocker_start_speed) < 1e-15
     start = made.start_crank_angle
     swing = [solve(linkage, TURN * i / 20000).rocker_angle for i in range(20000)]
     assert made.rocker_swing == pytest.approx(max(swing) - min(swing), rel=1e-7)  # from samples: error h^2/2
-    data = dict(zip(made.table("motion").columns, made.table("motion").data, strict=True))
+    table = made.table("motion", samples=400)
+    data = dict(zip(table.columns, table.data, strict=True))
     assert data["rocker_angle"][0] == pytest.approx(data["rocker_angle"][399], rel=1e-13)
     quarter = data["rocker_angle"][50]  # after 0.75 turns of the input the driven gear has made half a turn
     assert math.radians(quarter) == pytest.approx(solve(linkage, start + math.pi).rocker_angle, rel=1e-14)

@@ -40,9 +40,9 @@ ZONES = {
 REPORT = {"start": 34.0, "end": 155.0, "print_length": 320.0}
 
 
-def press(oracle=TY460, sync=None, samples=None, limits=None, **cam) -> FlatbedPress:
+def press(oracle=TY460, sync=None, limits=None, **cam) -> FlatbedPress:
     sections = {"sync": sync or {"length": 420.0, "print_length": 320.0}, "cam": CAM | cam, "limits": limits or {}}
-    return FlatbedPress(FlatbedPressSpec.model_validate(oracle.spec(**sections)), samples)
+    return FlatbedPress(FlatbedPressSpec.model_validate(oracle.spec(**sections)))
 
 
 def of(name: str, k: float = 1.0, **cam) -> FlatbedPress:
@@ -151,7 +151,7 @@ def test_extremes_pass_a_dense_table_by_a_hair(name):
 
 
 def press_table(design, samples):
-    return FlatbedPress(design.spec, samples).table("main_cam").rows()
+    return design.table("main_cam", samples=samples).rows()
 
 
 @pytest.mark.parametrize("name", ZONES)
@@ -189,7 +189,7 @@ def test_follower_table_names_every_phase_in_its_turn():
 
 
 def test_samples_divide_the_turn():
-    assert [row[0] for row in press(samples=8).table("return_cam").rows()] == [45.0 * i for i in range(8)]
+    assert [row[0] for row in press().table("return_cam", samples=8).rows()] == [45.0 * i for i in range(8)]
 
 
 # Checks, and what they advise

@@ -41,14 +41,14 @@ def _digits():
         yield
 
 
-def press(oracle: Press = TY460, samples=None, **sections) -> FlatbedPress:
+def press(oracle: Press = TY460, **sections) -> FlatbedPress:
     given = {"sync": {"length": 420.0, "print_length": 320.0}} | sections
-    return FlatbedPress(FlatbedPressSpec.model_validate(oracle.spec(**given)), samples)
+    return FlatbedPress(FlatbedPressSpec.model_validate(oracle.spec(**given)))
 
 
 def computed(design) -> set[str]:
     """Names of the results that a design has worked out."""
-    return set(vars(design)) - {"spec", "samples"}
+    return set(vars(design)) - {"spec"}
 
 
 # Published
@@ -95,7 +95,7 @@ def test_contract(case):
 @pytest.mark.parametrize("name", PRESSES)
 def test_positions_against_the_cosine_rule(name):
     oracle = PRESSES[name]
-    table = press(oracle, samples=9).table("positions")
+    table = press(oracle).table("positions", samples=9)
     rows = np.array(table.rows())
     omega = mp.mpf(4500) / 3600 * 2 * mp.pi
 

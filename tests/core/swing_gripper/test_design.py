@@ -144,10 +144,10 @@ def test_profile_keeps_the_roller_off_itself() -> None:
 
 
 def test_rows_of_the_tables() -> None:
-    design = SwingGripper(SwingGripperSpec.model_validate(EXAMPLE), samples=24)
-    motion = design.table("motion")
+    design = SwingGripper(SwingGripperSpec.model_validate(EXAMPLE))
+    motion = design.table("motion", samples=24)
     assert [row[0] for row in motion.rows()] == [15.0 * k for k in range(24)]
-    newton = design.table("newton")
+    newton = design.table("newton", samples=24)
     assert newton.columns == ("theta", "deviation", "iterations", "residual", "error")
     assert newton.units == ("deg", "deg", "1", "mm", "deg")
     assert max(row[1] for row in newton.rows()) <= math.degrees(16 * EPS)

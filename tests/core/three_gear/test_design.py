@@ -56,8 +56,8 @@ def _digits():
         yield
 
 
-def design(kind=ThreeGearFourBar, samples=None, **sections):
-    return kind(ThreeGearSpec.model_validate({"kind": "three-gear-four-bar"} | sections), samples)
+def design(kind=ThreeGearFourBar, **sections):
+    return kind(ThreeGearSpec.model_validate({"kind": "three-gear-four-bar"} | sections))
 
 
 def drive(sections, assembly=1):
@@ -106,7 +106,7 @@ def test_example_3_as_printed_collides_and_says_why():
 def test_motion_table_against_the_cosine_rule(name, assembly):
     sections = DESIGNS[name] | {"assembly": assembly}
     oracle = drive(sections, assembly)
-    table = design(samples=15, **sections).table("motion")
+    table = design(**sections).table("motion", samples=15)
     rows = np.array(table.rows())
     assert table.columns == ("crank_angle", "output_angle", "speed_ratio", "acceleration_ratio", "transmission_angle")
     assert table.units == ("deg", "deg", "1", "1", "deg")
@@ -433,7 +433,7 @@ def test_gears_need_no_links():
 def test_transmission_angle_computes_no_motion():
     found = design(**EXAMPLE_3)
     found.quantity("min_transmission_angle")
-    assert set(vars(found)) == {"spec", "samples", "linkage", "min_transmission_angle", "idler_teeth"}
+    assert set(vars(found)) == {"spec", "linkage", "min_transmission_angle", "idler_teeth"}
 
 
 def test_gear_gap_sweeps_nothing():
