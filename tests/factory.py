@@ -15,20 +15,17 @@ from gearlink.core.kinds import KINDS
 DESIGNS = Path(__file__).resolve().parents[1] / "designs"
 
 
-def design(
-    given: str | Mapping[str, Any], /, *, command: str = "analyze", samples: int | None = None, **keys: Any
-) -> Any:
+def design(given: str | Mapping[str, Any], /, *, command: str = "analyze", **keys: Any) -> Any:
     """The design of a file's data.
 
     Parameters
         given : the data, or the name of a worked design ("ty460")
         command : str - whose design class it is; "analyze" stands for all but the four of `synth`
-        samples : int - as `--samples`
         keys - changes as in `changed`
     """
     data = changed(worked(given) if isinstance(given, str) else given, **keys)
     kind = KINDS[data["kind"]]
-    return kind.design(command, kind.spec_model().model_validate(data), samples)
+    return kind.design(command, kind.spec_model().model_validate(data))
 
 
 def changed(data: Mapping[str, Any], **keys: Any) -> dict[str, Any]:

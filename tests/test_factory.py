@@ -31,6 +31,6 @@ def test_one_design_does_not_change_another():
 
 
 def test_command_chooses_the_class_and_bad_data_is_refused():
-    assert isinstance(design("candy_feed", command="synth dwell", samples=7), DwellSynthesis)
+    assert isinstance(design("candy_feed", command="synth dwell"), DwellSynthesis)
     with pytest.raises(ValidationError):
         design("ty460", bed=None)
