@@ -42,6 +42,66 @@ class Check:
 
 
 @dataclass(frozen=True, slots=True)
+class Rule:
+    """A code with its texts, which `gearlink explain` prints; the findings of a check are made from it.
+
+    Fields
+        code : str - "GL301"
+        title : str - a few words
+        what, why : str - what was found, and why it matters
+        remedy : str - what to change
+        formula, source : str - the quantity that was compared, and where it comes from; empty for file errors
+        checks : names of the checks that report with the code; empty for file errors
+        keys : dotted paths of the design file's keys that a finding belongs to, the most telling first
+    """
+
+    code: str
+    title: str
+    what: str
+    why: str
+    remedy: str
+    formula: str = ""
+    source: str = ""
+    checks: tuple[str, ...] = ()
+    keys: tuple[str, ...] = ()
+
+    @property
+    def name(self) -> str:
+        """Name of its check, the first where it has several."""
+        return self.checks[0]
+
+    def check(
+        self,
+        status: Status,
+        message: str,
+        value: float | None = None,
+        limit: float | None = None,
+        unit: str = "1",
+        *,
+        name: str = "",
+    ) -> Check:
+        """A finding of the rule; `name` where it has several checks."""
+        return Check(self.code, name or self.name, status, message, value, limit, unit)
+
+    def below(self, value: float, limit: float, warn: float, unit: str, subject: str, remedy: str) -> Check:
+        """A finding that fails where `value` < `limit` and warns where it is below `warn`.
+
+        Example
+            >>> angle = Rule("GL303", "", "", "", "", checks=("transmission-angle",))
+            >>> angle.below(42.0, 40.0, 45.0, "deg", "least angle", "lengthen l4").status
+            'warn'
+        """
+        status: Status = "fail" if value < limit else "warn" if value < warn else "pass"
+        text = f"{subject} is {value:.6g} {unit}".removesuffix(" 1")
+        bound = f"{limit:g} {unit}".removesuffix(" 1")
+        if status == "fail":
+            text += f", below the limit {bound}: {remedy}"
+        elif status == "warn":
+            text += f", little above the limit {bound}: {remedy}"
+        return self.check(status, text, value, limit, unit)
+
+
+@dataclass(frozen=True, slots=True)
 class Table:
     """Columns of equal length, sequences or one-dimensional arrays; `data[i]` is `columns[i]` in `units[i]`."""
 
@@ -106,23 +166,6 @@ def _plain(column: Column) -> Sequence[float | str | None]:
     except (TypeError, ValueError, OverflowError):  # words, nothing at a place, integers beyond all floats
         pass
     return [None if isinstance(item, float) and not math.isfinite(item) else item for item in items]
-
-
-def below(code: str, name: str, value: float, limit: float, warn: float, unit: str, subject: str, remedy: str) -> Check:
-    """Check that fails where `value` < `limit` and warns where it is below `warn`.
-
-    Example
-        >>> below("GL303", "transmission-angle", 42.0, 40.0, 45.0, "deg", "least angle", "lengthen l4").status
-        'warn'
-    """
-    status: Status = "fail" if value < limit else "warn" if value < warn else "pass"
-    text = f"{subject} is {value:.6g} {unit}".removesuffix(" 1")
-    bound = f"{limit:g} {unit}".removesuffix(" 1")
-    if status == "fail":
-        text += f", below the limit {bound}: {remedy}"
-    elif status == "warn":
-        text += f", little above the limit {bound}: {remedy}"
-    return Check(code, name, status, text, value, limit, unit)
 
 
 def safely_below(value: float, digits: int = 5) -> str:

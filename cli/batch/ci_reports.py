@@ -10,6 +10,7 @@ from typing import Any
 from xml.sax.saxutils import escape, quoteattr
 
 from gearlink.cli.batch.outcome import Outcome
+from gearlink.cli.texts.codes import explanations
 from gearlink.core.version import VERSION
 
 _SARIF_LEVEL = {"fail": "error", "warn": "warning"}
@@ -85,7 +86,7 @@ def as_sarif(results: Sequence[Outcome]) -> str:
     rules: dict[str, dict[str, Any]] = {}
     for outcome in results:
         for status, code, name, message, line, column in _findings(outcome):
-            rules.setdefault(code, {"id": code, "name": name, "shortDescription": {"text": name}})
+            rules.setdefault(code, _rule(code, name))
             region = {"startLine": line, "startColumn": column}
             place = {"artifactLocation": {"uri": _uri(outcome.file)}, "region": region}
             entries.append(
@@ -100,6 +101,17 @@ def as_sarif(results: Sequence[Outcome]) -> str:
     run = {"tool": {"driver": driver}, "columnKind": "unicodeCodePoints", "results": entries}
     schema = "https://json.schemastore.org/sarif-2.1.0.json"
     return json.dumps({"$schema": schema, "version": "2.1.0", "runs": [run]}, ensure_ascii=False, indent=1) + "\n"
+
+
+def _rule(code: str, name: str) -> dict[str, Any]:
+    known = explanations()[code]
+    return {
+        "id": code,
+        "name": name,
+        "shortDescription": {"text": known.title},
+        "fullDescription": {"text": f"{known.what} {known.why}"},
+        "help": {"text": known.remedy},
+    }
 
 
 def _uri(file: str) -> str:

@@ -12,12 +12,12 @@ from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import Format, Options
 
 if TYPE_CHECKING:
-    from gearlink.cli.texts.explanation import Explanation
     from gearlink.core.kinds import Kind
+    from gearlink.core.report import Rule
 
 _WIDTH = 100
 _JSON_NAMES = {"How to repair": "how_to_mend"}  # scripts depend on the name
-_LABELS = {"what": "What", "why": "Why", "formula": "Formula", "source": "Source", "repair": "How to repair"}
+_LABELS = {"what": "What", "why": "Why", "formula": "Formula", "source": "Source", "remedy": "How to repair"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,10 +61,10 @@ def _topics(name: str) -> Iterator[Topic]:
 
     texts = explanations()
     if name in texts:
-        yield _code(name, texts[name])
-    for code, text in texts.items():
+        yield _code(texts[name])
+    for text in texts.values():
         if name in text.checks:
-            yield _check(name, code, text)
+            yield _check(name, text)
     if name in KINDS:
         yield _kind(KINDS[name])
     if name.rpartition(".")[2] in TERMS:
@@ -93,18 +93,18 @@ def _laws() -> tuple[str, ...]:
 # Codes and checks
 
 
-def _code(code: str, text: Explanation) -> Topic:
+def _code(text: Rule) -> Topic:
     paragraphs = {label: getattr(text, field) for field, label in _LABELS.items() if getattr(text, field)}
     if text.checks:
         paragraphs["Checks"] = ", ".join(text.checks)
         paragraphs["Kinds"] = _kinds_with_checks(text.checks)
-    return Topic("code", code, text.title, {label: words for label, words in paragraphs.items() if words})
+    return Topic("code", text.code, text.title, {label: words for label, words in paragraphs.items() if words})
 
 
-def _check(name: str, code: str, text: Explanation) -> Topic:
-    topic = _code(code, text)
+def _check(name: str, text: Rule) -> Topic:
+    topic = _code(text)
     paragraphs = {**topic.paragraphs, "Checks": name, "Kinds": _kinds_with_checks((name,))}
-    return Topic("check", name, f"{text.title} ({code})", {k: v for k, v in paragraphs.items() if v})
+    return Topic("check", name, f"{text.title} ({text.code})", {k: v for k, v in paragraphs.items() if v})
 
 
 def _kinds_with_checks(checks: tuple[str, ...]) -> str:

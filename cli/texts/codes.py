@@ -1,17 +1,15 @@
-"""What each code means and how to repair the design; the other `explanations_` modules hold the texts."""
+"""What each code means and how to repair the design."""
 
 from __future__ import annotations
 
 from functools import cache
 
-from gearlink.cli.texts.explanation import Explanation
+from gearlink.cli.texts.files import FILES
+from gearlink.core.codes import rules
+from gearlink.core.report import Rule
 
 
 @cache
-def explanations() -> dict[str, Explanation]:
-    """Every code with its text, in the order of the codes."""
-    from gearlink.cli.texts.checks import CHECKS
-    from gearlink.cli.texts.files import FILES
-    from gearlink.cli.texts.linkages import LINKAGES
-
-    return dict(sorted({**FILES, **CHECKS, **LINKAGES}.items()))
+def explanations() -> dict[str, Rule]:
+    """Every code with its texts, in the order of the codes: those of files and command lines, then the checks'."""
+    return {rule.code: rule for rule in FILES} | rules()

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
+from gearlink.core.cams.codes import CAM_UNDERCUT, PRESSURE_ANGLE
 from gearlink.core.report import Check, Status, safely_below
 
 if TYPE_CHECKING:
@@ -21,7 +22,7 @@ def pressure_angle_checks(cams: Sequence[DiscCam], limit: float, remedy: str) ->
         text = f"the pressure angle of the {cam.name} reaches {value:.6g} deg at {place}"
         if value > limit:
             text += f", above the limit {limit:g} deg: {remedy}"
-        yield Check("GL401", "pressure-angle", "fail" if value > limit else "pass", text, value, limit, "deg")
+        yield PRESSURE_ANGLE.check("fail" if value > limit else "pass", text, value, limit, "deg")
 
 
 def undercut_checks(cams: Sequence[DiscCam]) -> Iterator[Check]:
@@ -44,7 +45,7 @@ def undercut_checks(cams: Sequence[DiscCam]) -> Iterator[Check]:
             )
         elif status != "pass":
             text += f": take a roller of at most {safely_below(0.8 * least.value)} mm or enlarge the base circle"
-        yield Check("GL402", "cam-undercut", status, text, share, 1.0)
+        yield CAM_UNDERCUT.check(status, text, share, 1.0)
 
 
 def step_check(

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.design import Outline
 from gearlink.core.dwell_gears import hypocycloid, hypocycloid_rod
+from gearlink.core.dwell_gears.codes import DWELL_QUALITY
 from gearlink.core.dwell_gears.hypocycloid import HypocycloidSlider
 from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.gears.internal_mesh import InternalMesh
@@ -210,14 +211,14 @@ class HypocycloidDwell(SingleMesh):
         wanted, found = math.degrees(self.dwell_carrier_angle), math.degrees(reached)
         text = f"the slider stays within +-{tolerance:g} mm for {found:.6g} deg of the carrier, {wanted:.6g} deg wanted"
         if found >= wanted - 1e-9:
-            yield Check("GL311", "dwell-quality", "pass", text, found, wanted, "deg")
+            yield DWELL_QUALITY.check("pass", text, found, wanted, "deg")
             return
         text += (
             f"; over that angle it moves {self.dwell_ripple:.6g} mm: allow +-{0.5 * self.dwell_ripple * 1.001:.4g} mm"
         )
         if self.spec.target is None:
             text += ", or leave rod out for target: {quality: least-ripple}"
-        yield Check("GL311", "dwell-quality", "fail", text, found, wanted, "deg")
+        yield DWELL_QUALITY.check("fail", text, found, wanted, "deg")
 
     def check_transmission_angle(self) -> Check:
         """GL303: the rod against the slide line."""

@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from gearlink.core.design import Outline
+from gearlink.core.dwell_gears.codes import START_SHOCK
 from gearlink.core.dwell_gears.mutilated import MutilatedGear
 from gearlink.core.errors import at_key
 from gearlink.core.gears.checks import GEAR_CHECKS
@@ -200,7 +201,7 @@ class MutilatedGearDwell(SingleMesh):
             text += " would start from rest"
         elif rocker is not None:
             text += "; the rocker itself starts from rest, at a dead centre"
-        return Check("GL310", "start-shock", "warn", text, ratio, 0.0)
+        return START_SHOCK.check("warn", text, ratio, 0.0)
 
     def check_transmission_angle(self) -> Iterator[Check]:
         """GL303, where there is a four-bar."""

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.design import Outline
 from gearlink.core.errors import NoSolution
+from gearlink.core.five_bar.codes import CLOSURE
 from gearlink.core.five_bar.parts import FiveBarParts
 from gearlink.core.gears.single_mesh import MESH_CHECKS, mesh_checks
 from gearlink.core.linkages.checks import target_check, transmission_check
@@ -281,7 +282,7 @@ class GearedFiveBar(FiveBarParts):
             f"{self.span_max:.6g} mm (at {high:.5g} deg) of the possible "
             f"{abs(links[0] - links[1]):.6g} to {sum(links):.6g} mm"
         )
-        return Check("GL305", "closure", "pass", text, room, 0.0, "mm")
+        return CLOSURE.check("pass", text, room, 0.0, "mm")
 
     def check_target(self) -> Iterator[Check]:
         """GL307, where the file asks for points (with a tolerance) or positions."""

@@ -11,6 +11,7 @@ from gearlink.core.design import Design, Outline
 from gearlink.core.errors import MissingSection, NoSolution, at_key
 from gearlink.core.flatbed_press.cams import PressCams
 from gearlink.core.flatbed_press.chains import BedChain, CylinderChain, difference
+from gearlink.core.flatbed_press.codes import SYNC_LENGTH
 from gearlink.core.flatbed_press.compensation import Compensation
 from gearlink.core.flatbed_press.zone import equal_speed_angle, zone_end
 from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, gear_check, gear_quantity
@@ -19,7 +20,7 @@ from gearlink.core.linkages.checks import transmission_check
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.linkages.slider_crank import SliderCrank
 from gearlink.core.linkages.slider_crank_design import SLIDER_QUANTITIES
-from gearlink.core.report import Check, Table, below, safely_above
+from gearlink.core.report import Check, Table, safely_above
 
 if TYPE_CHECKING:
     from gearlink.core.flatbed_press.spec import DoubleCrank, FlatbedPressSpec
@@ -275,7 +276,7 @@ class FlatbedPress(PressCams, Design):
         else:
             needed = math.degrees(zone_end(self.cylinder, self.sync_start, asked))
             remedy = f"set sync.end to at least {safely_above(needed, 6)} deg, or leave it out and give sync.length"
-        return below("GL502", "sync-length", length, asked, asked, "mm", "the cylinder's travel in the zone", remedy)
+        return SYNC_LENGTH.below(length, asked, asked, "mm", "the cylinder's travel in the zone", remedy)
 
     def check_register(self) -> Check:
         """GL506: the cylinder makes whole turns per sheet."""

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any, Protocol
 
+from gearlink.core.gears.codes import CONTACT_RATIO, INTERFERENCE, ROOT_CLEARANCE, TIP_THICKNESS, UNDERCUT
 from gearlink.core.gears.pair import GearPair
-from gearlink.core.report import Check, Status, below, safely_above
+from gearlink.core.report import Check, Status, safely_above
 
 GEAR_QUANTITIES = (
     "working_pressure_angle",
@@ -30,7 +31,7 @@ GEAR_QUANTITIES = (
     "span_teeth",
     "specific_sliding",
 )
-GEAR_CHECKS = ("undercut", "tip-thickness", "contact-ratio", "involute-interference", "root-clearance")
+GEAR_CHECKS = tuple(rule.name for rule in (UNDERCUT, TIP_THICKNESS, CONTACT_RATIO, INTERFERENCE, ROOT_CLEARANCE))
 
 
 class Limits(Protocol):
@@ -79,9 +80,7 @@ def gear_check(name: str, pair: GearPair, limits: Limits, mesh: str = "", shift_
         elif name == "root-clearance":
             yield _root_clearance(pair, gear, before)
         elif name == "contact-ratio" and gear == 0:
-            yield below(
-                "GL203",
-                name,
+            yield CONTACT_RATIO.below(
                 pair.contact_ratio,
                 limits.contact_ratio,
                 limits.contact_ratio + 0.1,
@@ -97,7 +96,7 @@ def _undercut(pair: GearPair, gear: int, margin: float, before: str) -> Check:
     text = f"{before}gear {gear + 1} ({pair.teeth[gear]} teeth) has x = {x:.6g}, undercut begins below {least:.6g}"
     if status != "pass":
         text += f": raise its profile shift to {safely_above(least, 4)} or take more teeth"
-    return Check("GL201", "undercut", status, text, x - least, -margin)
+    return UNDERCUT.check(status, text, x - least, -margin)
 
 
 def _tip_thickness(pair: GearPair, gear: int, limits: Limits, before: str, shift_key: str) -> Check:
@@ -106,9 +105,7 @@ def _tip_thickness(pair: GearPair, gear: int, limits: Limits, before: str, shift
     warn = limit + 0.15
     aims = [aim for aim in (warn, limit) if share < aim]
     remedy = next(filter(None, (_repaired(pair, gear, limits, aim, shift_key) for aim in aims)), "")
-    return below(
-        "GL202",
-        "tip-thickness",
+    return TIP_THICKNESS.below(
         share,
         limit,
         warn,
@@ -140,14 +137,12 @@ def _interference(pair: GearPair, gear: int, limits: Limits, before: str, shift_
             f"raise the profile shift of gear {2 - gear} or lower the addendum of gear {gear + 1}"
             f"{_repaired(pair, gear, limits, limits.tip_thickness, shift_key)}"
         )
-    return Check("GL204", "involute-interference", status, text, margin, 0.0, "mm")
+    return INTERFERENCE.check(status, text, margin, 0.0, "mm")
 
 
 def _root_clearance(pair: GearPair, gear: int, before: str) -> Check:
     least, usual = 0.05, 0.15
-    return below(
-        "GL205",
-        "root-clearance",
+    return ROOT_CLEARANCE.below(
         # The profile's own coefficient: with full tip shortening it is what remains, and carries no rounding.
         pair.clearance,
         least,

@@ -9,10 +9,11 @@ from typing import Any
 from gearlink.core.design import Design
 from gearlink.core.errors import at_key
 from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, gear_check, gear_quantity
+from gearlink.core.gears.codes import CONTACT_RATIO, INTERFERENCE, TIP_FOULING, UNDERCUT
 from gearlink.core.gears.internal_mesh import InternalMesh
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.gears.teeth import min_shift_no_undercut
-from gearlink.core.report import Check, Status, below
+from gearlink.core.report import Check, Rule, Status
 
 INTERNAL_QUANTITIES = (
     "center_distance",
@@ -70,23 +71,23 @@ def _internal_check(name: str, mesh: InternalMesh, limits: Any) -> Iterator[Chec
     if name == "undercut":
         least = min_shift_no_undercut(mesh.teeth[0], mesh.pressure_angle, mesh.addendum)
         subject, remedy = "the room of the planet's root before undercut, -x_min,", "take more planet teeth"
-        yield below("GL201", name, 0.0 - least, 0.0 - limits.undercut, 0.0, "1", subject, remedy)
+        yield UNDERCUT.below(0.0 - least, 0.0 - limits.undercut, 0.0, "1", subject, remedy)
     elif name == "contact-ratio":
         limit = limits.contact_ratio
         remedy = "take more teeth of a smaller module"
-        yield below("GL203", name, mesh.contact_ratio, limit, limit + 0.1, "1", "the contact ratio", remedy)
+        yield CONTACT_RATIO.below(mesh.contact_ratio, limit, limit + 0.1, "1", "the contact ratio", remedy)
     elif name == "involute-interference":
         what, where = "the tips of the ring gear", "the planet's root inside its base circle"
         remedy = "give both more teeth of a smaller module, or the planet alone more"
-        yield _margin("GL204", name, mesh.interference_margin, what, where, remedy)
+        yield _margin(INTERFERENCE, mesh.interference_margin, what, where, remedy)
     elif name == "tip-fouling":
         what, remedy = "the tips of planet and ring gear", "give the ring gear more teeth, or the planet fewer"
-        yield _margin("GL206", name, mesh.tip_fouling_margin, what, "each other", remedy)
+        yield _margin(TIP_FOULING, mesh.tip_fouling_margin, what, "each other", remedy)
 
 
-def _margin(code: str, name: str, margin: float, what: str, where: str, remedy: str) -> Check:
+def _margin(rule: Rule, margin: float, what: str, where: str, remedy: str) -> Check:
     status: Status = "fail" if margin < 0.0 else "pass"
     text = f"{what} keep {margin:.4g} mm from cutting into {where}"
     if status == "fail":
         text = f"{what} cut {-margin:.4g} mm into {where}: {remedy}"
-    return Check(code, name, status, text, margin, 0.0, "mm")
+    return rule.check(status, text, margin, 0.0, "mm")

@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 
 from gearlink.core.errors import NoSolution
+from gearlink.core.linkages.codes import SHAFT_CLEARANCE, TARGET, TRANSMISSION_ANGLE
 from gearlink.core.linkages.fourbar import FourBar
-from gearlink.core.report import Check, below, safely_above
+from gearlink.core.report import Check, safely_above
 
 _POOR = math.radians(3.0)
 
@@ -23,7 +24,7 @@ def transmission_check(
     if angle < _POOR:
         condition = 1.0 / math.sin(angle) if angle else math.inf
         remedy = f"play and rounding come out up to {condition:.3g} times as large (condition number); {remedy}"
-    return below("GL303", "transmission-angle", value, limit, limit + 5.0, "deg", subject, remedy)
+    return TRANSMISSION_ANGLE.below(value, limit, limit + 5.0, "deg", subject, remedy)
 
 
 def axis_check(gear: str, axis: str, distance: float, tip: float) -> Check:
@@ -35,7 +36,7 @@ def axis_check(gear: str, axis: str, distance: float, tip: float) -> Check:
             f"the tips of {gear} ({tip:.6g} mm) pass the axis {axis}, {distance:.6g} mm away at the closest: its shaft "
             "must end before the plane of the gears, or the gears be smaller"
         )
-    return Check("GL302", "shaft-clearance", "warn" if room < 0.0 else "pass", text, room, 0.0, "mm")
+    return SHAFT_CLEARANCE.check("warn" if room < 0.0 else "pass", text, room, 0.0, "mm")
 
 
 def target_check(what: str, residual: float, tolerance: float, unit: str) -> Check:
@@ -44,7 +45,7 @@ def target_check(what: str, residual: float, tolerance: float, unit: str) -> Che
     text = f"{what} is missed by {residual:.3g} {unit}"
     if not met:
         text += f", more than {tolerance:.3g} {unit}: ask for less, or free more of the links"
-    return Check("GL307", "target", "pass" if met else "fail", text, residual, tolerance, unit)
+    return TARGET.check("pass" if met else "fail", text, residual, tolerance, unit)
 
 
 def check_linkage(linkage: FourBar) -> str:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from gearlink.core.design import Design, Outline
 from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.linkages import mobility
+from gearlink.core.linkages.codes import MOBILITY, TRAIN_FIT
 from gearlink.core.report import Check, Table
 
 if TYPE_CHECKING:
@@ -92,9 +93,9 @@ class GearTrainMobility(Design):
         for i, train in enumerate(self.spec.trains, start=1):
             reasons = [*self._fixing(train), *self._meshes(train)]
             for reason in reasons:
-                yield Check("GL308", "train-fit", "fail", f"train {i}: {reason}")
+                yield TRAIN_FIT.check("fail", f"train {i}: {reason}")
             if not reasons:
-                yield Check("GL308", "train-fit", "pass", f"train {i} fits: {_words(train)}")
+                yield TRAIN_FIT.check("pass", f"train {i} fits: {_words(train)}")
 
     def check_mobility(self) -> Check:
         """GL309: degrees of freedom against those that are wanted."""
@@ -102,9 +103,9 @@ class GearTrainMobility(Design):
         terms = "".join(f" {change:+d}" for change in self.mobility_changes)
         text = f"{found} degrees of freedom: linkage {self.linkage_mobility}, trains{terms or ' none'}"
         if found == wanted:
-            return Check("GL309", "mobility", "pass", text, float(found), float(wanted))
+            return MOBILITY.check("pass", text, float(found), float(wanted))
         text += f"; {wanted} wanted: {self._mobility_remedy(found - wanted)}"
-        return Check("GL309", "mobility", "fail", text, float(found), float(wanted))
+        return MOBILITY.check("fail", text, float(found), float(wanted))
 
     def _mobility_remedy(self, excess: int) -> str:
         """What brings the degrees of freedom to those that are wanted, by the rule of composition."""

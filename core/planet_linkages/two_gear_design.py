@@ -16,6 +16,7 @@ from gearlink.core.linkages import standstills
 from gearlink.core.linkages.checks import axis_check, check_linkage, transmission_check
 from gearlink.core.linkages.fourbar import FourBar, solve
 from gearlink.core.linkages.standstills import BackStep, Turning
+from gearlink.core.planet_linkages.codes import DWELL_CONDITION
 from gearlink.core.planet_linkages.planet import PlanetLinkage, standstill_coupler_ratio
 from gearlink.core.report import Check, Table
 
@@ -296,10 +297,10 @@ class TwoGearFourBar(SingleMesh):
         text = f"the output stands where w2/w1 = {needed:.6g}; the coupler {verb} {reached:.6g}: {self.motion}"
         asked = None if self.spec.target is None else self.spec.target.motion
         if asked is None or asked == self.motion:
-            return Check("GL306", "dwell-condition", "pass", text, reached, needed)
+            return DWELL_CONDITION.check("pass", text, reached, needed)
         if self._never_stands() and asked != UNIDIRECTIONAL:
             raise NoSolution(f"{asked} is impossible: {self._never_stands()}", key="target.motion")
-        return Check("GL306", "dwell-condition", "fail", f"{text}; {self._motion_remedy(asked)}", reached, needed)
+        return DWELL_CONDITION.check("fail", f"{text}; {self._motion_remedy(asked)}", reached, needed)
 
     def _never_stands(self) -> str:
         """Why an external mesh on a crank-rocker never stops its output; empty for other drives."""

@@ -12,10 +12,12 @@ from gearlink.core.errors import MissingSection, at_key
 from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, gear_check, gear_quantity
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.linkages.checks import check_linkage, transmission_check
+from gearlink.core.linkages.codes import GEAR_COLLISION, SHAFT_CLEARANCE
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.linkages.nearest_passes import joint_to_crank_pivot
 from gearlink.core.report import Check, Status, Table, safely_above, safely_below
 from gearlink.core.three_gear import dwells, motion
+from gearlink.core.three_gear.codes import ACHIEVED
 from gearlink.core.three_gear.dwells import BackStep
 from gearlink.core.three_gear.idler_choice import idler_for_ratio
 from gearlink.core.three_gear.momentary_dwell import crank_with_room
@@ -304,13 +306,13 @@ class ThreeGearFourBar(Design):
         limit, gap = self.spec.limits.gear_gap, self.gear_gap
         text = f"gears 1 (crank) and 5 (output) keep {gap:.6g} mm between their tips at the closest, |AD - AB|"
         if gap >= limit:
-            return Check("GL301", "gear-collision", "pass", text, gap, limit, "mm")
+            return GEAR_COLLISION.check("pass", text, gap, limit, "mm")
         if gap < 0.0:
             text = (
                 f"gears 1 (crank) and 5 (output) collide by {-gap:.6g} mm: gear 1 travels with the crank pin, so "
                 f"AD - AB = {abs(self.frame_length - self.crank_length):.6g} mm counts, not AD"
             )
-        return Check("GL301", "gear-collision", "fail", f"{text}; {self._gap_remedy(limit - gap)}", gap, limit, "mm")
+        return GEAR_COLLISION.check("fail", f"{text}; {self._gap_remedy(limit - gap)}", gap, limit, "mm")
 
     def _gap_remedy(self, missing: float) -> str:
         """What would give the gears room."""
@@ -358,7 +360,7 @@ class ThreeGearFourBar(Design):
         text = f"i3 = {asked:g} becomes {self.i3:.9g} with {self.idler_teeth} idler teeth"
         if not same:
             text += "; everything is computed with that: ask for a ratio of whole teeth, or accept it"
-        yield Check("GL304", "rounded-ratio", "pass" if same else "warn", text, self.i3, asked)
+        yield ACHIEVED.check("pass" if same else "warn", text, self.i3, asked, name="rounded-ratio")
 
 
 def _shaft(gear: str, shaft: str, distance: float, tip: float, radius: float | None) -> Check:
@@ -372,11 +374,11 @@ def _shaft(gear: str, shaft: str, distance: float, tip: float, radius: float | N
             text = f"{gear} comes {-room:.4g} mm into the {shaft} shaft (radius {radius:g} mm): overhang the shaft"
             if distance > tip:
                 text += f", or set shafts.{shaft}_radius to at most {safely_below(distance - tip)} mm"
-        return Check("GL302", "shaft-clearance", status, text, room, 0.0, "mm")
+        return SHAFT_CLEARANCE.check(status, text, room, 0.0, "mm")
     text = f"{gear} stays {room:.4g} mm from the axis of the {shaft} shaft"
     if room < 0.0:
         text = (
             f"the tips of {gear} ({tip:.6g} mm) pass the axis of the {shaft} shaft, {distance:.6g} mm away: the shaft "
             f"must be overhung, or name its radius in shafts.{shaft}_radius"
         )
-    return Check("GL302", "shaft-clearance", "warn" if room < 0.0 else "pass", text, room, 0.0, "mm")
+    return SHAFT_CLEARANCE.check("warn" if room < 0.0 else "pass", text, room, 0.0, "mm")

@@ -13,6 +13,7 @@ from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.report import Check, safely_below
 from gearlink.core.three_gear import symmetric_back_step
 from gearlink.core.three_gear import symmetric_family as family
+from gearlink.core.three_gear.codes import ACHIEVED
 from gearlink.core.three_gear.design import CHECKS, QUANTITIES, ThreeGearFourBar
 from gearlink.core.three_gear.dwells import BackStep
 from gearlink.core.three_gear.idler_choice import GREATEST_IDLER, LEAST_IDLER, idler_for_ratio, smallest_idler
@@ -230,7 +231,7 @@ class BackStepSynthesis(BackStepFamily):
         text = f"the back-step is {got:.6g} deg, {asked:g} deg were asked for"
         if off > 0.5:
             text += ": leave idler or crank_angle out, so that it can be chosen to fit"
-        yield Check("GL304", "back-step-target", "warn" if off > 0.5 else "pass", text, got, asked, "deg")
+        yield ACHIEVED.check("warn" if off > 0.5 else "pass", text, got, asked, "deg")
 
 
 class VariableSpeedSynthesis(SymmetricSynthesis):

@@ -14,7 +14,9 @@ from hypothesis import strategies as st
 
 from gearlink.core.design import Design, Outline, UnknownName
 from gearlink.core.errors import MissingSection, NoSolution, at_key
-from gearlink.core.report import Check, Report, Table, below, safely_above, safely_below
+from gearlink.core.gears.codes import CONTACT_RATIO
+from gearlink.core.linkages.codes import TRANSMISSION_ANGLE
+from gearlink.core.report import Check, Report, Table, safely_above, safely_below
 
 
 class Spec:
@@ -214,7 +216,7 @@ def test_key_is_given_where_there_is_none_yet():
     ("value", "status"), [(40.0 - 1e-9, "fail"), (40.0, "warn"), (45.0 - 1e-9, "warn"), (45.0, "pass"), (90.0, "pass")]
 )
 def test_below_at_its_limits(value, status):
-    check = below("GL303", "transmission-angle", value, 40.0, 45.0, "deg", "the least angle", "lengthen l4")
+    check = TRANSMISSION_ANGLE.below(value, 40.0, 45.0, "deg", "the least angle", "lengthen l4")
     assert (check.status, check.value, check.limit, check.unit) == (status, value, 40.0, "deg")
     assert ("lengthen l4" in check.message) == (status != "pass")
     assert ("below the limit 40 deg" in check.message) == (status == "fail")
@@ -222,7 +224,7 @@ def test_below_at_its_limits(value, status):
 
 
 def test_ratio_has_no_unit_in_its_message():
-    message = below("GL203", "contact-ratio", 1.05, 1.1, 1.2, "1", "the contact ratio", "take more teeth").message
+    message = CONTACT_RATIO.below(1.05, 1.1, 1.2, "1", "the contact ratio", "take more teeth").message
     assert message == "the contact ratio is 1.05, below the limit 1.1: take more teeth"
 
 

@@ -160,6 +160,9 @@ class TestFormats:
         sarif = json.loads(gearlink("batch", folder, "--format", "sarif").out)
         run = sarif["runs"][0]
         assert {rule["id"] for rule in run["tool"]["driver"]["rules"]} == {r["ruleId"] for r in run["results"]}
+        collision = next(rule for rule in run["tool"]["driver"]["rules"] if rule["id"] == "GL301")
+        assert collision["shortDescription"]["text"] == "gears collide"
+        assert collision["help"]["text"].startswith("Lengthen the frame")
         levels = {(r["ruleId"], r["level"]) for r in run["results"]}
         assert {("GL301", "error"), ("GL302", "warning"), ("GL106", "error")} <= levels
 

@@ -1,0 +1,50 @@
+"""The rules that the checks of the flatbed press judge by."""
+
+from __future__ import annotations
+
+from gearlink.core.report import Rule
+
+CONSTANT_SUM = Rule(
+    "GL405",
+    "rollers of the cam pair do not keep their distance",
+    "The pitch radii of main and return cam at opposite rollers do not add up to the distance of the rollers.",
+    "The rigid follower would jam or have play.",
+    "Raise cam.base_radius so that both rollers stay on their own side of the cam axis.",
+    "r1(t) + r2(t) = L_s1s2 within 1e-9 of it, at every degree of cam angle",
+    "TY-460 report 3.6",
+    ("constant-sum",),
+    ("cam.base_radius", "cam"),
+)
+SYNC_SPEED = Rule(
+    "GL501",
+    "bed and cylinder differ in speed at the start of the zone",
+    "At the start of the synchronous zone bed and cylinder do not run equally fast.",
+    "The compensation cam makes good a difference of travel, but a difference of speed is a blow at its start.",
+    "Leave sync.start out: then the zone starts where the speeds are equal.",
+    "|p'(phi_s) - q'(phi_s)| <= 1e-3 |q'(phi_s)|, p travel of the bed, q of the cylinder",
+    "TY-460 report 3.2",
+    ("sync-speed",),
+    ("sync.start", "sync", "cylinder"),
+)
+SYNC_LENGTH = Rule(
+    "GL502",
+    "synchronous zone shorter than the print",
+    "The cylinder travels less in the synchronous zone than the print is long.",
+    "The rest of the print would be smeared.",
+    "Set sync.length to the print length and a margin.",
+    "R i (theta_MN(phi_s) - theta_MN(phi_e)) >= sync.print_length",
+    "TY-460 report 3.2",
+    ("sync-length",),
+    ("sync.length", "sync.end", "sync", "cylinder"),
+)
+REGISTER = Rule(
+    "GL506",
+    "cylinder does not come home",
+    "The cylinder does not make whole turns per sheet.",
+    "The next sheet would meet another part of the cylinder.",
+    "Set cylinder.gear_ratio to a whole number.",
+    "cylinder.gear_ratio = 1, 2, 3 ... within 1e-9",
+    "TY-460 report 1",
+    ("register",),
+    ("cylinder.gear_ratio", "cylinder"),
+)

@@ -1,0 +1,76 @@
+"""The rules that the checks of a pair of gears judge by."""
+
+from __future__ import annotations
+
+from gearlink.core.report import Rule
+
+_TEETH = ("profile_shift", "teeth", "gears", "input_gears")
+
+UNDERCUT = Rule(
+    "GL201",
+    "tooth root undercut",
+    "The profile shift is less than a rack cutter needs to leave the involute whole; fails beyond limits.undercut.",
+    "The cutter takes away part of the flank at the root: the tooth is weaker and contact ratio is lost.",
+    "Raise the profile shift of that gear to x_min, take more teeth, or a larger pressure angle.",
+    "x >= x_min = h_a* - z sin^2(alpha)/2; fails below x_min - limits.undercut (0.05), warns below x_min",
+    "own derivation: the cutter's tip line passes the base tangent point; quantities of ISO 21771",
+    ("undercut",),
+    _TEETH,
+)
+TIP_THICKNESS = Rule(
+    "GL202",
+    "tooth tip too thin",
+    "The tooth is thinner at its tip than limits.tip_thickness times the module.",
+    "A pointed tip is weak, and hardened through it breaks out.",
+    "Lower the gear's profile shift or its addendum.",
+    "s_a = r_a (s/r - 2 (inv(alpha_a) - inv(alpha))); fails below 0.25 m, warns below 0.4 m",
+    "ISO 21771; the limit is usual practice",
+    ("tip-thickness",),
+    _TEETH,
+)
+CONTACT_RATIO = Rule(
+    "GL203",
+    "contact ratio too small",
+    "On average too few tooth pairs are in contact.",
+    "Below 1 the drive is interrupted; a little above 1 it runs roughly with worn or inaccurate teeth.",
+    "Take more teeth of a smaller module, a smaller pressure angle, or less profile shift.",
+    "eps = (z1 (tan alpha_a1 - tan alpha_wt) + z2 (tan alpha_a2 - tan alpha_wt))/(2 pi); fails below "
+    "limits.contact_ratio (1.1), warns up to 0.1 above",
+    "ISO 21771; the limit is usual practice",
+    ("contact-ratio",),
+    _TEETH,
+)
+INTERFERENCE = Rule(
+    "GL204",
+    "tip beyond the involute of the mate",
+    "A tip circle passes the point where the line of action touches the mate's base circle.",
+    "There the mate has no involute: the tip digs into its root or jams.",
+    "Raise the mate's profile shift, or lower the addendum of the gear whose tip is too high.",
+    "a_w sin(alpha_wt) - sqrt(r_a^2 - r_b^2) >= 0 for both gears",
+    "ISO 21771; own derivation of the margin",
+    ("involute-interference",),
+    _TEETH,
+)
+ROOT_CLEARANCE = Rule(
+    "GL205",
+    "root clearance too small",
+    "The tip of a gear comes too near to the root of its mate.",
+    "Dirt, wear or a bent shaft then make tip and root touch.",
+    "Raise the clearance coefficient, or shorten the mate's tips.",
+    "c = a_w - r_a(mate) - r_f; fails below 0.05 m, warns below 0.15 m",
+    "ISO 21771; the limits are usual practice",
+    ("root-clearance",),
+    ("clearance", *_TEETH),
+)
+TIP_FOULING = Rule(
+    "GL206",
+    "tips foul in an internal mesh",
+    "The tips of planet and ring gear cut into each other where their tip circles cross, outside the contact.",
+    "The gears cannot turn, or cannot be put together.",
+    "Give the ring gear more teeth or the planet fewer: at 20 deg about 8 teeth of difference are needed.",
+    "z1 (inv alpha_a1 + delta_1) - z2 (inv alpha_a2 + delta_2) + (z2 - z1) inv alpha >= 0, delta the angles from "
+    "the line of centres to where the tip circles cross",
+    "own derivation",
+    ("tip-fouling",),
+    ("gears",),
+)

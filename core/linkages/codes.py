@@ -1,0 +1,80 @@
+"""The rules that the checks of several linkages judge by."""
+
+from __future__ import annotations
+
+from gearlink.core.report import Rule
+
+GEAR_COLLISION = Rule(
+    "GL301",
+    "gears collide",
+    "Two gears that do not mesh come nearer to each other than limits.gear_gap somewhere in the turn.",
+    "A gear on the crank pin travels: its least distance counts, not the frame length. The source's own example 3 "
+    "compares the tip circles with the frame length and misses a collision of 1.6 mm.",
+    "Lengthen the frame or shorten the crank by the missing amount, or take smaller gears; in a synthesis a larger "
+    "idler.",
+    "s15 = |l4 - l1| - m (z1 + z5)/2 - 2 m >= limits.gear_gap",
+    "own derivation; thesis 4.2.2, 4.2.3 with the distance at the closest",
+    ("gear-collision",),
+    ("links", "momentary", "back_step", "dwell", "speed", "gears"),
+)
+SHAFT_CLEARANCE = Rule(
+    "GL302",
+    "tip circle or roller reaches a shaft",
+    "A gear's tip circle, or a cam roller, comes into a shaft of the file; or it passes the axis of a shaft whose "
+    "radius the file does not name (a warning).",
+    "The shaft cannot pass through the plane of the gears there: it must end before it (be overhung).",
+    "Overhang the shaft, make it thinner, or enlarge the distance; name the radius (shafts, cam.shaft_radius) so "
+    "that it is checked.",
+    "least distance over the turn - tip radius - shaft radius >= 0; joint C from A: max(l2 - l1, l4 - l3)",
+    "own derivation",
+    ("shaft-clearance",),
+    ("shafts", "cam.shaft_radius", "cam", "links", "gears"),
+)
+TRANSMISSION_ANGLE = Rule(
+    "GL303",
+    "transmission angle too small",
+    "The angle between coupler and driven link, counted up to 90 deg, falls below limits.transmission_angle.",
+    "The force along the coupler then hardly turns the driven link: joints are loaded heavily and play shows.",
+    "Bring coupler and driven link nearer to a right angle: shorten the crank, take a larger idler, or a shorter "
+    "frame in a drag link.",
+    "mu = min(gamma, 180 deg - gamma), cos(gamma) = (l2^2 + l3^2 - n^2)/(2 l2 l3), n the diagonal from the crank "
+    "pin; fails below the limit, warns less than 5 deg above it; "
+    "below 3 deg the message names the condition number 1/sin(mu)",
+    "VDI 2142; thesis 4.2",
+    ("transmission-angle",),
+    ("links", "cylinder.double_crank", "bed.double_crank", "back_step", "dwell", "speed", "momentary", "gears"),
+)
+TARGET = Rule(
+    "GL307",
+    "target of a synthesis missed",
+    "The design that was found misses what `target` asks for by more than the tolerance.",
+    "The residual is measured on the motion that the design makes, not on the equations of the search.",
+    "Ask for less, free more of the links, or start from other links.",
+    "residual = value reached - value asked for",
+    "own derivation",
+    ("target",),
+    ("target", "target.swing", "links"),
+)
+TRAIN_FIT = Rule(
+    "GL308",
+    "gear train does not fit the linkage",
+    "A gear in the middle of a train is fixed, neighbours do not sit on one link, or a centre distance is not the "
+    "link's length.",
+    "Gears stay in mesh only where one link keeps their distance; only the ends of a train may be fixed to links.",
+    "Put neighbours on two pins of one link, fix end gears only, and to a link that carries their pin.",
+    "dF = 3 (J - R) - 2 (J - R) - (J - 1) = 1 - R",
+    "thesis 2.1",
+    ("train-fit",),
+    ("trains", "links"),
+)
+MOBILITY = Rule(
+    "GL309",
+    "degrees of freedom are not those wanted",
+    "Linkage and trains together have another number of degrees of freedom than `mobility` asks for.",
+    "With none the mechanism is locked; with two it needs a second input.",
+    "Fix or free end gears: a train takes R - 1 degrees of freedom away.",
+    "F = F_linkage + sum(1 - R_i)",
+    "thesis 2.1",
+    ("mobility",),
+    ("mobility", "trains"),
+)

@@ -1,0 +1,40 @@
+"""The rules that the checks of the swing gripper judge by."""
+
+from __future__ import annotations
+
+from gearlink.core.report import Rule
+
+CONDITIONING = Rule(
+    "GL312",
+    "linkage near a dead point",
+    "Over the swing the loop comes so near to a dead point that the closed form and Newton-Raphson lose digits, or "
+    "the assembly is not determined in line with the frame (a warning).",
+    "A little play then turns the driven link far.",
+    "Change pivots or links so that the swing centres on a right angle between coupler and driven link.",
+    "condition number 1/sin(mu) <= limits.condition_number",
+    "swing-gripper paper (7)",
+    ("conditioning",),
+    ("limits.condition_number", "links", "pivots"),
+)
+LIFT_OFF = Rule(
+    "GL406",
+    "roller leaves its cam",
+    "At the design speed the inertia takes up the spring's torque, or keeps less than a tenth of speed in reserve.",
+    "A roller that has left its cam falls back on it: wear, noise and a wrong motion.",
+    "Raise spring.torque to the value of the message, lower the masses, or run slower.",
+    "n* = n sqrt(T_s/max(T_inertia)) must exceed n; warns below 1.1 n",
+    "own derivation: virtual work of links and coupler",
+    ("lift-off",),
+    ("spring.torque", "spring", "speed"),
+)
+HANDOVER = Rule(
+    "GL503",
+    "handover at unequal speeds",
+    "Gripper and cylinder surface do not run equally fast at the handover.",
+    "The sheet is torn, or loses its register.",
+    "Set handover within the constant-speed phase.",
+    "|l_EF beta'(handover) w - R w| <= 1e-9 R w",
+    "swing-gripper paper 2",
+    ("handover",),
+    ("handover",),
+)

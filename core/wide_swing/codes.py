@@ -1,0 +1,74 @@
+"""The rules that the checks of the wide-swing cam mechanism judge by."""
+
+from __future__ import annotations
+
+from gearlink.core.report import Rule
+
+TURNABILITY = Rule(
+    "GL504",
+    "unloader cannot follow the swing",
+    "The pivot ratio is too small for the length that cylinder or spring needs when it is shortest.",
+    "The device would reach its end stop, or its coils, before mid-swing.",
+    "Increase unloader.pivot_ratio to the value of the message, or reduce the swing.",
+    "cylinder: lambda_min = p + sqrt(p^2 - 1), p = (q^2 - cos(gamma/2))/(q^2 - 1); spring: lambda_min = 1 + "
+    "(l_0 + l_k + S_0)/r_d",
+    "wide-swing dissertation (3), (4)",
+    ("unloader-turnability",),
+    ("unloader.pivot_ratio", "unloader"),
+)
+PROFILE_EXISTS = Rule(
+    "GL505",
+    "cam profile does not exist",
+    "The pitch curve makes a loop, or the run-up takes no cam angle.",
+    "A cam with a loop cannot be made.",
+    "Enlarge cycle_angle or reduce the swing; a twin-rocker wants a swing above 100 deg.",
+    "Phi = phi_ud/2 - xi > 0, and (dTheta/dtheta) rho^2/(1 - cos phi) > 0 over the stroke",
+    "wide-swing dissertation (21), (22), (25); the loop: own derivation",
+    ("profile-exists",),
+    ("cycle_angle", "swing"),
+)
+TRANSITION_ZONE = Rule(
+    "GL507",
+    "contact changes sides over too much of the stroke",
+    "About mid-swing the roller leaves the profile and crosses its slot over more than limits.transition_zone.",
+    "Within this zone the device alone guides the rocker; play and wear grow with it.",
+    "Take a smaller roller, or a larger cam.center_distance.",
+    "Dk = (4/3) t_c/phi_ud, t_c = 3 q r_p/(4 p^2), p and q of the pitch curve's cusp",
+    "own derivation",
+    ("transition-zone",),
+    ("cam.roller_radius", "cam"),
+)
+BALANCING = Rule(
+    "GL508",
+    "unloader does harm at low speed",
+    "The machine works at a speed at which the device raises the torque on the rocker axis (a warning).",
+    "The device's torque stays while the inertia's falls with the square of the speed: below n0/sqrt(2) more "
+    "torque is needed with the device than without.",
+    "Lower its force or rate for slow running, or take it off.",
+    "K_y1 = n^2/(|n^2 - n0^2| + f n0^2) > 1, that is n > n0/sqrt(2) where f = 0",
+    "wide-swing dissertation, chapter 5; own derivation",
+    ("balancing",),
+    ("operating_speed_min", "unloader"),
+)
+FORCE_CLOSURE = Rule(
+    "GL509",
+    "spring slack at mid-swing",
+    "The unloading spring is mounted without stretch, so that it is slack at mid-swing (a warning).",
+    "There it does not press the roller to its cam: play shows just where the roller changes sides.",
+    "Make unloader.stretch_ratio above 0, such as 0.1.",
+    "epsilon = mounting stretch at mid-swing over the stroke of the spring > 0",
+    "wide-swing dissertation, chapter 2; own derivation",
+    ("force-closure",),
+    ("unloader.stretch_ratio", "unloader"),
+)
+CYCLE_ANGLES = Rule(
+    "GL510",
+    "two strokes take more than a turn",
+    "Working and return stroke together take more cam angle than a turn has.",
+    "The two profiles would overlap.",
+    "Reduce cycle_angle to 180 deg or less.",
+    "2 phi_ud <= 360 deg",
+    "own derivation",
+    ("cycle-angles",),
+    ("cycle_angle",),
+)
