@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import os
 import re
-import tempfile
-from collections.abc import Callable
+import signal
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import IO
 
@@ -16,32 +17,65 @@ class CannotWrite(GearlinkError):
     """A result file could not be written."""
 
 
+_unfinished: set[str] = set()
+_ENDING = ("SIGHUP", "SIGQUIT", "SIGUSR1", "SIGUSR2", "SIGALRM", "SIGTERM", "SIGXCPU")
+
+
+def leave_nothing_behind() -> None:
+    """From now on a signal that ends this process first removes the files that it has not finished.
+
+    Notes
+        What the parent of the process chose to ignore (nohup) stays ignored. An interrupt unwinds as Python's own.
+    """
+    for name in _ENDING:
+        number = getattr(signal, name, None)  # not every system has them all
+        if number is not None and signal.getsignal(number) == signal.SIG_DFL:
+            signal.signal(number, _end)
+
+
+def _end(number: int, _: object) -> None:
+    for path in tuple(_unfinished):
+        _remove(path)
+    signal.signal(number, signal.SIG_DFL)
+    os.kill(os.getpid(), number)
+
+
+@contextmanager
+def unfinished(path: str) -> Iterator[None]:
+    """Remove the file or folder at `path` whichever way the block ends, if it is still there."""
+    _unfinished.add(path)  # before it exists: a signal may come between
+    try:
+        yield
+    finally:
+        _remove(path)
+        _unfinished.discard(path)
+
+
+def _remove(path: str) -> None:
+    if os.path.isdir(path):
+        import shutil
+
+        shutil.rmtree(path, ignore_errors=True)
+    else:
+        with suppress(OSError):
+            os.unlink(path)
+
+
 def write_atomically(path: Path, write: Callable[[IO[bytes]], object]) -> None:
     """Let `write` fill a temporary file beside `path`, then move it there.
 
     Raises
         CannotWrite - where the folder or the disk does not take the file; nothing is left behind
     """
-    temporary = None
+    temporary = str(path.parent / f".gearlink-{os.urandom(8).hex()}")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        handle, temporary = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
-        with os.fdopen(handle, "wb") as stream:
-            write(stream)
-        os.chmod(temporary, 0o666 & ~_umask())
-        os.replace(temporary, path)
-        temporary = None
+        with unfinished(temporary):
+            with open(temporary, "xb") as stream:
+                write(stream)
+            os.replace(temporary, path)
     except OSError as error:
         raise CannotWrite(f"cannot write {path}: {error.strerror or error}") from error
-    finally:
-        if temporary is not None:
-            Path(temporary).unlink(missing_ok=True)
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
 
 
 def safe_stem(name: str) -> str:

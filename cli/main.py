@@ -7,11 +7,13 @@ import os
 import sys
 
 from gearlink.cli.exit_codes import ExitCode
+from gearlink.cli.files import leave_nothing_behind
 
 
 def main() -> None:
     """Run gearlink on the process's arguments and leave with its exit status."""
     _hasten_start()
+    leave_nothing_behind()
     sys.exit(run(sys.argv[1:]))
 
 

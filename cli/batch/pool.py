@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import os
 import sys
-from collections import deque
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Future, ProcessPoolExecutor, wait
-from contextlib import contextmanager
-from multiprocessing import active_children, get_all_start_methods, get_context
+from concurrent.futures import BrokenExecutor, Future, as_completed
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from time import perf_counter
 
@@ -17,6 +15,7 @@ from gearlink.cli.batch.options import BatchOptions
 from gearlink.cli.batch.outcome import Outcome
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.reading.diagnostics import Diagnostic
+from gearlink.cli.workers import workers
 
 # Several processes pay when the rest would take this long in one; starting them costs some hundredths of a second.
 _WORTH_SECONDS = 0.15
@@ -34,24 +33,27 @@ def run_files(files: Sequence[Path], options: BatchOptions) -> tuple[list[Outcom
     results: list[Outcome] = []
     with _progress(len(files), options) as advance:
         try:
-            start = perf_counter()
-            stride = 1 if options.jobs == 1 else max(1, len(files) // _TRIED_FIRST)
-            first = files[::stride]
-            for path in first:
-                results += outcomes(path, options)
-                advance(1)
-            rest = [path for i, path in enumerate(files) if i % stride]
-            seconds_each = (perf_counter() - start) / max(1, len(first))
-            jobs = _jobs(options, rest, seconds_each)
-            if jobs > 1:
-                _run_parallel(_chunks(rest, jobs, seconds_each), options, jobs, results, advance)
-            else:
-                for path in rest:
-                    results += outcomes(path, options)
-                    advance(1)
+            for done, found in _each(files, options):
+                results += found
+                advance(done)
         except KeyboardInterrupt:
             return results, True
     return results, False
+
+
+def _each(files: Sequence[Path], options: BatchOptions) -> Iterator[tuple[int, list[Outcome]]]:
+    """How many files are finished, and their outcomes, as they come."""
+    start = perf_counter()
+    stride = 1 if options.jobs == 1 else max(1, len(files) // _TRIED_FIRST)
+    for path in files[::stride]:
+        yield 1, outcomes(path, options)
+    rest = [path for i, path in enumerate(files) if i % stride]
+    seconds_each = (perf_counter() - start) / max(1, len(files) - len(rest))
+    jobs = _jobs(options, rest, seconds_each)
+    if jobs > 1:
+        yield from _in_processes(_chunks(rest, jobs, seconds_each), options, jobs)
+    else:
+        yield from ((1, outcomes(path, options)) for path in rest)
 
 
 def _jobs(options: BatchOptions, rest: Sequence[Path], seconds_each: float) -> int:
@@ -70,78 +72,43 @@ def _chunks(files: Sequence[Path], jobs: int, seconds_each: float) -> list[Seque
     return [files[i::count] for i in range(count)]
 
 
-def _run_parallel(
-    chunks: Sequence[Sequence[Path]],
-    options: BatchOptions,
-    jobs: int,
-    results: list[Outcome],
-    advance: Callable[[int], None],
-) -> None:
-    """Chunks in processes; this one takes them from the end while the others take them from the beginning.
+def _in_processes(left: list[Sequence[Path]], options: BatchOptions, jobs: int) -> Iterator[tuple[int, list[Outcome]]]:
+    """Chunks in processes, as they are finished.
 
     Notes
-        A forked child has every module loaded already. Results come in as they are finished, so that an interrupt
-        leaves what there is. A process that dies (memory, a signal) costs the chunks it was given; this one does the
-        rest alone.
+        A process that dies (memory, a signal) takes the executor with it. Chunks are begun in the order in which
+        they are given, so the dead process was at one of the first `jobs` unfinished ones: their files are tried
+        again one by one, each in a process of its own, and the other chunks in a new executor.
     """
-    method = "fork" if "fork" in get_all_start_methods() and sys.platform == "linux" else None
-    pool = ProcessPoolExecutor(jobs - 1, mp_context=get_context(method), initializer=_ignore_interrupt)
-    waiting, given = deque(chunks), dict[Future[list[Outcome]], Sequence[Path]]()
-
-    def collect() -> bool:
-        """Take what is finished and give out more; False where a process has died."""
-        alive = True
-        for future in [future for future in given if future.done()]:
-            try:
-                results.extend(future.result())
-            except BrokenExecutor:
-                alive = False
-                results.extend(map(_lost, given[future]))
-            advance(len(given.pop(future)))
-        while alive and waiting and len(given) < 2 * (jobs - 1):
-            try:
-                given[pool.submit(_chunk, waiting[0], options)] = waiting[0]
-                waiting.popleft()
-            except BrokenExecutor:
-                alive = False
-        return alive
-
-    try:
-        alive = collect()
-        while waiting:
-            for path in waiting.pop():
-                results += outcomes(path, options)
-                advance(1)
-                alive = alive and collect()
-        while given:
-            wait(given, return_when=FIRST_COMPLETED)
-            collect()
-        pool.shutdown()
-    except BaseException:
-        # What they are at is lost; waiting for it would make the user wait.
-        for future in given:
-            if future.done() and future.exception() is None:
-                results += future.result()
-        for child in active_children():
-            child.terminate()
-        pool.shutdown()
-        raise
-
-
-def _lost(path: Path) -> Outcome:
-    message = "fault: the process that had this file died; run it alone with -j 1"
-    return Outcome(str(path), "", path.stem, "", ExitCode.FAULT, None, (Diagnostic("GL199", message, file=str(path)),))
-
-
-def _ignore_interrupt() -> None:
-    """The parent alone answers Ctrl-C, so that no worker prints of it."""
-    import signal
-
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    while left:
+        given: dict[Future[list[Outcome]], Sequence[Path]] = {}
+        with workers(min(jobs, len(left))) as pool:
+            with suppress(BrokenExecutor):
+                for files in left:
+                    given[pool.submit(_chunk, files, options)] = files
+            for future in as_completed(given):
+                if not isinstance(future.exception(), BrokenExecutor):
+                    yield len(given[future]), future.result()
+        finished = {id(files) for future, files in given.items() if future.exception() is None}
+        left = [files for files in left if id(files) not in finished]
+        for path in (path for files in left[:jobs] for path in files):
+            yield 1, _alone(path, options)
+        left = left[jobs:]
 
 
 def _chunk(files: Sequence[Path], options: BatchOptions) -> list[Outcome]:
     return [outcome for path in files for outcome in outcomes(path, options)]
+
+
+def _alone(path: Path, options: BatchOptions) -> list[Outcome]:
+    """The outcomes of a file in a process of its own; if that dies too, the file is to blame."""
+    try:
+        with workers(1) as pool:
+            return pool.submit(_chunk, [path], options).result()
+    except BrokenExecutor:
+        message = "fault: the process that had this file died; `gearlink check` on it alone may show why"
+        wrong = Diagnostic("GL199", message, file=str(path))
+        return [Outcome(str(path), "", path.stem, "", ExitCode.FAULT, None, (wrong,))]
 
 
 @contextmanager

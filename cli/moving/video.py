@@ -10,7 +10,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import IO
 
-from gearlink.cli.files import CannotWrite
+from gearlink.cli.files import CannotWrite, unfinished
 from gearlink.cli.moving.raster import Raster
 
 _BITEXACT = ("-fflags", "+bitexact", "-flags:v", "+bitexact", "-threads", "1")
@@ -35,7 +35,7 @@ def write_mp4(stream: IO[bytes], raster: Raster, fps: int, told: Iterable[int]) 
         CannotWrite - where there is no ffmpeg, or it fails
     """
     program, stage = ffmpeg(), raster.stage
-    with tempfile.TemporaryDirectory(prefix="gearlink-") as folder:
+    with tempfile.TemporaryDirectory(prefix="gearlink-") as folder, unfinished(folder):
         path = Path(folder) / "motion.mp4"
         raw = ("-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{stage.width}x{stage.height}", "-r", str(fps), "-i", "-")
         coded = ("-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "18", "-movflags", "+faststart", *_BITEXACT)

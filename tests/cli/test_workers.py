@@ -1,0 +1,84 @@
+"""Workers end with their parent, whatever ends it, and leave no unfinished file."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from gearlink.cli.workers import workers
+
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="forked processes, /proc")
+
+# Two workers hold a half-written file each when the parent says that it is ready.
+PARENT = """
+import sys, time
+from pathlib import Path
+from gearlink.cli.files import leave_nothing_behind, write_atomically
+from gearlink.cli.workers import workers
+
+def hold(stream):
+    stream.write(b"half")
+    stream.flush()
+    (folder / f"begun{time.monotonic_ns()}").touch()
+    time.sleep(60.0)
+
+folder = Path(sys.argv[1])
+leave_nothing_behind()
+with workers(2) as pool:
+    for name in "ab":
+        pool.submit(write_atomically, folder / name, hold)
+    while len(list(folder.glob("begun*"))) < 2:
+        time.sleep(0.01)
+    print("ready", flush=True)
+    time.sleep(60.0)
+"""
+
+
+@pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP", "SIGQUIT", "SIGUSR1", "SIGKILL"])
+def test_workers_end_with_their_parent(tmp_path: Path, name: str) -> None:
+    """The reader of their common output gets its end, which it does not while any of them lives."""
+    command = [sys.executable, "-c", PARENT, str(tmp_path)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as parent:
+        assert parent.stdout is not None
+        assert parent.stderr is not None
+        assert parent.stdout.readline() == b"ready\n"
+        parent.send_signal(getattr(signal, name))
+        sent = time.monotonic()
+        assert (parent.stdout.read(), parent.stderr.read()) == (b"", b"")
+        assert time.monotonic() - sent < 10.0
+    assert parent.returncode == -getattr(signal, name)
+    assert {path.name[:5] for path in tmp_path.iterdir()} == {"begun"}
+
+
+def test_what_the_caller_of_the_process_ignores_stays_ignored(tmp_path: Path) -> None:
+    script = "import os, signal\nfrom gearlink.cli.files import leave_nothing_behind\nleave_nothing_behind()\n"
+    script += "os.kill(os.getpid(), signal.SIGHUP)\nprint('still here')"
+    ended = subprocess.run(["nohup", sys.executable, "-c", script], capture_output=True, cwd=tmp_path, check=True)
+    assert ended.stdout == b"still here\n"
+
+
+def _leave_in_the_middle() -> None:
+    with workers(2) as pool:
+        for _ in range(8):
+            pool.submit(time.sleep, 30.0)
+        raise ValueError("enough")
+
+
+def test_an_exception_in_the_block_ends_them_at_once() -> None:
+    begun = time.monotonic()
+    with pytest.raises(ValueError, match="enough"):
+        _leave_in_the_middle()
+    assert time.monotonic() - begun < 10.0
+
+
+def test_they_do_not_answer_an_interrupt() -> None:
+    with workers(1) as pool:
+        process = pool.submit(os.getpid).result()
+        os.kill(process, signal.SIGINT)
+        assert pool.submit(os.getpid).result() == process
