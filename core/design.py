@@ -1,6 +1,6 @@
 """What every kind of design shares: results by name, computed when asked for and never twice.
 
-A design's results are `functools.cached_property`s written in terms of each other, in mm and radians; the names
+A design's results are `cached_property`s written in terms of each other, in mm and radians; the names
 are those of `gearlink.core.nomenclature`. Asking for one computes what it needs and nothing else. A design holds
 no other state, so there is no order in which things must be called.
 """
@@ -11,11 +11,12 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cache
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from gearlink.core.errors import GearlinkError
 from gearlink.core.nomenclature import term
 from gearlink.core.report import Check, Quantity, Report, Table
+from gearlink.core.results import step
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,6 +26,26 @@ class Outline:
     quantities: tuple[str, ...] = ()
     checks: tuple[str, ...] = ()
     tables: tuple[str, ...] = ()
+
+
+def placed(path: str) -> Any:
+    """A quantity whose value stands elsewhere on the design.
+
+    Parameters
+        path : str - from the design on, "slider_crank.crank_length"; None on the way makes the quantity None
+    Returns
+        quantity : property, to be annotated with the type of the value
+    """
+
+    def value(design: Any) -> Any:
+        found = design
+        for name in path.split("."):
+            if found is None:
+                return None
+            found = getattr(found, name)
+        return found
+
+    return property(value, doc=f"Stands at `{path}`.")
 
 
 class UnknownName(GearlinkError):
@@ -61,7 +82,19 @@ class Design:
 
     def raw(self, name: str) -> Any:
         """The value of a quantity in mm and radians, or None where it does not apply."""
-        return getattr(self, name)
+        return object.__getattribute__(self, name)
+
+    if not TYPE_CHECKING:  # types know the attributes that the classes name, and no others
+
+        def __getattr__(self, name: str) -> Any:
+            """A quantity that the class has no attribute for, that of a mesh: only `raw` knows its place."""
+            if hasattr(type(self), name) or name not in self.quantity_names():
+                return object.__getattribute__(self, name)  # raises what is missing
+            return self.raw(name)
+
+    def __dir__(self) -> list[str]:
+        """What a class has, and every quantity."""
+        return sorted({*super().__dir__(), *self.quantity_names()})
 
     def quantity(self, name: str) -> Quantity | None:
         """A quantity in the units of the design files; None where it does not apply to this design."""
@@ -84,13 +117,16 @@ class Design:
         """
         if name not in self.table_names():
             raise UnknownName("table", name, self.table_names())
-        table: Table = getattr(self, f"table_{name}")(samples)
+        with step(f"{type(self).__name__}.table_{name}"):
+            table: Table = getattr(self, f"table_{name}")(samples)
         return table
 
     def check(self, name: str) -> list[Check]:
         """The findings of a check by name; a check that does not apply to this design gives none."""
-        found: Check | Iterable[Check] = getattr(self, "check_" + name.replace("-", "_"))()
-        return [found] if isinstance(found, Check) else list(found)
+        method = "check_" + name.replace("-", "_")
+        with step(f"{type(self).__name__}.{method}"):
+            found: Check | Iterable[Check] = getattr(self, method)()
+            return [found] if isinstance(found, Check) else list(found)
 
     def suggestions(self) -> Sequence[Any]:
         """Changes of keys that would repair the design, each (path, value, why); a kind that has none gives none."""

@@ -149,7 +149,7 @@ def _givers(name: str) -> Iterator[str]:
         for command in kind.commands:
             cls = kind.design_class(command)
             shown = {quantity.rpartition(".")[2] for quantity in cls.outlines[command].quantities}
-            known = known or name in {q.rpartition(".")[2] for q in cls(None).quantity_names()}
+            known = known or name in {q.rpartition(".")[2] for q in cls.quantity_names()}
             if name in shown:
                 always.append(command)
         if always:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
@@ -15,6 +14,7 @@ from gearlink.core.cams.undercut import Undercut, undercut
 from gearlink.core.numerics.arrays import Points, Reals, turn_degrees
 from gearlink.core.numerics.extremes import Extreme, least_convex_radius, maximum_over, minimum_over
 from gearlink.core.report import Table
+from gearlink.core.results import cached_property
 
 _TURN = 2.0 * math.pi
 

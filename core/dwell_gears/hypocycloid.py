@@ -14,10 +14,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.numerics.roots import bracketed_root, sign_changes
+from gearlink.core.results import cached_property
 
 _STEPS_PER_ARC = 48
 

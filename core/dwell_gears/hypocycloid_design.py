@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from functools import cached_property
 from typing import TYPE_CHECKING
 
-from gearlink.core.design import Outline
+from gearlink.core.design import Outline, placed
 from gearlink.core.dwell_gears import hypocycloid, hypocycloid_rod
 from gearlink.core.dwell_gears.codes import DWELL_QUALITY
 from gearlink.core.dwell_gears.hypocycloid import HypocycloidSlider
@@ -16,6 +15,7 @@ from gearlink.core.gears.internal_mesh import InternalMesh
 from gearlink.core.gears.single_mesh import INTERNAL_QUANTITIES, MESH_CHECKS, SingleMesh
 from gearlink.core.linkages.checks import transmission_check
 from gearlink.core.report import Check, Table
+from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
     from gearlink.core.dwell_gears.hypocycloid_spec import HypocycloidDwellSpec
@@ -55,15 +55,8 @@ class HypocycloidDwell(SingleMesh):
 
     # Gears and rod
 
-    @property
-    def planet_teeth(self) -> int:
-        """Teeth of the planet."""
-        return self.spec.gears.planet
-
-    @property
-    def ring_teeth(self) -> int:
-        """Teeth of the ring gear."""
-        return self.spec.gears.ring
+    planet_teeth: int = placed("spec.gears.planet")
+    ring_teeth: int = placed("spec.gears.ring")
 
     @cached_property
     def cusps(self) -> int:
@@ -85,10 +78,7 @@ class HypocycloidDwell(SingleMesh):
         """Pitch radius of the planet, on which the point lies [mm]."""
         return self.spec.gears.module * self.planet_teeth / 2.0
 
-    @property
-    def carrier_length(self) -> float:
-        """Centre distance of planet and ring [mm]."""
-        return self.mesh.center_distance
+    carrier_length: float = placed("mesh.center_distance")
 
     @cached_property
     def mesh(self) -> InternalMesh:
@@ -146,10 +136,7 @@ class HypocycloidDwell(SingleMesh):
         with at_key("rod" if self.spec.target is None else "target"):
             return HypocycloidSlider(self.point_radius, self.cusps, self.rod_length)
 
-    @property
-    def stroke(self) -> float:
-        """Stroke of the slider [mm]."""
-        return self.slider.stroke
+    stroke: float = placed("slider.stroke")
 
     @property
     def dwell_deviation_min(self) -> float:

@@ -9,9 +9,9 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
 
 from gearlink.core.errors import NoSolution
+from gearlink.core.results import cached_property
 
 
 @dataclass(frozen=True)

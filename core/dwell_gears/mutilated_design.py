@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from functools import cached_property
 from typing import TYPE_CHECKING
 
-from gearlink.core.design import Outline
+from gearlink.core.design import Outline, placed
 from gearlink.core.dwell_gears.codes import START_SHOCK
 from gearlink.core.dwell_gears.mutilated import MutilatedGear
 from gearlink.core.errors import at_key
@@ -18,6 +17,7 @@ from gearlink.core.linkages.checks import check_linkage, transmission_check
 from gearlink.core.linkages.fourbar import FourBar, solve
 from gearlink.core.linkages.nearest_passes import joint_to_crank_pivot
 from gearlink.core.report import Check, Table
+from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
     from gearlink.core.dwell_gears.mutilated_spec import MutilatedGearDwellSpec
@@ -65,45 +65,14 @@ class MutilatedGearDwell(SingleMesh):
                 self.spec.reduction, gears.full_teeth, gears.group_teeth, gears.groups, gears.driven, gears.stops
             )
 
-    @property
-    def cycle_turns(self) -> float:
-        """Input turns per output cycle."""
-        return self.mutilated.cycle_turns
-
-    @property
-    def motion_turns(self) -> float:
-        """Input turns of the motion."""
-        return self.mutilated.motion_turns
-
-    @property
-    def dwell_turns(self) -> float:
-        """Input turns of the dwell."""
-        return self.mutilated.dwell_turns
-
-    @property
-    def motion_share(self) -> float:
-        """Share of the cycle in motion."""
-        return self.mutilated.motion_share
-
-    @property
-    def dwell_share(self) -> float:
-        """Share of the cycle at rest."""
-        return self.mutilated.dwell_share
-
-    @property
-    def driven_turn(self) -> float:
-        """Turns of the driven gear per group."""
-        return self.mutilated.driven_turn
-
-    @property
-    def driven_speed_ratio(self) -> float:
-        """Driven speed over input speed in motion."""
-        return self.mutilated.speed_ratio
-
-    @property
-    def cycles_to_repeat(self) -> int:
-        """Cycles until everything repeats."""
-        return self.mutilated.cycles_to_repeat
+    cycle_turns: float = placed("mutilated.cycle_turns")
+    motion_turns: float = placed("mutilated.motion_turns")
+    dwell_turns: float = placed("mutilated.dwell_turns")
+    motion_share: float = placed("mutilated.motion_share")
+    dwell_share: float = placed("mutilated.dwell_share")
+    driven_turn: float = placed("mutilated.driven_turn")
+    driven_speed_ratio: float = placed("mutilated.speed_ratio")
+    cycles_to_repeat: int = placed("mutilated.cycles_to_repeat")
 
     @cached_property
     def mesh(self) -> GearPair:

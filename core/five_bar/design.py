@@ -5,16 +5,16 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import replace
-from functools import cached_property
 from typing import TYPE_CHECKING
 
-from gearlink.core.design import Outline
+from gearlink.core.design import Outline, placed
 from gearlink.core.errors import NoSolution
 from gearlink.core.five_bar.codes import CLOSURE
 from gearlink.core.five_bar.parts import FiveBarParts
 from gearlink.core.gears.single_mesh import MESH_CHECKS, mesh_checks
 from gearlink.core.linkages.checks import target_check, transmission_check
 from gearlink.core.report import Check, Table
+from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
     from gearlink.core.five_bar.spec import GearedFiveBarSpec
@@ -66,40 +66,13 @@ class GearedFiveBar(FiveBarParts):
         "gear": Outline(("center_distance", "contact_ratio"), MESH_CHECKS),
     }
 
-    @property
-    def input_length(self) -> float:
-        """Input link AB [mm]."""
-        return self.bar.input
-
-    @property
-    def coupler_length(self) -> float:
-        """Coupler BC [mm]."""
-        return self.bar.coupler
-
-    @property
-    def follower_length(self) -> float:
-        """Follower CD [mm]."""
-        return self.bar.follower
-
-    @property
-    def output_length(self) -> float:
-        """Output link DE [mm]."""
-        return self.bar.output
-
-    @property
-    def frame_length(self) -> float:
-        """Frame AE [mm]."""
-        return self.bar.frame
-
-    @property
-    def phase(self) -> float:
-        """Direction at input angle 0 of the output link (path) or the coupler (function) [rad]."""
-        return self.bar.phase
-
-    @property
-    def assembly(self) -> int:
-        """Assembly, as found or given."""
-        return self.bar.assembly
+    input_length: float = placed("bar.input")
+    coupler_length: float = placed("bar.coupler")
+    follower_length: float = placed("bar.follower")
+    output_length: float = placed("bar.output")
+    frame_length: float = placed("bar.frame")
+    phase: float = placed("bar.phase")
+    assembly: int = placed("bar.assembly")
 
     @property
     def point_along(self) -> float | None:
@@ -174,10 +147,7 @@ class GearedFiveBar(FiveBarParts):
         """Extent of the path across the frame [mm]."""
         return self._extent[3].value - self._extent[2].value if self.is_path else None
 
-    @property
-    def path_deviation_rms(self) -> float | None:
-        """Root of the mean square of the points' distances from the path [mm]."""
-        return None if self.fit is None else self.fit.rms
+    path_deviation_rms: float | None = placed("fit.rms")
 
     @property
     def path_deviation_max(self) -> float | None:

@@ -7,13 +7,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
 from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gearlink.core.numerics.arrays import Mask, Points, Reals
+from gearlink.core.results import cached_property
 
 Places: TypeAlias = NDArray[np.intp]
 

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
-from functools import cached_property
 from typing import TYPE_CHECKING
 
-from gearlink.core.design import Design
+from gearlink.core.design import Design, placed
 from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.five_bar.function_motion import FunctionFiveBar as FunctionBar
 from gearlink.core.five_bar.path_motion import GearedFiveBar as PathBar
 from gearlink.core.gears.internal_mesh import InternalMesh
 from gearlink.core.gears.pair import GearPair
+from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
     from gearlink.core.five_bar.fit import Fit
@@ -27,10 +27,7 @@ class FiveBarParts(Design):
 
     spec: GearedFiveBarSpec
 
-    @property
-    def form(self) -> str:
-        """path or function."""
-        return self.spec.form
+    form: str = placed("spec.form")
 
     @property
     def is_path(self) -> bool:
@@ -93,10 +90,7 @@ class FiveBarParts(Design):
         """m of the function form."""
         return None if self.is_path else float(self.ratio)
 
-    @property
-    def period_turns(self) -> int:
-        """Input turns until everything repeats."""
-        return self.ratio.denominator
+    period_turns: int = placed("ratio.denominator")
 
     @property
     def phase_step(self) -> float | None:

@@ -13,12 +13,12 @@ import cmath
 import math
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.dyad import close_dyad, direction, require_lengths, transmission_angle
 from gearlink.core.numerics.harmonic_sum import HarmonicSum
 from gearlink.core.report import safely_above
+from gearlink.core.results import cached_property
 
 TURN = 2.0 * math.pi
 

@@ -8,12 +8,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
+from gearlink.core.design import placed
 from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.flatbed_press.compensation import Compensation, Joint
 from gearlink.core.report import Check, Table, safely_above
+from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
     from gearlink.core.cams.disc_cam import DiscCam
@@ -55,20 +56,9 @@ class PressCams:
             key="size.pressure_angle",
         )
 
-    @property
-    def end_slope(self) -> float:
-        """Slope of the lift at the end of the zone [mm/rad]."""
-        return self.follower.end_slope
-
-    @property
-    def transition_rise(self) -> float:
-        """Rise over the transition [mm]."""
-        return self.follower.transition_rise
-
-    @property
-    def return_end(self) -> float:
-        """Cam angle at which the return ends [rad]."""
-        return self.follower.return_end
+    end_slope: float = placed("follower.end_slope")
+    transition_rise: float = placed("follower.transition_rise")
+    return_end: float = placed("follower.return_end")
 
     @property
     def follower_stroke(self) -> float:
@@ -98,15 +88,8 @@ class PressCams:
         """Smallest radius of the main cam's profile [mm]."""
         return self.cam_base_radius - self._cam.roller_radius + self.follower.lift_range[0]
 
-    @property
-    def max_pressure_angle(self) -> float:
-        """Greatest pressure angle of the main cam [rad]."""
-        return self.main_cam.max_pressure_angle.value
-
-    @property
-    def min_curvature_radius(self) -> float:
-        """Least convex radius of the main cam's pitch curve [mm]."""
-        return self.main_cam.min_curvature_radius.value
+    max_pressure_angle: float = placed("main_cam.max_pressure_angle.value")
+    min_curvature_radius: float = placed("main_cam.min_curvature_radius.value")
 
     @cached_property
     def main_cam(self) -> DiscCam:

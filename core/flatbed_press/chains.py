@@ -10,12 +10,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.linkages import fourbar, slider_crank
 from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.results import cached_property
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 from gearlink.core.cams.laws import Law
@@ -18,6 +17,7 @@ from gearlink.core.errors import NoSolution
 from gearlink.core.flatbed_press.chains import BedChain, CylinderChain, Travel, difference
 from gearlink.core.numerics.roots import bracketed_root, maximum
 from gearlink.core.report import safely_above, safely_below
+from gearlink.core.results import cached_property
 
 _TURN = 2.0 * math.pi
 

@@ -4,23 +4,23 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from gearlink.core.design import Design, Outline
+from gearlink.core.design import Design, Outline, placed
 from gearlink.core.errors import MissingSection, NoSolution, at_key
 from gearlink.core.flatbed_press.cams import PressCams
 from gearlink.core.flatbed_press.chains import BedChain, CylinderChain, difference
 from gearlink.core.flatbed_press.codes import SYNC_LENGTH
 from gearlink.core.flatbed_press.compensation import Compensation
 from gearlink.core.flatbed_press.zone import equal_speed_angle, zone_end
-from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, gear_check, gear_quantity
+from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantities, gear_check, gear_quantity
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.linkages.checks import transmission_check
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.linkages.slider_crank import SliderCrank
-from gearlink.core.linkages.slider_crank_design import SLIDER_QUANTITIES
+from gearlink.core.linkages.slider_crank_design import SLIDER_QUANTITIES, SliderCrankQuantities
 from gearlink.core.report import Check, Table, safely_above
+from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
     from gearlink.core.flatbed_press.spec import DoubleCrank, FlatbedPressSpec
@@ -45,7 +45,7 @@ _CAM_TABLES = ("follower", "main_cam", "return_cam")
 _PRESS_QUANTITIES = ("crank_length", "initial_crank_angle", *_SYNC, *_CHAINS)
 
 
-class FlatbedPress(PressCams, Design):
+class FlatbedPress(PressCams, SliderCrankQuantities, GearQuantities, Design):
     """A flatbed cylinder press, from its design file to every quantity that is asked for."""
 
     kind = "flatbed-press"
@@ -84,11 +84,6 @@ class FlatbedPress(PressCams, Design):
             return SliderCrank(bed.stroke / 2.0, bed.rod, bed.offset)
 
     @cached_property
-    def crank_length(self) -> float:
-        """DE [mm], from the stroke (TY-460 report 2.1)."""
-        return self.slider_crank.crank_length
-
-    @cached_property
     def bed(self) -> BedChain:
         """Drag link ABCD and slider-crank DEF."""
         bed = self.spec.bed
@@ -103,10 +98,7 @@ class FlatbedPress(PressCams, Design):
         angle = math.radians(cylinder.initial_crank_angle)
         return CylinderChain(_four_bar(cylinder.double_crank), angle, cylinder.radius, cylinder.gear_ratio)
 
-    @cached_property
-    def initial_crank_angle(self) -> float:
-        """Direction of AB at the start [rad]."""
-        return self.bed.initial_crank_angle
+    initial_crank_angle: float = placed("bed.initial_crank_angle")
 
     @cached_property
     def min_transmission_angle_bed(self) -> float:
@@ -187,12 +179,10 @@ class FlatbedPress(PressCams, Design):
             )
 
     def raw(self, name: str) -> Any:
-        """Quantities of the gear pair and the slider-crank are theirs, all others the press's own."""
+        """Quantities of the gear pair are its own."""
         if name in GEAR_QUANTITIES:
             return gear_quantity(self.gear_pair, name)
-        if name in SLIDER_QUANTITIES:
-            return getattr(self.slider_crank, name)
-        return getattr(self, name)
+        return super().raw(name)
 
     # Tables and checks
 

@@ -9,28 +9,33 @@ from gearlink.core.gears.codes import CONTACT_RATIO, INTERFERENCE, ROOT_CLEARANC
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.report import Check, Status, safely_above
 
-GEAR_QUANTITIES = (
-    "working_pressure_angle",
-    "center_distance",
-    "reference_center_distance",
-    "shift_sum",
-    "center_distance_modification",
-    "tip_shortening",
-    "contact_ratio",
-    "profile_shift",
-    "reference_radius",
-    "base_radius",
-    "working_radius",
-    "tip_radius",
-    "root_radius",
-    "tooth_thickness",
-    "tip_pressure_angle",
-    "tip_thickness",
-    "min_shift_no_undercut",
-    "span_measurement",
-    "span_teeth",
-    "specific_sliding",
-)
+
+class GearQuantities:
+    """What can be asked of a gear mesh, and so of a design that has one: mm and radians, of two gears a pair."""
+
+    working_pressure_angle: float
+    center_distance: float
+    reference_center_distance: float
+    shift_sum: float
+    center_distance_modification: float
+    tip_shortening: float
+    contact_ratio: float
+    profile_shift: tuple[float, float]
+    reference_radius: tuple[float, float]
+    base_radius: tuple[float, float]
+    working_radius: tuple[float, float]
+    tip_radius: tuple[float, float]
+    root_radius: tuple[float, float]
+    tooth_thickness: tuple[float, float]
+    tip_pressure_angle: tuple[float, float]
+    tip_thickness: tuple[float, float]
+    min_shift_no_undercut: tuple[float, float]
+    span_measurement: tuple[float, float]
+    span_teeth: tuple[int, int]
+    specific_sliding: tuple[float, float] | None
+
+
+GEAR_QUANTITIES = tuple(GearQuantities.__annotations__)
 GEAR_CHECKS = tuple(rule.name for rule in (UNDERCUT, TIP_THICKNESS, CONTACT_RATIO, INTERFERENCE, ROOT_CLEARANCE))
 
 

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.design import Design, Outline
 from gearlink.core.errors import NoSolution, at_key
-from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, gear_check, gear_quantity
+from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantities, gear_check, gear_quantity
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.report import Check
+from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
     from gearlink.core.gears.spec import GearPairSpec
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 _AGREE = 1e-6
 
 
-class GearPairDesign(Design):
+class GearPairDesign(GearQuantities, Design):
     """External spur gears, given by centre distance, by profile shifts, or by both in agreement."""
 
     kind = "gear-pair"

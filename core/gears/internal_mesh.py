@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.gears.involute import involute
+from gearlink.core.results import cached_property
 
 Pair = tuple[float, float]
 

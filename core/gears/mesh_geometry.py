@@ -10,10 +10,10 @@ from __future__ import annotations
 import cmath
 import math
 from dataclasses import dataclass
-from functools import cached_property
 
 from gearlink.core.gears.involute import involute
 from gearlink.core.gears.pair import GearPair
+from gearlink.core.results import cached_property
 
 
 @dataclass(frozen=True)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.gears import teeth
 from gearlink.core.gears.involute import involute, involute_rise, rise_of_involute
 from gearlink.core.report import safely_above
+from gearlink.core.results import cached_property
 
 Pair = tuple[float, float]
 

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import cached_property
 from typing import Any
 
 from gearlink.core.design import Design
 from gearlink.core.errors import at_key
-from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, gear_check, gear_quantity
+from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantities, gear_check, gear_quantity
 from gearlink.core.gears.codes import CONTACT_RATIO, INTERFERENCE, TIP_FOULING, UNDERCUT
 from gearlink.core.gears.internal_mesh import InternalMesh
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.gears.teeth import min_shift_no_undercut
 from gearlink.core.report import Check, Rule, Status
+from gearlink.core.results import cached_property
 
 INTERNAL_QUANTITIES = (
     "center_distance",
@@ -29,7 +29,7 @@ MESH_QUANTITIES = (*GEAR_QUANTITIES, "tip_fouling_margin")
 MESH_CHECKS = (*GEAR_CHECKS, "tip-fouling")
 
 
-class SingleMesh(Design):
+class SingleMesh(GearQuantities, Design):
     """A design with one gear mesh; the gear first in its pairs is the one that the subclass names first."""
 
     @cached_property

@@ -16,7 +16,6 @@ import cmath
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
@@ -26,6 +25,7 @@ from gearlink.core.gears.pair import GearPair
 from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.report import safely_below
+from gearlink.core.results import cached_property
 
 Curve = Callable[[Reals], Points]
 

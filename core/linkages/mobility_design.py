@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +11,7 @@ from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.linkages import mobility
 from gearlink.core.linkages.codes import MOBILITY, TRAIN_FIT
 from gearlink.core.report import Check, Table
+from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
     from gearlink.core.linkages.mobility_spec import Gear, GearTrainMobilitySpec, Train

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from functools import cached_property
 from typing import TYPE_CHECKING
 
-from gearlink.core.design import Outline
+from gearlink.core.design import Outline, placed
 from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES
 from gearlink.core.gears.pair import GearPair
@@ -18,6 +17,7 @@ from gearlink.core.linkages.nearest_passes import joint_to_crank_pivot
 from gearlink.core.planet_linkages.planet import PlanetLinkage
 from gearlink.core.planet_linkages.rocker_synthesis import crank_for_swing, extreme_crank_angles
 from gearlink.core.report import Check, Table
+from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
     from gearlink.core.planet_linkages.rocker_spec import GearedRockerSpec
@@ -61,15 +61,8 @@ class GearedRocker(SingleMesh):
 
     # Gears and links
 
-    @property
-    def coupler_gear_teeth(self) -> int:
-        """Teeth of the gear on the coupler."""
-        return self.spec.gears.coupler
-
-    @property
-    def output_teeth(self) -> int:
-        """Teeth of the output gear."""
-        return self.spec.gears.output
+    coupler_gear_teeth: int = placed("spec.gears.coupler")
+    output_teeth: int = placed("spec.gears.output")
 
     @property
     def gear_ratio(self) -> float:
@@ -89,15 +82,8 @@ class GearedRocker(SingleMesh):
         """Centre distance of the gears [mm]."""
         return self.spec.gears.module * (self.coupler_gear_teeth + self.output_teeth) / 2.0
 
-    @property
-    def coupler_length(self) -> float:
-        """Coupler [mm]."""
-        return self.spec.links.coupler
-
-    @property
-    def frame_length(self) -> float:
-        """Frame [mm]."""
-        return self.spec.links.frame
+    coupler_length: float = placed("spec.links.coupler")
+    frame_length: float = placed("spec.links.frame")
 
     @cached_property
     def crank_length(self) -> float:

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from functools import cached_property
 from typing import TYPE_CHECKING
 
-from gearlink.core.design import Outline
+from gearlink.core.design import Outline, placed
 from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.gears.internal_mesh import InternalMesh
 from gearlink.core.gears.pair import GearPair
@@ -19,6 +18,7 @@ from gearlink.core.linkages.standstills import BackStep, Turning
 from gearlink.core.planet_linkages.codes import DWELL_CONDITION
 from gearlink.core.planet_linkages.planet import PlanetLinkage, standstill_coupler_ratio
 from gearlink.core.report import Check, Table
+from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
     from gearlink.core.planet_linkages.two_gear_spec import TwoGearFourBarSpec
@@ -71,10 +71,7 @@ class TwoGearFourBar(SingleMesh):
 
     # Gears and links
 
-    @property
-    def planet_teeth(self) -> int:
-        """Teeth of the gear on the coupler."""
-        return self.spec.gears.planet
+    planet_teeth: int = placed("spec.gears.planet")
 
     @property
     def internal(self) -> bool:
@@ -128,20 +125,9 @@ class TwoGearFourBar(SingleMesh):
         """Class of the four-bar."""
         return self.linkage.kind()
 
-    @property
-    def coupler_length(self) -> float:
-        """Coupler [mm]."""
-        return self.linkage.coupler
-
-    @property
-    def rocker_length(self) -> float:
-        """Rocker [mm]."""
-        return self.linkage.rocker
-
-    @property
-    def frame_length(self) -> float:
-        """Frame [mm]."""
-        return self.linkage.frame
+    coupler_length: float = placed("linkage.coupler")
+    rocker_length: float = placed("linkage.rocker")
+    frame_length: float = placed("linkage.frame")
 
     # Motion
 
@@ -179,32 +165,19 @@ class TwoGearFourBar(SingleMesh):
         return min(t.speed for t in self.coupler_turnings)
 
     @property
-    def _fastest(self) -> Turning:
+    def fastest(self) -> Turning:
+        """The greatest speed ratio and its place."""
         return max(self.turnings, key=lambda t: t.speed)
 
     @property
-    def _slowest(self) -> Turning:
+    def slowest(self) -> Turning:
+        """The least speed ratio and its place."""
         return min(self.turnings, key=lambda t: t.speed)
 
-    @property
-    def speed_ratio_max(self) -> float:
-        """Greatest output speed per input speed."""
-        return self._fastest.speed
-
-    @property
-    def speed_ratio_max_at(self) -> float:
-        """Crank angle of it [rad]."""
-        return self._fastest.place
-
-    @property
-    def speed_ratio_min(self) -> float:
-        """Least output speed per input speed."""
-        return self._slowest.speed
-
-    @property
-    def speed_ratio_min_at(self) -> float:
-        """Crank angle of it [rad]."""
-        return self._slowest.place
+    speed_ratio_max: float = placed("fastest.speed")
+    speed_ratio_max_at: float = placed("fastest.place")
+    speed_ratio_min: float = placed("slowest.speed")
+    speed_ratio_min_at: float = placed("slowest.place")
 
     @property
     def nonuniformity(self) -> float:
@@ -253,10 +226,7 @@ class TwoGearFourBar(SingleMesh):
         """How far the output steps back [rad]."""
         return None if self.back_step is None else self._lost(self.back_step)
 
-    @property
-    def back_step_crank_angle(self) -> float | None:
-        """Crank angle of the back-step [rad]."""
-        return None if self.back_step is None else self.back_step.crank_angle
+    back_step_crank_angle: float | None = placed("back_step.crank_angle")
 
     @property
     def min_transmission_angle(self) -> float:

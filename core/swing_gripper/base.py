@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.errors import MissingSection, NoSolution, at_key
+from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
     from gearlink.core.numerics.arrays import Reals

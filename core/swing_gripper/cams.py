@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from functools import cached_property
 from typing import TYPE_CHECKING
 
 from gearlink.core.errors import MissingSection, NoSolution, at_key
 from gearlink.core.report import Check, Status, Table, safely_below
+from gearlink.core.results import cached_property
 from gearlink.core.swing_gripper.base import GripperBase
 
 if TYPE_CHECKING:

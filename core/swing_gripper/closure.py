@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.report import Check, Status, Table, safely_above
+from gearlink.core.results import cached_property
 from gearlink.core.swing_gripper.cams import GripperCams
 
 if TYPE_CHECKING:

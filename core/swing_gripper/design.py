@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from gearlink.core.design import Design, Outline
+from gearlink.core.design import Design, Outline, placed
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.checks import transmission_check
 from gearlink.core.report import Check, Report, Status, Table
+from gearlink.core.results import cached_property
 from gearlink.core.swing_gripper.closure import GripperClosure
 from gearlink.core.swing_gripper.handover import GripperHandover
 
@@ -83,10 +83,7 @@ class SwingGripper(GripperHandover, GripperClosure, Design):
 
     # Law and linkage
 
-    @cached_property
-    def total_swing(self) -> float:
-        """Swing of the gripper arm from the bite to the far dwell [rad]."""
-        return self.law.total_swing
+    total_swing: float = placed("law.total_swing")
 
     @cached_property
     def min_transmission_angle(self) -> tuple[float, float]:

@@ -5,10 +5,10 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.report import Check, Status, Table, safely_above, safely_below
+from gearlink.core.results import cached_property
 from gearlink.core.swing_gripper.base import GripperBase
 
 if TYPE_CHECKING:

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -19,6 +18,7 @@ from gearlink.core.cams.laws import Law
 from gearlink.core.errors import NoSolution
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.roots import bracketed_root
+from gearlink.core.results import cached_property
 
 PHASES = ("accelerate", "constant", "decelerate", "far-dwell", "return", "near-dwell")
 

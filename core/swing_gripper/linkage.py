@@ -10,7 +10,6 @@ from __future__ import annotations
 import cmath
 import math
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
@@ -19,6 +18,7 @@ from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.linkages.fourbar_sweep import FourBarInverseSweep, solve_inverse
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.extremes import Extreme
+from gearlink.core.results import cached_property
 from gearlink.core.swing_gripper.law import SixPhaseLaw
 
 

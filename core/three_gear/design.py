@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from gearlink.core.design import Design, Outline
+from gearlink.core.design import Design, Outline, placed
 from gearlink.core.errors import MissingSection, at_key
 from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, gear_check, gear_quantity
 from gearlink.core.gears.pair import GearPair
@@ -16,6 +15,7 @@ from gearlink.core.linkages.codes import GEAR_COLLISION, SHAFT_CLEARANCE
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.linkages.nearest_passes import joint_to_crank_pivot
 from gearlink.core.report import Check, Status, Table, safely_above, safely_below
+from gearlink.core.results import cached_property
 from gearlink.core.three_gear import dwells, motion
 from gearlink.core.three_gear.codes import ACHIEVED
 from gearlink.core.three_gear.dwells import BackStep
@@ -84,25 +84,15 @@ class ThreeGearFourBar(Design):
         """Teeth of an idler that the file leaves out; only a synthesis can choose one."""
         raise MissingSection("this command needs gears.idler (teeth) or gears.i3", key="gears.idler")
 
-    @property
-    def crank_teeth(self) -> int:
-        """Teeth of the crank gear."""
-        return self.spec.gears.crank
-
-    @property
-    def output_teeth(self) -> int:
-        """Teeth of the output gear."""
-        return self.spec.gears.output
+    crank_teeth: int = placed("spec.gears.crank")
+    output_teeth: int = placed("spec.gears.output")
 
     @cached_property
     def train(self) -> GearTrain:
         """The three gears."""
         return GearTrain(self.crank_teeth, self.idler_teeth, self.output_teeth)
 
-    @property
-    def i3(self) -> float:
-        """Ratio of idler and output gear of the real teeth."""
-        return self.train.i3
+    i3: float = placed("train.i3")
 
     @property
     def coupler_length(self) -> float:
@@ -125,15 +115,8 @@ class ThreeGearFourBar(Design):
             check_linkage(linkage)
         return linkage
 
-    @property
-    def crank_length(self) -> float:
-        """Crank [mm]."""
-        return self.linkage.crank
-
-    @property
-    def frame_length(self) -> float:
-        """Frame [mm]."""
-        return self.linkage.frame
+    crank_length: float = placed("linkage.crank")
+    frame_length: float = placed("linkage.frame")
 
     @property
     def frame_ratio(self) -> float:
@@ -157,25 +140,10 @@ class ThreeGearFourBar(Design):
         """Greatest and least acceleration ratio and their places."""
         return motion.acceleration_extremes(self.linkage, self.train)
 
-    @property
-    def speed_ratio_max(self) -> float:
-        """Greatest output speed per input speed."""
-        return self.speed_extremes.greatest
-
-    @property
-    def speed_ratio_min(self) -> float:
-        """Least output speed per input speed."""
-        return self.speed_extremes.least
-
-    @property
-    def acceleration_ratio_max(self) -> float:
-        """Greatest output acceleration per square of the input speed."""
-        return self.acceleration_extremes.greatest
-
-    @property
-    def acceleration_ratio_min(self) -> float:
-        """Least output acceleration per square of the input speed."""
-        return self.acceleration_extremes.least
+    speed_ratio_max: float = placed("speed_extremes.greatest")
+    speed_ratio_min: float = placed("speed_extremes.least")
+    acceleration_ratio_max: float = placed("acceleration_extremes.greatest")
+    acceleration_ratio_min: float = placed("acceleration_extremes.least")
 
     @cached_property
     def dwell_crank_angles(self) -> list[float]:
@@ -192,15 +160,8 @@ class ThreeGearFourBar(Design):
         """The back-step, where there is one."""
         return dwells.back_step(self.linkage, self.train) if self.motion == "back-step" else None
 
-    @property
-    def back_step_angle(self) -> float | None:
-        """How far the output steps back [rad]."""
-        return None if self.back_step is None else self.back_step.angle
-
-    @property
-    def back_step_crank_angle(self) -> float | None:
-        """Crank angle of the back-step, phi12 [rad]."""
-        return None if self.back_step is None else self.back_step.crank_angle
+    back_step_angle: float | None = placed("back_step.angle")
+    back_step_crank_angle: float | None = placed("back_step.crank_angle")
 
     @cached_property
     def dwell_angle(self) -> float | None:
@@ -238,15 +199,8 @@ class ThreeGearFourBar(Design):
             return tolerance_from_backlash(self.spec.dwell_backlash, self.spec.gears.module * self.output_teeth / 2.0)
         return None if self.spec.dwell_tolerance is None else math.radians(self.spec.dwell_tolerance)
 
-    @property
-    def tolerance_dwell_angle(self) -> float | None:
-        """Crank angle of that dwell [rad]."""
-        return None if self.tolerance_dwell is None else self.tolerance_dwell.crank_angle
-
-    @property
-    def tolerance_dwell_start(self) -> float | None:
-        """Crank angle at its start [rad]."""
-        return None if self.tolerance_dwell is None else self.tolerance_dwell.start
+    tolerance_dwell_angle: float | None = placed("tolerance_dwell.crank_angle")
+    tolerance_dwell_start: float | None = placed("tolerance_dwell.start")
 
     @cached_property
     def min_transmission_angle(self) -> float:
@@ -272,7 +226,7 @@ class ThreeGearFourBar(Design):
     def raw(self, name: str) -> Any:
         """Names that carry their mesh are the gear pair's, all others the design's own."""
         mesh, _, quantity = name.rpartition(".")
-        return gear_quantity(self.meshes[mesh], quantity) if mesh else getattr(self, name)
+        return gear_quantity(self.meshes[mesh], quantity) if mesh else super().raw(name)
 
     def table_motion(self, samples: int | None = None) -> Table:
         """Output angle, speed and acceleration, transmission angle over a turn of the crank."""

@@ -13,9 +13,17 @@ Angles of back-step and dwell stand in `gearlink.core.three_gear.symmetric_back_
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.fourbar import FourBar
+
+
+class SpeedLimits(NamedTuple):
+    """Greatest and least output speed per input speed."""
+
+    greatest: float
+    least: float
 
 
 def frame_ratio_for_back_step(i3: float, back_step_crank_angle: float) -> float:
@@ -123,13 +131,13 @@ def frame_ratio_for_speed_band(i3: float, lowest_speed: float, highest_speed: fl
     return q + math.sqrt((q - 1.0) * (q + 1.0))
 
 
-def speed_ratio_limits(i3: float, frame_ratio: float) -> tuple[float, float]:
+def speed_ratio_limits(i3: float, frame_ratio: float) -> SpeedLimits:
     """Greatest and least speed ratio of the output, taken at the crank angles 90 and 270 deg.
 
     W_max, W_min = 1 +- 2 (1 - i3) d/(d^2 + 1)
 
     Returns
-        W_max, W_min : float, float
+        W_max, W_min : SpeedLimits
     Raises
         NoSolution - for i3 >= 0 or d <= 1
     Example
@@ -142,7 +150,7 @@ def speed_ratio_limits(i3: float, frame_ratio: float) -> tuple[float, float]:
     check_ratio(i3)
     _check_frame_ratio(frame_ratio)
     swing = 2.0 * (1.0 - i3) * frame_ratio / (frame_ratio * frame_ratio + 1.0)
-    return 1.0 + swing, 1.0 - swing
+    return SpeedLimits(1.0 + swing, 1.0 - swing)
 
 
 def peak_acceleration_ratio(i3: float, frame_ratio: float) -> float:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from functools import cached_property
 from typing import Any
 
-from gearlink.core.design import Outline
+from gearlink.core.design import Outline, placed
 from gearlink.core.errors import MissingSection, NoSolution, at_key
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.report import Check, safely_below
+from gearlink.core.results import cached_property
 from gearlink.core.three_gear import symmetric_back_step
 from gearlink.core.three_gear import symmetric_family as family
 from gearlink.core.three_gear.codes import ACHIEVED
@@ -123,19 +123,12 @@ class SymmetricSynthesis(Synthesis):
         return self.frame_ratio_for(self.i3)
 
     @cached_property
-    def speed_limits(self) -> tuple[float, float]:
+    def speed_limits(self) -> family.SpeedLimits:
         """Greatest and least speed ratio, in closed form (thesis (4-13))."""
         return family.speed_ratio_limits(self.i3, self.frame_ratio)
 
-    @property
-    def speed_ratio_max(self) -> float:
-        """Greatest output speed per input speed."""
-        return self.speed_limits[0]
-
-    @property
-    def speed_ratio_min(self) -> float:
-        """Least output speed per input speed."""
-        return self.speed_limits[1]
+    speed_ratio_max: float = placed("speed_limits.greatest")
+    speed_ratio_min: float = placed("speed_limits.least")
 
     @property
     def _middle(self) -> float:

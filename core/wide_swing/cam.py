@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Literal
 
 import numpy as np
@@ -13,6 +12,7 @@ from gearlink.core.errors import NoSolution
 from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.numerics.extremes import maximum_over, minimum_over
 from gearlink.core.report import safely_above, safely_below
+from gearlink.core.results import cached_property
 from gearlink.core.wide_swing.curve import PitchCurve, StrokeLaw
 
 LEAST_SPEED_RATIO = 1e-10  # B gamma/phi_ud; 1 - lambda, about as large, keeps six digits

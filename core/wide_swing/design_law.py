@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.design import Design
 from gearlink.core.errors import MissingSection, NoSolution, at_key
 from gearlink.core.report import Table, safely_above
+from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
     from gearlink.core.wide_swing.device import Device

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.errors import MissingSection, NoSolution, at_key
 from gearlink.core.report import Table
+from gearlink.core.results import cached_property
 from gearlink.core.wide_swing.design_law import WideSwingLaw
 
 if TYPE_CHECKING:

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.numerics.arrays import Reals
+from gearlink.core.results import cached_property
 
 WIDEST_SWING = math.radians(300.0)
 STANDARD_EXTENSION_RATIO = 13.0 / 9.0

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
 from typing import overload
 
 import numpy as np
@@ -22,6 +21,7 @@ from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.elliptic import complete_integral, incomplete_integral, jacobi_sn_cn
 from gearlink.core.numerics.periodic import CosineSeries, cosine_series, midpoint_mean
 from gearlink.core.numerics.roots import bracketed_root, sign_changes
+from gearlink.core.results import cached_property
 from gearlink.core.wide_swing.device import (
     Device,
     DeviceGeometry,

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
@@ -19,6 +18,7 @@ from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.numerics.extremes import maximum_over
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.report import safely_below
+from gearlink.core.results import cached_property
 from gearlink.core.wide_swing.cam import LEAST_SPEED_RATIO, CamPoints, too_small_swing
 from gearlink.core.wide_swing.curve import StrokeLaw
 

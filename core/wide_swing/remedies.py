@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
@@ -12,6 +11,7 @@ import numpy as np
 from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.numerics.nearest_good import nearest_good
 from gearlink.core.report import safely_above, safely_below
+from gearlink.core.results import cached_property
 from gearlink.core.spec_paths import replaced, value_at
 from gearlink.core.wide_swing.design_profile import WideSwingProfile
 

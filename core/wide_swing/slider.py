@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
@@ -19,6 +18,7 @@ from gearlink.core.numerics.elliptic import complete_integral, incomplete_integr
 from gearlink.core.numerics.extremes import maximum_over
 from gearlink.core.numerics.periodic import CosineSeries, cosine_series
 from gearlink.core.report import safely_above
+from gearlink.core.results import cached_property
 from gearlink.core.wide_swing.device import Device, DeviceGeometry
 from gearlink.core.wide_swing.elastic_law import ElasticLaw
 

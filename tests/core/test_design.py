@@ -5,18 +5,21 @@ number by 1 part in 10^(digits - 1), never pass it by more than the rounding of 
 """
 
 import math
-from functools import cached_property
+from contextlib import contextmanager, nullcontext
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from factory import design
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gearlink.core.design import Design, Outline, UnknownName
+from gearlink.core.design import Design, Outline, UnknownName, placed
 from gearlink.core.errors import MissingSection, NoSolution, at_key
 from gearlink.core.gears.codes import CONTACT_RATIO
 from gearlink.core.linkages.codes import TRANSMISSION_ANGLE
 from gearlink.core.report import Check, Report, Table, safely_above, safely_below
+from gearlink.core.results import cached_property, observed, step
 
 
 class Spec:
@@ -135,6 +138,97 @@ def test_results_are_computed_when_asked_for_and_kept(toy):
     assert set(vars(toy)) == {"spec", "crank_length"}
     toy.report("gear")
     assert "trap" not in vars(toy)
+
+
+# Quantities that stand elsewhere
+
+
+class Whole(Toy):
+    """Quantities of a part and of a mesh that only `raw` knows."""
+
+    outlines = {"press": Outline(("max_stroke", "back_step_angle", "contact_ratio", "base_radius"))}
+    max_stroke: float = placed("part.stroke.value")
+    back_step_angle: float | None = placed("missing.angle")
+    missing = None
+
+    @cached_property
+    def part(self):
+        return SimpleNamespace(stroke=SimpleNamespace(value=7.5))
+
+    @property
+    def base_radius(self):
+        return self.part.nothing_of_that_name
+
+    def raw(self, name):
+        return 1.5 if name == "contact_ratio" else super().raw(name)
+
+
+def test_a_quantity_may_stand_on_a_part():
+    whole = Whole(Spec())
+    assert (whole.max_stroke, whole.quantity("max_stroke").value) == (7.5, 7.5)
+    assert whole.back_step_angle is None
+    assert Whole.max_stroke.__doc__ == "Stands at `part.stroke.value`."
+
+
+def test_every_quantity_is_an_attribute_and_listed():
+    whole = Whole(Spec())
+    assert whole.contact_ratio == 1.5
+    assert set(whole.quantity_names()) < set(dir(whole))
+    for name in ("contact", "crank_lenght"):
+        with pytest.raises(AttributeError, match=name):
+            getattr(whole, name)
+
+
+def test_what_goes_wrong_inside_a_quantity_keeps_its_words():
+    with pytest.raises(AttributeError, match="nothing_of_that_name"):
+        _ = Whole(Spec()).base_radius
+
+
+@pytest.mark.parametrize(
+    ("name", "command"),
+    [
+        ("ty460_slider_crank", "crank"),
+        ("ty460", "gear"),
+        ("ty460", "crank"),
+        ("ty460_input_gears", "gear"),
+        ("two_gear_ring", "gear"),
+        ("candy_feed", "gear"),
+    ],
+)
+def test_attributes_of_worked_designs_are_their_quantities(name, command):
+    made = design(name, command=command)
+    for quantity in made.outline(command).quantities:
+        assert getattr(made, quantity) == made.raw(quantity)
+        assert quantity in dir(made)
+
+
+# Watching
+
+
+def test_an_observer_sees_each_result_once_as_it_is_computed():
+    seen = []
+
+    @contextmanager
+    def watch(name):
+        seen.append(name)
+        yield
+        seen.append("/" + name)
+
+    toy = Toy(Spec())
+    with observed(watch):
+        for _ in range(2):
+            toy.quantity("crank_length")
+        toy.table("motion")
+        toy.check("undercut")
+    toy.quantity("sync_start")
+    names = ("Toy.crank_length", "Toy.table_motion", "Toy.check_undercut")
+    assert seen == [word for name in names for word in (name, "/" + name)]
+
+
+def test_watching_ends_with_an_error():
+    with pytest.raises(ValueError, match="mine"), observed(nullcontext):
+        raise ValueError("mine")
+    assert isinstance(step("any"), nullcontext)
 
 
 # Reports

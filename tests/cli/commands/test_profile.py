@@ -6,7 +6,6 @@ import pytest
 
 from gearlink.cli.commands.profile import Profile
 from gearlink.cli.main import run
-from gearlink.core.linkages.slider_crank_design import SliderCrankDesign
 
 CRANK = ["crank", "designs/ty460_slider_crank.yaml", "--quantity", "crank_length"]
 
@@ -23,12 +22,12 @@ def test_profile_names_what_was_computed_and_no_more(capsys: pytest.CaptureFixtu
     assert not {name for name in computed if "dead_center" in name or "max_stroke" in name}
 
 
-def test_profile_leaves_no_trace() -> None:
-    before = dict(vars(SliderCrankDesign))
-    functions = {name: each.func for name, each in before.items() if hasattr(each, "func")}
-    assert run([*CRANK, "--profile"]) == 0
-    assert dict(vars(SliderCrankDesign)) == before
-    assert {name: each.func for name, each in before.items() if hasattr(each, "func")} == functions
+def test_results_are_steps_of_the_one_that_asked_for_them(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["press", "designs/ty460.yaml", "--profile", "-q"]) == 0
+    lines = [line[22:] for line in capsys.readouterr().err.splitlines()]
+    depth = {line.strip(): (len(line) - len(line.lstrip())) // 2 for line in lines}
+    assert depth["compute"] < depth["FlatbedPress.sync_start"] < depth["FlatbedPress.cylinder"]
+    assert depth["FlatbedPress.table_positions"] == depth["FlatbedPress.check_sync_speed"] == depth["compute"] + 1
 
 
 def test_profile_reports_a_design_that_fails(capsys: pytest.CaptureFixture[str]) -> None:

@@ -1,0 +1,47 @@
+"""Results that are computed when asked for and kept, and the one place where an observer may watch them."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager, nullcontext
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+Observer: TypeAlias = Callable[[str], AbstractContextManager[None]]
+"""Given the name of a result, a context that is held while it is computed."""
+
+_observer: Observer | None = None
+
+
+@contextmanager
+def observed(by: Observer) -> Iterator[None]:
+    """Every result that is computed within is computed under the observer's context of its name."""
+    global _observer
+    before, _observer = _observer, by
+    try:
+        yield
+    finally:
+        _observer = before
+
+
+def step(name: str) -> AbstractContextManager[None]:
+    """The observer's context of a result; none where nobody watches."""
+    return nullcontext() if _observer is None else _observer(name)
+
+
+if TYPE_CHECKING:
+    from functools import cached_property as cached_property
+else:
+
+    class cached_property(functools.cached_property):
+        """functools' own, which an observer may watch; a value that is kept is read without coming here."""
+
+        def __set_name__(self, owner: type, name: str) -> None:
+            super().__set_name__(owner, name)
+            self.label = f"{owner.__name__}.{name}"
+
+        def __get__(self, instance: Any, owner: type | None = None) -> Any:
+            if _observer is None or instance is None:
+                return super().__get__(instance, owner)
+            with _observer(self.label):
+                return super().__get__(instance, owner)
