@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 import signal
+import stat
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -76,6 +77,27 @@ def write_atomically(path: Path, write: Callable[[IO[bytes]], object]) -> None:
             os.replace(temporary, path)
     except OSError as error:
         raise CannotWrite(f"cannot write {path}: {error.strerror or error}") from error
+
+
+def read_plain_file(path: Path, limit: int, *, private: bool = False) -> bytes:
+    """What a plain file holds, up to `limit` bytes; links are not followed, pipes and devices not read.
+
+    Raises
+        OSError - for anything else, a larger file, and with `private` a file that is not this user's alone
+    """
+    flags = getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
+    if path.is_symlink():
+        raise OSError(0, "it is a symbolic link", str(path))
+    with open(os.open(path, os.O_RDONLY | flags), "rb") as stream:
+        found = os.fstat(stream.fileno())
+        if not stat.S_ISREG(found.st_mode):
+            raise OSError(0, "it is no plain file", str(path))
+        if private and hasattr(os, "geteuid") and (found.st_uid != os.geteuid() or found.st_mode & 0o077):
+            raise OSError(0, "others own it or may read it", str(path))
+        data = stream.read(limit + 1)
+    if len(data) > limit:
+        raise OSError(0, f"it is larger than {limit} bytes", str(path))
+    return data
 
 
 def safe_stem(name: str) -> str:

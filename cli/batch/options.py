@@ -38,6 +38,7 @@ class BatchOptions:
     """What the user asked for; `design` holds what each design is run with.
 
     `shard` is (i, n): the i-th of n shares of the files, counted from 1. `jobs` 0 lets the program choose.
+    `cache_key` signs what `cache` keeps.
     """
 
     design: Options = field(default_factory=Options)
@@ -46,6 +47,7 @@ class BatchOptions:
     cache: Path | None = None
     shard: tuple[int, int] = (1, 1)
     jobs: int = 0
+    cache_key: bytes = field(default=b"", repr=False)
 
     @property
     def findings_only(self) -> bool:

@@ -15,6 +15,7 @@ class Outcome:
     """What became of one command on one design file.
 
     `places` holds line and column of each check that did not pass, where the output of the batch shows them.
+    `note` is what the cache could not do for its file.
     """
 
     file: str
@@ -27,6 +28,7 @@ class Outcome:
     places: tuple[tuple[int, int], ...] = ()
     seconds: float = 0.0
     cached: bool = False
+    note: str = ""
 
     @property
     def verdict(self) -> str:

@@ -7,10 +7,11 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
+from dataclasses import replace
 
 from gearlink.cli.batch.options import BatchOptions
 from gearlink.cli.exit_codes import ExitCode
-from gearlink.cli.reading.diagnostics import DesignFileError
+from gearlink.cli.reading.diagnostics import DesignFileError, visible
 from gearlink.cli.reading.places import design_files
 
 
@@ -29,12 +30,34 @@ def run_batch(places: Sequence[str], options: BatchOptions) -> int:
 
         show_errors(error.diagnostics, options.design)
         return ExitCode.WRONG_INPUT
+    options = _with_key(options)
     results, interrupted = run_files(files, options)
     results.sort(key=lambda outcome: outcome.file)
     from gearlink.cli.batch.summary import write_batch
 
     write_batch(results, options, sys.stdout)
+    _tell([outcome.note for outcome in results if outcome.note], options)
     if interrupted:
         print(f"interrupted after {len({r.file for r in results})} of {len(files)} files", file=sys.stderr)
         return ExitCode.INTERRUPTED
     return max((outcome.status for outcome in results), default=ExitCode.OK)
+
+
+def _with_key(options: BatchOptions) -> BatchOptions:
+    """The options with the key that a cache needs; without a cache where there is none."""
+    if options.cache is None:
+        return options
+    from gearlink.cli.batch.key import NoKey, own_key
+
+    try:
+        return replace(options, cache_key=own_key())
+    except NoKey as error:
+        _tell([f"nothing is kept or taken from it: {error}"], options)
+        return replace(options, cache=None)
+
+
+def _tell(notes: Sequence[str], options: BatchOptions) -> None:
+    """Say once what the cache could not do."""
+    if notes and not options.design.quiet:
+        others = f" (and {len(notes) - 1} more)" if len(notes) > 1 else ""
+        print(f"note: cache: {visible(notes[0])}{others}", file=sys.stderr)

@@ -45,12 +45,20 @@ def load(source: str | os.PathLike[str], *, overrides: Sequence[str] = (), stdin
         DesignFileError - with everything that keeps it from being read (GL101 to GL104, GL110, GL114)
     """
     name = "<stdin>" if source == "-" else os.fspath(source)
+    return parse(read_at_most(source, MAX_BYTES + 1, stdin), name, overrides=overrides)
+
+
+def read_at_most(source: str | os.PathLike[str], limit: int, stdin: BinaryIO | None = None) -> bytes:
+    """The first bytes of a file, or of standard input for `-`.
+
+    Raises
+        DesignFileError - GL101 where it cannot be read
+    """
     try:
-        with nullcontext(stdin or sys.stdin.buffer) if source == "-" else open(name, "rb") as stream:
-            data = stream.read(MAX_BYTES + 1)
+        with nullcontext(stdin or sys.stdin.buffer) if source == "-" else open(source, "rb") as stream:
+            return stream.read(limit)
     except (OSError, ValueError) as error:
-        raise DesignFileError([_unreadable(name, error)]) from None
-    return parse(data, name, overrides=overrides)
+        raise DesignFileError([_unreadable("<stdin>" if source == "-" else os.fspath(source), error)]) from None
 
 
 def parse(data: bytes, file: str, *, overrides: Sequence[str] = ()) -> LoadedFile:
