@@ -8,10 +8,8 @@ import sys
 from importlib.metadata import packages_distributions
 from pathlib import Path
 
+import factory
 import pytest
-
-from gearlink.cli.evaluate import open_design, read_spec
-from gearlink.cli.options import Options
 
 ROOT = Path(__file__).resolve().parents[2]
 _PROBE = """
@@ -189,8 +187,6 @@ _EVALUATED = [
 
 @pytest.mark.parametrize(("command", "design", "quantity", "needed"), _EVALUATED)
 def test_a_quantity_evaluates_what_it_needs_and_no_more(command: str, design: str, quantity: str, needed: str) -> None:
-    path = str(ROOT / "designs" / f"{design}.yaml")
-    loaded, kind = open_design(path, Options())
-    made = kind.design(command, read_spec(loaded, kind, path))
+    made = factory.design(design, command=command)
     assert made.report(command, quantities=[quantity]).checks == ()
     assert set(vars(made)) - {"spec", quantity} <= set(needed.split())

@@ -9,16 +9,16 @@ from __future__ import annotations
 import copy
 import json
 import math
-from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
+import factory
 import numpy as np
 
 from gearlink.core.swing_gripper.design import SwingGripper
 from gearlink.core.swing_gripper.forces import Masses
 from gearlink.core.swing_gripper.linkage import GripperLinkage
-from gearlink.core.swing_gripper.spec import SwingGripperSpec
 
 REFERENCE = json.loads((Path(__file__).parents[1] / "reference" / "swing_gripper.json").read_text())
 CASES = {case["id"]: case for case in REFERENCE["cases"]}
@@ -55,56 +55,41 @@ EXAMPLE: dict[str, Any] = {
 }
 
 
-def machine(change: Callable[[dict[str, Any]], object] | None = None, /, **keys: Any) -> SwingGripper:
-    """The example with changes: a function of its data, or dotted keys with __ for the dot."""
-    data = copy.deepcopy(EXAMPLE)
-    if change is not None:
-        change(data)
-    for path, value in keys.items():
-        *sections, last = path.split("__")
-        place = data
-        for section in sections:
-            place = place.setdefault(section, {})
-        if value is None:
-            place.pop(last)
-        else:
-            place[last] = value
-    return SwingGripper(SwingGripperSpec.model_validate(data))
+machine = partial(factory.design, EXAMPLE)
+"""The example with changes."""
 
 
 def turned(angle: float, shift: complex = 0j) -> SwingGripper:
     """The example turned about the origin by an angle [deg] and shifted."""
+    data = copy.deepcopy(EXAMPLE)
+    turn = complex(math.cos(math.radians(angle)), math.sin(math.radians(angle)))
+    for section, key in (("pivots", "input"), ("pivots", "output"), ("cam", "center")):
+        moved = complex(*data[section][key]) * turn + shift
+        data[section][key] = [moved.real, moved.imag]
+    data["arm"]["direction"] += angle
+    data["output_direction"] += angle
 
-    def change(data: dict[str, Any]) -> None:
-        turn = complex(math.cos(math.radians(angle)), math.sin(math.radians(angle)))
-        for section, key in (("pivots", "input"), ("pivots", "output"), ("cam", "center")):
-            moved = complex(*data[section][key]) * turn + shift
-            data[section][key] = [moved.real, moved.imag]
-        data["arm"]["direction"] += angle
-        data["output_direction"] += angle
-
-    return machine(change)
+    return factory.design(data)
 
 
 def mirrored() -> SwingGripper:
     """The example in a mirror on the x axis."""
+    data = copy.deepcopy(EXAMPLE)
+    for section, key in (("pivots", "input"), ("pivots", "output"), ("cam", "center")):
+        x, y = data[section][key]
+        data[section][key] = [x, 0.0 - y]
+    for place, key in (
+        (data["arm"], "direction"),
+        (data, "output_direction"),
+        (data, "swing_sense"),
+        (data, "assembly"),
+        (data["cam"], "sense"),
+        (data["cam"]["roller"], "angle"),
+        (data["cam"]["return_roller"], "angle"),
+    ):
+        place[key] = -place[key]
 
-    def change(data: dict[str, Any]) -> None:
-        for section, key in (("pivots", "input"), ("pivots", "output"), ("cam", "center")):
-            x, y = data[section][key]
-            data[section][key] = [x, 0.0 - y]
-        for place, key in (
-            (data["arm"], "direction"),
-            (data, "output_direction"),
-            (data, "swing_sense"),
-            (data, "assembly"),
-            (data["cam"], "sense"),
-            (data["cam"]["roller"], "angle"),
-            (data["cam"]["return_roller"], "angle"),
-        ):
-            place[key] = -place[key]
-
-    return machine(change)
+    return factory.design(data)
 
 
 def kinetic_energy(linkage: GripperLinkage, masses: Masses, shaft_speed: float, degrees: Any) -> Any:

@@ -9,11 +9,13 @@ from __future__ import annotations
 
 import json
 import math
+from functools import cache
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 import ezdxf
+import factory
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -26,7 +28,6 @@ from gearlink.cli.export.svg import bezier
 from gearlink.core.gears.involute import involute
 from gearlink.core.gears.mesh_geometry import MeshGeometry
 from gearlink.core.gears.pair import GearPair
-from gearlink.core.kinds import KINDS
 
 ROOT = Path(__file__).resolve().parents[3]
 CASES = ROOT / "tests" / "reference" / "contract"
@@ -37,36 +38,26 @@ FORMS = list(CurveForm)
 Points = NDArray[np.complex128]
 
 
-def designed(spec: dict[str, Any], command: str) -> Any:
-    """The design of a spec."""
-    kind = KINDS[spec["kind"]]
-    return kind.design(command, kind.spec_model().model_validate(spec))
-
-
+@cache
 def press(**changes: Any) -> Any:
-    import yaml
-
-    spec = yaml.safe_load((ROOT / "designs" / "ty460.yaml").read_text())
-    for path, value in changes.items():
-        section, key = path.split("__")
-        spec[section][key] = value
-    return designed(spec, "analyze")
+    return factory.design("ty460", **changes)
 
 
+@cache
 def gripper() -> Any:
-    return designed(json.loads((CASES / "gripper.json").read_text())[0]["spec"], "analyze")
+    return factory.design(json.loads((CASES / "gripper.json").read_text())[0]["spec"])
 
 
+@cache
 def swing(number: int) -> Any:
-    return designed(json.loads((CASES / "swing.json").read_text())[number]["spec"], "analyze")
+    return factory.design(json.loads((CASES / "swing.json").read_text())[number]["spec"])
 
 
 def pair(**more: Any) -> Any:
-    return designed(
-        {"kind": "gear-pair", "module": 3, "teeth": [12, 31], "profile_shift": [0.35, -0.1], **more}, "gear"
-    )
+    return factory.design({"kind": "gear-pair", "module": 3, "teeth": [12, 31], "profile_shift": [0.35, -0.1]}, **more)
 
 
+@cache
 def made(design: Any, part: str, form: CurveForm = CurveForm.POLYLINE, tolerance: float = T) -> Contour:
     return contour(parts.makers(design)[part](), tolerance, form)
 
@@ -256,9 +247,7 @@ def test_too_many_points_are_refused() -> None:
 
 
 def oscillating() -> Any:
-    import yaml
-
-    return designed(yaml.safe_load((ROOT / "designs" / "wide_swing_oscillating_cam.yaml").read_text()), "analyze")
+    return factory.design("wide_swing_oscillating_cam")
 
 
 SWING_CAMS = [
@@ -406,7 +395,7 @@ def test_a_gear_is_closed_and_has_no_vertex_twice() -> None:
 
 def test_the_planet_of_a_ring_gear() -> None:
     gears, links = {"module": 2, "planet": 48, "ring": 62}, {"coupler": 30, "rocker": 40, "frame": 45}
-    exported = made(designed({"kind": "two-gear-four-bar", "gears": gears, "links": links}, "gear"), "gear2")
+    exported = made(factory.design({"kind": "two-gear-four-bar", "gears": gears, "links": links}), "gear2")
     assert exported.part.teeth == 48
     radii = np.abs(exported.lines[0].nodes)
     assert (radii.min(), radii.max()) == pytest.approx((45.5, 50.0), rel=1e-12)
@@ -419,7 +408,7 @@ def test_three_gears_share_the_idlers_form() -> None:
         "gears": {"module": 2, "crank": 20, "idler": 31, "output": 20},
         "dwell": {"angle": 135},
     }
-    design = designed(spec, "synth dwell")
+    design = factory.design(spec, command="synth dwell")
     gears = {name: made(design, name) for name in ("gear1", "gear3", "gear5")}
     assert [gears[name].part.teeth for name in gears] == [20, 31, 20]
     assert np.array_equal(gears["gear1"].lines[0].nodes, gears["gear5"].lines[0].nodes)

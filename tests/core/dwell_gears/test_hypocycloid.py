@@ -7,17 +7,17 @@ sense are known to about 1e-9 (golden section); they are held to quality against
 
 import json
 import math
+from functools import partial
 from pathlib import Path
 
+import factory
 import mpmath as mp
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gearlink.core.dwell_gears.hypocycloid import HypocycloidSlider, osculating, tangent_circle, widest_offset
-from gearlink.core.dwell_gears.hypocycloid_design import HypocycloidDwell
 from gearlink.core.dwell_gears.hypocycloid_rod import least_ripple, minimax, widest_dwell
-from gearlink.core.dwell_gears.hypocycloid_spec import HypocycloidDwellSpec
 from gearlink.core.errors import NoSolution
 
 REFERENCE = Path(__file__).parents[2] / "reference"
@@ -175,9 +175,7 @@ def test_refusals(call, words):
         call()
 
 
-def design(**keys):
-    data = {"kind": "hypocycloid-dwell", "gears": {"module": 2.0, "planet": 25, "ring": 75}} | keys
-    return HypocycloidDwell(HypocycloidDwellSpec.model_validate(data))
+design = partial(factory.design, {"kind": "hypocycloid-dwell", "gears": {"module": 2.0, "planet": 25, "ring": 75}})
 
 
 def test_rules_and_lengths():

@@ -7,15 +7,15 @@ compared with `fourbar.solve` at the same crank angle, so only the table's own r
 import json
 import math
 from fractions import Fraction
+from functools import partial
 from pathlib import Path
 
+import factory
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gearlink.core.dwell_gears.mutilated import MutilatedGear
-from gearlink.core.dwell_gears.mutilated_design import MutilatedGearDwell
-from gearlink.core.dwell_gears.mutilated_spec import MutilatedGearDwellSpec
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.fourbar import FourBar, solve
 
@@ -25,10 +25,8 @@ TURN = 2.0 * math.pi
 LINKS = {"crank": 40.0, "coupler": 120.0, "rocker": 100.0, "frame": 140.0}
 
 
-def design(**keys):
-    gears = {"module": 3.0, "full_teeth": 80, "group_teeth": 20, "driven": 20} | keys.pop("gears", {})
-    data = {"kind": "mutilated-gear-dwell", "reduction": 6.0, "gears": gears} | keys
-    return MutilatedGearDwell(MutilatedGearDwellSpec.model_validate(data))
+GEARS = {"module": 3.0, "full_teeth": 80, "group_teeth": 20, "driven": 20}
+design = partial(factory.design, {"kind": "mutilated-gear-dwell", "reduction": 6.0, "gears": GEARS})
 
 
 def test_reference_case():
@@ -86,7 +84,7 @@ def test_refusals(numbers, words):
 
 def test_refusal_names_the_section():
     with pytest.raises(NoSolution) as refused:
-        _ = design(gears={"group_teeth": 15}).mutilated
+        _ = design(gears__group_teeth=15).mutilated
     assert refused.value.key == "gears"
 
 

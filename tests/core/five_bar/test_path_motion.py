@@ -10,22 +10,22 @@ import json
 import math
 from dataclasses import replace
 from fractions import Fraction
+from functools import partial
 from itertools import pairwise
 from pathlib import Path
 
+import factory
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.five_bar.design import GearedFiveBar as Design
 from gearlink.core.five_bar.fit import fit_path, judge
 from gearlink.core.five_bar.function_motion import FunctionFiveBar
 from gearlink.core.five_bar.path import distances, extent, points, sweep
 from gearlink.core.five_bar.path_motion import GearedFiveBar
 from gearlink.core.five_bar.positions import five_bar_for_positions, position_errors
-from gearlink.core.five_bar.spec import GearedFiveBarSpec
 from gearlink.core.linkages.dyad import close_dyad, transmission_angle
 from gearlink.core.linkages.fourbar import FourBar, solve
 from gearlink.core.numerics.halton import halton
@@ -291,15 +291,14 @@ def test_fit_refused(targets, words):
 # The design
 
 
-def path_design(**keys):
-    data = {
-        "kind": "geared-five-bar",
-        "gears": {"module": 2.5, "input": 20, "output": 20},
-        "links": {"input": 20.0, "coupler": 60.0, "follower": 60.0, "output": 20.0},
-        "phase": 90.0,
-        "coupler_point": {"along": 60.0},
-    } | keys
-    return Design(GearedFiveBarSpec.model_validate(data))
+PATH = {
+    "kind": "geared-five-bar",
+    "gears": {"module": 2.5, "input": 20, "output": 20},
+    "links": {"input": 20.0, "coupler": 60.0, "follower": 60.0, "output": 20.0},
+    "phase": 90.0,
+    "coupler_point": {"along": 60.0},
+}
+path_design = partial(factory.design, PATH)
 
 
 def test_ratio_period_and_table():
@@ -327,7 +326,7 @@ def test_whole_period_is_the_range_of_a_function_without_one():
         "links": {"coupler": 10.0, "follower": 90.0, "output": 90.0, "frame": 100.0},
         "phase": 0.0,
     }
-    made = Design(GearedFiveBarSpec.model_validate(data))
+    made = factory.design(data)
     assert made.input_range == (0.0, 2.0 * math.pi)
     table = made.table("function")
     assert table.data[1][-1] == pytest.approx(table.data[1][0], abs=1e-11)

@@ -15,13 +15,13 @@ import math
 import re
 from pathlib import Path
 
+import factory
 import mpmath as mp
 import numpy as np
 import pytest
 from oracles.press import PRESSES, TY460
 
 from gearlink.core.flatbed_press.design import FlatbedPress
-from gearlink.core.flatbed_press.spec import FlatbedPressSpec
 
 CONTRACT = json.loads((Path(__file__).parents[2] / "reference" / "contract" / "cam.json").read_text())
 CAM = {
@@ -42,7 +42,7 @@ REPORT = {"start": 34.0, "end": 155.0, "print_length": 320.0}
 
 def press(oracle=TY460, sync=None, limits=None, **cam) -> FlatbedPress:
     sections = {"sync": sync or {"length": 420.0, "print_length": 320.0}, "cam": CAM | cam, "limits": limits or {}}
-    return FlatbedPress(FlatbedPressSpec.model_validate(oracle.spec(**sections)))
+    return factory.design(oracle.spec(**sections))
 
 
 def of(name: str, k: float = 1.0, **cam) -> FlatbedPress:
@@ -169,7 +169,7 @@ def test_scale(name, k):
     "case", [c for c in CONTRACT if c["command"] == "cam" and c["spec"]["kind"] == "flatbed-press"]
 )
 def test_quantities_of_the_contract(case):
-    design = FlatbedPress(FlatbedPressSpec.model_validate(case["spec"]))
+    design = factory.design(case["spec"])
     for name, wanted in case["quantities"].items():
         assert design.quantity(name).value == pytest.approx(wanted, rel=1e-11), name
 

@@ -14,15 +14,14 @@ import re
 from dataclasses import replace
 from pathlib import Path
 
+import factory
 import mpmath as mp
 import numpy as np
 import pytest
-import yaml
 from oracles.press import PRESSES, TY460, Press
 
 from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.flatbed_press.design import FlatbedPress
-from gearlink.core.flatbed_press.spec import FlatbedPressSpec
 
 ROOT = Path(__file__).parents[3]
 CONTRACT = [
@@ -43,7 +42,7 @@ def _digits():
 
 def press(oracle: Press = TY460, **sections) -> FlatbedPress:
     given = {"sync": {"length": 420.0, "print_length": 320.0}} | sections
-    return FlatbedPress(FlatbedPressSpec.model_validate(oracle.spec(**given)))
+    return factory.design(oracle.spec(**given))
 
 
 def computed(design) -> set[str]:
@@ -55,8 +54,7 @@ def computed(design) -> set[str]:
 
 
 def test_worked_design_gives_the_numbers_of_the_report():
-    spec = FlatbedPressSpec.model_validate(yaml.safe_load((ROOT / "designs" / "ty460.yaml").read_text()))
-    design = FlatbedPress(spec)
+    design = factory.design("ty460")
     for name, printed, half in (
         ("crank_length", 154.21, 5e-3),
         ("initial_crank_angle", 115.66, 5e-3),
@@ -83,8 +81,7 @@ def test_working_radius_is_not_the_reference_radius():
 
 @pytest.mark.parametrize("case", CONTRACT, ids=[case["id"] for case in CONTRACT])
 def test_contract(case):
-    spec = case["spec"]
-    design = FlatbedPress(FlatbedPressSpec.model_validate(spec))
+    design = factory.design(case["spec"])
     for name, wanted in case["quantities"].items():
         assert design.quantity(name).value == pytest.approx(wanted, rel=1e-11, abs=1e-12), name
 

@@ -7,15 +7,15 @@ which they meet a limit are bracketed roots.
 
 import math
 import re
+from functools import partial
 
+import factory
 import pytest
 from pydantic import ValidationError
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, gear_check, gear_quantity
-from gearlink.core.gears.design import GearPairDesign
 from gearlink.core.gears.pair import GearPair
-from gearlink.core.gears.spec import GearPairSpec
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.spec import GearLimits
 
@@ -27,8 +27,7 @@ def pair_of(teeth=(20, 60), shift=(0.0, 0.0), module=2.5, **profile) -> GearPair
     return GearPair.from_shift(module, teeth, shift, **profile)
 
 
-def design(**spec) -> GearPairDesign:
-    return GearPairDesign(GearPairSpec.model_validate({"kind": "gear-pair", "module": 3.0, "teeth": [20, 60]} | spec))
+design = partial(factory.design, {"kind": "gear-pair", "module": 3.0, "teeth": [20, 60]})
 
 
 def checks(name, pair, limits=LIMITS, mesh=""):

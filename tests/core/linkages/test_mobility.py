@@ -10,13 +10,12 @@ import math
 import random
 from pathlib import Path
 
+import factory
 import numpy as np
 import pytest
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.mobility import common_links, linkage_mobility, mobility, pin_names, train_change
-from gearlink.core.linkages.mobility_design import GearTrainMobility
-from gearlink.core.linkages.mobility_spec import GearTrainMobilitySpec
 
 REFERENCE = Path(__file__).parents[2] / "reference"
 CASES = {case["id"]: case for case in json.loads((REFERENCE / "gear_linkage.json").read_text())["cases"]}
@@ -33,7 +32,7 @@ def design(links, trains, wanted=1):
         "trains": trains,
         "mobility": wanted,
     }
-    return GearTrainMobility(GearTrainMobilitySpec.model_validate(data))
+    return factory.design(data)
 
 
 def train(*gears, **keys):
@@ -150,12 +149,12 @@ def test_centre_distance_against_the_link():
     spec["trains"] = [data]
     for length, status in ((54.0, "pass"), (54.001, "fail")):
         spec["links"]["crank"]["length"] = length
-        (found,) = GearTrainMobility(GearTrainMobilitySpec.model_validate(spec)).check("train-fit")
+        (found,) = factory.design(spec).check("train-fit")
         assert found.status == status
     assert "54 mm" in found.message
     data["gears"][0]["ring"], data["gears"][0]["teeth"] = True, 90
     spec["links"]["crank"]["length"] = 54.0
-    (found,) = GearTrainMobility(GearTrainMobilitySpec.model_validate(spec)).check("train-fit")
+    (found,) = factory.design(spec).check("train-fit")
     assert found.status == "pass"
 
 

@@ -10,6 +10,7 @@ import math
 import random
 from pathlib import Path
 
+import factory
 import numpy as np
 import pytest
 
@@ -18,16 +19,12 @@ from gearlink.core.linkages.fourbar import FourBar, solve
 from gearlink.core.linkages.standstills import standstills, turnings
 from gearlink.core.numerics.roots import maximum
 from gearlink.core.planet_linkages.planet import PlanetLinkage, standstill_coupler_ratio
-from gearlink.core.planet_linkages.rocker_design import GearedRocker
-from gearlink.core.planet_linkages.rocker_spec import GearedRockerSpec
 from gearlink.core.planet_linkages.rocker_synthesis import (
     crank_for_swing,
     extreme_crank_angles,
     longest_crank,
     output_swing,
 )
-from gearlink.core.planet_linkages.two_gear_design import TwoGearFourBar
-from gearlink.core.planet_linkages.two_gear_spec import TwoGearFourBarSpec
 
 REFERENCE = Path(__file__).parents[2] / "reference"
 CASES = {case["id"]: case for case in json.loads((REFERENCE / "gear_linkage.json").read_text())["cases"]}
@@ -39,14 +36,12 @@ LEVER = {"crank": 20.0, "coupler": 70.0, "frame": 80.0}
 def two_gear(links, module=2.0, **keys):
     gears = {"module": module} | {k: keys.pop(k) for k in ("planet", "sun", "ring") if k in keys}
     data = {"kind": "two-gear-four-bar", "gears": gears, "links": links} | keys
-    return TwoGearFourBar(TwoGearFourBarSpec.model_validate(data))
+    return factory.design(data)
 
 
 def rocker(links, coupler=30, output=20, module=2.4, **keys):
     gears = {"module": module, "coupler": coupler, "output": output}
-    return GearedRocker(
-        GearedRockerSpec.model_validate({"kind": "geared-rocker", "gears": gears, "links": links} | keys)
-    )
+    return factory.design({"kind": "geared-rocker", "gears": gears, "links": links} | keys)
 
 
 def random_linkages(count, seed):

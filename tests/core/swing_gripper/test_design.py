@@ -15,15 +15,13 @@ import math
 import re
 from pathlib import Path
 
+import factory
 import numpy as np
 import pytest
-import yaml
-from oracles.gripper import CASES, EXAMPLE, REFERENCE, TABLE, machine, mirrored, turned
+from oracles.gripper import CASES, REFERENCE, TABLE, machine, mirrored, turned
 from pydantic import ValidationError
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.swing_gripper.design import SwingGripper
-from gearlink.core.swing_gripper.spec import SwingGripperSpec
 
 EPS = 2.0**-52
 ROOT = Path(__file__).parents[3]
@@ -90,18 +88,17 @@ def test_quantities_of_the_example() -> None:
 
 
 def test_the_worked_design_is_the_reference_machine() -> None:
-    data = yaml.safe_load((ROOT / "designs" / "swing_gripper.yaml").read_text())
-    spec, known = SwingGripperSpec.model_validate(data), SwingGripperSpec.model_validate(EXAMPLE)
+    spec, known = factory.design("swing_gripper").spec, DESIGN.spec
     for name in ("speed", "cylinder", "arm", "links", "pivots", "phases", "laws", "handover", "inertia", "spring"):
         assert getattr(spec, name) == getattr(known, name), name
     assert spec.cam.model_copy(update={"shaft_radius": 0.0}) == known.cam
-    assert {check.status for check in SwingGripper(spec).report("analyze").checks} == {"pass"}
+    assert {check.status for check in factory.design("swing_gripper").report("analyze").checks} == {"pass"}
 
 
 def test_the_contract_is_the_same_machine() -> None:
     cases = json.loads((ROOT / "tests" / "reference" / "contract" / "gripper.json").read_text())
     spec = (cases if isinstance(cases, list) else cases["cases"])[0]["spec"]
-    assert SwingGripperSpec.model_validate(spec) == SwingGripperSpec.model_validate(EXAMPLE)
+    assert factory.design(spec).spec == DESIGN.spec
 
 
 @pytest.mark.parametrize("angle", [30.0, -145.0])
@@ -144,7 +141,7 @@ def test_profile_keeps_the_roller_off_itself() -> None:
 
 
 def test_rows_of_the_tables() -> None:
-    design = SwingGripper(SwingGripperSpec.model_validate(EXAMPLE))
+    design = machine()
     motion = design.table("motion", samples=24)
     assert [row[0] for row in motion.rows()] == [15.0 * k for k in range(24)]
     newton = design.table("newton", samples=24)

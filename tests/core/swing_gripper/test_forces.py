@@ -110,7 +110,7 @@ def test_forces_table_closes_the_balance() -> None:
     assert np.abs(columns["contact_torque_main"] - (400.0 - columns["inertia_torque"])).max() <= 4 * EPS * 700.0
     assert columns["contact_torque_main"].min() == pytest.approx(112.37, rel=0.0, abs=0.005)
     assert (columns["normal_force_return"] > 0.0).all()
-    one_roller = machine(lambda data: data["cam"].pop("return_roller"))
+    one_roller = machine(cam__return_roller=None)
     assert "contact_torque_return" not in one_roller.table("forces").columns
 
 
@@ -149,13 +149,13 @@ def test_spring_torque_is_the_slope_of_its_energy(arms: tuple, angle: float, pre
 
 def test_levers_serve_in_place_of_the_torque() -> None:
     levers = {"arms": [120.0, 110.0], "angle": 88.0, "preload": 300.0, "rate": 25.0, "length": 90.0}
-    design = machine(lambda data: data.update(spring=levers))
+    design = machine(spring=levers)
     assert design.closing_torque == pytest.approx(168.9548992381990524, rel=32 * EPS, abs=0.0)
     assert "closing_torque" in design.outline("gripper").quantities
     check = design.check_lift_off()
     assert check.status == "fail"
     preload = float(check.message.split("raise spring.preload to ")[1].split()[0])
-    repaired = machine(lambda data: data.update(spring={**levers, "preload": preload}))
+    repaired = machine(spring={**levers, "preload": preload})
     assert repaired.check_lift_off().status == "pass"
 
 
@@ -170,7 +170,7 @@ def test_the_spring_that_is_recommended_holds(torque: float) -> None:
 def test_a_spring_that_pushes_is_refused() -> None:
     levers = {"arms": [120.0, 110.0], "angle": 88.0, "preload": 300.0, "rate": 25.0, "length": 290.0}
     with pytest.raises(NoSolution, match=r"159.933 mm long and pulls with -2951.67 N.*less than 171.933 mm") as refused:
-        _ = machine(lambda data: data.update(spring=levers)).closing_torque
+        _ = machine(spring=levers).closing_torque
     assert refused.value.key == "spring.length"
 
 
@@ -181,7 +181,7 @@ def test_rollers_on_one_side_are_refused() -> None:
 
 
 def test_missing_sections_are_named() -> None:
-    bare = machine(lambda data: [data.pop(key) for key in ("inertia", "spring")])
+    bare = machine(inertia=None, spring=None)
     for name, key in (("closing_torque", "spring"), ("spring_torque", "inertia")):
         with pytest.raises(MissingSection) as missing:
             getattr(bare, name)

@@ -7,33 +7,25 @@ whose touching angles are found to the root of rounding, which enters squared; p
 
 from __future__ import annotations
 
-import copy
 import math
-from pathlib import Path
+from functools import partial
 from typing import Any
 
+import factory
 import numpy as np
 import pytest
-import yaml
 from oracles.gripper import CASES, machine
 
 from gearlink.core.errors import MissingSection, NoSolution
-from gearlink.core.flatbed_press.design import FlatbedPress
-from gearlink.core.flatbed_press.spec import FlatbedPressSpec
-
-TY460 = yaml.safe_load((Path(__file__).parents[3] / "designs" / "ty460.yaml").read_text())
 
 
 def sized(limit: float, **keys: Any):
-    return machine(lambda data: data["cam"].pop("center"), size__pressure_angle=limit, **keys)
+    return machine(cam__center=None, size__pressure_angle=limit, **keys)
 
 
 def test_apex_of_the_reference() -> None:
     expected = {key: float(value) for key, value in CASES["FEAS-01"]["expected"].items()}
-    design = machine(
-        lambda data: [data["cam"].pop("center"), data["cam"].pop("return_roller")],
-        size={"pressure_angle": 25.0, "side": 1},
-    )
+    design = machine(cam__center=None, cam__return_roller=None, size={"pressure_angle": 25.0, "side": 1})
     assert abs(design.cam_center - complex(expected["Ox"], expected["Oy"])) <= 1e-11
     (largest,) = design.max_pressure_angle
     assert largest == pytest.approx(math.radians(25.0), rel=0.0, abs=1e-12)
@@ -73,7 +65,7 @@ def test_one_roller_must_say_where_the_cam_is() -> None:
 
 def test_neither_centre_nor_size() -> None:
     with pytest.raises(MissingSection, match=r"cam\.center"):
-        _ = machine(lambda data: data["cam"].pop("center")).cam_center
+        _ = machine(cam__center=None).cam_center
 
 
 def test_a_limit_that_no_centre_keeps() -> None:
@@ -82,19 +74,12 @@ def test_a_limit_that_no_centre_keeps() -> None:
     assert refused.value.key == "size.pressure_angle"
 
 
-def press(**changes: Any) -> FlatbedPress:
-    data = copy.deepcopy(TY460)
-    for key, value in changes.items():
-        if value is None:
-            data["cam"].pop(key)
-        else:
-            data[key] = value
-    return FlatbedPress(FlatbedPressSpec.model_validate(data))
+press = partial(factory.design, "ty460")
 
 
 @pytest.mark.parametrize("limit", [8.0, 15.0, 25.0])
 def test_press_cams_keep_the_limit_and_touch_it(limit: float) -> None:
-    design = press(base_radius=None, size={"pressure_angle": limit})
+    design = press(cam__base_radius=None, size={"pressure_angle": limit})
     largest = [cam.max_pressure_angle.value for cam in (design.main_cam, design.return_cam)]
     assert max(largest) == pytest.approx(math.radians(limit), rel=0.0, abs=1e-12)
     shown = design.quantity("cam_base_radius")
@@ -108,11 +93,11 @@ def test_a_given_base_radius_stands() -> None:
 
 def test_press_without_radius_and_size() -> None:
     with pytest.raises(MissingSection) as missing:
-        _ = press(base_radius=None).cam_base_radius
+        _ = press(cam__base_radius=None).cam_base_radius
     assert missing.value.key == "cam.base_radius"
 
 
 def test_press_whose_roller_alone_is_larger() -> None:
     with pytest.raises(NoSolution, match="the roller alone takes 25 mm") as refused:
-        _ = press(base_radius=None, size={"pressure_angle": 80.0}).cam_base_radius
+        _ = press(cam__base_radius=None, size={"pressure_angle": 80.0}).cam_base_radius
     assert refused.value.key == "size.pressure_angle"

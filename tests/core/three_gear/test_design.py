@@ -11,19 +11,18 @@ Tolerances
 import json
 import math
 import re
+from functools import partial
 from pathlib import Path
 
+import factory
 import mpmath as mp
 import numpy as np
 import pytest
-import yaml
 from oracles.three_gear import Drive
 
 from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.gears.pair import GearPair
-from gearlink.core.three_gear.design import MESHES, ThreeGearFourBar
-from gearlink.core.three_gear.spec import ThreeGearSpec
-from gearlink.core.three_gear.synthesis import MomentaryDwellSynthesis
+from gearlink.core.three_gear.design import MESHES
 
 ROOT = Path(__file__).parents[3]
 CASES = json.loads((ROOT / "tests" / "reference" / "contract" / "analyze.json").read_text())
@@ -56,8 +55,7 @@ def _digits():
         yield
 
 
-def design(kind=ThreeGearFourBar, **sections):
-    return kind(ThreeGearSpec.model_validate({"kind": "three-gear-four-bar"} | sections))
+design = partial(factory.design, {"kind": "three-gear-four-bar"})
 
 
 def drive(sections, assembly=1):
@@ -76,7 +74,7 @@ def value(found, name):
 
 @pytest.mark.parametrize("case", CASES, ids=[case["id"] for case in CASES])
 def test_contract(case):
-    found = design(**{k: v for k, v in case["spec"].items() if k != "kind"})
+    found = factory.design(case["spec"])
     for name, wanted in case["quantities"].items():
         if isinstance(wanted, str):
             assert value(found, name) == wanted
@@ -85,10 +83,7 @@ def test_contract(case):
 
 
 def test_example_3_as_printed_collides_and_says_why():
-    spec = ThreeGearSpec.model_validate(
-        yaml.safe_load((ROOT / "designs" / "thesis_example_3_as_printed.yaml").read_text())
-    )
-    found = ThreeGearFourBar(spec)
+    found = factory.design("thesis_example_3_as_printed")
     (check,) = found.check("gear-collision")
     assert (check.code, check.status, check.unit, check.limit) == ("GL301", "fail", "mm", 0.0)
     assert check.value == pytest.approx(-1.6, abs=1e-12)
@@ -320,7 +315,9 @@ def test_crank_that_is_named_gives_a_momentary_dwell_with_room():
     (check,) = design(**EXAMPLE_3).check("gear-collision")
     crank = float(re.search(r"crank of at most ([\d.]+) mm \(synth momentary-dwell\)", check.message)[1])
     for eccentricity, status in ((crank, "pass"), (crank + 0.002, "fail")):
-        made = design(MomentaryDwellSynthesis, gears=EXAMPLE_3["gears"], momentary={"eccentricity": eccentricity})
+        made = design(
+            command="synth momentary-dwell", gears=EXAMPLE_3["gears"], momentary={"eccentricity": eccentricity}
+        )
         assert [c.status for c in made.check("gear-collision")] == [status]
 
 

@@ -8,9 +8,11 @@ from __future__ import annotations
 
 import json
 import math
+from functools import partial
 from pathlib import Path
 from typing import Any
 
+import factory
 import numpy as np
 import pytest
 from pydantic import ValidationError
@@ -18,7 +20,6 @@ from pydantic import ValidationError
 from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.spec_paths import replaced, value_at
 from gearlink.core.wide_swing.design import WideSwingDesign
-from gearlink.core.wide_swing.spec import WideSwingSpec
 
 CASES = {
     case["id"]: case["outputs_float"]
@@ -31,20 +32,17 @@ SLIDER = {"crank": 150.0, "rod": 450.0, "middle_angle": 90.0, "mass": 6.0}
 DRIVE = {"crank": 60.0, "coupler": 180.0, "rocker": 150.0, "frame": 240.0}
 
 
-def design(**changes: Any) -> WideSwingDesign:
-    """The twin-cam design with top-level keys changed; None takes a key out."""
-    data: dict[str, Any] = {
-        "kind": "wide-swing-cam",
-        "layout": "twin-cam",
-        "swing": 120.0,
-        "cycle_angle": 120.0,
-        "speed": 100.0,
-        "inertia": 0.5,
-        "unloader": PNEUMATIC,
-        "cam": CAM,
-    }
-    data |= changes
-    return WideSwingDesign(WideSwingSpec.model_validate({k: v for k, v in data.items() if v is not None}))
+TWIN_CAM = {
+    "kind": "wide-swing-cam",
+    "layout": "twin-cam",
+    "swing": 120.0,
+    "cycle_angle": 120.0,
+    "speed": 100.0,
+    "inertia": 0.5,
+    "unloader": PNEUMATIC,
+    "cam": CAM,
+}
+design = partial(factory.design, TWIN_CAM)
 
 
 def driven(**changes: Any) -> WideSwingDesign:
@@ -375,7 +373,7 @@ MENDED: list[tuple[WideSwingDesign, str, str]] = [
 def test_recommendation_as_given_repairs_the_finding(made: WideSwingDesign, check: str, path: str) -> None:
     suggestion = next(each for each in made.suggestions() if each.path == path)
     assert suggestion.why
-    repaired = WideSwingDesign(WideSwingSpec.model_validate(replaced(made.spec, path, suggestion.value).model_dump()))
+    repaired = factory.design(replaced(made.spec, path, suggestion.value).model_dump())
     if check:
         try:
             before = statuses(made, check)
