@@ -62,7 +62,7 @@ def _law_panels(made: Figure, place: Any, design: WideSwingDesign) -> None:
         axes.plot(k, table.data[1 + i], color=style.BLUE, linewidth=1.8, label="unloaded law")
         if i == 0:
             axes.legend(loc="upper left", frameon=False, fontsize=7.5, handlelength=1.8)
-        peak = (None, design.velocity_peak, design.acceleration_peak)[i]
+        peak = (None, design.motion.law.velocity_peak, design.motion.law.acceleration_peak)[i]
         if peak is not None:
             axes.set_title(f"peak {peak:.5g}", loc="right", fontsize=8)
 
@@ -93,7 +93,7 @@ def _balance_panel(axes: Axes, design: WideSwingDesign) -> None:
     axes.plot(speed, without, color=style.RED, linewidth=1.6, label="without device")
     axes.plot(speed, with_device, color=style.BLUE, linewidth=1.6, label="with device")
     usual = design.spec.speed / math.sqrt(2.0)
-    axes.axvspan(0.0, design.harmful_speed, color=style.LIGHT, alpha=0.45, linewidth=0, zorder=0)
+    axes.axvspan(0.0, design.unloading.harmful_speed, color=style.LIGHT, alpha=0.45, linewidth=0, zorder=0)
     axes.axvline(usual, color=style.GREY, linewidth=0.9, linestyle=_DASHED)
     axes.axvline(design.spec.speed, color=style.GREY, linewidth=0.9, linestyle=_DASHED)
     for place, words in ((usual, r"$n_0/\sqrt{2}$"), (design.spec.speed, "$n_0$")):
@@ -120,5 +120,7 @@ def _slider_panel(axes: Axes, design: WideSwingDesign) -> None:
     for column, color in (("displacement", style.GREEN), ("velocity", style.BLUE), ("acceleration", style.RED)):
         values = table.data[table.columns.index(column)]
         axes.plot(table.data[0], values, color=color, linewidth=1.6, label=column)
-    axes.axvline(design.middle_place, color=style.GREY, linewidth=0.9, linestyle=_DASHED, label="mid-swing")
+    axes.axvline(
+        design.motion.slider.middle_place, color=style.GREY, linewidth=0.9, linestyle=_DASHED, label="mid-swing"
+    )
     panels.legend_under_heading(axes, "Slider", 4)

@@ -53,12 +53,12 @@ class Cycle:
     @cached_property
     def turned(self) -> float:
         """Angle that the cam, or the crank, turns in the loop: whole turns with room for both strokes [rad]."""
-        return TURN if self.oscillates else TURN * math.ceil(2.0 * self.design.cycle_angle / TURN - 1e-9)
+        return TURN if self.oscillates else TURN * math.ceil(2.0 * self.design.motion.cycle_angle / TURN - 1e-9)
 
     @cached_property
     def share(self) -> float:
         """Share of the loop that a stroke takes."""
-        return self.design.cycle_angle / self.turned
+        return self.design.motion.cycle_angle / self.turned
 
     @cached_property
     def stroke(self) -> Reals:
@@ -73,7 +73,7 @@ class Cycle:
         """k where the cam that swings back stands as it did in the stroke."""
         from gearlink.core.linkages import fourbar_sweep
 
-        drive = self.design.drive
+        drive = self.design.motion.drive
         k = np.linspace(0.0, 1.0, 20001)
         forth = fourbar_sweep.solve(drive.linkage, drive.crank_angles[0] + k * drive.crank_span).rocker_angle
         here = fourbar_sweep.solve(drive.linkage, drive.crank_angles[0] + TURN * at).rocker_angle
@@ -83,13 +83,13 @@ class Cycle:
     @cached_property
     def swing(self) -> Reals:
         """Angle of the rocker from mid-swing [rad]."""
-        law = self.design.law
+        law = self.design.motion.law
         share = law.invariants(self.stroke, 0)[0]
-        return np.asarray((share - 0.5) * self.design.swing)
+        return np.asarray((share - 0.5) * self.design.motion.swing)
 
     def cam_turn(self, late: float) -> Reals:
         """Angle of an evenly turning cam from mid-swing of its stroke, which begins at a fraction [rad]."""
-        return self.turned * (self.fraction - late) - 0.5 * self.design.cycle_angle
+        return self.turned * (self.fraction - late) - 0.5 * self.design.motion.cycle_angle
 
 
 def build(design: WideSwingDesign, fraction: Reals) -> Scene:
@@ -164,19 +164,21 @@ def _cam_on_rocker(cycle: Cycle) -> Reals:
     """Turn of a cam on the rocker of a crank-rocker, 0 at the middle of the crank's stroke [rad]."""
     joints = _drive_joints(cycle)
     middle = float(
-        Joints.of(cycle.design.drive.linkage, np.array([0.5 * sum(cycle.design.drive.crank_angles)])).rocker[0]
+        Joints.of(
+            cycle.design.motion.drive.linkage, np.array([0.5 * sum(cycle.design.motion.drive.crank_angles)])
+        ).rocker[0]
     )
     return -_rising(cycle) * (joints.rocker - middle)
 
 
 def _rising(cycle: Cycle) -> float:
     """+1 where the rocker of the drive turns counter-clockwise in the stroke, else -1."""
-    ends = Joints.of(cycle.design.drive.linkage, np.array(cycle.design.drive.crank_angles)).rocker
+    ends = Joints.of(cycle.design.motion.drive.linkage, np.array(cycle.design.motion.drive.crank_angles)).rocker
     return 1.0 if ends[1] > ends[0] else -1.0
 
 
 def _drive_joints(cycle: Cycle) -> Joints:
-    drive = cycle.design.drive
+    drive = cycle.design.motion.drive
     return Joints.of(drive.linkage, drive.crank_angles[0] + TURN * cycle.fraction)
 
 
@@ -185,7 +187,7 @@ def _crank_rocker(cycle: Cycle) -> tuple[Points, ...]:
     at, cam = _drive_joints(cycle), cycle.design.spec.cam
     assert cam is not None, "the drive carries a cam"
     aside = -complex(math.cos(math.radians(60.0)), -math.sin(math.radians(60.0)))
-    frame = cycle.design.drive.linkage.frame
+    frame = cycle.design.motion.drive.linkage.frame
 
     def placed(point: Points) -> Points:
         from_rocker = point - frame
@@ -210,7 +212,7 @@ def _slider(cycle: Cycle) -> list[Part]:
     section = cycle.design.spec.slider
     if section is None:
         return []
-    drive = cycle.design.slider_law.drive
+    drive = cycle.design.motion.slider.drive
     arm = drive.crank * np.exp(1j * (cycle.swing + drive.middle_angle - 0.5 * math.pi))
     place = -drive.offset - 1j * drive.depth(cycle.swing)[0]
     return [

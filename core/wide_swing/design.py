@@ -1,51 +1,238 @@
-"""The wide-swing cam mechanism with unloading device as a design: what each command shows of it."""
+"""The wide-swing cam mechanism with unloading device as a design: its parts, and what each command shows of it."""
 
 from __future__ import annotations
 
-from gearlink.core.design import Outline
-from gearlink.core.errors import NoSolution
-from gearlink.core.wide_swing.design_checks import WideSwingChecks
-from gearlink.core.wide_swing.design_profile import NEED_PROFILE, NEED_ZONE, OF_EVEN_CAM
+import math
+from operator import attrgetter
+from typing import TYPE_CHECKING, Any
 
-_LAW = ("energy_parameter", "velocity_peak", "acceleration_peak", "min_pivot_ratio", "force", "spring_rate")
-_TORQUE = ("power_peak", "drive_torque_peak")
-_SHAFT = ("dynamic_coefficient", "drive_balancing_ratio")
-_SLIDER = (
-    "slider_stroke",
-    "reference_inertia",
-    "rocker_share",
-    "middle_place",
-    "slider_velocity_peak",
-    "slider_acceleration_peak",
-)
-_DRIVE = ("crank_span", "cam_swing", "middle_pressure_angle")
-_PROFILE = (
-    "rocker_radius",
-    "min_radius",
-    "max_radius",
-    *OF_EVEN_CAM,
-    "start_radius_estimate",
-    "middle_radius_estimate",
-    "transition_zone",
-    "contact_end",
-    "max_pressure_angle",
-)
-_ITERATION = ("iteration_energy_parameter", "iteration_passes", "iteration_error")
+from gearlink.core.design import Design, Outline
+from gearlink.core.errors import MissingSection, NoSolution, at_key
+from gearlink.core.results import cached_property
+from gearlink.core.wide_swing import checks, remedies, tables
+from gearlink.core.wide_swing.motion import Motion
+from gearlink.core.wide_swing.unloading import Unloading
+
+if TYPE_CHECKING:
+    from gearlink.core.wide_swing.cam import Layout, WideSwingCam
+    from gearlink.core.wide_swing.oscillating_cam import OscillatingCam
+    from gearlink.core.wide_swing.outline import AnyCam
+    from gearlink.core.wide_swing.spec import SwingCam, WideSwingSpec
+
+_LAW = {
+    "energy_parameter": "motion.law.energy_parameter",
+    "velocity_peak": "motion.law.velocity_peak",
+    "acceleration_peak": "motion.law.acceleration_peak",
+    "min_pivot_ratio": "motion.min_pivot_ratio",
+    "force": "unloading.force",
+    "spring_rate": "unloading.spring_rate",
+}
+_TORQUE = {"power_peak": "unloading.power_peak", "drive_torque_peak": "unloading.drive_torque_peak"}
+_SHAFT = {
+    "dynamic_coefficient": "unloading.dynamic_coefficient",
+    "drive_balancing_ratio": "unloading.drive_balancing_ratio",
+}
+_SLIDER = {
+    "slider_stroke": "motion.slider.stroke",
+    "reference_inertia": "motion.reference_inertia",
+    "rocker_share": "motion.slider.rocker_share",
+    "middle_place": "motion.slider.middle_place",
+    "slider_velocity_peak": "motion.slider.slider_velocity_peak",
+    "slider_acceleration_peak": "motion.slider.slider_acceleration_peak",
+}
+_DRIVE = {
+    "crank_span": "motion.drive.crank_span",
+    "cam_swing": "motion.drive.swing",
+    "middle_pressure_angle": "oscillating_cam.middle_pressure_angle",
+}
+_OF_EVEN_CAM = ("profile_correction", "largest_profile_correction", "phase_angle", "start_curvature_radius")
+_PROFILE = {
+    "rocker_radius": "cam.rocker_radius",
+    "min_radius": "cam.min_radius",
+    "max_radius": "cam.max_radius",
+    **{name: f"even_cam.{name}" for name in _OF_EVEN_CAM},
+    "start_radius_estimate": "start_radius_estimate",
+    "middle_radius_estimate": "middle_radius_estimate",
+    "transition_zone": "cam.transition_zone",
+    "contact_end": "contact_end",
+    "max_pressure_angle": "cam.max_pressure_angle",
+}
+_ITERATION = {
+    "iteration_energy_parameter": "unloading.iteration.energy_parameter",
+    "iteration_passes": "unloading.iteration.passes",
+    "iteration_error": "unloading.iteration_error",
+}
+_CURVATURE = {"min_curvature_radius": "cam.min_curvature_radius"}
+_PATHS = _LAW | _TORQUE | _SHAFT | _SLIDER | _DRIVE | _PROFILE | _CURVATURE | _ITERATION
+_NEED_PROFILE = ("start_radius_estimate", "middle_radius_estimate")
+_NEED_ZONE = ("transition_zone", "max_pressure_angle", "min_curvature_radius", "contact_end")
+
 _CAM = ("max_pressure_angle", "min_curvature_radius", "max_radius", "min_radius")
 _LAW_CHECKS = ("unloader-turnability", "force-closure", "cycle-angles", "balancing")
 _CAM_CHECKS = ("profile-exists", "pressure-angle", "cam-undercut", "transition-zone", "shaft-clearance")
 
 
-class WideSwingDesign(WideSwingChecks):
+class WideSwingDesign(Design):
     """A twin-cam or twin-rocker mechanism, from its design file to every quantity that is asked for."""
 
     kind = "wide-swing-cam"
+    spec: WideSwingSpec
     outlines = {
-        "swing": Outline(_LAW, _LAW_CHECKS, ("law", "balance")),
+        "swing": Outline(tuple(_LAW), _LAW_CHECKS, ("law", "balance")),
         "cam": Outline(_CAM, _CAM_CHECKS, ("main_cam", "return_cam")),
-        "analyze": Outline(_LAW, _LAW_CHECKS, ("law", "balance")),
+        "analyze": Outline(tuple(_LAW), _LAW_CHECKS, ("law", "balance")),
     }
     extra_tables = ("iteration", "slider")
+
+    # Parts
+
+    @cached_property
+    def motion(self) -> Motion:
+        """Device, law of motion and drive."""
+        return Motion(self.spec)
+
+    @cached_property
+    def unloading(self) -> Unloading:
+        """Size of the device and torques."""
+        return Unloading(self.spec, self.motion)
+
+    @property
+    def section(self) -> SwingCam:
+        """The section `cam` of the design file."""
+        if self.spec.cam is None:
+            raise MissingSection("this needs the section cam: center_distance, roller_radius", key="cam")
+        return self.spec.cam
+
+    @cached_property
+    def cam(self) -> WideSwingCam | OscillatingCam:
+        """The cam of the working stroke."""
+        return self.even_cam if self.spec.drive is None else self.oscillating_cam
+
+    @cached_property
+    def even_cam(self) -> WideSwingCam:
+        """The cam of the working stroke, turning evenly."""
+        if self.spec.drive is not None:
+            raise NoSolution("this is a result of a cam that turns evenly: leave out drive", key="drive")
+        return self._even(self.spec.layout, self.section.rocker_radius)
+
+    @cached_property
+    def return_cam(self) -> WideSwingCam | None:
+        """A return cam of another shape: the external profile of the twin-rocker."""
+        return self._even("twin-cam", None) if self.spec.layout == "twin-rocker" else None
+
+    def _even(self, layout: Layout, rocker_radius: float | None) -> WideSwingCam:
+        from gearlink.core.wide_swing.cam import WideSwingCam
+
+        section, motion = self.section, self.motion
+        law = motion.plain_law
+        with at_key("cycle_angle"):
+            return WideSwingCam(
+                layout, law, motion.cycle_angle, section.center_distance, section.roller_radius, rocker_radius
+            )
+
+    @cached_property
+    def oscillating_cam(self) -> OscillatingCam:
+        """The cam on the rocker of a crank-rocker."""
+        from gearlink.core.wide_swing.oscillating_cam import OscillatingCam
+
+        section, law, drive = self.section, self.motion.plain_law, self.motion.drive
+        with at_key("drive"):
+            return OscillatingCam(drive, law, section.center_distance, section.roller_radius)
+
+    @property
+    def cams(self) -> dict[str, AnyCam]:
+        """The cams that are checked, by the words that a message calls them."""
+        if self.return_cam is None:
+            return {"cam": self.cam}
+        return {"internal profile": self.cam, "external profile": self.return_cam}
+
+    # Where a profile stands
+
+    @cached_property
+    def has_profile(self) -> bool:
+        """Whether the pitch curve of the working stroke is free of loops."""
+        try:
+            self.cam.require_profile()
+        except NoSolution:
+            return False
+        return True
+
+    def has_zone(self, cam: AnyCam) -> bool:
+        """Whether a cam has a profile outside the transition zone, so that it can be judged there."""
+        from gearlink.core.wide_swing.oscillating_cam import REST_SHARE
+
+        if cam is self.cam and not self.has_profile:
+            return False
+        return cam.transition_zone < 0.5 - REST_SHARE
+
+    @cached_property
+    def start_radius_estimate(self) -> float:
+        """R of (23) [mm]."""
+        from gearlink.core.wide_swing.contact import start_radius_estimate
+
+        with self._profile_key:
+            return start_radius_estimate(self.even_cam)
+
+    @cached_property
+    def middle_radius_estimate(self) -> float:
+        """R of (27) [mm]."""
+        from gearlink.core.wide_swing.contact import middle_radius_estimate
+
+        with self._profile_key:
+            return middle_radius_estimate(self.even_cam)
+
+    @property
+    def contact_end(self) -> float:
+        """k at which the roller leaves the profile."""
+        return self.slot_of(self.cam)[0]
+
+    def slot_of(self, cam: AnyCam) -> tuple[float, float]:
+        """Fractions of the stroke between which a cam's profile is cut away."""
+        from gearlink.core.wide_swing.cam import WideSwingCam
+        from gearlink.core.wide_swing.contact import contact_end
+
+        with self._profile_key:
+            cam.require_profile()
+        with at_key("cam.roller_radius"):
+            if isinstance(cam, WideSwingCam):
+                end = contact_end(cam)
+                return end, 1.0 - end
+            return cam.slot()
+
+    @property
+    def _profile_key(self) -> Any:
+        """What a refused profile is refused with: the key to change."""
+        if self.spec.drive is not None:
+            return at_key("drive")
+        return at_key("cycle_angle" if self.section.rocker_radius is None else "cam.rocker_radius")
+
+    # Results
+
+    def raw(self, name: str) -> Any:
+        """A quantity by its place among the parts; one of a profile that does not exist says which key to change."""
+        if name in _NEED_ZONE:
+            with self._profile_key:
+                self.cam.require_profile()
+        value_of = attrgetter(_PATHS[name])
+        if "cam." not in _PATHS[name]:
+            return value_of(self)
+        with at_key("cam.roller_radius"):
+            value = value_of(self)
+        return None if math.isinf(value) else value
+
+    table_law, table_slider, table_balance = tables.law, tables.slider, tables.balance
+    table_iteration, table_main_cam, table_return_cam = tables.iteration, tables.main_cam, tables.return_cam
+
+    check_unloader_turnability, check_force_closure = checks.unloader_turnability, checks.force_closure
+    check_cycle_angles, check_balancing = checks.cycle_angles, checks.balancing
+    check_profile_exists, check_pressure_angle = checks.profile_exists, checks.pressure_angle
+    check_cam_undercut, check_transition_zone = checks.cam_undercut, checks.transition_zone
+    check_shaft_clearance = checks.shaft_clearance
+
+    pressure_repair = cached_property(remedies.pressure)
+    suggestions = remedies.suggestions
+
+    # Outlines
 
     def outline(self, command: str) -> Outline:
         """What the sections of the file allow; a profile with a loop leaves its quantities out of `swing`."""
@@ -70,14 +257,13 @@ class WideSwingDesign(WideSwingChecks):
         return Outline(tuple(quantities), tuple(checks), tuple(tables))
 
     def _profile_quantities(self, command: str) -> list[str]:
-        names = [*_PROFILE, *(("min_curvature_radius",) if command == "analyze" else ())]
+        names = [*_PROFILE, *(_CURVATURE if command == "analyze" else ())]
         if self.spec.drive is not None:
-            even = (*OF_EVEN_CAM, *NEED_PROFILE)
-            names = [*_DRIVE, *(name for name in names if name not in even)]
+            names = [*_DRIVE, *(name for name in names if name not in (*_OF_EVEN_CAM, *_NEED_PROFILE))]
         if not self._profile_exists():
-            names = [name for name in names if name not in (*NEED_PROFILE, *NEED_ZONE)]
+            names = [name for name in names if name not in (*_NEED_PROFILE, *_NEED_ZONE)]
         elif not self._zone_leaves_room():
-            names = [name for name in names if name in ("transition_zone", *NEED_PROFILE) or name not in NEED_ZONE]
+            names = [name for name in names if name == "transition_zone" or name not in _NEED_ZONE]
         return names
 
     def _profile_exists(self) -> bool:
@@ -96,5 +282,4 @@ class WideSwingDesign(WideSwingChecks):
     @classmethod
     def quantity_names(cls) -> tuple[str, ...]:
         """Every quantity, those of an optional section included."""
-        groups = (_LAW, _TORQUE, _SHAFT, _SLIDER, _DRIVE, _PROFILE, _CAM, _ITERATION)
-        return tuple(dict.fromkeys(name for group in groups for name in group))
+        return tuple(_PATHS)

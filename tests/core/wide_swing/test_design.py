@@ -206,7 +206,7 @@ class TestCombined:
     def test_device_torque_with_slider(self) -> None:
         """The device's largest torque is that of the plain law with as much inertia as asks for the same force."""
         made = design(cam=None, slider=SLIDER)
-        plain = design(cam=None, inertia=made.even_inertia)
+        plain = design(cam=None, inertia=made.unloading.even_inertia)
         assert value(plain, "force") == pytest.approx(value(made, "force"), rel=1e-13, abs=0.0)
 
     def test_zone_of_oscillating_cam(self) -> None:
@@ -421,7 +421,7 @@ class TestChecks:
         unloader = PNEUMATIC | {"residual": residual}
         made = design(unloader=unloader, operating_speed_min=60.0)
         rows = table(made, "balance")
-        np.testing.assert_array_equal(rows["ratio"] > 1.0, rows["speed"] > made.harmful_speed)
+        np.testing.assert_array_equal(rows["ratio"] > 1.0, rows["speed"] > made.unloading.harmful_speed)
         (check,) = made.check("balancing")
         assert check.status == "warn"
         share = float(check.message.split("rate to ")[1].split(" ")[0])
@@ -498,11 +498,12 @@ def test_laziness() -> None:
     """Asking for the velocity peak computes no profile, no drive and no balance."""
     made = design()
     made.report("swing", quantities=("velocity_peak",))
-    assert set(made.__dict__) <= {"spec", "swing", "device", "plain_law"}
+    assert set(vars(made)) <= {"spec", "motion"}
+    assert set(vars(made.motion)) <= {"spec", "swing", "device", "plain_law"}
     made.report("swing", quantities=("min_pivot_ratio",))
     fresh = design()
     fresh.report("swing", quantities=("min_pivot_ratio",))
-    assert "plain_law" not in fresh.__dict__
+    assert set(vars(fresh.motion)) <= {"spec", "swing", "fitting_pivot_ratio", "min_pivot_ratio"}
 
 
 def test_spring_of_given_length_is_judged_by_formula_4() -> None:
@@ -510,9 +511,9 @@ def test_spring_of_given_length_is_judged_by_formula_4() -> None:
     unloader = {"type": "spring", "stretch_ratio": 0.5, "arm": 120, "closed_length": 150, "end_fittings": 40}
     for ratio in (2.2, 2.9, 2.92, 4.0):
         made = design(unloader={**unloader, "pivot_ratio": ratio}, cam=None)
-        half = 0.5 * made.swing
+        half = 0.5 * made.motion.swing
         longest = math.sqrt(1.0 + ratio * ratio - 2.0 * ratio * math.cos(half))
         stretch = 0.5 * 120.0 * (longest - (ratio - 1.0))
-        assert made.min_pivot_ratio == close(1.0 + (150.0 + 40.0 + stretch) / 120.0)
-        assert made.fitting_pivot_ratio is not None
-        assert (ratio >= made.min_pivot_ratio) == (ratio >= made.fitting_pivot_ratio)
+        assert made.motion.min_pivot_ratio == close(1.0 + (150.0 + 40.0 + stretch) / 120.0)
+        assert made.motion.fitting_pivot_ratio is not None
+        assert (ratio >= made.motion.min_pivot_ratio) == (ratio >= made.motion.fitting_pivot_ratio)

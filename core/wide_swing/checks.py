@@ -1,0 +1,195 @@
+"""Checks of a wide-swing design: device, stroke and cams; each is a function of the design."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from gearlink.core.cams import codes as cams
+from gearlink.core.errors import NoSolution
+from gearlink.core.linkages import codes as linkages
+from gearlink.core.report import Check, Status, safely_above, safely_below
+from gearlink.core.wide_swing import codes, remedies
+
+if TYPE_CHECKING:
+    from gearlink.core.wide_swing.design import WideSwingDesign
+    from gearlink.core.wide_swing.outline import AnyCam
+
+# Device and stroke
+
+
+def unloader_turnability(design: WideSwingDesign) -> Iterator[Check]:
+    """GL504: the device can follow the whole swing."""
+    least, ratio = design.motion.fitting_pivot_ratio, design.spec.unloader.pivot_ratio
+    if least is None:
+        return
+    status: Status = "fail" if ratio < least else "pass"
+    text = f"pivot ratio {ratio:g}, at least {least:.6g} is needed over a swing of {design.spec.swing:g} deg"
+    if status == "fail":
+        text += f": increase unloader.pivot_ratio to at least {safely_above(least)}, or reduce the swing"
+    yield codes.TURNABILITY.check(status, text, ratio, least)
+
+
+def force_closure(design: WideSwingDesign) -> Iterator[Check]:
+    """GL509: a spring that is slack at mid-swing does not hold the roller there."""
+    unloader = design.spec.unloader
+    if unloader.type == "pneumatic":
+        return
+    stretch = unloader.stretch_ratio
+    status: Status = "warn" if stretch == 0.0 else "pass"
+    text = f"the spring's mounting stretch is {stretch:g} of its stroke"
+    if status == "warn":
+        text += ": it is slack at mid-swing; make unloader.stretch_ratio above 0, such as 0.1"
+    yield codes.FORCE_CLOSURE.check(status, text, stretch, 0.0)
+
+
+def cycle_angles(design: WideSwingDesign) -> Iterator[Check]:
+    """GL510: both strokes find room in one turn of the cam."""
+    if design.spec.drive is not None:
+        return
+    both = 2.0 * math.degrees(design.motion.cycle_angle)
+    text = f"both strokes take {both:g} deg of the cam's turn"
+    if both > 360.0:
+        text += ", more than 360 deg: reduce cycle_angle to 180 deg or less"
+    yield codes.CYCLE_ANGLES.check("fail" if both > 360.0 else "pass", text, both, 360.0, "deg")
+
+
+def balancing(design: WideSwingDesign) -> Iterator[Check]:
+    """GL508: speeds at which the device does harm."""
+    harm = design.unloading.harmful_speed
+    text = f"the device lowers the torque above {harm:.5g} rev/min and raises it below"
+    lowest = design.spec.operating_speed_min
+    if lowest is None:
+        return
+    status: Status = "warn" if lowest < harm else "pass"
+    if status == "warn":
+        share = (lowest / design.spec.speed) ** 2
+        text += f"; at {lowest:g} rev/min lower its force or rate to {share:.3g} of the design value, or take it off"
+    yield codes.BALANCING.check(status, text, lowest, harm, "1/min")
+
+
+# Cams
+
+
+def _judged(design: WideSwingDesign, *, zone: bool) -> Iterator[tuple[str, AnyCam]]:
+    """The cams with a profile, and with `zone` those whose transition zone leaves something to judge."""
+    for words, cam in design.cams.items():
+        if (cam is not design.cam or design.has_profile) and (not zone or design.has_zone(cam)):
+            yield words, cam
+
+
+def profile_exists(design: WideSwingDesign) -> Check:
+    """GL505: no loop, and a phase angle above zero."""
+    margin = design.cam.loop_margin
+    shown = margin if math.isfinite(margin) else None
+    try:
+        design.cam.require_profile()
+    except NoSolution as error:
+        repair = remedies.profile(design) if design.spec.drive is not None else None
+        text = error.message + (f": make {repair.path} at most {repair.value:.12g} mm" if repair else "")
+        return codes.PROFILE_EXISTS.check("fail", text, shown, 0.0)
+    text = "the pitch curve has no loop"
+    if design.spec.drive is None:
+        text += f"; the run-up takes {math.degrees(design.even_cam.phase_angle):.6g} deg of the cam"
+    return codes.PROFILE_EXISTS.check("pass", text, shown, 0.0)
+
+
+def pressure_angle(design: WideSwingDesign) -> Iterator[Check]:
+    """GL401 outside the transition zone."""
+    limit = design.spec.limits.pressure_angle
+    for words, cam in _judged(design, zone=True):
+        value = math.degrees(cam.max_pressure_angle)
+        text = f"the pressure angle of the {words} reaches {value:.6g} deg"
+        if design.spec.drive is None:
+            text += " outside the transition zone"
+        if value > limit:
+            text += f", above the limit {limit:g} deg: {_pressure_remedy(design)}"
+        yield cams.PRESSURE_ANGLE.check("fail" if value > limit else "pass", text, value, limit, "deg")
+
+
+def _pressure_remedy(design: WideSwingDesign) -> str:
+    repair = design.pressure_repair
+    if repair is None:
+        keys = "cycle_angle and no swing" if design.spec.drive is None else "drive.crank and no swing"
+        return f"no {keys} alone was found that keeps it; a twin-cam wants a swing near 2 acos(r/a)"
+    if repair.value is None:
+        return f"leave out {repair.path}"
+    return f"make {repair.path} {repair.value:.12g}"
+
+
+def cam_undercut(design: WideSwingDesign) -> Iterator[Check]:
+    """GL402: roller against the curvature outside the transition zone, and against the source's (27)."""
+    roller = design.section.roller_radius
+    for words, cam in _judged(design, zone=True):
+        least = cam.min_curvature_radius
+        share = roller / least
+        status: Status = "fail" if share >= 1.0 else "warn" if share > 0.8 else "pass"
+        text = (
+            f"roller radius {roller:g} mm against the least curvature radius {least:.6g} mm of the {words} "
+            "outside the transition zone"
+        )
+        if status != "pass":
+            most = remedies.roller_for_curvature(design)
+            text += f": take a roller of at most {most:.12g} mm or a larger cam.center_distance"
+        yield cams.CAM_UNDERCUT.check(status, text, share, 1.0)
+    if design.spec.layout == "twin-rocker" and design.has_profile:
+        yield from _against_estimate(design, roller)
+
+
+def _against_estimate(design: WideSwingDesign, roller: float) -> Iterator[Check]:
+    """The source's own criterion of the internal profile: a warning, since its radius is an estimate."""
+    estimate = design.middle_radius_estimate
+    if roller >= estimate:
+        text = (
+            f"roller radius {roller:g} mm is not below the source's estimate {estimate:.6g} mm of the curvature "
+            f"radius at mid-swing: to keep its rule take a roller of at most {safely_below(0.999 * estimate)} mm"
+        )
+        yield cams.CAM_UNDERCUT.check("warn", text, roller / estimate, 1.0)
+
+
+def transition_zone(design: WideSwingDesign) -> Iterator[Check]:
+    """GL507: the contact changes sides within a small part of the stroke."""
+    limit = design.spec.limits.transition_zone
+    for words, cam in _judged(design, zone=False):
+        zone = cam.transition_zone
+        text = f"the roller changes sides of the {words} over {zone:.4g} of the stroke each side of mid-swing"
+        if zone > limit:
+            text += (
+                f", above the limit {limit:g}: take a roller of at most "
+                f"{remedies.roller_for_zone(design):.12g} mm or a larger cam.center_distance"
+            )
+        yield codes.TRANSITION_ZONE.check("fail" if zone > limit else "pass", text, zone, limit)
+
+
+def shaft_clearance(design: WideSwingDesign) -> Iterator[Check]:
+    """GL302: roller against the cam shaft, and the rocker's axis against the cam."""
+    section = design.section
+    if design.spec.drive is None:
+        yield from _over_rocker_axis(design)
+    if section.shaft_radius == 0.0:
+        return
+    for words, cam in design.cams.items():
+        room = cam.min_radius - section.roller_radius - section.shaft_radius
+        text = f"the roller of the {words} keeps {room:.4g} mm from the cam shaft (radius {section.shaft_radius:g} mm)"
+        if room <= 0.0:
+            text = (
+                f"the roller of the {words} comes {-room:.4g} mm into the cam shaft (radius "
+                f"{section.shaft_radius:g} mm): make cam.center_distance at least "
+                f"{remedies.center_distance(design):.12g} mm, or the roller smaller"
+            )
+        yield linkages.SHAFT_CLEARANCE.check("fail" if room <= 0.0 else "pass", text, room, 0.0, "mm")
+
+
+def _over_rocker_axis(design: WideSwingDesign) -> Iterator[Check]:
+    """The cam's arc about the dwells may reach over the rocker's axis: a warning, since it can be overhung."""
+    place, roller = design.section.center_distance, design.section.roller_radius
+    for words, cam in design.cams.items():
+        sense = -1.0 if design.spec.layout == "twin-rocker" and cam is design.cam else 1.0
+        room = sense * (place - cam.end_radius) + roller
+        if room <= 0.0:
+            text = (
+                f"the {words} reaches {-room:.4g} mm over the rocker's axis at the dwells: overhang the rocker "
+                "beside the cam, or reduce the swing"
+            )
+            yield linkages.SHAFT_CLEARANCE.check("warn", text, room, 0.0, "mm")

@@ -1,0 +1,181 @@
+"""The rocker of a wide-swing mechanism in motion: its device, its law, and the drive that times the stroke."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from gearlink.core.errors import MissingSection, NoSolution, at_key
+from gearlink.core.report import safely_above
+from gearlink.core.results import cached_property
+from gearlink.core.wide_swing.remedies import drive_repair, slider_repair, with_number
+
+if TYPE_CHECKING:
+    from gearlink.core.wide_swing.device import Device
+    from gearlink.core.wide_swing.elastic_law import ElasticLaw
+    from gearlink.core.wide_swing.oscillating_cam import CrankRockerDrive
+    from gearlink.core.wide_swing.slider import SliderLaw
+    from gearlink.core.wide_swing.spec import SwingSlider, WideSwingSpec
+
+
+class Motion:
+    """How the rocker moves, from the design file; every result is computed when it is read."""
+
+    def __init__(self, spec: WideSwingSpec) -> None:
+        self.spec = spec
+
+    @cached_property
+    def swing(self) -> float:
+        """Whole swing gamma [rad]."""
+        return math.radians(self.spec.swing)
+
+    # Device
+
+    @cached_property
+    def device(self) -> Device:
+        """The unloading device, without dimension."""
+        from gearlink.core.wide_swing.device import Pneumatic, Spring
+
+        unloader = self.spec.unloader
+        with at_key("unloader.pivot_ratio"):
+            if unloader.pivot_ratio <= 1.0:
+                raise NoSolution(
+                    f"pivot ratio {unloader.pivot_ratio:g} is not above 1: the base pin must lie outside the circle "
+                    f"of the arm; make unloader.pivot_ratio at least {safely_above(self.usual_pivot_ratio)}"
+                )
+            if unloader.type == "pneumatic":
+                return Pneumatic(unloader.pivot_ratio)
+            return Spring(unloader.pivot_ratio, unloader.stretch_ratio)
+
+    @property
+    def usual_pivot_ratio(self) -> float:
+        """Least pivot ratio of this device, or of a usual cylinder where the file says too little of a spring."""
+        from gearlink.core.wide_swing.device import least_pivot_ratio_pneumatic
+
+        return self.fitting_pivot_ratio or least_pivot_ratio_pneumatic(self.swing)
+
+    @cached_property
+    def min_pivot_ratio(self) -> float | None:
+        """Pivot ratio that the device must have, (3) or (4), where the file says enough of it.
+
+        Notes
+            (4) holds the spring's mounting stretch, which is taken at the file's own pivot ratio. It falls as
+            that ratio grows, so the ratio asked for is met by a design that takes it; `fitting_pivot_ratio` is
+            the one that just meets its own.
+        """
+        unloader = self.spec.unloader
+        if unloader.type == "pneumatic" or unloader.closed_length is None:
+            return self.fitting_pivot_ratio
+        from gearlink.core.wide_swing.device import DeviceGeometry
+
+        stroke = DeviceGeometry(self.device, self.swing).stroke
+        dead = (unloader.closed_length + unloader.end_fittings) / unloader.arm
+        return 1.0 + dead + unloader.stretch_ratio * stroke
+
+    @cached_property
+    def fitting_pivot_ratio(self) -> float | None:
+        """Least pivot ratio of a device that just fits, where the file says enough of it."""
+        from gearlink.core.wide_swing import device
+
+        unloader = self.spec.unloader
+        with at_key("unloader"):
+            if unloader.type == "pneumatic":
+                return device.least_pivot_ratio_pneumatic(self.swing, unloader.extension_ratio)
+            fittings, stretch, arm = unloader.end_fittings, unloader.stretch_ratio, unloader.arm
+            if unloader.closed_length is not None:
+                return device.least_pivot_ratio_spring(self.swing, stretch, arm, unloader.closed_length, fittings)
+            if unloader.stretch_capacity is not None:
+                capacity = unloader.stretch_capacity
+                return device.least_pivot_ratio_spring_material(self.swing, stretch, capacity, fittings / arm)
+        return None
+
+    # Law
+
+    @cached_property
+    def plain_law(self) -> ElasticLaw:
+        """The law of motion that the device gives a rocker alone."""
+        from gearlink.core.wide_swing.elastic_law import ElasticLaw
+
+        device = self.device
+        with at_key("swing"):
+            return ElasticLaw(device, self.swing)
+
+    @cached_property
+    def slider(self) -> SliderLaw:
+        """The law of motion of rocker and slider together; a refusal at a dead centre names the angle to change."""
+        from gearlink.core.wide_swing.slider import SliderDrive, SliderLaw
+
+        section = self._slider_section
+        with at_key("slider.rod"):
+            drive = SliderDrive(section.crank, section.rod, math.radians(section.middle_angle), section.offset)
+        try:
+            with at_key("slider.middle_angle"):
+                massless = SliderLaw(self.device, self.swing, drive, 1.0)
+                return SliderLaw(self.device, self.swing, drive, self._inertia_with(massless.stroke)[1])
+        except NoSolution as error:
+            if error.key != "slider.middle_angle":
+                raise
+            raise with_number(error, slider_repair(section, self.swing)) from error
+
+    @property
+    def _slider_section(self) -> SwingSlider:
+        if self.spec.slider is None:
+            raise MissingSection("this needs the section slider: crank, rod, middle_angle, mass", key="slider")
+        return self.spec.slider
+
+    def _inertia_with(self, stroke: float) -> tuple[float, float]:
+        from gearlink.core.wide_swing.slider import reference_inertia
+
+        return reference_inertia(self.spec.inertia, self._slider_section.mass, stroke, self.swing)
+
+    @property
+    def law(self) -> ElasticLaw | SliderLaw:
+        """The law of motion of the rocker, with its slider where it has one."""
+        return self.plain_law if self.spec.slider is None else self.slider
+
+    @property
+    def reference_inertia(self) -> float:
+        """J_ref of rocker and slider, what stands for J in the energy parameter [kg m^2]."""
+        return self._inertia_with(self.slider.stroke)[0]
+
+    @property
+    def inertia(self) -> float:
+        """J, or J_ref where there is a slider [kg m^2]."""
+        return self.spec.inertia if self.spec.slider is None else self.reference_inertia
+
+    def rocker_alone(self, name: str) -> ElasticLaw:
+        """The law for a quantity that a slider does not allow."""
+        if self.spec.slider is not None:
+            raise NoSolution(f"{name} is that of a rocker without a slider: leave out slider", key="slider")
+        return self.plain_law
+
+    # Drive
+
+    @cached_property
+    def drive(self) -> CrankRockerDrive:
+        """The crank-rocker that carries the cam; its refusal names the length to change."""
+        from gearlink.core.linkages.fourbar import FourBar
+        from gearlink.core.wide_swing.oscillating_cam import CrankRockerDrive
+
+        section = self.spec.drive
+        if section is None:
+            raise MissingSection("this needs the section drive: crank, coupler, rocker, frame", key="drive")
+        try:
+            with at_key("drive"):
+                linkage = FourBar(section.crank, section.coupler, section.rocker, section.frame, section.assembly)
+                return CrankRockerDrive(linkage, section.stroke == "outward")
+        except NoSolution as error:
+            raise with_number(error, drive_repair(section)) from error
+
+    @cached_property
+    def cycle_angle(self) -> float:
+        """phi_ud, turn of the shaft that runs evenly during one stroke [rad]."""
+        given = self.spec.cycle_angle
+        return self.drive.crank_span if given is None else math.radians(given)
+
+    @cached_property
+    def stroke_time(self) -> float:
+        """Time of one stroke at the design speed [s]."""
+        from gearlink.core.wide_swing.balancing import stroke_time
+
+        return stroke_time(self.cycle_angle, self.spec.speed * 2.0 * math.pi / 60.0)

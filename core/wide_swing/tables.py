@@ -1,0 +1,109 @@
+"""Tables of a wide-swing design over the stroke, the speed, and the steps of the source's iteration."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from gearlink.core.report import Table
+
+if TYPE_CHECKING:
+    from gearlink.core.wide_swing.design import WideSwingDesign
+    from gearlink.core.wide_swing.outline import AnyCam
+
+
+def _k(samples: int | None) -> Any:
+    import numpy as np
+
+    count = samples or 100
+    return np.arange(count + 1) / count
+
+
+def law(design: WideSwingDesign, samples: int | None = None) -> Table:
+    """The invariants of the law over the stroke."""
+    k = _k(samples)
+    a, b, c = design.motion.law.invariants(k, 2)
+    return Table.of("law", {"k": (k, "1"), "displacement": (a, "1"), "velocity": (b, "1"), "acceleration": (c, "1")})
+
+
+def slider(design: WideSwingDesign, samples: int | None = None) -> Table:
+    """The slider's invariants over the stroke, its travel and its speed at the design speed."""
+    k, moved = _k(samples), design.motion.slider
+    a, b, c = moved.slider_invariants(k)
+    columns = {
+        "k": (k, "1"),
+        "displacement": (a, "1"),
+        "velocity": (b, "1"),
+        "acceleration": (c, "1"),
+        "travel": (moved.stroke * a, "mm"),
+        "speed": (moved.stroke / design.motion.stroke_time * b, "mm/s"),
+    }
+    return Table.of("slider", columns)
+
+
+def balance(design: WideSwingDesign, _samples: int | None = None) -> Table:
+    """Torque on the rocker axis with and without the device, over the speed."""
+    import numpy as np
+
+    from gearlink.core.wide_swing.balancing import drive_balancing_ratio, speed_sweep
+
+    share, spec, motion = np.arange(10, 135, 5) / 100.0, design.spec, design.motion
+    inertia, residual = design.unloading.even_inertia, spec.unloader.residual
+    sweep = speed_sweep(inertia, motion.plain_law, motion.stroke_time, share, residual)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ratio = sweep.torque_without / sweep.torque_with
+    columns = {
+        "speed": (share * spec.speed, "1/min"),
+        "torque_without": (sweep.torque_without, "N m"),
+        "torque_with": (sweep.torque_with, "N m"),
+        "ratio": (ratio, "1"),
+    }
+    if spec.shaft is not None:
+        columns["drive_ratio"] = (drive_balancing_ratio(share, spec.shaft.linkage_share), "1")
+    return Table.of("balance", columns)
+
+
+def iteration(design: WideSwingDesign, _samples: int | None = None) -> Table:
+    """Steps of the iteration against its error (run time against error of the source's own method)."""
+    from gearlink.core.wide_swing.iteration import legacy_law
+
+    motion, steps = design.motion, (5, 10, 20, 50, 100, 200)
+    laws = [legacy_law(motion.device, motion.swing, steps=n) for n in steps]
+    exact = motion.plain_law.energy_parameter
+    columns = {
+        "steps": (steps, "1"),
+        "passes": ([law.passes for law in laws], "1"),
+        "energy_parameter": ([law.energy_parameter for law in laws], "1"),
+        "relative_error": ([law.energy_parameter / exact - 1.0 for law in laws], "1"),
+    }
+    return Table.of("iteration", columns)
+
+
+def main_cam(design: WideSwingDesign, samples: int | None = None) -> Table:
+    """The cam of the working stroke; where the slot at mid-swing cuts the profile away, x and y are empty."""
+    return _cam(design, "main_cam", design.cam, 1.0, samples)
+
+
+def return_cam(design: WideSwingDesign, samples: int | None = None) -> Table:
+    """The cam of the return stroke: the mirror image (twin-cam), or the external profile of the twin-rocker."""
+    if design.return_cam is None:
+        return _cam(design, "return_cam", design.even_cam, -1.0, samples)
+    return _cam(design, "return_cam", design.return_cam, 1.0, samples)
+
+
+def _cam(design: WideSwingDesign, name: str, cam: AnyCam, mirror: float, samples: int | None) -> Table:
+    import numpy as np
+
+    start, end = design.slot_of(cam)
+    points = cam.points(_k(samples))
+    gone = (points.k > start) & (points.k < end)
+    columns = {
+        "k": (points.k, "1"),
+        "cam_angle": (np.degrees(points.cam_angle), "deg"),
+        "pitch_x": (points.pitch.real, "mm"),
+        "pitch_y": (mirror * points.pitch.imag, "mm"),
+        "x": (np.where(gone, np.nan, points.profile.real), "mm"),
+        "y": (np.where(gone, np.nan, mirror * points.profile.imag), "mm"),
+        "pressure_angle": (np.degrees(points.pressure_angle), "deg"),
+        "curvature_radius": (points.curvature_radius, "mm"),
+    }
+    return Table.of(name, columns)

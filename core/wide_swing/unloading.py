@@ -1,0 +1,108 @@
+"""What the unloading device of a wide-swing mechanism must bear, and what it leaves to the drive."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from gearlink.core.errors import MissingSection, at_key
+from gearlink.core.results import cached_property
+
+if TYPE_CHECKING:
+    from gearlink.core.wide_swing.iteration import LegacyLaw
+    from gearlink.core.wide_swing.motion import Motion
+    from gearlink.core.wide_swing.spec import SwingShaft, WideSwingSpec
+
+
+class Unloading:
+    """Size of the device and torques of the shafts, from the design file and the rocker's motion."""
+
+    def __init__(self, spec: WideSwingSpec, motion: Motion) -> None:
+        self.spec, self.motion = spec, motion
+
+    # Size
+
+    @property
+    def _sizing(self) -> tuple[float, float, float, float, float]:
+        motion = self.motion
+        parameter = motion.law.energy_parameter
+        return parameter, motion.inertia, motion.swing, self.spec.unloader.arm, motion.stroke_time
+
+    @cached_property
+    def force(self) -> float | None:
+        """Force of a pneumatic device at the design speed [N]."""
+        from gearlink.core.wide_swing.device import force
+
+        return force(*self._sizing) if self.spec.unloader.type == "pneumatic" else None
+
+    @cached_property
+    def spring_rate(self) -> float | None:
+        """Rate of a spring at the design speed [N/mm]."""
+        from gearlink.core.wide_swing.device import spring_rate
+
+        return spring_rate(*self._sizing) if self.spec.unloader.type == "spring" else None
+
+    @cached_property
+    def iteration(self) -> LegacyLaw:
+        """The source's own iteration, for comparison."""
+        from gearlink.core.wide_swing.iteration import legacy_law
+
+        return legacy_law(self.motion.device, self.motion.swing, steps=self.spec.iteration_steps)
+
+    @property
+    def iteration_error(self) -> float:
+        """Relative error of the iteration's N."""
+        return float(self.iteration.energy_parameter) / self.motion.plain_law.energy_parameter - 1.0
+
+    # Torque and drive
+
+    @cached_property
+    def power_peak(self) -> float:
+        """max(b c)."""
+        from gearlink.core.wide_swing.balancing import power_peak
+
+        return power_peak(self.motion.rocker_alone("power_peak"))
+
+    @cached_property
+    def drive_torque_peak(self) -> float:
+        """Torque of the cam shaft without the device at the design speed [N m]."""
+        from gearlink.core.wide_swing.balancing import drive_torque_peak
+
+        motion, law = self.motion, self.motion.rocker_alone("drive_torque_peak")
+        return drive_torque_peak(self.spec.inertia, law, motion.stroke_time, motion.cycle_angle)
+
+    @property
+    def drive_balancing_ratio(self) -> float | None:
+        """K_y2 at the design speed; None where no link's torque is left."""
+        share = self._shaft.linkage_share
+        return (1.0 + share) / share if share > 0.0 else None
+
+    @cached_property
+    def dynamic_coefficient(self) -> float:
+        """K_d, torque with the drive's elasticity over the calculated torque."""
+        from gearlink.core.wide_swing.torsion import acceleration_series, dynamic_coefficient
+
+        shaft, law = self._shaft, self.motion.plain_law
+        series = acceleration_series(lambda k: law.invariants(k, 2)[2])
+        stiffness = 2.0 * math.pi * shaft.natural_frequency * self.motion.stroke_time
+        with at_key("shaft"):
+            return dynamic_coefficient(series, stiffness, shaft.damping)[0]
+
+    @property
+    def _shaft(self) -> SwingShaft:
+        if self.spec.shaft is None:
+            raise MissingSection("this needs the section shaft: natural_frequency, damping", key="shaft")
+        return self.spec.shaft
+
+    @property
+    def even_inertia(self) -> float:
+        """Inertia of a rocker alone that would need the same device [kg m^2]."""
+        motion = self.motion
+        if self.spec.slider is None:
+            return self.spec.inertia
+        return motion.reference_inertia * motion.slider.energy_parameter / motion.plain_law.energy_parameter
+
+    @property
+    def harmful_speed(self) -> float:
+        """Speed up to which the device raises the torque, n0 sqrt((1 + f)/2) [rev/min]."""
+        return self.spec.speed * math.sqrt(0.5 * (1.0 + self.spec.unloader.residual))
