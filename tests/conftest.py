@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import json
 import os
 from dataclasses import dataclass
@@ -10,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import sweeps
 from hypothesis import HealthCheck, settings
 from hypothesis.internal.conjecture import providers
 from hypothesis.internal.constants_ast import Constants
@@ -18,10 +20,14 @@ from gearlink.cli.main import run
 
 ROOT = Path(__file__).resolve().parents[1]
 
-# The same examples every time, and no verdict on speed: machines that run tests are shared and noisy.
-# GEARLINK_SEEDS=random draws new examples with every run.
+# The collector finds little here and walks all modules, specs and figures to say so: as the program itself does.
+gc.set_threshold(50_000, 20, 100)
+
+# The same examples every time, and no verdict on the speed of drawing them (too_slow): machines that run tests are
+# shared and noisy. GEARLINK_SEEDS=random draws new examples with every run.
 settings.register_profile(
     "steady",
+    sweeps.examples(100),
     derandomize=os.environ.get("GEARLINK_SEEDS") != "random",
     database=None,
     deadline=None,

@@ -103,7 +103,7 @@ def refine(
         The lengths and the crank angle are taken as exact. Only the residual needs the long numbers: it is what
         cancels. The plain formulas lose eps/dev, dev = min(gamma, pi - gamma).
     Example
-        >>> from gearlink.core import fourbar
+        >>> from gearlink.core.linkages import fourbar
         >>> linkage = FourBar(150.0, 160.0, 100.0, 300.0)
         >>> at = fourbar.solve(linkage, 1.04848)
         >>> coupler, rocker = refine(linkage, 1.04848, at.coupler_angle, at.rocker_angle)

@@ -69,7 +69,7 @@ def loop_rates(
         Independent of the rates of `fourbar.solve`, which differentiate the angles of a triangle.
     Example
         >>> linkage = FourBar(18.0, 50.0, 100.0, 121.4)
-        >>> from gearlink.core import fourbar
+        >>> from gearlink.core.linkages import fourbar
         >>> at = fourbar.solve(linkage, 0.0)
         >>> [round(float(x), 9) for x in loop_rates(linkage, 0.0, at.coupler_angle, at.rocker_angle, 1)]
         [-0.174081238, -0.174081238]

@@ -6,8 +6,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from sweeps import examples
 
 import gearlink.cli.commands.design
 import gearlink.cli.commands.suggest
@@ -59,7 +60,7 @@ def by_typer(arguments: list[str], monkeypatch: pytest.MonkeyPatch) -> Any:
     return seen[0] if seen else None
 
 
-@settings(max_examples=300)
+@examples(300)
 @given(st.sampled_from(list(COMMANDS)), st.lists(WRITTEN, max_size=4), WORDS, st.integers(0, 4))
 def test_plain_lines_are_read_as_typer_reads_them(command: str, options: list[str], source: str, at: int) -> None:
     line = [part for option in [*options[:at], source, *options[at:]] for part in option.split("\0")]

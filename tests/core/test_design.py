@@ -11,8 +11,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from factory import design
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from sweeps import examples
 
 from gearlink.core.design import Design, Outline, UnknownName, placed
 from gearlink.core.errors import MissingSection, NoSolution, at_key
@@ -322,7 +323,7 @@ def test_ratio_has_no_unit_in_its_message():
     assert message == "the contact ratio is 1.05, below the limit 1.1: take more teeth"
 
 
-@settings(max_examples=200)
+@examples(200)
 @given(value=st.floats(1e-6, 1e9) | st.floats(-1e9, -1e-6), digits=st.integers(2, 9))
 def test_recommended_bounds_hold_as_printed(value, digits):
     low, high = float(safely_below(value, digits)), float(safely_above(value, digits))

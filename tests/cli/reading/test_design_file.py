@@ -19,10 +19,11 @@ from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 from pydantic_core import PydanticCustomError
+from sweeps import examples
 
 from gearlink.cli.reading.design_file import diagnose_no_solution, load, parse, read_kind, validate
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
@@ -439,7 +440,7 @@ def test_a_flood_of_errors_is_cut_in_time() -> None:
     assert found[-1].message == f"{15_000 - 100} more errors are not shown"
 
 
-@settings(max_examples=200)
+@examples(200)
 @given(st.floats(1e-30, 1e12) | st.floats(-1e12, -1e-30) | st.sampled_from([0.0, -0.0]))
 def test_floats_reach_the_model_to_the_last_bit(number: float) -> None:
     got = spec(f"pivot: [{number!r}, 0]\n").pivot[0]
@@ -568,7 +569,7 @@ KEYS = st.sampled_from(
 )
 
 
-@settings(max_examples=300)
+@examples(300)
 @given(st.lists(st.tuples(KEYS, VALUES), max_size=6), st.lists(st.tuples(KEYS, VALUES), max_size=3))
 def test_any_values_give_a_spec_or_located_errors(lines: list[tuple[str, str]], sets: list[tuple[str, str]]) -> None:
     text = HEAD + "".join(f"{key}: {value}\n" for key, value in lines)
@@ -586,7 +587,7 @@ def test_any_values_give_a_spec_or_located_errors(lines: list[tuple[str, str]], 
         diagnostic.as_text("ascii").encode("ascii")
 
 
-@settings(max_examples=100)
+@examples(100)
 @given(st.binary(max_size=60))
 def test_random_bytes_on_standard_input(raw: bytes) -> None:
     found: list[Diagnostic] = []

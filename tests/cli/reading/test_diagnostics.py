@@ -6,8 +6,9 @@ import json
 import pickle
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from sweeps import examples
 
 from gearlink.cli.reading.diagnostics import MAX_SHOWN, DesignFileError, Diagnostic, Source, visible
 from gearlink.core.errors import GearlinkError
@@ -84,7 +85,7 @@ def test_ascii_terminal_gets_ascii_with_the_caret_in_place() -> None:
     assert shown[caret.index("^")] == "4"
 
 
-@settings(max_examples=200)
+@examples(200)
 @given(st.text(), st.sampled_from(["ascii", "latin-1", "utf-8", "cp1252"]))
 def test_shown_text_is_one_line_that_the_encoding_can_write(text: str, encoding: str) -> None:
     shown = visible(text, encoding)
@@ -92,7 +93,7 @@ def test_shown_text_is_one_line_that_the_encoding_can_write(text: str, encoding:
     assert shown.isprintable()
 
 
-@settings(max_examples=200)
+@examples(200)
 @given(st.lists(st.sampled_from(["a", "ä", "\n", "\r", "\r\n", "\t"])).map("".join), st.data())
 def test_place_and_line_agree_with_counting(text: str, data: st.DataObject) -> None:
     source = Source("f", text)

@@ -14,8 +14,9 @@ from typing import Any
 
 import pytest
 import yaml
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from sweeps import examples
 
 from gearlink.cli.reading import yaml_reader
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
@@ -104,7 +105,7 @@ def test_not_a_number() -> None:
     assert math.isnan(plain_value(".nan"))
 
 
-@settings(max_examples=200)
+@examples(200)
 @given(st.floats(allow_nan=False, allow_infinity=False) | st.integers(-(10**13), 10**14))
 def test_numbers_as_python_writes_them_come_back(number: float) -> None:
     got = plain_value(repr(number))
@@ -360,7 +361,7 @@ TREES = st.dictionaries(
 )
 
 
-@settings(max_examples=200)
+@examples(200)
 @given(TREES, st.sampled_from([None, 1, 3]), st.booleans())
 def test_json_is_read_as_it_was_written(tree: dict[str, Any], indent: int | None, ascii_only: bool) -> None:
     text = json.dumps(tree, indent=indent, ensure_ascii=ascii_only)
@@ -382,13 +383,13 @@ PIECES = st.sampled_from(
 )
 
 
-@settings(max_examples=400)
+@examples(400)
 @given(st.binary(max_size=200) | st.lists(PIECES, max_size=30).map(lambda some: "".join(some).encode()))
 def test_no_bytes_raise_anything_else(raw: bytes) -> None:
     _read_or_refuse(raw)
 
 
-@settings(max_examples=400)
+@examples(400)
 @given(st.lists(st.tuples(st.integers(0, len(DESIGN)), st.integers(0, 3), PIECES), min_size=1, max_size=4))
 def test_no_mutation_raises_anything_else(edits: list[tuple[int, int, str]]) -> None:
     text = DESIGN

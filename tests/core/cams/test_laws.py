@@ -17,9 +17,10 @@ from pathlib import Path
 import mpmath
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from oracles.forty_digits import scca_acceleration
+from sweeps import examples
 
 from gearlink.core.cams.laws import REST_TO_REST, REST_TO_SPEED, Law, law
 from gearlink.core.errors import NoSolution
@@ -150,7 +151,7 @@ def differentiated(coefficients: list[Fraction], times: int) -> list[Fraction]:
 
 @pytest.mark.parametrize("name", COEFFICIENTS)
 @given(x=IN_UNIT)
-@settings(max_examples=50)
+@examples(50)
 def test_polynomials_against_fractions(name: str, x: float) -> None:
     rule = law(name)
     for k, (value, peak) in enumerate(zip(rule.evaluate(x), peaks(rule), strict=True)):
@@ -205,7 +206,7 @@ def test_each_derivative_is_the_slope_of_the_one_before(rule: Law) -> None:
 
 
 @given(x=st.floats(0.5, 1.0), name=st.sampled_from(REST_TO_REST))
-@settings(max_examples=200)
+@examples(200)
 def test_second_half_mirrors_the_first_exactly(x: float, name: str) -> None:
     s, v, a, j = law(name).evaluate(x)
     first = law(name).evaluate(1.0 - x)
@@ -216,7 +217,7 @@ def test_second_half_mirrors_the_first_exactly(x: float, name: str) -> None:
 
 
 @given(x=IN_UNIT, rule=st.sampled_from(ALL))
-@settings(max_examples=200)
+@examples(200)
 def test_float_and_array_agree(x: float, rule: Law) -> None:
     for one, many, peak in zip(rule.evaluate(x), rule.evaluate(np.array([x, 0.25])), peaks(rule), strict=True):
         assert type(one) is float
@@ -253,7 +254,7 @@ def test_continuous_at_the_joints(shares: tuple[float, ...]) -> None:
 
 
 @given(exponent=st.floats(-12.0, -0.5), name=st.sampled_from(["cycloidal", "modified-sine", "velocity-cycloidal"]))
-@settings(max_examples=100)
+@examples(100)
 def test_relative_accuracy_near_zero(exponent: float, name: str) -> None:
     x = 10.0**exponent
     if name == "modified-sine" and x >= 0.125:
@@ -277,7 +278,7 @@ def test_velocity_after_the_harmonic_is_half_the_cycloidal() -> None:
 
 
 @given(a=st.floats(0.01, 1.0), b=st.floats(0.0, 1.0), c=st.floats(0.01, 1.0), d=st.floats(0.0, 1.0))
-@settings(max_examples=60)
+@examples(60)
 def test_any_scca(a: float, b: float, c: float, d: float) -> None:
     total = math.fsum((a, b, c, d))
     rule = law({"scca": [a / total, b / total, c / total, d / total]})

@@ -13,8 +13,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from sweeps import examples
 
 from gearlink.core.cams.laws import law
 from gearlink.core.cams.profile import (
@@ -147,7 +148,7 @@ def test_eccentric_circle_all_around(sense: int, side: int) -> None:
     turn=st.floats(-3.2, 3.2),
     sense=st.sampled_from([1, -1]),
 )
-@settings(max_examples=100)
+@examples(100)
 def test_pressure_angle_of_a_slide(y: float, y1: float, e: float, turn: float, sense: int) -> None:
     direction = complex(math.cos(turn), math.sin(turn))
     alpha = pressure_angle(0.3, translating(y, y1, direction=direction, offset=e), sense=sense)
@@ -155,7 +156,7 @@ def test_pressure_angle_of_a_slide(y: float, y1: float, e: float, turn: float, s
 
 
 @given(psi=st.floats(1.7, 2.9), rate=st.floats(-0.5, 0.5), sense=st.sampled_from([1, -1]))
-@settings(max_examples=100)
+@examples(100)
 def test_pressure_angle_of_a_rocker(psi: float, rate: float, sense: int) -> None:
     f, arm = 230.0, 160.0
     path = oscillating(f, arm, psi, rate)
@@ -204,7 +205,7 @@ def test_curvature_against_the_turning_of_the_pitch_curve() -> None:
 
 
 @given(turn=st.floats(-3.0, 3.0), psi=st.floats(1.7, 2.9), rate=st.floats(-0.5, 0.5), bend=st.floats(-1.0, 1.0))
-@settings(max_examples=50)
+@examples(50)
 def test_turning_the_machine_turns_the_cam(turn: float, psi: float, rate: float, bend: float) -> None:
     e = complex(math.cos(turn), math.sin(turn))
     here = profile(1.1, oscillating(230.0, 160.0, psi, rate, bend), sense=1, roller_radius=30.0)
@@ -215,7 +216,7 @@ def test_turning_the_machine_turns_the_cam(turn: float, psi: float, rate: float,
 
 
 @given(psi=st.floats(1.7, 2.9), rate=st.floats(-0.5, 0.5), bend=st.floats(-1.0, 1.0), scale=st.floats(0.01, 100.0))
-@settings(max_examples=50)
+@examples(50)
 def test_mirror_and_scale(psi: float, rate: float, bend: float, scale: float) -> None:
     here = profile(1.1, oscillating(230.0, 160.0, psi, rate, bend), sense=1, roller_radius=30.0)
     mirrored = profile(1.1, oscillating(230.0, 160.0, -psi, -rate, -bend), sense=-1, roller_radius=30.0)

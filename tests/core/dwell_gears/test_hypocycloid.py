@@ -13,8 +13,9 @@ from pathlib import Path
 import factory
 import mpmath as mp
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from sweeps import examples
 
 from gearlink.core.dwell_gears.hypocycloid import HypocycloidSlider, osculating, tangent_circle, widest_offset
 from gearlink.core.dwell_gears.hypocycloid_rod import least_ripple, minimax, widest_dwell
@@ -44,7 +45,7 @@ def test_reference_dwell_within_the_ripple():
     assert math.degrees(angle) == pytest.approx(OUT["L7_dwell_deg_tol_full"], abs=1e-9)
 
 
-@settings(max_examples=100)
+@examples(100)
 @given(st.floats(0.1, 50.0), st.floats(2.7, 40.0), st.floats(-3.1, 3.1))
 def test_closed_form_for_three_cusps(r, ratio, t):
     slider, c = HypocycloidSlider(r, 3, ratio * r), math.cos(t)
@@ -54,7 +55,7 @@ def test_closed_form_for_three_cusps(r, ratio, t):
     assert away == pytest.approx(expected, abs=2e-14 * (rest + 3 * r) ** 2)
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(st.integers(3, 8), st.floats(1.05, 5.0), st.floats(1e-4, 3.1))
 def test_deviation_keeps_its_digits(cusps, share, t):
     rod = share * widest_offset(1.0, cusps)

@@ -12,8 +12,9 @@ from pathlib import Path
 
 import factory
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from sweeps import examples
 
 from gearlink.core.dwell_gears.mutilated import MutilatedGear
 from gearlink.core.errors import NoSolution
@@ -44,7 +45,7 @@ def test_reference_case():
     assert found == pytest.approx(out, rel=4e-16, abs=0.0)
 
 
-@settings(max_examples=150)
+@examples(150)
 @given(st.integers(10, 200), st.integers(1, 60), st.integers(1, 5), st.integers(8, 80), st.fractions(1, 30))
 def test_against_fractions(full, group, groups, driven, reduction):
     if group * groups >= full:

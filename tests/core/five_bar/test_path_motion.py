@@ -17,8 +17,9 @@ from pathlib import Path
 import factory
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from sweeps import examples
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.five_bar.fit import fit_path, judge
@@ -42,7 +43,7 @@ RADIANS = math.radians
 # Parts
 
 
-@settings(derandomize=True, deadline=None, max_examples=200)
+@examples(200)
 @given(
     st.floats(1.0, 50.0), st.floats(1.0, 50.0), st.floats(0.01, 0.99), st.floats(-3.1, 3.1), st.sampled_from((1, -1))
 )

@@ -16,9 +16,10 @@ from pathlib import Path
 import mpmath as mp
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from oracles.press import PRESSES, TY460, Press
+from sweeps import examples
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.flatbed_press.chains import BedChain, CylinderChain, difference
@@ -196,7 +197,7 @@ def test_mirror_image_of_the_cylinder_chain_turns_backwards(name):
         assert there.first == pytest.approx(here.first, rel=1e-13)
 
 
-@settings(max_examples=100)
+@examples(100)
 @given(name=st.sampled_from(sorted(PRESSES)), phi=st.floats(-20.0, 20.0))
 def test_cam_angle_leads_back_to_the_input_angle(name, phi):
     bed = bed_of(PRESSES[name])

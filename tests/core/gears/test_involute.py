@@ -11,8 +11,9 @@ import random
 import mpmath as mp
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from sweeps import examples
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.gears import involute_sweep
@@ -100,7 +101,7 @@ def test_sweep_and_scalar_agree():
     assert np.all(np.abs(involute_sweep.involute(angles) - scalar) <= 3.0 * np.spacing(np.abs(scalar)))
 
 
-@settings(max_examples=200)
+@examples(200)
 @given(st.floats(1e-6, 1.5))
 def test_round_trip_and_oddness(alpha):
     # one ulp of v moves the angle by v/(a tan^2 a) <= 1/3 relative ulp; 2 ulp of each function remain
@@ -108,7 +109,7 @@ def test_round_trip_and_oddness(alpha):
     assert involute(-alpha) == -involute(alpha)
 
 
-@settings(max_examples=200)
+@examples(200)
 @given(st.floats(0.05, 0.8), st.floats(-14.0, -0.2), st.sampled_from([-1.0, 1.0]))
 def test_rise_keeps_relative_precision(alpha, exponent, sign):
     rise = sign * 10.0**exponent

@@ -9,8 +9,9 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from sweeps import examples
 
 from gearlink.core.gears.mesh_geometry import MeshGeometry
 from gearlink.core.gears.pair import GearPair
@@ -27,7 +28,7 @@ PAIRS = st.builds(
 
 
 @given(PAIRS)
-@settings(max_examples=60)
+@examples(60)
 def test_line_of_action(pair):
     mesh, near = MeshGeometry(pair), 1e-12 * pair.center_distance
     for gear in (0, 1):

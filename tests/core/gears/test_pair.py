@@ -17,8 +17,9 @@ from pathlib import Path
 
 import mpmath as mp
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
+from sweeps import examples
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.gears import teeth
@@ -336,7 +337,7 @@ def test_pointed_tip_is_a_negative_thickness():
 shifts = st.floats(-0.6, 0.8)
 
 
-@settings(max_examples=100)
+@examples(100)
 @given(st.integers(12, 200), st.integers(12, 200), shifts, shifts, st.floats(-6.0, 6.0))
 def test_scale_and_exchange(z1, z2, x1, x2, exponent):
     try:
@@ -358,7 +359,7 @@ def test_scale_and_exchange(z1, z2, x1, x2, exponent):
     assert swapped.tip_thickness == pair.tip_thickness[::-1]
 
 
-@settings(max_examples=100)
+@examples(100)
 @given(st.integers(6, 300), st.integers(6, 300), shifts, shifts)
 def test_center_distance_leads_back_to_the_shifts(z1, z2, x1, x2):
     try:

@@ -12,8 +12,9 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
+from sweeps import examples
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.gears.involute import involute
@@ -112,7 +113,7 @@ def test_tip_thickness_is_the_pairs():
     st.floats(math.radians(14.5), math.radians(28.0)),
     st.sampled_from([1e-6, 1.0, 1e6]),
 )
-@settings(max_examples=150)
+@examples(150)
 def test_pieces_join_without_gap_and_radii_never_fall(teeth, shift, alpha, module):
     try:
         gear = profile(teeth, shift, module, alpha)
@@ -130,7 +131,7 @@ def test_pieces_join_without_gap_and_radii_never_fall(teeth, shift, alpha, modul
 
 
 @given(st.integers(8, 120), st.floats(-0.2, 0.8), st.floats(0.01, 1000.0))
-@settings(max_examples=50)
+@examples(50)
 def test_scale(teeth, shift, module):
     small, large = profile(teeth, shift), profile(teeth, shift, module)
     one, other = half_tooth(small, 1e-3), half_tooth(large, 1e-3 * module)

@@ -20,8 +20,9 @@ from pathlib import Path
 
 import mpmath as mp
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from sweeps import examples
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.fourbar import FourBar, FourBarState, solve, solve_inverse
@@ -233,7 +234,7 @@ def closing(lengths: tuple[float, ...], share: float, assembly: int) -> tuple[Fo
     return (linkage, low + share * (high - low)) if high - low > 0.1 else None
 
 
-@settings(max_examples=150)
+@examples(150)
 @given(LENGTHS, st.floats(0.05, 0.95), st.sampled_from([1, -1]))
 def test_the_loop_closes_on_the_side_asked_for(lengths: tuple[float, ...], share: float, assembly: int) -> None:
     case = closing(lengths, share, assembly)
@@ -250,7 +251,7 @@ def test_the_loop_closes_on_the_side_asked_for(lengths: tuple[float, ...], share
     assert abs(assembly * (c - b) - state.transmission_angle) <= 4 * EPS * condition(linkage, phi, state)
 
 
-@settings(max_examples=100)
+@examples(100)
 @given(LENGTHS, st.floats(0.05, 0.95))
 def test_mirror_and_scale_hold_bit_by_bit(lengths: tuple[float, ...], share: float) -> None:
     case = closing(lengths, share, 1)
@@ -310,7 +311,7 @@ def test_the_way_back_passes_on_the_error_of_a_rounded_rocker_angle(
     assert apart(back.crank_angle - passed_on, phi) <= 4 * EPS * own
 
 
-@settings(max_examples=150)
+@examples(150)
 @given(LENGTHS, st.floats(0.05, 0.95), st.sampled_from([1, -1]))
 def test_exchange_of_crank_and_rocker(lengths: tuple[float, ...], share: float, assembly: int) -> None:
     case = closing(lengths, share, assembly)

@@ -18,8 +18,9 @@ from pathlib import Path
 import mpmath as mp
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from sweeps import examples
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages import fourbar, fourbar_newton, fourbar_sweep
@@ -69,7 +70,7 @@ def test_recorded_error_history() -> None:
         b, c = b + float(d_b), c + float(d_c)
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(st.floats(0.0, 6.28), st.floats(-1.0, 1.0), st.floats(0.2, 1.0))
 def test_error_law_of_one_step(phi: float, x: float, y: float) -> None:
     """|e'|/|e|^2 tends to the constant of the Jacobian's derivative, for both unknowns."""
@@ -85,7 +86,7 @@ def test_error_law_of_one_step(phi: float, x: float, y: float) -> None:
     assert (h * y + float(d_c)) / h**2 == pytest.approx(law_c, abs=20 * h)
 
 
-@settings(max_examples=200)
+@examples(200)
 @given(st.floats(0.05, 0.95), st.floats(0.0, 6.28), st.booleans(), st.sampled_from([1, -1]))
 def test_every_safe_start_converges_to_its_own_assembly(
     share: float, way: float, stretching: bool, assembly: int

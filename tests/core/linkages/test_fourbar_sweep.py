@@ -18,8 +18,9 @@ from pathlib import Path
 import mpmath as mp
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from sweeps import examples
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages import fourbar
@@ -155,7 +156,7 @@ def test_angles_are_continuous_over_several_turns(linkage: FourBar) -> None:
         assert angle[360:] - angle[:-360] == pytest.approx(np.full(1801, math.tau * winding), abs=64 * EPS)
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(st.tuples(*[st.floats(10.0, 200.0)] * 4), st.sampled_from([1, -1]))
 def test_the_loop_closes_for_any_linkage_that_does(lengths: tuple[float, ...], assembly: int) -> None:
     linkage = FourBar(*lengths, assembly)

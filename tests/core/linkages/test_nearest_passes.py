@@ -10,8 +10,9 @@ import cmath
 import math
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from sweeps import examples
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.nearest_passes import gap, joint_to_crank_pivot
@@ -45,7 +46,7 @@ def turning(draw):
     return a, 0.5 * (total + difference), 0.5 * (total - difference), d
 
 
-@settings(max_examples=200)
+@examples(200)
 @given(turning(), st.sampled_from([1, -1]))
 def test_range_of_the_coupler_joint_against_a_scan(links, assembly):
     a, b, c, d = links
@@ -79,7 +80,7 @@ def test_idler_reaches_the_input_shaft_of_thesis_example_1():
     assert gap(near.distance, 74.0, 0.0) < 0.0  # the idler's tips cross the shaft's axis
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(turning())
 def test_mirror_and_scale(links):
     a, b, c, d = links

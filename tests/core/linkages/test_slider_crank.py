@@ -15,8 +15,9 @@ from pathlib import Path
 import mpmath as mp
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
+from sweeps import examples
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages import slider_crank, slider_crank_sweep
@@ -71,7 +72,7 @@ def test_press_report():
 strokes = st.tuples(st.floats(1e-3, 1.0 - 1e-9), st.floats(1.0, 1e3), st.floats(-0.999, 0.999))
 
 
-@settings(max_examples=100)
+@examples(100)
 @given(strokes)
 def test_crank_against_bisection(drawn):
     share, rod, part = drawn
@@ -120,7 +121,7 @@ def test_largest_stroke_belongs_to_the_longest_crank():
 lengths = st.tuples(st.floats(0.01, 0.99), st.floats(0.5, 500.0), st.floats(-0.95, 0.95))
 
 
-@settings(max_examples=100)
+@examples(100)
 @given(lengths)
 def test_round_trip_mirror_and_scale(drawn):
     share, rod, part = drawn
@@ -138,7 +139,7 @@ def test_round_trip_mirror_and_scale(drawn):
         assert angle(crank, rod, -offset) == -angle(crank, rod, offset)
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(lengths)
 def test_dead_centers_are_the_extremes_of_the_slider(drawn):
     share, rod, part = drawn
@@ -187,7 +188,7 @@ def test_orders_and_shapes():
         assert slider_crank.slider(0.3, 50.0, 200.0, 10.0, order) == full[: order + 1]
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(st.floats(-3.0, 3.0), lengths)
 def test_mirror_of_the_position(psi, drawn):
     share, rod, part = drawn

@@ -7,8 +7,9 @@ Tolerances: 1e-14 rad for simple zeros of 1 + k sin(phi + s) (slope of order 1, 
 import math
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from sweeps import examples
 
 from gearlink.core.linkages.standstills import TURN, BackStep, back_steps, standstills, turnings, zeros_over_turn
 
@@ -17,7 +18,7 @@ def wave(k, shift):
     return lambda x: 1.0 + k * math.sin(x + shift), lambda x: k * math.cos(x + shift)
 
 
-@settings(max_examples=100)
+@examples(100)
 @given(st.floats(1.001, 20.0), st.floats(-3.1, 3.1))
 def test_sine(k, shift):
     speed, slope = wave(k, shift)

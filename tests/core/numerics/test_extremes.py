@@ -11,8 +11,9 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from sweeps import examples
 
 from gearlink.core.numerics.extremes import TURN, largest_magnitude, least_convex_radius, maximum_over, minimum_over
 
@@ -21,7 +22,7 @@ PLACE = 2e-7
 
 
 @given(peak=st.floats(0.0, TURN), height=st.floats(-5.0, 5.0))
-@settings(max_examples=100)
+@examples(100)
 def test_smooth_maximum(peak: float, height: float) -> None:
     top = maximum_over(lambda x: np.cos(x - peak) + height)
     assert top.value == pytest.approx(1.0 + height, abs=4 * EPS * (1.0 + abs(height)))
@@ -29,7 +30,7 @@ def test_smooth_maximum(peak: float, height: float) -> None:
 
 
 @given(kink=st.floats(0.0, TURN), left=st.floats(0.1, 10.0), right=st.floats(0.1, 10.0))
-@settings(max_examples=100)
+@examples(100)
 def test_kink(kink: float, left: float, right: float) -> None:
     bottom = minimum_over(lambda x: np.where(x < kink, left * (kink - x), right * (x - kink)))
     assert bottom.value <= 40.0 * math.ulp(TURN) * max(left, right)

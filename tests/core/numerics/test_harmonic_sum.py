@@ -10,8 +10,9 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from sweeps import examples
 
 from gearlink.core.numerics.harmonic_sum import HarmonicSum
 
@@ -38,7 +39,7 @@ def dense(total: HarmonicSum, end: float) -> tuple[float, float]:
     return -top(-v), top(v)
 
 
-@settings(max_examples=40)
+@examples(40)
 @given(terms, st.sampled_from([1, 7, 400]))
 def test_extremes_against_a_dense_grid(parts: list[tuple[float, float, float]], turns: int) -> None:
     total = HarmonicSum(3.0, tuple(parts))

@@ -9,8 +9,9 @@ import math
 
 import mpmath as mp
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from sweeps import examples
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.numerics.roots import bracketed_root, maximum, sign_changes
@@ -87,7 +88,7 @@ def test_tolerance_ends_early():
     assert coarse.calls < fine.calls
 
 
-@settings(max_examples=200)
+@examples(200)
 @given(st.floats(-1e3, 1e3), st.floats(1e-3, 1e3), st.floats(1e-3, 1e3), st.sampled_from([1, 3, 5]))
 def test_any_odd_power_in_any_bracket(root, left, right, power):
     low, high = root - left, root + right

@@ -14,9 +14,10 @@ import math
 import mpmath as mp
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from oracles.gripper import CASES, REFERENCE, kinetic_energy, machine
+from sweeps import examples
 
 from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.swing_gripper.forces import LeverSpring, Masses, contact_torques, inertia_torque, lift_off_speed
@@ -131,7 +132,7 @@ def test_spring_torque_of_the_reference() -> None:
     preload=st.floats(1.0, 5000.0),
     rate=st.floats(0.0, 50.0),
 )
-@settings(max_examples=60)
+@examples(60)
 def test_spring_torque_is_the_slope_of_its_energy(arms: tuple, angle: float, preload: float, rate: float) -> None:
     p, q = arms
     spring = LeverSpring(p, q, angle, preload, rate, 0.25)

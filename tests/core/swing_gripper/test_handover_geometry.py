@@ -12,9 +12,10 @@ import math
 import mpmath as mp
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from oracles.gripper import CASES, machine
+from sweeps import examples
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.swing_gripper.handover_geometry import misplacement, speed_difference, tip_path, widest_window
@@ -43,7 +44,7 @@ def test_reference_of_gap_slip_and_speed() -> None:
     lead=st.floats(-0.5, 0.5),
     lead_0=st.floats(-0.01, 0.01),
 )
-@settings(max_examples=80)
+@examples(80)
 def test_path_against_the_direct_form(arm: float, radius: float, off: float, lead: float, lead_0: float) -> None:
     distance = arm + radius + off
     path = tip_path(arm, radius, distance, np.array([lead]), np.array([0.3]), lead_0)
@@ -56,7 +57,7 @@ def test_path_against_the_direct_form(arm: float, radius: float, off: float, lea
 
 
 @given(arm=st.floats(50.0, 500.0), radius=st.floats(50.0, 500.0), gap=st.floats(1e-4, 1.0))
-@settings(max_examples=50)
+@examples(50)
 def test_the_widest_window_has_just_the_gap(arm: float, radius: float, gap: float) -> None:
     turn = np.array([widest_window(arm, radius, gap)])
     path = tip_path(arm, radius, arm + radius, turn * radius / arm, turn)

@@ -16,8 +16,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from sweeps import examples
 
 from gearlink.core.cams.laws import REST_TO_REST, REST_TO_SPEED, law
 from gearlink.core.errors import NoSolution
@@ -136,7 +137,7 @@ def test_scales_with_the_speed() -> None:
     speed=st.floats(0.05, 2.0),
     laws=st.tuples(st.sampled_from(RUN_UPS), st.sampled_from(RUN_UPS), st.sampled_from(RISES)),
 )
-@settings(max_examples=60)
+@examples(60)
 def test_out_and_home_without_turning_back(parts: list[float], speed: float, laws: tuple) -> None:
     lengths = tuple(360.0 * part / sum(parts) for part in parts)
     motion = made(*laws, lengths=lengths, speed=speed)
@@ -153,7 +154,7 @@ def test_out_and_home_without_turning_back(parts: list[float], speed: float, law
 
 
 @given(share=st.floats(0.001, 0.999))
-@settings(max_examples=50)
+@examples(50)
 def test_reaches_inverts_the_stroke(share: float) -> None:
     swing = share * EXAMPLE.total_swing
     back = EXAMPLE.evaluate(np.array([EXAMPLE.reaches(swing)]), 0)[0][0]

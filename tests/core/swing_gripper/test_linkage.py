@@ -15,9 +15,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from oracles.gripper import CASES, TABLE, machine, mirrored, turned
+from sweeps import examples
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages import fourbar_sweep
@@ -132,7 +133,7 @@ def test_both_ways_agree_near_dead_points(direction: float) -> None:
     assembly=st.sampled_from([1, -1]),
     sense=st.sampled_from([1, -1]),
 )
-@settings(max_examples=80)
+@examples(80)
 def test_every_machine_is_refused_or_closes(links: tuple, direction: float, assembly: int, sense: int) -> None:
     design = machine(
         links=dict(zip(("input", "coupler", "output"), links, strict=True)),

@@ -13,8 +13,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from sweeps import examples
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.three_gear import charts, symmetric_back_step, symmetric_family
@@ -65,7 +66,7 @@ def test_nonuniformity_2_is_the_momentary_dwell() -> None:
 
 
 @given(ratios, angles)
-@settings(max_examples=200)
+@examples(200)
 def test_arrays_agree_with_the_scalar_forms(i3: float, phi12: float) -> None:
     d = symmetric_family.frame_ratio_for_back_step(i3, phi12)
     assert float(charts.frame_ratio_at_crank_angle(i3, phi12)) == pytest.approx(d, rel=_SCALAR, abs=0.0)
@@ -76,7 +77,7 @@ def test_arrays_agree_with_the_scalar_forms(i3: float, phi12: float) -> None:
 
 
 @given(ratios, st.floats(0.01, 0.99))
-@settings(max_examples=100)
+@examples(100)
 def test_nonuniformity_comes_back_from_its_frame_ratio(i3: float, share: float) -> None:
     delta = 2.0 * share * (1.0 - i3)
     d = float(charts.frame_ratio_at_nonuniformity(i3, delta))

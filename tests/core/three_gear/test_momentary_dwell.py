@@ -10,8 +10,9 @@ from pathlib import Path
 
 import mpmath
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
+from sweeps import examples
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.three_gear.momentary_dwell import (
@@ -66,7 +67,7 @@ def test_published_check_against_the_symmetric_family():
     assert momentary_crank_angle(40.0, 40.0, 40.0, case["inputs"]["e"]) == pytest.approx(1.5 * math.pi, rel=1e-15)
 
 
-@settings(max_examples=50)
+@examples(50)
 @given(radii, radii)
 def test_agrees_with_the_symmetric_family(r1, r3):
     """I = 1: the frame of thesis (4-18) at phi12 = 0."""
@@ -84,7 +85,7 @@ def crank_at(r1, r3, r5, share):
     return low + share * (high - low)
 
 
-@settings(max_examples=200)
+@examples(200)
 @given(radii, radii, radii, st.floats(0.001, 0.999), st.sampled_from((1, -1)))
 def test_speed_and_acceleration_vanish(r1, r3, r5, share, assembly):
     e = crank_at(r1, r3, r5, share)
@@ -97,7 +98,7 @@ def test_speed_and_acceleration_vanish(r1, r3, r5, share, assembly):
     assert abs(output_acceleration(linkage, train, phi)) < 10 * slack / sine
 
 
-@settings(max_examples=100)
+@examples(100)
 @given(radii, radii, radii)
 def test_range_ends_where_the_linkage_folds_or_stretches(r1, r3, r5):
     low, high = tangency_range(r1, r3, r5)[0], crank_at(r1, r3, r5, 1.0)
@@ -107,7 +108,7 @@ def test_range_ends_where_the_linkage_folds_or_stretches(r1, r3, r5):
     assert tangency(r1, r3, r5, below).frame - below == pytest.approx(abs(b - c), abs=1e-13 * (b + c))
 
 
-@settings(max_examples=100)
+@examples(100)
 @given(radii, radii, radii, st.floats(1e-12, 1.0 - 1e-12))
 def test_frame_agrees_with_the_direct_formula_at_60_digits(r1, r3, r5, share):
     """Both ends of the range included: e within 1e-12 of it."""
@@ -152,7 +153,7 @@ def test_double_root_by_search_at_30_digits():
     assert momentary_crank_angle(*EX3, 18.0) == pytest.approx(float(phi), rel=1e-15)
 
 
-@settings(max_examples=50)
+@examples(50)
 @given(radii, radii, radii, st.floats(0.05, 0.95), st.floats(1e-3, 1e3))
 def test_scale_and_mirror(r1, r3, r5, share, scale):
     e = crank_at(r1, r3, r5, share)

@@ -11,8 +11,9 @@ from pathlib import Path
 
 import mpmath
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
+from sweeps import examples
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.checks import check_linkage
@@ -108,7 +109,7 @@ def test_published_peak_acceleration():
     assert math.sin(found.greatest_angle) == pytest.approx(0.0, abs=1e-14)
 
 
-@settings(max_examples=150)
+@examples(150)
 @given(drives(), angles)
 def test_speed_agrees_with_the_instant_centre(drive, phi):
     """w5/w1 = AP15/DP15 with P15 where the line of the poles F, E meets the frame (thesis 4.2.1)."""
@@ -126,7 +127,7 @@ def test_speed_agrees_with_the_instant_centre(drive, phi):
     assert speed == pytest.approx(u / (u - d * v), abs=1e-13 * (1.0 + abs(speed)) * condition)
 
 
-@settings(max_examples=100)
+@examples(100)
 @given(drives(), angles)
 def test_mirrored_linkage_runs_backwards(drive, phi):
     linkage, train = drive
@@ -139,7 +140,7 @@ def test_mirrored_linkage_runs_backwards(drive, phi):
     )
 
 
-@settings(max_examples=100)
+@examples(100)
 @given(drives(), angles, st.floats(1e-3, 1e3))
 def test_speed_does_not_depend_on_the_scale(drive, phi, scale):
     linkage, train = drive
@@ -150,7 +151,7 @@ def test_speed_does_not_depend_on_the_scale(drive, phi, scale):
     assert output_speed(larger, train, phi) == pytest.approx(output_speed(same, train, phi), abs=1e-14 * condition)
 
 
-@settings(max_examples=100)
+@examples(100)
 @given(drives(), angles)
 def test_output_gains_the_mean_ratio_in_a_turn(drive, phi):
     linkage, train = drive
@@ -180,7 +181,7 @@ def test_rates_are_the_derivatives_of_the_angle(linkage, train):
                 assert rate(linkage, train, float(phi)) == pytest.approx(exact, rel=1e-12, abs=1e-13)
 
 
-@settings(max_examples=25)
+@examples(25)
 @given(drives())
 def test_no_place_is_beyond_the_extremes(drive):
     linkage, train = drive

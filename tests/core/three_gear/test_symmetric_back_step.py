@@ -11,8 +11,9 @@ from pathlib import Path
 import mpmath
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from sweeps import examples
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.three_gear.symmetric_back_step import (
@@ -76,7 +77,7 @@ def test_published_dwell_angle_of_example_1():
     assert math.degrees(back_step_angle(-1.8, math.radians(90.0))) == pytest.approx(out["backoff_deg"], rel=1e-15)
 
 
-@settings(max_examples=200)
+@examples(200)
 @given(ratios, st.floats(1e-6, 3.1415))
 def test_back_step_keeps_its_digits(i3, phi12):
     exact = exact_back_step(i3, phi12)
@@ -85,7 +86,7 @@ def test_back_step_keeps_its_digits(i3, phi12):
     assert abs(back_step_angle(i3, phi12) - exact) < 2e-15 * condition * exact
 
 
-@settings(max_examples=200)
+@examples(200)
 @given(ratios, crank_angles)
 def test_dwell_angle_satisfies_its_equation(i3, phi12):
     phi13 = dwell_angle(i3, phi12)
@@ -94,33 +95,33 @@ def test_dwell_angle_satisfies_its_equation(i3, phi12):
     assert abs(rest / slope) < 1e-13 * phi13
 
 
-@settings(max_examples=100)
+@examples(100)
 @given(st.floats(1e-4, 3.1))
 def test_three_halves_is_exact_for_i3_of_minus_2(phi12):
     assert dwell_angle(-2.0, phi12) == pytest.approx(1.5 * phi12, rel=3e-14)
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(ratios)
 def test_three_halves_is_the_limit_of_small_angles(i3):
     assert dwell_angle(i3, 1e-7) == pytest.approx(1.5e-7, rel=1e-13)
 
 
-@settings(max_examples=150)
+@examples(150)
 @given(ratios, st.floats(1e-4, 0.9999))
 def test_crank_angle_for_dwell_is_the_inverse(i3, share):
     phi13 = share * dwell_angle_limit(i3)
     assert dwell_angle(i3, crank_angle_for_dwell(i3, phi13)) == pytest.approx(phi13, rel=1e-12)
 
 
-@settings(max_examples=100)
+@examples(100)
 @given(ratios, st.floats(1e-6, 0.9999))
 def test_crank_angle_for_back_step_is_the_inverse(i3, share):
     angle = share * -i3 * math.pi
     assert back_step_angle(i3, crank_angle_for_back_step(i3, angle)) == pytest.approx(angle, rel=2e-14)
 
 
-@settings(max_examples=100)
+@examples(100)
 @given(st.floats(1e-6, 0.999), st.floats(1e-3, 3.1))
 def test_ratio_for_back_step_is_the_inverse(share, phi12):
     angle = share * (2.0 * math.tan(phi12 / 2.0) - phi12)
@@ -189,7 +190,7 @@ def regained_at_fifty_digits(i3: float, phi12: float, start: float) -> mpmath.mp
     return h + mpmath.findroot(fallen, mpmath.mpf(start) - h)
 
 
-@settings(max_examples=300)
+@examples(300)
 @given(st.floats(-2.0, 2.0), st.floats(-2.0, 0.0), st.floats(0.0, 1.0))
 def test_dwell_angle_at_fifty_digits(many: float, few: float, share: float) -> None:
     """6 ulp; above i3 = -0.1 both sides of the equation agree to 1/|i3|, and 16 times that is lost."""

@@ -9,8 +9,9 @@ import math
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from sweeps import examples
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.three_gear.motion import GearTrain, acceleration_extremes, gear_gap, speed_extremes
@@ -102,7 +103,7 @@ def test_published_designs_of_the_symmetric_family():
         assert math.degrees(linkage.min_transmission_angle()) == pytest.approx(out["min_transmission_angle"], rel=1e-14)
 
 
-@settings(max_examples=100)
+@examples(100)
 @given(ratios, st.floats(1e-3, 3.1))
 def test_frame_ratio_and_crank_angle_are_inverse(i3, phi12):
     d = frame_ratio_for_back_step(i3, phi12)
@@ -112,7 +113,7 @@ def test_frame_ratio_and_crank_angle_are_inverse(i3, phi12):
     assert back_step_crank_angle(i3, d) == pytest.approx(phi12, rel=4e-15 * condition)
 
 
-@settings(max_examples=40)
+@examples(40)
 @given(ratios, st.floats(1.02, 30.0), st.sampled_from((1, -1)))
 def test_closed_limits_agree_with_the_general_linkage(i3, d, assembly):
     linkage, train = symmetric_linkage(d, 100.0, assembly), GearTrain(1.0, -i3, 1.0)
@@ -124,7 +125,7 @@ def test_closed_limits_agree_with_the_general_linkage(i3, d, assembly):
     assert peak.greatest == pytest.approx(peak_acceleration_ratio(i3, d), abs=slack * (d + 1.0) / (d - 1.0))
 
 
-@settings(max_examples=50)
+@examples(50)
 @given(ratios, st.floats(0.0, 100.0), st.floats(0.1, 100.0))
 def test_speed_band_is_met(i3, low, width):
     d = frame_ratio_for_speed_band(i3, low, low + width)
@@ -133,7 +134,7 @@ def test_speed_band_is_met(i3, low, width):
     assert (greatest * mean, least * mean) == pytest.approx((low + width, low), abs=1e-14 * (low + width))
 
 
-@settings(max_examples=50)
+@examples(50)
 @given(ratios)
 def test_band_from_standstill_is_the_momentary_dwell(i3):
     assert frame_ratio_for_speed_band(i3, 0.0, 200.0) == pytest.approx(momentary_frame_ratio(i3), rel=1e-15)

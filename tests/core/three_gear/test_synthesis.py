@@ -16,10 +16,11 @@ from pathlib import Path
 import factory
 import mpmath as mp
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from oracles.three_gear import Drive
 from pydantic import ValidationError
+from sweeps import examples
 
 from gearlink.core.errors import MissingSection, NoSolution
 
@@ -227,7 +228,7 @@ def test_idler_left_out_is_the_smallest_that_keeps_the_limits(task, limits):
     assert value(one, "frame_length") == value(other, "frame_length")
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(share=st.floats(0.002, 0.99), crank_angle=st.floats(30.0, 170.0))
 def test_idler_from_back_step_and_crank_angle(share, crank_angle):
     h = mp.radians(crank_angle) / 2

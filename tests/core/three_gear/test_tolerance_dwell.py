@@ -10,8 +10,9 @@ import math
 from pathlib import Path
 
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
+from sweeps import examples
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.fourbar import FourBar
@@ -94,7 +95,7 @@ def test_is_the_longest_interval(linkage, train, degrees, assembly):
     assert found.crank_angle - on_grid < 2.001 * TURN / 360
 
 
-@settings(max_examples=40)
+@examples(40)
 @given(st.floats(0.3, 0.95), st.floats(1.05, 6.0), st.floats(0.02, 0.95), st.booleans())
 def test_mirrored_linkage_dwells_as_long(crank, frame, share, mirror):
     linkage = FourBar(25.0 * crank, 50.0, 100.0, 55.0 + 15.0 * frame)

@@ -12,8 +12,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from sweeps import examples
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.wide_swing.balancing import (
@@ -73,7 +74,7 @@ def test_nothing_is_left_at_the_design_speed() -> None:
 
 
 @given(speed=st.floats(0.05, 2.0).filter(lambda n: abs(n - 1.0) > 1e-3))
-@settings(max_examples=50)
+@examples(50)
 def test_sweep_is_the_peak_of_the_residual(speed: float) -> None:
     sweep = speed_sweep(0.5, LAW, TIME, np.array([speed]))
     peak = float(np.abs(residual_torque(speed, np.linspace(0.0, 1.0, 101))).max())

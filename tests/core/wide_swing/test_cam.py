@@ -18,9 +18,10 @@ from typing import Any
 import mpmath as mp
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from oracles.unloading_limits import pendulum_stretch_ratio
+from sweeps import examples
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.report import safely_below
@@ -181,7 +182,7 @@ def test_run_out_mirrors_the_run_up(layout: Layout) -> None:
 
 
 @given(scale=st.floats(1e-3, 1e4))
-@settings(max_examples=20)
+@examples(20)
 def test_lengths_scale(scale: float) -> None:
     one, other = cam("twin-cam"), cam("twin-cam", scale)
     k = np.array([0.1, 0.4])
@@ -203,7 +204,7 @@ def test_other_laws_serve() -> None:
     cycle=st.floats(0.2, math.pi),
     layout=st.sampled_from(LAYOUTS),
 )
-@settings(max_examples=60)
+@examples(60)
 def test_profile_exists_where_the_arm_is_short(ratio: float, swing: float, cycle: float, layout: Layout) -> None:
     """A twin-cam always exists; a twin-rocker does at least where its arm does not exceed the centre distance."""
     law = ElasticLaw(Pneumatic(ratio), swing)

@@ -12,8 +12,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from sweeps import examples
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.numerics.roots import bracketed_root
@@ -58,7 +59,7 @@ def test_the_dissertation_s_printed_form() -> None:
 
 
 @given(swing=swings, extension=st.floats(1.01, 5.0))
-@settings(max_examples=100)
+@examples(100)
 def test_cylinder_at_the_limit_uses_its_whole_extension(swing: float, extension: float) -> None:
     geometry = DeviceGeometry(Pneumatic(least_pivot_ratio_pneumatic(swing, extension)), swing)
     # lambda - 1 carries the rounding of lambda
@@ -67,7 +68,7 @@ def test_cylinder_at_the_limit_uses_its_whole_extension(swing: float, extension:
 
 
 @given(swing=swings, stretch=st.floats(0.0, 3.0), closed=st.floats(1.0, 500.0), fittings=st.floats(0.0, 100.0))
-@settings(max_examples=100)
+@examples(100)
 def test_spring_at_the_limit_just_fits(swing: float, stretch: float, closed: float, fittings: float) -> None:
     ratio = least_pivot_ratio_spring(swing, stretch, 120.0, closed, fittings)
     geometry = DeviceGeometry(Spring(ratio, stretch), swing)
@@ -92,7 +93,7 @@ def test_small_swings_keep_their_digits() -> None:
 
 
 @given(swing=swings, ratio=st.floats(1.001, 100.0), u=st.floats(0.0, 1.0))
-@settings(max_examples=100)
+@examples(100)
 def test_stable_lengths_equal_the_law_of_cosines(swing: float, ratio: float, u: float) -> None:
     geometry = DeviceGeometry(Spring(ratio, 0.3), swing)
     sine = np.array([u])

@@ -17,7 +17,7 @@ from typing import Any
 import mpmath as mp
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from oracles.unloading_limits import (
     pendulum_displacement,
@@ -26,6 +26,7 @@ from oracles.unloading_limits import (
     small_swing_peaks,
     touching_pins_energy_parameter,
 )
+from sweeps import examples
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.wide_swing.device import Device
@@ -153,7 +154,7 @@ def test_time_by_gauss_legendre_in_another_variable(device: Device, swing: float
 
 
 @given(device=devices, swing=swings)
-@settings(max_examples=60)
+@examples(60)
 def test_invariants_are_each_other_s_integrals(device: Device, swing: float) -> None:
     """24 Gauss points on each of 8 panels of half a stroke: the integrand's own rounding remains."""
     law = ElasticLaw(device, swing)
@@ -167,7 +168,7 @@ def test_invariants_are_each_other_s_integrals(device: Device, swing: float) -> 
 
 
 @given(device=devices, swing=swings, k=st.floats(0.0, 1.0))
-@settings(max_examples=150)
+@examples(150)
 def test_symmetry_about_mid_swing_and_energy(device: Device, swing: float, k: float) -> None:
     law = ElasticLaw(device, swing)
     a, b, c, jerk = law.evaluate(k, 3)
@@ -186,7 +187,7 @@ def test_symmetry_about_mid_swing_and_energy(device: Device, swing: float, k: fl
 
 
 @given(device=devices, swing=swings)
-@settings(max_examples=60)
+@examples(60)
 def test_acceleration_peak_is_the_largest_of_a_fine_sweep(device: Device, swing: float) -> None:
     law = ElasticLaw(device, swing)
     sweep = float(np.max(law.invariants(np.linspace(0.0, 0.5, 401))[2]))

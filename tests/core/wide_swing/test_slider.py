@@ -12,8 +12,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from sweeps import examples
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.wide_swing.elastic_law import ElasticLaw, Pneumatic, Spring
@@ -59,7 +60,7 @@ def test_rocker_alone_is_the_plain_law() -> None:
     offset=st.floats(-0.4, 0.4),
     share=st.floats(0.02, 1.0),
 )
-@settings(max_examples=40)
+@examples(40)
 def test_invariants_are_each_other_s_integrals(
     ratio: float, swing: float, rod: float, offset: float, share: float
 ) -> None:

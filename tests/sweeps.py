@@ -1,0 +1,31 @@
+"""How far the tests that try many inputs go: `make test` takes a share, `make check-full` all."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from typing import Any
+
+import pytest
+from hypothesis import settings
+
+ALL = os.environ.get("GEARLINK_EXAMPLES") == "all"
+SHARE = 4
+FEWEST = 15
+
+
+def examples(count: int) -> Any:
+    """So many examples of a property in `make check-full`, a quarter of them in `make test`, at least 15.
+
+    The cases that a property test must not miss stand beside it as examples of their own or as reference cases.
+    """
+    return settings(max_examples=count if ALL else max(count // SHARE, min(count, FEWEST)))
+
+
+def mostly_slow(cases: Sequence[Any], quick: int) -> list[Any]:
+    """Cases for `pytest.mark.parametrize`, of which all but the first few belong to `make check-full` alone."""
+    return [*cases[:quick], *(pytest.param(*_row(case), marks=pytest.mark.slow) for case in cases[quick:])]
+
+
+def _row(case: Any) -> tuple[Any, ...]:
+    return case if isinstance(case, tuple) else (case,)
