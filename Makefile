@@ -20,9 +20,16 @@ $(READY): pyproject.toml
 	$(BIN)/python -m compileall -q core cli designs
 	touch $(READY)
 
+# Two results, each short enough for a screen; without --quantity a command shows all of its results and checks.
 demo: $(READY)
-	$(BIN)/gearlink synth dwell designs/candy_feed.yaml
-	$(BIN)/gearlink cam designs/ty460.yaml --plot
+	@echo 'A feed that stands still over 135 deg of crank angle (designs/candy_feed.yaml):'
+	$(BIN)/gearlink synth dwell designs/candy_feed.yaml $(patsubst %,--quantity %,$(DEMO_DWELL))
+	@echo; echo 'The cams of a flatbed press (designs/ty460.yaml):'
+	$(BIN)/gearlink cam designs/ty460.yaml --plot $(patsubst %,--quantity %,$(DEMO_CAM))
+	@echo 'The picture is $(CURDIR)/TY-460-cam.png'
+
+DEMO_DWELL := crank_length coupler_length rocker_length frame_length dwell_angle min_transmission_angle gear_gap
+DEMO_CAM := follower_stroke max_pressure_angle min_curvature_radius min_radius max_radius
 
 test: $(READY)
 	$(PYTEST)

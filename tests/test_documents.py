@@ -6,9 +6,11 @@ Times in milliseconds are skipped.
 
 from __future__ import annotations
 
+import math
 import os
 import re
 import shlex
+import subprocess
 from pathlib import Path
 from typing import Any
 
@@ -99,6 +101,27 @@ def test_make_targets_of_the_readme_exist() -> None:
     makefile = (ROOT / "Makefile").read_text()
     for target in re.findall(r"^make (\w+)", (ROOT / "README.md").read_text(), re.MULTILINE):
         assert re.search(rf"^{target}:", makefile, re.MULTILINE), target
+
+
+def test_demo_fits_a_screen(gearlink: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Both results of `make demo`, the lines that make shows of them and what it says, on 24 lines of 80."""
+    monkeypatch.setenv("COLUMNS", "80")
+    recipe = subprocess.run(["make", "-n", "demo"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    lines = [line for line in recipe.splitlines() if re.match(r"\S+/gearlink |echo", line)]
+    commands = [line.split()[1:] for line in lines if "/gearlink" in line]
+    assert [command[:3] for command in commands] == [
+        ["synth", "dwell", "designs/candy_feed.yaml"],
+        ["cam", "designs/ty460.yaml", "--plot"],
+    ]
+    shown = sum(math.ceil(len(line) / 80) for line in lines)
+    monkeypatch.chdir(ROOT)
+    for command in commands:
+        ended = gearlink(*command, "--out", tmp_path)
+        assert ended.status == ExitCode.OK
+        shown += (ended.out + ended.err).count("\n")
+    assert shown <= 24
+    assert str(ROOT / "TY-460-cam.png") in lines[-1]
+    assert (tmp_path / "TY-460-cam.png").exists()
 
 
 def test_ci_runs_the_check() -> None:

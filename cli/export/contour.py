@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
 
-from gearlink.cli.export.options import CurveForm
+from gearlink.cli.export.options import MOST_TOLERANCE, CurveForm
 from gearlink.cli.export.sampling import (
     MOST_POINTS,
     Points,
@@ -68,36 +69,47 @@ class Line:
 
     Attributes
         layer : str
-        pieces : the sampled stretches, each with this curve alone
+        pieces : the sampled stretches, each with this curve alone; of a gear those of one pitch
+        turns : unit vectors - the places about the axis at which the pieces stand, one after the other
         closed : bool - the last node of the last piece is the first node of the first, to the bit
     """
 
     layer: str
     pieces: tuple[Sampled, ...]
     closed: bool
+    turns: Points
 
     @cached_property
     def nodes(self) -> Points:
         """Every node once; of a closed line the last is the first again."""
-        shared = [piece.nodes[0, :-1] for piece in self.pieces]
-        return np.concatenate([*shared, self.pieces[-1].nodes[0, -1:]])
+        return self._whole([piece.nodes[0] for piece in self.pieces])
 
     @cached_property
     def control(self) -> Points:
         """Control points of the pieces' cubics as those of one B-spline."""
-        shared = [piece.control[0, :-1] for piece in self.pieces]
-        return np.concatenate([*shared, self.pieces[-1].control[0, -1:]])
+        return self._whole([piece.control[0] for piece in self.pieces])
+
+    def _whole(self, rows: list[Points]) -> Points:
+        points = self.repeated(np.concatenate([row[:-1] for row in rows]))
+        return np.concatenate([points, points[:1] if self.closed else rows[-1][-1:]])
+
+    def repeated(self, points: Points) -> Points:
+        """The points of the pieces, turned into each of their places."""
+        return (self.turns[:, None] * points).ravel()
 
     @cached_property
     def knots(self) -> Reals:
         """Its knots, about the length along the line: threefold where pieces meet, for a vertex may be a corner."""
-        rows, start = [np.zeros(1)], 0.0
+        rows, start = [], 0.0
         for piece in self.pieces:
             length = float(np.abs(np.diff(piece.nodes[0])).sum())
             scale = length / float(piece.knots[-1] - piece.knots[0])
             rows.append(start + scale * (piece.knots[1:-4] - piece.knots[0]))
             start += length
-        return np.concatenate([*rows, np.full(4, start)])
+        places = start * np.arange(self.turns.size + 1)
+        return np.concatenate(
+            [[0.0], np.add.outer(places[:-1], np.concatenate(rows)).ravel(), np.repeat(places[-1], 4)]
+        )
 
 
 @dataclass(frozen=True)
@@ -105,7 +117,8 @@ class Contour:
     """A sampled part.
 
     Attributes
-        pieces : the stretches, unfolded and joined
+        pieces : the stretches, joined; of a gear those of one pitch, both halves of it
+        turns : unit vectors - the places of the pieces: one, or one for each tooth
         error : float [mm] - greatest distance of any curve from its chords or cubics
     """
 
@@ -113,6 +126,7 @@ class Contour:
     form: CurveForm
     tolerance: float
     pieces: tuple[Sampled, ...]
+    turns: Points
     error: float
 
     @cached_property
@@ -134,8 +148,8 @@ class Contour:
         yield self._line(layer, run)
 
     def _line(self, layer: str, run: list[Sampled]) -> Line:
-        closed = self.part.closed and bool(run[-1].nodes[0, -1] == run[0].nodes[0, 0])
-        return Line(layer, tuple(run), closed)
+        gap = abs(run[-1].nodes[0, -1] - _step(self.turns) * run[0].nodes[0, 0])
+        return Line(layer, tuple(run), self.part.closed and bool(gap <= JOIN), self.turns)
 
     @property
     def points(self) -> int:
@@ -153,30 +167,51 @@ def contour(part: Part, tolerance: float, form: CurveForm) -> Contour:
     Returns
         contour : Contour
     Raises
-        TooFine - where the tolerance asks for more than a million points
+        TooFine - where the tolerance asks for more than MOST_POINTS, with the tolerance that does not
         NoSolution - where a curve does not exist
     """
-    copies = max(1, 2 * part.teeth)
-    most = MOST_POINTS // copies
+    try:
+        sampled = _sampled(part, tolerance, form, MOST_POINTS)
+    except TooFine as error:
+        raise TooFine(tolerance, _remedy(part, tolerance, form)) from error
+    copies = max(1, part.teeth)
+    turns = np.exp(2j * math.pi / copies * np.arange(copies))
+    pieces, gap = _joined(sampled, part.closed, _step(turns))
+    return Contour(part, form, tolerance, tuple(pieces), turns, max(piece.error for piece in sampled) + gap)
+
+
+def _sampled(part: Part, tolerance: float, form: CurveForm, most: int) -> list[Sampled]:
+    """The stretches as nodes; of a gear those of one pitch, of which so many make up the gear that `most` count."""
+    most //= max(1, part.teeth)
     sampled = [sample(stretch, tolerance, form, most) for stretch in part.stretches]
-    if sum(piece.parameter.size for piece in sampled) > most:
+    if part.teeth:
+        sampled = [piece.mirrored() for piece in reversed(sampled)] + sampled
+    if sum(piece.parameter.size - 1 for piece in sampled) > most:
         raise TooFine(tolerance)
-    pieces = _unfolded(sampled, part.teeth) if part.teeth else sampled
-    pieces, gap = _joined(pieces, part.closed)
-    return Contour(part, form, tolerance, tuple(pieces), max(piece.error for piece in sampled) + gap)
+    return sampled
 
 
-def _unfolded(half: list[Sampled], teeth: int) -> list[Sampled]:
-    """All pitches of a gear from the half of one."""
-    space = [piece.mirrored() for piece in reversed(half)] + half
-    turns = np.exp(2j * math.pi / teeth * np.arange(teeth))
-    return [piece.turned(complex(turn)) for turn in turns for piece in space]
+def _remedy(part: Part, tolerance: float, form: CurveForm) -> str:
+    """The least round tolerance that works, or the number of teeth that does."""
+    steps = [digit * 10.0**power for power in range(-5, 2) for digit in (1, 2, 5)]
+    for coarser in (step for step in steps if tolerance < step <= MOST_TOLERANCE):
+        with suppress(TooFine):
+            _sampled(part, coarser, form, MOST_POINTS)
+            return f"raise --tolerance to {coarser:g}"
+    least = sum(piece.parameter.size - 1 for piece in _sampled(part, MOST_TOLERANCE, form, MOST_POINTS * part.teeth))
+    other = "" if form is CurveForm.POLYLINE else ", or take --curve polyline"
+    return f"a file holds a gear of at most {MOST_POINTS // least} teeth{other}"
 
 
-def _joined(pieces: list[Sampled], closed: bool) -> tuple[list[Sampled], float]:
+def _step(turns: Points) -> complex:
+    """The turn from one place of the pieces to the next."""
+    return complex(turns[1 % turns.size])
+
+
+def _joined(pieces: list[Sampled], closed: bool, step: complex) -> tuple[list[Sampled], float]:
     """Ends of stretches that meet made the same to the bit, and the greatest gap that was there."""
     gap, joined = 0.0, []
-    followers = [*pieces[1:], pieces[0] if closed else None]
+    followers = [*pieces[1:], pieces[0].turned(step) if closed else None]
     for piece, following in zip(pieces, followers, strict=True):
         nodes, control = piece.nodes, piece.control
         for row, layer in enumerate(piece.stretch.layers):

@@ -6,6 +6,7 @@ import csv
 import io
 import math
 from collections.abc import Iterator
+from itertools import chain, repeat
 from typing import Any
 
 from gearlink.cli.export.contour import Contour, rows_of
@@ -35,10 +36,22 @@ def _rows(contour: Contour) -> Iterator[list[Any]]:
     leading = [head for head in contour.part.extra_columns if head in ("k", "cam_angle [deg]")]
     trailing = [head for head in contour.part.extra_columns if head not in leading]
     yield [*leading, *(head for layer in layers for head in _HEADS[layer]), *trailing, "curve"]
+    if contour.part.teeth:
+        yield from _tooth_by_tooth(contour)
+        return
     for piece, shown in rows_of(contour.pieces):
         columns = _columns(piece, layers, contour.part.extra_columns, len(leading))
         for row in zip(*(column[shown] for column in columns), strict=True):
             yield [*(_cell(value) for value in row), piece.stretch.name]
+
+
+def _tooth_by_tooth(contour: Contour) -> Iterator[list[Any]]:
+    """Rows of a gear: x, y and the name of the curve."""
+    (line,) = contour.lines
+    names = [piece.stretch.name for piece in line.pieces for _ in piece.parameter[1:]]
+    curves = chain(*repeat(names, contour.part.teeth), names[-1:])
+    nodes = line.nodes
+    yield from map(list, zip(nodes.real.tolist(), nodes.imag.tolist(), curves, strict=True))
 
 
 def _columns(

@@ -8,9 +8,12 @@ from contextlib import contextmanager
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from gearlink.cli.export.contour import Contour, Line
 from gearlink.cli.export.header import describe
 from gearlink.cli.export.options import CurveForm
+from gearlink.cli.export.sampling import Points
 from gearlink.core.errors import GearlinkError
 
 if TYPE_CHECKING:
@@ -87,12 +90,36 @@ def _add_line(space: Modelspace, line: Line, form: CurveForm) -> None:
     attributes = {"layer": line.layer}
     if form is CurveForm.POLYLINE:
         nodes = line.nodes[:-1] if line.closed else line.nodes
-        space.add_lwpolyline([(p.real, p.imag) for p in nodes.tolist()], close=line.closed, dxfattribs=attributes)
+        polyline = space.add_lwpolyline([], close=line.closed, dxfattribs=attributes)
+        polyline.lwpoints = _points(nodes)
         return
     spline = space.add_spline(dxfattribs=attributes)
-    spline.control_points = [(p.real, p.imag, 0.0) for p in line.control.tolist()]
-    spline.knots = line.knots.tolist()
+    spline.control_points = np.column_stack([line.control.real, line.control.imag, np.zeros(line.control.size)])
+    spline.knots = line.knots
     spline.closed = line.closed
+    spline.export_spline_data = lambda tagwriter: tagwriter.write_str(_spline_text(line))  # type: ignore[method-assign]
+
+
+def _spline_text(line: Line) -> str:
+    knots = [f" 40\n{knot}\n" for knot in line.knots.tolist()]
+    return "".join([*knots, *(f" 10\n{p.real}\n 20\n{p.imag}\n 30\n0.0\n" for p in line.control.tolist())])
+
+
+def _points(nodes: Points) -> Any:
+    """Vertices of a polyline that write their text at once: ezdxf makes four objects of each, and a gear has 1e5."""
+    from ezdxf.entities.lwpolyline import LWPolylinePoints
+
+    class Text:
+        def dxfstr(self) -> str:
+            return "".join([f" 10\n{point.real}\n 20\n{point.imag}\n" for point in nodes.tolist()])
+
+    class Written(LWPolylinePoints):
+        def dxftags(self) -> Iterator[Any]:
+            yield Text()
+
+    points = Written()
+    points.values = np.pad(np.column_stack([nodes.real, nodes.imag]), ((0, 0), (0, 3)))
+    return points
 
 
 def _add_center(space: Modelspace, reach: float) -> None:

@@ -79,7 +79,7 @@ def bezier(line: Line) -> Points:
     """Control points of a line's spline as a chain of Bezier cubics, three to a cubic after the first point."""
     from scipy.interpolate import BSpline
 
-    chain = [line.control[:1]]
+    chain = []
     for piece in line.pieces:
         knots, control = piece.knots, piece.control[0]
         places = np.unique(knots)
@@ -89,7 +89,9 @@ def bezier(line: Line) -> Points:
         values[0], values[-1] = control[0], control[-1]
         cubics = np.stack([values[:-1] + third * slopes[:-1], values[1:] - third * slopes[1:], values[1:]], axis=1)
         chain.append(cubics.ravel())
-    return np.concatenate(chain)
+    points = np.concatenate([line.control[:1], line.repeated(np.concatenate(chain))])
+    points[-1] = line.control[-1]
+    return points
 
 
 def _complex(rows: Any) -> Points:

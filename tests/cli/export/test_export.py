@@ -13,12 +13,14 @@ import re
 import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
+from collections import Counter
 from pathlib import Path
 from typing import Any
 
 import ezdxf
 import pytest
 
+from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.export.header import rounded_up
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -214,12 +216,39 @@ def test_a_tolerance_out_of_range(gearlink: Any, tmp_path: Path, tolerance: str)
     assert not list(tmp_path.iterdir())
 
 
-def test_more_points_than_a_file_should_hold(gearlink: Any, tmp_path: Path) -> None:
-    many = ("--set", "teeth=[9000, 9000]", "--set", "center_distance=36000")
-    ended = gearlink("export", GEARS, *many, "--tolerance", 1e-5, "--out", tmp_path)
-    assert ended.status == 2
-    assert "raise --tolerance" in ended.err
-    assert not list(tmp_path.iterdir())
+@pytest.mark.parametrize("more", [(), ("--curve", "spline"), ("--as", "svg")])
+@pytest.mark.parametrize("teeth", [9000, 2000])
+def test_what_a_refusal_of_too_many_points_recommends_works(
+    gearlink: Any, tmp_path: Path, teeth: int, more: tuple[str, ...]
+) -> None:
+    def asked(count: int, *options: object) -> Any:
+        pair = ("--set", f"teeth=[{count}, {count}]", "--set", f"center_distance={4 * count}")
+        return gearlink("export", GEARS, *pair, *more, *options, "--part", "gear1", "--out", tmp_path)
+
+    ended = asked(teeth, "--tolerance", 1e-5)
+    assert ended.status == ExitCode.WRONG_INPUT
+    remedy = re.search(r"needs more than 100000 points: (raise --tolerance to (\S+)|.* at most (\d+) teeth)", ended.err)
+    assert remedy
+    if remedy[2]:
+        assert asked(teeth, "--tolerance", remedy[2]).status == ExitCode.OK
+    else:
+        assert asked(int(remedy[3]), "--tolerance", 10).status == ExitCode.OK
+        assert asked(int(remedy[3]) + 1, "--tolerance", 10).status == ExitCode.WRONG_INPUT
+
+
+def test_a_gear_of_a_thousand_teeth_is_written_in_bounded_work(gearlink: Any, tmp_path: Path) -> None:
+    """Each vertex is written once: what copied the polyline for every vertex called numpy 40,000 times."""
+    many = ("--set", "teeth=[1000, 1000]", "--set", "center_distance=4000", "--part", "gear1", "--out", tmp_path)
+    calls = Counter[str]()
+    sys.setprofile(lambda *call: calls.update([call[1]]))
+    try:
+        ended = gearlink("export", GEARS, *many)
+    finally:
+        sys.setprofile(None)
+    assert ended.status == ExitCode.OK
+    points = int(re.search(r": (\d+) points", ended.out)[1])  # type: ignore[index]
+    assert points > 50_000
+    assert calls["call"] < 3 * points
 
 
 def test_a_wrong_file_is_located(gearlink: Any, tmp_path: Path) -> None:

@@ -325,7 +325,8 @@ def test_flanks_are_involutes(spec: dict[str, Any], number: int) -> None:
     exported = made(design, f"gear{number + 1}")
     z, alpha = gears.teeth[number], gears.pressure_angle
     tooth = gears.tooth_thickness[number] / (2.0 * gears.reference_radius[number])
-    flanks = [piece.nodes[0] for piece in exported.pieces if piece.stretch.name == "involute"]
+    pitch_of_pieces = [piece.nodes[0] for piece in exported.pieces if piece.stretch.name == "involute"]
+    flanks = [turn * nodes for turn in exported.turns for nodes in pitch_of_pieces]
     assert len(flanks) == 2 * z
     points = np.concatenate(flanks)
     pitch = 2.0 * math.pi / z
