@@ -14,6 +14,8 @@ $(READY): pyproject.toml
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
 	mkdir -p .types/gearlink
+	ln -sfn ../../cli/door/__init__.py .types/gearlink/__init__.py
+	ln -sfn ../../cli/door/py.typed .types/gearlink/py.typed
 	ln -sfn ../../core .types/gearlink/core
 	ln -sfn ../../cli .types/gearlink/cli
 	ln -sfn ../../designs .types/gearlink/designs

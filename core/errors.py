@@ -6,7 +6,12 @@ from typing import Literal
 
 
 class GearlinkError(Exception):
-    """Base of every error that is the user's to repair."""
+    """Base of every error that is the user's to repair, with its place in a design file where that is known."""
+
+    file = ""
+    line = 0
+    column = 0
+    key = ""
 
 
 class NoSolution(GearlinkError):

@@ -121,6 +121,23 @@ class Table:
         data, units = zip(*columns.values(), strict=True)
         return cls(name, tuple(columns), units, data)
 
+    def __getitem__(self, column: str) -> NDArray[Any]:
+        """A column by name, as an array.
+
+        Raises
+            KeyError - for a name that is not among the columns
+        """
+        import numpy as np
+
+        if column not in self.columns:
+            raise KeyError(f"no column {column!r}; the columns are {', '.join(self.columns)}")
+        return np.asarray(self.data[self.columns.index(column)])
+
+    def _repr_html_(self) -> str:
+        from gearlink.core.notebook import table_as_html
+
+        return table_as_html(self)
+
     @property
     def length(self) -> int:
         """How many rows it has."""
@@ -150,6 +167,11 @@ class Report:
     quantities: tuple[Quantity, ...] = ()
     checks: tuple[Check, ...] = ()
     tables: tuple[Table, ...] = field(default=())
+
+    def _repr_html_(self) -> str:
+        from gearlink.core.notebook import report_as_html
+
+        return report_as_html(self)
 
     @property
     def ok(self) -> bool:

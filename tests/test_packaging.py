@@ -9,18 +9,23 @@ ROOT = Path(__file__).resolve().parents[1]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
 
 
+PLACES = {
+    name: PROJECT["tool"]["setuptools"]["package-dir"].get(name, name.removeprefix("gearlink.").replace(".", "/"))
+    for name in PROJECT["tool"]["setuptools"]["packages"]
+}
+
+
 def test_packages_are_those_on_the_disk() -> None:
     on_disk = {
-        "gearlink." + str(path.parent.relative_to(ROOT)).replace("/", ".")
+        path.parent.relative_to(ROOT).as_posix()
         for top in ("core", "cli", "designs")
         for path in (ROOT / top).rglob("*.py")
     }
-    assert set(PROJECT["tool"]["setuptools"]["packages"]) == on_disk
+    assert set(PLACES.values()) == on_disk
 
 
 def test_every_package_has_an_init() -> None:
-    for name in PROJECT["tool"]["setuptools"]["packages"]:
-        assert (ROOT / name.removeprefix("gearlink.").replace(".", "/") / "__init__.py").exists()
+    assert [name for name, place in PLACES.items() if not (ROOT / place / "__init__.py").exists()] == []
 
 
 def test_no_test_package() -> None:

@@ -75,14 +75,32 @@ def parse(data: bytes, file: str, *, overrides: Sequence[str] = ()) -> LoadedFil
         wrong += error.diagnostics
     loaded = LoadedFile(file, tree.data if tree else {}, tree or Tree(Source(file, ""), {}, None, 0))
     loaded.problems += loaded.tree.problems
+    wrong += _put_in(loaded, overrides)
+    if wrong:
+        raise DesignFileError([*loaded.problems, *wrong])
+    return loaded
+
+
+def with_overrides(loaded: LoadedFile, overrides: Sequence[str]) -> LoadedFile:
+    """The same file with further `--set` arguments put in.
+
+    Raises
+        DesignFileError - GL110, GL114 for arguments that cannot be read or have no place
+    """
+    copy = replace(loaded, overrides=list(loaded.overrides))
+    if wrong := _put_in(copy, overrides):
+        raise DesignFileError(wrong)
+    return copy
+
+
+def _put_in(loaded: LoadedFile, overrides: Sequence[str]) -> list[Diagnostic]:
+    wrong: list[Diagnostic] = []
     for argument in overrides:
         try:
             _apply(loaded, _override(argument))
         except DesignFileError as error:
             wrong += error.diagnostics
-    if wrong:
-        raise DesignFileError([*loaded.problems, *wrong])
-    return loaded
+    return wrong
 
 
 def read_kind(loaded: LoadedFile, kinds: Sequence[str]) -> str:

@@ -65,6 +65,8 @@ class DesignFileError(GearlinkError):
             message = f"{omitted} more errors are not shown"
             self.diagnostics.append(replace(self.diagnostics[-1], code="GL110", message=message, key="", help=""))
         super().__init__(self.diagnostics)
+        first = self.diagnostics[0]
+        self.file, self.line, self.column, self.key = first.file, first.line, first.column, first.key
 
     def __str__(self) -> str:
         return self.as_text()

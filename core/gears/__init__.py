@@ -2,3 +2,19 @@
 
 Begin with `pair` (a gear pair as a record) and `design` (the kind `gear-pair`).
 """
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from gearlink.core.gears.pair import GearPair as GearPair
+
+_PLACES = {"GearPair": "pair"}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _PLACES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.{_PLACES[name]}"), name)

@@ -3,3 +3,20 @@
 Begin with `fourbar` (one position, `math` alone) or `fourbar_sweep` (arrays); the second way is `fourbar_newton`.
 The kinds `slider-crank` and `gear-train-mobility`, which are bare linkages, stand here too.
 """
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from gearlink.core.linkages.fourbar import FourBar as FourBar
+    from gearlink.core.linkages.slider_crank import SliderCrank as SliderCrank
+
+_PLACES = {"FourBar": "fourbar", "SliderCrank": "slider_crank"}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _PLACES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.{_PLACES[name]}"), name)

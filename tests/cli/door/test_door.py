@@ -1,0 +1,164 @@
+"""The door for Python: what `import gearlink` gives, how little it costs, and where its errors point.
+
+Numbers that the door gives are those of the engine, so they are compared for equality.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import pickle
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import gearlink
+from gearlink.core.kinds import KINDS
+
+CRANK = {"kind": "slider-crank", "stroke": 310, "rod": 520, "offset": 50}
+PAIR = {"kind": "gear-pair", "module": 4, "teeth": (72, 72), "center_distance": 290.2912330746487}
+
+
+def loaded_after(code: str) -> set[str]:
+    """Modules that a fresh interpreter has imported after some code."""
+    command = [sys.executable, "-c", f"{code}; import json, sys; print(json.dumps(sorted(sys.modules)))"]
+    return set(json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout))
+
+
+def test_import_costs_one_module() -> None:
+    assert {m for m in loaded_after("import gearlink") - loaded_after("pass") if not m.startswith("__editable__")} == {
+        "gearlink"
+    }
+
+
+def test_numbers_need_no_numpy() -> None:
+    code = f"import gearlink; gearlink.design(**{CRANK}).crank_length"
+    assert not {"numpy", "scipy", "matplotlib", "typer", "rich"} & loaded_after(code)
+
+
+def test_load_gives_what_the_file_asks_for(designs: Path) -> None:
+    assert gearlink.load(designs / "candy_feed.yaml").dwell_angle == math.radians(135)
+    assert type(gearlink.load(designs / "candy_feed.yaml")).__name__ == "DwellSynthesis"
+    press = gearlink.load(designs / "ty460.yaml")
+    quantity = press.quantity("crank_length")
+    assert quantity is not None
+    assert (quantity.value, quantity.unit) == (press.crank_length, "mm")
+    assert press.spec.name == "TY-460"
+
+
+def test_values_are_put_over_the_file(designs: Path) -> None:
+    press = gearlink.load(designs / "ty460.yaml", {"bed.stroke": 600, "cam.return_law": "modified-sine"})
+    assert press.spec.bed.stroke == 600
+    assert press.spec.cam.return_law == "modified-sine"
+
+
+def test_design_by_keywords_is_the_design_of_a_file(tmp_path: Path) -> None:
+    path = tmp_path / "crank.yaml"
+    path.write_text(json.dumps(CRANK))
+    assert gearlink.design(**CRANK).crank_length == gearlink.load(path).crank_length
+    assert gearlink.design(**CRANK).spec.name == "design"
+
+
+def test_tuples_and_numpy_are_lists_and_numbers() -> None:
+    pair = gearlink.design(**{**PAIR, "teeth": np.array([72, 72]), "module": np.float64(4.0)})
+    assert pair.working_pressure_angle == gearlink.design(**PAIR).working_pressure_angle
+
+
+def test_changed_leaves_the_design_as_it_is(designs: Path) -> None:
+    crank = gearlink.load(designs / "ty460_slider_crank.yaml")
+    before = crank.crank_length
+    other = gearlink.changed(gearlink.changed(crank, {"stroke": 320}), {"rod": 530})
+    assert (other.spec.stroke, other.spec.rod, crank.spec.stroke) == (320, 530, 310)
+    assert other.crank_length != before == crank.crank_length
+
+
+def test_only_what_the_door_made_can_be_changed() -> None:
+    kind = KINDS["slider-crank"]
+    bare = kind.design_class("crank")(kind.spec_model()(**CRANK))
+    with pytest.raises(TypeError, match=r"gearlink\.load"):
+        gearlink.changed(bare, {"stroke": 300})
+
+
+def test_every_quantity_is_an_attribute(designs: Path) -> None:
+    for path in sorted(designs.glob("*.yaml")):
+        made = gearlink.load(path)
+        for name in made.quantity_names():
+            if "." not in name:
+                assert hasattr(type(made), name) or name in dir(made), (path.name, name)
+
+
+class TestErrors:
+    def test_wrong_key_has_its_place(self, tmp_path: Path) -> None:
+        path = tmp_path / "wrong.yaml"
+        path.write_text("kind: slider-crank\nstroke: 310\nrood: 520\n")
+        with pytest.raises(gearlink.GearlinkError, match="unknown key 'rood'") as caught:
+            gearlink.load(path)
+        error = caught.value
+        assert (error.file, error.line, error.column, error.key) == (str(path), 1, 1, "rod")
+        assert [d.line for d in error.diagnostics] == [1, 3]
+
+    def test_refusal_has_its_place(self, tmp_path: Path) -> None:
+        path = tmp_path / "long.yaml"
+        path.write_text("kind: slider-crank\nstroke: 1100\nrod: 520\n")
+        crank = gearlink.load(path)
+        with pytest.raises(gearlink.NoSolution, match="too long") as caught:
+            _ = crank.crank_length
+        error = caught.value
+        assert (error.file, error.line, error.column, error.key) == (str(path), 2, 1, "stroke")
+
+    def test_unknown_kind_and_command(self) -> None:
+        with pytest.raises(gearlink.GearlinkError, match="did you mean gear-pair"):
+            gearlink.design(kind="gear-pear")
+        with pytest.raises(gearlink.GearlinkError, match="does not apply"):
+            gearlink.design("press", **CRANK)
+
+    def test_no_such_name(self) -> None:
+        with pytest.raises(AttributeError, match="'loaad'"):
+            gearlink.loaad  # noqa: B018
+
+
+def test_table_columns_are_arrays(designs: Path) -> None:
+    table = gearlink.load(designs / "ty460.yaml").table("positions", samples=36)
+    assert table["input_angle"].shape == (36,)
+    assert isinstance(table["bed_velocity"], np.ndarray)
+    with pytest.raises(KeyError, match="the columns are"):
+        table["bed"]
+
+
+def test_notebooks_show_reports_and_tables(designs: Path) -> None:
+    report = gearlink.load(designs / "ty460.yaml").report("press")
+    html = report._repr_html_()
+    assert html.count("<table>") == 2 + len(report.tables)
+    assert "crank_length" in html
+    assert "GL303 transmission-angle" in html
+    hostile = gearlink.design(**{**CRANK, "name": "<script>"}).report("crank")
+    assert "<script>" not in hostile._repr_html_()
+
+
+def test_long_tables_show_their_ends(designs: Path) -> None:
+    table = gearlink.load(designs / "ty460.yaml").table("positions", samples=360)
+    assert table._repr_html_().count("<tr>") == 1 + 10 + 1 + 10
+
+
+def test_figure_is_the_sheet(designs: Path) -> None:
+    figure = gearlink.figure(gearlink.load(designs / "ty460_slider_crank.yaml"))
+    assert figure.axes
+
+
+def test_kernels_stand_in_their_packages() -> None:
+    from gearlink.core.cams import law
+    from gearlink.core.gears import GearPair
+    from gearlink.core.linkages import FourBar
+
+    assert GearPair.from_shift(4.0, (72, 72)).contact_ratio > 1.0
+    assert FourBar(18.0, 50.0, 100.0, 121.4).kind() == "crank-rocker"
+    assert law("modified-sine").evaluate(1.0, 0)[0] == 1.0
+
+
+def test_designs_travel_between_processes(designs: Path) -> None:
+    crank: Any = pickle.loads(pickle.dumps(gearlink.load(designs / "ty460_slider_crank.yaml")))
+    assert crank.crank_length == gearlink.load(designs / "ty460_slider_crank.yaml").crank_length
