@@ -137,7 +137,7 @@ def back_step(linkage: FourBar, train: GearTrain) -> BackStep:
     if output_acceleration(linkage, train, start) > 0.0:
         start, end = end, start
     width = wrap(end - start)
-    return BackStep(start, end, width, -_gain(linkage, train, start, width))
+    return BackStep(start, end, width, -gain(linkage, train, start, width))
 
 
 def dwell_angle(linkage: FourBar, train: GearTrain, step: BackStep) -> float:
@@ -159,10 +159,10 @@ def dwell_angle(linkage: FourBar, train: GearTrain, step: BackStep) -> float:
     Source
         own derivation; thesis (4-17) takes 1.5 phi12
     """
-    return bracketed_root(lambda x: _gain(linkage, train, step.start, x), step.crank_angle, 2.0 * math.pi)
+    return bracketed_root(lambda x: gain(linkage, train, step.start, x), step.crank_angle, 2.0 * math.pi)
 
 
-def _gain(linkage: FourBar, train: GearTrain, start: float, length: float) -> float:
+def gain(linkage: FourBar, train: GearTrain, start: float, length: float) -> float:
     """Output angle gained over a crank interval, without cancellation where the interval is short.
 
     The speed is analytic in a strip around the real crank angles: gamma reaches 0 or pi, or B reaches D, no nearer to

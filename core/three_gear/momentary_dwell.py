@@ -18,7 +18,6 @@ from dataclasses import dataclass
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.fourbar import FourBar
-from gearlink.core.numerics.roots import bracketed_root
 
 
 @dataclass(frozen=True, slots=True)
@@ -249,16 +248,46 @@ def _wanted(r1: float, r3: float, r5: float, eccentricity: float) -> Tangency:
     return tangency(r1, r3, r5, eccentricity)
 
 
-def crank_with_room(r1: float, r3: float, r5: float, distance: float) -> float | None:
-    """Longest crank of a momentary-dwell design that keeps B so far from D; None where none does.
+def eccentricity_for_frame(r1: float, r3: float, r5: float, frame: float) -> float:
+    """Crank length whose momentary dwell has a given frame.
 
-    d*(e) - e >= distance;   d* falls as e rises
+    e^2 = r1^2 - (d^2 - r5^2)/kappa,   kappa = (U + V)^2/r1^2 - 1
 
     Parameters
         r1, r3, r5 : float [mm] - reference radii
-        distance : float [mm] - sum of the tip radii of gears 1 and 5 and the wanted gap
+        frame : float [mm] - d*(e_up) < d < d*(e_lo)
     Returns
-        crank : float [mm] - to 1e-6 of r1, on the safe side
+        eccentricity : float [mm]
+    Raises
+        NoSolution - for a frame outside the range
+    Example
+        >>> round(eccentricity_for_frame(25.0, 25.0, 75.0, 122.839414791868), 9)
+        16.0
+    """
+    low, high = eccentricity_range(r1, r3, r5)
+    longest = (r1 + 2.0 * r3 + r5) - low
+    kappa = (r1 + 2.0 * r3 + r5) / low - 1.0
+    shortest = math.sqrt(r5 * r5 + (r1 - high) * (r1 + high) * kappa)
+    if not shortest < frame < longest:
+        raise NoSolution(
+            f"no crank gives these gears a momentary dwell with a frame of {frame:.9g} mm: it must lie between "
+            f"{shortest:.9g} and {longest:.9g} mm"
+        )
+    return math.sqrt(r1 * r1 - (frame - r5) * (frame + r5) / kappa)
+
+
+def crank_with_room(r1: float, r3: float, r5: float, distance: float) -> float | None:
+    """Longest crank of a momentary-dwell design that keeps B so far from D; None where none does.
+
+    d*(e) - e = G:   e = (-G + sqrt(G^2 + (1 + kappa)(kappa r1^2 + r5^2 - G^2)))/(1 + kappa)
+
+    Parameters
+        r1, r3, r5 : float [mm] - reference radii
+        distance : float [mm] - G, sum of the tip radii of gears 1 and 5 and the wanted gap
+    Returns
+        crank : float [mm]
+    Notes
+        d* falls as e rises, so every shorter crank within `eccentricity_range` has more room.
     Example
         >>> round(crank_with_room(25.0, 25.0, 75.0, 105.0), 3)
         16.418
@@ -267,13 +296,35 @@ def crank_with_room(r1: float, r3: float, r5: float, distance: float) -> float |
         low, high = eccentricity_range(r1, r3, r5)
     except NoSolution:
         return None
-    low, high = low + 1e-9 * (high - low), high - 1e-9 * (high - low)
-
-    def room(eccentricity: float) -> float:
-        return momentary_frame_length(r1, r3, r5, eccentricity) - eccentricity - distance
-
-    if room(low) < 0.0:
+    kappa = (r1 + 2.0 * r3 + r5) / low - 1.0
+    if distance >= (r1 + 2.0 * r3 + r5) - 2.0 * low:
         return None
-    if room(high) >= 0.0:
-        return high
-    return bracketed_root(room, low, high, tolerance=1e-7 * r1) - 1e-7 * r1
+    rest = kappa * r1 * r1 + (r5 - distance) * (r5 + distance)
+    crank = (math.sqrt(distance * distance + (1.0 + kappa) * rest) - distance) / (1.0 + kappa)
+    return min(crank, high)
+
+
+def balanced_eccentricity(r1: float, r3: float, r5: float) -> float:
+    """Crank length of the momentary dwell with the greatest least transmission angle: e^2 + d*^2 = b^2 + c^2.
+
+    e_bal^2 = (r5^2 + kappa r1^2 - b^2 - c^2)/(kappa - 1)
+
+    Parameters
+        r1, r3, r5 : float [mm] - reference radii
+    Returns
+        eccentricity : float [mm]
+    Raises
+        NoSolution - where the balanced linkage has no momentary dwell
+    Example
+        >>> round(balanced_eccentricity(40.0, 72.0, 40.0), 6)
+        28.762469
+    """
+    low, high = eccentricity_range(r1, r3, r5)
+    kappa = (r1 + 2.0 * r3 + r5) / low - 1.0
+    square = (r5 * r5 + kappa * r1 * r1 - (r1 + r3) ** 2 - (r3 + r5) ** 2) / (kappa - 1.0)
+    if not low * low < square < high * high:
+        raise NoSolution(
+            f"gears of {2 * r1:.9g}, {2 * r3:.9g} and {2 * r5:.9g} mm reference diameter have no balanced linkage with "
+            "a momentary dwell; give crank or frame"
+        )
+    return math.sqrt(square)

@@ -198,6 +198,56 @@ def crank_angle_for_dwell(i3: float, dwell_angle: float) -> float:
     return 2.0 * h
 
 
+def window_limit(i3: float) -> float:
+    """Upper limit of the crank angle that the equal-ripple dwell of given gears can reach, with any tolerance.
+
+    Phi < 4 pi n/(n + 1) - pi,   n = 1 - i3
+
+    Example
+        >>> round(math.degrees(window_limit(-1.8)), 9)
+        350.526315789
+    """
+    check_ratio(i3)
+    return math.pi * (3.0 * (1.0 - i3) - 1.0) / (2.0 - i3)
+
+
+def crank_angle_for_window(i3: float, window: float) -> float:
+    """Crank angle phi12 of the back-step whose whole band the output touches twice over a window: the flattest.
+
+    n [asin(k sin(Y)) + asin(k sin(h))] = Y + h,   Y = window/2,   h = phi12/2
+
+    Parameters
+        i3 : float - negative
+        window : float [rad] - Phi, 0 < Phi < `window_limit`
+    Returns
+        phi12 : float [rad] - between Phi/3 and Phi; Phi/2 exactly for i3 = -2 and for Phi -> 0
+    Raises
+        NoSolution - for a window outside the range
+    Notes
+        Bracketed root in h of the equation of `dwell_angle` with y = Phi/2, polished as there.
+    Example
+        >>> round(math.degrees(crank_angle_for_window(-1.8, math.radians(90.0))), 9)
+        45.052599378
+
+    Source
+        own derivation: by the oddness of the motion about 270 deg the output spans the band from phi(2) on one side
+        to phi(1) on the other
+    """
+    limit = window_limit(i3)
+    if not 0.0 < window < limit:
+        raise NoSolution(
+            f"a window of {_deg(window)} deg is out of reach with i3 = {i3:.9g}: it must lie above 0 and below "
+            f"{_deg(limit)} deg, whatever the tolerance; reduce it"
+        )
+    y = 0.5 * window
+    h = bracketed_root(lambda h: _fallen(i3, h, y), y / 3.0, min(y, 0.5 * math.pi))
+    if _polished(i3, h):
+        near = 1e-4 * h
+        slope = (_fallen(i3, h + near, y) - _fallen(i3, h - near, y)) / near
+        h -= 2.0 * _fallen_by_integral(i3, h, y) / slope
+    return 2.0 * h
+
+
 def _back_step(v: float, h: float) -> float:
     """Equation (4-19) in v = (n - 1)/n, 0 <= v <= 1 (1: i3 = -infinity), and h."""
     t, x = math.tan(h), 1.0 - v

@@ -1,0 +1,182 @@
+"""Dwell of the symmetric family within a tolerance, against 38-digit cases and against scans that know no formula.
+
+Tolerances: the cases are given to 16 digits and hold to 1e-12 relative, some ten times the condition number of the
+window (it is a cube root of the tolerance). A scan can only find less than the optimum, up to the refinement of the
+longest interval, 1e-9 of it.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import mpmath
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from gearlink.core.errors import NoSolution
+from gearlink.core.three_gear import window_dwell
+from gearlink.core.three_gear.motion import GearTrain
+from gearlink.core.three_gear.symmetric_back_step import crank_angle_for_window, dwell_angle, window_limit
+from gearlink.core.three_gear.symmetric_family import (
+    frame_ratio_for_back_step,
+    momentary_frame_ratio,
+    symmetric_linkage,
+)
+from gearlink.core.three_gear.tolerance_dwell import tolerance_dwell
+
+CASES = json.loads((Path(__file__).parents[2] / "reference" / "dwell.json").read_text())
+EXACT = 1e-12
+
+
+def cases(letter: str) -> list[Any]:
+    return [pytest.param(c["input"], c["expected"], id=c["name"]) for c in CASES if c["name"].startswith(letter)]
+
+
+def rad(angle: float) -> float:
+    return math.radians(angle)
+
+
+@pytest.mark.parametrize(("given_", "wanted"), cases("A1."))
+def test_longest_window(given_: Any, wanted: Any) -> None:
+    i3, tau = given_["i3"], rad(given_["tolerance_deg"])
+    phi12 = window_dwell.crank_angle_for_tolerance(i3, tau)
+    assert math.degrees(window_dwell.longest_window(i3, tau)) == pytest.approx(wanted["window"], rel=EXACT)
+    assert math.degrees(phi12) == pytest.approx(wanted["back_step_crank_angle"], rel=EXACT)
+    assert math.degrees(dwell_angle(i3, phi12)) == pytest.approx(wanted["dwell_angle"], rel=EXACT)
+    assert frame_ratio_for_back_step(i3, phi12) == pytest.approx(wanted["frame_ratio"], rel=EXACT)
+
+
+@pytest.mark.parametrize(("given_", "wanted"), cases("A2."))
+def test_flattest_window(given_: Any, wanted: Any) -> None:
+    i3, window = given_["i3"], rad(given_["window_deg"])
+    phi12 = crank_angle_for_window(i3, window)
+    assert math.degrees(window_dwell.least_tolerance(i3, window)) == pytest.approx(wanted["tolerance"], rel=EXACT)
+    assert math.degrees(phi12) == pytest.approx(wanted["back_step_crank_angle"], rel=EXACT)
+    assert frame_ratio_for_back_step(i3, phi12) == pytest.approx(wanted["frame_ratio"], rel=EXACT)
+
+
+@pytest.mark.parametrize(("given_", "wanted"), cases("A3."))
+def test_frame_interval(given_: Any, wanted: Any) -> None:
+    i3, window, tau = given_["i3"], rad(given_["window_deg"]), rad(given_["tolerance_deg"])
+    low, high = window_dwell.frame_ratio_interval(i3, window, tau)
+    assert low == pytest.approx(wanted["frame_ratio_limit_of_tolerance"], rel=EXACT)
+    assert high == pytest.approx(wanted["frame_ratio_least_back_step"], rel=EXACT)
+
+
+@pytest.mark.parametrize(("given_", "wanted"), cases("A5."))
+def test_greatest_idler(given_: Any, wanted: Any) -> None:
+    ratio = window_dwell.greatest_ratio(rad(given_["window_deg"]), rad(given_["tolerance_deg"]))
+    assert -ratio == pytest.approx(wanted["i3_limit"], rel=1e-10)
+
+
+def test_the_closed_form_at_i3_minus_two() -> None:
+    """There Y = 2 h, so that tau = 3 atan(tan(Phi/4)/3) - Phi/4 needs no root."""
+    for window in (0.01, 0.3, 1.0, 1.5):
+        tau = 3.0 * math.atan(math.tan(0.25 * window) / 3.0) - 0.25 * window
+        lost = 4.0 * 2.0**-52 * (0.5 * window) / tau  # cancellation of the formula here
+        assert window_dwell.longest_window(-2.0, tau) == pytest.approx(window, rel=1e-14 + lost)
+        assert window_dwell.least_tolerance(-2.0, window) == pytest.approx(tau, rel=1e-14 + lost)
+
+
+@given(st.floats(-8.0, -0.3), st.floats(0.02, 5.0))
+def test_flattest_and_longest_are_inverse(i3: float, tolerance: float) -> None:
+    tau = rad(tolerance)
+    window = window_dwell.longest_window(i3, tau)
+    # d ln(tau)/d ln(window) lies near 3 and grows towards the folded linkage
+    assert window_dwell.least_tolerance(i3, window) == pytest.approx(tau, rel=2e-12)
+
+
+@settings(max_examples=12)
+@given(st.floats(-6.0, -0.3), st.floats(0.1, 5.0))
+def test_no_frame_has_a_longer_window(i3: float, tolerance: float) -> None:
+    """The longest interval of any frame of the family, found without the formulas of this module."""
+    tau = rad(tolerance)
+    train = GearTrain(10_000, round(-i3 * 10_000), 10_000)
+    i3 = train.i3
+    longest = window_dwell.longest_window(i3, tau)
+    best = frame_ratio_for_back_step(i3, window_dwell.crank_angle_for_tolerance(i3, tau))
+    found = [
+        tolerance_dwell(symmetric_linkage(1.0 + (best - 1.0) * share, 100.0), train, tau).crank_angle
+        for share in (0.8, 0.97, 0.999, 1.0 + 1e-9, 1.001, 1.03, 1.3)
+    ]
+    assert max(found) <= longest * (1.0 + 1e-9)
+    assert found[3] == pytest.approx(longest, rel=1e-6)
+    # beyond the jump less than three quarters and a bit are left: phi13 of the window 2 phi13 - phi12
+    assert max(found[:3]) < 0.8 * longest
+
+
+@settings(max_examples=12)
+@given(st.floats(-6.0, -0.3), st.floats(0.1, 3.0), st.floats(0.3, 0.98), st.floats(0.02, 0.98))
+def test_every_frame_of_the_interval_meets_the_wish(i3: float, tolerance: float, part: float, share: float) -> None:
+    tau = rad(tolerance)
+    train = GearTrain(10_000, round(-i3 * 10_000), 10_000)
+    window = max(2.5 * tau, part * window_dwell.longest_window(train.i3, tau))
+    low, high = window_dwell.frame_ratio_interval(train.i3, window, tau)
+    inside = symmetric_linkage(low + share * (high - low), 100.0)
+    assert tolerance_dwell(inside, train, tau).crank_angle >= window * (1.0 - 1e-9)
+    outside = symmetric_linkage(high + 0.02 * (high - low), 100.0)
+    assert tolerance_dwell(outside, train, tau).crank_angle < window
+
+
+def test_asymptote() -> None:
+    """4 (3 tau n^2/(n^2 - 1))^(1/3), with an error of the next order, tau^(2/3)."""
+    for n in (1.5, 2.8, 6.0):
+        for tau in (1e-6, 1e-9):
+            leading = 4.0 * (3.0 * tau * n * n / (n * n - 1.0)) ** (1.0 / 3.0)
+            assert window_dwell.longest_window(1.0 - n, tau) == pytest.approx(leading, rel=3.0 * tau ** (2.0 / 3.0))
+            assert window_dwell.longest_window(1.0 - n, tau) / leading != 1.0
+
+
+def test_gain_over_the_momentary_dwell() -> None:
+    tau, train = rad(1e-3), GearTrain(40, 72, 40)
+    momentary = symmetric_linkage(momentary_frame_ratio(train.i3), 112.0)
+    gain = window_dwell.longest_window(train.i3, tau) / tolerance_dwell(momentary, train, tau).crank_angle
+    assert gain == pytest.approx(4.0 ** (1.0 / 3.0), rel=1e-3)
+
+
+def test_window_of_large_idler_is_the_limit() -> None:
+    for tolerance in (0.5, 1.0, 10.0):
+        tau = rad(tolerance)
+        assert window_dwell.longest_window(-1e6, tau) == pytest.approx(
+            window_dwell.window_of_large_idler(tau), rel=1e-9
+        )
+
+
+def test_equal_ripple_at_forty_digits() -> None:
+    """The output as f(y) = y - n asin(k sin y): both edges are touched twice, exactly."""
+    n, tau = mpmath.mpf(2.8), mpmath.radians(mpmath.mpf(0.5))
+    with mpmath.workdps(40):
+        h = mpmath.findroot(lambda x: 2 * n * mpmath.atan(mpmath.tan(x) / n) - 2 * x - 2 * tau, 0.3)
+        k = 1 / mpmath.sqrt((n * mpmath.cos(h)) ** 2 + mpmath.sin(h) ** 2)
+        y = mpmath.findroot(lambda x: x - n * mpmath.asin(k * mpmath.sin(x)) - tau, 0.6)
+        assert window_dwell.longest_window(-1.8, float(tau)) == pytest.approx(float(2 * y), rel=4e-16)
+
+
+class TestRefusals:
+    def test_tolerance_beyond_every_back_step(self) -> None:
+        with pytest.raises(NoSolution, match="below 45 deg"):
+            window_dwell.longest_window(-0.5, rad(46.0))
+
+    def test_window_beyond_reach_names_what_is_possible(self) -> None:
+        with pytest.raises(NoSolution) as caught:
+            window_dwell.frame_ratio_interval(-1.8, rad(72.0), rad(0.5))
+        words = caught.value.message
+        assert "at most over 70.436 deg" in words
+        assert "within +-0.53485 deg" in words
+        assert "-i3 of at most 1.3052 " in words
+
+    def test_what_is_named_is_possible(self) -> None:
+        window_dwell.frame_ratio_interval(-1.8, rad(70.436), rad(0.5))
+        window_dwell.frame_ratio_interval(-1.8, rad(72.0), rad(0.53485))
+
+    def test_window_that_needs_no_linkage(self) -> None:
+        with pytest.raises(NoSolution, match="needs no linkage"):
+            window_dwell.frame_ratio_interval(-1.8, rad(2.0), rad(1.0))
+
+    def test_window_beyond_the_family(self) -> None:
+        with pytest.raises(NoSolution, match="whatever the tolerance"):
+            crank_angle_for_window(-1.8, window_limit(-1.8))
