@@ -73,7 +73,7 @@ def changed(design: Design, values: Values) -> Design:
     Example
         >>> crank = load("designs/ty460_slider_crank.yaml")
         >>> round(changed(crank, {"stroke": 320}).crank_length - crank.crank_length, 3)
-        4.941
+        4.969
     """
     loaded = vars(design).get("_loaded")
     if not isinstance(loaded, LoadedFile):
