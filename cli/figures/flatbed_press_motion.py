@@ -224,7 +224,7 @@ def _equal_speeds(axes: Axes, design: FlatbedPress) -> None:
     """The points at which bed and cylinder have the same speed."""
     import numpy as np
 
-    from gearlink.core.flatbed_press.positions import equal_speed_angles
+    from gearlink.core.flatbed_press.zone import equal_speed_angles
 
     found = np.array(equal_speed_angles(design.bed, design.cylinder))
     if not found.size:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from gearlink.cli.figures import linkage, panels, style
 from gearlink.core.five_bar.design import GearedFiveBar
-from gearlink.core.five_bar.path_motion import GearedFiveBar as PathBar
+from gearlink.core.five_bar.path_motion import PathFiveBar
 from gearlink.core.gears.pair import GearPair
 
 if TYPE_CHECKING:
@@ -158,9 +158,9 @@ def _function(axes: Axes, design: GearedFiveBar) -> None:
 def _span(axes: Axes, design: GearedFiveBar) -> None:
     """Distance that the dyad spans, and the limits beyond which the five-bar opens."""
     bar = design.bar
-    path = isinstance(bar, PathBar)
-    ends = (0.0, bar.period) if isinstance(bar, PathBar) else design.input_range
-    square = bar.span_squared if isinstance(bar, PathBar) else bar.reach_squared
+    path = isinstance(bar, PathFiveBar)
+    ends = (0.0, bar.period) if isinstance(bar, PathFiveBar) else design.input_range
+    square = bar.span_squared if isinstance(bar, PathFiveBar) else bar.reach_squared
     links = (bar.coupler, bar.follower) if path else (bar.follower, bar.output)
     linkage.chart(axes, "Closing", "BD [mm]" if path else "CE [mm]", "input angle [deg]", turn=False)
     angles = [ends[0] + (ends[1] - ends[0]) * i / 720.0 for i in range(721)]

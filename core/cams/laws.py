@@ -13,7 +13,7 @@ from gearlink.core.cams.first_half import FirstHalf
 from gearlink.core.cams.polynomials import POLYNOMIAL_123, POLYNOMIAL_345, POLYNOMIAL_4567
 from gearlink.core.cams.scca import scca
 from gearlink.core.errors import NoSolution
-from gearlink.core.numerics.roots import bracketed_root
+from gearlink.core.numerics.roots import roots_on
 
 if TYPE_CHECKING:
     import numpy as np
@@ -177,14 +177,7 @@ def _peak_power(derivatives: Callable[[Any, int, int], tuple[Any, ...]]) -> floa
 def _largest(f: Callable[[float], float], slope: Callable[[float], float]) -> float:
     """Largest |f| on [0, 1]: the ends and the roots of the slope, sought between 32 places."""
     places = [i / 32.0 for i in range(33)]
-    slopes = [slope(u) for u in places]
-    found = [0.0, 1.0]
-    for left, right, before, after in zip(places[:-1], places[1:], slopes[:-1], slopes[1:], strict=True):
-        if before * after < 0.0:
-            found.append(bracketed_root(slope, left, right))
-        elif before == 0.0:
-            found.append(left)
-    return max(abs(f(u)) for u in found)
+    return max(abs(f(u)) for u in (0.0, 1.0, *roots_on(slope, places)))
 
 
 def _check_range(name: str, x: Any) -> None:

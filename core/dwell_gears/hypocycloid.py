@@ -16,7 +16,7 @@ import math
 from dataclasses import dataclass
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.numerics.roots import bracketed_root, sign_changes
+from gearlink.core.numerics.roots import bracketed_root, roots_on
 from gearlink.core.results import cached_property
 
 _STEPS_PER_ARC = 48
@@ -107,9 +107,7 @@ class HypocycloidSlider:
         """Carrier angles in [0, pi] where the slider reverses or rests, with 0 and pi, and its deviations there."""
         count = _STEPS_PER_ARC * self.cusps
         grid = [math.pi * (i + 0.5) / count for i in range(count)]
-        speeds = [self.speed(t) for t in grid]
-        places = [bracketed_root(self.speed, grid[i], grid[i + 1]) for i in sign_changes(speeds)]
-        return [(t, self.deviation(t)) for t in (0.0, *places, math.pi)]
+        return [(t, self.deviation(t)) for t in (0.0, *roots_on(self.speed, grid), math.pi)]
 
     @property
     def stroke(self) -> float:

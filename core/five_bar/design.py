@@ -192,13 +192,13 @@ class GearedFiveBar(FiveBarParts):
         import numpy as np
 
         from gearlink.core.five_bar.path import sweep
+        from gearlink.core.linkages.fourbar_refine import dead_point_distance
         from gearlink.core.numerics.arrays import turn_degrees
 
         turns = self.shown_turns
         degrees = turn_degrees(samples, turns)
         bar = self.path_bar
         found = sweep(bar, np.radians(degrees), self.offset)
-        gamma = found.transmission_angle
         columns = {
             "input_angle": (degrees, "deg"),
             "output_angle": (math.degrees(bar.phase) + float(bar.ratio) * degrees, "deg"),
@@ -207,7 +207,7 @@ class GearedFiveBar(FiveBarParts):
             "y": (found.point.imag, "mm"),
             "x_velocity": (found.velocity.real, "mm/rad"),
             "y_velocity": (found.velocity.imag, "mm/rad"),
-            "transmission_angle": (np.degrees(np.minimum(gamma, np.pi - gamma)), "deg"),
+            "transmission_angle": (np.degrees(dead_point_distance(found.transmission_angle)), "deg"),
         }
         return Table.of("path", columns)
 

@@ -13,7 +13,7 @@ from gearlink.core.errors import NoSolution
 from gearlink.core.five_bar.descent import PathProblem, descend, matched, thinned
 from gearlink.core.five_bar.family import FiveBarFamily
 from gearlink.core.five_bar.path import distances
-from gearlink.core.five_bar.path_motion import GearedFiveBar
+from gearlink.core.five_bar.path_motion import PathFiveBar
 from gearlink.core.five_bar.starts import bounds, scattered_starts
 from gearlink.core.numerics.arrays import Points, Reals
 
@@ -36,7 +36,7 @@ _MARGIN, *_MARGINS = (math.radians(margin) for margin in (0.005, 0.02, 0.1, 0.5,
 class Fit:
     """A five-bar, its coupler point u + i v [mm], and the distance of each point from its path [mm]."""
 
-    bar: GearedFiveBar
+    bar: PathFiveBar
     offset: complex
     distance: NDArray[np.float64]
 
@@ -46,7 +46,7 @@ class Fit:
         return float(np.sqrt(np.mean(self.distance**2)))
 
 
-def judge(bar: GearedFiveBar, offset: complex, targets: Points) -> Fit:
+def judge(bar: PathFiveBar, offset: complex, targets: Points) -> Fit:
     """A five-bar with the distances of the points from its real path.
 
     Raises
@@ -55,13 +55,13 @@ def judge(bar: GearedFiveBar, offset: complex, targets: Points) -> Fit:
     return Fit(bar, offset, distances(bar, offset, targets)[0])
 
 
-def fit_path(start: GearedFiveBar, offset: complex, targets: Points, transmission_angle: float) -> Fit:
+def fit_path(start: PathFiveBar, offset: complex, targets: Points, transmission_angle: float) -> Fit:
     """Links, phase and coupler point with which the path comes nearest to given points.
 
     sum |M(phi_j) - P_j|^2 -> min over a, b, c, e, delta, u, v and every phi_j
 
     Parameters
-        start : GearedFiveBar - a start; frame, gear ratio and assembly are kept
+        start : PathFiveBar - a start; frame, gear ratio and assembly are kept
         offset : complex [mm] - u + i v to start with
         targets : (N,) complex array [mm] - in the frame of the five-bar, any order, N >= 3
         transmission_angle : float [rad] - the least that is allowed, between coupler and follower
@@ -98,14 +98,14 @@ def fit_path(start: GearedFiveBar, offset: complex, targets: Points, transmissio
     return min(found + given, key=lambda fit: fit.rms)
 
 
-def _closes(bar: GearedFiveBar, least: float) -> bool:
+def _closes(bar: PathFiveBar, least: float) -> bool:
     try:
         return bar.min_transmission_angle()[0] >= least
     except NoSolution:
         return False
 
 
-def _search(start: GearedFiveBar, offset: complex, targets: Points, least: float, scale: float) -> Reals:
+def _search(start: PathFiveBar, offset: complex, targets: Points, least: float, scale: float) -> Reals:
     """Rows of unknowns at the ends of the search, lengths by the scale, the best first."""
     family = _family(start, scale)
     lengths = np.log((start.input, start.coupler, start.follower, start.output)) - math.log(scale)
@@ -150,13 +150,13 @@ def _between(places: float, fewest: int, most: int) -> int:
     return math.ceil(min(max(places, fewest), most))
 
 
-def _family(bar: GearedFiveBar, scale: float) -> FiveBarFamily:
+def _family(bar: PathFiveBar, scale: float) -> FiveBarFamily:
     family = FiveBarFamily(bar.frame / scale, float(bar.ratio), bar.assembly, bar.period, _FEWEST, _FEWEST_SPANS)
     spans = _between(_SPANS * family.waves, _FEWEST_SPANS, _MOST_SPANS)
     return replace(family, count=_between(_PER_WAVE * family.waves, _FEWEST, _MOST), span_count=spans)
 
 
-def _made(bar: GearedFiveBar, row: Reals, scale: float) -> tuple[GearedFiveBar, complex]:
+def _made(bar: PathFiveBar, row: Reals, scale: float) -> tuple[PathFiveBar, complex]:
     """Five-bar and coupler point of a row."""
     a, b, c, e = (math.exp(float(x) + math.log(scale)) for x in row[:4])
     phase = math.remainder(float(row[4]), 2.0 * math.pi)

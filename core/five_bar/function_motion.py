@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.dyad import close_dyad, direction, require_lengths, transmission_angle
+from gearlink.core.linkages.dyad import acute, close_dyad, direction, require_lengths, transmission_angle
 from gearlink.core.numerics.harmonic_sum import HarmonicSum
 from gearlink.core.report import safely_above
 from gearlink.core.results import cached_property
@@ -141,8 +141,8 @@ class FunctionFiveBar:
         self.closure(start, end)
         found = []
         for place, distance in self.reach_extremes(start, end):
-            gamma = transmission_angle(distance, self.follower, self.output)
-            found.append((min(gamma, math.pi - gamma), place))
+            gamma = acute(transmission_angle(distance, self.follower, self.output))
+            found.append((gamma, place))
         return min(found)
 
     def output_angles(self, angles: list[float]) -> list[float]:

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.design import Design, placed
 from gearlink.core.errors import NoSolution, at_key
-from gearlink.core.five_bar.function_motion import FunctionFiveBar as FunctionBar
-from gearlink.core.five_bar.path_motion import GearedFiveBar as PathBar
+from gearlink.core.five_bar.function_motion import FunctionFiveBar
+from gearlink.core.five_bar.path_motion import PathFiveBar
 from gearlink.core.gears.internal_mesh import InternalMesh
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.results import cached_property
@@ -125,11 +125,11 @@ class FiveBarParts(Design):
         return frame
 
     @cached_property
-    def start_path(self) -> PathBar:
+    def start_path(self) -> PathFiveBar:
         """The five-bar of the file, path form; with a target it is the start."""
         links, frame = self.spec.links, self._frame()
         with at_key("links"):
-            return PathBar(
+            return PathFiveBar(
                 links.input or 0.0,
                 links.coupler,
                 links.follower,
@@ -162,7 +162,7 @@ class FiveBarParts(Design):
         return 0j if point is None else complex(point.along, point.across)
 
     @cached_property
-    def path_bar(self) -> PathBar:
+    def path_bar(self) -> PathFiveBar:
         """The five-bar of the path form, given or found; it closes over its whole period."""
         bar = self.start_path if self.fit is None else self.fit.bar
         with at_key("links"):
@@ -183,13 +183,13 @@ class FiveBarParts(Design):
         return [(math.radians(phi), math.radians(psi)) for phi, psi in target.positions]
 
     @cached_property
-    def function_bar(self) -> FunctionBar:
+    def function_bar(self) -> FunctionFiveBar:
         """The five-bar of the function form, given or found; it closes over the range."""
         links, positions = self.spec.links, self.positions
         length = self._fixed_length("input")
         lengths = (length, links.coupler, links.follower, links.output, links.frame or 0.0)
         with at_key("links"):
-            bar = FunctionBar(*lengths, float(self.ratio), math.radians(self.spec.phase), self.spec.assembly)
+            bar = FunctionFiveBar(*lengths, float(self.ratio), math.radians(self.spec.phase), self.spec.assembly)
         if positions is not None:
             from gearlink.core.five_bar.positions import five_bar_for_positions
 
@@ -210,6 +210,6 @@ class FiveBarParts(Design):
         return 0.0, _TURN * self.period_turns
 
     @property
-    def bar(self) -> PathBar | FunctionBar:
+    def bar(self) -> PathFiveBar | FunctionFiveBar:
         """The five-bar of either form."""
         return self.path_bar if self.is_path else self.function_bar

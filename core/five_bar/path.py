@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gearlink.core.five_bar.family import near_places
-from gearlink.core.five_bar.path_motion import GearedFiveBar
+from gearlink.core.five_bar.path_motion import PathFiveBar
 from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.numerics.extremes import Extreme, maximum_over, minimum_over
 
@@ -29,13 +29,13 @@ class PathSweep:
     velocity: Points
 
 
-def sweep(bar: GearedFiveBar, phi: Reals, offset: complex) -> PathSweep:
+def sweep(bar: PathFiveBar, phi: Reals, offset: complex) -> PathSweep:
     """Coupler angle, transmission angle, coupler point and its velocity.
 
     w2 = Re[(B' - D') e^(-i t3)]/(b sin(t2 - t3)),   M' = B' + i w2 (M - B)
 
     Parameters
-        bar : GearedFiveBar
+        bar : PathFiveBar
         phi : (N,) array [rad] - ascending
         offset : complex [mm] - u + i v
     Returns
@@ -44,7 +44,7 @@ def sweep(bar: GearedFiveBar, phi: Reals, offset: complex) -> PathSweep:
         NoSolution - where the five-bar opens anywhere in its period
     Example
         >>> from fractions import Fraction
-        >>> bar = GearedFiveBar(20.0, 60.0, 60.0, 20.0, 50.0, Fraction(-1), math.radians(90.0))
+        >>> bar = PathFiveBar(20.0, 60.0, 60.0, 20.0, 50.0, Fraction(-1), math.radians(90.0))
         >>> point = sweep(bar, np.radians([60.0, 200.0]), 60.0 + 0j).point
         >>> [complex(round(m.real, 9), round(m.imag, 9)) for m in point]
         [(45.321887013+65.821686389j), (21.851649007+37.295106807j)]
@@ -55,14 +55,14 @@ def sweep(bar: GearedFiveBar, phi: Reals, offset: complex) -> PathSweep:
     return PathSweep(_continuous(bar, phi), gamma, start + offset * u2, velocity)
 
 
-def points(bar: GearedFiveBar, phi: Reals, offset: complex) -> Points:
+def points(bar: PathFiveBar, phi: Reals, offset: complex) -> Points:
     """The coupler point alone [mm]; closure is not checked (NaN where the five-bar opens)."""
     start, _, u2, _, _ = _position(bar, phi)
     result: Points = start + offset * u2
     return result
 
 
-def _position(bar: GearedFiveBar, phi: Reals) -> tuple[Points, Points, Points, Points, Reals]:
+def _position(bar: PathFiveBar, phi: Reals) -> tuple[Points, Points, Points, Points, Reals]:
     """B, D, unit vectors of coupler (B->C) and follower (D->C), transmission angle."""
     b, c = bar.coupler, bar.follower
     start = bar.input * np.exp(1j * phi)
@@ -78,7 +78,7 @@ def _position(bar: GearedFiveBar, phi: Reals) -> tuple[Points, Points, Points, P
     return start, end, (joint - start) / b, (joint - end) / c, gamma
 
 
-def _velocity(bar: GearedFiveBar, start: Points, end: Points, u2: Points, u3: Points, offset: complex) -> Points:
+def _velocity(bar: PathFiveBar, start: Points, end: Points, u2: Points, u3: Points, offset: complex) -> Points:
     """Velocity of the coupler point, of what `_position` gives."""
     speeds = 1j * start, 1j * float(bar.ratio) * (end - bar.frame)
     w2 = ((speeds[0] - speeds[1]) * np.conj(u3)).real / (bar.coupler * (u2 * np.conj(u3)).imag)
@@ -86,7 +86,7 @@ def _velocity(bar: GearedFiveBar, start: Points, end: Points, u2: Points, u3: Po
     return velocity
 
 
-def _continuous(bar: GearedFiveBar, phi: Reals) -> Reals:
+def _continuous(bar: PathFiveBar, phi: Reals) -> Reals:
     """Coupler angle without jumps, however near the five-bar comes to its dead points.
 
     The coupler stands within half a turn of BD, always on the same side: it winds as BD does.
@@ -99,7 +99,7 @@ def _continuous(bar: GearedFiveBar, phi: Reals) -> Reals:
     return np.asarray(angle + 2.0 * math.pi * (turns - turns[:1]))
 
 
-def _windings(bar: GearedFiveBar, left: Reals, right: Reals) -> Reals:
+def _windings(bar: PathFiveBar, left: Reals, right: Reals) -> Reals:
     """Angles by which BD turns between pairs of input angles.
 
     |D' - B'| <= a + |k| e: while BD moves by less than its length it turns by less than a right angle. Elsewhere the
@@ -117,14 +117,14 @@ def _windings(bar: GearedFiveBar, left: Reals, right: Reals) -> Reals:
     return np.asarray(turned)
 
 
-def _way(bar: GearedFiveBar, phi: Reals) -> Points:
+def _way(bar: PathFiveBar, phi: Reals) -> Points:
     """The vector BD."""
     end = bar.frame + bar.output * np.exp(1j * (bar.phase + float(bar.ratio) * phi))
     way: Points = end - bar.input * np.exp(1j * phi)
     return way
 
 
-def extent(bar: GearedFiveBar, offset: complex) -> tuple[Extreme, Extreme, Extreme, Extreme]:
+def extent(bar: PathFiveBar, offset: complex) -> tuple[Extreme, Extreme, Extreme, Extreme]:
     """Least and greatest x, least and greatest y of the path, refined, with their input angles.
 
     Raises
@@ -142,11 +142,11 @@ def extent(bar: GearedFiveBar, offset: complex) -> tuple[Extreme, Extreme, Extre
     return (*part(1.0 + 0j), *part(1j))
 
 
-def distances(bar: GearedFiveBar, offset: complex, targets: Points) -> tuple[Reals, Reals]:
+def distances(bar: PathFiveBar, offset: complex, targets: Points) -> tuple[Reals, Reals]:
     """Distance of each point from the path, and the input angle of the path's nearest place.
 
     Parameters
-        bar : GearedFiveBar
+        bar : PathFiveBar
         offset : complex [mm] - u + i v
         targets : (N,) complex array [mm]
     Returns
@@ -171,7 +171,7 @@ def distances(bar: GearedFiveBar, offset: complex, targets: Points) -> tuple[Rea
     return away[rows, best], phi[rows, best] % bar.period
 
 
-def _near(bar: GearedFiveBar, offset: complex, targets: Points) -> tuple[float, Reals]:
+def _near(bar: PathFiveBar, offset: complex, targets: Points) -> tuple[float, Reals]:
     """Step of a grid over the period, and its input angles (N, 3) at which the path passes the points nearest."""
     count = _places(bar)
     step, at_once = bar.period / count, max(1, _AT_ONCE // count)
@@ -183,7 +183,7 @@ def _near(bar: GearedFiveBar, offset: complex, targets: Points) -> tuple[float, 
     return step, grid[np.concatenate(places)]
 
 
-def _places(bar: GearedFiveBar) -> int:
+def _places(bar: PathFiveBar) -> int:
     """Places of a grid over the period on which no branch of the path is missed."""
     k = float(bar.ratio)
     waves = bar.period_turns * max(1.0, abs(k), abs(1.0 - k))

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.dyad import close_dyad, direction, require_lengths, transmission_angle
+from gearlink.core.linkages.dyad import acute, close_dyad, direction, require_lengths, transmission_angle
 from gearlink.core.numerics.harmonic_sum import HarmonicSum
 from gearlink.core.report import safely_above
 from gearlink.core.results import cached_property
@@ -24,7 +24,7 @@ TURN = 2.0 * math.pi
 
 
 @dataclass(frozen=True)
-class GearedFiveBar:
+class PathFiveBar:
     """Links, gear ratio and phase of a geared five-bar.
 
     Parameters
@@ -37,7 +37,7 @@ class GearedFiveBar:
     Notes
         A five-bar that opens somewhere may be made; `closure` refuses it.
     Example
-        >>> bar = GearedFiveBar(20.0, 60.0, 60.0, 20.0, 50.0, Fraction(-1), math.radians(90.0))
+        >>> bar = PathFiveBar(20.0, 60.0, 60.0, 20.0, 50.0, Fraction(-1), math.radians(90.0))
         >>> point = bar.point(0.0, complex(60.0, 0.0))
         >>> round(point.real, 9), round(point.imag, 9)
         (3.255830335, 57.616254497)
@@ -96,7 +96,7 @@ class GearedFiveBar:
         """Least and greatest |BD| over the period, each as (input angle [rad], distance [mm]).
 
         Example
-            >>> bar = GearedFiveBar(20.0, 60.0, 60.0, 20.0, 50.0, Fraction(-1), math.radians(90.0))
+            >>> bar = PathFiveBar(20.0, 60.0, 60.0, 20.0, 50.0, Fraction(-1), math.radians(90.0))
             >>> [round(distance, 9) for _, distance in bar.span_extremes]
             [35.355339059, 83.237173935]
         """
@@ -140,8 +140,8 @@ class GearedFiveBar:
         self.closure()
         found = []
         for place, distance in self.span_extremes:
-            gamma = transmission_angle(distance, self.coupler, self.follower)
-            found.append((min(gamma, math.pi - gamma), place))
+            gamma = acute(transmission_angle(distance, self.coupler, self.follower))
+            found.append((gamma, place))
         return min(found)
 
     def coupler_angle(self, phi: float) -> float:

@@ -216,9 +216,9 @@ class FlatbedPress(PressCams, SliderCrankQuantities, GearQuantities, Design):
         import numpy as np
 
         from gearlink.core.linkages import fourbar_sweep
+        from gearlink.core.linkages.fourbar_refine import dead_point_distance
 
-        gamma = fourbar_sweep.solve(linkage, crank_angle).transmission_angle
-        return np.degrees(np.minimum(gamma, np.pi - gamma))
+        return np.degrees(dead_point_distance(fourbar_sweep.solve(linkage, crank_angle).transmission_angle))
 
     def check_transmission_angle(self) -> Iterator[Check]:
         """GL303 for both chains."""

@@ -12,11 +12,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gearlink.core.flatbed_press.chains import BedChain, CylinderChain, difference
+from gearlink.core.flatbed_press.chains import BedChain, CylinderChain
 from gearlink.core.linkages import fourbar_sweep, slider_crank_sweep
+from gearlink.core.linkages.dyad import acute
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.numerics.arrays import Points, Reals
-from gearlink.core.numerics.roots import bracketed_root
 
 _TURN = 2.0 * math.pi
 
@@ -125,7 +125,7 @@ def least_transmission_crank(linkage: FourBar) -> float:
     Source
         thesis 4.2 (transmission angle)
     """
-    at_0, at_pi = (min(gamma, math.pi - gamma) for gamma in linkage.transmission_extremes())
+    at_0, at_pi = map(acute, linkage.transmission_extremes())
     return 0.0 if at_0 <= at_pi else math.pi
 
 
@@ -138,26 +138,3 @@ def least_transmission_input(chain: BedChain | CylinderChain) -> float:
     crank = least_transmission_crank(chain.linkage)
     turned = crank - chain.initial_crank_angle if isinstance(chain, BedChain) else chain.initial_angle - crank
     return turned % _TURN
-
-
-def equal_speed_angles(bed: BedChain, cylinder: CylinderChain) -> tuple[float, ...]:
-    """Every input angle in [0, 2 pi) at which bed and cylinder have the same speed [rad].
-
-    p'(phi) = q'(phi)
-
-    Notes
-        Sign changes on a grid of half a degree, each refined to the last bits; two equalities closer than that
-        are not distinguished from none.
-    Source
-        TY-460 report 3.2
-    """
-    grid = np.arange(721) * (_TURN / 720)
-    gap = np.asarray(difference(bed, cylinder, grid, 1).first)
-    changes = np.flatnonzero((gap[:-1] == 0.0) | (gap[:-1] * gap[1:] < 0.0))
-
-    def excess(phi: float) -> float:
-        return float(difference(bed, cylinder, phi, 1).first)
-
-    return tuple(
-        float(grid[i]) if gap[i] == 0.0 else bracketed_root(excess, float(grid[i]), float(grid[i + 1])) for i in changes
-    )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 from gearlink.core.errors import NoSolution
@@ -80,25 +81,51 @@ def zone_end(cylinder: CylinderChain, start: float, length: float) -> float:
     return bracketed_root(lambda phi: float(cylinder.travel(phi).value) - begin - length, start, start + _TURN)
 
 
+def equal_speed_angles(bed: BedChain, cylinder: CylinderChain) -> list[float]:
+    """Every input angle in [0, 2 pi) at which bed and cylinder have the same speed [rad], ascending.
+
+    p'(phi) = q'(phi)
+
+    Notes
+        As `equal_speed_angle`, over both strokes of the bed.
+    Source
+        TY-460 report 3.2
+    """
+    end = forward_stroke_end(bed)
+    found = [*_equal_speeds(bed, cylinder, 0.0, end), *_equal_speeds(bed, cylinder, end, _TURN)]
+    return sorted(dict.fromkeys(phi % _TURN for phi in found))
+
+
 def _first_root(bed: BedChain, cylinder: CylinderChain, end: float) -> float | None:
+    return next(_equal_speeds(bed, cylinder, 0.0, end), None)
+
+
+def _equal_speeds(bed: BedChain, cylinder: CylinderChain, start: float, end: float) -> Iterator[float]:
+    """Input angles of equal speeds in (start, end], ascending, each sought when it is asked for."""
+
     def excess(phi: float) -> float:
         return float(difference(bed, cylinder, phi, 1).first)
 
-    count = max(8, math.ceil(end / _STEP))
-    grid = [end * i / count for i in range(count + 1)]
+    count = max(8, math.ceil((end - start) / _STEP))
+    grid = [start + (end - start) * i / count for i in range(count + 1)]
     values = [excess(grid[0]), excess(grid[1])]
     for i in range(1, count + 1):
         if values[i - 1] * values[i] < 0.0 or values[i] == 0.0:
-            return bracketed_root(excess, grid[i - 1], grid[i])
-        if i < count:
-            values.append(excess(grid[i + 1]))
-        crest = 1 <= i < count and abs(values[i]) <= min(abs(values[i - 1]), abs(values[i + 1]))
-        if crest:
-            sign = -1.0 if values[i] > 0.0 else 1.0
-            place, value = maximum(lambda phi, sign=sign: sign * excess(phi), grid[i - 1], grid[i + 1])  # type: ignore[misc]
-            if value >= 0.0:
-                return bracketed_root(excess, grid[i - 1], place)
-    return None
+            yield bracketed_root(excess, grid[i - 1], grid[i])
+        if i == count:
+            return
+        values.append(excess(grid[i + 1]))
+        if abs(values[i]) <= min(abs(values[i - 1]), abs(values[i + 1])) and values[i - 1] * values[i + 1] > 0.0:
+            yield from _pair_at_crest(excess, values[i] > 0.0, grid[i - 1], grid[i + 1])
+
+
+def _pair_at_crest(f: Callable[[float], float], above: bool, low: float, high: float) -> Iterator[float]:
+    """Both roots beside a crest that passes zero between the points of a grid; none where it stays on one side."""
+    sign = -1.0 if above else 1.0
+    place, value = maximum(lambda phi: sign * f(phi), low, high)
+    if value >= 0.0:
+        yield bracketed_root(f, low, place)
+        yield bracketed_root(f, place, high)
 
 
 def _shift_that_helps(bed: BedChain, cylinder: CylinderChain, end: float) -> str:

@@ -36,6 +36,14 @@ def close_dyad(start: complex, end: complex, first: float, second: float, side: 
     return start + way / n * complex(along, side * height)
 
 
+def acute(angle: float) -> float:
+    """The angle between two lines, from 0 to pi/2, of an angle between links from 0 to pi [rad].
+
+    min(gamma, pi - gamma)
+    """
+    return min(angle, math.pi - angle)
+
+
 def transmission_angle(distance: float, first: float, second: float) -> float:
     """Angle between the two links at their pin [rad].
 

@@ -9,8 +9,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from functools import lru_cache
 
 from gearlink.core.errors import NoSolution
+from gearlink.core.linkages.dyad import acute
 from gearlink.core.linkages.fourbar_loop import (
     Reading,
     closes_somewhere,
@@ -152,7 +154,7 @@ class FourBar:
         Source
             thesis 4.2 (transmission angle)
         """
-        return min(min(gamma, math.pi - gamma) for gamma in self.transmission_extremes())
+        return min(map(acute, self.transmission_extremes()))
 
     def inverse(self) -> FourBar:
         """The same linkage driven at the rocker: crank and rocker change places.
@@ -292,6 +294,7 @@ def solve_inverse(
     return FourBarInverseState(crank + math.pi, coupler, transmission, *rates)
 
 
+@lru_cache(maxsize=16)
 def inverse_reading(linkage: FourBar) -> Reading:
     """Constants of the loop with the rocker driving, D the origin and A at (-d, 0): no angle is shifted.
 

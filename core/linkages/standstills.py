@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
 
-from gearlink.core.numerics.roots import bracketed_root, sign_changes
+from gearlink.core.numerics.roots import bracketed_root, roots_on
 
 Function = Callable[[float], float]
 
@@ -36,15 +36,18 @@ class Turning:
 
 @dataclass(frozen=True, slots=True)
 class BackStep:
-    """A stretch of negative speed: crank angles [rad] of its start and end, start <= end < start + 2 pi."""
+    """A back-step, a stretch of negative speed.
+
+    start, end : crank angles phi(1) and phi(2) [rad] - the output speed turns negative at the start, positive again at
+        the end; either may be taken less a turn
+    crank_angle : phi12 [rad] - from start to end, 0 < phi12 < 2 pi
+    angle : how far the output turns back [rad], as a magnitude
+    """
 
     start: float
     end: float
-
-    @property
-    def crank_angle(self) -> float:
-        """Crank angle of the back-step [rad]."""
-        return self.end - self.start
+    crank_angle: float
+    angle: float
 
 
 def zeros_over_turn(f: Function) -> list[float]:
@@ -61,9 +64,7 @@ def zeros_over_turn(f: Function) -> list[float]:
         >>> [round(x, 12) for x in zeros_over_turn(math.cos)]
         [1.570796326795, 4.712388980385]
     """
-    values = [f(x) for x in _GRID]
-    roots = [bracketed_root(f, _GRID[i], _GRID[i + 1]) for i in sign_changes(values)]
-    return sorted(dict.fromkeys(root % TURN for root in roots))
+    return sorted(dict.fromkeys(root % TURN for root in roots_on(f, _GRID)))
 
 
 def turnings(speed: Function, acceleration: Function) -> list[Turning]:
@@ -102,19 +103,20 @@ def standstills(speed: Function, extremes: list[Turning], tolerance: float) -> l
     return sorted(places)
 
 
-def back_steps(speed: Function, places: list[float]) -> list[BackStep]:
+def back_steps(speed: Function, angle: Function, places: list[float]) -> list[BackStep]:
     """The stretches between neighbouring standstills in which the speed ratio is negative.
 
     Parameters
-        speed : function of the crank angle [rad]
+        speed, angle : functions of the crank angle [rad] - of the output, the first the derivative of the second
         places : list of float [rad] - from `standstills`
     Returns
         steps : list of BackStep - a momentary standstill makes none
     Example
-        >>> [round(math.degrees(s.crank_angle), 9) for s in back_steps(lambda x: 1 + 2 * math.sin(x), [3.66, 5.76])]
-        [120.321136977]
+        >>> speed, angle = (lambda x: 1 + 2 * math.sin(x)), (lambda x: x - 2 * math.cos(x))
+        >>> [(round(s.crank_angle, 12), round(s.angle, 12)) for s in back_steps(speed, angle, [3.66, 5.76])]
+        [(2.1, 1.370215408131)]
     """
     if len(places) < 2:
         return []
     around = [*places, places[0] + TURN]
-    return [BackStep(a, b) for a, b in pairwise(around) if speed(0.5 * (a + b)) < 0.0]
+    return [BackStep(a, b, b - a, angle(a) - angle(b)) for a, b in pairwise(around) if speed(0.5 * (a + b)) < 0.0]

@@ -78,6 +78,18 @@ def sign_changes(values: Sequence[float]) -> list[int]:
     return [i for i, (p, q) in pairs if p == 0.0 or p < 0.0 < q or p > 0.0 > q]
 
 
+def roots_on(f: Callable[[float], float], grid: Sequence[float]) -> list[float]:
+    """Roots of a function where its sign changes between neighbours of a grid, to the last bit.
+
+    Notes
+        Two roots within one step are missed.
+    Example
+        >>> roots_on(lambda x: x * x - 2.0, [-2.0, 0.0, 2.0])
+        [-1.414213562373095, 1.414213562373095]
+    """
+    return [bracketed_root(f, grid[i], grid[i + 1]) for i in sign_changes([f(x) for x in grid])]
+
+
 def maximum(f: Callable[[float], float], low: float, high: float) -> tuple[float, float]:
     """Place and value of the maximum of a function that has one hump between two points (golden section).
 

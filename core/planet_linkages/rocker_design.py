@@ -186,6 +186,7 @@ class GearedRocker(SingleMesh):
         import numpy as np
 
         from gearlink.core.linkages import fourbar_sweep
+        from gearlink.core.linkages.fourbar_refine import dead_point_distance
         from gearlink.core.numerics.arrays import turn_degrees
 
         degrees, ratio = turn_degrees(samples), self.gear_ratio
@@ -201,10 +202,7 @@ class GearedRocker(SingleMesh):
                 (1.0 - ratio) * sweep.rocker_acceleration + ratio * sweep.coupler_acceleration,
                 "1",
             ),
-            "transmission_angle": (
-                np.degrees(np.minimum(sweep.transmission_angle, np.pi - sweep.transmission_angle)),
-                "deg",
-            ),
+            "transmission_angle": (np.degrees(dead_point_distance(sweep.transmission_angle)), "deg"),
         }
         return Table.of("motion", columns)
 

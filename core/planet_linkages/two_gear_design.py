@@ -204,7 +204,7 @@ class TwoGearFourBar(SingleMesh):
     @cached_property
     def back_steps(self) -> list[BackStep]:
         """Every back-step of the turn."""
-        return standstills.back_steps(self.drive.speed, self.dwell_crank_angles)
+        return standstills.back_steps(self.drive.speed, self.drive.angle, self.dwell_crank_angles)
 
     @cached_property
     def motion(self) -> str:
@@ -216,16 +216,9 @@ class TwoGearFourBar(SingleMesh):
     @cached_property
     def back_step(self) -> BackStep | None:
         """The back-step that loses most, where there is one."""
-        return max(self.back_steps, key=self._lost, default=None)
+        return max(self.back_steps, key=lambda step: step.angle, default=None)
 
-    def _lost(self, step: BackStep) -> float:
-        return self.drive.angle(step.start) - self.drive.angle(step.end)
-
-    @property
-    def back_step_angle(self) -> float | None:
-        """How far the output steps back [rad]."""
-        return None if self.back_step is None else self._lost(self.back_step)
-
+    back_step_angle: float | None = placed("back_step.angle")
     back_step_crank_angle: float | None = placed("back_step.crank_angle")
 
     @property
@@ -238,6 +231,7 @@ class TwoGearFourBar(SingleMesh):
         import numpy as np
 
         from gearlink.core.linkages import fourbar_sweep
+        from gearlink.core.linkages.fourbar_refine import dead_point_distance
         from gearlink.core.numerics.arrays import turn_degrees
 
         degrees, ratio = turn_degrees(samples), self.gear_ratio
@@ -250,10 +244,7 @@ class TwoGearFourBar(SingleMesh):
             "speed_ratio": ((1.0 - ratio) + ratio * sweep.coupler_velocity, "1"),
             "acceleration_ratio": (ratio * sweep.coupler_acceleration, "1"),
             "coupler_ratio": (sweep.coupler_velocity, "1"),
-            "transmission_angle": (
-                np.degrees(np.minimum(sweep.transmission_angle, np.pi - sweep.transmission_angle)),
-                "deg",
-            ),
+            "transmission_angle": (np.degrees(dead_point_distance(sweep.transmission_angle)), "deg"),
         }
         return Table.of("motion", columns)
 

@@ -15,6 +15,7 @@ import numpy as np
 
 from gearlink.core.errors import at_key
 from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.fourbar_refine import dead_point_distance
 from gearlink.core.linkages.fourbar_sweep import FourBarInverseSweep, solve_inverse
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.extremes import Extreme
@@ -154,8 +155,7 @@ class GripperLinkage:
 
 def _folded(angle: Reals) -> Reals:
     """Angle between two lines, 0 to pi/2."""
-    folded: Reals = np.abs(np.arctan2(np.sin(angle), np.cos(angle)))
-    return np.minimum(folded, math.pi - folded)
+    return dead_point_distance(np.abs(np.arctan2(np.sin(angle), np.cos(angle))))
 
 
 def _start_in_first_turn(angle: Reals) -> Reals:

@@ -14,11 +14,11 @@ from gearlink.core.linkages.checks import check_linkage, transmission_check
 from gearlink.core.linkages.codes import GEAR_COLLISION, SHAFT_CLEARANCE
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.linkages.nearest_passes import joint_to_crank_pivot
+from gearlink.core.linkages.standstills import BackStep
 from gearlink.core.report import Check, Status, Table, safely_above, safely_below
 from gearlink.core.results import cached_property
 from gearlink.core.three_gear import dwells, motion
 from gearlink.core.three_gear.codes import ACHIEVED
-from gearlink.core.three_gear.dwells import BackStep
 from gearlink.core.three_gear.idler_choice import idler_for_ratio
 from gearlink.core.three_gear.momentary_dwell import crank_with_room
 from gearlink.core.three_gear.motion import Extremes, GearTrain

@@ -8,11 +8,11 @@ searched for; `gearlink.core.three_gear.momentary_dwell` has the case of the dou
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.checks import check_linkage
 from gearlink.core.linkages.fourbar import FourBar, solve
+from gearlink.core.linkages.standstills import BackStep
 from gearlink.core.numerics.gauss import integral
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.three_gear.momentary_dwell import (
@@ -32,21 +32,6 @@ BACK_STEP = "back-step"
 # frames apart, so nearer to zero than this the output has one standstill, not two or none.
 STANDSTILL_TOLERANCE = 1e-9
 _LINK_TOLERANCE = 1e-9
-
-
-@dataclass(frozen=True, slots=True)
-class BackStep:
-    """A back-step: crank angles [rad] in [0, 2 pi) where it starts and ends, its width and the angle lost.
-
-    start, end : phi(1) and phi(2) - the output speed turns negative at the start, positive again at the end
-    crank_angle : phi12 - from start to end, 0 < phi12 < 2 pi (end may be the smaller number)
-    angle : how far the output turns back, as a magnitude
-    """
-
-    start: float
-    end: float
-    crank_angle: float
-    angle: float
 
 
 def dwell_positions(linkage: FourBar, train: GearTrain) -> list[float]:

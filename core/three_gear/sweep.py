@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages import fourbar, fourbar_sweep
 from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.fourbar_refine import dead_point_distance
 from gearlink.core.numerics.arrays import Mask, Reals
 from gearlink.core.numerics.gauss import GAUSS_NODES, GAUSS_WEIGHTS
 from gearlink.core.three_gear.dwell_angle_sweep import regained
@@ -99,7 +100,7 @@ def output_motion(linkage: FourBar, train: GearTrain, crank_angle: ArrayLike) ->
         train.ratio * phi + p * coupler + q * rocker,
         train.ratio + p * state.coupler_velocity + q * state.rocker_velocity,
         p * state.coupler_acceleration + q * state.rocker_acceleration,
-        np.minimum(state.transmission_angle, math.pi - state.transmission_angle),
+        dead_point_distance(state.transmission_angle),
     )
 
 

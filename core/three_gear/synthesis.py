@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import cache
 from typing import Any
 
 from gearlink.core.design import Outline, placed
 from gearlink.core.errors import MissingSection, NoSolution, at_key
 from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.standstills import BackStep
 from gearlink.core.report import Check, safely_below
 from gearlink.core.results import cached_property
 from gearlink.core.three_gear import symmetric_back_step
 from gearlink.core.three_gear import symmetric_family as family
 from gearlink.core.three_gear.codes import ACHIEVED
 from gearlink.core.three_gear.design import CHECKS, QUANTITIES, ThreeGearFourBar
-from gearlink.core.three_gear.dwells import BackStep
 from gearlink.core.three_gear.idler_choice import GREATEST_IDLER, LEAST_IDLER, idler_for_ratio, smallest_idler
 from gearlink.core.three_gear.momentary_dwell import momentary_crank_angle, momentary_linkage
 from gearlink.core.three_gear.motion import GearTrain, gear_gap
@@ -106,11 +107,16 @@ class SymmetricSynthesis(Synthesis):
                 key="gears.output",
             )
 
+    @cached_property
+    def frame_ratio_at(self) -> Callable[[float], float]:
+        """`frame_ratio_for`, solved once for each i3."""
+        return cache(self.frame_ratio_for)
+
     def linkage_of(self, idler: int) -> FourBar:
         """Links of the family for an idler."""
         self._require_equal_gears()
         gears = self.spec.gears
-        ratio = self.frame_ratio_for(-idler / gears.output)
+        ratio = self.frame_ratio_at(-idler / gears.output)
         return family.symmetric_linkage(ratio, gears.module * (gears.crank + idler) / 2.0, self.spec.assembly)
 
     def depends_on_idler(self, refusal: NoSolution) -> bool:
@@ -120,7 +126,7 @@ class SymmetricSynthesis(Synthesis):
     @cached_property
     def frame_ratio(self) -> float:
         """Frame over crank."""
-        return self.frame_ratio_for(self.i3)
+        return self.frame_ratio_at(self.i3)
 
     @cached_property
     def speed_limits(self) -> family.SpeedLimits:
@@ -143,13 +149,18 @@ class BackStepFamily(SymmetricSynthesis):
         """phi12 [rad] that meets the task with a ratio i3."""
         raise NotImplementedError
 
+    @cached_property
+    def crank_angle_at(self) -> Callable[[float], float]:
+        """`crank_angle_for`, solved once for each i3."""
+        return cache(self.crank_angle_for)
+
     def frame_ratio_for(self, i3: float) -> float:
         """Thesis (4-18)."""
-        return family.frame_ratio_for_back_step(i3, self.crank_angle_for(i3))
+        return family.frame_ratio_for_back_step(i3, self.crank_angle_at(i3))
 
-    @cached_property
+    @property
     def _phi12(self) -> float:
-        return self.crank_angle_for(self.i3)
+        return self.crank_angle_at(self.i3)
 
     @cached_property
     def dwell_crank_angles(self) -> list[float]:

@@ -20,7 +20,7 @@ from gearlink.core.errors import NoSolution
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.elliptic import complete_integral, incomplete_integral, jacobi_sn_cn
 from gearlink.core.numerics.periodic import CosineSeries, cosine_series, midpoint_mean
-from gearlink.core.numerics.roots import bracketed_root, sign_changes
+from gearlink.core.numerics.roots import roots_on
 from gearlink.core.results import cached_property
 from gearlink.core.wide_swing.device import (
     Device,
@@ -210,8 +210,7 @@ class ElasticLaw:
         if isinstance(self.device, Pneumatic):
             return [tangent]
         grid = np.geomspace(tangent, start, 65).tolist()
-        values = [self._torque_rise(s) for s in grid]
-        return [bracketed_root(self._torque_rise, grid[i], grid[i + 1]) for i in sign_changes(values)]
+        return roots_on(self._torque_rise, grid)
 
     def _torque_rise(self, s: float) -> float:
         """Sign of d(device torque)/d(phi) at s = sin^2(phi/2)."""

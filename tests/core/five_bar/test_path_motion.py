@@ -25,7 +25,7 @@ from gearlink.core.errors import NoSolution
 from gearlink.core.five_bar.fit import fit_path, judge
 from gearlink.core.five_bar.function_motion import FunctionFiveBar
 from gearlink.core.five_bar.path import distances, extent, points, sweep
-from gearlink.core.five_bar.path_motion import GearedFiveBar
+from gearlink.core.five_bar.path_motion import PathFiveBar
 from gearlink.core.five_bar.positions import five_bar_for_positions, position_errors
 from gearlink.core.linkages.dyad import close_dyad, transmission_angle
 from gearlink.core.linkages.fourbar import FourBar, solve
@@ -35,7 +35,7 @@ from gearlink.core.numerics.harmonic_sum import HarmonicSum
 REFERENCE = Path(__file__).parents[2] / "reference"
 CASES = {case["id"]: case for case in json.loads((REFERENCE / "gear_linkage.json").read_text())["cases"]}
 OUT = CASES["five_bar"]["outputs"]
-BAR = GearedFiveBar(20.0, 60.0, 60.0, 20.0, 50.0, Fraction(-1), math.radians(90.0))
+BAR = PathFiveBar(20.0, 60.0, 60.0, 20.0, 50.0, Fraction(-1), math.radians(90.0))
 FUNCTION = FunctionFiveBar(45.0, 18.0, 40.0, 40.0, 38.0, 1.8, math.radians(154.0))
 RADIANS = math.radians
 
@@ -100,7 +100,7 @@ def test_reference_closure():
 
 def test_a_ratio_of_one_on_one_side_is_a_four_bar():
     """An output link so short that D stays at E: the five-bar is the four-bar of the other links."""
-    bar = GearedFiveBar(20.0, 70.0, 60.0, 1e-12, 80.0, Fraction(1), 0.0)
+    bar = PathFiveBar(20.0, 70.0, 60.0, 1e-12, 80.0, Fraction(1), 0.0)
     linkage = FourBar(20.0, 70.0, 60.0, 80.0)
     for phi in (0.3, 2.0, 5.5):
         assert bar.coupler_angle(phi) == pytest.approx(solve(linkage, phi).coupler_angle, abs=1e-13)
@@ -123,7 +123,7 @@ def test_sweep_follows_the_scalar_kernel_over_the_whole_period(ratio):
 
 
 def test_coarse_rows_keep_the_winding():
-    bar = GearedFiveBar(60.0, 50.0, 48.0, 10.0, 20.0, Fraction(1), 1.0)
+    bar = PathFiveBar(60.0, 50.0, 48.0, 10.0, 20.0, Fraction(1), 1.0)
     fine = sweep(bar, np.linspace(0.0, bar.period, 721), 0j).coupler_angle
     coarse = sweep(bar, np.linspace(0.0, bar.period, 4), 0j).coupler_angle
     assert coarse == pytest.approx(fine[::240], abs=1e-11)
@@ -262,7 +262,7 @@ def test_positions_refused(pairs, words):
 
 
 def test_path_that_exists_is_found():
-    true = GearedFiveBar(17.0, 66.0, 52.0, 24.0, 50.0, Fraction(-1), RADIANS(40.0))
+    true = PathFiveBar(17.0, 66.0, 52.0, 24.0, 50.0, Fraction(-1), RADIANS(40.0))
     targets = points(true, np.linspace(0.0, 6.0, 15), 40.0 + 25.0j)
     fit = fit_path(BAR, 60.0 + 0j, targets, RADIANS(25.0))
     assert fit.distance.max() < 1e-9

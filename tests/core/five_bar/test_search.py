@@ -17,13 +17,13 @@ from gearlink.core.five_bar.descent import PathProblem, descend, matched
 from gearlink.core.five_bar.family import UNKNOWNS, FiveBarFamily
 from gearlink.core.five_bar.fit import fit_path, judge
 from gearlink.core.five_bar.path import distances, points, sweep
-from gearlink.core.five_bar.path_motion import GearedFiveBar
+from gearlink.core.five_bar.path_motion import PathFiveBar
 
-BAR = GearedFiveBar(20.0, 60.0, 60.0, 20.0, 50.0, Fraction(-1), math.radians(90.0))
+BAR = PathFiveBar(20.0, 60.0, 60.0, 20.0, 50.0, Fraction(-1), math.radians(90.0))
 BARS = [
     replace(BAR, phase=1.2, input=17.0),
-    GearedFiveBar(18.0, 68.0, 62.0, 14.0, 50.0, Fraction(3, 2), 0.7, -1),
-    GearedFiveBar(22.0, 64.0, 58.0, 12.0, 50.0, Fraction(-2, 3), -2.0),
+    PathFiveBar(18.0, 68.0, 62.0, 14.0, 50.0, Fraction(3, 2), 0.7, -1),
+    PathFiveBar(22.0, 64.0, 58.0, 12.0, 50.0, Fraction(-2, 3), -2.0),
 ]
 OFFSET = 40.0 + 25.0j
 DESIGN = np.array([-10 + 60j, 10 + 70j, 30 + 75j, 50 + 70j, 60 + 55j, 30 + 50j, 0 + 50j])
@@ -124,7 +124,7 @@ def test_fit_is_kept_to_its_limit_and_repeatable(ratio, targets, degrees, known)
 
 @pytest.mark.parametrize("ratio", [Fraction(2), Fraction(-1, 2), Fraction(-3)])
 def test_a_path_that_exists_is_found_whatever_the_ratio(ratio):
-    true = GearedFiveBar(17.0, 66.0, 60.0, 14.0, 50.0, ratio, math.radians(40.0))
+    true = PathFiveBar(17.0, 66.0, 60.0, 14.0, 50.0, ratio, math.radians(40.0))
     targets = points(true, np.linspace(0.0, 0.95 * true.period, 9), OFFSET)
     fit = fit_path(replace(BAR, ratio=ratio), 60.0 + 0j, targets, math.radians(15.0))
     assert fit.distance.max() < 1e-9

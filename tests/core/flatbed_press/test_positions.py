@@ -17,7 +17,6 @@ from gearlink.core.flatbed_press.chains import BedChain, CylinderChain
 from gearlink.core.flatbed_press.positions import (
     bed_positions,
     cylinder_positions,
-    equal_speed_angles,
     least_transmission_input,
 )
 from gearlink.core.linkages.fourbar import FourBar
@@ -88,16 +87,3 @@ def test_least_transmission_angle_stands_where_it_is_said_to(bed: BedChain, cyli
     ):
         folded = min(abs(angle), math.pi - abs(angle))
         assert math.degrees(folded) == pytest.approx(least, abs=1e-10)
-
-
-def test_equal_speed_points_of_the_press(bed: BedChain, cylinder: CylinderChain) -> None:
-    found = equal_speed_angles(bed, cylinder)
-    assert math.degrees(found[0]) == pytest.approx(33.99992349092281, abs=1e-7)
-    assert [round(math.degrees(phi), 1) for phi in found] == [34.0, 55.2, 78.4, 179.2]
-    for phi in found:
-        assert bed.travel(phi, 1).first == pytest.approx(cylinder.travel(phi, 1).first, rel=1e-12)
-
-
-def test_speeds_that_never_meet_give_no_points(bed: BedChain) -> None:
-    giant = CylinderChain(FourBar(100.0, 100.0, 95.0, 40.0, -1), 1.0, 14000.0, 1.0)
-    assert equal_speed_angles(bed, giant) == ()

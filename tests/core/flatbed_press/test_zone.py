@@ -14,12 +14,13 @@ from dataclasses import replace
 from pathlib import Path
 
 import mpmath as mp
+import numpy as np
 import pytest
 from oracles.press import PRESSES, TY460, Press
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.flatbed_press.chains import BedChain, CylinderChain, difference
-from gearlink.core.flatbed_press.zone import equal_speed_angle, forward_stroke_end, zone_end
+from gearlink.core.flatbed_press.zone import equal_speed_angle, equal_speed_angles, forward_stroke_end, zone_end
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.linkages.slider_crank import crank_length
 
@@ -169,3 +170,30 @@ def test_zone_longer_than_a_turn_of_the_cylinder():
     with pytest.raises(NoSolution, match=r"900 mm.*879\.646 mm.*below 879\.64 mm") as refusal:
         zone_end(cylinder, 0.5, 900.0)
     assert refusal.value.key == "sync.length"
+
+
+def test_equal_speeds_of_both_strokes():
+    bed, cylinder = chains(TY460)
+    found = equal_speed_angles(bed, cylinder)
+    assert found[0] == equal_speed_angle(bed, cylinder)
+    assert [round(math.degrees(phi), 1) for phi in found] == [34.0, 55.2, 78.4, 179.2]
+    for phi in found:
+        # both speeds carry some 1e-13 of their size, on a crossing that is not steep
+        assert bed.travel(phi, 1).first == pytest.approx(cylinder.travel(phi, 1).first, rel=1e-12)
+
+
+def test_speeds_that_never_meet_give_no_angles():
+    bed, cylinder = chains(TY460)
+    assert equal_speed_angles(bed, replace(cylinder, radius=14000.0)) == []
+
+
+@pytest.mark.parametrize("name", PRESSES)
+def test_equal_speeds_against_a_fine_grid(name):
+    bed, cylinder = chains(PRESSES[name])
+    grid = np.radians((np.arange(7201) - 0.5) / 20.0)
+    gap = np.asarray(difference(bed, cylinder, grid, 1).first)
+    sides = np.flatnonzero(gap[:-1] * gap[1:] < 0.0)
+    found = equal_speed_angles(bed, cylinder)
+    assert len(found) == sides.size
+    for phi, i in zip(found, sides, strict=True):
+        assert grid[i] <= phi <= grid[i + 1]

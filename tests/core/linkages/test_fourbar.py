@@ -25,7 +25,7 @@ from hypothesis import strategies as st
 from sweeps import examples
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.fourbar import FourBar, FourBarState, solve, solve_inverse
+from gearlink.core.linkages.fourbar import FourBar, FourBarState, inverse_reading, solve, solve_inverse
 
 EPS = 2.0**-52
 REFERENCE = Path(__file__).parents[2] / "reference"
@@ -493,3 +493,9 @@ def test_other_refusals() -> None:
 def test_rates_that_were_not_asked_for_are_nan() -> None:
     assert math.isnan(solve(CRANK_ROCKER, 0.0).rocker_velocity)
     assert math.isnan(solve(CRANK_ROCKER, 0.0, 2).rocker_jerk)
+
+
+def test_the_constants_of_the_inverse_are_made_once():
+    linkage = FourBar(50.0, 45.0, 48.0, 20.0)
+    assert inverse_reading(linkage) is inverse_reading(FourBar(50.0, 45.0, 48.0, 20.0))
+    assert inverse_reading(linkage) is not inverse_reading(linkage.inverse())

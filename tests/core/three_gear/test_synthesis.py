@@ -23,6 +23,7 @@ from pydantic import ValidationError
 from sweeps import examples
 
 from gearlink.core.errors import MissingSection, NoSolution
+from gearlink.core.three_gear import symmetric_back_step
 
 CASES = json.loads((Path(__file__).parents[2] / "reference" / "contract" / "synth.json").read_text())
 EQUAL = {"module": 2.0, "crank": 40, "output": 40}
@@ -452,3 +453,15 @@ def test_closed_forms_replace_the_search_for_extremes():
     made = design("synth dwell", gears=EQUAL | {"idler": 72}, dwell={"angle": 135.0})
     made.report("synth dwell")
     assert not set(vars(made)) & {"speed_extremes", "acceleration_extremes", "tolerance_dwell"}
+
+
+def test_the_root_of_the_dwell_is_solved_once(monkeypatch):
+    solved = []
+
+    def counted(i3, angle, solve=symmetric_back_step.crank_angle_for_dwell):
+        solved.append(i3)
+        return solve(i3, angle)
+
+    monkeypatch.setattr(symmetric_back_step, "crank_angle_for_dwell", counted)
+    design("synth dwell", gears=EQUAL | {"idler": 72}, dwell={"angle": 135.0}).report("synth dwell")
+    assert len(solved) == 1
