@@ -6,6 +6,7 @@ Tolerances: none of its own; numbers are tested beside the engine. Plotted data 
 from pathlib import Path
 
 import pytest
+from sweeps import mostly_slow
 
 from gearlink.cli.figures.write import draw
 from gearlink.core.kinds import KINDS
@@ -44,7 +45,7 @@ def test_every_command_in_every_format(kind, name, gearlink, designs):
             assert gearlink(*command.split(), designs / f"{name}.yaml", "--format", form).status == 0
 
 
-@pytest.mark.parametrize(("kind", "name"), PAIRS)
+@pytest.mark.parametrize(("kind", "name"), mostly_slow(PAIRS, 1))
 def test_figures_are_written(kind, name, gearlink, designs, tmp_path):
     for command in KINDS[kind].commands:
         ended = gearlink(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from functools import cache
 from importlib.metadata import packages_distributions
 from pathlib import Path
 
@@ -24,6 +25,7 @@ print(json.dumps([int(status), sorted(sys.modules)]))
 """
 
 
+@cache
 def modules_of(*arguments: str) -> set[str]:
     """Modules loaded by a command in a process of its own."""
     done = subprocess.run(

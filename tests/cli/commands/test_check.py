@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from sweeps import ALL
 
 from gearlink.cli.texts.finding_keys import key_of
 from gearlink.core.design import Design
@@ -168,7 +169,7 @@ def test_no_table_is_computed(gearlink: Any, designs: Path, monkeypatch: pytest.
 
 def test_agrees_with_batch_on_every_design(gearlink: Any, designs: Path, tmp_path: Path) -> None:
     """Same exit status and the same failures, file by file."""
-    for path in sorted(designs.glob("*.yaml")):
+    for path in sorted(designs.glob("*.yaml"))[:: 1 if ALL else 5]:
         alone = tmp_path / path.stem
         alone.mkdir()
         shutil.copy(path, alone)

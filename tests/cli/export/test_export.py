@@ -19,6 +19,7 @@ from typing import Any
 
 import ezdxf
 import pytest
+from sweeps import mostly_slow
 
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.export.header import rounded_up
@@ -155,7 +156,7 @@ def test_svg_is_to_scale_and_holds_the_points_of_the_csv(gearlink: Any, tmp_path
     assert top < -max(float(row["pitch_y [mm]"]) for row in rows)
 
 
-@pytest.mark.parametrize("curve", ["polyline", "spline"])
+@pytest.mark.parametrize("curve", mostly_slow(["polyline", "spline"], 1))
 def test_the_same_design_gives_the_same_bytes(gearlink: Any, tmp_path: Path, curve: str) -> None:
     """Also in another process with another hash seed."""
     words = ["export", str(PRESS), "--part", "main_cam", "--as", "dxf", "--as", "svg", "--as", "csv", "--curve", curve]

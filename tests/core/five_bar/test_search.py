@@ -11,6 +11,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from sweeps import mostly_slow
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.five_bar.descent import PathProblem, descend, matched
@@ -106,11 +107,14 @@ def test_distance_is_that_of_the_nearest_branch(bar):
 
 @pytest.mark.parametrize(
     ("ratio", "targets", "degrees", "known"),
-    [
-        (Fraction(-1), DESIGN, 30.0, 0.5358976),
-        (Fraction(-1, 2), DESIGN, 30.0, None),
-        (Fraction(2), RING, 25.0, None),
-    ],
+    mostly_slow(
+        [
+            (Fraction(-1), DESIGN, 30.0, 0.5358976),
+            (Fraction(-1, 2), DESIGN, 30.0, None),
+            (Fraction(2), RING, 25.0, None),
+        ],
+        1,
+    ),
 )
 def test_fit_is_kept_to_its_limit_and_repeatable(ratio, targets, degrees, known):
     start = replace(BAR, ratio=ratio)
@@ -122,7 +126,7 @@ def test_fit_is_kept_to_its_limit_and_repeatable(ratio, targets, degrees, known)
     assert (again.bar, again.offset) == (fit.bar, fit.offset)
 
 
-@pytest.mark.parametrize("ratio", [Fraction(2), Fraction(-1, 2), Fraction(-3)])
+@pytest.mark.parametrize("ratio", mostly_slow([Fraction(2), Fraction(-1, 2), Fraction(-3)], 2))
 def test_a_path_that_exists_is_found_whatever_the_ratio(ratio):
     true = PathFiveBar(17.0, 66.0, 60.0, 14.0, 50.0, ratio, math.radians(40.0))
     targets = points(true, np.linspace(0.0, 0.95 * true.period, 9), OFFSET)

@@ -277,13 +277,14 @@ def test_similar_designs(factor: float) -> None:
 
     rocker = design(layout="twin-rocker", swing=150.0, cycle_angle=90.0, unloader=SPRING)
     for made in (design(), rocker):
+        large = scaled(made)
         for name in made.outline("analyze").quantities:
             if name in ("force", "spring_rate") or made.quantity(name) is None:
                 continue
             scale = factor if made.quantity(name).unit == "mm" else 1.0  # type: ignore[union-attr]
-            assert value(scaled(made), name) == pytest.approx(scale * value(made, name), rel=1e-11, abs=0.0), name
+            assert value(large, name) == pytest.approx(scale * value(made, name), rel=1e-11, abs=0.0), name
         for name in made.outline("cam").checks:
-            assert statuses(scaled(made), name) == statuses(made, name)
+            assert statuses(large, name) == statuses(made, name)
 
 
 class TestLoops:
@@ -392,7 +393,9 @@ def test_recommendation_as_given_repairs_the_finding(made: WideSwingDesign, chec
 def test_recommended_numbers_stand_in_the_message(made: WideSwingDesign) -> None:
     """What `suggestions` gives is what the finding prints."""
     try:
-        messages = [check.message for check in made.report("swing").checks if check.status == "fail"]
+        messages = [
+            check.message for check in made.report("swing", findings_only=True).checks if check.status == "fail"
+        ]
     except NoSolution as refusal:
         messages = [refusal.message]
     for suggestion in made.suggestions():
@@ -487,11 +490,13 @@ class TestSections:
         assert "iteration_error" not in design().outline("swing").quantities
 
     def test_every_quantity_of_every_outline_is_known(self) -> None:
-        rocker = design(layout="twin-rocker", swing=150.0, cycle_angle=90.0, unloader=SPRING, method="iteration")
-        for made in (design(), rocker, driven(), design(cam=None, slider=SLIDER)):
+        rocker = design(
+            layout="twin-rocker", swing=150.0, cycle_angle=90.0, unloader=SPRING, method="iteration", iteration_steps=10
+        )
+        for made in (design(), rocker, marched, driven(), design(cam=None, slider=SLIDER)):
             for command in ("swing", "analyze"):
                 assert set(made.outline(command).quantities) <= set(made.quantity_names())
-                made.report(command)
+            made.report("analyze")
 
 
 def test_laziness() -> None:

@@ -26,7 +26,7 @@ from oracles.unloading_limits import (
     small_swing_peaks,
     touching_pins_energy_parameter,
 )
-from sweeps import examples
+from sweeps import examples, mostly_slow
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.wide_swing.device import Device
@@ -113,15 +113,18 @@ def test_long_cylinder_and_weightless_spring_are_pendulums(swing: int) -> None:
 
 @pytest.mark.parametrize(
     ("device", "swing"),
-    [
-        (Pneumatic(2.5), 120.0),
-        (Spring(4.0, 0.5), 180.0),
-        (Spring(1.5, 0.0), 300.0),
-        (Pneumatic(1.05), 300.0),
-        (Pneumatic(1.001), 120.0),
-        (Spring(1.001, 0.1), 300.0),
-        (Pneumatic(1.0 + 1e-6), 300.0),
-    ],
+    mostly_slow(
+        [
+            (Pneumatic(2.5), 120.0),
+            (Spring(4.0, 0.5), 180.0),
+            (Spring(1.5, 0.0), 300.0),
+            (Pneumatic(1.05), 300.0),
+            (Pneumatic(1.001), 120.0),
+            (Spring(1.001, 0.1), 300.0),
+            (Pneumatic(1.0 + 1e-6), 300.0),
+        ],
+        4,
+    ),
 )
 def test_time_by_gauss_legendre_in_another_variable(device: Device, swing: float) -> None:
     """phi = th0 - v^2 removes the end singularity in its own way; adaptive panels resolve mid-swing."""

@@ -10,6 +10,7 @@ import math
 
 import numpy as np
 import pytest
+from sweeps import mostly_slow
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.wide_swing.device import Device, Pneumatic, Spring
@@ -19,7 +20,7 @@ from gearlink.core.wide_swing.iteration import legacy_law
 DEVICES = [(Pneumatic(2.5), 120.0), (Spring(4.0, 0.5), 180.0), (Pneumatic(5.3), 300.0), (Spring(2.0, 0.0), 60.0)]
 
 
-@pytest.mark.parametrize(("device", "swing"), DEVICES)
+@pytest.mark.parametrize(("device", "swing"), mostly_slow(DEVICES, 2))
 def test_error_falls_with_the_square_of_the_step(device: Device, swing: float) -> None:
     exact = ElasticLaw(device, math.radians(swing))
     laws = [legacy_law(device, math.radians(swing), steps=n) for n in (10, 20, 40)]
