@@ -490,9 +490,8 @@ class TestSections:
         assert "iteration_error" not in design().outline("swing").quantities
 
     def test_every_quantity_of_every_outline_is_known(self) -> None:
-        rocker = design(
-            layout="twin-rocker", swing=150.0, cycle_angle=90.0, unloader=SPRING, method="iteration", iteration_steps=10
-        )
+        rocker = design(layout="twin-rocker", swing=150.0, cycle_angle=90.0, unloader=SPRING)
+        marched = design(method="iteration", iteration_steps=10)
         for made in (design(), rocker, marched, driven(), design(cam=None, slider=SLIDER)):
             for command in ("swing", "analyze"):
                 assert set(made.outline(command).quantities) <= set(made.quantity_names())
