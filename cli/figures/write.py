@@ -41,7 +41,8 @@ def settled(made: Figure) -> Figure:
     drawing to scale widens its limits by them. So the limits are those from before the layout.
     """
     limits = [(axes.get_xlim(), axes.get_ylim()) for axes in made.axes]
-    made.draw_without_rendering()
+    if layout := made.get_layout_engine():
+        layout.execute(made)
     made.set_layout_engine("none")
     for axes, (x, y) in zip(made.axes, limits, strict=True):
         box = axes.get_position(original=True).bounds
