@@ -69,7 +69,8 @@ def named(spec: Any, source: str) -> Any:
     """The spec with the file's stem for a name where the file gives none."""
     if "name" in spec.model_fields_set or source == "-":
         return spec
-    return spec.model_copy(update={"name": Path(source).stem})
+    stem = "".join(each if each.isprintable() else "\N{REPLACEMENT CHARACTER}" for each in Path(source).stem)
+    return spec.model_copy(update={"name": stem})
 
 
 def require_command(loaded: LoadedFile, kind: Kind, command: str) -> None:

@@ -101,10 +101,11 @@ def read_plain_file(path: Path, limit: int, *, private: bool = False) -> bytes:
 
 
 def safe_stem(name: str) -> str:
-    """A design's name as a file name: letters, digits, dot, dash and underscore; never a path.
+    """A design's name as a file name: letters, digits, dot, dash and underscore, 100 bytes of them; never a path.
 
     Example
         >>> safe_stem("../a b/TY-460")
         'a-b-TY-460'
     """
-    return re.sub(r"[^\w.-]+", "-", name).strip("-.")[:100] or "design"
+    stem = re.sub(r"[^\w.-]+", "-", name).strip("-.")
+    return stem.encode(errors="ignore")[:100].decode(errors="ignore") or "design"

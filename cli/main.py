@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import gc
+import io
 import os
 import sys
+from typing import Any, TextIO
 
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import leave_nothing_behind
@@ -12,19 +14,48 @@ from gearlink.cli.files import leave_nothing_behind
 
 def main() -> None:
     """Run gearlink on the process's arguments and leave with its exit status."""
-    _hasten_start()
+    _prepare_process()
     leave_nothing_behind()
+    sys.stdout, sys.stderr = _output(sys.stdout, BrokenPipeError), _output(sys.stderr, OSError)
     sys.exit(run(sys.argv[1:]))
 
 
-def _hasten_start() -> None:
+def _prepare_process() -> None:
     """Leave out what costs time at the start of a process and serves nothing here.
 
     The collector would walk the modules over and over while they are loaded, and pydantic would read the metadata
-    of every installed package in search of plug-ins.
+    of every installed package in search of plug-ins. Pictures are drawn into files, whatever backend the user's
+    environment names, and a wrong name must not keep matplotlib from loading.
     """
     gc.set_threshold(50_000, 20, 100)
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")
+    os.environ["MPLBACKEND"] = "agg"
+
+
+class _Output(io.FileIO):
+    """A stream of the process that drops what it cannot write: silently where the reason is one that it ignores.
+
+    The exit status is the design's, whether or not the reader of a pipe stays to the end and wherever notes go.
+    """
+
+    ignored: type[OSError]
+
+    def write(self, data: Any) -> int:
+        try:
+            return super().write(data)
+        except OSError as error:
+            os.dup2(os.open(os.devnull, os.O_WRONLY), self.fileno())  # for this and the interpreter's last flush
+            if isinstance(error, self.ignored):
+                return len(data)
+            raise
+
+
+def _output(stream: TextIO, ignored: type[OSError]) -> TextIO:
+    if stream is None:  # closed by the parent
+        return stream
+    raw = _Output(stream.fileno(), "w", closefd=False)
+    raw.ignored = ignored
+    return io.TextIOWrapper(io.BufferedWriter(raw), encoding=stream.encoding, line_buffering=stream.isatty())
 
 
 def run(arguments: list[str]) -> int:
@@ -40,12 +71,6 @@ def run(arguments: list[str]) -> int:
     except KeyboardInterrupt:
         print("interrupted", file=sys.stderr)
         return ExitCode.INTERRUPTED
-    except BrokenPipeError:
-        return _reader_gone()
-    except SystemExit as end:  # rich and Typer make this of a broken pipe
-        if isinstance(end.__context__, BrokenPipeError):
-            return _reader_gone()
-        raise
     except Exception as fault:
         return _fault(fault)
 
@@ -57,12 +82,6 @@ def _replace_closed_streams() -> None:
     for name in ("stdout", "stderr"):
         if getattr(sys, name) is None:
             setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115
-
-
-def _reader_gone() -> int:
-    """The reader of a pipe had enough. Point stdout elsewhere so that the interpreter's last flush finds it open."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    return ExitCode.OK
 
 
 def _invoke(arguments: list[str]) -> int:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import unicodedata
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 from pydantic_core import PydanticCustomError
 
 
@@ -14,10 +15,27 @@ class Spec(BaseModel):
     model_config = ConfigDict(strict=True, frozen=True, extra="forbid", allow_inf_nan=False)
 
 
+MOST_NAME = 200
+"""Characters of a design's name at most: it heads pictures and pages, and names files."""
+
+
+def _fit_to_print(name: str) -> str:
+    if len(name) > MOST_NAME:
+        raise PydanticCustomError("GL108", f"name has {len(name)} characters: shorten it to {MOST_NAME}")
+    if wrong := next((each for each in name if unicodedata.category(each) in ("Cc", "Cs") and each not in "\t\n"), ""):
+        message = f"name holds the control character U+{ord(wrong):04X}: take it out"
+        raise PydanticCustomError("GL108", message)
+    return name
+
+
 class DesignSpec(Spec):
     """The keys that every kind of design file has."""
 
-    name: str = Field("design", description="what the design is called; default: the file's stem")
+    name: Annotated[str, AfterValidator(_fit_to_print)] = Field(
+        "design",
+        description="what the design is called; default: the file's stem",
+        json_schema_extra={"maxLength": MOST_NAME},
+    )
 
 
 Length = Annotated[float, Field(gt=0, json_schema_extra={"unit": "mm"})]

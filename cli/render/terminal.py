@@ -19,6 +19,7 @@ from gearlink.core.report import Check, Quantity, Report, Table
 _MOST_ROWS = 24
 _STYLE = {"pass": "green", "warn": "yellow", "fail": "bold red"}
 _WIDE = 110
+_WIDTH_UNKNOWN = 80  # where COLUMNS says 0
 
 
 def show(report: Report, options: Options) -> None:
@@ -47,7 +48,7 @@ def console_for(options: Options) -> Console:
     """A console on standard output that colours nothing unless a terminal shows it."""
     # color_system=None also drops the bold codes, which NO_COLOR alone leaves in.
     plain = not options.color or not sys.stdout.isatty() or "NO_COLOR" in os.environ
-    return Console(
+    console = Console(
         file=sys.stdout,
         color_system=None if plain else "auto",
         highlight=False,
@@ -55,6 +56,8 @@ def console_for(options: Options) -> Console:
         emoji=False,
         soft_wrap=False,
     )
+    console.width = console.width or _WIDTH_UNKNOWN
+    return console
 
 
 def grid_for(console: Console) -> Grid:

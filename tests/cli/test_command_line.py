@@ -218,11 +218,49 @@ def test_closed_pipe_is_no_error() -> None:
     assert done.returncode == 0
 
 
-@pytest.mark.parametrize("line", ["cam designs/ty460.yaml", "schema", "laws --law cycloidal"])
-def test_a_reader_that_leaves_early_is_no_error_in_any_command(line: str) -> None:
+_FAILS = "designs/thesis_example_3_as_printed.yaml"
+
+
+@pytest.mark.parametrize(
+    ("line", "status"),
+    [("cam designs/ty460.yaml", 0), ("schema", 0), ("laws --law cycloidal", 0), ("--help", 0)]
+    + [(f"{command} {_FAILS}", 1) for command in ("analyze", "check -q", "batch")],
+)
+def test_a_reader_that_leaves_early_does_not_change_the_status(line: str, status: int) -> None:
     pipe = f"set -o pipefail; {sys.executable} -m gearlink.cli.main {line} | true"
     ended = subprocess.run(["bash", "-c", pipe], capture_output=True, cwd=ROOT, check=False)
-    assert (ended.returncode, ended.stderr) == (0, b"")
+    assert (ended.returncode, ended.stderr) == (status, b"")
+
+
+@pytest.mark.parametrize(
+    ("line", "status"), [("crank nosuch.yaml", 2), ("nosuch", 2), (f"analyze {_FAILS} --plot --out OUT", 1)]
+)
+def test_notes_that_cannot_be_written_do_not_change_the_status(line: str, status: int, tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "gearlink.cli.main", *line.replace("OUT", str(tmp_path)).split()]
+    with open("/dev/full", "w") as full:
+        ended = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=full, cwd=ROOT, check=False)
+    assert ended.returncode == status
+
+
+def test_the_backend_of_the_environment_does_not_matter(tmp_path: Path) -> None:
+    environment = {**os.environ, "MPLBACKEND": "bogus"}
+    done = shell("crank", "designs/ty460_slider_crank.yaml", "--plot", "--out", str(tmp_path), env=environment)
+    assert done.returncode == 0
+    assert (tmp_path / "TY-460-slider-crank-crank.png").exists()
+
+
+def test_a_width_of_nothing_is_an_unknown_width(gearlink: Any, crank: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "80")
+    usual = gearlink("crank", crank).out
+    monkeypatch.setenv("COLUMNS", "0")
+    assert gearlink("crank", crank).out == usual != ""
+
+
+@pytest.mark.parametrize("share", ["١/٢", "1/²", "1/+2", " 1/2", "0/2", "3/2", "1", "1/"])
+def test_a_share_is_written_in_plain_digits(gearlink: Any, crank: Path, share: str) -> None:
+    ended = gearlink("batch", crank, "--shard", share)
+    assert ended.status == ExitCode.WRONG_INPUT
+    assert "--shard" in ended.err
 
 
 @pytest.mark.parametrize("line", ["--version", "crank designs/ty460_slider_crank.yaml"])

@@ -44,6 +44,14 @@ def test_folder_in_the_way(tmp_path: Path) -> None:
         write_atomically(tmp_path / "file" / "a.txt", lambda stream: stream.write(b""))
 
 
+@pytest.mark.parametrize("letter", ["x", "é", "中", "𝛼"])
+@pytest.mark.parametrize("start", ["", "a", "ab", "abc"])
+def test_a_file_name_is_cut_by_bytes_between_letters(letter: str, start: str) -> None:
+    stem = safe_stem(start + 200 * letter)
+    assert stem == start + (len(stem) - len(start)) * letter
+    assert 100 - 4 < len(stem.encode()) <= 100
+
+
 @pytest.mark.parametrize(
     ("name", "stem"),
     [("TY-460", "TY-460"), ("../../etc/passwd", "etc-passwd"), ("a/b\\c", "a-b-c"), ("..", "design"), ("", "design")],

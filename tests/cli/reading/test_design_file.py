@@ -636,3 +636,43 @@ def test_speed_of_reading_and_validating() -> None:
     end = time.perf_counter()
     lines = raw.count(b"\n")
     print(f"\n{lines} lines: read {(middle - start) * 5:.3f} ms, validate {(end - middle) * 5:.3f} ms")
+
+
+SLIDER_CRANK = "kind: slider-crank\nstroke: 310\nrod: 520\noffset: 50\nname: "
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("x" * 201, "name has 201 characters: shorten it to 200"),
+        ("x" * 900_000, "name has 900000 characters"),
+        (r'"a\rb"', "U+000D"),
+    ],
+)
+def test_a_name_that_cannot_head_a_picture(gearlink: Any, tmp_path: Path, name: str, words: str) -> None:
+    path = tmp_path / "design.yaml"
+    path.write_text(SLIDER_CRANK + name + "\n")
+    for line in (("check", path), ("report", path, "--out", tmp_path), ("animate", path, "--out", tmp_path)):
+        ended = gearlink(*line)
+        assert ended.status == 2
+        assert "design.yaml:5:1: error GL108: name " in ended.err + ended.out
+        assert words in ended.err + ended.out
+    assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.parametrize("name", ["中" * 200, "e\u0301" * 100, "x" * 200, "a\u200bb\u202ec", r'"a\nb\tc"'])
+def test_any_name_of_letters_heads_every_page(gearlink: Any, tmp_path: Path, name: str) -> None:
+    path = tmp_path / "design.yaml"
+    path.write_text(SLIDER_CRANK + name + "\n", encoding="utf-8")
+    for line in (("report", path), ("crank", path, "--plot"), ("animate", path, "--format", "html"), ("batch", path)):
+        ended = gearlink(*line, "--out", tmp_path)
+        assert ended.status == 0, ended.err
+        assert "arning" not in ended.err
+    assert len(list(tmp_path.rglob("*.*"))) >= 5
+
+
+def test_a_file_name_that_is_no_text_heads_pages_too(gearlink: Any, tmp_path: Path) -> None:
+    path = tmp_path / "bad\udcff.yaml"
+    path.write_text(SLIDER_CRANK.removesuffix("name: "))
+    for line in (("report", path), ("crank", path, "--plot"), ("animate", path, "--format", "html"), ("batch", path)):
+        assert gearlink(*line, "--out", tmp_path).status == 0
