@@ -40,7 +40,7 @@ _GEAR_LINKAGE = {
     "dwell_angle": Term("phi13", "deg", "crank angle until the output regains its place", "own derivation"),
     "dwell_angle_approximate": Term("1.5 phi12", "deg", "the thesis's approximation of phi13", "thesis (4-17)"),
     "min_transmission_angle": Term("mu_min", "deg", "least transmission angle over the turn", "VDI 2142"),
-    "gear_gap": Term("s15", "mm", "tips of gears 1 and 5 at the closest", "own derivation"),
+    "gear_gap": Term("s15", "mm", "tips of the crank (input) and the output gear at the closest", "own derivation"),
     "nonuniformity": Term("delta", "1", "(max - min)/mean of the speed ratio", "thesis (4-20)"),
     "tolerance_dwell_angle": Term("phi_tol", "deg", "longest crank angle with the output within +- the tolerance"),
     "tolerance_dwell_start": Term("phi_L", "deg", "crank angle at which that interval starts"),

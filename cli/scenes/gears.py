@@ -49,7 +49,7 @@ def _teeth(pair: GearPair, number: int) -> Points:
 
 
 def _ring(mesh: InternalMesh, place: Points, turn: Reals, color: str, label: str) -> list[Body]:
-    rim = circle(mesh.root_radius[1] + 2.0 * mesh.module, 144)
+    rim = circle(mesh.rim_radius, 144)
     shared = {"place": place, "turn": turn, "color": color, "width": 1.0}
     return [
         Body(outline=rim, fill=pale(color), repeats=0, **shared, label=label),  # type: ignore[arg-type]

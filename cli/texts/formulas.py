@@ -28,7 +28,7 @@ _GEAR_LINKAGE = {
     "dwell_angle_approximate": "1.5 phi12",
     "min_transmission_angle": "mu = min(gamma, 180 deg - gamma), cos(gamma) = (l2^2 + l3^2 - n^2)/(2 l2 l3), n the "
     "diagonal from the crank pin; the least over the turn",
-    "gear_gap": "s15 = |l4 - l1| - m (z1 + z5)/2 - 2 m",
+    "gear_gap": "s15 = |l4 - l1| - m (z1 + z5)/2 - 2 m; geared five-bar with an idler: AE - m (z1 + z4)/2 - 2 m",
     "nonuniformity": "delta = (Wmax - Wmin)/I",
     "tolerance_dwell_angle": "phi5(R) - phi5(L) = 2 tol and W(L) = W(R); with a back-step D > 2 tol: phi5(L) = phi5(R)",
     "tolerance_dwell_start": "L of the tolerance dwell",

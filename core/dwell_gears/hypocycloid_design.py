@@ -6,8 +6,11 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from gearlink.core.clearance.bodies import Layout
+from gearlink.core.clearance.checks import shaft_checks
 from gearlink.core.design import Outline, placed
 from gearlink.core.dwell_gears import hypocycloid, hypocycloid_rod
+from gearlink.core.dwell_gears.bodies import hypocycloid_layout
 from gearlink.core.dwell_gears.codes import DWELL_QUALITY
 from gearlink.core.dwell_gears.hypocycloid import HypocycloidSlider
 from gearlink.core.errors import NoSolution, at_key
@@ -47,7 +50,7 @@ class HypocycloidDwell(SingleMesh):
                 "min_transmission_angle",
                 "contact_ratio",
             ),
-            ("dwell-quality", "transmission-angle", *MESH_CHECKS),
+            ("dwell-quality", "shaft-clearance", "transmission-angle", *MESH_CHECKS),
             ("motion",),
         ),
         "gear": Outline(INTERNAL_QUANTITIES, MESH_CHECKS),
@@ -171,6 +174,11 @@ class HypocycloidDwell(SingleMesh):
         """Least angle between the rod and the normal of the slide line over the turn [rad]."""
         return 0.5 * math.pi - self.slider.max_rod_angle
 
+    @cached_property
+    def layout(self) -> Layout:
+        """The bodies in the plane of the gears."""
+        return hypocycloid_layout(self)
+
     def table_motion(self, samples: int | None = None) -> Table:
         """Slider and point over a turn of the carrier; the middle of the dwell is at carrier angle 0."""
         count, slider = samples or 360, self.slider
@@ -206,6 +214,10 @@ class HypocycloidDwell(SingleMesh):
         if self.spec.target is None:
             text += ", or leave rod out for target: {quality: least-ripple}"
         yield DWELL_QUALITY.check("fail", text, found, wanted, "deg")
+
+    def check_shaft_clearance(self) -> Iterator[Check]:
+        """GL302."""
+        return shaft_checks(self.layout)
 
     def check_transmission_angle(self) -> Check:
         """GL303: the rod against the slide line."""

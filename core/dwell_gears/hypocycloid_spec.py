@@ -56,6 +56,12 @@ class DwellTarget(Spec):
     )
 
 
+class CarrierShaft(Spec):
+    """The shaft of the frame, where it passes through the plane of the gears."""
+
+    O_radius: Length | None = Field(None, description="radius of the carrier's shaft, in the middle of the ring gear")
+
+
 class HypocycloidDwellSpec(DesignSpec):
     """Ring gear, planet on a carrier, and a rod from the planet's pitch circle to a slider."""
 
@@ -65,6 +71,7 @@ class HypocycloidDwellSpec(DesignSpec):
     dwell: HypocycloidDwellSection = HypocycloidDwellSection()
     target: DwellTarget | None = None
     limits: LinkageLimits = LinkageLimits()
+    shafts: CarrierShaft | None = None
 
     @model_validator(mode="after")
     def _rod_or_target(self) -> HypocycloidDwellSpec:

@@ -6,7 +6,10 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from gearlink.core.clearance.bodies import Layout
+from gearlink.core.clearance.checks import shaft_checks
 from gearlink.core.design import Outline, placed
+from gearlink.core.dwell_gears.bodies import mutilated_layout
 from gearlink.core.dwell_gears.codes import START_SHOCK
 from gearlink.core.dwell_gears.mutilated import MutilatedGear
 from gearlink.core.errors import at_key
@@ -50,7 +53,7 @@ class MutilatedGearDwell(SingleMesh):
                 "rocker_start_speed",
                 "min_transmission_angle",
             ),
-            ("start-shock", "transmission-angle", *GEAR_CHECKS),
+            ("start-shock", "shaft-clearance", "transmission-angle", *GEAR_CHECKS),
             ("motion",),
         ),
         "gear": Outline(MESH_QUANTITIES, MESH_CHECKS),
@@ -133,6 +136,11 @@ class MutilatedGearDwell(SingleMesh):
         )
         return folded.crank_angle, stretched.crank_angle
 
+    @cached_property
+    def layout(self) -> Layout:
+        """The bodies in the plane of the gears."""
+        return mutilated_layout(self)
+
     def table_motion(self, samples: int | None = None) -> Table:
         """Driven gear and rocker over one cycle; the motion begins at input angle 0."""
         count = samples or 360
@@ -171,6 +179,10 @@ class MutilatedGearDwell(SingleMesh):
         elif rocker is not None:
             text += "; the rocker itself starts from rest, at a dead centre"
         return START_SHOCK.check("warn", text, ratio, 0.0)
+
+    def check_shaft_clearance(self) -> Iterator[Check]:
+        """GL302."""
+        return shaft_checks(self.layout)
 
     def check_transmission_angle(self) -> Iterator[Check]:
         """GL303, where there is a four-bar."""

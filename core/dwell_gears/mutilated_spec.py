@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
 
-from gearlink.core.linkages.spec_parts import FourLinks, LinkageLimits
+from gearlink.core.linkages.spec_parts import FourLinks, LinkageLimits, PivotShafts
 from gearlink.core.spec import Angle, Assembly, DesignSpec, Length, PressureAngle, Spec, Teeth
 
 
@@ -20,6 +21,13 @@ class MutilatedGears(Spec):
     driven: Teeth = Field(description="teeth of the driven gear")
     stops: Teeth = Field(1, description="locking arcs evenly round the driven gear")
     pressure_angle: PressureAngle = Field(20.0, description="pressure angle of the reference profile")
+
+
+class MutilatedShafts(PivotShafts):
+    """Shafts of the frame that pass through the plane of the gears; one that is left out may end before it."""
+
+    A_radius: Length | None = Field(None, description="radius of the shaft at A, of driven gear and crank")
+    W_radius: Length | None = Field(None, description="radius of the shaft of the mutilated wheel, W")
 
 
 class MutilatedGearDwellSpec(DesignSpec):
@@ -36,6 +44,15 @@ class MutilatedGearDwellSpec(DesignSpec):
         None, description="crank angle at which the crank stands; left out: crank and coupler stretched"
     )
     limits: LinkageLimits = LinkageLimits()
+    shafts: MutilatedShafts | None = None
+
+    @model_validator(mode="after")
+    def _shaft_of_the_rocker(self) -> MutilatedGearDwellSpec:
+        if self.links is None and self.shafts is not None and self.shafts.D_radius is not None:
+            raise PydanticCustomError(
+                "GL111", "D_radius goes with the four-bar: give links, or leave it out", {"key": "shafts.D_radius"}
+            )
+        return self
 
     def commands(self) -> tuple[str, ...]:
         """What the file asks for."""

@@ -7,13 +7,16 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from gearlink.core.clearance.bodies import Layout
+from gearlink.core.clearance.checks import collision_check, shaft_checks
 from gearlink.core.design import Outline, placed
 from gearlink.core.errors import NoSolution
+from gearlink.core.five_bar import bodies
 from gearlink.core.five_bar.codes import CLOSURE
 from gearlink.core.five_bar.parts import FiveBarParts
 from gearlink.core.gears.single_mesh import MESH_CHECKS, mesh_checks
 from gearlink.core.linkages.checks import target_check, transmission_check
-from gearlink.core.report import Check, Table
+from gearlink.core.report import Check, Table, safely_above
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
@@ -58,9 +61,10 @@ class GearedFiveBar(FiveBarParts):
                 "path_deviation_max",
                 "position_errors",
                 "center_distance",
+                "gear_gap",
                 "contact_ratio",
             ),
-            ("closure", "target", "transmission-angle", *MESH_CHECKS),
+            ("closure", "target", "gear-collision", "shaft-clearance", "transmission-angle", *MESH_CHECKS),
             ("path", "function", "deviations"),
         ),
         "gear": Outline(("center_distance", "contact_ratio"), MESH_CHECKS),
@@ -163,6 +167,16 @@ class GearedFiveBar(FiveBarParts):
 
         return position_errors(self.function_bar, self.positions)
 
+    @cached_property
+    def layout(self) -> Layout:
+        """The bodies in the plane of the gears."""
+        return bodies.layout(self)
+
+    @property
+    def gear_gap(self) -> float | None:
+        """Gap of the tips of input and output gear with an idler between them [mm]."""
+        return self.layout.gear_gap
+
     # Tables
 
     def table_names_shown(self) -> tuple[str, ...]:
@@ -262,6 +276,30 @@ class GearedFiveBar(FiveBarParts):
         target, worst_point = self.spec.target, self.path_deviation_max
         if worst_point is not None and target is not None and target.tolerance is not None:
             yield target_check("a point of the path", worst_point, target.tolerance, "mm")
+
+    def check_gear_collision(self) -> Iterator[Check]:
+        """GL301: input and output gear with an idler between them."""
+        limit = self.spec.limits.gear_gap
+        for pair in self.layout.gear_pairs:
+            tips = f"{pair.one.outer:.6g} and {pair.other.outer:.6g}"
+            why = f"their axes are {pair.distance:.6g} mm apart, their tips reach {tips} mm"
+            yield collision_check(pair, limit, why, self._gap_remedy(limit - pair.gap))
+
+    def _gap_remedy(self, missing: float) -> str:
+        """What would give input and output gear room; the idler's centre distances bound the frame."""
+        module, idler = self.spec.gears.module, self.spec.gears.idler or 0
+        fewer = f"the input and output gears {math.ceil(2.0 * missing / module)} teeth smaller together"
+        frame = self.frame_length + missing
+        if frame < sum(self.center_distance):
+            return f"make the frame {safely_above(frame)} mm or longer, or {fewer}"
+        more = math.floor((frame - sum(self.center_distance)) / module) + 1
+        return (
+            f"make {fewer}, or the idler {idler + more} teeth or more and the frame {safely_above(frame)} mm or longer"
+        )
+
+    def check_shaft_clearance(self) -> Iterator[Check]:
+        """GL302."""
+        return shaft_checks(self.layout)
 
     def check_transmission_angle(self) -> Check:
         """GL303."""

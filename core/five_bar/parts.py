@@ -56,7 +56,7 @@ class FiveBarParts(Design):
         gears = self.spec.gears
         alpha = math.radians(gears.pressure_angle)
         if internal:
-            return InternalMesh(gears.module, (min(one, other), max(one, other)), alpha)
+            return InternalMesh(gears.module, (min(one, other), max(one, other)), alpha, rim=gears.rim)
         return GearPair.from_shift(gears.module, (one, other), (0.0, 0.0), pressure_angle=alpha)
 
     @property

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.linkages.spec_parts import LinkageLimits
+from gearlink.core.linkages.spec_parts import LinkageLimits, require_rim
 from gearlink.core.spec import Angle, Assembly, DesignSpec, Length, PressureAngle, SignedLength, Spec, Teeth
 
 TurnAngle = Annotated[float, Field(ge=-3600, le=3600, json_schema_extra={"unit": "deg"})]
@@ -26,7 +26,20 @@ class FiveBarGears(Spec):
     planet: Teeth | None = Field(None, description="function: teeth z2 of the gear fixed to the coupler at B")
     sun: Teeth | None = Field(None, description="function: teeth z5 of the gear fixed to the frame at A")
     ring: Teeth | None = Field(None, description="function: teeth z5 of a fixed ring gear about A, in place of sun")
+    rim: Length | None = Field(
+        None, description="outer radius of the ring gear; left out: 2 modules outside its root circle"
+    )
     pressure_angle: PressureAngle = Field(20.0, description="pressure angle of the reference profile")
+
+    @property
+    def ring_teeth(self) -> int | None:
+        """Teeth of the ring gear of either form, where there is one."""
+        return max(self.input or 0, self.output or 0) if self.mesh == "internal" else self.ring
+
+    @model_validator(mode="after")
+    def _rim(self) -> FiveBarGears:
+        require_rim(self.rim, self.ring_teeth, self.module)
+        return self
 
 
 class FiveLinks(Spec):
@@ -39,6 +52,14 @@ class FiveLinks(Spec):
     frame: Length | None = Field(
         None, description="AE; path with gears in direct mesh: left out, their centre distance"
     )
+
+
+class FiveBarShafts(Spec):
+    """Shafts of the frame that pass through the plane of the gears; one that is left out may end before it."""
+
+    A_radius: Length | None = Field(None, description="radius of the input shaft at A")
+    E_radius: Length | None = Field(None, description="radius of the output shaft at E")
+    O_radius: Length | None = Field(None, description="path, with an idler: radius of the idler's shaft O")
 
 
 class CouplerPoint(Spec):
@@ -88,6 +109,7 @@ class GearedFiveBarSpec(DesignSpec):
     assembly: Assembly = Field(1, description="path, +1: C left of B->D; function, +1: D left of C->E")
     target: FiveBarTarget | None = None
     limits: LinkageLimits = LinkageLimits()
+    shafts: FiveBarShafts | None = None
 
     @model_validator(mode="after")
     def _form(self) -> GearedFiveBarSpec:
@@ -98,6 +120,8 @@ class GearedFiveBarSpec(DesignSpec):
                 raise PydanticCustomError("GL106", "the form {form} needs {needed}", {
                     "key": key, "form": self.form, "needed": needed,
                 })  # fmt: skip
+        _refuse(self.gears.idler is None and self.shafts is not None and self.shafts.O_radius is not None,
+                "shafts.O_radius", "O_radius goes with an idler: give gears.idler, or leave it out")  # fmt: skip
         if self.form == "path":
             self._path()
         else:

@@ -11,6 +11,8 @@ from gearlink.core.results import cached_property
 
 Pair = tuple[float, float]
 
+_RIM_MODULES = 2.0
+
 
 @dataclass(frozen=True)
 class InternalMesh:
@@ -23,6 +25,7 @@ class InternalMesh:
         teeth : (int, int) - pinion z_1, ring z_2 > z_1
         pressure_angle : float [rad] - alpha
         addendum, clearance : float [module] - h_a*, c*
+        rim : float [mm] - outer radius of the ring gear; None: 2 modules outside its root circle
     Raises
         NoSolution - for a module that is not positive, or a ring that is not larger than the pinion
     Example
@@ -39,6 +42,7 @@ class InternalMesh:
     pressure_angle: float = math.radians(20.0)
     addendum: float = 1.0
     clearance: float = 0.25
+    rim: float | None = None
 
     def __post_init__(self) -> None:
         pinion, ring = self.teeth
@@ -95,6 +99,11 @@ class InternalMesh:
         depth = (self.addendum + self.clearance) * self.module
         r_1, r_2 = self.reference_radius
         return r_1 - depth, r_2 + depth
+
+    @property
+    def rim_radius(self) -> float:
+        """Outer radius of the ring gear [mm]."""
+        return self.root_radius[1] + _RIM_MODULES * self.module if self.rim is None else self.rim
 
     @cached_property
     def tip_pressure_angle(self) -> Pair:

@@ -1,11 +1,11 @@
-"""Checks that several gear-linkages share: transmission angle, tips against bare axes, what a synthesis reached."""
+"""Checks that several gear-linkages share: transmission angle, what a synthesis reached."""
 
 from __future__ import annotations
 
 import math
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.codes import SHAFT_CLEARANCE, TARGET, TRANSMISSION_ANGLE
+from gearlink.core.linkages.codes import TARGET, TRANSMISSION_ANGLE
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.report import Check, safely_above
 
@@ -25,18 +25,6 @@ def transmission_check(
         condition = 1.0 / math.sin(angle) if angle else math.inf
         remedy = f"play and rounding come out up to {condition:.3g} times as large (condition number); {remedy}"
     return TRANSMISSION_ANGLE.below(value, limit, limit + 5.0, "deg", subject, remedy)
-
-
-def axis_check(gear: str, axis: str, distance: float, tip: float) -> Check:
-    """GL302: warns where the tips of a gear [mm] pass an axis that comes within `distance` [mm] of its own."""
-    room = distance - tip
-    text = f"{gear} stays {room:.4g} mm from the axis {axis}"
-    if room < 0.0:
-        text = (
-            f"the tips of {gear} ({tip:.6g} mm) pass the axis {axis}, {distance:.6g} mm away at the closest: its shaft "
-            "must end before the plane of the gears, or the gears be smaller"
-        )
-    return SHAFT_CLEARANCE.check("warn" if room < 0.0 else "pass", text, room, 0.0, "mm")
 
 
 def target_check(what: str, residual: float, tolerance: float, unit: str) -> Check:

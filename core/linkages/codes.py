@@ -7,25 +7,29 @@ from gearlink.core.report import Rule
 GEAR_COLLISION = Rule(
     "GL301",
     "gears collide",
-    "Two gears that do not mesh come nearer to each other than limits.gear_gap somewhere in the turn.",
+    "Two gears of one plane that do not mesh come nearer to each other than limits.gear_gap somewhere in the cycle.",
     "A gear on the crank pin travels: its least distance counts, not the frame length. The source's own example 3 "
     "compares the tip circles with the frame length and misses a collision of 1.6 mm.",
     "Lengthen the frame or shorten the crank by the missing amount, or take smaller gears; in a synthesis a larger "
-    "idler.",
-    "s15 = |l4 - l1| - m (z1 + z5)/2 - 2 m >= limits.gear_gap",
+    "idler; in a five-bar with an idler a longer frame, as far as the idler reaches.",
+    "least distance of the axes over the cycle - both tip radii >= limits.gear_gap; gears 1 and 5 of a three-gear "
+    "four-bar: |l4 - l1| - m (z1 + z5)/2 - 2 m",
     "own derivation; thesis 4.2.2, 4.2.3 with the distance at the closest",
     ("gear-collision",),
     ("links", "momentary", "back_step", "dwell", "speed", "gears"),
 )
 SHAFT_CLEARANCE = Rule(
     "GL302",
-    "tip circle or roller reaches a shaft",
-    "A gear's tip circle, or a cam roller, comes into a shaft of the file; or it passes the axis of a shaft whose "
-    "radius the file does not name (a warning).",
+    "gear, rim or roller reaches a shaft",
+    "A gear's tips, the teeth or the rim of a ring gear, a cam roller or another shaft come into a shaft of the file; "
+    "or they leave less room beside the axis of a shaft whose radius the file does not name than the thinnest shaft "
+    "takes (limits.least_shaft, 2 modules; a warning).",
     "The shaft cannot pass through the plane of the gears there: it must end before it (be overhung).",
     "Overhang the shaft, make it thinner, or enlarge the distance; name the radius (shafts, cam.shaft_radius) so "
     "that it is checked.",
-    "least distance over the turn - tip radius - shaft radius >= 0; joint C from A: max(l2 - l1, l4 - l3)",
+    "least distance of the axes over the cycle - tip radius - shaft radius >= 0; joint C from A: max(l2 - l1, l4 - "
+    "l3); a ring gear: its tip radius - distance - shaft radius within, distance - rim - shaft radius without, the "
+    "greater of the two; rim = m (z/2 + 3.25) or gears.rim",
     "own derivation",
     ("shaft-clearance",),
     ("shafts", "cam.shaft_radius", "cam", "links", "gears"),

@@ -3,14 +3,26 @@
 from __future__ import annotations
 
 from pydantic import Field
+from pydantic_core import PydanticCustomError
 
-from gearlink.core.spec import AcuteAngle, GearLimits, Length, Spec
+from gearlink.core.spec import AcuteAngle, Distance, GearLimits, Length, SignedLength, Spec
 
 
 class LinkageLimits(GearLimits):
     """Limits of the checks."""
 
     transmission_angle: AcuteAngle = Field(40.0, description="least transmission angle")
+    gear_gap: SignedLength = Field(0.0, description="least gap between gears that do not mesh")
+    least_shaft: Distance | None = Field(
+        None, description="radius of the thinnest shaft that would be built; left out: 2 modules"
+    )
+
+
+class PivotShafts(Spec):
+    """Shafts of the frame that pass through the plane of the gears; one that is left out may end before it."""
+
+    A_radius: Length | None = Field(None, description="radius of the input shaft at A")
+    D_radius: Length | None = Field(None, description="radius of the rocker's shaft at D")
 
 
 class FourLinks(Spec):
@@ -20,3 +32,18 @@ class FourLinks(Spec):
     coupler: Length = Field(description="coupler BC")
     rocker: Length = Field(description="rocker CD")
     frame: Length = Field(description="frame AD")
+
+
+def require_rim(rim: float | None, ring: int | None, module: float) -> None:
+    """Refuse a rim without a ring gear, and one that does not lie outside its root circle, m (z/2 + 1.25)."""
+    if rim is None:
+        return
+    if ring is None:
+        raise PydanticCustomError("GL111", "rim goes with a ring gear: leave it out", {"key": "rim"})
+    root = module * (0.5 * ring + 1.25)
+    if rim <= root:
+        raise PydanticCustomError(
+            "GL111",
+            "the rim's radius {rim} mm lies within the root circle of the ring gear, {root} mm: make it larger",
+            {"key": "rim", "rim": f"{rim:g}", "root": f"{root:g}"},
+        )

@@ -6,14 +6,17 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from gearlink.core.clearance.bodies import Layout
+from gearlink.core.clearance.checks import shaft_checks
 from gearlink.core.design import Outline, placed
 from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.gears.single_mesh import SingleMesh
-from gearlink.core.linkages.checks import axis_check, check_linkage, target_check, transmission_check
+from gearlink.core.linkages.checks import check_linkage, target_check, transmission_check
 from gearlink.core.linkages.fourbar import FourBar, solve
 from gearlink.core.linkages.nearest_passes import joint_to_crank_pivot
+from gearlink.core.planet_linkages.bodies import rocker_layout
 from gearlink.core.planet_linkages.planet import PlanetLinkage
 from gearlink.core.planet_linkages.rocker_synthesis import crank_for_swing, extreme_crank_angles
 from gearlink.core.report import Check, Table
@@ -181,6 +184,11 @@ class GearedRocker(SingleMesh):
         """Least transmission angle over the turn [rad]."""
         return self.linkage.min_transmission_angle()
 
+    @cached_property
+    def layout(self) -> Layout:
+        """The bodies in the plane of the gears."""
+        return rocker_layout(self)
+
     def table_motion(self, samples: int | None = None) -> Table:
         """Rocker and output over a turn of the crank; the output angle counts from its place at crank angle 0."""
         import numpy as np
@@ -215,11 +223,8 @@ class GearedRocker(SingleMesh):
             yield target_check("the swing of the output", degrees, math.degrees(_SWING_TOLERANCE), "deg")
 
     def check_shaft_clearance(self) -> Iterator[Check]:
-        """GL302: both gears against the input axis."""
-        links, tips = self.linkage, self.mesh.tip_radius
-        nearest, _ = joint_to_crank_pivot(links.crank, links.coupler, links.rocker, links.frame, links.assembly)
-        yield axis_check("the coupler gear", "A", nearest.distance, tips[0])
-        yield axis_check("the output gear", "A", links.frame, tips[1])
+        """GL302."""
+        return shaft_checks(self.layout)
 
     def check_transmission_angle(self) -> Check:
         """GL303."""

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.linkages.spec_parts import LinkageLimits
+from gearlink.core.linkages.spec_parts import LinkageLimits, PivotShafts
 from gearlink.core.spec import Assembly, DesignSpec, Length, PressureAngle, Spec, Teeth
 
 
@@ -46,6 +46,7 @@ class GearedRockerSpec(DesignSpec):
     assembly: Assembly = Field(1, description="+1: C left of the vector from B to D; -1: its mirror image")
     target: SwingTarget | None = None
     limits: LinkageLimits = LinkageLimits()
+    shafts: PivotShafts | None = None
 
     @model_validator(mode="after")
     def _crank_or_swing(self) -> GearedRockerSpec:

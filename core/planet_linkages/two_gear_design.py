@@ -6,15 +6,18 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from gearlink.core.clearance.bodies import Layout
+from gearlink.core.clearance.checks import shaft_checks
 from gearlink.core.design import Outline, placed
 from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.gears.internal_mesh import InternalMesh
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.gears.single_mesh import MESH_CHECKS, MESH_QUANTITIES, SingleMesh
 from gearlink.core.linkages import standstills
-from gearlink.core.linkages.checks import axis_check, check_linkage, transmission_check
+from gearlink.core.linkages.checks import check_linkage, transmission_check
 from gearlink.core.linkages.fourbar import FourBar, solve
 from gearlink.core.linkages.standstills import BackStep, Turning
+from gearlink.core.planet_linkages.bodies import two_gear_layout
 from gearlink.core.planet_linkages.codes import DWELL_CONDITION
 from gearlink.core.planet_linkages.planet import PlanetLinkage, standstill_coupler_ratio
 from gearlink.core.report import Check, Table
@@ -96,7 +99,7 @@ class TwoGearFourBar(SingleMesh):
         alpha = math.radians(gears.pressure_angle)
         with at_key("gears"):
             if self.internal:
-                return InternalMesh(gears.module, teeth, alpha)
+                return InternalMesh(gears.module, teeth, alpha, rim=gears.rim)
             return GearPair.from_shift(gears.module, teeth, (0.0, 0.0), pressure_angle=alpha)
 
     @property
@@ -226,6 +229,11 @@ class TwoGearFourBar(SingleMesh):
         """Least transmission angle over the turn [rad]."""
         return self.linkage.min_transmission_angle()
 
+    @cached_property
+    def layout(self) -> Layout:
+        """The bodies in the plane of the gears."""
+        return two_gear_layout(self)
+
     def table_motion(self, samples: int | None = None) -> Table:
         """Output angle, speed and acceleration, coupler speed and transmission angle over a turn of the crank."""
         import numpy as np
@@ -284,11 +292,8 @@ class TwoGearFourBar(SingleMesh):
         return f"{asked} is asked for: make z5/z2 = {have:.6g} {side} {limit:.6g}"
 
     def check_shaft_clearance(self) -> Iterator[Check]:
-        """GL302: the planet, and a sun, against the rocker's axis."""
-        tips, frame = self.mesh.tip_radius, self.frame_length
-        yield axis_check("the planet", "D", abs(frame - self.crank_length), tips[0])
-        if not self.internal:
-            yield axis_check("the sun", "D", frame, tips[1])
+        """GL302."""
+        return shaft_checks(self.layout)
 
     def check_transmission_angle(self) -> Check:
         """GL303."""

@@ -7,7 +7,7 @@ from typing import Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.linkages.spec_parts import LinkageLimits
+from gearlink.core.linkages.spec_parts import LinkageLimits, PivotShafts, require_rim
 from gearlink.core.spec import Assembly, DesignSpec, Length, PressureAngle, Spec, Teeth
 
 
@@ -18,6 +18,9 @@ class PlanetGears(Spec):
     planet: Teeth = Field(description="teeth z2 of the gear fixed to the coupler at B")
     sun: Teeth | None = Field(None, description="teeth z5 of an external output gear on A")
     ring: Teeth | None = Field(None, description="teeth z5 of an internal output gear on A, in place of sun")
+    rim: Length | None = Field(
+        None, description="outer radius of the ring gear; left out: 2 modules outside its root circle"
+    )
     pressure_angle: PressureAngle = Field(20.0, description="pressure angle of the reference profile")
 
     @model_validator(mode="after")
@@ -32,6 +35,7 @@ class PlanetGears(Spec):
                 "a ring gear of {ring} teeth does not take a planet of {planet}: give it more teeth",
                 {"key": "ring", "ring": str(self.ring), "planet": str(self.planet)},
             )
+        require_rim(self.rim, self.ring, self.module)
         return self
 
 
@@ -59,6 +63,7 @@ class TwoGearFourBarSpec(DesignSpec):
     assembly: Assembly = Field(1, description="+1: C left of the vector from B to D; -1: its mirror image")
     target: MotionTarget | None = None
     limits: LinkageLimits = LinkageLimits()
+    shafts: PivotShafts | None = None
 
     def commands(self) -> tuple[str, ...]:
         """What the file asks for."""

@@ -6,18 +6,18 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
+from gearlink.core.clearance.bodies import Layout
+from gearlink.core.clearance.checks import collision_check, shaft_checks
 from gearlink.core.design import Design, Outline, placed
 from gearlink.core.errors import MissingSection, at_key
 from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, gear_check, gear_quantity
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.linkages.checks import check_linkage, transmission_check
-from gearlink.core.linkages.codes import GEAR_COLLISION, SHAFT_CLEARANCE
 from gearlink.core.linkages.fourbar import FourBar
-from gearlink.core.linkages.nearest_passes import joint_to_crank_pivot
 from gearlink.core.linkages.standstills import BackStep
-from gearlink.core.report import Check, Status, Table, safely_above, safely_below
+from gearlink.core.report import Check, Table, safely_above, safely_below
 from gearlink.core.results import cached_property
-from gearlink.core.three_gear import dwells, motion
+from gearlink.core.three_gear import bodies, dwells, motion
 from gearlink.core.three_gear.codes import ACHIEVED
 from gearlink.core.three_gear.idler_choice import idler_for_ratio
 from gearlink.core.three_gear.momentary_dwell import crank_with_room
@@ -208,6 +208,11 @@ class ThreeGearFourBar(Design):
         return self.linkage.min_transmission_angle()
 
     @cached_property
+    def layout(self) -> Layout:
+        """The bodies in the plane of the gears."""
+        return bodies.layout(self)
+
+    @cached_property
     def gear_gap(self) -> float:
         """Gap of the tips of gears 1 and 5 at the closest [mm]."""
         return motion.gear_gap(self.linkage, self.train, self.spec.gears.module)
@@ -255,18 +260,13 @@ class ThreeGearFourBar(Design):
         limits = self.spec.limits
         return [c for mesh, pair in self.meshes.items() for c in gear_check(name, pair, limits, mesh)]
 
-    def check_gear_collision(self) -> Check:
+    def check_gear_collision(self) -> Iterator[Check]:
         """GL301: gears 1 and 5, over the whole turn."""
-        limit, gap = self.spec.limits.gear_gap, self.gear_gap
-        text = f"gears 1 (crank) and 5 (output) keep {gap:.6g} mm between their tips at the closest, |AD - AB|"
-        if gap >= limit:
-            return GEAR_COLLISION.check("pass", text, gap, limit, "mm")
-        if gap < 0.0:
-            text = (
-                f"gears 1 (crank) and 5 (output) collide by {-gap:.6g} mm: gear 1 travels with the crank pin, so "
-                f"AD - AB = {abs(self.frame_length - self.crank_length):.6g} mm counts, not AD"
-            )
-        return GEAR_COLLISION.check("fail", f"{text}; {self._gap_remedy(limit - gap)}", gap, limit, "mm")
+        limit, apart = self.spec.limits.gear_gap, abs(self.frame_length - self.crank_length)
+        why = f"the crank gear travels with the crank pin, so AD - AB = {apart:.6g} mm counts, not AD"
+        for pair in self.layout.gear_pairs:
+            remedy = self._gap_remedy(limit - pair.gap) if pair.gap < limit else ""
+            yield collision_check(pair, limit, why, remedy)
 
     def _gap_remedy(self, missing: float) -> str:
         """What would give the gears room."""
@@ -288,16 +288,8 @@ class ThreeGearFourBar(Design):
         return crank_with_room(r1, r3, r5, r1 + r5 + 2.0 * module + self.spec.limits.gear_gap)
 
     def check_shaft_clearance(self) -> Iterator[Check]:
-        """GL302: idler against the input shaft, crank gear and idler against the output shaft."""
-        shafts, module = self.spec.shafts, self.spec.gears.module
-        tip = {gear: module * (teeth + 2.0) / 2.0 for gear, teeth in ((1, self.crank_teeth), (3, self.idler_teeth))}
-        links = self.linkage
-        nearest = joint_to_crank_pivot(links.crank, links.coupler, links.rocker, links.frame, links.assembly)[0]
-        input_radius = shafts.input_radius if shafts else None
-        output_radius = shafts.output_radius if shafts else None
-        yield _shaft("the idler", "input", nearest.distance, tip[3], input_radius)
-        yield _shaft("the crank gear", "output", abs(links.frame - links.crank), tip[1], output_radius)
-        yield _shaft("the idler", "output", links.rocker, tip[3], output_radius)
+        """GL302."""
+        return shaft_checks(self.layout)
 
     def check_transmission_angle(self) -> Check:
         """GL303."""
@@ -315,24 +307,3 @@ class ThreeGearFourBar(Design):
         if not same:
             text += "; everything is computed with that: ask for a ratio of whole teeth, or accept it"
         yield ACHIEVED.check("pass" if same else "warn", text, self.i3, asked, name="rounded-ratio")
-
-
-def _shaft(gear: str, shaft: str, distance: float, tip: float, radius: float | None) -> Check:
-    """A tip circle against a shaft: fails where it reaches the shaft, warns where it crosses an unnamed one's axis."""
-    room = distance - tip
-    if radius is not None:
-        room -= radius
-        status: Status = "fail" if room < 0.0 else "pass"
-        text = f"{gear} keeps {room:.4g} mm from the {shaft} shaft (radius {radius:g} mm)"
-        if status == "fail":
-            text = f"{gear} comes {-room:.4g} mm into the {shaft} shaft (radius {radius:g} mm): overhang the shaft"
-            if distance > tip:
-                text += f", or set shafts.{shaft}_radius to at most {safely_below(distance - tip)} mm"
-        return SHAFT_CLEARANCE.check(status, text, room, 0.0, "mm")
-    text = f"{gear} stays {room:.4g} mm from the axis of the {shaft} shaft"
-    if room < 0.0:
-        text = (
-            f"the tips of {gear} ({tip:.6g} mm) pass the axis of the {shaft} shaft, {distance:.6g} mm away: the shaft "
-            f"must be overhung, or name its radius in shafts.{shaft}_radius"
-        )
-    return SHAFT_CLEARANCE.check("warn" if room < 0.0 else "pass", text, room, 0.0, "mm")

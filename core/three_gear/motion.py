@@ -273,8 +273,17 @@ def gear_gap(linkage: FourBar, train: GearTrain, module: float, addendum: float 
     Source
         own derivation; thesis 4.2.3 compares the tip radii with the frame length
     """
-    tips = module * (0.5 * (train.crank + train.output) + 2.0 * addendum)
+    tips = tip_radius(train.crank, module, addendum) + tip_radius(train.output, module, addendum)
     return abs(linkage.frame - linkage.crank) - tips
+
+
+def tip_radius(teeth: float, module: float, addendum: float = 1.0) -> float:
+    """Tip radius of a gear without profile shift, m (z/2 + h_a*) [mm].
+
+    Source
+        ISO 21771
+    """
+    return module * (0.5 * teeth + addendum)
 
 
 def _blend(train: GearTrain, coupler: float, rocker: float) -> float:

@@ -7,17 +7,8 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.spec import (
-    AcuteAngle,
-    Assembly,
-    DesignSpec,
-    GearLimits,
-    Length,
-    PressureAngle,
-    SignedLength,
-    Spec,
-    Teeth,
-)
+from gearlink.core.linkages.spec_parts import LinkageLimits
+from gearlink.core.spec import Assembly, DesignSpec, Length, PressureAngle, Spec, Teeth
 
 
 class Gears(Spec):
@@ -87,13 +78,6 @@ class Momentary(Spec):
     eccentricity: Length = Field(description="crank length e")
 
 
-class Limits(GearLimits):
-    """Limits of the checks."""
-
-    transmission_angle: AcuteAngle = Field(40.0, description="least transmission angle")
-    gear_gap: SignedLength = Field(0.0, description="least gap between gears that do not mesh")
-
-
 class Shafts(Spec):
     """Shafts that pass through the plane of the gears."""
 
@@ -118,7 +102,7 @@ class ThreeGearSpec(DesignSpec):
     dwell_backlash: Length | None = Field(
         None, description="play at the output gear's reference circle, in place of dwell_tolerance"
     )
-    limits: Limits = Limits()
+    limits: LinkageLimits = LinkageLimits()
     shafts: Shafts | None = None
 
     @model_validator(mode="after")

@@ -1,0 +1,184 @@
+"""Bodies in the plane of the gears, and the least gap of every two that could meet.
+
+All gears of a train lie in one plane, and the shafts of the frame pass through it unless they end before it (are
+overhung). Two bodies cannot meet that share an axis, are one rigid body, or are gears in mesh. Links and the pins
+between them lie in planes beside that of the gears; design files give them no width.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import combinations
+from typing import TYPE_CHECKING, Protocol
+
+from gearlink.core.clearance.reach import Reach
+
+if TYPE_CHECKING:
+    from gearlink.core.gears.internal_mesh import InternalMesh
+
+LEAST_SHAFT_MODULES = 2.0
+
+
+@dataclass(frozen=True, slots=True)
+class Gear:
+    """A gear by its circles.
+
+    Parameters
+        name : str - "the idler"
+        axis : str - letter of the joint on which it sits
+        outer : float [mm] - tip radius; of a ring gear its rim's
+        inner : float [mm] - tip radius of a ring gear, within which a body may lie; an external gear has none
+        mates : str - letters of the axes whose gears mesh with it; it is enough if one of two mates names the other
+        fixed_to : str - letters of further axes whose shafts are one rigid body with it
+    """
+
+    name: str
+    axis: str
+    outer: float
+    inner: float = -math.inf
+    mates: str = ""
+    fixed_to: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Shaft:
+    """A shaft of the frame that passes through the plane of the gears.
+
+    Parameters
+        name : str - "input shaft"
+        axis : str - letter of its axis
+        radius : float [mm] - None where the file does not name it: a bare axis
+        key : str - the design file's key of the radius
+    """
+
+    name: str
+    axis: str
+    radius: float | None
+    key: str
+    inner = -math.inf
+
+    @property
+    def outer(self) -> float:
+        """Radius [mm], 0 for a bare axis."""
+        return self.radius or 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Clearance:
+    """The least gap [mm] of two bodies, negative where they overlap, and its input angle [rad], None for any."""
+
+    one: Gear | Shaft
+    other: Gear | Shaft
+    gap: float
+    distance: float
+    angle: float | None
+
+
+def least_gap(one: Gear | Shaft, other: Gear | Shaft, reach: Reach) -> Clearance:
+    """The least gap of two bodies over the cycle.
+
+    max(r_min - o_1 - o_2, i_1 - r_max - o_2, i_2 - r_max - o_1)
+
+    Parameters
+        one, other : bodies with outer radius o, and i where another may lie within
+        reach : Reach - least and greatest distance of their axes
+    Notes
+        Beside each other at the nearest, or one within the other's ring at the farthest: a body that passes from
+        within a ring to without meets its teeth, so that none of the three is positive.
+    Example
+        >>> ring = Gear("the ring gear", "A", outer=81.5, inner=73.0)
+        >>> least_gap(ring, Shaft("shaft at D", "D", 5.0, ""), Reach(60.0, 60.0)).gap
+        8.0
+
+    Source
+        thesis 4.2.2, with the distance at the closest in place of the frame length
+    """
+    beside = reach.nearest - (one.outer + other.outer)
+    within = max(one.inner - (reach.farthest + other.outer), other.inner - (reach.farthest + one.outer))
+    if beside >= within:
+        return Clearance(one, other, beside, reach.nearest, reach.nearest_at)
+    return Clearance(one, other, within, reach.farthest, reach.farthest_at)
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Gears and shafts of a machine, and how near their axes come.
+
+    Parameters
+        gears, shafts : bodies
+        reaches : mapping - Reach of two axes by their letters in alphabetical order, "AD"; a distance that the design
+            leaves free is not in it, and no gap is computed across it
+        least_shaft : float [mm] - radius of the thinnest shaft that would be built
+    """
+
+    gears: tuple[Gear, ...]
+    shafts: tuple[Shaft, ...]
+    reaches: Mapping[str, Reach]
+    least_shaft: float
+
+    def _clearance(self, one: Gear | Shaft, other: Gear | Shaft) -> Iterator[Clearance]:
+        reach = self.reaches.get("".join(sorted(one.axis + other.axis)))
+        if reach is not None:
+            yield least_gap(one, other, reach)
+
+    @cached_property
+    def gear_pairs(self) -> tuple[Clearance, ...]:
+        """Every two gears that do not mesh."""
+        return tuple(
+            pair
+            for one, other in combinations(self.gears, 2)
+            if other.axis not in one.axis + one.mates and one.axis not in other.mates
+            for pair in self._clearance(one, other)
+        )
+
+    @cached_property
+    def shaft_pairs(self) -> tuple[Clearance, ...]:
+        """Every gear against every shaft on which it is not, then the shafts against each other."""
+        return tuple(self._shaft_pairs())
+
+    def _shaft_pairs(self) -> Iterator[Clearance]:
+        for shaft in self.shafts:
+            for gear in self.gears:
+                if shaft.axis not in gear.axis + gear.fixed_to:
+                    yield from self._clearance(gear, shaft)
+        for one, other in combinations(self.shafts, 2):
+            yield from self._clearance(one, other)
+
+    @property
+    def gear_gap(self) -> float | None:
+        """Least gap of the gears that do not mesh [mm]; None where all mesh."""
+        return min((pair.gap for pair in self.gear_pairs), default=None)
+
+
+def ring_gear(axis: str, mesh: InternalMesh, mates: str = "") -> Gear:
+    """The ring gear of an internal mesh, on its axis."""
+    return Gear("the ring gear", axis, mesh.rim_radius, mesh.tip_radius[1], mates)
+
+
+class Limits(Protocol):
+    """What a layout reads of a spec's `limits`."""
+
+    @property
+    def least_shaft(self) -> float | None: ...
+
+
+def least_shaft(limits: Limits, module: float) -> float:
+    """Radius of the thinnest shaft that would be built [mm]: given, or 2 modules."""
+    return LEAST_SHAFT_MODULES * module if limits.least_shaft is None else limits.least_shaft
+
+
+def shafts_at(axes: str, section: object) -> tuple[Shaft, ...]:
+    """The shafts at axes of the frame, with the radii that the file's section `shafts` names.
+
+    Parameters
+        axes : str - letters
+        section : the section, whose keys are A_radius and so on, or None
+    """
+    keys = [f"{axis}_radius" for axis in axes]
+    return tuple(
+        Shaft(f"shaft at {axis}", axis, getattr(section, key, None), f"shafts.{key}")
+        for axis, key in zip(axes, keys, strict=True)
+    )

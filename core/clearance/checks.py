@@ -1,0 +1,99 @@
+"""GL301 and GL302: the gaps of all bodies in the plane of the gears against their limits."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from gearlink.core.clearance.bodies import Clearance, Gear, Layout, Shaft
+from gearlink.core.linkages.codes import GEAR_COLLISION, SHAFT_CLEARANCE
+from gearlink.core.report import Check, Status, safely_below
+
+
+def collision_check(pair: Clearance, limit: float, why: str, remedy: str) -> Check:
+    """GL301: two gears that do not mesh.
+
+    Parameters
+        pair : Clearance - of two gears
+        limit : float [mm] - least gap
+        why, remedy : str - which lengths make the gap, and what would give the gears room
+    """
+    gap, names = pair.gap, f"{pair.one.name} and {pair.other.name}"
+    if gap >= limit:
+        text = f"{names} keep {gap:.6g} mm between their tips at the closest{_place(pair)}: {why}"
+        return GEAR_COLLISION.check("pass", text, gap, limit, "mm")
+    found = f"collide by {-gap:.6g} mm" if gap < 0.0 else f"keep only {gap:.6g} mm between their tips at the closest"
+    text = f"{names} {found}{_place(pair)}: {why}; {remedy}"
+    return GEAR_COLLISION.check("fail", text, gap, limit, "mm")
+
+
+def shaft_checks(layout: Layout) -> Iterator[Check]:
+    """GL302: every gear against every shaft, and the shafts against each other.
+
+    Notes
+        A shaft of the file must be clear. Beside the axis of one that the file does not name there must be room for
+        the thinnest shaft that would be built; less is a warning, since that shaft may end before the gears.
+    """
+    for pair in layout.shaft_pairs:
+        bare = [body for body in (pair.one, pair.other) if isinstance(body, Shaft) and body.radius is None]
+        limit = layout.least_shaft * len(bare)
+        status: Status = "pass" if pair.gap >= limit else "warn" if bare else "fail"
+        text = f"{_words(pair.one)} keeps {pair.gap:.4g} mm from {_words(pair.other)}{_place(pair)}"
+        if status == "fail":
+            text = _overlap(pair, layout.least_shaft)
+        elif status == "warn":
+            text = _covered_axis(pair) if pair.gap < 0.0 else _narrow(pair, bare, limit)
+        yield SHAFT_CLEARANCE.check(status, text, pair.gap, limit, "mm")
+
+
+def _place(pair: Clearance) -> str:
+    """Where in the cycle, as the end of a clause; empty where the gap never changes."""
+    return "" if pair.angle is None else f" at input angle {math.degrees(pair.angle):.6g} deg"
+
+
+def _words(body: Gear | Shaft) -> str:
+    if isinstance(body, Gear):
+        return body.name
+    return f"the axis of the {body.name}" if body.radius is None else f"the {body.name} (radius {body.radius:g} mm)"
+
+
+def _overlap(pair: Clearance, least_shaft: float) -> str:
+    """A shaft of the file that is not clear."""
+    shafts = [body for body in (pair.one, pair.other) if isinstance(body, Shaft)]
+    text = f"{_words(pair.one)} comes {-pair.gap:.4g} mm into {_words(pair.other)}{_place(pair)}: "
+    room = pair.gap + math.fsum(shaft.outer for shaft in shafts)
+    keys = " and ".join(shaft.key for shaft in shafts)
+    text += "overhang the shaft" if len(shafts) == 1 else "overhang one of the shafts"
+    if room < least_shaft * len(shafts):
+        return text
+    return f"{text}, or set {keys} to at most {safely_below(room)} mm{' together' if len(shafts) > 1 else ''}"
+
+
+def _covered_axis(pair: Clearance) -> str:
+    """A bare axis within another body."""
+    one, other = pair.one, pair.other
+    if isinstance(one, Shaft) and isinstance(other, Shaft):
+        bare, cover = (one, other) if one.radius is None else (other, one)
+        return (
+            f"{_words(cover)} covers {_words(bare)}, {pair.distance:.6g} mm away: one of the two must end before the "
+            "plane of the gears"
+        )
+    extent = f"{one.outer:.6g} mm" if one.inner < 0.0 else f"{one.inner:.6g} to {one.outer:.6g} mm"
+    subject = f"the tips of {one.name} ({extent}) pass"
+    if one.inner > 0.0:
+        subject = f"{one.name} ({extent} from its axis) covers"
+    return (
+        f"{subject} {_words(other)}, {pair.distance:.6g} mm away{_place(pair)}: that shaft must end before the plane "
+        "of the gears (be overhung)"
+    )
+
+
+def _narrow(pair: Clearance, bare: list[Shaft], limit: float) -> str:
+    """A bare axis with less room beside it than a shaft takes."""
+    keys, both = " and ".join(shaft.key for shaft in bare), len(bare) > 1
+    thinnest = f"{'two of the thinnest shafts take' if both else 'the thinnest shaft takes'} {limit:g} mm"
+    return (
+        f"{_words(pair.one)} keeps only {pair.gap:.4g} mm from {_words(pair.other)}{_place(pair)}, {thinnest} "
+        f"(limits.least_shaft): overhang {'one of them' if both else 'it'}, or name its radius in {keys}, at most "
+        f"{safely_below(pair.gap)} mm{' together' if both else ''}"
+    )

@@ -1,0 +1,79 @@
+"""How near two axes come to each other over the cycle, and how far apart they get."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.nearest_passes import joint_to_crank_pivot
+
+_TURN = 2.0 * math.pi
+
+
+@dataclass(frozen=True, slots=True)
+class Reach:
+    """Least and greatest distance of two axes [mm] and the input angles [rad] where they occur.
+
+    Notes
+        The angles are None where the distance never changes.
+    """
+
+    nearest: float
+    farthest: float
+    nearest_at: float | None = None
+    farthest_at: float | None = None
+
+
+def constant(distance: float) -> Reach:
+    """Two axes on one link, or both in the frame.
+
+    Parameters
+        distance : float [mm]
+    """
+    return Reach(distance, distance)
+
+
+def crank_pin(crank: float, frame: float, start: float = 0.0, end: float = _TURN) -> Reach:
+    """The pin of a turning link against an axis of the frame.
+
+    |BD|^2 = (d - a)^2 + 4 a d sin^2(phi/2)
+
+    Parameters
+        crank : float [mm] - a, the link AB that turns about A
+        frame : float [mm] - d = AD; phi counts from A->D
+        start, end : float [rad] - the input angles that are passed
+    Returns
+        reach : Reach - |d - a| and d + a where the range passes them, else the distances at its ends
+    Example
+        >>> crank_pin(18.0, 121.4).nearest, round(crank_pin(10.0, 61.0, math.radians(60.0), math.pi).nearest, 9)
+        (103.4, 56.67450926)
+    """
+    ends = [
+        (math.hypot(frame - crank, 2.0 * math.sqrt(crank * frame) * math.sin(0.5 * phi)), phi) for phi in (start, end)
+    ]
+    folded, stretched = _first_passed(0.0, start, end), _first_passed(math.pi, start, end)
+    near = min(ends) if folded is None else (abs(frame - crank), folded)
+    far = max(ends) if stretched is None else (frame + crank, stretched)
+    return Reach(near[0], far[0], near[1], far[1])
+
+
+def _first_passed(angle: float, start: float, end: float) -> float | None:
+    """The first input angle of a range that is the given one up to whole turns."""
+    place = angle + _TURN * math.ceil((start - angle) / _TURN)
+    return place if place <= end else None
+
+
+def coupler_joint(linkage: FourBar) -> Reach:
+    """The coupler joint C against the crank pivot A over a turn of the crank.
+
+    Parameters
+        linkage : FourBar - its crank turns fully
+    Raises
+        NoSolution - as `joint_to_crank_pivot`
+    Example
+        >>> coupler_joint(FourBar(18.0, 50.0, 100.0, 121.4)).nearest
+        32.0
+    """
+    near, far = joint_to_crank_pivot(linkage.crank, linkage.coupler, linkage.rocker, linkage.frame, linkage.assembly)
+    return Reach(near.distance, far.distance, near.crank_angle, far.crank_angle)

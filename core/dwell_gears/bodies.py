@@ -1,0 +1,38 @@
+"""The bodies of the dwells by gears: planet in a ring about O; mutilated wheel on W, driven gear on A; shafts."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from gearlink.core.clearance.bodies import Gear, Layout, least_shaft, ring_gear, shafts_at
+from gearlink.core.clearance.reach import constant
+
+if TYPE_CHECKING:
+    from gearlink.core.dwell_gears.hypocycloid_design import HypocycloidDwell
+    from gearlink.core.dwell_gears.mutilated_design import MutilatedGearDwell
+
+
+def hypocycloid_layout(design: HypocycloidDwell) -> Layout:
+    """The planet on its carrier goes round the shaft O."""
+    spec, mesh = design.spec, design.mesh
+    return Layout(
+        gears=(Gear("the planet", "M", mesh.tip_radius[0], mates="O"), ring_gear("O", mesh)),
+        shafts=shafts_at("O", spec.shafts),
+        reaches={"MO": constant(mesh.center_distance)},
+        least_shaft=least_shaft(spec.limits, spec.gears.module),
+    )
+
+
+def mutilated_layout(design: MutilatedGearDwell) -> Layout:
+    """The wheel may stand on any side of A, so that its distance from the rocker's shaft D is free."""
+    spec, mesh, linkage = design.spec, design.mesh, design.linkage
+    wheel, driven = mesh.tip_radius
+    reaches = {"AW": constant(mesh.center_distance)}
+    if linkage is not None:
+        reaches["AD"] = constant(linkage.frame)
+    return Layout(
+        gears=(Gear("the mutilated wheel", "W", wheel, mates="A"), Gear("the driven gear", "A", driven)),
+        shafts=shafts_at("AW" if linkage is None else "ADW", spec.shafts),
+        reaches=reaches,
+        least_shaft=least_shaft(spec.limits, spec.gears.module),
+    )
