@@ -45,7 +45,7 @@ def test_a_failure_stands_at_the_key_that_its_message_or_its_code_names(gearlink
     path = write(tmp_path, colliding=COLLIDING) / "colliding.yaml"
     ended = gearlink("check", path)
     assert ended.status == 1
-    assert f"{path}:4:1: fail GL301 gear-collision: gears 1 (crank) and 5 (output) collide by 1.6 mm" in ended.out
+    assert f"{path}:4:1: fail GL301 gear-collision: the crank gear and the output gear collide by 1.6 mm" in ended.out
     assert "\n  links: {crank: 18, frame: 121.4}\n  ^\n" in ended.out
     assert "gearlink explain CODE" in ended.err
     assert gearlink("check", path, "--quiet").err == ""
