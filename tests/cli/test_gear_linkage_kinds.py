@@ -5,6 +5,7 @@ Tolerances: none of its own; numbers are tested beside the engine. Plotted data 
 
 from pathlib import Path
 
+import factory
 import pytest
 from sweeps import mostly_slow
 
@@ -90,8 +91,8 @@ def test_unknown_pin_is_located(gearlink, designs):
     assert ended.json["errors"][0]["key"] == "trains[0].gears[0].at"
 
 
-def test_mutilated_figure_shows_the_table(designs):
-    made = design_of(designs / "mutilated_gear_press.yaml")
+def test_mutilated_figure_shows_the_table():
+    made = factory.design("mutilated_gear_press")
     figure = draw("analyze", made)
     lines = {line.get_label(): line for axes in figure.subfigs[1].axes for line in axes.lines}
     table = made.table("motion")
@@ -252,8 +253,8 @@ def test_table_of_the_other_form_is_refused(gearlink, designs):
     assert "it has path" in ended.json["errors"][0]["message"]
 
 
-def test_five_bar_figure_shows_the_table(designs):
-    made = design_of(designs / "five_bar_points.yaml")
+def test_five_bar_figure_shows_the_table():
+    made = factory.design("five_bar_points")
     figure = draw("analyze", made)
     lines = {line.get_label(): line for part in figure.subfigs for axes in part.axes for line in axes.lines}
     table = made.table("path")
