@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from difflib import get_close_matches
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.exit_codes import ExitCode
+from gearlink.cli.files import stem_of
 from gearlink.cli.options import Format, Options
 from gearlink.cli.reading.design_file import diagnose_no_solution, load, read_kind, validate
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
@@ -69,8 +69,7 @@ def named(spec: Any, source: str) -> Any:
     """The spec with the file's stem for a name where the file gives none."""
     if "name" in spec.model_fields_set or source == "-":
         return spec
-    stem = "".join(each if each.isprintable() else "\N{REPLACEMENT CHARACTER}" for each in Path(source).stem)
-    return spec.model_copy(update={"name": stem})
+    return spec.model_copy(update={"name": stem_of(source)})
 
 
 def require_command(loaded: LoadedFile, kind: Kind, command: str) -> None:

@@ -109,3 +109,13 @@ def safe_stem(name: str) -> str:
     """
     stem = re.sub(r"[^\w.-]+", "-", name).strip("-.")
     return stem.encode(errors="ignore")[:100].decode(errors="ignore") or "design"
+
+
+def stem_of(source: str | Path) -> str:
+    """The name that a design has from its file; what does not show, and bytes that are no UTF-8, are replaced.
+
+    Example
+        >>> stem_of("designs/ty460.yaml"), stem_of(os.fsdecode(b"bad\\xff.yaml"))
+        ('ty460', 'bad\N{REPLACEMENT CHARACTER}')
+    """
+    return "".join(each if each.isprintable() else "\N{REPLACEMENT CHARACTER}" for each in Path(source).stem)

@@ -101,20 +101,22 @@ def _invoke(arguments: list[str]) -> int:
 
 
 def _fault(fault: Exception) -> int:
+    from gearlink.cli.printable import visible
+
     if isinstance(fault, OSError):
-        print(f"error: {fault.strerror or fault}", file=sys.stderr)
+        print(f"error: {visible(fault.strerror or str(fault))}", file=sys.stderr)
         return ExitCode.WRONG_INPUT
     from gearlink.cli.files import CannotWrite
 
     if isinstance(fault, CannotWrite):
-        print(f"error: {fault}", file=sys.stderr)
+        print(f"error: {visible(str(fault))}", file=sys.stderr)
         return ExitCode.WRONG_INPUT
     if os.environ.get("GEARLINK_TRACEBACK"):
         import traceback
 
         traceback.print_exception(fault)
     print(
-        f"gearlink: fault of the program: {type(fault).__name__}: {fault}\n"
+        f"gearlink: fault of the program: {type(fault).__name__}: {visible(str(fault))}\n"
         "  Please report it with the design file; GEARLINK_TRACEBACK=1 shows where it arose.",
         file=sys.stderr,
     )

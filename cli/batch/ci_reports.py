@@ -10,6 +10,7 @@ from typing import Any
 from xml.sax.saxutils import escape, quoteattr
 
 from gearlink.cli.batch.outcome import Outcome
+from gearlink.cli.printable import visible
 from gearlink.cli.texts.codes import explanations
 from gearlink.core.version import VERSION
 
@@ -132,7 +133,7 @@ def as_github(results: Sequence[Outcome]) -> str:
 
 
 def _data(text: str) -> str:
-    return text.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
+    return visible(text).replace("%", "%25")
 
 
 def _property(text: str) -> str:

@@ -10,7 +10,7 @@ from gearlink.cli.batch.options import BatchOptions
 from gearlink.cli.batch.outcome import Outcome
 from gearlink.cli.evaluate import build, exit_status, open_design, read_spec
 from gearlink.cli.exit_codes import ExitCode
-from gearlink.cli.files import CannotWrite
+from gearlink.cli.files import CannotWrite, stem_of
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import LoadedFile, parse_path
 from gearlink.core.report import Report
@@ -26,7 +26,7 @@ def outcomes(path: Path, options: BatchOptions) -> list[Outcome]:
 
 
 def _computed(path: Path, options: BatchOptions) -> Iterator[Outcome]:
-    file, kind_name, name, command = str(path), "", path.stem, ""
+    file, kind_name, name, command = str(path), "", stem_of(path), ""
     start = perf_counter()
 
     def ended(

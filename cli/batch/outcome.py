@@ -39,14 +39,11 @@ class Outcome:
         return "fail" if "fail" in found else "warn" if "warn" in found else "pass"
 
     @property
-    def finding(self) -> str:
-        """The first thing to repair, or nothing."""
-        if self.errors:
-            return f"{self.errors[0].line}:{self.errors[0].column} {self.errors[0].code}: {self.errors[0].message}"
-        if self.report is None:
-            return ""
-        worst = [c for wanted in ("fail", "warn") for c in self.to_repair if c.status == wanted]
-        return f"{worst[0].code} {worst[0].name}: {worst[0].message}" if worst else ""
+    def findings(self) -> list[str]:
+        """Every error, or everything to repair, the worst first."""
+        errors = [f"{error.line}:{error.column} {error.code}: {error.message}" for error in self.errors]
+        worst_first = sorted(self.to_repair, key=lambda check: check.status != "fail")
+        return errors + [f"{check.code} {check.name}: {check.message}" for check in worst_first]
 
     @property
     def to_repair(self) -> list[Check]:

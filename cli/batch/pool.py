@@ -14,6 +14,7 @@ from gearlink.cli.batch.one_file import outcomes
 from gearlink.cli.batch.options import BatchOptions
 from gearlink.cli.batch.outcome import Outcome
 from gearlink.cli.exit_codes import ExitCode
+from gearlink.cli.files import stem_of
 from gearlink.cli.reading.diagnostics import Diagnostic
 from gearlink.cli.workers import workers
 
@@ -108,7 +109,7 @@ def _alone(path: Path, options: BatchOptions) -> list[Outcome]:
     except BrokenExecutor:
         message = "fault: the process that had this file died; `gearlink check` on it alone may show why"
         wrong = Diagnostic("GL199", message, file=str(path))
-        return [Outcome(str(path), "", path.stem, "", ExitCode.FAULT, None, (wrong,))]
+        return [Outcome(str(path), "", stem_of(path), "", ExitCode.FAULT, None, (wrong,))]
 
 
 @contextmanager

@@ -11,7 +11,8 @@ from dataclasses import replace
 
 from gearlink.cli.batch.options import BatchOptions
 from gearlink.cli.exit_codes import ExitCode
-from gearlink.cli.reading.diagnostics import DesignFileError, visible
+from gearlink.cli.printable import visible
+from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.cli.reading.places import design_files
 
 
@@ -24,7 +25,12 @@ def run_batch(places: Sequence[str], options: BatchOptions) -> int:
     from gearlink.cli.batch.pool import run_files
 
     try:
-        files = options.share_of(design_files(places))
+        files = design_files(places)
+        if options.out is not None:
+            from gearlink.cli.batch.out import require_places
+
+            require_places(files)
+        files = options.share_of(files)
     except DesignFileError as error:
         from gearlink.cli.render.errors import show_errors
 

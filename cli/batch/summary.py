@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import csv
 import json
 from collections.abc import Callable, Sequence
 from typing import IO, TYPE_CHECKING, Any
 
 from gearlink.cli.batch.options import BatchFormat, BatchOptions
 from gearlink.cli.batch.outcome import Outcome, summary
+from gearlink.cli.printable import visible
 from gearlink.cli.render.json_report import FORMAT, as_plain
 
 if TYPE_CHECKING:
@@ -47,14 +47,17 @@ def _jsonl(results: Sequence[Outcome]) -> str:
 
 
 def _rows(results: Sequence[Outcome]) -> list[tuple[str, str, str, str]]:
-    return [(outcome.file, outcome.command, outcome.verdict, outcome.finding) for outcome in results]
+    """A row per finding, one without it where there is none."""
+    return [(o.file, o.command, o.verdict, finding) for o in results for finding in o.findings or [""]]
 
 
 def _csv(results: Sequence[Outcome]) -> str:
     import io
 
+    from gearlink.cli.render.csv_report import write_rows
+
     text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerows([_HEADS, *_rows(results)])
+    write_rows([_HEADS, *_rows(results)], text)
     return text.getvalue()
 
 
@@ -105,10 +108,11 @@ def _show(results: Sequence[Outcome], options: BatchOptions) -> None:
     from rich.text import Text
 
     for outcome in results:
-        if outcome.finding:
+        if outcome.findings:
             command = outcome.command or "not read"
-            console.print(Text(f"\n{outcome.file} ({command}), {outcome.verdict}:", style="bold"))
-            console.print(Text(outcome.finding))
+            console.print(Text(f"\n{visible(outcome.file)} ({command}), {outcome.verdict}:", style="bold"))
+        for finding in outcome.findings:
+            console.print(Text(visible(finding)))
     style = max((outcome.verdict for outcome in results), key=list(_STYLE).index, default="pass")
     console.print(Text(f"\n{len(results)} results: {_counts(results)}", style=_STYLE[style]))
 

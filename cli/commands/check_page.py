@@ -26,10 +26,10 @@ def show_findings(found: Sequence[Finding], designs: int, options: Options, *, o
         print(json.dumps({**whole, "findings": plain, **_as_results(found)}, ensure_ascii=False, allow_nan=False))
         return
     if options.format is Format.CSV:
-        import csv
+        from gearlink.cli.render.csv_report import write_rows
 
         rows = [list(_plain(finding).values()) for finding in shown]
-        csv.writer(sys.stdout, lineterminator="\n").writerows([_HEADS, *rows])
+        write_rows([_HEADS, *rows], sys.stdout)
         return
     words = ", ".join(f"{count} {status}" for status, count in counts.items() if count) or "nothing to check"
     verdict = f"{designs} design{'s' if designs != 1 else ''}: {words}"

@@ -9,6 +9,7 @@ from typing import Any
 
 from gearlink.cli.commands.difference import Change, Difference
 from gearlink.cli.options import Format, Options
+from gearlink.cli.printable import visible
 from gearlink.cli.render.json_report import FORMAT
 
 _PARTS = ("inputs", "quantities", "checks", "tables")
@@ -58,10 +59,11 @@ def _parts(found: Difference, text: Callable[[object], str]) -> Iterator[tuple[s
 
 
 def _verdict(found: Difference) -> str:
+    old, new = visible(found.old), visible(found.new)
     if found.equal:
-        return f"{found.old} and {found.new} are equal (tolerance {found.tolerance:g})"
+        return f"{old} and {new} are equal (tolerance {found.tolerance:g})"
     counts = ", ".join(f"{len(getattr(found, part))} {part}" for part in _PARTS if getattr(found, part))
-    return f"changed from {found.old} to {found.new}: {counts}"
+    return f"changed from {old} to {new}: {counts}"
 
 
 def _as_markdown(found: Difference) -> str:

@@ -252,15 +252,21 @@ def _with(node: Any, path: KeyPath, value: Any, name: str) -> Any:
 
 def _unreadable(name: str, error: Exception) -> Diagnostic:
     if isinstance(error, FileNotFoundError):
-        near = get_close_matches(os.path.basename(name), _neighbours(name), n=1)
-        remedy = f"did you mean {os.path.join(os.path.dirname(name), near[0])}?" if near else ""
-        return Diagnostic("GL101", "no such file", name, help=remedy)
+        return _missing(name)
     if isinstance(error, IsADirectoryError):
         return Diagnostic("GL101", "this is a folder", name, help="`gearlink batch` takes folders")
     if isinstance(error, PermissionError):
         return Diagnostic("GL101", "no permission to read it", name)
     reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
     return Diagnostic("GL101", f"cannot be read: {reason}", name)
+
+
+def _missing(name: str) -> Diagnostic:
+    if os.path.islink(name):
+        return Diagnostic("GL101", f"a link to {os.readlink(name)}, which does not exist", name)
+    near = get_close_matches(os.path.basename(name), _neighbours(name), n=1)
+    remedy = f"did you mean {os.path.join(os.path.dirname(name), near[0])}?" if near else ""
+    return Diagnostic("GL101", "no such file", name, help=remedy)
 
 
 def _neighbours(name: str) -> list[str]:

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from unicodedata import combining, east_asian_width
 
+from gearlink.cli.printable import glyphs, visible
 from gearlink.core.errors import GearlinkError
 
 MAX_SHOWN = 100
@@ -110,35 +111,14 @@ class Source:
         return Diagnostic(code, message, self.file, line, column, key, self.line(line), help)
 
 
-def visible(text: str, encoding: str = "utf-8") -> str:
-    """The text on one line with every character escaped that does not show or cannot be encoded.
-
-    Example
-        >>> print(visible("a" + chr(0xA0) + "b" + chr(27)), visible("20°", "ascii"))
-        a\\xa0b\\x1b 20\\xb0
-    """
-    if text.isascii() and text.isprintable():
-        return text
-    return "".join(_glyph(char, encoding) for char in text)
-
-
-def _glyph(char: str, encoding: str) -> str:
-    try:
-        char.encode(encoding)
-    except UnicodeEncodeError:
-        return char.encode("unicode_escape").decode()
-    return char if char.isprintable() else char.encode("unicode_escape").decode()
-
-
 def _excerpt(source: str, at: int, encoding: str) -> list[str]:
     """The part of a source line around a column, and under it the caret."""
     first = 0 if len(source) <= _WINDOW else max(0, min(at, len(source)) - 2 * _WINDOW // 3)
-    last = first + _WINDOW
+    shown = glyphs(source[first : first + _WINDOW], encoding)
     lead = "..." if first else ""
-    tail = "..." if last < len(source) else ""
-    before = lead + visible(source[first:at], encoding)
-    after = visible(source[max(first, at) : last], encoding) + tail
-    return [f"  {before}{after}", "  " + " " * _width(before) + "^"]
+    tail = "..." if first + _WINDOW < len(source) else ""
+    before = lead + "".join(shown[: max(0, at - first)])
+    return [f"  {lead}{''.join(shown)}{tail}", "  " + " " * _width(before) + "^"]
 
 
 def _width(text: str) -> int:

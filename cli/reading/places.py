@@ -21,7 +21,7 @@ def design_files(places: Sequence[str]) -> list[Path]:
     found: dict[Path, None] = {}
     for place in places:
         path = Path(place)
-        matched = [path] if path.exists() else sorted(Path(name) for name in glob.glob(place, recursive=True))
+        matched = [path] if os.path.lexists(path) else _matched(place)
         if not matched:
             raise DesignFileError([Diagnostic("GL101", "no such file or folder", file=place)])
         for match in matched:
@@ -32,11 +32,32 @@ def design_files(places: Sequence[str]) -> list[Path]:
     return list(found)
 
 
+def _matched(pattern: str) -> list[Path]:
+    try:
+        return sorted(Path(name) for name in glob.glob(pattern, recursive=True))
+    except RecursionError:
+        message = "the folders are too deep for a pattern: name the folder itself"
+        raise DesignFileError([Diagnostic("GL101", message, file=pattern)]) from None
+
+
 def _below(folder: Path) -> list[Path]:
-    found: list[Path] = []
-    for root, folders, names in os.walk(folder):
-        folders[:] = [name for name in folders if not name.startswith(".")]
-        place = Path(root)
-        wanted = (place / name for name in names if name.endswith(_ENDINGS) and not name.startswith("."))
-        found += [path for path in wanted if path.is_file()]
-    return sorted(found, key=lambda path: path.parts)
+    """Design files below a folder, however deep; links to folders are not followed.
+
+    A folder that cannot be read, and a link that leads nowhere, stand among the files: whoever reads them as such
+    is told why they cannot be read.
+    """
+    found, waiting = [], [os.fspath(folder)]
+    while waiting:
+        place = waiting.pop()
+        try:
+            with os.scandir(place) as entries:
+                seen = [entry for entry in entries if not entry.name.startswith(".")]
+        except OSError:
+            found.append(place)
+            continue
+        for entry in seen:
+            if entry.is_dir(follow_symlinks=False):
+                waiting.append(entry.path)
+            elif entry.name.endswith(_ENDINGS) and (os.path.isfile(entry) or not os.path.exists(entry)):
+                found.append(entry.path)
+    return sorted(map(Path, found), key=lambda path: path.parts)

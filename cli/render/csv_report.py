@@ -7,16 +7,22 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain
 from typing import IO
 
+from gearlink.cli.printable import cell
 from gearlink.core.report import Report, Table
 
 
 def write_csv(report: Report, stream: IO[str]) -> None:
     """Write the report as CSV, row by row: quantities, checks and tables, each with its own header row."""
-    writer = csv.writer(stream, lineterminator="\n")
     for number, block in enumerate(_blocks(report)):
         if number:
             stream.write("\n")
-        writer.writerows(block)
+        write_rows(block, stream)
+
+
+def write_rows(rows: Iterable[Iterable[object]], stream: IO[str]) -> None:
+    """Write rows as CSV; text in them is shown as `cell` shows it, numbers stand as they are."""
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerows([cell(item) if type(item) is str else item for item in row] for row in rows)
 
 
 def _blocks(report: Report) -> Iterator[Iterable[Iterable[object]]]:

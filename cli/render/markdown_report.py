@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+from gearlink.cli.printable import visible
 from gearlink.core.report import Report
 
 
 def as_markdown(report: Report) -> str:
     """The report as Markdown: a heading, then quantities, checks and tables."""
-    parts = [f"# {_on_one_line(report.name)}: {report.command}"]
+    parts = [f"# {_inline(' '.join(report.name.split()))}: {report.command}"]
     if report.quantities:
         rows = [(f"`{q.name}`", q.symbol, text_of(q.value), q.unit, q.words) for q in report.quantities]
         parts.append(markdown_table(("quantity", "symbol", "value", "unit", "meaning"), rows))
@@ -24,9 +25,9 @@ def as_markdown(report: Report) -> str:
     return "\n\n".join(parts)
 
 
-def _on_one_line(name: str) -> str:
-    """A design's name as a heading takes it: no line breaks, and signs that would be read as markup spelled out."""
-    return " ".join(name.split()).replace("&", "&amp;").replace("<", "&lt;")
+def _inline(text: str) -> str:
+    """Text as Markdown takes it: no line breaks, and signs that would be read as markup spelled out."""
+    return visible(text).replace("&", "&amp;").replace("<", "&lt;")
 
 
 def text_of(value: object) -> str:
@@ -39,5 +40,5 @@ def text_of(value: object) -> str:
 def markdown_table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     """A Markdown table."""
     lines = ["| " + " | ".join(heads) + " |", "|" + " --- |" * len(heads)]
-    lines += ["| " + " | ".join(cell.replace("|", "\\|") for cell in row) + " |" for row in rows]
+    lines += ["| " + " | ".join(_inline(cell).replace("|", "\\|") for cell in row) + " |" for row in rows]
     return "\n".join(lines)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from gearlink.cli.printable import visible
 from gearlink.cli.render.markdown_report import text_of
 from gearlink.core.report import Report
 
@@ -12,5 +13,5 @@ def as_lines(report: Report) -> str:
     lines = []
     for quantity in report.quantities:
         unit = "" if quantity.unit == "1" else f" {quantity.unit}"
-        lines.append((f"{quantity.name} = " if several else "") + text_of(quantity.value) + unit)
+        lines.append((f"{quantity.name} = " if several else "") + visible(text_of(quantity.value)) + unit)
     return "\n".join(lines)

@@ -6,13 +6,15 @@ import math
 import os
 import sys
 from collections.abc import Sequence
+from typing import Any
 
 from rich import box
-from rich.console import Console
+from rich.console import Console, RenderableType
 from rich.table import Table as Grid
 from rich.text import Text
 
 from gearlink.cli.options import Options
+from gearlink.cli.printable import visible
 from gearlink.cli.render.numbers import number, readable_rows, thinning
 from gearlink.core.report import Check, Quantity, Report, Table
 
@@ -25,7 +27,7 @@ _WIDTH_UNKNOWN = 80  # where COLUMNS says 0
 def show(report: Report, options: Options) -> None:
     """Print a report: heading, quantities, tables, checks, verdict."""
     console = console_for(options)
-    console.print(Text(f"{' '.join(report.name.split())}: {report.command} ({report.kind})", style="bold"))
+    console.print(Text(f"{visible(' '.join(report.name.split()))}: {report.command} ({report.kind})", style="bold"))
     if report.quantities:
         console.print(_quantities(report.quantities, console))
     for table in report.tables:
@@ -60,10 +62,20 @@ def console_for(options: Options) -> Console:
     return console
 
 
+class VisibleGrid(Grid):
+    """A table whose text shows as it is and does nothing."""
+
+    def add_row(self, *cells: RenderableType | None, **how: Any) -> None:
+        """As of any table; text that comes as a string is made visible."""
+        super().add_row(*(visible(cell) if isinstance(cell, str) else cell for cell in cells), **how)
+
+
 def grid_for(console: Console) -> Grid:
     """An empty table in the house's form, in ASCII where the console knows no more."""
     ascii_only = not (console.encoding or "").lower().startswith("utf")
-    return Grid(box=box.ASCII2 if ascii_only else box.SIMPLE_HEAD, show_edge=False, pad_edge=False, safe_box=ascii_only)
+    return VisibleGrid(
+        box=box.ASCII2 if ascii_only else box.SIMPLE_HEAD, show_edge=False, pad_edge=False, safe_box=ascii_only
+    )
 
 
 def _quantities(quantities: Sequence[Quantity], console: Console) -> Grid:

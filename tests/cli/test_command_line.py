@@ -282,12 +282,6 @@ def test_closed_streams(line: str, status: int) -> None:
     assert b"fault" not in ended.stderr
 
 
-def test_a_cache_that_cannot_be_written_is_no_fault(gearlink: Any, crank: Path) -> None:
-    ended = gearlink("batch", crank, "--cache", crank)
-    assert ended.status == ExitCode.WRONG_INPUT
-    assert "cannot write" in ended.err
-
-
 def test_a_fault_is_said_in_one_line(gearlink: Any, crank: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def broken(*_: object) -> None:
         raise ZeroDivisionError("planted")

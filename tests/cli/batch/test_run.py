@@ -209,7 +209,9 @@ def test_interrupt_keeps_what_is_finished(tmp_path: Path, designs: Path) -> None
     press = (designs / "ty460.yaml").read_text()
     for i in range(3000):
         (tmp_path / f"press_{i:04}.yaml").write_text(press)
+    out_files = tmp_path / ".out"
     command = [sys.executable, "-m", "gearlink.cli.main", "batch", str(tmp_path), "--format", "jsonl"]
+    command += ["--out", str(out_files)]
     environment = {**os.environ, "PYTHONUNBUFFERED": "1"}
     process = subprocess.Popen(
         command,
@@ -221,7 +223,9 @@ def test_interrupt_keeps_what_is_finished(tmp_path: Path, designs: Path) -> None
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )
     try:
-        time.sleep(2.5)
+        while not next(out_files.rglob("*.json"), None):
+            time.sleep(0.05)
+        time.sleep(0.5)
         process.send_signal(signal.SIGINT)
         sent = time.perf_counter()
         out, err = process.communicate(timeout=20)

@@ -1,0 +1,60 @@
+"""Text of strangers (file names, names of designs, lines of a file) as it can be printed without doing anything.
+
+One rule for every output that people or a CI's log read: a character that does not show is escaped, and of two colons
+or two number signs in a row the first, since runners of CI take `::error::`, `##[error]` and `##vso[...]` in a log
+for commands.
+"""
+
+from __future__ import annotations
+
+import re
+
+_COMMAND = re.compile(r":(?=:)|#(?=#)")
+
+
+def visible(text: str, encoding: str = "utf-8") -> str:
+    """The text on one line with every character escaped that does not show, cannot be encoded or opens a command.
+
+    Example
+        >>> print(visible("a" + chr(0xA0) + "b" + chr(27)), visible("20\u00b0", "ascii"), visible("::error::##[x]"))
+        a\\xa0b\\x1b 20\\xb0 \\x3a:error\\x3a:\\x23#[x]
+    """
+    if text.isascii() and text.isprintable() and "::" not in text and "##" not in text:
+        return text
+    return "".join(glyphs(text, encoding))
+
+
+def glyphs(text: str, encoding: str = "utf-8") -> list[str]:
+    """What `visible` shows, character by character."""
+    opens = {match.start() for match in _COMMAND.finditer(text)}
+    return [f"\\x{ord(char):x}" if i in opens else _glyph(char, encoding) for i, char in enumerate(text)]
+
+
+def _glyph(char: str, encoding: str) -> str:
+    try:
+        char.encode(encoding)
+    except UnicodeEncodeError:
+        return char.encode("unicode_escape").decode()
+    return char if char.isprintable() else char.encode("unicode_escape").decode()
+
+
+_FORMULA = ("=", "+", "-", "@", "\uff1d", "\uff0b", "\uff0d", "\uff20")
+
+
+def cell(text: str) -> str:
+    """The text as a cell of CSV: visible, and no spreadsheet takes it for a formula; a number stays one.
+
+    Example
+        >>> cell("=cmd|calc!A1"), cell("-2.5"), cell("-x")
+        ("'=cmd|calc!A1", '-2.5', "'-x")
+    """
+    shown = visible(text)
+    return f"'{shown}" if shown.startswith(_FORMULA) and not _is_number(shown) else shown
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True

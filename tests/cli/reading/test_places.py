@@ -1,0 +1,91 @@
+"""The design files below folders: all of them, however deep, and a word on what cannot be read."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from gearlink.cli.reading.design_file import load
+from gearlink.cli.reading.diagnostics import DesignFileError
+from gearlink.cli.reading.places import design_files
+
+CRANK = "kind: slider-crank\nstroke: 310\nrod: 520\noffset: 50\n"
+
+
+@pytest.fixture
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "files").mkdir()
+    (tmp_path / "files" / "a.yaml").write_text(CRANK)
+    yield tmp_path
+    subprocess.run(["rm", "-rf", "files", "out"], cwd=tmp_path, check=True)  # deeper than shutil goes
+
+
+def _deep(folder: Path, names: list[str]) -> None:
+    """Folders in each other, with a design in the innermost; made step by step, since the path is too long."""
+    before = os.open(".", os.O_RDONLY)
+    try:
+        os.chdir(folder)
+        for name in names:
+            os.mkdir(name)
+            os.chdir(name)
+        Path("z.yaml").write_text(CRANK)
+    finally:
+        os.fchdir(before)
+        os.close(before)
+
+
+@pytest.mark.parametrize("command", [("check",), ("batch",), ("batch", "--out", "out")])
+def test_a_thousand_folders_deep(gearlink: Any, here: Path, command: tuple[str, ...]) -> None:
+    _deep(here / "files", ["d"] * 1200)
+    ended = gearlink(command[0], "files", "--format", "json", *command[1:])
+    assert ended.status == 0
+    assert len(design_files(["files"])) == 2
+    assert ended.json["summary"]["designs" if command[0] == "check" else "pass"] == 2
+
+
+@pytest.mark.parametrize("command", ["check", "batch"])
+def test_a_folder_that_cannot_be_read_is_reported(gearlink: Any, here: Path, command: str) -> None:
+    """Beyond the longest path that the system takes."""
+    _deep(here / "files", ["d" * 200] * 25)
+    ended = gearlink(command, "files", "--format", "json")
+    assert ended.status == 2
+    errors = [*ended.json.get("errors", ()), *(e for d in ended.json.get("designs", ()) for e in d.get("errors", ()))]
+    assert [(error["code"], error["message"]) for error in errors] == [("GL101", "cannot be read: File name too long")]
+    assert len(design_files(["files"])) == 2
+
+
+@pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() != 0, reason="another user has no rights to take away")
+def test_a_folder_without_permission_is_reported(here: Path) -> None:
+    """Read with the rights of another user; the folder is root's alone."""
+    (here / "files" / "closed").mkdir(mode=0o700)
+    here.chmod(0o755)
+    os.seteuid(65534)
+    try:
+        found = design_files(["files"])
+        with pytest.raises(DesignFileError) as wrong:
+            load("files/closed")
+    finally:
+        os.seteuid(0)
+    assert found == [Path("files/a.yaml"), Path("files/closed")]
+    assert str(wrong.value) == "files/closed:1:1: error GL101: no permission to read it"
+
+
+def test_a_link_that_leads_nowhere(gearlink: Any, here: Path) -> None:
+    os.symlink("gone.yaml", "files/b.yaml")
+    for line in (("check", "files"), ("crank", "files/b.yaml")):
+        ended = gearlink(*line)
+        assert ended.status == 2
+        assert "files/b.yaml:1:1: error GL101: a link to gone.yaml, which does not exist" in ended.out + ended.err
+        assert "did you mean" not in ended.out + ended.err
+
+
+def test_links_to_folders_are_not_followed(here: Path) -> None:
+    os.symlink(here / "files", here / "files" / "loop")
+    os.symlink("a.yaml", here / "files" / "b.yaml")
+    assert design_files(["files"]) == [Path("files/a.yaml"), Path("files/b.yaml")]
