@@ -46,14 +46,15 @@ def test_every_command_in_every_format(kind, name, gearlink, designs):
             assert gearlink(*command.split(), designs / f"{name}.yaml", "--format", form).status == 0
 
 
-@pytest.mark.parametrize(("kind", "name"), mostly_slow(PAIRS, 1))
-def test_figures_are_written(kind, name, gearlink, designs, tmp_path):
-    for command in KINDS[kind].commands:
-        ended = gearlink(
-            *command.split(), designs / f"{name}.yaml", "--plot", "--plot-format", "svg", "--out", tmp_path
-        )
-        assert ended.status == 0
-    assert len(list(tmp_path.glob("*.svg"))) == len(KINDS[kind].commands)
+FIGURES = [(names[0], "analyze") for names in WORKED.values()]
+OTHERS = [(name, command) for kind, name in PAIRS for command in KINDS[kind].commands if (name, command) not in FIGURES]
+
+
+@pytest.mark.parametrize(("name", "command"), mostly_slow(FIGURES + OTHERS, len(FIGURES)))
+def test_figures_are_written(name, command, gearlink, designs, tmp_path):
+    ended = gearlink(command, designs / f"{name}.yaml", "--plot", "--plot-format", "svg", "--out", tmp_path)
+    assert ended.status == 0
+    assert len(list(tmp_path.glob("*.svg"))) == 1
 
 
 def test_batch_takes_them(gearlink, designs, tmp_path):

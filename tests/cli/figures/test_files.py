@@ -7,16 +7,17 @@ from typing import Any
 
 import pytest
 from matplotlib.figure import Figure
+from sweeps import mostly_slow
 
 MAGIC = {"png": b"\x89PNG\r\n", "svg": b"<?xml", "pdf": b"%PDF-"}
 FIGURES = [
     ("press", "ty460", "png"),
+    ("swing", "wide_swing_twin_cam", "svg"),
+    ("gear", "ty460_input_gears", "pdf"),
     ("cam", "ty460", "svg"),
     ("gripper", "swing_gripper", "pdf"),
     ("cam", "swing_gripper", "png"),
-    ("swing", "wide_swing_twin_cam", "svg"),
     ("cam", "wide_swing_twin_rocker", "pdf"),
-    ("gear", "ty460_input_gears", "pdf"),
     ("crank", "ty460_slider_crank", "png"),
     ("synth dwell", "candy_feed", "svg"),
     ("analyze", "thesis_example_3_as_printed", "pdf"),
@@ -29,7 +30,7 @@ FIGURES = [
 ]
 
 
-@pytest.mark.parametrize(("command", "name", "ending"), FIGURES)
+@pytest.mark.parametrize(("command", "name", "ending"), mostly_slow(FIGURES, 3))
 def test_one_file_the_same_every_time(
     gearlink: Any, designs: Path, tmp_path: Path, command: str, name: str, ending: str
 ) -> None:
