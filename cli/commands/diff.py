@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.commands.difference import Change, Difference
+from gearlink.cli.commands.result_file import incomparable, read_result
 from gearlink.cli.evaluate import open_design
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import Options
 from gearlink.cli.reading.design_file import diagnose_no_solution, validate
-from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
+from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.cli.render.json_report import as_plain
 from gearlink.core.errors import NoSolution
 from gearlink.core.report import Report
@@ -62,9 +61,9 @@ def difference(old: str, new: str, options: Options, tolerance: float = TOLERANC
     """
     before, after = _side(old, options), _side(new, options)
     if bool(before.inputs) != bool(after.inputs):
-        raise _incomparable(new, "one file is a design, the other a result: give two of a sort")
+        raise incomparable(new, "one file is a design, the other a result: give two of a sort")
     if before.kind != after.kind:
-        raise _incomparable(new, f"a {before.kind} and a {after.kind} cannot be compared: give two of one kind")
+        raise incomparable(new, f"a {before.kind} and a {after.kind} cannot be compared: give two of one kind")
     found = Difference(old, new, tolerance)
     units = {**before.units, **after.units}
     for path in _union(before.inputs, after.inputs):
@@ -83,31 +82,18 @@ def _results_as_gearlink_writes_them(file: str) -> Iterator[None]:
     try:
         yield
     except (KeyError, TypeError, AttributeError, IndexError, ValueError) as error:
-        raise _incomparable(file, f"not in the form of `--format json`: {type(error).__name__} {error}") from error
+        raise incomparable(file, f"not in the form of `--format json`: {type(error).__name__} {error}") from error
 
 
 # Reading
 
 
 def _side(file: str, options: Options) -> Side:
-    text = "" if file == "-" else _text(file)
-    if text.lstrip()[:1] == "{":
-        try:
-            data = json.loads(text)
-        except ValueError:
-            data = None
-        if isinstance(data, dict) and "gearlink" in data:
-            with _results_as_gearlink_writes_them(file):
-                return _result_side(file, data)
-    return _design_side(file, options)
-
-
-def _text(file: str) -> str:
-    """The text of a result; nothing for a file that only the reader of design files can judge."""
-    try:
-        return Path(file).read_bytes().decode()
-    except (OSError, ValueError):
-        return ""
+    data = read_result(file)
+    if data is None:
+        return _design_side(file, options)
+    with _results_as_gearlink_writes_them(file):
+        return _result_side(file, data)
 
 
 def _result_side(file: str, data: dict[str, Any]) -> Side:
@@ -115,7 +101,7 @@ def _result_side(file: str, data: dict[str, Any]) -> Side:
     several = isinstance(data.get("designs"), list)
     if not several and "quantities" not in data:
         message = "this JSON holds errors, not a result" if "errors" in data else "no result of a design in this JSON"
-        raise _incomparable(file, message)
+        raise incomparable(file, message)
     named: dict[str, dict[str, Any]] = {}
     for result in data["designs"] if several else [data]:
         name = f"{result['name']}: {result['command']}" if several else str(result["command"])
@@ -162,10 +148,6 @@ def _flat(path: str, value: Any) -> Iterator[tuple[str, Any]]:
         yield path, value
 
 
-def _incomparable(file: str, message: str) -> DesignFileError:
-    return DesignFileError([Diagnostic("GL117", message, file=file)])
-
-
 # Comparing
 
 
@@ -207,6 +189,8 @@ def same(old: Any, new: Any, tolerance: float) -> bool:
         (True, True, False)
     """
     if _number(old) and _number(new):
+        if math.isinf(old) or math.isinf(new):
+            return bool(old == new)
         return bool(abs(new - old) <= tolerance * max(1.0, abs(old), abs(new)))
     return bool(old == new) and isinstance(old, bool) == isinstance(new, bool)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from typing import Any
@@ -36,12 +37,19 @@ def _record(change: Change) -> dict[str, Any]:
     return {
         "name": change.name,
         "command": change.command,
-        "old": change.old,
-        "new": change.new,
+        "old": _plain_value(change.old),
+        "new": _plain_value(change.new),
         "unit": change.unit,
         "relative": change.relative,
         "detail": change.detail,
     }
+
+
+def _plain_value(value: Any) -> Any:
+    """A value as JSON knows it; what is not finite, which only a result of other programs holds, as a word."""
+    if isinstance(value, list):
+        return [_plain_value(item) for item in value]
+    return str(value) if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def _parts(found: Difference, text: Callable[[object], str]) -> Iterator[tuple[str, list[Sequence[str]]]]:

@@ -7,6 +7,7 @@ far smaller (1e-12) than the tolerance of the comparison (1e-9) that is under te
 from __future__ import annotations
 
 import json
+import resource
 from pathlib import Path
 from typing import Any
 
@@ -223,6 +224,59 @@ def test_broken_json_is_read_as_a_design_file(gearlink: Any, two: Any) -> None:
     ended = gearlink("diff", *two('{"gearlink": 1', CRANK))
     assert ended.status == 2
     assert "GL103" in ended.err
+
+
+RESULT = (
+    '{"gearlink": 1, "kind": "slider-crank", "name": "a", "command": "crank", "ok": true, "checks": [], "tables": {}, '
+    '"quantities": {"q": {"value": %s, "unit": "mm", "symbol": "x"}}}'
+)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "status"),
+    [
+        ("1", "Infinity", 1),
+        ("Infinity", "1e308", 1),
+        ("1e999", "Infinity", 0),
+        ("-Infinity", "Infinity", 1),
+        ("[1, Infinity]", "[1, 2]", 1),
+        ("1", "NaN", 1),
+        ("1e308", "-1e308", 1),
+    ],
+)
+def test_infinities(gearlink: Any, two: Any, old: str, new: str, status: int) -> None:
+    files = two(RESULT % old, RESULT % new, ".json")
+    for form in ("table", "md", "json"):
+        assert gearlink("diff", *files, "--format", form).status == status
+    found = gearlink("diff", *files, "--format", "json").out
+    json.loads(found, parse_constant=lambda word: pytest.fail(f"{word} is no JSON"))
+
+
+@pytest.mark.parametrize(
+    ("value", "word"),
+    [
+        ("1" + "0" * 400, "401 digits"),
+        ("-1" + "0" * 5000, "5001 digits"),
+        ("[" * 100_000 + "]" * 100_000, "nested deeper"),
+        ("[" * 500 + "]" * 500, "nested deeper"),
+        ("[" * 20 + "]" * 20, "nested deeper"),
+        ('"' + "x" * (1 << 26) + '"', "larger than 64 MiB"),
+    ],
+    ids=["10^400", "10^5000", "depth 100000", "depth 500", "depth 20", "64 MiB"],
+)
+def test_what_no_result_holds(gearlink: Any, two: Any, value: str, word: str) -> None:
+    ended = gearlink("diff", *two(RESULT % value, RESULT % "1", ".json"))
+    assert ended.status == 2
+    assert "GL117" in ended.err
+    assert word in ended.err
+
+
+def test_an_endless_file(gearlink: Any, two: Any) -> None:
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    ended = gearlink("diff", "/dev/zero", two(CRANK, CRANK)[0])
+    assert ended.status == 2
+    assert "GL110" in ended.err
+    assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 100_000
 
 
 def test_no_such_file(gearlink: Any, tmp_path: Path) -> None:
