@@ -8,14 +8,15 @@ no other state, so there is no order in which things must be called.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from gearlink.core.errors import GearlinkError
 from gearlink.core.nomenclature import term
-from gearlink.core.report import Check, Quantity, Report, Table
+from gearlink.core.remedies import Way, with_remedies
+from gearlink.core.report import Check, Quantity, Remedy, Report, Table
 from gearlink.core.results import step
 
 
@@ -57,11 +58,19 @@ class UnknownName(GearlinkError):
 
 
 class Design:
-    """Base of the design classes: `outlines` says what each command shows, `extra_tables` what can be added."""
+    """Base of the design classes.
+
+    `outlines` says what each command shows, `extra_tables` what can be added, `ways` how a file may be changed where
+    a check fails, `trials` how many changes are tried for it. A design that `advises` says in the words of a failing
+    check what would help.
+    """
 
     kind: ClassVar[str]
     outlines: ClassVar[dict[str, Outline]]
     extra_tables: ClassVar[tuple[str, ...]] = ()
+    ways: ClassVar[Mapping[str, tuple[Way, ...]]] = {}
+    trials: ClassVar[int] = 150
+    advises = True
 
     def __init__(self, spec: Any) -> None:
         self.spec = spec
@@ -132,6 +141,15 @@ class Design:
         """Changes of keys that would repair the design, each (path, value, why); a kind that has none gives none."""
         return ()
 
+    def findings(self, command: str, check: str) -> tuple[Check, ...]:
+        """The findings of a check by name; those that fail have a remedy, where one was found that the files of
+        `command` and of every other command that the design asks for can take."""
+        return with_remedies(self, command, tuple(self.check(check)))
+
+    def candidates(self, _check: str) -> Iterable[Remedy]:
+        """Remedies of a check from closed forms; they are tried before the `ways`."""
+        return ()
+
     def require(self, command: str) -> None:
         """Compute every quantity of a command: where no mechanism exists, one of them says so.
 
@@ -172,17 +190,13 @@ class Design:
             self.require(command)
         else:
             found = [self.quantity(name) for name in outline.quantities]
+        checks = [check for name in outline.checks for check in self.findings(command, name)]
         return Report(
             kind=self.kind,
             name=self.spec.name,
             command=command,
             quantities=tuple(quantity for quantity in found if quantity is not None),
-            checks=tuple(
-                check
-                for name in outline.checks
-                for check in self.check(name)
-                if check.status != "pass" or not findings_only
-            ),
+            checks=tuple(check for check in checks if check.status != "pass" or not findings_only),
             tables=tuple(self.table(name, samples=samples) for name in asked),
         )
 

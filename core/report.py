@@ -14,6 +14,8 @@ if TYPE_CHECKING:
 
 Value = float | int | str | list[float] | list[int]
 Status = Literal["pass", "warn", "fail"]
+Remedy: TypeAlias = tuple[tuple[str, float | None], ...]
+"""Keys of the design file with the values that repair a finding, to be put in together; None leaves a key out."""
 _BLOCK = 4096
 
 
@@ -39,6 +41,7 @@ class Check:
     value: float | None = None
     limit: float | None = None
     unit: str = "1"
+    remedy: Remedy = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -188,6 +191,19 @@ def _plain(column: Column) -> Sequence[float | str | None]:
     except (TypeError, ValueError, OverflowError):  # words, nothing at a place, integers beyond all floats
         pass
     return [None if isinstance(item, float) and not math.isfinite(item) else item for item in items]
+
+
+def remedy_words(remedy: Remedy) -> str:
+    """A remedy in words.
+
+    Example
+        >>> remedy_words((("gears.crank", 42), ("gears.output", 42)))
+        'set gears.crank to 42 and gears.output to 42'
+    """
+    return " and ".join(
+        f"leave {key} out" if value is None else f"{'' if i else 'set '}{key} to {value:.12g}"
+        for i, (key, value) in enumerate(remedy)
+    )
 
 
 def safely_below(value: float, digits: int = 5) -> str:

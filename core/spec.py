@@ -79,6 +79,7 @@ class GearLimits(Spec):
     undercut: Share = Field(0.05, description="how far the profile shift may lie below x_min")
     tip_thickness: Share = Field(0.25, description="least tip thickness over the module")
     contact_ratio: Ratio = Field(1.1, description="least transverse contact ratio")
+    sliding: Ratio | None = Field(None, description="greatest specific sliding; left out: only above 8 is reported")
 
 
 def require_offset_below_rod(rod: float, offset: float, key: str) -> None:

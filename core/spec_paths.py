@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterable
 from typing import Any
+
+_STEP = re.compile(r"[^.\[\]]+")
 
 
 def value_at(spec: Any, path: str) -> Any:
@@ -32,3 +36,44 @@ def replaced(spec: Any, path: str, value: Any) -> Any:
     head, _, rest = path.partition(".")
     inner = replaced(getattr(spec, head), rest, value) if rest else value
     return spec.model_copy(update={head: inner})
+
+
+def number_at(spec: Any, path: str) -> float | None:
+    """The number that a path leads to; None where no number stands there.
+
+    Example
+        >>> from types import SimpleNamespace
+        >>> spec = SimpleNamespace(teeth=[17, 40], cam=None)
+        >>> number_at(spec, "teeth[1]"), number_at(spec, "cam.base_radius")
+        (40, None)
+    """
+    for step in _steps(path):
+        try:
+            spec = spec[step] if isinstance(step, int) else getattr(spec, step)
+        except (AttributeError, TypeError, IndexError):
+            return None
+    return spec if isinstance(spec, (int, float)) and not isinstance(spec, bool) else None
+
+
+def changed(spec: Any, values: Iterable[tuple[str, Any]]) -> Any:
+    """A spec with other values at some paths, validated; None where the model refuses them.
+
+    Parameters
+        spec : pydantic model
+        values : (path, value) pairs; None leaves the key out
+    """
+    data = spec.model_dump(exclude_unset=True)
+    for path, value in values:
+        *sections, last = _steps(path)
+        place = data
+        for step in sections:
+            place = place[step] if isinstance(step, int) else place.setdefault(step, {})
+        place[last] = value
+    try:
+        return type(spec).model_validate(data)
+    except ValueError:
+        return None
+
+
+def _steps(path: str) -> list[str | int]:
+    return [int(step) if step.isdecimal() else step for step in _STEP.findall(path)]

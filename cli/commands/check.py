@@ -68,7 +68,7 @@ def _findings(loaded: LoadedFile, kind: Kind, spec: Any) -> Iterator[Finding]:
             outline = design.outline(command)
             names = [name for name in outline.checks if (cls, name) not in done]
             done |= {(cls, name) for name in names}
-            for check in (check for name in names for check in design.check(name)):
+            for check in (check for name in names for check in design.findings(command, name)):
                 yield Finding(check.status, _place(loaded, check), command, check)
             design.require(command)  # not every check would notice that there is no mechanism
         except NoSolution as error:

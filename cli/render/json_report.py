@@ -28,7 +28,7 @@ def as_plain(report: Report) -> dict[str, Any]:
 
 def plain_check(check: Check) -> dict[str, Any]:
     """One check as it stands in the `checks` of a result."""
-    return {
+    plain: dict[str, Any] = {
         "code": check.code,
         "name": check.name,
         "status": check.status,
@@ -37,6 +37,9 @@ def plain_check(check: Check) -> dict[str, Any]:
         "unit": check.unit,
         "message": check.message,
     }
+    if check.remedy:
+        plain["remedy"] = [{"key": key, "value": value} for key, value in check.remedy]
+    return plain
 
 
 def as_json(report: Report) -> str:

@@ -6,7 +6,7 @@ import re
 from typing import Any
 
 from gearlink.cli.texts.codes import explanations
-from gearlink.core.report import Check
+from gearlink.core.report import Check, remedy_words
 
 _PATH = re.compile(r"\b[a-z][a-z0-9_]*(?:\.[a-z][a-z0-9_]*)+\b")
 
@@ -19,7 +19,9 @@ def key_of(data: dict[str, Any], check: Check) -> str:
         'cam.base_radius'
     """
     known = explanations().get(check.code)
-    for path in (*_PATH.findall(check.message), *(known.keys if known else ())):
+    # The keys of a remedy may stand anywhere: what is about to be changed is not what the finding is about.
+    message = check.message.removesuffix(remedy_words(check.remedy))
+    for path in (*_PATH.findall(message), *(known.keys if known else ())):
         if _has(data, path):
             return str(path)
     return "kind"

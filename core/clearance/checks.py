@@ -7,7 +7,11 @@ from collections.abc import Iterator
 
 from gearlink.core.clearance.bodies import Clearance, Gear, Layout, Shaft
 from gearlink.core.linkages.codes import GEAR_COLLISION, SHAFT_CLEARANCE
+from gearlink.core.remedies import down
 from gearlink.core.report import Check, Status, safely_below
+
+SHAFT_WAYS = (*(down(f"shafts.{name}_radius") for name in ("input", "output", "A", "D", "E")), down("gears.rim"))
+"""How a file may be changed where a shaft is not clear."""
 
 
 def collision_check(pair: Clearance, limit: float, why: str, remedy: str) -> Check:

@@ -7,17 +7,19 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from gearlink.core.clearance.bodies import Layout
-from gearlink.core.clearance.checks import shaft_checks
+from gearlink.core.clearance.checks import SHAFT_WAYS, shaft_checks
 from gearlink.core.design import Outline, placed
 from gearlink.core.dwell_gears import hypocycloid, hypocycloid_rod
 from gearlink.core.dwell_gears.bodies import hypocycloid_layout
 from gearlink.core.dwell_gears.codes import DWELL_QUALITY
 from gearlink.core.dwell_gears.hypocycloid import HypocycloidSlider
 from gearlink.core.errors import NoSolution, at_key
+from gearlink.core.gears.checks import gear_ways
 from gearlink.core.gears.internal_mesh import InternalMesh
 from gearlink.core.gears.single_mesh import INTERNAL_QUANTITIES, MESH_CHECKS, SingleMesh
 from gearlink.core.linkages.checks import transmission_check
-from gearlink.core.report import Check, Table
+from gearlink.core.remedies import Way, up
+from gearlink.core.report import Check, Remedy, Table
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
@@ -55,6 +57,21 @@ class HypocycloidDwell(SingleMesh):
         ),
         "gear": Outline(INTERNAL_QUANTITIES, MESH_CHECKS),
     }
+
+    ways = {
+        "shaft-clearance": SHAFT_WAYS,
+        "transmission-angle": (up("rod.length"),),
+        **gear_ways(Way(("gears.planet", "gears.ring"), 1, "ratio")),
+    }
+    trials = 20
+
+    def candidates(self, check: str) -> Iterator[Remedy]:
+        """What the slider does over the dwell that is wanted; a curve with a cusp less."""
+        if check == "dwell-quality" and self.tolerance_carrier_angle is not None:
+            yield (("dwell.tolerance", math.ceil(501.0 * self.dwell_ripple) / 1000.0),)
+            yield (("dwell.angle", math.floor(10.0 * math.degrees(self.tolerance_carrier_angle)) / 10.0),)
+        if check == "transmission-angle":
+            yield (("gears.ring", self.ring_teeth - self.planet_teeth),)
 
     # Gears and rod
 

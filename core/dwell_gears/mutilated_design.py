@@ -7,18 +7,19 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from gearlink.core.clearance.bodies import Layout
-from gearlink.core.clearance.checks import shaft_checks
+from gearlink.core.clearance.checks import SHAFT_WAYS, shaft_checks
 from gearlink.core.design import Outline, placed
 from gearlink.core.dwell_gears.bodies import mutilated_layout
 from gearlink.core.dwell_gears.codes import START_SHOCK
 from gearlink.core.dwell_gears.mutilated import MutilatedGear
 from gearlink.core.errors import at_key
-from gearlink.core.gears.checks import GEAR_CHECKS
+from gearlink.core.gears.checks import GEAR_CHECKS, gear_ways
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.gears.single_mesh import MESH_CHECKS, MESH_QUANTITIES, SingleMesh
 from gearlink.core.linkages.checks import check_linkage, transmission_check
 from gearlink.core.linkages.fourbar import FourBar, solve
 from gearlink.core.linkages.nearest_passes import joint_to_crank_pivot
+from gearlink.core.remedies import Way, either, up
 from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
 
@@ -28,6 +29,14 @@ if TYPE_CHECKING:
 _TURN = 2.0 * math.pi
 # A rocker that starts with less than this share of the driven gear's speed starts from rest.
 _AT_REST = 1e-6
+
+
+_TEETH = (
+    up("gears.full_teeth", step=1),
+    Way(("gears.driven", "gears.group_teeth", "gears.full_teeth"), 1, "ratio"),
+    Way(("gears.driven", "gears.group_teeth"), 1, "ratio"),
+)
+_LINKS = either("links.crank", "links.frame", "links.rocker", "links.coupler")
 
 
 class MutilatedGearDwell(SingleMesh):
@@ -58,6 +67,8 @@ class MutilatedGearDwell(SingleMesh):
         ),
         "gear": Outline(MESH_QUANTITIES, MESH_CHECKS),
     }
+
+    ways = {"shaft-clearance": SHAFT_WAYS, "transmission-angle": _LINKS, **gear_ways(*_TEETH)}
 
     @cached_property
     def mutilated(self) -> MutilatedGear:

@@ -8,14 +8,16 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from gearlink.core.clearance.bodies import Layout
-from gearlink.core.clearance.checks import collision_check, shaft_checks
+from gearlink.core.clearance.checks import SHAFT_WAYS, collision_check, shaft_checks
 from gearlink.core.design import Outline, placed
 from gearlink.core.errors import NoSolution
 from gearlink.core.five_bar import bodies
 from gearlink.core.five_bar.codes import CLOSURE
 from gearlink.core.five_bar.parts import FiveBarParts
+from gearlink.core.gears.checks import gear_ways
 from gearlink.core.gears.single_mesh import MESH_CHECKS, mesh_checks
 from gearlink.core.linkages.checks import target_check, transmission_check
+from gearlink.core.remedies import down, either, up
 from gearlink.core.report import Check, Table, safely_above
 from gearlink.core.results import cached_property
 
@@ -25,6 +27,14 @@ if TYPE_CHECKING:
 
 _SHOWN_TURNS = 100
 _POSITION_TOLERANCE = math.degrees(1e-9)
+
+
+_TEETH = tuple(up(f"gears.{gear}", step=1) for gear in ("input", "output", "idler", "planet", "sun", "ring"))
+_FEWER = tuple(down(*way.keys, step=1) for way in _TEETH)
+_LINKS = (
+    up("links.coupler", "links.follower"),
+    *either("links.coupler", "links.follower", "links.output", "links.input", "links.frame"),
+)
 
 
 class GearedFiveBar(FiveBarParts):
@@ -77,6 +87,15 @@ class GearedFiveBar(FiveBarParts):
     frame_length: float = placed("bar.frame")
     phase: float = placed("bar.phase")
     assembly: int = placed("bar.assembly")
+
+    ways = {
+        "transmission-angle": (up("links.follower", "links.output"), *_LINKS),
+        "shaft-clearance": (*SHAFT_WAYS, *_LINKS, *_FEWER, *_TEETH),
+        "gear-collision": (up("links.frame"), *_FEWER, *_TEETH),
+        **gear_ways(up("gears.input", "gears.output", step=1), *_TEETH),
+    }
+
+    trials = 60
 
     @property
     def point_along(self) -> float | None:

@@ -12,6 +12,7 @@ from gearlink.core.five_bar.function_motion import FunctionFiveBar
 from gearlink.core.five_bar.path_motion import PathFiveBar
 from gearlink.core.gears.internal_mesh import InternalMesh
 from gearlink.core.gears.pair import GearPair
+from gearlink.core.gears.single_mesh import mesh_quantity
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
@@ -65,10 +66,11 @@ class FiveBarParts(Design):
         return [mesh.center_distance for mesh in self.meshes.values()]
 
     @property
-    def contact_ratio(self) -> list[float]:
-        """Contact ratio of each mesh."""
+    def contact_ratio(self) -> list[float] | None:
+        """Contact ratio of each mesh; None where a ring's tips have no involute."""
         with at_key("gears"):
-            return [mesh.contact_ratio for mesh in self.meshes.values()]
+            found = [mesh_quantity(mesh, "contact_ratio") for mesh in self.meshes.values()]
+        return None if None in found else found
 
     @property
     def ratio(self) -> Fraction:

@@ -2,11 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any, Protocol
+import math
+from collections.abc import Callable, Iterator
+from typing import Any, NamedTuple, Protocol
 
-from gearlink.core.gears.codes import CONTACT_RATIO, INTERFERENCE, ROOT_CLEARANCE, TIP_THICKNESS, UNDERCUT
+from gearlink.core.gears.codes import (
+    CONTACT_RATIO,
+    INTERFERENCE,
+    ROOT_CLEARANCE,
+    SLIDING,
+    TIP_FOULING,
+    TIP_THICKNESS,
+    TOOTH_FORM,
+    UNDERCUT,
+)
 from gearlink.core.gears.pair import GearPair
+from gearlink.core.remedies import Way, down, up
 from gearlink.core.report import Check, Status, safely_above
 
 
@@ -36,7 +47,31 @@ class GearQuantities:
 
 
 GEAR_QUANTITIES = tuple(GearQuantities.__annotations__)
-GEAR_CHECKS = tuple(rule.name for rule in (UNDERCUT, TIP_THICKNESS, CONTACT_RATIO, INTERFERENCE, ROOT_CLEARANCE))
+GEAR_CHECKS = tuple(
+    rule.name for rule in (UNDERCUT, TIP_THICKNESS, CONTACT_RATIO, INTERFERENCE, ROOT_CLEARANCE, TOOTH_FORM, SLIDING)
+)
+_USUAL_TIP = 0.15
+"""So many modules above the least tip thickness a tip is no longer called thin."""
+_UNUSUAL_SLIDING = 8.0
+
+
+def gear_ways(*teeth: Way, angle: str = "gears.pressure_angle") -> dict[str, tuple[Way, ...]]:
+    """How a file without profile shifts may be changed where one of the checks of a mesh fails.
+
+    Parameters
+        teeth : the ways to more teeth
+        angle : str - key of the pressure angle
+    """
+    steeper, flatter = up(angle, step=0.5), down(angle, step=0.5)
+    fewer = tuple(Way(way.keys, -way.step, way.tie) for way in teeth)
+    return {
+        UNDERCUT.name: (*teeth, steeper),
+        TIP_THICKNESS.name: (flatter, *teeth),
+        CONTACT_RATIO.name: (*teeth, flatter),
+        INTERFERENCE.name: (*teeth, *fewer, steeper),
+        TIP_FOULING.name: (*teeth, *fewer, steeper),
+        TOOTH_FORM.name: (*teeth, flatter),
+    }
 
 
 class Limits(Protocol):
@@ -48,6 +83,8 @@ class Limits(Protocol):
     def tip_thickness(self) -> float: ...
     @property
     def contact_ratio(self) -> float: ...
+    @property
+    def sliding(self) -> float | None: ...
 
 
 def gear_quantity(pair: GearPair, name: str) -> Any:
@@ -62,7 +99,7 @@ def gear_quantity(pair: GearPair, name: str) -> Any:
     return getattr(pair, name)
 
 
-def gear_check(name: str, pair: GearPair, limits: Limits, mesh: str = "", shift_key: str = "") -> Iterator[Check]:
+def gear_check(name: str, pair: GearPair, limits: Limits, mesh: str = "", shifts: bool = False) -> Iterator[Check]:
     """The findings of one of GEAR_CHECKS on a pair.
 
     Parameters
@@ -70,89 +107,123 @@ def gear_check(name: str, pair: GearPair, limits: Limits, mesh: str = "", shift_
         pair : GearPair
         limits : the `limits` section of a spec
         mesh : str - name of the mesh in a design with several, put before the message
-        shift_key : str - the design file's key of both profile shifts, for remedies; empty where it has none
+        shifts : bool - the design file has keys of the profile shifts, which messages may then name
     Source
-        ISO 21771 for the quantities; limits are usual practice (tip thickness, contact ratio, clearance)
+        ISO 21771 for the quantities; limits are usual practice (tip thickness, contact ratio, clearance, sliding)
     """
     before = f"{mesh.replace('_', '-')} mesh: " if mesh else ""
+    if name == CONTACT_RATIO.name:
+        least, subject = limits.contact_ratio, f"{before}the contact ratio"
+        remedy = f"take more teeth, {_either(shifts, 'a smaller pressure angle or less profile shift')}"
+        yield CONTACT_RATIO.below(pair.contact_ratio, least, least + 0.1, "1", subject, remedy)
+        return
     for gear in (0, 1):
-        if name == "undercut":
-            yield _undercut(pair, gear, limits.undercut, before)
-        elif name == "tip-thickness":
-            yield _tip_thickness(pair, gear, limits, before, shift_key)
-        elif name == "involute-interference":
-            yield _interference(pair, gear, limits, before, shift_key)
-        elif name == "root-clearance":
-            yield _root_clearance(pair, gear, before)
-        elif name == "contact-ratio" and gear == 0:
-            yield CONTACT_RATIO.below(
-                pair.contact_ratio,
-                limits.contact_ratio,
-                limits.contact_ratio + 0.1,
-                "1",
-                f"{before}the contact ratio",
-                "take more teeth, a smaller pressure angle or less profile shift",
-            )
+        which = _Gear(pair, gear, f"{before}{{}}gear {gear + 1}", shifts)
+        yield from _OF_ONE_GEAR[name](which, limits)
 
 
-def _undercut(pair: GearPair, gear: int, margin: float, before: str) -> Check:
-    x, least = pair.profile_shift[gear], pair.min_shift_no_undercut[gear]
-    status: Status = "pass" if x >= least else "warn" if x >= least - margin else "fail"
-    text = f"{before}gear {gear + 1} ({pair.teeth[gear]} teeth) has x = {x:.6g}, undercut begins below {least:.6g}"
+def _either(shifts: bool, words: str) -> str:
+    return words if shifts else "or a smaller pressure angle"
+
+
+class _Gear(NamedTuple):
+    """A gear of a pair, what its messages begin with, and whether they may name shifts."""
+
+    pair: GearPair
+    place: int
+    words: str
+    shifts: bool
+
+    def of(self, quantity: str) -> float:
+        """A quantity of this gear."""
+        return float(getattr(self.pair, quantity)[self.place])
+
+    def named(self, part: str = "") -> str:
+        """The gear, or a part of it, in words."""
+        return self.words.format(part)
+
+
+def _undercut(gear: _Gear, limits: Limits) -> Iterator[Check]:
+    x, least = gear.of("profile_shift"), gear.of("min_shift_no_undercut")
+    status: Status = "pass" if x >= least else "warn" if x >= least - limits.undercut else "fail"
+    teeth = gear.pair.teeth[gear.place]
+    text = f"{gear.named()} ({teeth} teeth) has x = {x:.6g}, undercut begins below {least:.6g}"
     if status != "pass":
-        text += f": raise its profile shift to {safely_above(least, 4)} or take more teeth"
-    return UNDERCUT.check(status, text, x - least, -margin)
+        remedy = f"raise its profile shift to {safely_above(least, 4)} or take more teeth"
+        text += f": {remedy if gear.shifts else 'take more teeth, or a larger pressure angle'}"
+    yield UNDERCUT.check(status, text, x - least, -limits.undercut)
 
 
-def _tip_thickness(pair: GearPair, gear: int, limits: Limits, before: str, shift_key: str) -> Check:
-    share = pair.tip_thickness[gear] / pair.module
-    limit = limits.tip_thickness
-    warn = limit + 0.15
-    aims = [aim for aim in (warn, limit) if share < aim]
-    remedy = next(filter(None, (_repaired(pair, gear, limits, aim, shift_key) for aim in aims)), "")
-    return TIP_THICKNESS.below(
-        share,
-        limit,
-        warn,
-        "1",
-        f"{before}the tip thickness of gear {gear + 1} over the module",
-        f"lower its profile shift or its addendum{remedy}",
+def _tip_thickness(gear: _Gear, limits: Limits) -> Iterator[Check]:
+    share, limit = gear.of("tip_thickness") / gear.pair.module, limits.tip_thickness
+    subject = f"{gear.named('the tip thickness of ')} over the module"
+    remedy = "lower its profile shift or its addendum"
+    if not gear.shifts:
+        remedy = "take more teeth or a smaller pressure angle"
+    yield TIP_THICKNESS.below(share, limit, limit + _USUAL_TIP, "1", subject, remedy)
+
+
+def _interference(gear: _Gear, _limits: Limits) -> Iterator[Check]:
+    margin, tip = gear.of("interference_margin"), gear.named("the tip of ")
+    if margin >= 0.0:
+        text = f"{tip} stays {margin:.4g} mm short of the mate's base tangent point"
+        yield INTERFERENCE.check("pass", text, margin, 0.0, "mm")
+        return
+    one, mate = gear.place + 1, 2 - gear.place
+    remedy = (
+        f"raise the profile shift of gear {mate} or lower the addendum of gear {one}"
+        if gear.shifts
+        else f"take more teeth on gear {mate}, or a larger pressure angle"
     )
+    text = f"{tip} goes {-margin:.4g} mm beyond the mate's base tangent point: {remedy}"
+    yield INTERFERENCE.check("fail", text, margin, 0.0, "mm")
 
 
-def _repaired(pair: GearPair, gear: int, limits: Limits, tip_thickness: float, shift_key: str) -> str:
-    """The shifts that repair a tip, after the words of a remedy; nothing where none do or the file has no such key."""
-    if not shift_key:
-        return ""
-    from gearlink.core.gears.remedies import repaired_shifts
-
-    shifts = repaired_shifts(pair, gear, tip_thickness, limits.contact_ratio)
-    if shifts is None:
-        return ""
-    return f"; {shift_key} [{shifts[0]:.9g}, {shifts[1]:.9g}] does it at the same centre distance"
-
-
-def _interference(pair: GearPair, gear: int, limits: Limits, before: str, shift_key: str) -> Check:
-    margin = pair.interference_margin[gear]
-    status: Status = "fail" if margin < 0.0 else "pass"
-    text = f"{before}the tip of gear {gear + 1} stays {margin:.4g} mm short of the mate's base tangent point"
-    if status == "fail":
-        text = (
-            f"{before}the tip of gear {gear + 1} goes {-margin:.4g} mm beyond the mate's base tangent point: "
-            f"raise the profile shift of gear {2 - gear} or lower the addendum of gear {gear + 1}"
-            f"{_repaired(pair, gear, limits, limits.tip_thickness, shift_key)}"
-        )
-    return INTERFERENCE.check(status, text, margin, 0.0, "mm")
-
-
-def _root_clearance(pair: GearPair, gear: int, before: str) -> Check:
+def _root_clearance(gear: _Gear, _limits: Limits) -> Iterator[Check]:
     least, usual = 0.05, 0.15
-    return ROOT_CLEARANCE.below(
-        # The profile's own coefficient: with full tip shortening it is what remains, and carries no rounding.
-        pair.clearance,
-        least,
-        usual,
-        "1",
-        f"{before}the clearance at the root of gear {gear + 1} over the module",
-        f"raise the clearance coefficient to {least if pair.clearance < least else usual:g} or more",
-    )
+    # The profile's own coefficient: with full tip shortening it is what remains, and carries no rounding.
+    clearance = gear.pair.clearance
+    subject = f"{gear.named('the clearance at the root of ')} over the module"
+    remedy = f"raise the clearance coefficient to {least if clearance < least else usual:g} or more"
+    yield ROOT_CLEARANCE.below(clearance, least, usual, "1", subject, remedy)
+
+
+def _tooth_form(gear: _Gear, _limits: Limits) -> Iterator[Check]:
+    thickness, root = gear.of("tooth_thickness"), gear.of("root_radius")
+    parts = {
+        "the height of the teeth of ": gear.of("tip_radius") - root,
+        "the root radius of ": root,
+        "the tip thickness of ": gear.of("tip_thickness"),
+        "the tooth thickness on the reference circle of ": thickness,
+        "the tooth space on the reference circle of ": math.pi * gear.pair.module - thickness,
+    }
+    part, worst = min(parts.items(), key=lambda each: each[1])
+    text = f"{gear.named(part)} is {worst:.4g} mm"
+    if worst <= 0.0:
+        most = math.pi / (4.0 * math.tan(gear.pair.pressure_angle))
+        nearer = f"bring its profile shift {gear.of('profile_shift'):.6g} nearer to 0 (|x| below {most:.3g})"
+        text += f", a tooth that no tool can cut: {nearer if gear.shifts else 'take more teeth'}"
+    yield TOOTH_FORM.check("fail" if worst <= 0.0 else "pass", text, worst, 0.0, "mm")
+
+
+def _sliding(gear: _Gear, limits: Limits) -> Iterator[Check]:
+    found = gear_quantity(gear.pair, "specific_sliding")
+    limit = _UNUSUAL_SLIDING if limits.sliding is None else limits.sliding
+    if found is None or (limits.sliding is None and abs(found[gear.place]) <= limit):
+        return
+    size = abs(found[gear.place])
+    text = f"{gear.named('the specific sliding at the root of ')} is {found[gear.place]:.5g}"
+    if size > limit:
+        remedy = "raise its profile shift" if gear.shifts else "take more teeth"
+        text += f", beyond the limit of {limit:g}: {remedy}, so that the mate's tip stays off its base circle"
+    yield SLIDING.check("warn" if size > limit else "pass", text, size, limit)
+
+
+_OF_ONE_GEAR: dict[str, Callable[[_Gear, Limits], Iterator[Check]]] = {
+    UNDERCUT.name: _undercut,
+    TIP_THICKNESS.name: _tip_thickness,
+    INTERFERENCE.name: _interference,
+    ROOT_CLEARANCE.name: _root_clearance,
+    TOOTH_FORM.name: _tooth_form,
+    SLIDING.name: _sliding,
+}

@@ -62,6 +62,28 @@ ROOT_CLEARANCE = Rule(
     ("root-clearance",),
     ("clearance", *_TEETH),
 )
+SLIDING = Rule(
+    "GL209",
+    "flanks slide much",
+    "The sliding speed at the root end of an active flank is many times the rolling speed there (a warning).",
+    "Such flanks wear and score: contact comes near to the base circle, where rolling ends.",
+    "Raise the gear's profile shift, take more teeth, or lower the mate's addendum.",
+    "|zeta| = |1 - (w_mate rho_mate)/(w rho)| <= limits.sliding; without that key only |zeta| > 8 is reported",
+    "ISO 21771; the limit is usual practice",
+    ("sliding",),
+    ("limits.sliding", *_TEETH),
+)
+TOOTH_FORM = Rule(
+    "GL212",
+    "no tooth that a tool can cut",
+    "The tip lies inside the root, the flanks meet below the tip, or tooth or space vanish on the reference circle.",
+    "The numbers describe a tooth that does not exist.",
+    "Bring the profile shift nearer to 0, or take more teeth.",
+    "r_a > r_f > 0, s_a > 0, 0 < s = m (pi/2 + 2 x tan(alpha)) < pi m",
+    "ISO 21771; the range of x: own derivation, a rack then leaves both tooth and space",
+    ("tooth-form",),
+    _TEETH,
+)
 TIP_FOULING = Rule(
     "GL206",
     "tips foul in an internal mesh",

@@ -9,6 +9,7 @@ from gearlink.core.design import Design, Outline
 from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantities, gear_check, gear_quantity
 from gearlink.core.gears.pair import GearPair
+from gearlink.core.remedies import down, either, shared, up
 from gearlink.core.report import Check
 from gearlink.core.results import cached_property
 
@@ -16,6 +17,22 @@ if TYPE_CHECKING:
     from gearlink.core.gears.spec import GearPairSpec
 
 _AGREE = 1e-6
+
+
+_SHIFTS = (
+    *shared("profile_shift[0]", "profile_shift[1]", step=0.01),
+    *either("profile_shift[0]", "profile_shift[1]", "shift_split", step=0.01),
+)
+_TEETH = (up("teeth[0]", step=1), up("teeth[1]", step=1))
+_ANGLE = either("pressure_angle", step=0.5)
+_WAYS = {
+    "undercut": (*_SHIFTS, *_TEETH, *_ANGLE),
+    "tip-thickness": (*_SHIFTS, down("addendum", step=0.01), *_TEETH, *_ANGLE),
+    "contact-ratio": (*_SHIFTS, up("addendum", step=0.01), *_TEETH, *_ANGLE),
+    "involute-interference": (*_SHIFTS, down("addendum", step=0.01), *_TEETH, *_ANGLE),
+    "tooth-form": (*_SHIFTS, down("addendum", step=0.01), *_TEETH, *_ANGLE),
+    "root-clearance": (up("clearance", step=0.01),),
+}
 
 
 class GearPairDesign(GearQuantities, Design):
@@ -27,6 +44,7 @@ class GearPairDesign(GearQuantities, Design):
         "gear": Outline(GEAR_QUANTITIES, GEAR_CHECKS),
         "analyze": Outline(GEAR_QUANTITIES, GEAR_CHECKS),
     }
+    ways = _WAYS
 
     @cached_property
     def gear_pair(self) -> GearPair:
@@ -67,7 +85,7 @@ class GearPairDesign(GearQuantities, Design):
     def check(self, name: str) -> list[Check]:
         """Every check is the pair's."""
         with at_key(self._placed_by):
-            return list(gear_check(name, self.gear_pair, self.spec.limits, shift_key="profile_shift"))
+            return list(gear_check(name, self.gear_pair, self.spec.limits, shifts=True))
 
     @property
     def _placed_by(self) -> str:

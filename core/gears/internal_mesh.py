@@ -10,6 +10,7 @@ from gearlink.core.gears.involute import involute
 from gearlink.core.results import cached_property
 
 Pair = tuple[float, float]
+_MOST_TEETH = 10_000
 
 _RIM_MODULES = 2.0
 
@@ -116,12 +117,32 @@ class InternalMesh:
         """
         (a_1, a_2), (b_1, b_2) = self.tip_radius, self.base_radius
         if a_2 < b_2:
-            least = math.ceil(2.0 * self.addendum / (1.0 - math.cos(self.pressure_angle)))
             raise NoSolution(
                 f"the tips of the ring gear ({a_2:.6g} mm) lie inside its base circle ({b_2:.6g} mm), where there is "
-                f"no involute: it needs at least {least} teeth"
+                f"no involute: {self.least_ring}"
             )
         return math.acos(b_1 / a_1), math.acos(b_2 / a_2)
+
+    @property
+    def least_ring(self) -> str:
+        """In words, what gives the ring's tips an involute: z_2 (1 - cos alpha) >= 2 h_a*."""
+        lost = 2.0 * math.sin(0.5 * self.pressure_angle) ** 2
+        needed = 2.0 * self.addendum
+        if needed > _MOST_TEETH * lost:
+            return "take a larger pressure angle"
+        return f"it needs at least {math.ceil(needed / lost)} teeth"
+
+    @property
+    def ring_tip_margin(self) -> float:
+        """How far the ring's tips stay outside its base circle [mm]; negative where they have no involute."""
+        return self.tip_radius[1] - self.base_radius[1]
+
+    @property
+    def tip_circle_margin(self) -> float:
+        """a - (r_a1 - r_a2) [mm]; negative where the pinion's tip circle encloses the ring's, whose teeth then
+        overlap all round (with full teeth: less than two teeth of difference).
+        """
+        return self.center_distance - (self.tip_radius[0] - self.tip_radius[1])
 
     @cached_property
     def contact_ratio(self) -> float:
@@ -158,15 +179,24 @@ class InternalMesh:
         delta_1, delta_2 the angles at the two axes from the line of centres to where the tip circles cross
 
         Raises
-            NoSolution - as `tip_pressure_angle`
+            NoSolution - as `tip_pressure_angle`, and where the tip circles do not cross
         Notes
             At 20 deg and full teeth the tips of rings with about 8 teeth more than the pinion come free.
         Source
             own derivation: a tip corner of the pinion against the ring's flank where the tip circles cross
         """
         (a_1, a_2), distance = self.tip_radius, self.center_distance
-        delta_1 = math.acos(((a_2 - a_1) * (a_2 + a_1) - distance**2) / (2.0 * a_1 * distance))
-        delta_2 = math.acos((distance**2 + (a_2 - a_1) * (a_2 + a_1)) / (2.0 * a_2 * distance))
+        margin = self.tip_circle_margin
+        if margin < 0.0:
+            raise NoSolution(
+                f"the tip circle of the pinion encloses that of the ring gear by {-margin:.6g} mm: "
+                "give the ring gear more teeth, or the pinion fewer"
+            )
+        squares = (a_2 - a_1) * (a_2 + a_1)
+        # Four areas of the triangle of both axes and the crossing (Heron): an arctangent stands a touch of the circles.
+        area = math.sqrt((a_1 + a_2 + distance) * (a_1 + a_2 - distance) * (distance + a_1 - a_2) * margin)
+        delta_1 = math.atan2(area, squares - distance**2)
+        delta_2 = math.atan2(area, squares + distance**2)
         inv_1, inv_2 = (involute(angle) for angle in self.tip_pressure_angle)
         z_1, z_2 = self.teeth
         room = z_1 * (inv_1 + delta_1) - z_2 * (inv_2 + delta_2) + (z_2 - z_1) * involute(self.pressure_angle)

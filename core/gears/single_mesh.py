@@ -26,6 +26,7 @@ INTERNAL_QUANTITIES = (
     "tip_fouling_margin",
 )
 MESH_QUANTITIES = (*GEAR_QUANTITIES, "tip_fouling_margin")
+_OF_RING_TIPS = ("contact_ratio", "tip_pressure_angle", "tip_fouling_margin")
 MESH_CHECKS = (*GEAR_CHECKS, "tip-fouling")
 
 
@@ -41,17 +42,25 @@ class SingleMesh(GearQuantities, Design):
         """The quantities of the mesh (None where this kind of mesh has none), and the design's own."""
         if name not in MESH_QUANTITIES:
             return super().raw(name)
-        known = GEAR_QUANTITIES if isinstance(self.mesh, GearPair) else INTERNAL_QUANTITIES
-        if name not in known:
-            return None
         with at_key("gears"):
-            return gear_quantity(self.mesh, name) if isinstance(self.mesh, GearPair) else getattr(self.mesh, name)
+            return mesh_quantity(self.mesh, name)
 
     def check(self, name: str) -> list[Check]:
         """The checks of the mesh, and the design's own."""
         if name not in MESH_CHECKS:
             return super().check(name)
         return mesh_checks(name, self.mesh, self.spec.limits)
+
+
+def mesh_quantity(mesh: GearPair | InternalMesh, name: str) -> Any:
+    """A quantity of a mesh, or None where this kind of mesh has none, or its teeth have none (a check fails there)."""
+    if isinstance(mesh, GearPair):
+        return gear_quantity(mesh, name) if name in GEAR_QUANTITIES else None
+    if name in _OF_RING_TIPS and mesh.ring_tip_margin < 0.0:
+        return None
+    if name == "tip_fouling_margin" and mesh.tip_circle_margin < 0.0:
+        return None
+    return getattr(mesh, name) if name in INTERNAL_QUANTITIES else None
 
 
 def mesh_checks(name: str, mesh: GearPair | InternalMesh, limits: Any, label: str = "") -> list[Check]:
@@ -61,8 +70,7 @@ def mesh_checks(name: str, mesh: GearPair | InternalMesh, limits: Any, label: st
         ISO 21771 for the quantities
     """
     if isinstance(mesh, InternalMesh):
-        with at_key("gears"):
-            return list(_internal_check(name, mesh, limits))
+        return list(_internal_check(name, mesh, limits))
     return [] if name == "tip-fouling" else list(gear_check(name, mesh, limits, label))
 
 
@@ -72,17 +80,24 @@ def _internal_check(name: str, mesh: InternalMesh, limits: Any) -> Iterator[Chec
         least = min_shift_no_undercut(mesh.teeth[0], mesh.pressure_angle, mesh.addendum)
         subject, remedy = "the room of the planet's root before undercut, -x_min,", "take more planet teeth"
         yield UNDERCUT.below(0.0 - least, 0.0 - limits.undercut, 0.0, "1", subject, remedy)
-    elif name == "contact-ratio":
-        limit = limits.contact_ratio
-        remedy = "take more teeth of a smaller module"
-        yield CONTACT_RATIO.below(mesh.contact_ratio, limit, limit + 0.1, "1", "the contact ratio", remedy)
     elif name == "involute-interference":
         what, where = "the tips of the ring gear", "the planet's root inside its base circle"
         remedy = "give both more teeth of a smaller module, or the planet alone more"
-        yield _margin(INTERFERENCE, mesh.interference_margin, what, where, remedy)
+        if mesh.ring_tip_margin < 0.0:
+            where, remedy = "its base circle, where it has no involute", mesh.least_ring
+            yield _margin(INTERFERENCE, mesh.ring_tip_margin, what, where, remedy)
+        else:
+            yield _margin(INTERFERENCE, mesh.interference_margin, what, where, remedy)
     elif name == "tip-fouling":
         what, remedy = "the tips of planet and ring gear", "give the ring gear more teeth, or the planet fewer"
-        yield _margin(TIP_FOULING, mesh.tip_fouling_margin, what, "each other", remedy)
+        if mesh.tip_circle_margin < 0.0:
+            yield _margin(TIP_FOULING, mesh.tip_circle_margin, what, "each other all round", remedy)
+        elif mesh.ring_tip_margin >= 0.0:
+            yield _margin(TIP_FOULING, mesh.tip_fouling_margin, what, "each other", remedy)
+    elif name == "contact-ratio" and mesh.ring_tip_margin >= 0.0:
+        limit = limits.contact_ratio
+        remedy = "take more teeth of a smaller module"
+        yield CONTACT_RATIO.below(mesh.contact_ratio, limit, limit + 0.1, "1", "the contact ratio", remedy)
 
 
 def _margin(rule: Rule, margin: float, what: str, where: str, remedy: str) -> Check:

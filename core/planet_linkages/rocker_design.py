@@ -7,10 +7,10 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from gearlink.core.clearance.bodies import Layout
-from gearlink.core.clearance.checks import shaft_checks
+from gearlink.core.clearance.checks import SHAFT_WAYS, shaft_checks
 from gearlink.core.design import Outline, placed
 from gearlink.core.errors import NoSolution, at_key
-from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES
+from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, gear_ways
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.gears.single_mesh import SingleMesh
 from gearlink.core.linkages.checks import check_linkage, target_check, transmission_check
@@ -19,6 +19,7 @@ from gearlink.core.linkages.nearest_passes import joint_to_crank_pivot
 from gearlink.core.planet_linkages.bodies import rocker_layout
 from gearlink.core.planet_linkages.planet import PlanetLinkage
 from gearlink.core.planet_linkages.rocker_synthesis import crank_for_swing, extreme_crank_angles
+from gearlink.core.remedies import down, either, up
 from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
 
@@ -28,6 +29,11 @@ if TYPE_CHECKING:
 _LINK_TOLERANCE = 1e-9
 # A root to the last bit leaves some ulp of the swing: far below what teeth can tell.
 _SWING_TOLERANCE = math.radians(1e-9)
+
+
+_TEETH = (up("gears.coupler", step=1), up("gears.output", step=1), up("gears.coupler", "gears.output", step=1))
+_FEWER = (down("gears.coupler", step=1), down("gears.output", step=1))
+_LINKS = either("links.crank", "links.frame", "links.coupler")
 
 
 class GearedRocker(SingleMesh):
@@ -60,6 +66,12 @@ class GearedRocker(SingleMesh):
             ("motion",),
         ),
         "gear": Outline(GEAR_QUANTITIES, GEAR_CHECKS),
+    }
+
+    ways = {
+        "shaft-clearance": (*SHAFT_WAYS, *_LINKS, *_FEWER, *_TEETH),
+        "transmission-angle": (*_LINKS, *_TEETH, *_FEWER),
+        **gear_ways(*_TEETH),
     }
 
     # Gears and links

@@ -7,9 +7,10 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from gearlink.core.clearance.bodies import Layout
-from gearlink.core.clearance.checks import shaft_checks
+from gearlink.core.clearance.checks import SHAFT_WAYS, shaft_checks
 from gearlink.core.design import Outline, placed
 from gearlink.core.errors import NoSolution, at_key
+from gearlink.core.gears.checks import gear_ways
 from gearlink.core.gears.internal_mesh import InternalMesh
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.gears.single_mesh import MESH_CHECKS, MESH_QUANTITIES, SingleMesh
@@ -20,6 +21,7 @@ from gearlink.core.linkages.standstills import BackStep, Turning
 from gearlink.core.planet_linkages.bodies import two_gear_layout
 from gearlink.core.planet_linkages.codes import DWELL_CONDITION
 from gearlink.core.planet_linkages.planet import PlanetLinkage, standstill_coupler_ratio
+from gearlink.core.remedies import down, either, up
 from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
 
@@ -31,6 +33,11 @@ _STANDSTILL_TOLERANCE = 1e-9
 _LINK_TOLERANCE = 1e-9
 
 UNIDIRECTIONAL, MOMENTARY_DWELL, BACK_STEP = "unidirectional", "momentary-dwell", "back-step"
+
+
+_TEETH = tuple(up(f"gears.{gear}", step=1) for gear in ("planet", "sun", "ring"))
+_FEWER = tuple(down(f"gears.{gear}", step=1) for gear in ("planet", "sun", "ring"))
+_LINKS = either("links.frame", "links.rocker", "links.coupler")
 
 
 class TwoGearFourBar(SingleMesh):
@@ -70,6 +77,13 @@ class TwoGearFourBar(SingleMesh):
             ("motion",),
         ),
         "gear": Outline(MESH_QUANTITIES, MESH_CHECKS),
+    }
+
+    ways = {
+        "dwell-condition": (*_TEETH, *_FEWER, *_LINKS),
+        "shaft-clearance": (*SHAFT_WAYS, *_LINKS, *_FEWER, *_TEETH),
+        "transmission-angle": (*_LINKS, *_FEWER, *_TEETH),
+        **gear_ways(*_TEETH),
     }
 
     # Gears and links

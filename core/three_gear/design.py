@@ -7,14 +7,15 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.clearance.bodies import Layout
-from gearlink.core.clearance.checks import collision_check, shaft_checks
+from gearlink.core.clearance.checks import SHAFT_WAYS, collision_check, shaft_checks
 from gearlink.core.design import Design, Outline, placed
 from gearlink.core.errors import MissingSection, at_key
-from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, gear_check, gear_quantity
+from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, gear_check, gear_quantity, gear_ways
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.linkages.checks import check_linkage, transmission_check
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.linkages.standstills import BackStep
+from gearlink.core.remedies import down, either, up
 from gearlink.core.report import Check, Table, safely_above, safely_below
 from gearlink.core.results import cached_property
 from gearlink.core.three_gear import bodies, dwells, motion
@@ -54,6 +55,28 @@ _ANALYSIS = ("acceleration_ratio_max", "acceleration_ratio_min", "tolerance_dwel
 CHECKS = ("gear-collision", "shaft-clearance", "transmission-angle", "rounded-ratio", *GEAR_CHECKS)
 MESHES = ("crank_idler", "idler_output")
 _MESH_QUANTITIES = tuple(f"{mesh}.{name}" for mesh in MESHES for name in GEAR_QUANTITIES)
+_TEETH = (
+    up("gears.crank", "gears.output", step=1),
+    *(up(f"gears.{gear}", step=1) for gear in ("crank", "idler", "output")),
+)
+_LINKS = either("links.frame", "links.crank")
+WAYS = {
+    "gear-collision": (
+        *_LINKS,
+        up("gears.idler", step=1),
+        down("gears.output", step=1),
+        down("gears.crank", step=1),
+        down("momentary.eccentricity"),
+    ),
+    "shaft-clearance": (
+        *SHAFT_WAYS,
+        *_LINKS,
+        *either("gears.idler", step=1),
+        *_TEETH,
+    ),
+    "transmission-angle": (*_LINKS, up("gears.idler", step=1), *_TEETH, down("momentary.eccentricity")),
+    **gear_ways(*_TEETH),
+}
 
 
 class ThreeGearFourBar(Design):
@@ -66,6 +89,7 @@ class ThreeGearFourBar(Design):
         "gear": Outline(_MESH_QUANTITIES, GEAR_CHECKS),
     }
     extra_tables = ("motion",)
+    ways = WAYS
 
     # Gears and links
 
@@ -265,7 +289,7 @@ class ThreeGearFourBar(Design):
         limit, apart = self.spec.limits.gear_gap, abs(self.frame_length - self.crank_length)
         why = f"the crank gear travels with the crank pin, so AD - AB = {apart:.6g} mm counts, not AD"
         for pair in self.layout.gear_pairs:
-            remedy = self._gap_remedy(limit - pair.gap) if pair.gap < limit else ""
+            remedy = self._gap_remedy(limit - pair.gap) if pair.gap < limit and self.advises else ""
             yield collision_check(pair, limit, why, remedy)
 
     def _gap_remedy(self, missing: float) -> str:

@@ -19,8 +19,9 @@ from dataclasses import dataclass
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.standstills import BackStep
 from gearlink.core.numerics.roots import bracketed_root
-from gearlink.core.three_gear.dwells import BackStep, back_step, dwell_angle, gain
+from gearlink.core.three_gear.dwells import back_step, dwell_angle, gain
 from gearlink.core.three_gear.momentary_dwell import (
     balanced_eccentricity,
     eccentricity_for_frame,

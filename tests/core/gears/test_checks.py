@@ -31,7 +31,7 @@ design = partial(factory.design, {"kind": "gear-pair", "module": 3.0, "teeth": [
 
 
 def checks(name, pair, limits=LIMITS, mesh=""):
-    return list(gear_check(name, pair, limits, mesh))
+    return list(gear_check(name, pair, limits, mesh, shifts=True))
 
 
 # Undercut

@@ -1,0 +1,122 @@
+"""Random design files of every kind that has remedies, good and bad ones: what their remedies are tried on."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable, Iterator
+from typing import Any
+
+Data = dict[str, Any]
+Drawn = tuple[Data, str]
+"""The data of a design file and a command for it."""
+
+
+def gear_pair(rng: random.Random) -> Drawn:
+    """Pairs by shifts or by centre distance, many of them cut too deep, too pointed or too high."""
+    teeth = [rng.randint(6, 40), rng.randint(8, 60)]
+    data: Data = {"kind": "gear-pair", "module": rng.choice([1, 2, 3, 4]), "teeth": teeth}
+    if rng.random() < 0.6:
+        data["profile_shift"] = [_within(rng, -0.8, 1.2), _within(rng, -0.8, 1.2)]
+    else:
+        data["center_distance"] = round(data["module"] * (sum(teeth) / 2.0 + rng.uniform(-1.0, 1.5)), 2)
+    if rng.random() < 0.3:
+        data["clearance"] = _within(rng, 0.0, 0.3)
+    if rng.random() < 0.3:
+        data["addendum"] = _within(rng, 0.6, 1.4)
+    return data, "gear"
+
+
+def three_gear(rng: random.Random) -> Drawn:
+    """Analyses of given links, with and without shafts."""
+    teeth = {"crank": rng.randint(12, 60), "idler": rng.randint(12, 90), "output": rng.randint(12, 60)}
+    links = {"crank": _within(rng, 5, 70), "frame": _within(rng, 10, 220)}
+    data: Data = {"kind": "three-gear-four-bar", "gears": {"module": 2, **teeth}, "links": links}
+    if rng.random() < 0.4:
+        data["shafts"] = {"input_radius": _within(rng, 3, 15), "output_radius": _within(rng, 3, 15)}
+    return data, "analyze"
+
+
+def synthesis(rng: random.Random) -> Drawn:
+    """The four syntheses with an idler that may be too small or too large."""
+    crank = rng.randint(12, 60)
+    gears = {"module": 2, "crank": crank, "idler": rng.randint(12, 120), "output": crank}
+    data: Data = {"kind": "three-gear-four-bar", "gears": gears}
+    command = rng.choice(["dwell", "back-step", "variable-speed", "momentary-dwell"])
+    if command == "dwell":
+        data["dwell"] = {"angle": _within(rng, 30, 180)}
+    elif command == "back-step":
+        data["back_step"] = {"crank_angle": _within(rng, 20, 140)}
+    elif command == "variable-speed":
+        data["speed"] = {"min": _within(rng, 20, 150), "max": _within(rng, 160, 400)}
+    else:
+        data["momentary"] = {"eccentricity": _within(rng, 3, 40)}
+        gears["output"] = rng.randint(12, 80)
+    return data, f"synth {command}"
+
+
+def two_gear(rng: random.Random) -> Drawn:
+    """Sun or ring on crank-rockers and drag links, some with a motion that is wanted."""
+    gears = {"module": 2, "planet": rng.randint(12, 60), rng.choice(["sun", "ring"]): rng.randint(40, 140)}
+    links = {"coupler": _within(rng, 40, 200), "rocker": _within(rng, 40, 200), "frame": _within(rng, 20, 200)}
+    data: Data = {"kind": "two-gear-four-bar", "gears": gears, "links": links}
+    if rng.random() < 0.5:
+        data["target"] = {"motion": rng.choice(["unidirectional", "back-step"])}
+    return data, "analyze"
+
+
+def geared_rocker(rng: random.Random) -> Drawn:
+    """Rockers with small gears and poor transmission angles."""
+    gears = {"module": 2, "coupler": rng.randint(12, 60), "output": rng.randint(12, 60)}
+    links = {"crank": _within(rng, 10, 40), "coupler": _within(rng, 50, 150), "frame": _within(rng, 50, 150)}
+    return {"kind": "geared-rocker", "gears": gears, "links": links}, "analyze"
+
+
+def five_bar(rng: random.Random) -> Drawn:
+    """Both forms."""
+    data: Data = {"kind": "geared-five-bar", "phase": _within(rng, 0, 180)}
+    if rng.random() < 0.5:
+        teeth = rng.randint(14, 40)
+        data |= {"form": "path", "coupler_point": {"along": 30}}
+        data["gears"] = {"module": 2, "input": teeth, "output": rng.choice([1, 2, 3]) * teeth}
+        data["links"] = {"input": _within(rng, 10, 30), "output": _within(rng, 10, 40)}
+        data["links"] |= {"coupler": _within(rng, 40, 100), "follower": _within(rng, 40, 100)}
+    else:
+        data["form"] = "function"
+        data["gears"] = {"module": 2, "planet": rng.randint(12, 40), rng.choice(["sun", "ring"]): rng.randint(20, 120)}
+        data["links"] = {"coupler": _within(rng, 10, 60), "follower": _within(rng, 40, 150)}
+        data["links"] |= {"output": _within(rng, 40, 150), "frame": _within(rng, 40, 150)}
+    return data, "analyze"
+
+
+def hypocycloid(rng: random.Random) -> Drawn:
+    """Rods by length and by rule, dwells that are too long."""
+    planet = rng.randint(10, 40)
+    gears = {"module": 2, "planet": planet, "ring": rng.randint(3, 6) * planet}
+    rod = rng.choice([{"length": _within(rng, 40, 300)}, {"rule": "minimax"}, {"rule": "tangent-circle"}])
+    dwell = {"angle": _within(rng, 20, 100), "tolerance": _within(rng, 0.02, 0.6)}
+    return {"kind": "hypocycloid-dwell", "gears": gears, "rod": rod, "dwell": dwell}, "analyze"
+
+
+def mutilated(rng: random.Random) -> Drawn:
+    """Small driven gears, four-bars with poor transmission angles."""
+    driven = rng.randint(10, 40)
+    gears = {"module": 2, "full_teeth": rng.randint(driven + 5, 160), "group_teeth": driven, "driven": driven}
+    links = {"crank": _within(rng, 20, 60), **{name: _within(rng, 60, 150) for name in ("coupler", "rocker", "frame")}}
+    return {"kind": "mutilated-gear-dwell", "reduction": rng.randint(1, 6), "gears": gears, "links": links}, "analyze"
+
+
+KINDS: dict[str, Callable[[random.Random], Drawn]] = {
+    make.__name__: make
+    for make in (gear_pair, three_gear, synthesis, two_gear, geared_rocker, five_bar, hypocycloid, mutilated)
+}
+
+
+def draw(kind: str, seed: int, count: int) -> Iterator[Drawn]:
+    """So many random designs of a kind; the same ones for the same seed."""
+    rng = random.Random(f"{kind} {seed}")
+    for _ in range(count):
+        yield KINDS[kind](rng)
+
+
+def _within(rng: random.Random, low: float, high: float) -> float:
+    return round(rng.uniform(low, high), 2)
