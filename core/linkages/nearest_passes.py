@@ -1,8 +1,7 @@
-"""Gaps between tip circles and shafts of a gear-linkage, at the closest over a whole turn of the crank.
+"""How near the coupler joint of a four-bar passes its crank pivot, and how far it goes, over a turn of the crank.
 
 Frame: crank pivot A, rocker pivot D, crank pin B, coupler joint C; links crank = AB, coupler = BC, rocker = CD,
-frame = AD. Crank angles count from A->D, counter-clockwise. In a three-gear four-bar gear 1 sits on B, the idler
-on C, the output gear on D.
+frame = AD. Crank angles count from A->D, counter-clockwise.
 """
 
 from __future__ import annotations
@@ -19,26 +18,6 @@ class Approach:
 
     distance: float
     crank_angle: float
-
-
-def gap(center_distance: float, radius_1: float, radius_2: float) -> float:
-    """Gap between two circles (tip circles, or a tip circle and a shaft) that lie outside each other.
-
-    gap = a - r_1 - r_2
-
-    Parameters
-        center_distance : float [mm] - distance a of the centres
-        radius_1, radius_2 : float [mm] - tip or shaft radii; 0 for a bare axis
-    Returns
-        gap : float [mm] - negative where the circles overlap
-    Example
-        >>> gap(121.4 - 18.0, 27.5, 77.5)
-        -1.5999999999999943
-
-    Source
-        thesis 4.2.2, with the distance at the closest in place of the frame length
-    """
-    return center_distance - radius_1 - radius_2
 
 
 def joint_to_crank_pivot(

@@ -1,0 +1,306 @@
+"""Bodies that once passed unseen, rings, ranges of distance, and what the findings say and advise.
+
+Tolerances: sums of a few lengths, 1e-12 of them. Remedies are applied as printed and must hold exactly.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import Any
+
+import pytest
+from factory import design
+from pydantic import ValidationError
+
+from gearlink.core.clearance.bodies import Gear, Shaft, least_gap
+from gearlink.core.clearance.reach import Reach, constant, coupler_joint, crank_pin
+from gearlink.core.linkages.fourbar import FourBar
+
+IDLER = {
+    "kind": "geared-five-bar",
+    "gears": {"module": 2, "input": 40, "idler": 20, "output": 40},
+    "links": {"input": 15, "coupler": 80, "follower": 80, "output": 15, "frame": 70},
+    "phase": 90,
+    "coupler_point": {"along": 60},
+    "limits": {"transmission_angle": 10},
+}
+DRAG_LINK = {
+    "kind": "three-gear-four-bar",
+    "gears": {"module": 2, "crank": 20, "idler": 60, "output": 20},
+    "links": {"crank": 65, "frame": 15},
+    "shafts": {"input_radius": 2, "output_radius": 10},
+    "limits": {"transmission_angle": 20},
+}
+RING = {
+    "kind": "two-gear-four-bar",
+    "gears": {"module": 2, "planet": 25, "ring": 75},
+    "links": {"coupler": 90, "rocker": 95, "frame": 79},
+    "limits": {"transmission_angle": 15},
+}
+FIXED_RING = {
+    "kind": "geared-five-bar",
+    "form": "function",
+    "gears": {"module": 2, "planet": 30, "ring": 60},
+    "links": {"coupler": 10, "follower": 70, "output": 60, "frame": 61},
+    "phase": 0,
+    "limits": {"transmission_angle": 5},
+}
+FIXED_SUN = {
+    "kind": "geared-five-bar",
+    "form": "function",
+    "gears": {"module": 2, "planet": 30, "sun": 30},
+    "links": {"coupler": 20, "follower": 90, "output": 90, "frame": 65},
+    "phase": 0,
+    "limits": {"transmission_angle": 5},
+}
+EXAMPLE_3 = {
+    "kind": "three-gear-four-bar",
+    "gears": {"module": 2.5, "crank": 20, "idler": 20, "output": 60},
+    "links": {"crank": 16, "frame": 122.83941479},
+}
+
+
+def findings(data: dict[str, Any], **keys: Any) -> dict[str, Any]:
+    """The findings of GL301 and GL302 that do not pass, by the words before their first figure."""
+    report = design(data, **keys).report("analyze", findings_only=True)
+    return {check.message: check for check in report.checks if check.code in ("GL301", "GL302")}
+
+
+def finding(data: dict[str, Any], words: str, **keys: Any) -> Any:
+    (check,) = [check for message, check in findings(data, **keys).items() if words in message]
+    return check
+
+
+# What passed unseen
+
+
+def test_input_and_output_gear_with_an_idler_overlap() -> None:
+    found = design(IDLER)
+    (check,) = found.check("gear-collision")
+    assert (check.code, check.status, check.value, check.limit) == ("GL301", "fail", -14.0, 0.0)
+    assert "the input gear and the output gear collide by 14 mm: their axes are 70 mm apart" in check.message
+    assert found.quantity("gear_gap").value == -14.0
+    assert not found.report("analyze").ok
+
+
+def test_output_shaft_within_the_input_gear() -> None:
+    teeth = {"gears__input": 80, "gears__output": 20, "links__frame": 70}
+    assert finding(IDLER, "the input gear and the output gear", **teeth).status == "fail"
+    check = finding(IDLER, "the tips of the input gear (82 mm) pass the axis of the shaft at E", **teeth)
+    assert (check.code, check.status, check.value) == ("GL302", "warn", 70.0 - 82.0)
+    check = finding(IDLER, "into the shaft at E", shafts__E_radius=5.0, **teeth)
+    assert (check.status, check.value) == ("fail", 70.0 - 82.0 - 5.0)
+
+
+def test_output_gear_of_a_drag_link_over_the_input_shaft() -> None:
+    check = finding(DRAG_LINK, "the output gear comes 9 mm into the input shaft (radius 2 mm)")
+    assert (check.code, check.status, check.value, check.limit) == ("GL302", "fail", 15.0 - 22.0 - 2.0, 0.0)
+    assert not design(DRAG_LINK).report("analyze").ok
+
+
+def test_shafts_of_a_drag_link_that_overlap() -> None:
+    shafts = {"shafts__input_radius": 2.9, "shafts__output_radius": 14.0}
+    check = finding(DRAG_LINK, "into the output shaft (radius 14 mm)", **shafts)
+    assert check.message.startswith("the input shaft (radius 2.9 mm) comes 1.9 mm into")
+    assert (check.code, check.status) == ("GL302", "fail")
+    assert check.value == pytest.approx(15.0 - 2.9 - 14.0, abs=1e-12)
+
+
+@pytest.mark.parametrize(("teeth", "frame"), [((25, 75), 79.0), ((20, 60), 64.0)])
+def test_rim_of_a_ring_gear_over_the_axis_of_the_rocker(teeth: tuple[int, int], frame: float) -> None:
+    keys = {"gears__planet": teeth[0], "gears__ring": teeth[1], "links__frame": frame}
+    check = finding(RING, "the ring gear (", **keys)
+    rim = teeth[1] + 2.5 + 4.0
+    assert (check.status, check.value) == ("warn", frame - rim)
+    assert f"({teeth[1] - 2} to {rim:g} mm from its axis) covers the axis of the shaft at D" in check.message
+    # a rim only just outside the root circle clears an axis that lies outside it, a thick one does not
+    assert finding(RING, "the ring gear keeps only 0.5 mm", **keys, gears__rim=frame - 0.5).value == 0.5
+    assert finding(RING, "into the shaft at D", **keys, shafts__D_radius=3.0).status == "fail"
+
+
+def test_teeth_of_the_fixed_ring_over_the_output_axis() -> None:
+    check = finding(FIXED_RING, "the ring gear (58 to 66.5 mm from its axis) covers the axis of the shaft at E, 61 mm")
+    assert (check.code, check.status, check.value) == ("GL302", "warn", 58.0 - 61.0)
+
+
+def test_planet_of_the_function_form_sweeps_over_the_output_axis() -> None:
+    check = finding(FIXED_SUN, "the tips of the planet (32 mm) pass the axis of the shaft at E, 5 mm away")
+    assert (check.code, check.status, check.value) == ("GL302", "warn", 5.0 - 32.0)
+    assert "at input angle 0 deg" in check.message
+    away = finding(FIXED_SUN, "the tips of the planet", range={"start": 20.0, "end": 340.0})
+    nearest = abs(65.0 - 60.0 * complex(math.cos(math.radians(20.0)), math.sin(math.radians(20.0))))
+    assert away.value == pytest.approx(nearest - 32.0, abs=1e-12)
+    assert "at input angle 20 deg" in away.message or "at input angle 340 deg" in away.message
+
+
+# No cliff beside an axis
+
+
+@pytest.mark.parametrize(
+    ("least", "status"), [(None, "pass"), (6.4, "pass"), (6.6, "warn"), (0.0, "pass"), (20.0, "warn")]
+)
+def test_least_shaft_beside_a_bare_axis(least: float | None, status: str) -> None:
+    # C comes to b - a = 34 mm of A, the idler's tips reach 27.5 mm: 6.5 mm are left, 2 modules are 5
+    check = design(EXAMPLE_3, limits__least_shaft=least).check("shaft-clearance")[0]
+    assert check.value == pytest.approx(6.5, abs=1e-12)
+    assert (check.status, check.limit) == (status, 5.0 if least is None else least)
+
+
+def test_least_shaft_of_two_bare_axes_counts_twice() -> None:
+    checks = design(EXAMPLE_3, limits__least_shaft=62.0).check("shaft-clearance")
+    assert (checks[-1].limit, checks[-1].status) == (124.0, "warn")
+    assert "two of the thinnest shafts take 124 mm" in checks[-1].message
+
+
+def test_shaft_over_a_bare_axis() -> None:
+    check = finding(DRAG_LINK, "covers", shafts__input_radius=None, shafts__output_radius=16.0)
+    assert check.message.startswith("the output shaft (radius 16 mm) covers the axis of the input shaft, 15 mm away")
+    assert (check.status, check.value) == ("warn", -1.0)
+
+
+# What the findings advise
+
+
+@pytest.mark.parametrize("key", ["input_radius", "output_radius"])
+def test_radius_that_is_named_passes(key: str) -> None:
+    data = EXAMPLE_3 | {"limits": {"least_shaft": 1.0}}
+    failed = [check for check in design(data, shafts={key: 99.0}).check("shaft-clearance") if check.status == "fail"]
+    named = [float(re.search(rf"set shafts\.{key} to at most ([\d.]+) mm", check.message)[1]) for check in failed]
+    repaired = design(data, shafts={key: min(named)}).check("shaft-clearance")
+    assert {check.status for check in repaired} == {"pass"}
+
+
+def test_radius_named_in_place_of_a_bare_axis_passes() -> None:
+    check = design(EXAMPLE_3, limits__least_shaft=7.0).check("shaft-clearance")[0]
+    assert check.status == "warn"
+    radius = float(re.search(r"name its radius in shafts\.input_radius, at most ([\d.]+) mm", check.message)[1])
+    assert design(EXAMPLE_3, shafts={"input_radius": radius}).check("shaft-clearance")[0].status == "pass"
+
+
+def test_radii_together_pass() -> None:
+    check = finding(DRAG_LINK, "together", shafts__input_radius=8.0, shafts__output_radius=8.0)
+    words = r"set shafts\.input_radius and shafts\.output_radius to at most ([\d.]+) mm together"
+    half = 0.5 * float(re.search(words, check.message)[1])
+    repaired = findings(DRAG_LINK, shafts__input_radius=half, shafts__output_radius=half)
+    assert not [message for message in repaired if "into the output shaft" in message]
+
+
+@pytest.mark.parametrize("limit", [0.0, 3.3])
+def test_frame_that_is_named_parts_input_and_output_gear(limit: float) -> None:
+    wide = {"gears__idler": 30, "links__frame": 71.0, "limits__gear_gap": limit}
+    (check,) = design(IDLER, **wide).check("gear-collision")
+    frame = float(re.search(r"make the frame ([\d.]+) mm or longer", check.message)[1])
+    assert design(IDLER, **(wide | {"links__frame": frame})).check("gear-collision")[0].status == "pass"
+    fewer = int(re.search(r"or the input and output gears (\d+) teeth smaller together", check.message)[1])
+    smaller = wide | {"gears__output": 40 - fewer}
+    assert design(IDLER, **smaller).check("gear-collision")[0].status == "pass"
+
+
+def test_idler_that_is_named_reaches_where_the_frame_alone_cannot_part_the_gears() -> None:
+    # an idler of two teeth would leave no frame at all
+    tight = {"gears__idler": 3, "links__frame": 80.0, "limits__gear_gap": 8.0}
+    (check,) = design(IDLER, **tight).check("gear-collision")
+    found = re.search(r"the idler (\d+) teeth or more and the frame ([\d.]+) mm or longer", check.message)
+    repaired = tight | {"gears__idler": int(found[1]), "links__frame": float(found[2])}
+    assert design(IDLER, **repaired).check("gear-collision")[0].status == "pass"
+    with pytest.raises(Exception, match="the idler does not reach"):
+        design(IDLER, **(repaired | {"gears__idler": int(found[1]) - 1})).check("gear-collision")
+
+
+# The kernel
+
+
+RINGS = Gear("the ring gear", "A", outer=81.5, inner=73.0)
+
+
+@pytest.mark.parametrize(
+    ("reach", "radius", "gap", "angle"),
+    [
+        (constant(60.0), 5.0, 8.0, None),  # within the teeth
+        (constant(90.0), 5.0, 3.5, None),  # outside the rim
+        (constant(78.0), 0.0, -3.5, None),  # in the rim, nearer to its outside
+        (constant(74.0), 1.0, -2.0, None),  # in the teeth
+        (Reach(10.0, 70.0, 1.0, 2.0), 1.0, 2.0, 2.0),  # within: the farthest counts
+        (Reach(90.0, 99.0, 1.0, 2.0), 1.0, 7.5, 1.0),  # outside: the nearest counts
+        (Reach(60.0, 99.0, 1.0, 2.0), 1.0, 60.0 - 82.5, 1.0),  # right through
+    ],
+)
+def test_a_shaft_and_a_ring(reach: Reach, radius: float, gap: float, angle: float | None) -> None:
+    shaft = Shaft("shaft at D", "D", radius, "shafts.D_radius")
+    for found in (least_gap(RINGS, shaft, reach), least_gap(shaft, RINGS, reach)):
+        assert found.gap == pytest.approx(gap, abs=1e-12)
+        assert found.angle == angle
+
+
+@pytest.mark.parametrize("frame", [12.0, 40.0, 55.5])
+@pytest.mark.parametrize(
+    ("start", "end"), [(0.0, 360.0), (10.0, 170.0), (-30.0, 5.0), (175.0, 190.0), (350.0, 800.0), (361.0, 539.0)]
+)
+def test_pin_of_a_crank_over_a_range(frame: float, start: float, end: float) -> None:
+    found = crank_pin(40.0, frame, math.radians(start), math.radians(end))
+    angles = [math.radians(start + (end - start) * i / 9000) for i in range(9001)]
+    distances = [abs(frame - 40.0 * complex(math.cos(phi), math.sin(phi))) for phi in angles]
+    # between samples the distance changes by less than the pin moves
+    step = 40.0 * (angles[1] - angles[0])
+    assert found.nearest <= min(distances) + 1e-12
+    assert found.farthest >= max(distances) - 1e-12
+    assert min(distances) - found.nearest < step
+    assert found.farthest - max(distances) < step
+    for distance, place in ((found.nearest, found.nearest_at), (found.farthest, found.farthest_at)):
+        assert angles[0] <= place <= angles[-1]
+        there = abs(frame - 40.0 * complex(math.cos(place), math.sin(place)))
+        assert there == pytest.approx(distance, abs=1e-12)
+
+
+def test_coupler_joint_of_a_drag_link() -> None:
+    found = coupler_joint(FourBar(116.0, 100.0, 100.0, 37.0))
+    assert (found.nearest, found.farthest) == (63.0, 137.0)
+
+
+# The design files
+
+
+@pytest.mark.parametrize(
+    ("data", "keys", "words"),
+    [
+        (RING, {"gears__rim": 77.5}, "lies within the root circle of the ring gear, 77.5 mm"),
+        (FIXED_RING, {"gears__rim": 60.0}, "lies within the root circle"),
+        (FIXED_SUN, {"gears__rim": 90.0}, "rim goes with a ring gear"),
+        (IDLER, {"gears__rim": 90.0}, "rim goes with a ring gear"),
+        (FIXED_SUN, {"shafts__O_radius": 5.0}, "O_radius goes with an idler"),
+        ("mutilated_gear_press", {"links": None, "shafts__D_radius": 5.0}, "D_radius goes with the four-bar"),
+        (RING, {"shafts__E_radius": 5.0}, "Extra inputs"),
+    ],
+)
+def test_keys_that_do_not_apply_are_refused(data: Any, keys: dict[str, Any], words: str) -> None:
+    with pytest.raises(ValidationError, match=re.escape(words)):
+        design(data, **keys)
+
+
+@pytest.mark.parametrize(
+    ("name", "keys"),
+    [
+        ("candy_feed", ("input_radius", "output_radius")),
+        ("two_gear_ring", ("A_radius", "D_radius")),
+        ("wide_lever", ("A_radius", "D_radius")),
+        ("five_bar_path", ("A_radius", "E_radius")),
+        ("five_bar_positions", ("A_radius", "E_radius")),
+        ("hypocycloid_slider", ("O_radius",)),
+        ("mutilated_gear_press", ("A_radius", "D_radius", "W_radius")),
+    ],
+)
+def test_every_kind_with_gears_takes_shafts_and_limits(name: str, keys: tuple[str, ...]) -> None:
+    command = "synth dwell" if name == "candy_feed" else "analyze"
+    for key in keys:
+        found = design(name, command=command, shafts={key: 1000.0}, limits__gear_gap=0.5, limits__least_shaft=1.0)
+        fails = [check.message for check in found.check("shaft-clearance") if check.status == "fail"]
+        assert fails
+        assert all("radius 1000 mm" in message for message in fails)
+
+
+def test_a_long_period_costs_no_sweep() -> None:
+    links = {"input": 15, "coupler": 180, "follower": 180, "output": 15, "frame": 200.0}
+    found = design(IDLER, gears__input=97, gears__idler=30, gears__output=89, links=links)
+    assert found.period_turns == 89
+    assert found.gear_gap == 200.0 - (97 + 2) - (89 + 2)
