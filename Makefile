@@ -12,6 +12,7 @@ PYTEST := PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -q -n auto --maxproce
 $(READY): pyproject.toml
 	$(PYTHON) -c 'import sys; sys.exit("gearlink needs Python 3.11 or newer" if sys.version_info < (3, 11) else 0)'
 	$(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip uninstall --quiet --yes gearlink 2>/dev/null  # as it was called in older checkouts
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
 	mkdir -p .types/gearlink
 	ln -sfn ../../cli/door/__init__.py .types/gearlink/__init__.py
