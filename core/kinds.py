@@ -54,10 +54,10 @@ KINDS: dict[str, Kind] = {
             "three-gear-four-bar",
             "three_gear.spec:ThreeGearSpec",
             {
-                "synth dwell": "three_gear.synthesis:DwellSynthesis",
+                "synth dwell": "three_gear.dwell_synthesis:DwellSynthesis",
                 "synth back-step": "three_gear.synthesis:BackStepSynthesis",
                 "synth variable-speed": "three_gear.synthesis:VariableSpeedSynthesis",
-                "synth momentary-dwell": "three_gear.synthesis:MomentaryDwellSynthesis",
+                "synth momentary-dwell": "three_gear.momentary_synthesis:MomentaryDwellSynthesis",
                 "analyze": _THREE_GEAR,
                 "gear": _THREE_GEAR,
             },

@@ -27,8 +27,9 @@ from gearlink.core.three_gear.momentary_dwell import (
     eccentricity_for_frame,
     eccentricity_range,
     momentary_frame_length,
+    wrap,
 )
-from gearlink.core.three_gear.motion import GearTrain, speed_extremes
+from gearlink.core.three_gear.motion import GearTrain, output_angle, speed_extremes
 
 _AFTER_LOW, _BEFORE_HIGH = 1e-12, 1e-6  # shares of a range left out: at its high end stands a change-point linkage
 
@@ -38,28 +39,49 @@ class Family:
     """Linkages in one unknown length.
 
     linkage : of the unknown [mm]
-    low, high : the range of the unknown [mm]; at low the output just stops, or the linkage folds
-    unknown : 'frame' or 'crank'
+    least, high : the range of the unknown [mm]
+    low : the value [mm] at which the output just stops, or `least`; None where it never stops
+    why : str - the reason for that
     """
 
     linkage: Callable[[float], FourBar]
-    low: float
+    least: float
+    low: float | None
     high: float
-    unknown: str
+    why: str = ""
 
     def ends(self) -> tuple[float, float]:
-        """The range without its ends."""
-        width = self.high - self.low
-        return self.low + _AFTER_LOW * width, self.high - _BEFORE_HIGH * width
+        """The range of linkages that turn, without its ends."""
+        return self._inside(self.least, _BEFORE_HIGH)
+
+    def stepping(self) -> tuple[float, float]:
+        """The range of linkages whose output steps back, without its ends.
+
+        Raises
+            NoSolution - where none does
+        """
+        if self.low is None:
+            raise NoSolution(self.why)
+        return self._inside(self.low, _AFTER_LOW)
+
+    def _inside(self, low: float, margin: float) -> tuple[float, float]:
+        width = self.high - low
+        return low + margin * width, self.high - _BEFORE_HIGH * width
 
 
 @dataclass(frozen=True, slots=True)
 class Ripple:
-    """A dwell whose band the back-step fills: start and crank angle [rad] of the window, the band's half [rad]."""
+    """A dwell whose band the back-step fills.
+
+    start, crank_angle : float [rad] - where the window starts, in [0, 2 pi), and its length
+    tolerance : float [rad] - half the band
+    output_angle : float [rad] - the middle of the band, counted from the crank angle 0 with the start as it stands
+    """
 
     start: float
     crank_angle: float
     tolerance: float
+    output_angle: float
 
 
 def with_crank(r1: float, r3: float, r5: float, crank: float, assembly: int = 1) -> Family:
@@ -69,24 +91,23 @@ def with_crank(r1: float, r3: float, r5: float, crank: float, assembly: int = 1)
         r1, r3, r5 : float [mm] - reference radii of crank gear, idler and output gear
         crank : float [mm] - e
     Raises
-        NoSolution - for a crank with which no crank-rocker exists
+        NoSolution - for a crank that cannot turn
     """
     b, c = r1 + r3, r3 + r5
-    low, high = max(abs(b - c) + crank, crank), b + c - crank
-    if not low < high:
+    least, high = max(abs(b - c) + crank, crank), b + c - crank
+    if not least < high:
         raise NoSolution(
             f"a crank of {crank:.9g} mm cannot turn with a coupler of {b:.9g} and a rocker of {c:.9g} mm: it must be "
             f"shorter than {min(b, c):.9g} mm"
         )
     e_lo, e_up = _momentary_range(r1, r3, r5)
+    low: float | None = least
     if crank <= e_lo:
-        raise NoSolution(
-            f"a crank of {crank:.9g} mm never stops the output, whatever the frame: it must be longer than "
-            f"{e_lo:.9g} mm"
-        )
-    if crank < e_up:
-        low = max(low, momentary_frame_length(r1, r3, r5, crank))
-    return Family(lambda d: FourBar(crank, b, c, d, assembly), low, high, "frame")
+        low = None
+    elif crank < e_up:
+        low = max(least, momentary_frame_length(r1, r3, r5, crank))
+    why = f"a crank of {crank:.9g} mm never stops the output: it must be longer than {e_lo:.9g} mm"
+    return Family(lambda d: FourBar(crank, b, c, d, assembly), least, low, high, why)
 
 
 def with_frame(r1: float, r3: float, r5: float, frame: float, assembly: int = 1) -> Family:
@@ -106,7 +127,7 @@ def with_frame(r1: float, r3: float, r5: float, frame: float, assembly: int = 1)
         low = eccentricity_for_frame(r1, r3, r5, frame)
     except NoSolution:
         low = 0.0
-    return Family(lambda e: FourBar(e, b, c, frame, assembly), min(low, high), high, "crank")
+    return Family(lambda e: FourBar(e, b, c, frame, assembly), 0.0, min(low, high), high)
 
 
 def balanced(r1: float, r3: float, r5: float, assembly: int = 1) -> Family:
@@ -116,29 +137,53 @@ def balanced(r1: float, r3: float, r5: float, assembly: int = 1) -> Family:
     def linkage(e: float) -> FourBar:
         return FourBar(e, b, c, math.sqrt((b - e) * (b + e) + c * c), assembly)
 
-    return Family(linkage, balanced_eccentricity(r1, r3, r5), min(b, c), "crank")
+    try:
+        return Family(linkage, 0.0, balanced_eccentricity(r1, r3, r5), min(b, c))
+    except NoSolution as error:
+        return Family(linkage, 0.0, None, min(b, c), error.message)
 
 
 def solved(family: Family, measure: Callable[[FourBar], float], target: float, what: str) -> FourBar:
-    """The linkage of a family whose rising measure meets a target.
+    """The linkage of a family whose output steps back and whose rising measure meets a target.
 
     Parameters
-        measure : rises along the family, 0 where the output does not step back
-        target : float - above 0
+        measure : of a back-step [rad], such as `window_of`; rises along the family
+        target : float [rad]
         what : str - the wish in words, for a refusal
     Raises
         NoSolution - for a target beyond the family, naming its limits
-    Notes
-        The two-thirds power of the difference would be linear near the momentary dwell; the bracketing method needs a
-        few steps more without it and keeps the last bit.
     """
-    low, high = family.ends()
+    low, high = family.stepping()
     least, most = measure(family.linkage(low)), measure(family.linkage(high))
     if not target <= most:
-        raise NoSolution(f"{what} is beyond what a linkage of these gears reaches, {_deg(most)} deg")
+        raise NoSolution(f"{what} is more than these gears reach, {_deg(most)} deg; ask for less")
     if not target >= least:
-        raise NoSolution(f"{what} is less than the least of these linkages, {_deg(least)} deg: take a shorter crank")
+        raise NoSolution(f"{what} is less than the least of these linkages, {_deg(least)} deg; take a shorter crank")
     return family.linkage(bracketed_root(lambda x: measure(family.linkage(x)) - target, low, high))
+
+
+def with_speed_quotient(family: Family, train: GearTrain, quotient: float) -> FourBar:
+    """The linkage of a family whose least output speed is a given part of the greatest.
+
+    W_min/W_max = quotient
+
+    Parameters
+        quotient : float - below 1; negative for an output that steps back
+    Raises
+        NoSolution - for a quotient that the family does not reach, naming its limits
+    """
+
+    def over(x: float) -> float:
+        found = speed_extremes(family.linkage(x), train)
+        return found.least / found.greatest - quotient
+
+    low, high = family.ends()
+    most, least = over(low) + quotient, over(high) + quotient
+    if not min(least, most) <= quotient <= max(least, most):
+        raise NoSolution(
+            f"no linkage of these gears gives min/max = {quotient:.9g}: it must lie between {least:.9g} and {most:.9g}"
+        )
+    return family.linkage(bracketed_root(over, low, high))
 
 
 def ripple(linkage: FourBar, train: GearTrain) -> Ripple:
@@ -157,7 +202,9 @@ def ripple(linkage: FourBar, train: GearTrain) -> Ripple:
     end = step.start + step.crank_angle
     before = bracketed_root(lambda x: gain(linkage, train, end - x, x), step.crank_angle, 2.0 * math.pi)
     after = dwell_angle(linkage, train, step)
-    return Ripple((end - before) % (2.0 * math.pi), before + after - step.crank_angle, 0.5 * step.angle)
+    start = wrap(end - before)
+    middle = output_angle(linkage, train, start) + 0.5 * step.angle
+    return Ripple(start, before + after - step.crank_angle, 0.5 * step.angle, middle)
 
 
 def back_step_of(train: GearTrain) -> Callable[[FourBar], float]:
@@ -178,16 +225,6 @@ def dwell_angle_of(train: GearTrain) -> Callable[[FourBar], float]:
 def window_of(train: GearTrain) -> Callable[[FourBar], float]:
     """Measure: the window of equal ripple [rad]."""
     return _measure(train, lambda linkage, _: ripple(linkage, train).crank_angle)
-
-
-def speed_quotient_of(train: GearTrain) -> Callable[[FourBar], float]:
-    """Measure: -W_min/W_max, which rises with the frame."""
-
-    def quotient(linkage: FourBar) -> float:
-        found = speed_extremes(linkage, train)
-        return -found.least / found.greatest
-
-    return quotient
 
 
 def _measure(train: GearTrain, of_step: Callable[[FourBar, BackStep], float]) -> Callable[[FourBar], float]:

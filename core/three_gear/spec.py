@@ -40,15 +40,54 @@ class Links(Spec):
     frame: Length = Field(description="frame AD")
 
 
-class Dwell(Spec):
-    """Asked of `synth dwell`."""
+class Placing(Spec):
+    """What fixes crank and frame of unequal gears besides the task, which fixes only one of them."""
 
-    angle: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] = Field(
-        description="crank angle phi13 over which the output stands or comes back to its place"
+    crank: Length | None = Field(None, description="crank AB, for gears of any size; the frame is sought")
+    frame: Length | None = Field(None, description="frame AD, in place of crank; the crank is sought")
+    balanced: Literal[True] | None = Field(
+        None, description="true, in place of crank: the transmission angle deviates equally at both ends"
     )
 
+    @model_validator(mode="after")
+    def _one_placing(self) -> Placing:
+        given = [name for name in ("crank", "frame", "balanced") if getattr(self, name) is not None]
+        if len(given) > 1:
+            message = "crank, frame and balanced exclude each other: give one"
+            raise PydanticCustomError("GL111", message, {"key": given[1]})
+        return self
 
-class BackStep(Spec):
+
+class Dwell(Placing):
+    """Asked of `synth dwell`: a crank angle until the output is back (angle), or one within a tolerance (window)."""
+
+    angle: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
+        None, description="crank angle phi13 from the start of the back-step until the output is back at its place"
+    )
+    window: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
+        None, description="crank angle over which the output stays within +-tolerance"
+    )
+    tolerance: Annotated[float, Field(gt=0, lt=180, json_schema_extra={"unit": "deg"})] | None = Field(
+        None, description="output tolerance +- of the window; alone: the longest window is sought"
+    )
+    margin: Annotated[float, Field(ge=0, lt=1, json_schema_extra={"unit": "1"})] | None = Field(
+        None, description="share of the tolerance that the design keeps in hand, with tolerance alone; default 0.01"
+    )
+
+    @model_validator(mode="after")
+    def _one_wish(self) -> Dwell:
+        if self.angle is None and self.window is None and self.tolerance is None:
+            raise PydanticCustomError("GL106", "give angle, window or tolerance", {"key": "angle"})
+        if self.angle is not None and (self.window is not None or self.tolerance is not None):
+            message = "angle excludes window and tolerance: it asks for another dwell"
+            raise PydanticCustomError("GL111", message, {"key": "window" if self.window is not None else "tolerance"})
+        if self.margin is not None and (self.window is not None or self.tolerance is None):
+            message = "margin goes with tolerance alone: leave it out"
+            raise PydanticCustomError("GL111", message, {"key": "margin"})
+        return self
+
+
+class BackStep(Placing):
     """Asked of `synth back-step`."""
 
     angle: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
@@ -65,7 +104,7 @@ class BackStep(Spec):
         return self
 
 
-class Speed(Spec):
+class Speed(Placing):
     """Asked of `synth variable-speed`; the input turns at the mean of the two."""
 
     min: Annotated[float, Field(json_schema_extra={"unit": "1/min"})] = Field(description="least output speed")
@@ -73,9 +112,26 @@ class Speed(Spec):
 
 
 class Momentary(Spec):
-    """Asked of `synth momentary-dwell`."""
+    """Asked of `synth momentary-dwell`: one of the four."""
 
-    eccentricity: Length = Field(description="crank length e")
+    eccentricity: Length | None = Field(None, description="crank length e; the frame is sought")
+    frame: Length | None = Field(None, description="frame AD, in place of eccentricity; the crank is sought")
+    gap: SignedLength | None = Field(
+        None, description="gap between the tips of gears 1 and 5 at the closest, in place of eccentricity"
+    )
+    balanced: Literal[True] | None = Field(
+        None, description="true, in place of eccentricity: the transmission angle deviates equally at both ends"
+    )
+
+    @model_validator(mode="after")
+    def _one_length(self) -> Momentary:
+        given = [name for name in ("eccentricity", "frame", "gap", "balanced") if getattr(self, name) is not None]
+        if not given:
+            raise PydanticCustomError("GL106", "give eccentricity, frame, gap or balanced", {"key": "eccentricity"})
+        if len(given) > 1:
+            message = "eccentricity, frame, gap and balanced exclude each other: give one"
+            raise PydanticCustomError("GL111", message, {"key": given[1]})
+        return self
 
 
 class Shafts(Spec):
@@ -111,6 +167,9 @@ class ThreeGearSpec(DesignSpec):
             raise PydanticCustomError(
                 "GL111", "dwell_tolerance and dwell_backlash exclude each other: give one", {"key": "dwell_backlash"}
             )
+        if self.dwell is not None and self.dwell.tolerance is not None and self.dwell_tolerance is not None:
+            message = "dwell_tolerance and dwell.tolerance are the same wish: give one"
+            raise PydanticCustomError("GL111", message, {"key": "dwell_tolerance"})
         return self
 
     def commands(self) -> tuple[str, ...]:

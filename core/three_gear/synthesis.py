@@ -11,15 +11,24 @@ from gearlink.core.design import Outline, placed
 from gearlink.core.errors import MissingSection, NoSolution, at_key
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.linkages.standstills import BackStep
-from gearlink.core.report import Check, safely_below
+from gearlink.core.report import Check
 from gearlink.core.results import cached_property
-from gearlink.core.three_gear import symmetric_back_step
+from gearlink.core.three_gear import dwells, symmetric_back_step
 from gearlink.core.three_gear import symmetric_family as family
 from gearlink.core.three_gear.codes import ACHIEVED
 from gearlink.core.three_gear.design import CHECKS, QUANTITIES, ThreeGearFourBar
+from gearlink.core.three_gear.families import (
+    Family,
+    back_step_crank_angle_of,
+    back_step_of,
+    balanced,
+    solved,
+    with_crank,
+    with_frame,
+    with_speed_quotient,
+)
 from gearlink.core.three_gear.idler_choice import GREATEST_IDLER, LEAST_IDLER, idler_for_ratio, smallest_idler
-from gearlink.core.three_gear.momentary_dwell import momentary_crank_angle, momentary_linkage
-from gearlink.core.three_gear.motion import GearTrain, gear_gap
+from gearlink.core.three_gear.motion import Extremes, GearTrain, gear_gap
 
 _STANDSTILL = 1.5 * math.pi
 
@@ -37,6 +46,10 @@ class Synthesis(ThreeGearFourBar):
         if value is None:
             raise MissingSection(f"this synthesis needs the section {name}: {words}", key=name)
         return value
+
+    def _radii(self, idler: int) -> tuple[float, float, float]:
+        gears = self.spec.gears
+        return tuple(gears.module * teeth / 2.0 for teeth in (gears.crank, idler, gears.output))  # type: ignore[return-value]
 
     def chosen_idler(self) -> int:
         """The smallest idler that keeps transmission angle and gear gap."""
@@ -86,7 +99,37 @@ class Synthesis(ThreeGearFourBar):
 
 
 class SymmetricSynthesis(Synthesis):
-    """The family I = 1 with equal gears 1 and 5 and equal coupler and rocker (thesis 4.1)."""
+    """The family I = 1 with equal gears 1 and 5 and equal coupler and rocker (thesis 4.1), in closed form.
+
+    Gears of any size, and equal ones with a given crank or frame, have one bracketed root instead: `in_family`.
+    """
+
+    task = ""
+    """The section of the file that the synthesis serves."""
+
+    def in_family(self, family: Family, train: GearTrain) -> FourBar:
+        """The linkage of a family in one unknown that meets the task."""
+        raise NotImplementedError
+
+    @cached_property
+    def general(self) -> bool:
+        """Whether the closed forms of the symmetric family do not serve the task."""
+        section, gears = getattr(self.spec, self.task), self.spec.gears
+        if section is None:
+            return False
+        if section.balanced and gears.crank == gears.output:
+            return False  # equal gears are balanced by the symmetric family
+        return bool(section.crank or section.frame or section.balanced)
+
+    def _family(self, idler: int) -> Family:
+        section, (r1, r3, r5) = getattr(self.spec, self.task), self._radii(idler)
+        if section.crank is not None:
+            with at_key(f"{self.task}.crank"):
+                return with_crank(r1, r3, r5, section.crank, self.spec.assembly)
+        if section.frame is not None:
+            with at_key(f"{self.task}.frame"):
+                return with_frame(r1, r3, r5, section.frame, self.spec.assembly)
+        return balanced(r1, r3, r5, self.spec.assembly)
 
     def frame_ratio_for(self, i3: float) -> float:
         """Frame over crank that meets the task with a ratio i3."""
@@ -95,7 +138,8 @@ class SymmetricSynthesis(Synthesis):
     @cached_property
     def train(self) -> GearTrain:
         """The three gears; every closed form of the family asks for their ratio here."""
-        self._require_equal_gears()
+        if not self.general:
+            self._require_equal_gears()
         return GearTrain(self.crank_teeth, self.idler_teeth, self.output_teeth)
 
     def _require_equal_gears(self) -> None:
@@ -103,7 +147,7 @@ class SymmetricSynthesis(Synthesis):
         if gears.crank != gears.output:
             raise NoSolution(
                 f"this synthesis belongs to the family I = 1: crank ({gears.crank}) and output ({gears.output}) teeth "
-                f"must be equal; set output to {gears.crank}",
+                f"must be equal; set output to {gears.crank}, or give {self.task}.crank, frame or balanced as well",
                 key="gears.output",
             )
 
@@ -114,8 +158,10 @@ class SymmetricSynthesis(Synthesis):
 
     def linkage_of(self, idler: int) -> FourBar:
         """Links of the family for an idler."""
-        self._require_equal_gears()
         gears = self.spec.gears
+        if self.general:
+            return self.in_family(self._family(idler), GearTrain(gears.crank, idler, gears.output))
+        self._require_equal_gears()
         ratio = self.frame_ratio_at(-idler / gears.output)
         return family.symmetric_linkage(ratio, gears.module * (gears.crank + idler) / 2.0, self.spec.assembly)
 
@@ -126,11 +172,13 @@ class SymmetricSynthesis(Synthesis):
     @cached_property
     def frame_ratio(self) -> float:
         """Frame over crank."""
-        return self.frame_ratio_at(self.i3)
+        return self.linkage.frame / self.linkage.crank if self.general else self.frame_ratio_at(self.i3)
 
     @cached_property
-    def speed_limits(self) -> family.SpeedLimits:
-        """Greatest and least speed ratio, in closed form (thesis (4-13))."""
+    def speed_limits(self) -> family.SpeedLimits | Extremes:
+        """Greatest and least speed ratio, of the symmetric family in closed form (thesis (4-13))."""
+        if self.general:
+            return self.speed_extremes
         return family.speed_ratio_limits(self.i3, self.frame_ratio)
 
     speed_ratio_max: float = placed("speed_limits.greatest")
@@ -165,13 +213,17 @@ class BackStepFamily(SymmetricSynthesis):
     @cached_property
     def dwell_crank_angles(self) -> list[float]:
         """270 deg -+ phi12/2 (thesis (4-15)), or its mirror image."""
+        if self.general:
+            return dwells.dwell_positions(self.linkage, self.train)
         if self._phi12 == 0.0:
             return [self._middle]
         return [self._middle - 0.5 * self._phi12, self._middle + 0.5 * self._phi12]
 
     @cached_property
     def back_step(self) -> BackStep | None:
-        """In closed form (thesis (4-15), (4-19))."""
+        """In closed form (thesis (4-15), (4-19)) for the symmetric family."""
+        if self.general:
+            return dwells.back_step(self.linkage, self.train) if self.motion == "back-step" else None
         if self._phi12 == 0.0:
             return None
         angle = symmetric_back_step.back_step_angle(self.i3, self._phi12)
@@ -181,36 +233,37 @@ class BackStepFamily(SymmetricSynthesis):
     @cached_property
     def dwell_angle(self) -> float | None:
         """phi13 from its own equation."""
+        if self.general and self.back_step is not None:
+            return dwells.dwell_angle(self.linkage, self.train, self.back_step)
         return None if self.back_step is None else symmetric_back_step.dwell_angle(self.i3, self._phi12)
-
-
-class DwellSynthesis(BackStepFamily):
-    """`synth dwell`: the crank angle phi13 of the dwell is given."""
-
-    outlines = {"synth dwell": Outline(QUANTITIES, CHECKS)}
-
-    def crank_angle_for(self, i3: float) -> float:
-        """phi12 whose exact phi13 is the one asked for."""
-        angle = self.section("dwell", "angle (deg)").angle
-        with at_key("dwell.angle"):
-            return symmetric_back_step.crank_angle_for_dwell(i3, math.radians(angle))
-
-    @cached_property
-    def dwell_angle(self) -> float | None:
-        """As asked for: phi12 was solved for it."""
-        self.linkage  # noqa: B018 - a task without a mechanism is refused here as well
-        return math.radians(self.section("dwell", "angle (deg)").angle)
 
 
 class BackStepSynthesis(BackStepFamily):
     """`synth back-step`: back-step of the output, crank angle phi12, or both are given."""
 
+    task = "back_step"
     outlines = {"synth back-step": Outline(QUANTITIES, ("back-step-target", *CHECKS))}
+
+    def in_family(self, family: Family, train: GearTrain) -> FourBar:
+        """One of back-step and crank angle, met by the root of the one unknown."""
+        task = self.section("back_step", "angle or crank_angle (deg)")
+        if task.angle is not None and task.crank_angle is not None:
+            raise NoSolution(
+                "with crank, frame or balanced one of angle and crank_angle can be met: leave the other out",
+                key="back_step.crank_angle",
+            )
+        if task.angle is not None:
+            with at_key("back_step.angle"):
+                wish = f"a back-step of {task.angle:g} deg"
+                return solved(family, back_step_of(train), math.radians(task.angle), wish)
+        with at_key("back_step.crank_angle"):
+            wish = f"a back-step over {task.crank_angle:g} deg of the crank"
+            return solved(family, back_step_crank_angle_of(train), math.radians(task.crank_angle), wish)
 
     def chosen_idler(self) -> int:
         """From angle and crank angle by thesis (4-19), rounded to teeth; else the smallest that keeps the limits."""
         task = self.section("back_step", "angle, crank_angle (deg)")
-        if task.angle is None or task.crank_angle is None:
+        if self.general or task.angle is None or task.crank_angle is None:
             return super().chosen_idler()
         with at_key("back_step.angle"):
             i3 = symmetric_back_step.i3_for_back_step(math.radians(task.angle), math.radians(task.crank_angle))
@@ -241,7 +294,22 @@ class BackStepSynthesis(BackStepFamily):
 class VariableSpeedSynthesis(SymmetricSynthesis):
     """`synth variable-speed`: the output speed swings between two values, the input turns at their mean."""
 
-    outlines = {"synth variable-speed": Outline(QUANTITIES, CHECKS)}
+    task = "speed"
+    outlines = {"synth variable-speed": Outline((*QUANTITIES, "input_speed"), CHECKS)}
+
+    def in_family(self, family: Family, train: GearTrain) -> FourBar:
+        """W_min/W_max = min/max, met by the root of the one unknown."""
+        speed = self.section("speed", "min, max (rev/min)")
+        with at_key("speed.max" if speed.max <= speed.min else "speed.min"):
+            if speed.max <= speed.min:
+                raise NoSolution(f"max ({speed.max:g}) must be greater than min ({speed.min:g})")
+            return with_speed_quotient(family, train, speed.min / speed.max)
+
+    @property
+    def input_speed(self) -> float:
+        """Input speed [1/min] at which the output swings between the two: their mean where I = 1."""
+        speed = self.section("speed", "min, max (rev/min)")
+        return float(speed.max) / self.speed_ratio_max if self.general else 0.5 * (speed.min + speed.max)
 
     def frame_ratio_for(self, i3: float) -> float:
         """Thesis (4-20)."""
@@ -256,43 +324,7 @@ class VariableSpeedSynthesis(SymmetricSynthesis):
     @cached_property
     def dwell_crank_angles(self) -> list[float]:
         """None, or the one at 270 deg where the least speed is zero."""
+        if self.general:
+            return dwells.dwell_positions(self.linkage, self.train)
         self.linkage  # noqa: B018 - a band without a mechanism is refused here as well
         return [self._middle] if self.section("speed", "min, max").min == 0.0 else []
-
-
-class MomentaryDwellSynthesis(Synthesis):
-    """`synth momentary-dwell`: any three gears and the crank length are given, the frame is sought."""
-
-    outlines = {"synth momentary-dwell": Outline(QUANTITIES, CHECKS)}
-
-    def _radii(self, idler: int) -> tuple[float, float, float]:
-        gears = self.spec.gears
-        return tuple(gears.module * teeth / 2.0 for teeth in (gears.crank, idler, gears.output))  # type: ignore[return-value]
-
-    @property
-    def _eccentricity(self) -> float:
-        return float(self.section("momentary", "eccentricity (mm)").eccentricity)
-
-    def linkage_of(self, idler: int) -> FourBar:
-        """Frame length in closed form, in place of thesis (4-26)..(4-33)."""
-        with at_key("momentary.eccentricity"):
-            return momentary_linkage(*self._radii(idler), self._eccentricity, self.spec.assembly)
-
-    def depends_on_idler(self, _refusal: NoSolution) -> bool:
-        """A crank not below the radius of gear 1 is too long with every idler."""
-        return self._eccentricity < self._radii(LEAST_IDLER)[0]
-
-    @cached_property
-    def dwell_crank_angles(self) -> list[float]:
-        """The one standstill, at full precision."""
-        self.linkage  # noqa: B018
-        return [momentary_crank_angle(*self._radii(self.idler_teeth), self._eccentricity, self.spec.assembly)]
-
-    def _gap_remedy(self, missing: float) -> str:
-        words = super()._gap_remedy(missing)
-        shorter = self._longest_crank_with_room()
-        return (
-            words
-            if shorter is None
-            else f"set momentary.eccentricity to at most {safely_below(shorter)} mm, or {words}"
-        )

@@ -171,15 +171,17 @@ def test_ripple_touches_both_edges_twice() -> None:
 
 def test_speed_quotient() -> None:
     train, family = GearTrain(20, 20, 60), families.with_crank(25.0, 25.0, 75.0, 18.0)
-    linkage = families.solved(family, families.speed_quotient_of(train), 0.02, "")
-    extremes = speed_extremes(linkage, train)
-    assert -extremes.least / extremes.greatest == pytest.approx(0.02, rel=1e-11)
+    for quotient in (0.1, 0.0, -0.02):
+        extremes = speed_extremes(families.with_speed_quotient(family, train, quotient), train)
+        assert extremes.least / extremes.greatest == pytest.approx(quotient, rel=1e-11, abs=1e-14)
+    with pytest.raises(NoSolution, match="must lie between"):
+        families.with_speed_quotient(family, train, -0.9)
 
 
 class TestRefusals:
     def test_crank_that_never_stops_the_output(self) -> None:
         with pytest.raises(NoSolution, match=r"longer than 5\.62870566"):
-            families.with_crank(25.0, 25.0, 75.0, 5.0)
+            families.with_crank(25.0, 25.0, 75.0, 5.0).stepping()
 
     def test_crank_that_cannot_turn(self) -> None:
         with pytest.raises(NoSolution, match="cannot turn"):
@@ -191,7 +193,7 @@ class TestRefusals:
 
     def test_wish_beyond_the_family(self) -> None:
         train = GearTrain(20, 20, 60)
-        with pytest.raises(NoSolution, match="a back-step of 400 deg is beyond"):
+        with pytest.raises(NoSolution, match="a back-step of 400 deg is more than"):
             families.solved(
                 families.with_crank(25.0, 25.0, 75.0, 18.0),
                 families.back_step_of(train),
