@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.linkages.spec_parts import LinkageLimits
-from gearlink.core.spec import Assembly, DesignSpec, Length, PressureAngle, Spec, Teeth
+from gearlink.core.spec import Assembly, DesignSpec, Length, PressureAngle, SignedLength, Spec, Teeth
 
 
 class Gears(Spec):
