@@ -101,10 +101,20 @@ _PRESS = {
 }
 
 _CAM = {
-    "max_pressure_angle": Term("alpha_max", "deg", "greatest pressure angle (magnitude)", "VDI 2142"),
-    "min_curvature_radius": Term("rho_min", "mm", "least convex curvature radius of the pitch curve", "VDI 2142"),
-    "max_radius": Term("r_max", "mm", "largest radius"),
-    "min_radius": Term("r_min", "mm", "smallest radius"),
+    "max_pressure_angle": Term(
+        "alpha_max", "deg", "greatest pressure angle of the main cam (a list: main, return cam)", "VDI 2142"
+    ),
+    "min_curvature_radius": Term(
+        "rho_min", "mm", "least convex radius of the main cam's pitch curve (a list: main, return cam)", "VDI 2142"
+    ),
+    "max_radius": Term("r_max", "mm", "largest radius of the main cam (a list: main, return cam)"),
+    "min_radius": Term("r_min", "mm", "smallest radius of the main cam (a list: main, return cam)"),
+    "return_max_pressure_angle": Term("alpha_max2", "deg", "greatest pressure angle of the return cam", "VDI 2142"),
+    "return_min_curvature_radius": Term(
+        "rho_min2", "mm", "least convex curvature radius of the return cam's pitch curve", "VDI 2142"
+    ),
+    "return_max_radius": Term("r_max2", "mm", "largest radius of the return cam"),
+    "return_min_radius": Term("r_min2", "mm", "smallest radius of the return cam"),
 }
 
 _GRIPPER = {

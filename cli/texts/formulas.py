@@ -83,7 +83,13 @@ _PRESS = {
     "transition_rise": "T = transition end - theta_e; arc: T tan(atan(k1)/2) in mm over deg; parabola: k1 T/2; "
     "quartic: k1 T/2 + a1 T^2/12, a1 second derivative of the zone at its end",
     "follower_stroke": "h = s_max - s_min over the turn",
-    "return_end": "theta_r = transition_end + return_angle",
+    "return_end": "theta_r = transition end + return_angle, transition end given or theta_e + transition_angle",
+    "return_max_pressure_angle": "as max_pressure_angle, of roller 2 at r_b + s - L_s1s2",
+    "return_min_curvature_radius": "as min_curvature_radius, of roller 2 at r_b + s - L_s1s2",
+    "return_max_radius": "L_s1s2 - r_b - s_min - r_g, the main cam's: r_b + s_max - r_g",
+    "return_min_radius": "L_s1s2 - r_b - s_max - r_g, the main cam's: r_b + s_min - r_g",
+    "cam_base_radius": "r_b as given, or the least with which both cams keep |s'|/tan(alpha) <= r_b + s and <= L_s1s2 "
+    "- r_b - s, rho_min >= r_g/0.8 and r_b + s_min - r_g >= 1.5 shaft_radius",
     "roller_center_distance": "L_s1s2 = 2 r_b + s_max + s_min",
 }
 

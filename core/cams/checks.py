@@ -3,14 +3,25 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from gearlink.core.cams.codes import CAM_UNDERCUT, PRESSURE_ANGLE
-from gearlink.core.report import Check, Status, safely_below
+from gearlink.core.errors import NoSolution
+from gearlink.core.report import Check, Rule, Status, safely_below
 
 if TYPE_CHECKING:
     from gearlink.core.cams.disc_cam import DiscCam
+
+
+# A hub of 1.5 times the shaft is the usual least, a roller of 0.8 of the least curvature radius the usual most.
+HUB = 1.5
+ROLLER_SHARE = 0.8
+
+
+def impossible(what: str, refusal: NoSolution, limit: float) -> Check:
+    """GL401 for cams that cannot be at all, and why."""
+    return PRESSURE_ANGLE.check("fail", f"{what}: {refusal.message}", None, limit, "deg")
 
 
 def pressure_angle_checks(cams: Sequence[DiscCam], limit: float, remedy: str) -> Iterator[Check]:
@@ -25,8 +36,15 @@ def pressure_angle_checks(cams: Sequence[DiscCam], limit: float, remedy: str) ->
         yield PRESSURE_ANGLE.check("fail" if value > limit else "pass", text, value, limit, "deg")
 
 
-def undercut_checks(cams: Sequence[DiscCam]) -> Iterator[Check]:
-    """GL402 for each cam: roller against the least convex curvature, and the profile against itself."""
+def undercut_checks(
+    cams: Sequence[DiscCam], larger: Callable[[], str] = lambda: "enlarge the base circle"
+) -> Iterator[Check]:
+    """GL402 for each cam: roller against the least convex curvature, and the profile against itself.
+
+    Parameters
+        cams : the cams
+        larger : gives the words for a cam that is large enough, asked for where one is not
+    """
     for cam in cams:
         least, roller = cam.min_curvature_radius, cam.roller_radius
         share = roller / least.value
@@ -35,7 +53,7 @@ def undercut_checks(cams: Sequence[DiscCam]) -> Iterator[Check]:
             f"roller radius {roller:g} mm of the {cam.name} against the least curvature radius {least.value:.6g} mm "
             f"at {place}"
         )
-        status: Status = "fail" if share >= 1.0 else "warn" if share > 0.8 else "pass"
+        status: Status = "fail" if share >= 1.0 else "warn" if share > ROLLER_SHARE else "pass"
         if status == "pass" and cam.undercut.depth > 1e-9 * roller:
             cut = cam.undercut
             status = "fail"
@@ -44,8 +62,31 @@ def undercut_checks(cams: Sequence[DiscCam]) -> Iterator[Check]:
                 f"{math.degrees(cut.cam_angle):.5g} deg: enlarge the base circle or take a smaller roller"
             )
         elif status != "pass":
-            text += f": take a roller of at most {safely_below(0.8 * least.value)} mm or enlarge the base circle"
+            text += f": take a roller of at most {safely_below(ROLLER_SHARE * least.value)} mm or {larger()}"
         yield CAM_UNDERCUT.check(status, text, share, 1.0)
+
+
+def hub_checks(rule: Rule, cams: Sequence[DiscCam], shaft: float, farther: Callable[[float], str]) -> Iterator[Check]:
+    """GL302 for each cam against its shaft.
+
+    Parameters
+        rule : Rule - of a roller or cam that reaches a shaft
+        cams : the cams
+        shaft : float [mm] - radius; 0: nothing is judged
+        farther : gives the words for a profile that stands so much [mm] farther from the axis
+    """
+    for cam in cams if shaft > 0.0 else ():
+        room = cam.min_radius - shaft
+        status: Status = "fail" if room <= 0.0 else "warn" if cam.min_radius < HUB * shaft else "pass"
+        text = f"the {cam.name} leaves {room:.4g} mm round its shaft (radius {shaft:g} mm)"
+        if status == "fail":
+            text = f"the {cam.name} comes {-room:.4g} mm into its shaft (radius {shaft:g} mm)"
+        if status != "pass":
+            text += (
+                f": take a shaft_radius of at most {safely_below(cam.min_radius / HUB)} mm (hub of {HUB:g} times the "
+                f"shaft), or {farther(HUB * shaft - cam.min_radius)}"
+            )
+        yield rule.check(status, text, room, 0.0, "mm")
 
 
 def step_check(

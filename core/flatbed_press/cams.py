@@ -1,4 +1,4 @@
-"""The compensation cam pair of a flatbed press: results, tables and checks of its main and return cam.
+"""The compensation cam pair of a flatbed press: its follower, its size, main and return cam.
 
 Two rollers of the rack frame stand on a line through the cam axis, 180 deg apart, at a fixed distance; roller 1
 (main cam) on +x, roller 2 (return cam) on -x. The cam turns counter-clockwise with CD.
@@ -7,58 +7,65 @@ Two rollers of the rack frame stand on a line through the cam axis, 180 deg apar
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from gearlink.core.design import placed
-from gearlink.core.errors import MissingSection, NoSolution
-from gearlink.core.flatbed_press.compensation import Compensation, Joint
-from gearlink.core.report import Check, Table, safely_above
+from gearlink.core.errors import MissingSection, NoSolution, at_key
+from gearlink.core.flatbed_press.compensation import Compensation
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
     from gearlink.core.cams.disc_cam import DiscCam
     from gearlink.core.cams.profile import RollerPath
+    from gearlink.core.flatbed_press.motion import PressMotion
     from gearlink.core.flatbed_press.spec import FlatbedPressSpec, PressCam
     from gearlink.core.numerics.arrays import Reals
 
+# By so much of its limits a chosen radius keeps to the safe side: its cams are checked in other roundings.
+_HAIR = 1e-9
+
 
 class PressCams:
-    """Mixed into the press design; reads its `follower`."""
+    """The follower of the rack and the two cams that drive it both ways."""
 
-    spec: FlatbedPressSpec
-
-    @property
-    def follower(self) -> Compensation:
-        """The lift of the follower; the design class gives it."""
-        raise NotImplementedError
+    def __init__(self, spec: FlatbedPressSpec, motion: PressMotion) -> None:
+        self.spec, self.motion = spec, motion
 
     @property
-    def _cam(self) -> PressCam:
+    def section(self) -> PressCam:
+        """The section `cam` of the design file."""
         if self.spec.cam is None:
             raise MissingSection("`cam` needs the section cam: base_radius, roller_radius, ...", key="cam")
         return self.spec.cam
 
     @cached_property
-    def cam_base_radius(self) -> float:
-        """Cam axis to roller centre at zero lift [mm], given or the least that keeps the pressure angle of `size`."""
-        if self._cam.base_radius is not None:
-            return self._cam.base_radius
-        if self.spec.size is None:
-            text = "give cam.base_radius, or size: {pressure_angle: 25} to have it chosen"
-            raise MissingSection(text, key="cam.base_radius")
-        radius = self._base_radius_for(math.radians(self.spec.size.pressure_angle))
-        if radius > self._cam.roller_radius:
-            return radius
-        raise NoSolution(
-            f"a base radius of {radius:.6g} mm would keep the pressure angle, but the roller alone takes "
-            f"{self._cam.roller_radius:g} mm: give cam.base_radius by shaft and roller, or lower size.pressure_angle",
-            key="size.pressure_angle",
+    def follower(self) -> Compensation:
+        """The lift of the compensation cam's follower."""
+        from gearlink.core.cams.laws import law
+
+        cam, motion = self.section, self.motion
+        with at_key("cam.return_law"):
+            return_law = law(cam.return_law)
+            if return_law.kind != "rest-to-rest":
+                raise NoSolution(f"the return needs a rest-to-rest law; {return_law.name} goes from rest to speed")
+        return Compensation(
+            motion.bed,
+            motion.cylinder,
+            motion.sync_start,
+            motion.sync_end,
+            cam.transition,
+            math.radians(cam.lead_in),
+            self.transition_end,
+            math.radians(cam.return_angle),
+            return_law,
         )
 
-    end_slope: float = placed("follower.end_slope")
-    transition_rise: float = placed("follower.transition_rise")
-    return_end: float = placed("follower.return_end")
+    @property
+    def transition_end(self) -> float:
+        """Cam angle at which the lift is greatest [rad]: given, or counted from the end of the zone."""
+        cam = self.section
+        if cam.transition_angle is not None:
+            return self.motion.cam_sync_end + math.radians(cam.transition_angle)
+        return math.radians(cam.transition_end or 0.0)
 
     @property
     def follower_stroke(self) -> float:
@@ -66,90 +73,32 @@ class PressCams:
         low, high = self.follower.lift_range
         return high - low
 
-    @cached_property
-    def roller_center_distance(self) -> float:
-        """Distance of the two rollers [mm] that gives both cams the same largest radius.
-
-        L = 2 r_b + s_max + s_min; with s_min = 0 it is the report's 2 r_b + h
-
-        Source
-            TY-460 report 3.6
-        """
-        low, high = self.follower.lift_range
-        return 2.0 * self.cam_base_radius + high + low
+    # Size
 
     @property
-    def max_radius(self) -> float:
-        """Largest radius of the main cam's profile [mm]: where the lift is greatest, the normal is radial."""
-        return self.cam_base_radius - self._cam.roller_radius + self.follower.lift_range[1]
-
-    @property
-    def min_radius(self) -> float:
-        """Smallest radius of the main cam's profile [mm]."""
-        return self.cam_base_radius - self._cam.roller_radius + self.follower.lift_range[0]
-
-    max_pressure_angle: float = placed("main_cam.max_pressure_angle.value")
-    min_curvature_radius: float = placed("main_cam.min_curvature_radius.value")
+    def is_sized(self) -> bool:
+        """Whether the file gives the base radius, or says how it is chosen."""
+        return self.spec.cam is not None and (self.spec.cam.base_radius is not None or self.spec.size is not None)
 
     @cached_property
-    def main_cam(self) -> DiscCam:
-        """The cam of roller 1: pitch radius r_b + s."""
-        return self._disc_cam("main cam", self.cam_base_radius)
+    def base_radius(self) -> float:
+        """Cam axis to roller centre at zero lift [mm], given or the least with which both cams pass their checks."""
+        if self.section.base_radius is not None:
+            return self.section.base_radius
+        if self.spec.size is None:
+            text = "give cam.base_radius, or size: {pressure_angle: 25} to have it chosen"
+            raise MissingSection(text, key="cam.base_radius")
+        return self.base_radius_for(math.radians(self.spec.size.pressure_angle))
 
-    @cached_property
-    def return_cam(self) -> DiscCam:
-        """The cam of roller 2: its centre stands at r_b + s - L on the same line."""
-        return self._disc_cam("return cam", self.cam_base_radius - self.roller_center_distance)
+    def base_radius_for(self, pressure_angle: float) -> float:
+        """Least base radius [mm] for a pressure angle [rad] that leaves roller and shaft their room as well."""
+        from gearlink.core.cams.checks import HUB
 
-    def _disc_cam(self, name: str, at_zero_lift: float) -> DiscCam:
-        from gearlink.core.cams.disc_cam import DiscCam
-        from gearlink.core.cams.profile import translating
+        hub = HUB * self.section.shaft_radius * (1.0 + _HAIR) + self.section.roller_radius - self.follower.lift_range[0]
+        return self.base_radius_for_roller(max(self.base_radius_for_pressure(pressure_angle), hub))
 
-        def path(theta: Reals, order: int) -> RollerPath:
-            lift = self.follower.lift(theta, order)
-            return translating(at_zero_lift + lift.value, lift.first, lift.second if order > 1 else 0.0)
-
-        joints = tuple(segment.start for segment in self.follower.segments)
-        return DiscCam(name, path, 1, self._cam.roller_radius, joints)
-
-    def table_follower(self, samples: int | None = None) -> Table:
-        """Lift of the follower over the cam angle (TY-460 report 3.4)."""
-        import numpy as np
-
-        from gearlink.core.numerics.arrays import turn_degrees
-
-        degrees = turn_degrees(samples)
-        lift, phases = self.follower.evaluate(np.radians(degrees), 2)
-        columns = {
-            "cam_angle": (degrees, "deg"),
-            "lift": (lift.value, "mm"),
-            "velocity": (lift.first, "mm/rad"),
-            "acceleration": (lift.second, "mm/rad^2"),
-            "phase": (phases, "1"),
-        }
-        return Table.of("follower", columns)
-
-    def table_main_cam(self, samples: int | None = None) -> Table:
-        """The main cam, point for point (TY-460 report 3.5)."""
-        return self.main_cam.table("main_cam", samples)
-
-    def table_return_cam(self, samples: int | None = None) -> Table:
-        """The return cam, point for point (TY-460 report 3.6)."""
-        return self.return_cam.table("return_cam", samples)
-
-    def check_pressure_angle(self) -> Iterator[Check]:
-        """GL401 for both cams."""
-        from gearlink.core.cams.checks import pressure_angle_checks
-
-        cams, limit = (self.main_cam, self.return_cam), self.spec.limits.pressure_angle
-        remedy = ""
-        if max(cam.max_pressure_angle.value for cam in cams) > math.radians(limit) > 0.0:
-            radius = safely_above(self._base_radius_for(math.radians(limit)))
-            remedy = f"set cam.base_radius to at least {radius} mm, or raise cam.return_angle"
-        yield from pressure_angle_checks(cams, limit, remedy)
-
-    def _base_radius_for(self, pressure_angle: float) -> float:
-        """Least base radius [mm] with which both cams keep a pressure angle.
+    def base_radius_for_pressure(self, pressure_angle: float) -> float:
+        """Least base radius [mm] with which both cams keep a pressure angle [rad].
 
         r_b + s >= |s'|/tan(alpha)  and  r_b + s_max + s_min - s >= |s'|/tan(alpha)
         """
@@ -162,54 +111,124 @@ class PressCams:
         def needed(theta: Reals) -> Reals:
             lift = self.follower.lift(theta, 1)
             nearer: Reals = np.minimum(lift.value, both - lift.value)
-            radius: Reals = np.abs(lift.first) / math.tan(pressure_angle) - nearer
+            radius: Reals = np.abs(lift.first) / math.tan(pressure_angle * (1.0 - 1e-3 * _HAIR)) - nearer
             return radius
 
         joints = tuple(segment.start % (2.0 * math.pi) for segment in self.follower.segments)
         return maximum_over(needed, joints=joints, samples=512).value
 
-    def check_cam_undercut(self) -> Iterator[Check]:
-        """GL402 for both cams."""
-        from gearlink.core.cams.checks import undercut_checks
+    def base_radius_for_roller(self, least: float) -> float:
+        """Base radius [mm], from `least` on, whose pitch curves bend no sharper than the roller allows.
 
-        yield from undercut_checks((self.main_cam, self.return_cam))
+        rho_min(r_b) = r_g/0.8 of the sharper cam
 
-    def check_velocity_step(self) -> Check:
-        """GL403 at every joint of the lift."""
-        return self._steps("GL403", "velocity-step", "velocity_step", "first", "mm/rad", "fail")
+        Raises
+            NoSolution - where no cam of a thousand rollers' size is large enough
+        Notes
+            Within a step of doubling the curvature is taken to grow with the radius; the radius that is found is
+            checked by its own cams.
+        """
+        from gearlink.core.cams.checks import ROLLER_SHARE
+        from gearlink.core.numerics.roots import bracketed_root
 
-    def check_acceleration_step(self) -> Check:
-        """GL404 at every joint of the lift."""
-        return self._steps("GL404", "acceleration-step", "acceleration_step", "second", "mm/rad^2", "warn")
+        roller = self.section.roller_radius
+        wanted = roller / ROLLER_SHARE * (1.0 + _HAIR)
 
-    def _steps(self, code: str, name: str, step: str, derivative: str, unit: str, bad: Any) -> Check:
-        from gearlink.core.cams.checks import step_check
+        def room(radius: float) -> float:
+            return min(cam.min_curvature_radius.value for cam in self._pair(radius)) - wanted
 
-        joints = self.follower.joints
-        peak = max(
-            abs(float(getattr(segment.lift(angle, 2), derivative)))
-            for segment in self.follower.segments
-            for angle in (segment.start, 0.5 * (segment.start + segment.end), segment.end)
-        )
-        if name == "velocity-step":
-            remedy = "let the zone start where bed and cylinder have the same speed (leave sync.start out)"
-        else:
-            remedy = "a lead_in before the zone, transition quartic and return_law cycloidal take the jumps away"
-        return step_check(code, name, [(_joint(j), float(getattr(j, step))) for j in joints], peak, unit, bad, remedy)
+        low = high = max(least, roller)
+        while room(high) < 0.0:
+            low, high = high, 2.0 * high
+            if high > 1000.0 * (roller + self.follower_stroke):
+                raise NoSolution(
+                    f"no base radius up to {low:.6g} mm bends its cams less than the roller of {roller:g} mm: raise "
+                    "cam.return_angle, or take a smaller roller",
+                    key="cam.roller_radius",
+                )
+        return high if high == low else bracketed_root(room, low, high)
 
-    def check_constant_sum(self) -> Check:
-        """GL405: the two pitch radii in contact add up to the roller distance at every cam angle."""
-        import numpy as np
+    @cached_property
+    def roller_center_distance(self) -> float:
+        """Distance of the two rollers [mm] that gives both cams the same largest radius."""
+        return self._distance(self.base_radius)
 
-        theta = np.radians(np.arange(0.0, 360.0, 1.0))
-        radii = [np.abs(cam.points(theta)[0]) for cam in (self.main_cam, self.return_cam)]
-        off = float(np.abs(radii[0] + radii[1] - self.roller_center_distance).max())
-        limit = 1e-9 * self.roller_center_distance
-        text = f"the two pitch radii in contact add up to {self.roller_center_distance:.6g} mm within {off:.2g} mm"
-        if off > limit:
-            text += ": the return cam's roller would pass the cam axis; raise cam.base_radius"
-        return Check("GL405", "constant-sum", "fail" if off > limit else "pass", text, off, limit, "mm")
+    def _distance(self, base_radius: float) -> float:
+        """L = 2 r_b + s_max + s_min; with s_min = 0 it is the report's 2 r_b + h
 
+        Source
+            TY-460 report 3.6
+        """
+        low, high = self.follower.lift_range
+        return 2.0 * base_radius + high + low
 
-def _joint(joint: Joint) -> str:
-    return f"{joint.before}/{joint.after} at {math.degrees(joint.cam_angle):.5g} deg"
+    # The cams
+
+    @property
+    def max_radius(self) -> float:
+        """Largest radius of either profile [mm]: where the lift is greatest, the normal is radial."""
+        return self.base_radius - self.section.roller_radius + self.follower.lift_range[1]
+
+    @property
+    def min_radius(self) -> float:
+        """Smallest radius of either profile [mm]."""
+        return self.base_radius - self.section.roller_radius + self.follower.lift_range[0]
+
+    @property
+    def main_cam(self) -> DiscCam:
+        """The cam of roller 1: pitch radius r_b + s."""
+        return self.both[0]
+
+    @property
+    def return_cam(self) -> DiscCam:
+        """The cam of roller 2: its centre stands at r_b + s - L on the same line."""
+        return self.both[1]
+
+    @cached_property
+    def both(self) -> tuple[DiscCam, DiscCam]:
+        """Main and return cam."""
+        return self._pair(self.base_radius)
+
+    def _pair(self, base_radius: float) -> tuple[DiscCam, DiscCam]:
+        back = base_radius - self._distance(base_radius)
+        return self._disc_cam("main cam", base_radius), self._disc_cam("return cam", back)
+
+    def _disc_cam(self, name: str, at_zero_lift: float) -> DiscCam:
+        from gearlink.core.cams.disc_cam import DiscCam
+        from gearlink.core.cams.profile import translating
+
+        def path(theta: Reals, order: int) -> RollerPath:
+            lift = self.follower.lift(theta, order)
+            return translating(at_zero_lift + lift.value, lift.first, lift.second if order > 1 else 0.0)
+
+        joints = tuple(segment.start for segment in self.follower.segments)
+        return DiscCam(name, path, 1, self.section.roller_radius, joints)
+
+    @cached_property
+    def refusal(self) -> NoSolution | None:
+        """Why there is no such pair of cams; None where there is one. The motion itself is refused before."""
+        _ = self.motion.cam_sync_end
+        try:
+            for cam in self.both:
+                _ = cam.max_pressure_angle, cam.min_curvature_radius
+        except MissingSection:
+            raise
+        except NoSolution as error:
+            return error
+        return None
+
+    @property
+    def is_refused(self) -> bool:
+        """Whether the cams alone are impossible; a motion that is refused says so itself."""
+        try:
+            return self.refusal is not None
+        except NoSolution:
+            return False
+
+    @property
+    def follows(self) -> bool:
+        """Whether the follower's lift exists over the turn."""
+        try:
+            return bool(self.follower.segments)
+        except NoSolution:
+            return False

@@ -20,11 +20,13 @@ SYNC_SPEED = Rule(
     "bed and cylinder differ in speed at the start of the zone",
     "At the start of the synchronous zone bed and cylinder do not run equally fast.",
     "The compensation cam makes good a difference of travel, but a difference of speed is a blow at its start.",
-    "Leave sync.start out: then the zone starts where the speeds are equal.",
-    "|p'(phi_s) - q'(phi_s)| <= 1e-3 |q'(phi_s)|, p travel of the bed, q of the cylinder",
+    "Leave sync.start out: then the zone starts where the speeds are equal; or take the difference up before the zone "
+    "by cam.lead_in.",
+    "|p'(phi_s) - q'(phi_s)| <= 1e-3 |q'(phi_s)|, p travel of the bed, q of the cylinder; with a lead-in the jump of "
+    "the rack's own speed there in place of p' - q'",
     "TY-460 report 3.2",
     ("sync-speed",),
-    ("sync.start", "sync", "cylinder"),
+    ("sync.start", "cam.lead_in", "sync", "cylinder"),
 )
 SYNC_LENGTH = Rule(
     "GL502",

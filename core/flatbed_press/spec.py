@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
 
 from gearlink.core.spec import (
     AcuteAngle,
@@ -88,13 +89,30 @@ class PressCam(Spec):
         "quartic", description="how the end slope is brought to 0"
     )
     lead_in: TurnAngle = Field(0.0, description="cam angle before the zone; 0: none")
-    transition_end: PartOfTurn = Field(description="cam angle at which the lift is greatest")
+    transition_end: PartOfTurn | None = Field(
+        None, description="cam angle at which the lift is greatest; this or `transition_angle`"
+    )
+    transition_angle: PartOfTurn | None = Field(
+        None, description="cam angle from the end of the zone to the greatest lift, in place of `transition_end`"
+    )
     return_angle: PartOfTurn = Field(description="cam angle of the return")
     return_law: MotionLaw = Field("cycloidal", description="rest-to-rest law of the return")
+    shaft_radius: Distance = Field(0.0, description="cam shaft; 0: not checked")
+
+    @model_validator(mode="after")
+    def _one_transition(self) -> PressCam:
+        if self.transition_end is None and self.transition_angle is None:
+            raise PydanticCustomError(
+                "GL106", "either transition_end or transition_angle is needed", {"key": "transition_end"}
+            )
+        if self.transition_end is not None and self.transition_angle is not None:
+            message = "transition_end and transition_angle exclude each other: give one"
+            raise PydanticCustomError("GL111", message, {"key": "transition_angle"})
+        return self
 
 
 class PressSize(Spec):
-    """How a base radius that is left out is chosen: the smallest cams for a pressure angle."""
+    """How a base radius that is left out is chosen: the smallest cams that keep a pressure angle, roller and shaft."""
 
     pressure_angle: Annotated[float, Field(gt=0, lt=90, json_schema_extra={"unit": "deg"})] = Field(
         description="pressure angle that neither cam exceeds"

@@ -12,6 +12,7 @@ Tolerances
 import json
 import re
 from dataclasses import replace
+from math import degrees, radians
 from pathlib import Path
 
 import factory
@@ -19,6 +20,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 from oracles.press import PRESSES, TY460, Press
+from pydantic import ValidationError
 
 from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.flatbed_press.design import FlatbedPress
@@ -45,9 +47,13 @@ def press(oracle: Press = TY460, **sections) -> FlatbedPress:
     return factory.design(oracle.spec(**given))
 
 
+PARTS = {"motion", "cams"}
+
+
 def computed(design) -> set[str]:
-    """Names of the results that a design has worked out."""
-    return set(vars(design)) - {"spec"}
+    """Names of the results that a design and its parts have worked out."""
+    parts = [vars(design)[name] for name in PARTS & set(vars(design))]
+    return {name for each in (design, *parts) for name in vars(each)} - {"spec"}
 
 
 # Published
@@ -299,7 +305,7 @@ def test_transmission_angles_of_both_chains(limit, statuses):
 def test_crank_length_touches_nothing_else():
     design = press(input_gears=GEARS, cam=CAM)
     design.quantity("crank_length")
-    assert computed(design) == {"slider_crank"}
+    assert computed(design) == {"motion", "slider_crank"}
 
 
 def test_start_position_and_bed_touch_nothing_of_the_cylinder():
@@ -319,16 +325,17 @@ def test_cam_never_sizes_gears_nor_press_the_cam():
     design = press(input_gears=GEARS, cam=CAM)
     design.report("cam")
     assert "gear_pair" not in computed(design)
-    assert "main_cam" in computed(design)
-    design = press(input_gears=GEARS, cam=CAM)
+    assert "both" in computed(design)
+    design = press(input_gears=GEARS)
     design.report("press")
-    assert not computed(design) & {"gear_pair", "follower", "main_cam", "return_cam"}
+    assert not computed(design) & {"gear_pair", "cams"}
 
 
 def test_stroke_of_the_follower_draws_no_cam():
     design = press(cam=CAM)
     design.quantity("follower_stroke")
-    assert not computed(design) & {"main_cam", "return_cam"}
+    assert "follower" in computed(design)
+    assert not computed(design) & {"both", "base_radius"}
 
 
 def test_impossible_cylinder_does_not_stand_in_the_way_of_the_crank():
@@ -344,3 +351,95 @@ def test_analyze_shows_the_cams_where_the_file_has_them():
     assert names == ["positions", "follower", "main_cam", "return_cam"]
     codes = [check.name for check in full.report("analyze").checks]
     assert codes.count("sync-length") == 1
+
+
+# Whether a cam can bear the motion
+
+
+@pytest.mark.parametrize(("stroke", "status"), [(620.0, "pass"), (800.0, "fail")])
+def test_a_stroke_that_no_cam_can_bear_fails_without_the_cam_s_own_command(stroke, status):
+    design = press(replace(TY460, stroke=stroke), cam=CAM)
+    report = design.report("press")
+    found = [check for check in report.checks if check.name == "pressure-angle"]
+    assert [check.status for check in found] == [status, status]
+    assert found == design.check("pressure-angle")
+    assert report.ok == (status == "pass")
+    assert [table.name for table in report.tables] == ["positions"]
+
+
+@pytest.mark.parametrize("command", ["press", "analyze"])
+@pytest.mark.parametrize(
+    ("cam", "words"),
+    [
+        ({"transition_end": 100.0}, "the transition ends at cam angle 100 deg, but the synchronous zone only at 116.5"),
+        ({"return_angle": 290.0}, "after the next sheet begins"),
+        ({"return_law": "half-cycloidal"}, "rest-to-rest"),
+    ],
+)
+def test_chains_and_zone_are_shown_though_the_cam_is_impossible(command, cam, words):
+    design = press(cam=CAM | cam)
+    report = design.report(command)
+    assert {q.name for q in report.quantities} >= {"sync_start", "compensation"}
+    assert "max_pressure_angle" not in {q.name for q in report.quantities}
+    (failed,) = [check for check in report.checks if check.status == "fail"]
+    assert (failed.code, failed.name, failed.value) == ("GL401", "pressure-angle", None)
+    assert words in failed.message
+    with pytest.raises(NoSolution):
+        design.report("cam")
+
+
+@pytest.mark.parametrize("command", ["press", "analyze", "cam"])
+def test_a_zone_that_cannot_be_is_refused_with_its_own_key(command):
+    with pytest.raises(NoSolution) as refused:
+        press(cam=CAM, sync={"end": 20.0}).report(command)
+    assert refused.value.key == "sync.end"
+
+
+def test_speeds_where_a_lead_in_takes_the_difference_up():
+    sync = {"start": 50.0, "length": 400.0}
+    cam = CAM | {"transition_end": 145.0}
+    (bare,) = press(sync=sync, cam=cam).check("sync-speed")
+    (led,) = press(sync=sync, cam=cam | {"lead_in": 12.0}).check("sync-speed")
+    assert (bare.status, led.status) == ("fail", "pass")
+    assert "cam.lead_in" in bare.message
+    # the second way: the rack's speed just before and just after, from the lift alone
+    follower = press(sync=sync, cam=cam | {"lead_in": 12.0}).follower
+    start, step = follower.cam_sync_start, 1e-4
+    lift = follower.lift(np.array([start - 2 * step, start - step, start, start + step, start + 2 * step]), 0).value
+    before, after = lift[2] - lift[1], lift[3] - lift[2]
+    assert after - before == pytest.approx(0.5 * (lift[4] - lift[3] - lift[1] + lift[0]), abs=1e-6)
+    assert led.value < 1e-12
+    assert bare.value == pytest.approx(abs(before / step) * share_of(press(sync=sync, cam=cam)), rel=1e-3)
+
+
+def share_of(design):
+    """Cam speed over cylinder speed at the start of the zone [1/mm]."""
+    start = design.sync_start
+    return float(design.bed.cam_angle(start, 1).first) / float(design.cylinder.travel(start, 1).first)
+
+
+def test_transition_may_be_counted_from_the_end_of_the_zone():
+    end = degrees(press().cam_sync_end)
+    by_angle = press(cam=_without(CAM, "transition_end") | {"transition_angle": 125.0 - end})
+    assert by_angle.return_end == pytest.approx(press(cam=CAM).return_end, rel=1e-15)
+    assert by_angle.follower_stroke == pytest.approx(press(cam=CAM).follower_stroke, rel=1e-13)
+    later = press(cam=_without(CAM, "transition_end") | {"transition_angle": 8.0}, sync={"length": 470.0})
+    assert later.follower.transition_end == pytest.approx(later.cam_sync_end + radians(8.0), rel=1e-15)
+
+
+def _without(section, key):
+    return {name: value for name, value in section.items() if name != key}
+
+
+@pytest.mark.parametrize(
+    ("cam", "key", "code"),
+    [
+        (_without(CAM, "transition_end"), "transition_end", "GL106"),
+        (CAM | {"transition_angle": 9.0}, "transition_angle", "GL111"),
+    ],
+)
+def test_one_of_both_ways_to_end_the_transition(cam, key, code):
+    with pytest.raises(ValidationError) as refused:
+        press(cam=cam)
+    (error,) = refused.value.errors()
+    assert (error["type"], error["ctx"]["key"]) == (code, key)

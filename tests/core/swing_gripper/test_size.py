@@ -75,29 +75,3 @@ def test_a_limit_that_no_centre_keeps() -> None:
 
 
 press = partial(factory.design, "ty460")
-
-
-@pytest.mark.parametrize("limit", [8.0, 15.0, 25.0])
-def test_press_cams_keep_the_limit_and_touch_it(limit: float) -> None:
-    design = press(cam__base_radius=None, size={"pressure_angle": limit})
-    largest = [cam.max_pressure_angle.value for cam in (design.main_cam, design.return_cam)]
-    assert max(largest) == pytest.approx(math.radians(limit), rel=0.0, abs=1e-12)
-    shown = design.quantity("cam_base_radius")
-    assert shown is not None
-    assert shown.value == design.cam_base_radius
-
-
-def test_a_given_base_radius_stands() -> None:
-    assert press(size={"pressure_angle": 25.0}).cam_base_radius == 90.0
-
-
-def test_press_without_radius_and_size() -> None:
-    with pytest.raises(MissingSection) as missing:
-        _ = press(cam__base_radius=None).cam_base_radius
-    assert missing.value.key == "cam.base_radius"
-
-
-def test_press_whose_roller_alone_is_larger() -> None:
-    with pytest.raises(NoSolution, match="the roller alone takes 25 mm") as refused:
-        _ = press(cam__base_radius=None, size={"pressure_angle": 80.0}).cam_base_radius
-    assert refused.value.key == "size.pressure_angle"

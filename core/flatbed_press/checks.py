@@ -1,0 +1,186 @@
+"""Checks of a flatbed press: chains, zone and cams; each is a function of the design."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+from gearlink.core.errors import NoSolution
+from gearlink.core.flatbed_press import codes
+from gearlink.core.flatbed_press.zone import zone_end
+from gearlink.core.linkages.checks import transmission_check
+from gearlink.core.linkages.codes import SHAFT_CLEARANCE
+from gearlink.core.report import Check, safely_above
+
+if TYPE_CHECKING:
+    from gearlink.core.flatbed_press.compensation import Joint
+    from gearlink.core.flatbed_press.design import FlatbedPress
+
+# A share of the speed that is nothing but the rounding of the chains.
+_ROUNDING = 1e-12
+
+# Chains and zone
+
+
+def transmission_angle(design: FlatbedPress) -> Iterator[Check]:
+    """GL303 for both chains."""
+    limit, motion = design.spec.limits.transmission_angle, design.motion
+    angles = {"bed": motion.min_transmission_angle_bed, "cylinder": motion.min_transmission_angle_cylinder}
+    for chain, angle in angles.items():
+        yield transmission_check(
+            angle,
+            limit,
+            f"bring coupler and rocker of {chain}.double_crank nearer to a right angle (shorter frame, longer coupler)",
+            f"the least transmission angle of the {chain} chain",
+        )
+
+
+def sync_speed(design: FlatbedPress) -> Check:
+    """GL501: speeds of the print and the cylinder at the start of the zone, where a jump would be a blow."""
+    gap, cylinder = _speed_gap(design)
+    share, limit = abs(gap / cylinder), 1e-3
+    text = f"at the start of the zone bed and cylinder differ by {gap * design.motion.input_speed:.3g} mm/s"
+    if share < _ROUNDING:
+        text = "at the start of the zone bed and cylinder run equally fast"
+    elif share > limit:
+        text += f", {100 * share:.3g} % of the speed: start the zone where the speeds are equal (leave sync.start out)"
+        if design.spec.cam is not None:
+            text += ", or take the difference up before the zone (cam.lead_in)"
+    return codes.SYNC_SPEED.check("fail" if share > limit else "pass", text, share, limit)
+
+
+def _speed_gap(design: FlatbedPress) -> tuple[float, float]:
+    """What is left of the difference of the speeds, and the cylinder's speed, by the input angle [mm/rad].
+
+    Without a lead-in the rack stands before the zone, p' - q'; with one it moves already, and what is left is the
+    jump of its own velocity.
+    """
+    motion, cam = design.motion, design.spec.cam
+    cylinder = float(motion.cylinder.travel(motion.sync_start, 1).first)
+    if cam is not None and cam.lead_in > 0.0 and design.cams.follows:
+        (joint,) = (joint for joint in design.cams.follower.joints if joint.after == "sync")
+        return joint.velocity_step * float(motion.bed.cam_angle(motion.sync_start, 1).first), cylinder
+    return float(motion.bed.travel(motion.sync_start, 1).first) - cylinder, cylinder
+
+
+def sync_length(design: FlatbedPress) -> Check:
+    """GL502: the zone covers the print."""
+    length, asked = design.motion.zone_length, design.spec.sync.print_length
+    if asked == 0.0:
+        text = f"the zone is {length:.6g} mm long; no print_length is given"
+        return codes.SYNC_LENGTH.check("pass", text, length, 0.0, "mm")
+    if design.spec.sync.end is None:
+        remedy = f"set sync.length to at least {asked:g} mm and a margin"
+    else:
+        needed = math.degrees(zone_end(design.motion.cylinder, design.motion.sync_start, asked))
+        remedy = f"set sync.end to at least {safely_above(needed, 6)} deg, or leave it out and give sync.length"
+    return codes.SYNC_LENGTH.below(length, asked, asked, "mm", "the cylinder's travel in the zone", remedy)
+
+
+def register(design: FlatbedPress) -> Check:
+    """GL506: the cylinder makes whole turns per sheet."""
+    ratio = design.spec.cylinder.gear_ratio
+    off = abs(ratio - max(1, round(ratio)))
+    text = f"the cylinder makes {ratio:g} turns per sheet"
+    if off > 1e-9:
+        text += f", so it does not come home: set cylinder.gear_ratio to {max(1, round(ratio))}"
+    return codes.REGISTER.check("fail" if off > 1e-9 else "pass", text, off, 1e-9)
+
+
+# Cams
+
+
+def pressure_angle(design: FlatbedPress) -> Iterator[Check]:
+    """GL401 for both cams; it fails as well where no cam can make the motion at all."""
+    from gearlink.core.cams.checks import impossible, pressure_angle_checks
+
+    limit = design.spec.limits.pressure_angle
+    if design.cams.refusal is not None:
+        yield impossible("no cam pair can bear this compensation", design.cams.refusal, limit)
+        return
+    over = max(cam.max_pressure_angle.value for cam in design.cams.both) > math.radians(limit) > 0.0
+    remedy = f"{_larger(design, limit)}, or raise cam.return_angle" if over else ""
+    yield from pressure_angle_checks(design.cams.both, limit, remedy)
+
+
+def _larger(design: FlatbedPress, limit: float) -> str:
+    """The base radius that keeps a pressure angle [deg], with room for roller and shaft where there is such a one."""
+    cams, angle = design.cams, math.radians(limit)
+    try:
+        radius = cams.base_radius_for(angle)
+    except NoSolution:
+        radius = cams.base_radius_for_pressure(angle)
+    return f"set cam.base_radius to at least {safely_above(radius)} mm"
+
+
+def cam_undercut(design: FlatbedPress) -> Iterator[Check]:
+    """GL402 for both cams."""
+    from gearlink.core.cams.checks import undercut_checks
+
+    if design.cams.refusal is None:
+        yield from undercut_checks(design.cams.both, lambda: _base_radius_for_roller(design))
+
+
+def _base_radius_for_roller(design: FlatbedPress) -> str:
+    try:
+        radius = design.cams.base_radius_for_roller(design.cams.base_radius)
+    except NoSolution:
+        return "enlarge the base circle"
+    return f"set cam.base_radius to at least {safely_above(radius)} mm"
+
+
+def shaft_clearance(design: FlatbedPress) -> Iterator[Check]:
+    """GL302: the profiles against the cam shaft."""
+    from gearlink.core.cams.checks import hub_checks
+
+    base = design.cams.base_radius
+    yield from hub_checks(
+        SHAFT_CLEARANCE,
+        design.cams.both,
+        design.cams.section.shaft_radius,
+        lambda missing: f"set cam.base_radius to at least {safely_above(base + missing)} mm",
+    )
+
+
+def velocity_step(design: FlatbedPress) -> Check:
+    """GL403 at every joint of the lift."""
+    remedy = "let the zone start where bed and cylinder have the same speed (leave sync.start out)"
+    return _steps(design, "GL403", "velocity-step", "first", "mm/rad", "fail", remedy)
+
+
+def acceleration_step(design: FlatbedPress) -> Check:
+    """GL404 at every joint of the lift."""
+    remedy = "a lead_in before the zone, transition quartic and return_law cycloidal take the jumps away"
+    return _steps(design, "GL404", "acceleration-step", "second", "mm/rad^2", "warn", remedy)
+
+
+def _steps(design: FlatbedPress, code: str, name: str, derivative: str, unit: str, bad: Any, remedy: str) -> Check:
+    from gearlink.core.cams.checks import step_check
+
+    follower = design.cams.follower
+    peak = max(
+        abs(float(getattr(segment.lift(angle, 2), derivative)))
+        for segment in follower.segments
+        for angle in (segment.start, 0.5 * (segment.start + segment.end), segment.end)
+    )
+    steps = [(_joint(joint), float(getattr(joint, name.replace("-", "_")))) for joint in follower.joints]
+    return step_check(code, name, steps, peak, unit, bad, remedy)
+
+
+def _joint(joint: Joint) -> str:
+    return f"{joint.before}/{joint.after} at {math.degrees(joint.cam_angle):.5g} deg"
+
+
+def constant_sum(design: FlatbedPress) -> Check:
+    """GL405: the two pitch radii in contact add up to the roller distance at every cam angle."""
+    import numpy as np
+
+    theta, distance = np.radians(np.arange(0.0, 360.0, 1.0)), design.cams.roller_center_distance
+    radii = [np.abs(cam.points(theta)[0]) for cam in design.cams.both]
+    off = float(np.abs(radii[0] + radii[1] - distance).max())
+    limit = 1e-9 * distance
+    text = f"the two pitch radii in contact add up to {distance:.6g} mm within {off:.2g} mm"
+    if off > limit:
+        text += ": the return cam's roller would pass the cam axis; raise cam.base_radius"
+    return codes.CONSTANT_SUM.check("fail" if off > limit else "pass", text, off, limit, "mm")

@@ -1,0 +1,74 @@
+"""Tables of a flatbed press; each is a function of the design and the number of rows."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from gearlink.core.report import Table
+
+if TYPE_CHECKING:
+    from gearlink.core.flatbed_press.design import FlatbedPress
+    from gearlink.core.linkages.fourbar import FourBar
+
+
+def positions(design: FlatbedPress, samples: int | None = None) -> Table:
+    """Both chains at equal steps of the input angle (TY-460 report 1.2, 2.2)."""
+    import numpy as np
+
+    from gearlink.core.numerics.arrays import turn_degrees
+
+    motion, degrees = design.motion, turn_degrees(samples or 12)
+    phi = np.radians(degrees)
+    cam, speed = motion.bed.cam_angle(phi, 1), motion.input_speed
+    p, q = motion.bed.travel(phi, 1, cam), motion.cylinder.travel(phi, 1)
+    columns = {
+        "input_angle": (degrees, "deg"),
+        "cam_angle": (np.degrees(cam.value), "deg"),
+        "bed_displacement": (p.value, "mm"),
+        "bed_velocity": (p.first * speed, "mm/s"),
+        "cylinder_displacement": (q.value, "mm"),
+        "cylinder_velocity": (q.first * speed, "mm/s"),
+        "transmission_angle_bed": (_transmission(motion.bed.linkage, motion.bed.initial_crank_angle + phi), "deg"),
+        "transmission_angle_cylinder": (
+            _transmission(motion.cylinder.linkage, motion.cylinder.initial_angle - phi),
+            "deg",
+        ),
+    }
+    return Table.of("positions", columns)
+
+
+def _transmission(linkage: FourBar, crank_angle: Any) -> Any:
+    import numpy as np
+
+    from gearlink.core.linkages import fourbar_sweep
+    from gearlink.core.linkages.fourbar_refine import dead_point_distance
+
+    return np.degrees(dead_point_distance(fourbar_sweep.solve(linkage, crank_angle).transmission_angle))
+
+
+def follower(design: FlatbedPress, samples: int | None = None) -> Table:
+    """Lift of the follower over the cam angle (TY-460 report 3.4)."""
+    import numpy as np
+
+    from gearlink.core.numerics.arrays import turn_degrees
+
+    degrees = turn_degrees(samples)
+    lift, phases = design.cams.follower.evaluate(np.radians(degrees), 2)
+    columns = {
+        "cam_angle": (degrees, "deg"),
+        "lift": (lift.value, "mm"),
+        "velocity": (lift.first, "mm/rad"),
+        "acceleration": (lift.second, "mm/rad^2"),
+        "phase": (phases, "1"),
+    }
+    return Table.of("follower", columns)
+
+
+def main_cam(design: FlatbedPress, samples: int | None = None) -> Table:
+    """The main cam, point for point (TY-460 report 3.5)."""
+    return design.main_cam.table("main_cam", samples)
+
+
+def return_cam(design: FlatbedPress, samples: int | None = None) -> Table:
+    """The return cam, point for point (TY-460 report 3.6)."""
+    return design.return_cam.table("return_cam", samples)
