@@ -5,8 +5,11 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.figures import panels, style
-from gearlink.cli.figures.flatbed_press_diagram import LEVEL, UPRIGHT, machine
+import numpy as np
+
+from gearlink.cli.figures import panels, scene_axes, style
+from gearlink.cli.scenes.flatbed_press import LEVEL, UPRIGHT, Machine, bed_chain, build, cylinder_chain
+from gearlink.cli.scenes.scene import TURN, Chain, Scene
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -25,9 +28,9 @@ def draw(command: str, design: FlatbedPress) -> Figure:
     """Both chains in twelve positions, the whole machine, displacement and velocity over the input angle."""
     made = panels.page(f"{design.spec.name}: {command}")
     rows: Any = made.add_gridspec(4, 1, height_ratios=(3.7, 3.5, 1.7, 1.9))
-    bed_chain(made.add_subplot(rows[0]), design)
-    middle: Any = rows[1].subgridspec(1, 2, width_ratios=(1.0, 1.25))
-    cylinder_chain(made.add_subplot(middle[0]), design)
+    bed_positions(made.add_subplot(rows[0]), design)
+    middle: Any = rows[1].subgridspec(1, 2, width_ratios=(1.0, 1.6))
+    cylinder_positions(made.add_subplot(middle[0]), design)
     machine(made.add_subplot(middle[1]), design)
     curves = [made.add_subplot(rows[2]), made.add_subplot(rows[3])]
     _curves(curves, design)
@@ -35,88 +38,72 @@ def draw(command: str, design: FlatbedPress) -> Figure:
     return made
 
 
-def _angles() -> Any:
-    import numpy as np
+def machine(axes: Axes, design: FlatbedPress) -> None:
+    """The whole press at an input angle of 60 deg, but for its cams."""
+    style.drawing(axes)
+    panels.heading(axes, f"Kinematic diagram at input angle {30 * HIGHLIGHTED}°")
+    axes.set_xlabel("")
+    scene_axes.draw(axes, build(design, np.array([HIGHLIGHTED / POSITIONS]), cams=False))
 
-    return np.arange(POSITIONS) * (2.0 * math.pi / POSITIONS)
+
+def _at_positions(design: FlatbedPress, chain: Any) -> Machine:
+    """The press in twelve positions, and last where a chain has its least transmission angle."""
+    from gearlink.core.flatbed_press.positions import least_transmission_input
+
+    return Machine(design, np.append(np.arange(POSITIONS) / POSITIONS, least_transmission_input(chain) / TURN))
 
 
-def bed_chain(axes: Axes, design: FlatbedPress) -> None:
+def bed_positions(axes: Axes, design: FlatbedPress) -> None:
     """A-B-C-D-E-F in twelve positions; the speeds of the bed in lanes below the slide line."""
-    import numpy as np
-
-    from gearlink.core.flatbed_press.positions import bed_positions, least_transmission_input
+    from gearlink.core.flatbed_press import positions
 
     panels.drawing(axes, f"Bed chain in {POSITIONS} positions, 30° apart, to scale")
-    phi = np.append(_angles(), least_transmission_input(design.bed))
-    at = bed_positions(design.bed, phi)
-    a, d = at.a, at.d * LEVEL
-    chains = [[a, b, c, d, e, f] for b, c, e, f in np.stack([at.b, at.c, at.e, at.f], axis=1) * LEVEL]
-    linkage = design.bed.linkage
+    at, linkage = _at_positions(design, design.bed), design.bed.linkage
+    a, b, _, d, _, f = (joint[:-1] for joint in at.bed_joints)
     for center, radius in ((a, linkage.crank), (d, linkage.rocker), (d, design.bed.slider_crank_length)):
-        style.circle(axes, center, radius, color=style.LIGHT, linewidth=0.8)
-    slide = chains[0][5].imag
-    axes.axhline(slide, color=style.GREY, linewidth=0.7, linestyle="-.", zorder=1)
-    _overlay(axes, chains, "ABCDEF", BED, (phi[-1], design.min_transmission_angle_bed))
-    _numbers(axes, [chain[1] for chain in chains[:-1]], a, 0.08 * linkage.crank)
-    speed = 2.0 * design.input_speed * (at.f_velocity * LEVEL).real[:-1]
-    _lanes(axes, [chain[5] for chain in chains[:-1]], speed, slide - 0.22 * design.bed.slider_crank_length)
+        style.circle(axes, complex(center[0]), radius, color=style.LIGHT, linewidth=0.8)
+    axes.axhline(at.slide, color=style.GREY, linewidth=0.7, linestyle="-.", zorder=1)
+    _overlay(axes, bed_chain(at.bed_joints), at, design.min_transmission_angle_bed)
+    _numbers(axes, list(b), complex(a[0]), 0.16 * linkage.crank)
+    velocity = positions.bed_positions(design.bed, at.phi[:-1]).f_velocity * LEVEL
+    _lanes(axes, list(f), 2.0 * design.input_speed * velocity.real, at.slide - 0.22 * design.bed.slider_crank_length)
 
 
-def cylinder_chain(axes: Axes, design: FlatbedPress) -> None:
+def cylinder_positions(axes: Axes, design: FlatbedPress) -> None:
     """G-H-M-N in twelve positions, with the velocity of M."""
-    import numpy as np
-
-    from gearlink.core.flatbed_press.positions import cylinder_positions, least_transmission_input
+    from gearlink.core.flatbed_press import positions
 
     panels.drawing(axes, "Cylinder chain")
     chain = design.cylinder
-    phi = np.append(_angles(), least_transmission_input(chain))
-    at = cylinder_positions(chain, phi)
-    g, n = at.g, at.n * UPRIGHT
-    chains = [[g, h, m, n] for h, m in np.stack([at.h, at.m], axis=1) * UPRIGHT]
+    at = _at_positions(design, chain)
+    g, _, m, n = (joint[:-1] for joint in at.cylinder_links)
     for center, radius in ((g, chain.linkage.crank), (n, chain.linkage.rocker)):
-        style.circle(axes, center, radius, color=style.LIGHT, linewidth=0.8)
-    _overlay(axes, chains, "GHMN", CYLINDER, (phi[-1], design.min_transmission_angle_cylinder))
-    velocity = at.m_velocity[:-1] * UPRIGHT * design.input_speed
-    tips = _arrows(axes, np.array([chain[2] for chain in chains[:-1]]), velocity, 0.75 * chain.linkage.rocker, "M")
-    _numbers(axes, list(tips), n, 0.09 * chain.linkage.rocker)
+        style.circle(axes, complex(center[0]), radius, color=style.LIGHT, linewidth=0.8)
+    _overlay(axes, cylinder_chain(at.cylinder_links), at, design.min_transmission_angle_cylinder)
+    velocity = positions.cylinder_positions(chain, at.phi[:-1]).m_velocity * UPRIGHT * design.input_speed
+    tips = _arrows(axes, m, velocity, 0.75 * chain.linkage.rocker, "M")
+    _numbers(axes, list(tips), complex(n[0]), 0.09 * chain.linkage.rocker)
     panels.legend_below(axes)
 
 
-def _overlay(
-    axes: Axes,
-    chains: list[list[complex]],
-    letters: str,
-    color: str,
-    least: tuple[float, float],
-) -> None:
+def _overlay(axes: Axes, scene: Scene, at: Machine, angle: float) -> None:
     """All positions thin, one strong with its letters, and the one of the least transmission angle dashed."""
-    for chain in chains[:-1]:
-        axes.plot([p.real for p in chain], [p.imag for p in chain], color=color, linewidth=0.6, alpha=0.55, zorder=2)
-    dashes: Any = (0, (4, 2))
-    place, angle = least
-    axes.plot(
-        [p.real for p in chains[-1]],
-        [p.imag for p in chains[-1]],
-        color=LEAST,
-        linewidth=1.2,
-        linestyle=dashes,
-        zorder=3,
-        label=f"least transmission angle {math.degrees(angle):.5g}° (input {math.degrees(place):.5g}°)",
-    )
-    _angle_arc(axes, chains[-1][1], chains[-1][2], chains[-1][3])
-    strong = chains[HIGHLIGHTED]
-    style.link(axes, strong, color, 2.0, label=f"position {HIGHLIGHTED} (input {30 * HIGHLIGHTED}°)")
-    panels.letters(axes, strong, letters, numbered=1 if len(chains[0]) == 6 else -1)
-    for pivot in (strong[0], strong[3]):
-        style.pivot(axes, pivot)
+    (links,) = scene.parts
+    assert isinstance(links, Chain), "a chain alone"
+    *thin, least = np.array(links.joints).T
+    for chain in thin:
+        axes.plot(chain.real, chain.imag, color=links.color, linewidth=0.6, alpha=0.55, zorder=2)
+    look: Any = {"color": LEAST, "linewidth": 1.2, "linestyle": (0, (4, 2)), "zorder": 3}
+    words = f"least transmission angle {math.degrees(angle):.5g}° (input {math.degrees(at.phi[-1]):.5g}°)"
+    axes.plot(least.real, least.imag, **look, label=words)
+    _angle_arc(axes, *(complex(point) for point in least[1:4]))
+    scene_axes.draw(axes, scene, HIGHLIGHTED)
+    words = f"position {HIGHLIGHTED} (input {30 * HIGHLIGHTED}°)"
+    axes.plot([], [], color=links.color, linewidth=2.0, label=words)
 
 
 def _angle_arc(axes: Axes, before: complex, joint: complex, after: complex) -> None:
     """The transmission angle at a joint, acute: between the link and the other or its prolongation."""
-    import numpy as np
-
     one, other = before - joint, after - joint
     if (one * other.conjugate()).real < 0.0:
         one = -one
@@ -137,8 +124,6 @@ def _numbers(axes: Axes, points: list[complex], center: complex, outwards: float
 
 def _arrows(axes: Axes, start: Any, velocity: Any, longest: float, subject: str) -> Any:
     """Velocity vectors to one scale, with a key of a round speed; their tips are returned."""
-    import numpy as np
-
     top = float(np.abs(velocity).max())
     scale = top / longest
     drawn = velocity / scale
@@ -176,8 +161,6 @@ def _round_below(value: float) -> float:
 
 def _lanes(axes: Axes, points: list[complex], speed: Any, top: float) -> None:
     """Velocities of the bed, each in a lane of its own below its slider, for on the line they would hide each other."""
-    import numpy as np
-
     stroke = max(p.real for p in points) - min(p.real for p in points)
     step = 0.062 * stroke
     start = np.array([complex(p.real, top - i * step) for i, p in enumerate(points)])
@@ -222,8 +205,6 @@ def _zone(axes: list[Axes], start: float, end: float) -> None:
 
 def _equal_speeds(axes: Axes, design: FlatbedPress) -> None:
     """The points at which bed and cylinder have the same speed."""
-    import numpy as np
-
     from gearlink.core.flatbed_press.zone import equal_speed_angles
 
     found = np.array(equal_speed_angles(design.bed, design.cylinder))

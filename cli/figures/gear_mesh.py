@@ -5,9 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from gearlink.cli.figures import panels, style
+import numpy as np
+
+from gearlink.cli.figures import panels, scene_axes, style
+from gearlink.cli.scenes.gear_pair import pair_scene
+from gearlink.cli.scenes.scene import Body, Points, Scene
 from gearlink.core.errors import NoSolution
 from gearlink.core.gears.mesh_geometry import MeshGeometry
 from gearlink.core.gears.pair import GearPair
@@ -16,13 +20,8 @@ from gearlink.core.nomenclature import term
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-    from numpy.typing import NDArray
 
 COLORS = (style.BLUE, style.ORANGE)
-_MOST_TEETH = 600  # finer teeth would be a grey band at page width
-_DASHED: Any = (0, (6, 3))
-_CHAIN: Any = (0, (9, 2.5, 1.5, 2.5))
-_DOTTED: Any = (0, (1, 2))
 
 _OF_MESH = (
     "center_distance",
@@ -64,11 +63,12 @@ _PLAIN = {
 
 @dataclass(frozen=True)
 class Mesh:
-    """A gear pair as it is drawn: its name, and the numbers of its two gears."""
+    """A gear pair as it is drawn: its name, the numbers of its two gears, and a scene where they are no whole gears."""
 
     pair: GearPair
     name: str = ""
     gears: tuple[str, str] = ("1", "2")
+    scene: Scene | None = None
 
     @property
     def geometry(self) -> MeshGeometry:
@@ -92,24 +92,13 @@ def mesh_figure(title: str, meshes: Sequence[Mesh]) -> Figure:
 
 
 def whole_gears(axes: Axes, mesh: Mesh) -> None:
-    """Both gears to scale; beyond 600 teeth their tip and root circles alone."""
-    pair, geometry = mesh.pair, mesh.geometry
-    named = f"Gears {mesh.gears[0]} and {mesh.gears[1]}" + (f", {mesh.name} mesh" if mesh.name else "")
+    """Both gears to scale, in the place that the mesh zone shows."""
+    pair = mesh.pair
     style.drawing(axes)
-    panels.heading(axes, named)
-    for gear in (0, 1):
-        center, color = geometry.axes[gear], COLORS[gear]
-        teeth = _whole_outline(mesh, gear)
-        if teeth is None:
-            for radius in (pair.tip_radius[gear], pair.root_radius[gear]):
-                style.circle(axes, center, radius, color=color, linewidth=1.0, gid=f"circle-{gear + 1}")
-        else:
-            axes.fill(teeth.real, teeth.imag, facecolor=color, alpha=0.15, linewidth=0)
-            axes.plot(teeth.real, teeth.imag, color=color, linewidth=0.8, gid=f"teeth-{gear + 1}")
-        style.circle(axes, center, pair.working_radius[gear], color=style.GREY, linewidth=0.7, linestyle=_CHAIN)
-        axes.plot([center.real], [center.imag], "+", color=style.BLACK, markersize=9)
-        note = f"{mesh.gears[gear]}: $z$ = {pair.teeth[gear]}"
-        axes.annotate(note, (center.real, center.imag), (0, 7), textcoords="offset points", ha="center", fontsize=8)
+    scene = mesh.scene or pair_scene(pair, mesh.gears, np.zeros(1))
+    names = "; ".join(part.name for part in scene.parts if isinstance(part, Body) and part.name)
+    panels.heading(axes, f"{mesh.name} mesh: {names}" if mesh.name else names.capitalize())
+    scene_axes.draw(axes, scene)
     _axis_distance(axes, pair)
     axes.margins(0.08)
     axes.autoscale_view()
@@ -129,15 +118,7 @@ def _axis_distance(axes: Axes, pair: GearPair) -> None:
     )
 
 
-def _whole_outline(mesh: Mesh, gear: int) -> NDArray[Any] | None:
-    """All teeth of a gear; None where they are too many or the tool leaves none."""
-    pair, geometry = mesh.pair, mesh.geometry
-    if pair.teeth[gear] > _MOST_TEETH:
-        return None
-    return _teeth(mesh, gear, max(2e-3 * pair.module, 2e-4 * pair.tip_radius[gear]), None, geometry.first_space[gear])
-
-
-def _teeth(mesh: Mesh, gear: int, chord: float, count: int | None, first: float) -> NDArray[Any] | None:
+def _teeth(mesh: Mesh, gear: int, chord: float, count: int, first: float) -> Points | None:
     from gearlink.core.gears.tooth_profile import ToothProfile, outline
 
     try:
@@ -188,13 +169,11 @@ def _zone_teeth(axes: Axes, mesh: Mesh, gear: int, high: float) -> None:
 
 def _zone_circles(axes: Axes, mesh: Mesh, gear: int, high: float, wide: float) -> None:
     """Base, working and tip circle as arcs, those that pass the zone."""
-    import numpy as np
-
     pair, center = mesh.pair, mesh.geometry.axes[gear]
     kinds = (
-        ("tip circle", pair.tip_radius, _DASHED, COLORS[gear]),
-        ("working pitch circle", pair.working_radius, _CHAIN, style.GREY),
-        ("base circle", pair.base_radius, _DOTTED, style.BLACK),
+        ("tip circle", pair.tip_radius, style.DASHED, COLORS[gear]),
+        ("working pitch circle", pair.working_radius, style.CHAIN, style.GREY),
+        ("base circle", pair.base_radius, style.DOTTED, style.BLACK),
     )
     inward = 1.0 if gear else -1.0
     for name, radius, dashes, color in kinds:

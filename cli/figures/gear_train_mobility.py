@@ -18,36 +18,33 @@ _COLORS = (style.BLUE, style.ORANGE, style.GREEN, style.PURPLE, style.SKY, style
 
 
 def draw(command: str, design: GearTrainMobility) -> Figure:
-    """The figure of `analyze` on gear trains."""
-    figure = panels.page(f"{design.spec.name}: {command}", 0.5)
-    diagram(figure.add_subplot(), design)
-    return figure
+    """The sheet of `analyze` on gear trains."""
+    words = {
+        "linkage_mobility": "mobility of the linkage",
+        "mobility_changes": "changes by the trains",
+        "mobility": "mobility",
+    }
+    return linkage.sheet(f"{design.spec.name}: {command}", design, diagram, words, [])
 
 
 def diagram(axes: Axes, design: GearTrainMobility) -> None:
     """Pins on a circle, links between them, gears round their pins; a dot marks the link a gear is fixed to."""
     places = pin_places(design)
     panels.heading(axes, "Structure, not to scale")
-    axes.set_aspect("equal", adjustable="datalim")
     axes.set_axis_off()
     for name, pins in design.links.items():
         _link(axes, name, [places[pin] for pin in pins])
-    radii: dict[str, float] = {}
     for i, train in enumerate(design.spec.trains):
         color = _COLORS[i % len(_COLORS)]
         half = min(abs(places[p.at] - places[q.at]) for p in train.gears for q in train.gears if p.at != q.at) / 2.0
         words = f"train {i + 1}: R = {design.fixed_ends[i]}, {design.mobility_changes[i]:+d}"
         axes.plot([], [], color=color, linewidth=1.6, label=words)
         for gear in train.gears:
-            radii[gear.at] = half
             style.circle(axes, places[gear.at], half, color=color, linewidth=1.6, zorder=3)
             _fixing(axes, places, design, gear.at, gear.fixed_to, half, color)
-    for place in places.values():
+    for pin, place in places.items():
         axes.plot([place.real], [place.imag], "o", color="white", markeredgecolor=style.BLACK, markersize=7, zorder=6)
-    linkage.letters(axes, {pin: (place, (0j,)) for pin, place in places.items()})
-    axes.autoscale_view()
-    axes.margins(0.1)
-    linkage.facts(axes, design, ("linkage_mobility", "mobility_changes", "mobility"))
+        style.letter(axes, place, pin, (12.0 * place.real, 12.0 * place.imag))
 
 
 def pin_places(design: GearTrainMobility) -> dict[str, complex]:

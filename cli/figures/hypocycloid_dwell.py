@@ -1,83 +1,55 @@
-"""Figures of a hypocycloid dwell: gears, curve, rod and slider to scale; the slider over a turn, and near its dwell."""
+"""Sheet of a hypocycloid dwell: gears, curve, rod and slider to scale; the slider over a turn, and near its dwell."""
 
 from __future__ import annotations
 
 import math
 from typing import TYPE_CHECKING
 
-from gearlink.cli.figures import linkage, panels, style
-from gearlink.core.dwell_gears.hypocycloid import HypocycloidSlider
+import numpy as np
+
+from gearlink.cli.figures import linkage, panels, scene_axes, style
+from gearlink.cli.scenes.hypocycloid_dwell import build
 from gearlink.core.dwell_gears.hypocycloid_design import HypocycloidDwell
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_FACTS = (
-    "cusps",
-    "carrier_length",
-    "rod_length",
-    "stroke",
-    "dwell_ripple",
-    "dwell_carrier_angle",
-    "tolerance_carrier_angle",
-    "min_transmission_angle",
-)
+_WORDS = {
+    "cusps": "cusps of the curve",
+    "carrier_length": "carrier AB",
+    "rod_length": "rod MF",
+    "stroke": "stroke of the slider",
+    "dwell_ripple": "range of the slider in the dwell",
+    "dwell_carrier_angle": "dwell wanted",
+    "tolerance_carrier_angle": "widest dwell within the tolerance",
+    "min_transmission_angle": "least transmission angle",
+}
 
 
 def draw(command: str, design: HypocycloidDwell) -> Figure:
-    """The figure of a command on a hypocycloid dwell."""
-    figure = panels.page(f"{design.spec.name}: {command}", 0.8)
-    top, bottom = linkage.two_parts(figure, 0.9)
-    mechanism(top.add_subplot(), design)
-    turn, near = bottom.subplots(1, 2)
-    _turn(turn, design)
-    _magnified(near, design)
-    return figure
+    """The sheet of a command on a hypocycloid dwell."""
+    return linkage.sheet(f"{design.spec.name}: {command}", design, mechanism, _WORDS, [_turn, _magnified])
 
 
 def mechanism(axes: Axes, design: HypocycloidDwell) -> None:
-    """The mechanism in mid-dwell, the rod lightly at both ends of the dwell, the arc of the dwell marked."""
-    import numpy as np
-
-    slider, r = design.slider, design.point_radius
-    style.drawing(axes)
-    panels.heading(axes, "Mechanism in mid-dwell, carrier angle 0°")
-    pitch, tip = design.mesh.reference_radius, design.mesh.tip_radius
-    linkage.gear(axes, 0j, pitch[1], tip[1], style.ORANGE, f"ring gear, fixed, z = {design.ring_teeth}")
-    center = complex(design.carrier_length)
-    linkage.gear(axes, center, pitch[0], tip[0], style.BLUE, f"planet, z = {design.planet_teeth}")
-    curve = np.array([slider.point(t) for t in np.linspace(-math.pi, math.pi, 721)])
-    axes.plot(curve.real, curve.imag, color=style.GREEN, linewidth=1.0, label="path of the point M")
-    half = 0.5 * design.dwell_carrier_angle
+    """The mechanism at an end of its dwell, its links apart; lightly in mid-dwell and at the other end."""
+    slider, half = design.slider, 0.5 * design.dwell_carrier_angle
+    panels.heading(axes, f"Mechanism at the end of the dwell, carrier angle {math.degrees(half):.5g}°")
+    scene = build(design, np.array([half, 0.0, -half]) / (2.0 * math.pi))
+    scene_axes.draw(axes, scene)
+    scene_axes.lightly(axes, scene, 1, name="mid-dwell and start of the dwell")
+    scene_axes.lightly(axes, scene, 2)
     arc = np.array([slider.point(t) for t in np.linspace(-half, half, 121)])
-    axes.plot(arc.real, arc.imag, color=style.RED, linewidth=2.4, label="arc of the dwell")
-    rest = slider.point(0.0) + slider.rod
-    circle = rest - slider.rod * np.exp(1j * np.linspace(-0.6, 0.6, 121))
-    axes.plot(circle.real, circle.imag, color=style.GREY, linewidth=0.8, linestyle=linkage.DASHED, label="rod's circle")
-    for t in (half, -half):
-        end = slider.point(t)
-        axes.plot([end.real, slider_place(slider, t)], [end.imag, 0.0], color=style.GREY, linewidth=0.9)
-    axes.axhline(0.0, color=style.GREY, linewidth=0.7, linestyle=linkage.DOTTED)
-    point = slider.point(0.0)
-    style.link(axes, [0j, center])
-    style.link(axes, [center, point], color=style.BLUE)
-    style.link(axes, [point, rest])
-    axes.plot([rest.real], [0.0], "s", color=style.BLACK, markersize=10, zorder=5)
-    style.pivot(axes, 0j)
-    up = 1j * r
-    linkage.letters(axes, {"A": (0j, (up,)), "B": (center, (up + center,)), "M": (point, (point - up,))})
-    linkage.facts(axes, design, _FACTS)
-
-
-def slider_place(slider: HypocycloidSlider, t: float) -> float:
-    """The slider's place on the x axis [mm]."""
-    return slider.point(0.0).real + slider.rod - slider.deviation(t)
+    axes.plot(arc.real, arc.imag, color=style.RED, linewidth=2.4, label="arc of the dwell", zorder=3.3)
+    circle = slider.point(0.0) + slider.rod - slider.rod * np.exp(1j * np.linspace(-0.6, 0.6, 121))
+    look = {"color": style.RED, "linewidth": 0.8, "linestyle": style.DASHED, "zorder": 3.2}
+    axes.plot(circle.real, circle.imag, **look, label="circle about mid-dwell's F")
 
 
 def _mark(axes: Axes, design: HypocycloidDwell, words: str | None = None) -> None:
     half = math.degrees(0.5 * design.dwell_carrier_angle)
-    axes.axvspan(-half, half, color=linkage.DWELL, linewidth=0, zorder=0, label=words)
+    axes.axvspan(-half, half, **linkage.DWELL, label=words)
 
 
 def _deviations(design: HypocycloidDwell, half: float) -> tuple[list[float], list[float]]:
@@ -105,5 +77,5 @@ def _magnified(axes: Axes, design: HypocycloidDwell) -> None:
     if tolerance is not None and angle is not None:
         low, high = design.slider.deviation_range(angle)
         for edge, words in ((low, None), (high, f"band of ±{tolerance:g} mm")):
-            axes.axhline(edge, color=style.RED, linewidth=0.9, linestyle=linkage.DASHED, label=words)
+            axes.axhline(edge, color=style.RED, linewidth=0.9, linestyle=style.DASHED, label=words)
         panels.legend_above(axes, 1)

@@ -1,8 +1,9 @@
-"""What the figures of the smaller gear-linkages share: gears, letters, facts, charts over a motion table."""
+"""What the sheets of the gear-linkages share: their layout, numbers beside the drawing, charts over a motion table."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.figures import panels, style
@@ -11,84 +12,75 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from gearlink.core.design import Design
+    Panel = Callable[[Axes, Any], None]
 
-DASHED: Any = (0, (5, 3))
-DOTTED: Any = (0, (1, 2))
-DWELL, BACKWARD = "#CFE8F7", "#FBE3C8"
-
-
-def two_parts(figure: Figure, share: float) -> tuple[Any, Any]:
-    """The drawing above, its charts below; each part has a layout of its own, so that the charts keep their width."""
-    parts: Any = figure.subfigures(2, 1, height_ratios=[share, 1.0])
-    return parts[0], parts[1]
+DWELL: Any = {"facecolor": "#CFE8F7", "linewidth": 0, "zorder": 0}
+BACKWARD: Any = {"facecolor": "none", "edgecolor": "#F3B562", "hatch": "///", "linewidth": 0, "zorder": 0.5}
+"""A dwell is tinted and a back-step hatched, so that both are seen where they overlap."""
+TURN = 360.0
 
 
-def gear(axes: Axes, center: complex, pitch: float, tip: float, color: str, label: str) -> None:
-    """A gear to scale: pitch circle solid, tip circle dashed (of a ring gear it lies inside)."""
-    from matplotlib.patches import Circle
-
-    if tip > pitch:
-        axes.add_patch(Circle((center.real, center.imag), pitch, facecolor=color, alpha=0.10, linewidth=0, zorder=1))
-    style.circle(axes, center, pitch, color=color, linewidth=1.5, zorder=3)
-    style.circle(axes, center, tip, color=color, linewidth=0.9, linestyle=DASHED, zorder=3)
-    axes.plot([], [], color=color, linewidth=1.5, label=label)
-
-
-def letters(axes: Axes, joints: Mapping[str, tuple[complex, Sequence[complex]]]) -> None:
-    """The letters of joints, each away from the neighbours that its links lead to."""
-    for name, (point, neighbours) in joints.items():
-        ways = [(other - point) / abs(other - point) for other in neighbours if other != point] or [-1j]
-        away = -sum(ways, 0j)
-        if abs(away) < 0.2:
-            away = 1j * ways[0]
-        away *= 12.0 / abs(away)
-        box = {"boxstyle": "round,pad=0.1", "facecolor": "white", "edgecolor": "none", "alpha": 0.7}
-        axes.annotate(
-            name,
-            (point.real, point.imag),
-            (away.real, away.imag),
-            textcoords="offset points",
-            ha="center",
-            va="center",
-            fontsize=10,
-            fontweight="bold",
-            bbox=box,
-            zorder=8,
-        )
+def sheet(
+    title: str,
+    design: Any,
+    mechanism: Panel,
+    words: Mapping[str, str],
+    charts: Sequence[Panel],
+    columns: int = 2,
+) -> Figure:
+    """The mechanism and its numbers over the charts; a last one alone in its row is as wide as the page."""
+    rows = math.ceil(len(charts) / columns)
+    figure = panels.page(title, min(0.42 + 0.19 * rows, 1.0))
+    halves = figure.add_gridspec(2 if charts else 1, 1, height_ratios=[2.0, rows] if charts else None)
+    head = halves[0].subgridspec(1, 2, width_ratios=[1.75, 1.0])
+    drawing = figure.add_subplot(head[0])
+    style.drawing(drawing)
+    mechanism(drawing, design)
+    drawing.margins(0.05)
+    drawing.autoscale_view()
+    numbers(figure.add_subplot(head[1]), drawing, design, words)
+    grid: Any = halves[1].subgridspec(rows, columns) if charts else None
+    for i, chart in enumerate(charts):
+        last_alone = i == len(charts) - 1 and i % columns == 0
+        chart(figure.add_subplot(grid[i // columns, :] if last_alone else grid[i // columns, i % columns]), design)
+    return figure
 
 
-def facts(axes: Axes, design: Design, names: Sequence[str]) -> None:
-    """Legend and numbers beside a drawing, on its right; what the words add after a semicolon is left out."""
-    axes.autoscale_view()
-    axes.margins(0.03)
-    axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), frameon=False, fontsize=8, borderaxespad=0.0)
-    found = [design.quantity(name) for name in names]
-    lines = [
-        f"{q.words.partition(';')[0]}: {_text(q.value)} {q.unit}".removesuffix(" 1") for q in found if q is not None
-    ]
-    axes.text(1.012, 0.0, "\n".join(lines), transform=axes.transAxes, va="bottom", fontsize=8, linespacing=1.45)
+def numbers(axes: Axes, drawing: Axes, design: Any, words: Mapping[str, str]) -> None:
+    """The legend of a drawing, and under it quantities by short words; those that the design has not are left out."""
+    panels.legend_beside(axes, drawing)
+    found = [(short, design.quantity(name)) for name, short in words.items()]
+    shown = [(short, f"{_text(q.value, q.unit)} {q.unit}".removesuffix(" 1")) for short, q in found if q is not None]
+    for i, (short, value) in enumerate(reversed(shown)):
+        axes.text(0.0, 0.062 * i, short, transform=axes.transAxes, va="bottom", fontsize=8)
+        axes.text(1.0, 0.062 * i, value, transform=axes.transAxes, va="bottom", ha="right", fontsize=8)
 
 
-def _text(value: object) -> str:
+def _text(value: object, unit: str) -> str:
     if isinstance(value, list):
-        return ", ".join(_text(item) for item in value) or "none"
-    return f"{value:.6g}" if isinstance(value, float) else str(value)
+        return ", ".join(_text(item, unit) for item in value) or "none"
+    return style.number(value, scale=0.0 if unit == "mm" else 1.0) if isinstance(value, float) else str(value)
 
 
 def chart(axes: Axes, title: str, ylabel: str, xlabel: str = "crank angle [deg]", turn: bool = True) -> None:
     """An empty chart over the crank angle."""
     style.curves(axes, xlabel, ylabel)
+    panels.small_ticks(axes)
     if turn:
         style.full_turn(axes)
-    panels.small_ticks(axes)
     panels.heading(axes, title)
 
 
-def columns(design: Design, table: str) -> dict[str, Any]:
+def columns(design: Any, table: str) -> dict[str, Any]:
     """The columns of a table by name."""
     found = design.table(table)
     return dict(zip(found.columns, found.data, strict=True))
+
+
+def over_turn(design: Any, name: str, gain: float = 0.0) -> tuple[Any, Any]:
+    """A column of the motion table over the crank angle, closed at 360 deg by its first value and what a turn adds."""
+    data = columns(design, "motion")
+    return closed(data["crank_angle"], TURN), closed(data[name], gain)
 
 
 def closed(values: Any, gain: float = 0.0) -> Any:
@@ -97,3 +89,18 @@ def closed(values: Any, gain: float = 0.0) -> Any:
 
     data = np.asarray(values, dtype=float)
     return np.append(data, data[0] + gain)
+
+
+def shade(axes: Axes, look: Any, start: float, width: float, label: str | None = None) -> None:
+    """A stretch of the turn [deg], as a DWELL or as BACKWARD."""
+    for left, right in panels.Phase("dwell", start, start + width).within_turn():
+        axes.axvspan(left, right, label=label, **look)
+        label = None
+
+
+def standstills(axes: Axes, places: Sequence[float], label: str | None = None) -> None:
+    """Lines at crank angles [rad]."""
+    for place in places:
+        look: dict[str, Any] = {"color": style.GREY, "linewidth": 0.8, "linestyle": style.DASHED, "zorder": 1}
+        axes.axvline(math.degrees(place), label=label, **look)
+        label = None

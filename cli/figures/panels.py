@@ -151,31 +151,14 @@ def drawing(axes: Axes, title: str) -> None:
     _few_ticks(axes, 7)
 
 
-def letters(axes: Axes, chain: Sequence[complex], names: str, numbered: int = -1) -> None:
-    """The letters of a chain's joints, each on the side where its links are not; farther out beside a number."""
-    box = {"boxstyle": "round,pad=0.08", "facecolor": "white", "edgecolor": "none", "alpha": 0.7}
-    for i, (point, name) in enumerate(zip(chain, names, strict=True)):
-        linked = [*chain[max(i - 1, 0) : i], *chain[i + 1 : i + 2]]
-        nearest = min((abs(other - point), index) for index, other in enumerate(chain) if other != point)[1]
-        away = sum(_unit(point - other) for other in dict.fromkeys([*linked, chain[nearest]]))
-        if abs(away) < 0.3:
-            away = 1j * _unit(point - linked[0])
-        shift = (17.0 if i == numbered else 10.0) * _unit(away)
-        axes.annotate(
-            name,
-            (point.real, point.imag),
-            (shift.real, shift.imag),
-            textcoords="offset points",
-            ha="center",
-            va="center",
-            fontsize=9,
-            bbox=box,
-            zorder=8,
-        )
-
-
-def _unit(vector: complex) -> complex:
-    return vector / abs(vector) if vector else 0j
+def extreme(axes: Axes, degrees: float, value: float, *, above: bool, unit: str = "") -> None:
+    """A marked extreme of a curve over a turn, with its value."""
+    axes.plot([degrees], [value], "o", color=style.RED, markersize=4.0, zorder=5)
+    side = "right" if degrees > 306.0 else "left" if degrees < 54.0 else "center"
+    look: dict[str, Any] = {"ha": side, "va": "bottom" if above else "top", "fontsize": 7.5, "zorder": 6}
+    words = f"{style.number(value, 5)}{unit} at {degrees:.5g}°"
+    shift = (0, 5 if above else -5)
+    axes.annotate(words, (degrees, value), shift, textcoords="offset points", path_effects=style.outlined(), **look)
 
 
 def legend_beside(axes: Axes, drawing: Axes, title: str = "") -> None:
@@ -264,7 +247,7 @@ def curvatures(axes: Axes, cams: Sequence[DiscCam], xlabel: str) -> None:
     legend_above(axes)
 
 
-def cam_outline(axes: Axes, cam: DiscCam, color: str, axis: complex = 0j, *, pitch_curve: bool = True) -> complex:
+def cam_outline(axes: Axes, cam: DiscCam, color: str, axis: complex = 0j) -> complex:
     """A cam at cam angle 0, to scale: profile, pitch curve dashed, roller; the roller's centre is returned."""
     import numpy as np
 
@@ -274,8 +257,7 @@ def cam_outline(axes: Axes, cam: DiscCam, color: str, axis: complex = 0j, *, pit
     axes.fill(profile.real, profile.imag, color=color, alpha=0.08, linewidth=0)
     axes.plot(profile.real, profile.imag, color=color, linewidth=1.7, label=f"{cam.name}, profile", zorder=3)
     dashes: Any = (0, (5, 3))
-    if pitch_curve:
-        axes.plot(pitch.real, pitch.imag, color=color, linewidth=0.9, linestyle=dashes, label="pitch curve", zorder=3)
+    axes.plot(pitch.real, pitch.imag, color=color, linewidth=0.9, linestyle=dashes, label="pitch curve", zorder=3)
     style.circle(axes, roller, cam.roller_radius, color=color, linewidth=1.4, zorder=4)
     axes.plot([roller.real], [roller.imag], "+", color=color, markersize=7, zorder=5)
     return roller

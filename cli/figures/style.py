@@ -6,21 +6,18 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+from gearlink.cli.scenes import colors
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-# Colours that stay apart for colour-blind readers and in grey print (Okabe and Ito).
-BLUE, ORANGE, GREEN, RED, PURPLE, SKY, BLACK = (
-    "#0072B2",
-    "#E69F00",
-    "#009E73",
-    "#D55E00",
-    "#CC79A7",
-    "#56B4E9",
-    "#222222",
-)
-GREY, LIGHT = "#777777", "#DDDDDD"
+BLUE, ORANGE, GREEN, RED = colors.BLUE, colors.ORANGE, colors.GREEN, colors.RED
+PURPLE, SKY, BLACK, GREY, LIGHT = colors.PURPLE, colors.SKY, colors.BLACK, colors.GREY, colors.LIGHT
+DASHED: Any = (0, (5, 3))
+DOTTED: Any = (0, (1, 2))
+CHAIN: Any = (0, (9, 2.5, 1.5, 2.5))
+"""A dash-dotted line, as of axes and pitch circles."""
 
 
 def figure(width: float, height: float, title: str) -> Figure:
@@ -60,30 +57,58 @@ def drawing(axes: Axes, title: str = "") -> None:
         spine.set_color(LIGHT)
 
 
-def circle(axes: Axes, center: complex, radius: float, **style: Any) -> None:
-    """A circle; styles are those of a line."""
+def disc(axes: Axes, center: complex, radius: float, **look: Any) -> None:
+    """A disc, or a circle where the look says `fill=False`."""
     from matplotlib.patches import Circle
 
-    axes.add_patch(Circle((center.real, center.imag), radius, fill=False, **style))
+    axes.add_patch(Circle((center.real, center.imag), radius, **look))
 
 
-def link(axes: Axes, points: Sequence[complex], color: str = BLACK, width: float = 2.2, **style: Any) -> None:
+def circle(axes: Axes, center: complex, radius: float, **look: Any) -> None:
+    """A circle; the look is that of a line."""
+    disc(axes, center, radius, fill=False, **look)
+
+
+def link(
+    axes: Axes, points: Sequence[complex], color: str = BLACK, width: float = 2.2, *, zorder: float = 4.0, **look: Any
+) -> None:
     """A chain of links with its joints."""
     x, y = [p.real for p in points], [p.imag for p in points]
-    axes.plot(x, y, color=color, linewidth=width, solid_capstyle="round", zorder=4, **style)
-    axes.plot(x, y, "o", color="white", markeredgecolor=color, markersize=4.5, zorder=5)
+    axes.plot(x, y, color=color, linewidth=width, solid_capstyle="round", zorder=zorder, **look)
+    dots = {"color": "white", "markeredgecolor": color, "markersize": min(2.5 + width, 4.7)}
+    axes.plot(x, y, "o", **dots, zorder=zorder + 0.5)  # type: ignore[arg-type]
 
 
-def pivot(axes: Axes, point: complex, name: str = "", size: float = 7.0) -> None:
-    """A fixed pivot with its letter."""
-    axes.plot([point.real], [point.imag], "^", color=BLACK, markersize=size, zorder=6)
-    letter(axes, point, name)
+def pivot(axes: Axes, point: complex, size: float = 13.0) -> None:
+    """A fixed pivot: a pin on its ground."""
+    x, y, ground = [point.real], [point.imag], [(0.0, 0.0), (-1.0, -1.6), (1.0, -1.6), (0.0, 0.0)]
+    axes.plot(x, y, marker=ground, color=BLACK, markersize=size, linestyle="", zorder=5.5)
+    axes.plot(x, y, "o", color="white", markeredgecolor=BLACK, markersize=0.35 * size, zorder=5.6)
 
 
-def letter(axes: Axes, point: complex, name: str, shift: tuple[float, float] = (5, 5)) -> None:
-    """The letter of a point."""
+def letter(axes: Axes, point: complex, name: str, shift: tuple[float, float]) -> None:
+    """The letter of a point, so many points away from it."""
     if name:
-        axes.annotate(name, (point.real, point.imag), shift, textcoords="offset points", fontsize=9, zorder=7)
+        look: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": 9.5, "zorder": 8}
+        place, halo = (point.real, point.imag), outlined()
+        axes.annotate(name, place, shift, textcoords="offset points", path_effects=halo, **look)
+
+
+def outlined() -> list[Any]:
+    """A thin white outline of letters, which keeps them legible on lines."""
+    from matplotlib.patheffects import withStroke
+
+    return [withStroke(linewidth=2.2, foreground="white")]
+
+
+def number(value: float, digits: int = 6, scale: float = 1.0) -> str:
+    """A value in so many digits with a true minus sign; rounding noise of values of that scale is 0.
+
+    Example
+        >>> number(-1.25), number(5.6e-17), number(5e-17, scale=0.0)
+        ('−1.25', '0', '5e−17')
+    """
+    return f"{0.0 if abs(value) < 1e-13 * scale else value:.{digits}g}".replace("-", "−")
 
 
 def arrow(axes: Axes, start: complex, vector: complex, color: str = RED) -> None:
@@ -107,23 +132,17 @@ def dimension(
     *,
     from_points: Sequence[complex] = (),
     shift: tuple[float, float] = (0, 3),
-    color: str = BLACK,
+    upright: bool = False,
 ) -> None:
     """A dimension line with arrows at both ends, its words beside the middle, and extension lines from the points."""
     for point, foot in zip(from_points, (start, end), strict=False):
         axes.plot([point.real, foot.real], [point.imag, foot.imag], color=GREY, linewidth=0.6, zorder=1)
-    shape = {"arrowstyle": "<|-|>", "color": color, "linewidth": 0.9, "shrinkA": 0, "shrinkB": 0, "mutation_scale": 9}
+    shape = {"arrowstyle": "<|-|>", "color": BLACK, "linewidth": 0.9, "shrinkA": 0, "shrinkB": 0, "mutation_scale": 9}
     axes.annotate("", (end.real, end.imag), (start.real, start.imag), arrowprops=shape, zorder=6)
     axes.update_datalim([(start.real, start.imag), (end.real, end.imag)])
     middle = (start + end) / 2.0
-    axes.annotate(
-        words,
-        (middle.real, middle.imag),
-        shift,
-        textcoords="offset points",
-        ha="center",
-        va="bottom" if shift[1] >= 0 else "top",
-        fontsize=8,
-        color=color,
-        zorder=7,
-    )
+    look: dict[str, Any] = {"ha": "center", "va": "bottom" if shift[1] >= 0 else "top", "fontsize": 8, "zorder": 7}
+    if upright:
+        look |= {"rotation": 90, "ha": "right", "va": "center"}
+        shift = (-3, 0)
+    axes.annotate(words, (middle.real, middle.imag), shift, textcoords="offset points", **look)

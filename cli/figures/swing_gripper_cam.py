@@ -4,8 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.figures import panels, style
+import numpy as np
+
+from gearlink.cli.figures import panels, scene_axes, style
 from gearlink.cli.figures.swing_gripper_motion import phases
+from gearlink.cli.scenes.scene import Chain, Scene, letters
+from gearlink.cli.scenes.swing_gripper import build
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -16,8 +20,6 @@ if TYPE_CHECKING:
 
 def draw(command: str, design: SwingGripper) -> Figure:
     """Rocker, pressure angle and curvature over the cam angle; below them the cams to scale."""
-    import numpy as np
-
     cams = design.cams
     made = panels.page(f"{design.spec.name}: {command}")
     rows: Any = made.add_gridspec(4, 1, height_ratios=(1.2, 1.3, 1.3, 5.2))
@@ -49,22 +51,19 @@ def _accelerating(axes: Axes, design: SwingGripper) -> None:
 
 def _cams(axes: Axes, design: SwingGripper) -> None:
     """The cams about their axis at cam angle 0, the rollers on the rocker, the shaft."""
-    import numpy as np
-
     spec, linkage = design.spec.cam, design.linkage
     assert spec is not None, "the cams have asked for it"
     panels.drawing(axes, "Cams at cam angle 0, to scale")
-    axis, pivot = design.cam_center, linkage.input_pivot
+    axis, pivot = design.cam_center, np.array([linkage.input_pivot])
     for cam, color in zip(design.cams, panels.CAM_COLORS, strict=False):
-        roller = panels.cam_outline(axes, cam, color, axis)
-        style.link(axes, [pivot, roller], style.BLACK, 1.8)
-    rocker = linkage.motion(np.array([0.0]), 0).input_angle[0]
-    c = pivot + linkage.input * complex(np.exp(1j * rocker))
-    style.link(axes, [pivot, c], style.GREY, 1.4)
-    panels.letters(axes, [pivot, c], "AC")
+        panels.cam_outline(axes, cam, color, axis)
+    scene = build(design, np.zeros(1))
+    rocker = [part for part in scene.parts if isinstance(part, Chain) and not part.marked]
+    c = next(mark.point for mark in scene.marks if mark.text == "C")
+    arm = Chain(joints=(pivot, c), color=style.GREY)
+    scene_axes.draw(axes, Scene(parts=(*rocker, arm), marks=letters("A", A=pivot, C=c)))
     panels.base_circles(axes, design.cams, axis)
     if spec.shaft_radius > 0.0:
         style.circle(axes, axis, spec.shaft_radius, color=style.BLACK, linewidth=0.9)
         axes.plot([], [], color=style.BLACK, linewidth=0.9, label=f"shaft, {spec.shaft_radius:g} mm")
     panels.cam_axis(axes, axis, design.cams, spec.sense, spec.shaft_radius)
-    style.pivot(axes, pivot)

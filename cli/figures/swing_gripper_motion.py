@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.figures import panels, style
+import numpy as np
+
+from gearlink.cli.figures import panels, scene_axes, style
+from gearlink.cli.scenes.scene import Chain
+from gearlink.cli.scenes.swing_gripper import build, drum_center
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -16,15 +20,6 @@ if TYPE_CHECKING:
 
 _ROWS = 1440
 _HANDOVER = style.RED
-
-
-@dataclass(frozen=True, slots=True)
-class _Station:
-    """A position of the mechanism that is drawn: its name, cylinder angle [deg] and colour."""
-
-    name: str
-    degrees: float
-    color: str
 
 
 def draw(command: str, design: SwingGripper) -> Figure:
@@ -58,8 +53,6 @@ def phases(design: SwingGripper) -> list[panels.Phase]:
 
 def _law(axes: list[Axes], design: SwingGripper) -> None:
     """beta, beta', beta'' over the cylinder angle, the handover marked; the derivatives in time on the right."""
-    import numpy as np
-
     degrees = np.arange(_ROWS) * (360.0 / _ROWS)
     values = list(design.law.evaluate(degrees, 2))
     at_handover = [float(v[0]) for v in design.law.evaluate(np.array([design.spec.handover]), 2)]
@@ -93,8 +86,6 @@ def _in_time(axes: Axes, factor: float, unit: str) -> None:
 
 def _torques(axes: Axes, design: SwingGripper) -> None:
     """Contact torques of both rollers: spring and inertia; what is left above zero keeps them on their cams."""
-    import numpy as np
-
     table = design.table("forces", samples=_ROWS)
     column = dict(zip(table.columns, table.data, strict=True))
     panels.turn_panel(axes, "torque [N m]")
@@ -120,60 +111,16 @@ def _torques(axes: Axes, design: SwingGripper) -> None:
 
 
 def mechanism(axes: Axes, design: SwingGripper) -> None:
-    """Linkage and gripper at bite, handover and far dwell, the drum, the path of the tip, the cams at the bite."""
-    import numpy as np
-
-    from gearlink.core.swing_gripper.positions import positions
-
-    panels.drawing(axes, "Mechanism to scale")
-    spec, law = design.spec, design.law
-    arm = spec.arm.length, math.radians(spec.arm.direction)
-    stations = (
-        _Station("bite", 0.0, style.BLUE),
-        _Station("handover", spec.handover, _HANDOVER),
-        _Station("far dwell", law.starts[3], style.GREEN),
-    )
-    at = positions(design.linkage, *arm, np.array([station.degrees for station in stations]))
-    path = positions(design.linkage, *arm, np.linspace(0.0, law.starts[3], 121)).f
-    for i, station in enumerate(stations):
-        joints = [complex(points[i]) for points in (at.c, at.d, at.f)]
-        _linkage(axes, at.a, at.e, joints, station)
-    axes.plot(path.real, path.imag, color=style.ORANGE, linewidth=1.4, zorder=3, label="path of the sheet's edge")
-    _letters(axes, at.a, at.e, [complex(points[0]) for points in (at.c, at.d, at.f)])
-    given = spec.cylinder.center
-    center = complex(*given) if given else design.handover_center
-    style.circle(axes, center, spec.cylinder.radius, color=style.GREY, linewidth=1.2)
-    axes.plot([], [], color=style.GREY, linewidth=1.2, label=f"drum, radius {spec.cylinder.radius:g} mm")
-    style.pivot(axes, center, "", 6.0)
-    axes.plot([at.e.real, center.real], [at.e.imag, center.imag], color=style.GREY, linewidth=0.7, linestyle="-.")
-    if spec.cam is not None:
-        _cams(axes, design, at.a)
-    for point in (at.a, at.e):
-        style.pivot(axes, point, "", 7.0)
-
-
-def _linkage(axes: Axes, a: complex, e: complex, joints: list[complex], station: _Station) -> None:
-    """A-C-D-E with the gripper arm, rigid with ED, and the tip."""
-    c, d, f = joints
-    strong = station.degrees == 0.0
-    style.link(axes, [a, c, d, e], station.color, 2.2 if strong else 1.3, label=f"{station.name}, {station.degrees:g}°")
-    axes.fill([e.real, d.real, f.real], [e.imag, d.imag, f.imag], color=station.color, alpha=0.10, linewidth=0)
-    width = 2.6 if strong else 1.6
-    axes.plot([e.real, f.real], [e.imag, f.imag], color=station.color, linewidth=width, zorder=4)
-    axes.plot([f.real], [f.imag], "D", color=station.color, markersize=5, zorder=6)
-
-
-def _letters(axes: Axes, a: complex, e: complex, joints: list[complex]) -> None:
-    c, d, f = joints
-    panels.letters(axes, [a, c, d, e], "ACDE")
-    panels.letters(axes, [e, f], " F")
-
-
-def _cams(axes: Axes, design: SwingGripper, a: complex) -> None:
-    """The cams at cylinder angle 0, where the rocker stands at the bite."""
-    spec = design.spec.cam
-    assert spec is not None, "drawn only where the file has a cam"
-    for cam, color in zip(design.cams, ("#888888", "#B0A090"), strict=False):
-        roller = panels.cam_outline(axes, cam, color, design.cam_center, pitch_curve=False)
-        style.link(axes, [a, roller], style.BLUE, 1.4)
-    panels.cam_axis(axes, design.cam_center, design.cams, spec.sense, spec.shaft_radius)
+    """The machine at the bite; its linkage and gripper lightly at handover and far dwell, the line of centres."""
+    panels.drawing(axes, "Mechanism at the bite, to scale")
+    far = design.law.starts[3]
+    stations = ("bite", 0.0, style.BLUE), ("handover", design.spec.handover, _HANDOVER), ("far dwell", far, style.GREEN)
+    scene = build(design, np.array([degrees for _, degrees, _ in stations]) / 360.0)
+    scene_axes.draw(axes, scene)
+    linkage = replace(scene, parts=tuple(part for part in scene.parts if isinstance(part, Chain)))
+    for i, (name, degrees, color) in enumerate(stations):
+        scene_axes.lightly(axes, linkage, i, color, f"{name}, {degrees:g}°")
+    e, drum = complex(design.linkage.output_pivot), drum_center(design)
+    axes.plot([e.real, drum.real], [e.imag, drum.imag], color=style.GREY, linewidth=0.7, linestyle="-.", zorder=3)
+    if design.spec.cam is not None:
+        panels.cam_axis(axes, design.cam_center, design.cams, design.spec.cam.sense, design.spec.cam.shaft_radius)

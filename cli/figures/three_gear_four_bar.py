@@ -3,22 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from gearlink.cli.figures import panels, style
-from gearlink.cli.figures.three_gear_mechanism import mechanism, numbers
+from gearlink.cli.figures import linkage, panels, style
+from gearlink.cli.figures.three_gear_mechanism import mechanism, words
 from gearlink.core.three_gear.design import ThreeGearFourBar
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-
-DWELL, BACKWARD = "#CFE8F7", "#FBE3C8"
-_DASHED: Any = (0, (5, 3))
-_DOTTED: Any = (0, (1, 2))
-_TURN = 360.0
 
 
 def draw(command: str, design: ThreeGearFourBar) -> Figure:
@@ -33,23 +27,7 @@ def draw(command: str, design: ThreeGearFourBar) -> Figure:
     charts = [_output, *([_magnified] if design.dwell_crank_angles else []), _speed]
     if command == "analyze":
         charts += [_acceleration, _transmission]
-    return _page(title, design, charts)
-
-
-def _page(title: str, design: ThreeGearFourBar, charts: Sequence[Callable[[Axes, ThreeGearFourBar], None]]) -> Figure:
-    """The mechanism and its numbers over the charts, two to a row, an odd one as wide as the page."""
-    rows = math.ceil(len(charts) / 2)
-    figure = panels.page(title, min(0.42 + 0.19 * rows, 1.0))
-    halves = figure.add_gridspec(2, 1, height_ratios=[2.0, rows])
-    head = halves[0].subgridspec(1, 2, width_ratios=[1.75, 1.0])
-    drawing = figure.add_subplot(head[0])
-    mechanism(drawing, design)
-    numbers(figure.add_subplot(head[1]), drawing, design)
-    grid = halves[1].subgridspec(rows, 2)
-    for i, chart in enumerate(charts):
-        last_alone = i == len(charts) - 1 and i % 2 == 0
-        chart(figure.add_subplot(grid[i // 2, :] if last_alone else grid[i // 2, i % 2]), design)
-    return figure
+    return linkage.sheet(title, design, mechanism, words(design), charts)
 
 
 # The motion
@@ -71,52 +49,31 @@ def _dwell(design: ThreeGearFourBar) -> Stretch | None:
     return Stretch(math.degrees(places[0]), 0.0) if places else None
 
 
-def _column(design: ThreeGearFourBar, name: str) -> tuple[Any, Any]:
-    """A column of the motion table over the crank angle [deg], closed at 360 deg."""
-    import numpy as np
-
-    table = design.table("motion")
-    data = dict(zip(table.columns, table.data, strict=True))
-    gained = _TURN * design.mean_ratio if name == "output_angle" else 0.0
-    return np.append(data["crank_angle"], _TURN), np.append(data[name], data[name][0] + gained)
-
-
 def _mark(axes: Axes, design: ThreeGearFourBar, label: bool = False) -> None:
-    """The dwell shaded, the back-step darker, lines at the standstills."""
+    """The dwell tinted, the back-step hatched, lines at the standstills."""
     dwell = _dwell(design)
     if dwell is None:
         return
     if dwell.width:
-        _shade(axes, dwell, DWELL, "dwell $\\varphi_{13}$" if label else None)
+        linkage.shade(axes, linkage.DWELL, dwell.start, dwell.width, "dwell $\\varphi_{13}$" if label else None)
     if design.back_step is not None:
-        step = Stretch(dwell.start, math.degrees(design.back_step.crank_angle))
-        _shade(axes, step, BACKWARD, "back-step $\\varphi_{12}$" if label else None)
-    for i, place in enumerate(design.dwell_crank_angles):
-        words = "standstill" if label and i == 0 else None
-        axes.axvline(math.degrees(place), color=style.GREY, linewidth=0.8, linestyle=_DASHED, zorder=1, label=words)
-
-
-def _shade(axes: Axes, stretch: Stretch, color: str, label: str | None) -> None:
-    phase = panels.Phase("dwell", stretch.start, stretch.start + stretch.width)
-    for start, end in phase.within_turn():
-        axes.axvspan(start, end, color=color, linewidth=0, zorder=0, label=label)
-        label = None
-
-
-def _chart(axes: Axes, title: str, ylabel: str) -> None:
-    style.curves(axes, "crank angle [deg]", ylabel)
-    panels.small_ticks(axes)
-    style.full_turn(axes)
-    panels.heading(axes, title)
+        width, words = math.degrees(design.back_step.crank_angle), "back-step $\\varphi_{12}$" if label else None
+        linkage.shade(axes, linkage.BACKWARD, dwell.start, width, words)
+    linkage.standstills(axes, design.dwell_crank_angles, "standstill" if label else None)
 
 
 def _output(axes: Axes, design: ThreeGearFourBar) -> None:
-    _chart(axes, "Output angle", "output angle [deg]")
+    linkage.chart(axes, "Output angle", "output angle [deg]")
     _mark(axes, design, label=True)
-    x, y = _column(design, "output_angle")
+    x, y = linkage.over_turn(design, "output_angle", linkage.TURN * design.mean_ratio)
     axes.plot(x, y, color=style.BLUE, linewidth=1.6, gid="output-angle")
     axes.plot(
-        [0.0, _TURN], [0.0, _TURN * design.mean_ratio], color=style.GREY, linewidth=0.9, linestyle=_DOTTED, label="mean"
+        [0.0, linkage.TURN],
+        [0.0, linkage.TURN * design.mean_ratio],
+        color=style.GREY,
+        linewidth=0.9,
+        linestyle=style.DOTTED,
+        label="mean",
     )
     panels.legend_above(axes, 2)
 
@@ -145,10 +102,10 @@ def _magnified(axes: Axes, design: ThreeGearFourBar) -> None:
     if dwell.width:
         _back_step_marks(axes, design, dwell)
     else:
-        axes.axvline(dwell.start, color=style.GREY, linewidth=0.8, linestyle=_DASHED)
+        axes.axvline(dwell.start, color=style.GREY, linewidth=0.8, linestyle=style.DASHED)
         axes.plot([dwell.start], [0.0], "o", color=style.RED, markersize=4.5)
         axes.annotate(
-            f"{dwell.start % _TURN:.5g}°", (dwell.start, 0.0), (6, -12), textcoords="offset points", fontsize=8
+            f"{dwell.start % linkage.TURN:.5g}°", (dwell.start, 0.0), (6, -12), textcoords="offset points", fontsize=8
         )
     axes.set_xlim(low, high)
 
@@ -158,13 +115,13 @@ def _back_step_marks(axes: Axes, design: ThreeGearFourBar, dwell: Stretch) -> No
     step = design.back_step
     assert step is not None, "a dwell of some width comes from a back-step"
     width, back = math.degrees(step.crank_angle), math.degrees(step.angle)
-    axes.axvspan(dwell.start, dwell.start + dwell.width, color=DWELL, linewidth=0, zorder=0)
-    axes.axvspan(dwell.start, dwell.start + width, color=BACKWARD, linewidth=0, zorder=0)
+    axes.axvspan(dwell.start, dwell.start + dwell.width, **linkage.DWELL)
+    axes.axvspan(dwell.start, dwell.start + width, **linkage.BACKWARD)
     marks = ((1, 0.0, 0.0, "center", 6), (2, width, -back, "center", -6), (3, dwell.width, 0.0, "right", 6))
     for number, after, level, side, lift in marks:
         axes.plot([dwell.start + after], [level], "o", color=style.RED, markersize=4.5, zorder=5)
         axes.annotate(
-            f"{number}: {(dwell.start + after) % _TURN:.5g}°",
+            f"{number}: {(dwell.start + after) % linkage.TURN:.5g}°",
             (dwell.start + after, level),
             (0 if side == "center" else -3, lift),
             textcoords="offset points",
@@ -200,58 +157,41 @@ def _tolerance(axes: Axes, design: ThreeGearFourBar, at_start: float, low: float
     panels.legend_above(axes, 1)
 
 
-def _extreme(axes: Axes, place: float, value: float, above: bool) -> None:
-    """A marked extreme with its value."""
-    degrees = math.degrees(place) % _TURN
-    axes.plot([degrees], [value], "o", color=style.RED, markersize=4.0, zorder=5)
-    side = "right" if degrees > 0.85 * _TURN else "left" if degrees < 0.15 * _TURN else "center"
-    axes.annotate(
-        f"{value:.5g} at {degrees:.5g}°",
-        (degrees, value),
-        (0, 5 if above else -5),
-        textcoords="offset points",
-        ha=side,
-        va="bottom" if above else "top",
-        fontsize=7.5,
-        zorder=6,
-    )
-
-
 def _speed(axes: Axes, design: ThreeGearFourBar) -> None:
-    _chart(axes, "Speed ratio", "output speed/\ncrank speed")
+    linkage.chart(axes, "Speed ratio", "output speed/\ncrank speed")
     _mark(axes, design)
-    x, y = _column(design, "speed_ratio")
+    x, y = linkage.over_turn(design, "speed_ratio")
     axes.axhline(0.0, color=style.BLACK, linewidth=0.8)
-    axes.axhline(design.mean_ratio, color=style.GREY, linewidth=0.9, linestyle=_DOTTED, label="mean")
+    axes.axhline(design.mean_ratio, color=style.GREY, linewidth=0.9, linestyle=style.DOTTED, label="mean")
     axes.plot(x, y, color=style.BLUE, linewidth=1.6, gid="speed-ratio")
     extremes = design.speed_extremes
-    _extreme(axes, extremes.greatest_angle, extremes.greatest, True)
-    _extreme(axes, extremes.least_angle, extremes.least, False)
+    panels.extreme(axes, math.degrees(extremes.greatest_angle) % linkage.TURN, extremes.greatest, above=True)
+    panels.extreme(axes, math.degrees(extremes.least_angle) % linkage.TURN, extremes.least, above=False)
     axes.margins(y=0.18)
     panels.legend_above(axes, 3)
 
 
 def _acceleration(axes: Axes, design: ThreeGearFourBar) -> None:
-    _chart(axes, "Acceleration ratio", "output acceleration/\n(crank speed)²")
+    linkage.chart(axes, "Acceleration ratio", "output acceleration/\n(crank speed)²")
     _mark(axes, design)
-    x, y = _column(design, "acceleration_ratio")
+    x, y = linkage.over_turn(design, "acceleration_ratio")
     axes.axhline(0.0, color=style.BLACK, linewidth=0.8)
     axes.plot(x, y, color=style.PURPLE, linewidth=1.6, gid="acceleration-ratio")
     extremes = design.acceleration_extremes
-    _extreme(axes, extremes.greatest_angle, extremes.greatest, True)
-    _extreme(axes, extremes.least_angle, extremes.least, False)
+    panels.extreme(axes, math.degrees(extremes.greatest_angle) % linkage.TURN, extremes.greatest, above=True)
+    panels.extreme(axes, math.degrees(extremes.least_angle) % linkage.TURN, extremes.least, above=False)
     axes.margins(y=0.18)
 
 
 def _transmission(axes: Axes, design: ThreeGearFourBar) -> None:
-    _chart(axes, "Transmission angle", "transmission\nangle [deg]")
+    linkage.chart(axes, "Transmission angle", "transmission\nangle [deg]")
     _mark(axes, design)
-    x, y = _column(design, "transmission_angle")
+    x, y = linkage.over_turn(design, "transmission_angle")
     limit = design.spec.limits.transmission_angle
     axes.plot(x, y, color=style.GREEN, linewidth=1.6, gid="transmission-angle")
-    axes.axhline(limit, color=style.RED, linewidth=1.1, linestyle=_DASHED, label=f"limit {limit:g}°")
+    axes.axhline(limit, color=style.RED, linewidth=1.1, linestyle=style.DASHED, label=f"limit {limit:g}°")
     least = math.degrees(design.min_transmission_angle)
-    axes.axhline(least, color=style.GREY, linewidth=0.8, linestyle=_DOTTED, label=f"least {least:.5g}°")
+    axes.axhline(least, color=style.GREY, linewidth=0.8, linestyle=style.DOTTED, label=f"least {least:.5g}°")
     axes.set_ylim(0.0, 92.0)
     axes.set_yticks(range(0, 91, 15))
     panels.legend_above(axes, 1)

@@ -1,50 +1,51 @@
-"""Figures of a two-gear four-bar: the mechanism where the output stands, and its output over a turn."""
+"""Sheets of a two-gear four-bar: the mechanism where the output stands, and its output over a turn."""
 
 from __future__ import annotations
 
 import cmath
 import math
+from functools import partial
 from typing import TYPE_CHECKING
 
-from gearlink.cli.figures import linkage, panels, style
+import numpy as np
+
+from gearlink.cli.figures import linkage, panels, scene_axes, style
+from gearlink.cli.scenes.two_gear_four_bar import build
 from gearlink.core.gears.pair import GearPair
-from gearlink.core.linkages.fourbar import solve
 from gearlink.core.planet_linkages.two_gear_design import TwoGearFourBar
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_FACTS = (
-    "crank_length",
-    "frame_length",
-    "gear_ratio",
-    "standstill_coupler_ratio",
-    "dwell_teeth_ratio",
-    "dwell_crank_angles",
-    "back_step_angle",
-    "min_transmission_angle",
-)
-_TURN = 360.0
+_WORDS = {
+    "crank_length": "crank AB",
+    "coupler_length": "coupler BC",
+    "rocker_length": "rocker CD",
+    "frame_length": "frame AD",
+    "gear_ratio": "gear ratio, −z2/z5 (ring: z2/z5)",
+    "standstill_coupler_ratio": "w2/w1 at a standstill",
+    "dwell_teeth_ratio": "greatest z5/z2 with a standstill",
+    "dwell_crank_angles": "standstills",
+    "back_step_angle": "back-step of the output",
+    "min_transmission_angle": "least transmission angle",
+}
 
 
 def draw(command: str, design: TwoGearFourBar) -> Figure:
-    """The figure of a command on a two-gear four-bar."""
+    """The sheet of a command on a two-gear four-bar."""
     title = f"{design.spec.name}: {command}"
     if command == "gear" and isinstance(design.mesh, GearPair):
         from gearlink.cli.figures.gear_mesh import Mesh, mesh_figure
 
         return mesh_figure(title, [Mesh(design.mesh, "", ("2", "5"))])
-    figure = panels.page(title, 0.85)
-    top, bottom = linkage.two_parts(figure, 1.1)
-    mechanism(top.add_subplot(), design)
-    (upper, speed), (lower, coupler) = bottom.subplots(2, 2)
-    _output(upper, design)
-    _curve(speed, design, "Output speed", "speed ratio", "speed_ratio")
-    _curve(lower, design, "Output acceleration", "acceleration ratio\n[1/rad]", "acceleration_ratio")
-    _curve(coupler, design, "Coupler speed", "w2/w1", "coupler_ratio")
-    coupler.axhline(design.standstill_coupler_ratio, color=style.RED, linewidth=0.9, linestyle=linkage.DASHED)
-    return figure
+    charts: list[linkage.Panel] = [
+        _output,
+        partial(_curve, title="Output speed", ylabel="speed ratio", name="speed_ratio"),
+        partial(_curve, title="Output acceleration", ylabel="acceleration ratio\n[1/rad]", name="acceleration_ratio"),
+        partial(_curve, title="Coupler speed", ylabel="w2/w1", name="coupler_ratio"),
+    ]
+    return linkage.sheet(title, design, mechanism, _WORDS, charts)
 
 
 def mechanism(axes: Axes, design: TwoGearFourBar) -> None:
@@ -52,52 +53,40 @@ def mechanism(axes: Axes, design: TwoGearFourBar) -> None:
     places = design.dwell_crank_angles
     phi = places[0] if places else design.speed_ratio_min_at
     words = "standstill" if places else "least output speed"
-    style.drawing(axes)
     panels.heading(axes, f"Mechanism at the {words}, crank angle {math.degrees(phi):.5g}°")
-    state = solve(design.linkage, phi)
-    pin = cmath.rect(design.crank_length, phi)
-    d = complex(design.frame_length)
-    joint = d + cmath.rect(design.rocker_length, state.rocker_angle)
-    pitch, tip = design.mesh.reference_radius, design.mesh.tip_radius
-    name = "ring gear" if design.internal else "sun"
-    linkage.gear(axes, 0j, pitch[1], tip[1], style.ORANGE, f"gear 5, {name}, z = {design.output_teeth}")
-    linkage.gear(axes, pin, pitch[0], tip[0], style.BLUE, f"gear 2, planet on BC, z = {design.planet_teeth}")
-    pole = cmath.rect(pitch[1], phi)
+    scene = build(design, np.array([phi / (2.0 * math.pi)]))
+    scene_axes.draw(axes, scene)
+    pole, d = cmath.rect(design.mesh.reference_radius[1], phi), complex(design.frame_length)
     axes.plot([pole.real], [pole.imag], "D", color=style.RED, markersize=5, zorder=7, label="pitch point of the gears")
-    far = d + 1.15 * (pole - d)
-    axes.plot([joint.real, far.real], [joint.imag, far.imag], color=style.RED, linewidth=0.8, linestyle=linkage.DASHED)
-    style.link(axes, [0j, pin, joint, d])
-    style.pivot(axes, 0j)
-    style.pivot(axes, d)
-    linkage.letters(axes, {"A": (0j, (pin, d)), "B": (pin, (0j, joint)), "C": (joint, (pin, d)), "D": (d, (joint, 0j))})
-    linkage.facts(axes, design, _FACTS)
+    joint, far = complex(scene.marks[2].point[0]), d + 1.15 * (pole - d)
+    look = {"color": style.RED, "linewidth": 0.8, "linestyle": style.DASHED, "zorder": 3.8}
+    axes.plot([joint.real, far.real], [joint.imag, far.imag], **look, label="from D through the pitch point")
 
 
 def _curve(axes: Axes, design: TwoGearFourBar, title: str, ylabel: str, name: str) -> None:
-    data = linkage.columns(design, "motion")
     linkage.chart(axes, title, ylabel)
     _marks(axes, design)
     axes.axhline(0.0, color=style.GREY, linewidth=0.8)
-    axes.plot(linkage.closed(data["crank_angle"], _TURN), linkage.closed(data[name]), color=style.BLUE, linewidth=1.6)
+    axes.plot(*linkage.over_turn(design, name), color=style.BLUE, linewidth=1.6)
+    if name == "coupler_ratio":
+        stands = design.standstill_coupler_ratio
+        axes.axhline(stands, color=style.RED, linewidth=0.9, linestyle=style.DASHED, label="output stands")
+        panels.legend_above(axes, 1)
 
 
 def _output(axes: Axes, design: TwoGearFourBar) -> None:
-    data = linkage.columns(design, "motion")
     linkage.chart(axes, "Output angle", "output angle [deg]")
-    _marks(axes, design)
-    turns = linkage.closed(data["crank_angle"], _TURN)
-    output = linkage.closed(data["output_angle"], _TURN * design.mean_ratio)
-    axes.plot(turns, output, color=style.BLUE, linewidth=1.6, label="output")
-    ends = [0.0, _TURN * design.mean_ratio]
-    axes.plot([0.0, _TURN], ends, color=style.GREY, linewidth=0.9, linestyle=linkage.DOTTED, label="mean")
+    _marks(axes, design, label=True)
+    gained = linkage.TURN * design.mean_ratio
+    axes.plot(*linkage.over_turn(design, "output_angle", gained), color=style.BLUE, linewidth=1.6, label="output")
+    look = {"color": style.GREY, "linewidth": 0.9, "linestyle": style.DOTTED}
+    axes.plot([0.0, linkage.TURN], [0.0, gained], **look, label="mean")
     panels.legend_above(axes, 2)
 
 
-def _marks(axes: Axes, design: TwoGearFourBar) -> None:
-    """Back-steps shaded, standstills as lines."""
-    for step in design.back_steps:
-        phase = panels.Phase("dwell", math.degrees(step.start), math.degrees(step.end))
-        for start, end in phase.within_turn():
-            axes.axvspan(start, end, color=linkage.BACKWARD, linewidth=0, zorder=0)
-    for place in design.dwell_crank_angles:
-        axes.axvline(math.degrees(place), color=style.GREY, linewidth=0.8, linestyle=linkage.DASHED, zorder=1)
+def _marks(axes: Axes, design: TwoGearFourBar, label: bool = False) -> None:
+    """Back-steps hatched, standstills as lines."""
+    for i, step in enumerate(design.back_steps):
+        start, end = math.degrees(step.start), math.degrees(step.end)
+        linkage.shade(axes, linkage.BACKWARD, start, end - start, "back-step" if label and i == 0 else None)
+    linkage.standstills(axes, design.dwell_crank_angles, "standstill" if label else None)

@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING
 
 from PIL import Image, ImageDraw
 
-from gearlink.cli.moving.brush import BLACK, FINER, GREY, LIGHT, WHITE, dashes, flat, font
+from gearlink.cli.moving.brush import FINER, dashes, flat, font
 from gearlink.cli.moving.stage import ChartScale, Stage
+from gearlink.cli.scenes.colors import BLACK, GREY, LIGHT, WHITE
 from gearlink.cli.scenes.scene import Line
 
 if TYPE_CHECKING:
@@ -32,8 +33,6 @@ def backdrop(stage: Stage) -> Picture:
 
 def _line(draw: ImageDraw.ImageDraw, line: Line, stage: Stage) -> None:
     points = FINER * stage.pixels(line.points)
-    if line.fill:
-        draw.polygon(flat(points), fill=line.fill)
     width = max(1, round(line.width * FINER))
     for stretch in dashes(points, 7.0 * FINER) if line.dashed else [points]:
         draw.line(flat(stretch), fill=line.color, width=width)

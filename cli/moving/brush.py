@@ -15,7 +15,6 @@ if TYPE_CHECKING:
 
 FINER = 2
 """The large picture has so many pixels for one of the reduced."""
-WHITE, BLACK, GREY, LIGHT = "#ffffff", "#222222", "#777777", "#dddddd"
 
 
 def flat(points: Points) -> list[float]:

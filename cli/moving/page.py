@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import html
 import json
+from collections.abc import Iterator
 from importlib import resources
 from typing import Any
 
 import numpy as np
 
-from gearlink.cli.moving.stage import ChartScale, Stage, label_shift
+from gearlink.cli.moving.stage import ChartScale, Stage
 from gearlink.cli.scenes.scene import Body, Chain, Line, Points, Reals
 
 
@@ -23,7 +24,8 @@ def page(stage: Stage, fps: float) -> str:
 
 
 def _data(stage: Stage, fps: float) -> dict[str, Any]:
-    scene = stage.scene
+    scene, (letters, labels) = stage.scene, stage.shifts
+    on_body = iter(labels)
     return {
         "width": stage.width,
         "height": stage.height,
@@ -31,37 +33,37 @@ def _data(stage: Stage, fps: float) -> dict[str, Any]:
         "count": stage.count,
         "title": stage.title,
         "text": stage.text_size,
-        "parts": [_part(stage, part) for part in scene.parts],
-        "marks": [{"p": _xy(stage.pixels(m.point)), "text": m.text, "pivot": m.pivot} for m in scene.marks],
+        "parts": [_part(stage, part, on_body) for part in scene.parts],
+        "marks": [
+            {
+                "p": _xy(stage.pixels(mark.point)),
+                "text": mark.text,
+                "pivot": mark.pivot,
+                "shift": _xy(np.array([shift])),
+            }
+            for mark, shift in zip(scene.marks, letters, strict=True)
+        ],
         "readouts": stage.texts(),
         "chart": _chart(stage),
     }
 
 
-def _part(stage: Stage, part: Body | Chain | Line) -> dict[str, Any]:
+def _part(stage: Stage, part: Body | Chain | Line, on_body: Iterator[complex]) -> dict[str, Any]:
+    look = {"color": part.color, "width": part.width}
     if isinstance(part, Line):
-        return {
-            "is": "line",
-            "p": _xy(stage.pixels(part.points)),
-            "color": part.color,
-            "width": part.width,
-            "dashed": part.dashed,
-            "fill": part.fill,
-        }
+        return {"is": "line", "p": _xy(stage.pixels(part.points)), "dashed": part.dashed, **look}
     if isinstance(part, Chain):
         joints = [_xy(stage.pixels(joint)) for joint in part.joints]
-        return {"is": "chain", "p": joints, "color": part.color, "width": part.width, "marked": part.marked}
-    shift = label_shift(part, stage.scale, stage.text_size)
+        return {"is": "chain", "p": joints, "marked": part.marked, **look}
     return {
         "is": "body",
         "o": _xy(stage.scale * np.conj(part.outline)),
         "p": _xy(stage.pixels(part.place)),
         "t": _rounded(-part.turn, 6),
-        "color": part.color,
-        "width": part.width,
         "fill": part.fill,
         "label": part.label,
-        "shift": [round(shift.real, 2), round(shift.imag, 2)],
+        "shift": _xy(np.array([next(on_body) if part.label else 0j])),
+        **look,
     }
 
 

@@ -11,9 +11,10 @@ import numpy as np
 from PIL import ImageDraw
 
 from gearlink.cli.moving.backdrop import backdrop
-from gearlink.cli.moving.brush import BLACK, FINER, WHITE, bar, disc, flat, font
-from gearlink.cli.moving.stage import ChartScale, Stage, label_shift
-from gearlink.cli.scenes.scene import Body, Chain, Mark, Points
+from gearlink.cli.moving.brush import FINER, bar, disc, flat, font
+from gearlink.cli.moving.stage import ChartScale, Stage
+from gearlink.cli.scenes.colors import BLACK, WHITE
+from gearlink.cli.scenes.scene import Body, Chain, Points, placed
 
 if TYPE_CHECKING:
     from PIL.Image import Image as Picture
@@ -79,7 +80,7 @@ class Raster:
                 self._pivot(draw, mark.point[i : i + 1])
 
     def _body(self, draw: ImageDraw.ImageDraw, body: Body, i: int) -> None:
-        points = flat(self._fine(body.place[i] + body.outline * np.exp(1j * body.turn[i])))
+        points = flat(self._fine(placed(body, i)))
         if body.fill:
             draw.polygon(points, fill=body.fill)
         draw.line(points, fill=body.color, width=max(1, round(body.width * FINER)))
@@ -129,21 +130,18 @@ class Raster:
         for k, texts in enumerate(self._texts):
             place = (0.9 * size + k * 0.24 * self.stage.width, 2.5 * size)
             draw.text(place, texts[i], font=self._font, fill=BLACK)
-        for part in self.stage.scene.parts:
-            if isinstance(part, Body) and part.label:
-                at = complex(self.stage.pixels(part.place[i : i + 1])[0])
-                at += label_shift(part, self.stage.scale, size)
-                self._haloed(draw, at, part.label, "mm", part.color, part.fill or WHITE)
-        for mark in self.stage.scene.marks:
-            self._letter(draw, mark, i)
+        letters, labels = self.stage.shifts
+        labelled = [part for part in self.stage.scene.parts if isinstance(part, Body) and part.label]
+        for body, shift in zip(labelled, labels, strict=True):
+            self._haloed(draw, self._pixel(body.place, i) + shift, body.label, body.color, body.fill or WHITE)
+        for mark, shift in zip(self.stage.scene.marks, letters, strict=True):
+            if mark.text:
+                self._haloed(draw, self._pixel(mark.point, i) + shift, mark.text, BLACK, WHITE)
 
-    def _letter(self, draw: ImageDraw.ImageDraw, mark: Mark, i: int) -> None:
-        if mark.text:
-            at = complex(self.stage.pixels(mark.point[i : i + 1])[0]) + 0.65 * self.stage.text_size * (1 - 1j)
-            self._haloed(draw, at, mark.text, "ls", BLACK, WHITE)
+    def _pixel(self, points: Points, i: int) -> complex:
+        return complex(self.stage.pixels(points[i : i + 1])[0])
 
-    def _haloed(self, draw: ImageDraw.ImageDraw, at: complex, words: str, anchor: str, color: str, halo: str) -> None:
+    def _haloed(self, draw: ImageDraw.ImageDraw, at: complex, words: str, color: str, halo: str) -> None:
         """Words that stand out from what they lie on."""
-        draw.text(
-            (at.real, at.imag), words, font=self._font, fill=color, anchor=anchor, stroke_width=2, stroke_fill=halo
-        )
+        look: dict[str, Any] = {"font": self._font, "anchor": "mm", "stroke_width": 2, "stroke_fill": halo}
+        draw.text((at.real, at.imag), words, fill=color, **look)

@@ -9,6 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
+from gearlink.cli.scenes import lettering
 from gearlink.cli.scenes.scene import Body, Chain, Chart, Line, Points, Readout, Reals, Scene
 
 
@@ -107,6 +108,21 @@ class Stage:
         """Points of the machine on the picture, y downwards."""
         return self._origin + self.scale * np.conj(points)
 
+    @cached_property
+    def shifts(self) -> tuple[list[complex], list[complex]]:
+        """From points to letters, and from axes to the labels of bodies, in pixels: the same in all pictures."""
+
+        def reach(body: Body) -> float:
+            # Inside the holes of a gear, and on the pitch circle of a ring.
+            if body.repeats == 0 and body.pitch:
+                return body.pitch
+            holes = max(0.3 * body.pitch, 1.5 * self.text_size / self.scale)
+            return holes if body.pitch else lettering.on_disc(body)
+
+        found = lettering.shifts(self.scene, 1.05 * self.text_size / self.scale, reach)
+        letters, labels = ([self.scale * shift.conjugate() for shift in each] for each in found)
+        return letters, labels
+
     def texts(self) -> list[list[str]]:
         """The values beside each picture, one list per value."""
         return [readings(readout) for readout in self.scene.readouts]
@@ -116,7 +132,7 @@ def readings(readout: Readout) -> list[str]:
     """A value at each picture with so many decimals that four digits of the largest are seen.
 
     Example
-        >>> readings(Readout(label="crank", unit="°", values=np.array([0.0, 180.0])))
+        >>> readings(Readout("crank", "°", np.array([0.0, 180.0])))
         ['crank 0.0°', 'crank 180.0°']
     """
     largest = float(np.abs(readout.values).max())
@@ -187,11 +203,3 @@ def ticks(low: float, high: float, most: int) -> Sequence[float]:
     step = next((s for s in steps if span / s <= most - 1 + 1e-9), power * 10.0)
     first = math.ceil(low / step - 1e-9)
     return [k * step + 0.0 for k in range(first, math.floor(high / step + 1e-9) + 1)]
-
-
-def label_shift(body: Body, scale: float, text_size: float) -> complex:
-    """From a body's axis to its label, in pixels: inside the holes of a gear, away from letters and pivots."""
-    if body.repeats == 1:
-        return 0j
-    reach = max(0.3 * scale * float(np.abs(body.outline).max()), 1.5 * text_size)
-    return complex(reach * np.exp(2.5j))

@@ -1,4 +1,4 @@
-"""Disc cams of moving pictures."""
+"""Disc cams of a scene."""
 
 from __future__ import annotations
 
@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.cli.scenes.scene import TURN, Body, Points, Reals, pale
+from gearlink.cli.scenes.colors import pale
+from gearlink.cli.scenes.scene import TURN, Body, Points, Reals
 
 if TYPE_CHECKING:
     from gearlink.core.cams.disc_cam import DiscCam
@@ -14,8 +15,8 @@ if TYPE_CHECKING:
 _POINTS = 720
 
 
-def disc_cam(cam: DiscCam, axis: Points, turn: Reals, color: str, label: str = "") -> Body:
+def disc_cam(cam: DiscCam, axis: Points, turn: Reals, color: str) -> Body:
     """A cam whose place at cam angle 0 is its own frame; `turn` counts counter-clockwise."""
     profile = cam.points(TURN * np.arange(_POINTS + 1) / _POINTS)[1]
     profile[-1] = profile[0]
-    return Body(outline=profile, place=axis, turn=turn, color=color, fill=pale(color), label=label)
+    return Body(outline=profile, place=axis, turn=turn, color=color, fill=pale(color), name=cam.name)

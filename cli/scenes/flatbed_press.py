@@ -1,4 +1,4 @@
-"""The flatbed press in motion: one turn of the input, a sheet. Chains and cams are to scale, as in its diagram."""
+"""The flatbed press: one turn of the input, a sheet. Chains and cams are to scale, as in its diagram."""
 
 from __future__ import annotations
 
@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.cli.figures import style
-from gearlink.cli.figures.flatbed_press_diagram import LEVEL, UPRIGHT, input_gear_place
 from gearlink.cli.scenes.cams import disc_cam
+from gearlink.cli.scenes.colors import BLACK, BLUE, GREEN, GREY, RED, pale
 from gearlink.cli.scenes.gears import gear
 from gearlink.cli.scenes.scene import (
     TURN,
@@ -26,22 +25,25 @@ from gearlink.cli.scenes.scene import (
     Readout,
     Reals,
     Scene,
+    block,
     circle,
-    fixed_circle,
+    letters,
     loop,
-    pale,
     track,
     wheel,
 )
-from gearlink.cli.scenes.slider_crank import block
 from gearlink.core.flatbed_press.positions import bed_positions, cylinder_positions
 from gearlink.core.gears.mesh_phase import driven_turn
 
 if TYPE_CHECKING:
     from gearlink.core.flatbed_press.design import FlatbedPress
 
+LEVEL = -1j
+"""Turns the bed chain's frame so that the bed moves level, printing to the right: AD points down, F stands left."""
+UPRIGHT = 1j
+"""Turns the cylinder chain's frame so that N stands above G; its cylinder, geared to N, then runs with the bed."""
 _BED, _RACK = "#CFE8F7", "#F6E3C0"
-_CAM_COLORS = (style.BLUE, style.RED)
+_CAM_COLORS = (BLUE, RED)
 
 
 @dataclass(frozen=True)
@@ -50,6 +52,7 @@ class Machine:
 
     design: FlatbedPress
     fraction: Reals
+    cams: bool = True
 
     @property
     def phi(self) -> Reals:
@@ -69,14 +72,24 @@ class Machine:
 
     @cached_property
     def gear_axis(self) -> complex:
-        """Axis G."""
-        return input_gear_place(self.design, self.slide)[0]
+        """Axis G, on the height of the slide line."""
+        gears = self.design.spec.input_gears
+        if gears is not None:
+            return complex(-gears.horizontal_distance, self.slide)
+        bed, cylinder = self.design.bed, self.design.cylinder.linkage
+        reach = max(bed.slider_crank_length, bed.linkage.crank) + bed.linkage.frame
+        return complex(-1.1 * (reach + cylinder.crank + cylinder.frame), self.slide)
 
     @cached_property
-    def cylinder_joints(self) -> tuple[Points, ...]:
-        """G, H, M, N with N above G."""
+    def cylinder_links(self) -> tuple[Points, ...]:
+        """G, H, M, N with G in the origin and N above it."""
         at = cylinder_positions(self.design.cylinder, self.phi)
-        return tuple(self.gear_axis + UPRIGHT * track(point, self.fraction) for point in (at.g, at.h, at.m, at.n))
+        return tuple(UPRIGHT * track(point, self.fraction) for point in (at.g, at.h, at.m, at.n))
+
+    @property
+    def cylinder_joints(self) -> tuple[Points, ...]:
+        """G, H, M, N where they stand in the machine."""
+        return tuple(self.gear_axis + joint for joint in self.cylinder_links)
 
     @cached_property
     def cam_angle(self) -> Reals:
@@ -86,7 +99,7 @@ class Machine:
     @cached_property
     def lift(self) -> Reals:
         """Way of the lower rack [mm]; nothing without cams."""
-        if self.design.spec.cam is None:
+        if self.design.spec.cam is None or not self.cams:
             return np.zeros_like(self.fraction)
         return np.asarray(self.design.follower.evaluate(self.cam_angle, 0)[0].value)
 
@@ -128,37 +141,44 @@ class Machine:
         return complex(n.real - math.sqrt(distance**2 - rise**2), self.bed_top + radius)
 
 
-def build(design: FlatbedPress, fraction: Reals) -> Scene:
-    """Positions over fractions of the loop."""
-    machine = Machine(design, fraction)
-    bed, cylinder = machine.bed_joints, machine.cylinder_joints
-    names = "ABCDEFGHMN"
-    pivots = "ADGN"
+def build(design: FlatbedPress, fraction: Reals, *, cams: bool = True) -> Scene:
+    """Positions over fractions of the loop; the cams stand beside the chains."""
+    machine = Machine(design, fraction, cams)
+    chains = bed_chain(machine.bed_joints), cylinder_chain(machine.cylinder_joints)
     return Scene(
         parts=(
             *_driving_circles(machine),
             *_bed(machine),
             *_cylinder(machine),
             *_input_gears(machine),
-            Chain(joints=bed, color=style.BLUE),
-            Chain(joints=cylinder, color=style.GREEN),
-            *_cams(machine),
+            *(part for chain in chains for part in chain.parts),
+            *(_cams(machine) if cams else ()),
         ),
         marks=(
-            *(
-                Mark(point=point, text=name, pivot=name in pivots)
-                for name, point in zip(names, (*bed, *cylinder), strict=True)
-            ),
-            *_cam_words(machine),
+            *(mark for chain in chains for mark in chain.marks),
+            Mark(track(machine.cylinder_axis, fraction), pivot=True),
+            *(_cam_words(machine) if cams else ()),
         ),
-        chart=_chart(design, machine),
+        chart=_chart(machine),
         readouts=(
-            Readout(label="input", unit="°", values=np.degrees(machine.phi)),
-            Readout(label="bed", unit=" mm", values=machine.bed_travel),
-            Readout(label="cylinder", unit=" mm", values=machine.cylinder_travel),
-            Readout(label="lift of the cam", unit=" mm", values=machine.lift),
+            Readout("input", "°", np.degrees(machine.phi)),
+            Readout("bed", " mm", machine.bed_travel),
+            Readout("cylinder", " mm", machine.cylinder_travel),
+            Readout("lift of the cam", " mm", machine.lift),
         ),
     )
+
+
+def bed_chain(joints: tuple[Points, ...]) -> Scene:
+    """The links A to F alone."""
+    marks = letters("AD", **dict(zip("ABCDEF", joints, strict=True)))
+    return Scene(parts=(Chain(joints=joints, color=BLUE),), marks=marks)
+
+
+def cylinder_chain(joints: tuple[Points, ...]) -> Scene:
+    """The links G to N alone."""
+    marks = letters("GN", **dict(zip("GHMN", joints, strict=True)))
+    return Scene(parts=(Chain(joints=joints, color=GREEN),), marks=marks)
 
 
 def _bed(machine: Machine) -> list[Part]:
@@ -167,24 +187,19 @@ def _bed(machine: Machine) -> list[Part]:
     f, pinion = machine.bed_joints[5], machine.pinion
     middle = 0.5 * (float(f.real.min()) + float(f.real.max()))
     thick = 0.06 * stroke
-    whole = Machine(machine.design, loop(721)).bed_travel
+    whole = replace(machine, fraction=loop(721)).bed_travel
     travel = machine.bed_travel - 0.5 * (float(whole.min()) + float(whole.max()))
     upper = middle + travel + 1j * (machine.slide + pinion + 0.5 * thick)
     lower = middle + machine.lift + 1j * (machine.slide - pinion - 0.5 * thick)
     turn = -(f.real - machine.lift) / pinion
     spoke = pinion * np.array([-1.0, 1.0, 0.0, 1j, -1j])
-    way = Line(points=f[[int(f.real.argmin()), int(f.real.argmax())]], color=style.GREY)
     return [
-        way,
-        replace(block(upper, 0.72 * stroke, thick, style.BLACK, "bed"), fill=_BED),
-        replace(block(lower, 1.0 * stroke, thick, style.BLACK, "rack moved by the cams"), fill=_RACK),
-        wheel(f, pinion, fraction, color=style.BLUE, fill=pale(style.BLUE, 0.1)),
-        Body(outline=spoke, place=f, turn=turn, color=style.BLUE, closed=False),
+        Line(points=f[[int(f.real.argmin()), int(f.real.argmax())]]),
+        block(upper, 0.72 * stroke, thick, BLACK, "bed", fill=_BED),
+        block(lower, 1.0 * stroke, thick, BLACK, "rack moved by the cams", fill=_RACK),
+        wheel(f, pinion, fraction, color=BLUE, fill=pale(BLUE, 0.1)),
+        Body(outline=spoke, place=f, turn=turn, color=BLUE),
     ]
-
-
-def _painted(body: Body, fill: str) -> Body:
-    return Body(outline=body.outline, place=body.place, turn=body.turn, color=body.color, fill=fill, label=body.label)
 
 
 def _cylinder(machine: Machine) -> list[Part]:
@@ -193,9 +208,9 @@ def _cylinder(machine: Machine) -> list[Part]:
     turn = machine.cylinder_travel / radius - 0.5 * math.pi
     gap = radius * np.exp(1j * np.linspace(-0.35, 0.0, 9))
     outline = np.concatenate([[0.82 * gap[0]], gap, [0.82 * gap[-1], 0.82 * gap[0]]])
-    shared = {"place": track(axis, machine.fraction), "turn": turn, "color": style.GREEN}
+    shared = {"place": track(axis, machine.fraction), "turn": turn, "color": GREEN}
     return [
-        Body(outline=circle(radius, 144), repeats=0, fill=pale(style.GREEN, 0.12), **shared, label="cylinder"),  # type: ignore[arg-type]
+        Body(outline=circle(radius, 144), repeats=0, fill=pale(GREEN, 0.12), **shared, label="cylinder"),  # type: ignore[arg-type]
         Body(outline=outline, fill="#ffffff", **shared),  # type: ignore[arg-type]
     ]
 
@@ -204,8 +219,20 @@ def _driving_circles(machine: Machine) -> list[Part]:
     """Pitch circles of the gears from N to the cylinder."""
     axis, n = machine.cylinder_axis, complex(machine.cylinder_joints[3][0])
     driven = abs(axis - n) / (1.0 + machine.design.cylinder.gear_ratio)
-    pairs = ((axis, driven), (n, abs(axis - n) - driven))
-    return [fixed_circle(center, radius, style.GREY, dashed=True) for center, radius in pairs]
+    level = np.zeros_like(machine.fraction)
+    return [
+        Body(
+            outline=circle(radius, 120),
+            place=track(center, machine.fraction),
+            turn=level,
+            repeats=0,
+            color=GREY,
+            width=0.8,
+            label=label,
+            pitch=radius,
+        )
+        for label, center, radius in (("4", axis, driven), ("3", n, abs(axis - n) - driven))
+    ]
 
 
 def _input_gears(machine: Machine) -> list[Part]:
@@ -217,8 +244,8 @@ def _input_gears(machine: Machine) -> list[Part]:
     line = np.full_like(machine.fraction, np.angle(machine.gear_axis))
     turn = driven_turn(pair.teeth, line, machine.phi)
     return [
-        *gear(pair, 0, a, machine.phi, 1.0, style.GREY, "2"),
-        *gear(pair, 1, g, turn, -1.0, style.GREY, "1"),
+        *gear(pair, 0, a, machine.phi, 1.0, GREY, "2"),
+        *gear(pair, 1, g, turn, -1.0, GREY, "1"),
     ]
 
 
@@ -238,8 +265,8 @@ def _cams(machine: Machine) -> list[Part]:
     rollers = [axis + place for place in places]
     for center, color in zip(rollers, _CAM_COLORS, strict=True):
         parts.append(wheel(center, design.spec.cam.roller_radius, machine.fraction, color=color, fill=pale(color, 0.3)))
-    parts.append(Chain(joints=(rollers[0], rollers[1]), color=style.GREY, width=1.5))
-    parts.append(wheel(axis, 0.12 * design.cam_base_radius, machine.fraction, color=style.BLACK, fill="#ffffff"))
+    parts.append(Chain(joints=(rollers[0], rollers[1]), color=GREY, width=1.5))
+    parts.append(wheel(axis, 0.12 * design.cam_base_radius, machine.fraction, color=BLACK, fill="#ffffff"))
     return parts
 
 
@@ -248,18 +275,18 @@ def _cam_words(machine: Machine) -> tuple[Mark, ...]:
     if design.spec.cam is None:
         return ()
     below = machine.cam_axis - (1.0 + 1.4j) * design.max_radius
-    return (Mark(point=track(below, machine.fraction), text="cams on D"),)
+    return (Mark(track(below, machine.fraction), "cams on D"),)
 
 
-def _chart(design: FlatbedPress, machine: Machine) -> Chart:
-    whole = Machine(design, loop())
+def _chart(machine: Machine) -> Chart:
+    whole = replace(machine, fraction=loop())
     return Chart(
-        xlabel="input angle [deg]",
-        ylabel="travel [mm]",
-        x=360.0 * loop(),
-        now=np.degrees(machine.phi),
-        curves=(
-            Curve(label="bed", color=style.BLUE, y=whole.bed_travel, now=machine.bed_travel),
-            Curve(label="cylinder", color=style.GREEN, y=whole.cylinder_travel, now=machine.cylinder_travel),
+        "input angle [deg]",
+        "travel [mm]",
+        360.0 * loop(),
+        np.degrees(machine.phi),
+        (
+            Curve("bed", BLUE, whole.bed_travel, machine.bed_travel),
+            Curve("cylinder", GREEN, whole.cylinder_travel, machine.cylinder_travel),
         ),
     )

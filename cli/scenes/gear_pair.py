@@ -1,15 +1,15 @@
-"""A gear pair in motion: so many pitches that the teeth, and where it goes the holes, come to meet themselves."""
+"""A gear pair: so many pitches that the teeth, and where it goes the holes, come to meet themselves."""
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.cli.figures import style
+from gearlink.cli.scenes.colors import BLUE, ORANGE
 from gearlink.cli.scenes.gears import gear, holes_for
-from gearlink.cli.scenes.scene import TURN, Mark, Part, Points, Reals, Scene, fixed_circle, track
+from gearlink.cli.scenes.scene import TURN, Mark, Reals, Scene, track
+from gearlink.core.gears.mesh_geometry import MeshGeometry
 from gearlink.core.gears.mesh_phase import driven_turn
 
 if TYPE_CHECKING:
@@ -21,28 +21,22 @@ _MOST_PITCHES = 36
 
 def build(design: GearPairDesign, fraction: Reals) -> Scene:
     """Positions over fractions of the loop; gear 1 drives counter-clockwise."""
-    pair = design.gear_pair
-    axes = track(0.0, fraction), track(pair.center_distance, fraction)
-    return Scene(
-        parts=pair_parts(pair, (axes[0], axes[1]), fraction),
-        marks=tuple(Mark(point=axis, pivot=True) for axis in axes),
-    )
+    return pair_scene(design.gear_pair, ("1", "2"), fraction)
 
 
-def pair_parts(pair: GearPair, axes: tuple[Points, Points], fraction: Reals) -> tuple[Part, ...]:
-    """Both gears over a loop of whole pitches, with their working circles."""
+def pair_scene(pair: GearPair, labels: tuple[str, str], fraction: Reals) -> Scene:
+    """Both gears over a loop of whole pitches; at its start two flanks touch at the pitch point."""
     pitches = loop_pitches(pair.teeth)
     turns = pitches / pair.teeth[0], -pitches / pair.teeth[1]
-    first = TURN * turns[0] * fraction - math.pi / pair.teeth[0]
+    first = TURN * turns[0] * fraction + MeshGeometry(pair).first_space[0]
     second = driven_turn(pair.teeth, np.zeros_like(fraction), first)
-    circles = [
-        fixed_circle(complex(axis[0]), radius, style.GREY, dashed=True)
-        for axis, radius in zip(axes, pair.working_radius, strict=True)
-    ]
-    return (
-        *gear(pair, 0, axes[0], first, turns[0], style.BLUE, "1"),
-        *gear(pair, 1, axes[1], second, turns[1], style.ORANGE, "2"),
-        *circles,
+    one, two = track(0.0, fraction), track(pair.center_distance, fraction)
+    return Scene(
+        parts=(
+            *gear(pair, 0, one, first, turns[0], BLUE, labels[0], f"gear {labels[0]}"),
+            *gear(pair, 1, two, second, turns[1], ORANGE, labels[1], f"gear {labels[1]}"),
+        ),
+        marks=(Mark(one, pivot=True), Mark(two, pivot=True)),
     )
 
 

@@ -1,4 +1,4 @@
-"""The geared five-bar in motion: a path over its whole period; a function over its range, there and back."""
+"""The geared five-bar: a path over its whole period; a function over its range, there and back."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.cli.figures import style
+from gearlink.cli.scenes.colors import BLACK, BLUE, GREEN, ORANGE, PURPLE, pale
 from gearlink.cli.scenes.gears import gear
 from gearlink.cli.scenes.scene import (
     TURN,
@@ -22,8 +22,8 @@ from gearlink.cli.scenes.scene import (
     Readout,
     Reals,
     Scene,
+    letters,
     loop,
-    pale,
     standing,
     track,
 )
@@ -33,6 +33,9 @@ from gearlink.core.linkages.dyad import close_dyad
 
 if TYPE_CHECKING:
     from gearlink.core.five_bar.design import GearedFiveBar
+    from gearlink.core.gears.pair import GearPair
+
+    AnyMesh = GearPair | InternalMesh
 
 
 def build(design: GearedFiveBar, fraction: Reals) -> Scene:
@@ -52,78 +55,65 @@ def _path_scene(design: GearedFiveBar, fraction: Reals) -> Scene:
         outline=np.array([0.0, bar.coupler, offset, 0.0]),
         place=b,
         turn=np.unwrap(np.angle(c - b)),
-        color=style.BLACK,
-        fill=pale(style.BLACK, 0.25),
+        color=BLACK,
+        width=0.5,
+        fill=pale(BLACK, 0.25),
     )
     return Scene(
         parts=(
             *_path_gears(design, phi, fraction),
-            standing(path, fraction, style.GREEN),
+            standing(_path(design), fraction, GREEN, "path of M"),
             plate,
-            Chain(joints=(a, b, c, d, e), color=style.BLACK),
+            Chain(joints=(a, b, c, d, e)),
+            Chain(joints=(m,), color=GREEN),
         ),
-        marks=(*_marks(a, b, c, d, e), Mark(point=m, text="M" if abs(offset - bar.coupler) > 1e-9 else "")),
+        marks=(*letters("AE", A=a, B=b, C=c, D=d, E=e), Mark(m, "M" if abs(offset - bar.coupler) > 1e-9 else "")),
         chart=Chart(
-            xlabel="input angle [deg]",
-            ylabel="coupler point M [mm]",
-            x=np.degrees(whole),
-            now=np.degrees(phi),
-            curves=(
-                Curve(label="x", color=style.BLUE, y=path.real, now=m.real),
-                Curve(label="y", color=style.ORANGE, y=path.imag, now=m.imag),
-            ),
+            "input angle [deg]",
+            "coupler point M [mm]",
+            np.degrees(whole),
+            np.degrees(phi),
+            (Curve("x", BLUE, path.real, m.real), Curve("y", ORANGE, path.imag, m.imag)),
         ),
-        readouts=(
-            Readout(label="input", unit="°", values=np.degrees(phi)),
-            Readout(label="x", unit=" mm", values=m.real),
-            Readout(label="y", unit=" mm", values=m.imag),
-        ),
+        readouts=(Readout("input", "°", np.degrees(phi)), Readout("x", " mm", m.real), Readout("y", " mm", m.imag)),
     )
 
 
-def _marks(*joints: Points) -> tuple[Mark, ...]:
-    return tuple(Mark(point=joint, text=name, pivot=name in "AE") for name, joint in zip("ABCDE", joints, strict=True))
+def _path(design: GearedFiveBar) -> Points:
+    """The path of M as its table has it, closed where the table has the whole of it."""
+    table = design.table("path")
+    x, y = (np.asarray(table.data[table.columns.index(name)]) for name in ("x", "y"))
+    path: Points = x + 1j * y
+    return np.append(path, path[0]) if design.shown_turns == design.period_turns else path
 
 
 def _path_gears(design: GearedFiveBar, phi: Reals, fraction: Reals) -> list[Part]:
-    """Gears on A and E, and an idler above the frame."""
+    """Gears on A and E, and an idler above the frame; a ring gear is drawn first."""
     bar, period = design.path_bar, design.path_bar.period_turns
     a, e = track(0.0, fraction), track(bar.frame, fraction)
     first, *more = design.meshes.values()
     level, turned = np.zeros_like(phi), period * float(bar.ratio)
+
+    def on_input(mesh: AnyMesh, number: int) -> list[Body]:
+        return gear(mesh, number, a, phi, period, BLUE, "1", "input gear")
+
+    def on_output(mesh: AnyMesh, number: int, turn: Reals) -> list[Body]:
+        return gear(mesh, number, e, turn, turned, ORANGE, "4", "output gear")
+
     if isinstance(first, InternalMesh):
-        return _ring_pair(design, first, phi, (a, e))
+        pinion, ring = first.teeth
+        if design.spec.gears.input == ring:
+            return [*on_input(first, 1), *on_output(first, 0, ring_turn((ring, pinion), level, phi))]
+        return [*on_output(first, 1, ring_turn((pinion, ring), level + math.pi, phi)), *on_input(first, 0)]
     if not more:
-        turn = driven_turn(first.teeth, level, phi)
-        return [*gear(first, 0, a, phi, period, style.BLUE, "1"), *gear(first, 1, e, turn, turned, style.ORANGE, "4")]
+        return [*on_input(first, 0), *on_output(first, 1, driven_turn(first.teeth, level, phi))]
     (second,) = more
     idler = close_dyad(0j, complex(bar.frame), first.center_distance, second.center_distance, 1)
     middle = driven_turn(first.teeth, level + cmath.phase(idler), phi)
     turn = driven_turn((second.teeth[0], second.teeth[1]), level + cmath.phase(bar.frame - idler), middle)
-    idler_turns = -period * first.teeth[0] / first.teeth[1]
-    return [
-        *gear(first, 0, a, phi, period, style.BLUE, "1"),
-        *gear(second, 1, e, turn, turned, style.ORANGE, "4"),
-        *gear(first, 1, track(idler, fraction), middle, idler_turns, style.PURPLE, "idler"),
-    ]
-
-
-def _ring_pair(design: GearedFiveBar, mesh: InternalMesh, phi: Reals, axes: tuple[Points, Points]) -> list[Part]:
-    """A ring gear on A or on E, the other gear in it; the ring is drawn first."""
-    pinion, ring = mesh.teeth
-    period, turned = design.period_turns, design.period_turns * float(design.ratio)
-    level = np.zeros_like(phi)
-    if design.spec.gears.input == ring:
-        turn = ring_turn((ring, pinion), level, phi)
-        return [
-            *gear(mesh, 1, axes[0], phi, period, style.BLUE, "1"),
-            *gear(mesh, 0, axes[1], turn, turned, style.ORANGE, "4"),
-        ]
-    turn = ring_turn((pinion, ring), level + math.pi, phi)
-    return [
-        *gear(mesh, 1, axes[1], turn, turned, style.ORANGE, "4"),
-        *gear(mesh, 0, axes[0], phi, period, style.BLUE, "1"),
-    ]
+    idler_turns, place = -period * first.teeth[0] / first.teeth[1], track(idler, fraction)
+    between = gear(first, 1, place, middle, idler_turns, PURPLE, "idler", "idler")
+    return [*on_input(first, 0), *on_output(second, 1, turn), *between]
 
 
 def _input_angles(design: GearedFiveBar, fraction: Reals) -> Reals:
@@ -147,19 +137,16 @@ def _function_scene(design: GearedFiveBar, fraction: Reals) -> Scene:
     raw = np.angle(d - bar.frame)
     now = raw + TURN * np.round((np.interp(phi, whole, output) - raw) / TURN)
     return Scene(
-        parts=(*_function_gears(design, phi, a, b), Chain(joints=(a, b, c, d, e), color=style.BLACK)),
-        marks=_marks(a, b, c, d, e),
+        parts=(*_function_gears(design, phi, a, b), Chain(joints=(a, b, c, d, e))),
+        marks=letters("AE", A=a, B=b, C=c, D=d, E=e),
         chart=Chart(
-            xlabel="input angle [deg]",
-            ylabel="output angle [deg]",
-            x=np.degrees(whole),
-            now=np.degrees(phi),
-            curves=(Curve(label="output", color=style.BLUE, y=np.degrees(output), now=np.degrees(now)),),
+            "input angle [deg]",
+            "output angle [deg]",
+            np.degrees(whole),
+            np.degrees(phi),
+            (Curve("output", BLUE, np.degrees(output), np.degrees(now)),),
         ),
-        readouts=(
-            Readout(label="input", unit="°", values=np.degrees(phi)),
-            Readout(label="output", unit="°", values=np.degrees(now)),
-        ),
+        readouts=(Readout("input", "°", np.degrees(phi)), Readout("output", "°", np.degrees(now))),
     )
 
 
@@ -173,6 +160,8 @@ def _function_gears(design: GearedFiveBar, phi: Reals, a: Points, b: Points) -> 
     there_and_back = float(abs(_input_angles(design, np.ones(1))[0] - _input_angles(design, np.zeros(1))[0]))
     turns = there_and_back / TURN * float(design.ratio)
     return [
-        *gear(mesh, 1, a, still, 0.0, style.ORANGE, "" if internal else "5"),
-        *gear(mesh, 0, b, turn, turns, style.BLUE, "2"),
+        *gear(
+            mesh, 1, a, still, 0.0, ORANGE, "" if internal else "5", "ring gear, fixed" if internal else "sun, fixed"
+        ),
+        *gear(mesh, 0, b, turn, turns, BLUE, "2", "planet on the coupler"),
     ]

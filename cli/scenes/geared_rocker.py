@@ -1,4 +1,4 @@
-"""The geared rocker in motion: one turn of the crank."""
+"""The geared rocker: one turn of the crank."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.cli.figures import style
+from gearlink.cli.scenes.colors import BLACK, BLUE, ORANGE
 from gearlink.cli.scenes.gears import gear
 from gearlink.cli.scenes.linkages import Joints, coupler_windings, crank_readout, over_crank, whole_turn
 from gearlink.cli.scenes.scene import TURN, Body, Curve, Readout, Reals, Scene, fixed_circle
@@ -24,38 +24,27 @@ def build(design: GearedRocker, fraction: Reals) -> Scene:
     wound = coupler_windings(design.linkage)
     reach = design.mesh.tip_radius[1]
     start, whole = _turn(design, np.zeros(1))[0], _turn(design, whole_turn())
-    hand = Body(
-        outline=np.array([0.0, 1.7 * reach * 1j]),
-        place=at.d,
-        turn=output - start,
-        color=style.ORANGE,
-        width=5.0,
-        closed=False,
-    )
+    tip = np.array([0.0, 1.7 * reach * 1j])
+    hand = Body(outline=tip, place=at.d, turn=output - start, color=ORANGE, width=5.0, name="hand on the output")
     rocker = Joints.of(design.linkage, whole_turn()).rocker
     return Scene(
         parts=(
-            *gear(design.mesh, 1, at.d, output, wound, style.ORANGE, "5"),
-            *gear(design.mesh, 0, at.c, at.coupler, wound, style.BLUE, "2"),
+            *gear(design.mesh, 1, at.d, output, wound, ORANGE, "5", "gear 5, output"),
+            *gear(design.mesh, 0, at.c, at.coupler, wound, BLUE, "2", "gear 2 on the coupler"),
             hand,
-            fixed_circle(0j, design.crank_length, style.GREY, dashed=True),
+            fixed_circle(0j, design.crank_length),
             at.chain(),
         ),
         marks=at.marks(),
         chart=over_crank(
             phi,
             (
-                Curve(label="output", color=style.ORANGE, y=np.degrees(whole - start), now=np.degrees(output - start)),
-                Curve(
-                    label="rocker",
-                    color=style.BLACK,
-                    y=np.degrees(rocker - rocker[0]),
-                    now=np.degrees(at.rocker - rocker[0]),
-                ),
+                Curve("output", ORANGE, np.degrees(whole - start), np.degrees(output - start)),
+                Curve("rocker", BLACK, np.degrees(rocker - rocker[0]), np.degrees(at.rocker - rocker[0])),
             ),
             "angle from crank angle 0 [deg]",
         ),
-        readouts=(crank_readout(phi), Readout(label="output", unit="°", values=np.degrees(output - start))),
+        readouts=(crank_readout(phi), Readout("output", "°", np.degrees(output - start))),
     )
 
 

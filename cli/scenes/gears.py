@@ -1,23 +1,33 @@
-"""Gears of moving pictures: true teeth, and holes that show how far a gear has turned."""
+"""Gears of a scene: true teeth, and holes that show how far a gear has turned."""
 
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
-from gearlink.cli.scenes.scene import TURN, Body, Points, Reals, circle, pale
+from gearlink.cli.scenes.colors import WHITE, pale
+from gearlink.cli.scenes.scene import TURN, Body, Points, Reals, circle
 from gearlink.core.errors import NoSolution
 from gearlink.core.gears.internal_mesh import InternalMesh
 from gearlink.core.gears.mesh_phase import ring_outline
 from gearlink.core.gears.pair import GearPair
 
 _HOLES = (5, 4, 6, 3, 7, 8, 9, 10, 11, 12)
-_WHITE = "#ffffff"
+_MOST_TEETH = 600
+"""Finer teeth would be a grey band at page width."""
 
 
 def gear(
-    pair: GearPair | InternalMesh, number: int, place: Points, turn: Reals, loop_turns: float, color: str, label: str
+    pair: GearPair | InternalMesh,
+    number: int,
+    place: Points,
+    turn: Reals,
+    loop_turns: float,
+    color: str,
+    label: str,
+    name: str = "",
 ) -> list[Body]:
     """Gear 0 or 1 of a pair with its holes; a tool that leaves no such teeth leaves the tip circle.
 
@@ -25,36 +35,41 @@ def gear(
         pair : GearPair, or InternalMesh (whose gear 1, the ring, is drawn as the line of its teeth and its rim)
         place, turn : tracks [mm, rad] - axis, and direction of the middle of a tooth space
         loop_turns : float - turns of the gear over the loop; the holes are so many that they come to meet themselves
+        label, name : words on the gear, and in a legend, where the number of teeth is added
     """
     teeth, tip = pair.teeth[number], pair.tip_radius[number]
+    look = Body(outline=np.zeros(1), place=place, turn=turn, color=color, fill=pale(color), width=1.0, label=label)
+    radii = pair.reference_radius if isinstance(pair, InternalMesh) else pair.working_radius
+    look = replace(look, name=f"{name}, z = {teeth}".removeprefix(", "), pitch=radii[number])
     if isinstance(pair, InternalMesh):
         if number == 1:
-            return _ring(pair, place, turn, color, label)
+            return _ring(pair, look)
         pair = GearPair.from_shift(pair.module, (teeth, teeth), (0.0, 0.0), pressure_angle=pair.pressure_angle)
         number = 0
-    try:
-        outline, repeats = _teeth(pair, number), teeth
-    except NoSolution:
-        outline, repeats, label = circle(tip), 0, f"{label} (tip circle)"
-    body = Body(
-        outline=outline, place=place, turn=turn, repeats=repeats, color=color, fill=pale(color), width=1.0, label=label
-    )
-    return [body, *_holes(place, turn, pair.root_radius[number], loop_turns, color)]
+    outline = _teeth(pair, number)
+    if outline is None:
+        body = replace(look, outline=circle(tip), repeats=0, label=f"{label} (tip circle)".lstrip())
+    else:
+        body = replace(look, outline=outline, repeats=teeth)
+    return [body, *_holes(look, pair.root_radius[number], loop_turns)]
 
 
-def _teeth(pair: GearPair, number: int) -> Points:
+def _teeth(pair: GearPair, number: int) -> Points | None:
+    """All teeth of a gear; None where they are too fine, or the tool leaves none."""
     from gearlink.core.gears.tooth_profile import ToothProfile, outline
 
-    return outline(ToothProfile.of(pair, number), 0.012 * pair.module)
+    if pair.teeth[number] > _MOST_TEETH:
+        return None
+    try:
+        return outline(ToothProfile.of(pair, number), 0.012 * pair.module)
+    except NoSolution:
+        return None
 
 
-def _ring(mesh: InternalMesh, place: Points, turn: Reals, color: str, label: str) -> list[Body]:
-    rim = circle(mesh.rim_radius, 144)
-    shared = {"place": place, "turn": turn, "color": color, "width": 1.0}
-    return [
-        Body(outline=rim, fill=pale(color), repeats=0, **shared, label=label),  # type: ignore[arg-type]
-        Body(outline=ring_outline(mesh), fill=_WHITE, repeats=mesh.teeth[1], **shared),  # type: ignore[arg-type]
-    ]
+def _ring(mesh: InternalMesh, look: Body) -> list[Body]:
+    rim = replace(look, outline=circle(mesh.rim_radius, 144), repeats=0)
+    inside = replace(look, outline=ring_outline(mesh), repeats=mesh.teeth[1], fill=WHITE, label="", name="", pitch=0.0)
+    return [rim, inside]
 
 
 def holes_for(loop_turns: float) -> int:
@@ -67,14 +82,11 @@ def holes_for(loop_turns: float) -> int:
     return next((n for n in _HOLES if abs(n * loop_turns - round(n * loop_turns)) < 1e-9), 0)
 
 
-def _holes(place: Points, turn: Reals, root: float, loop_turns: float, color: str) -> list[Body]:
+def _holes(gear: Body, root: float, loop_turns: float) -> list[Body]:
     count = holes_for(loop_turns)
     if count == 0 or root <= 0.0:
         return []
     ring = 0.62 * root
     radius = min(0.2 * root, 0.6 * ring * math.sin(math.pi / count))
-    holes = []
-    for k in range(count):
-        outline = ring * np.exp(1j * TURN * k / count) + circle(radius, 24)
-        holes.append(Body(outline=outline, place=place, turn=turn, repeats=count, color=color, fill=_WHITE, width=0.8))
-    return holes
+    hole = replace(gear, repeats=count, fill=WHITE, width=0.8, label="", name="", pitch=0.0, shows_turn=True)
+    return [replace(hole, outline=ring * np.exp(1j * TURN * k / count) + circle(radius, 24)) for k in range(count)]

@@ -1,4 +1,4 @@
-"""The dwell on an arc of a hypocycloid in motion: one turn of the carrier."""
+"""The dwell on an arc of a hypocycloid: one turn of the carrier."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.cli.figures import style
+from gearlink.cli.scenes.colors import BLACK, BLUE, GREEN, ORANGE
 from gearlink.cli.scenes.gears import gear
 from gearlink.cli.scenes.scene import (
     TURN,
@@ -14,16 +14,16 @@ from gearlink.cli.scenes.scene import (
     Chart,
     Curve,
     Line,
-    Mark,
     Points,
     Readout,
     Reals,
     Scene,
+    block,
+    letters,
     loop,
     standing,
     track,
 )
-from gearlink.cli.scenes.slider_crank import block
 from gearlink.core.gears.mesh_phase import ring_turn
 
 if TYPE_CHECKING:
@@ -40,35 +40,27 @@ def build(design: HypocycloidDwell, fraction: Reals) -> Scene:
     planet, ring = design.mesh.teeth
     turn = ring_turn((ring, planet), t, np.zeros_like(t))
     whole = _inwards(design, TURN * loop())
-    way = Line(points=rest - np.array([whole.min(), whole.max()]) + 0j, color=style.GREY, width=1.5)
     size = 0.5 * design.point_radius
+    way = rest - np.array([whole.min() - size, whole.max() + size]) + 0j
     return Scene(
         parts=(
-            *gear(design.mesh, 1, a, np.zeros_like(t), 0.0, style.ORANGE, ""),
-            *gear(design.mesh, 0, b, turn, 1.0 - ring / planet, style.BLUE, "2"),
-            standing(_points(design, TURN * loop(361)), fraction, style.GREEN),
-            way,
-            block(f, 1.6 * size, size, style.BLACK),
-            Chain(joints=(a, b, m), color=style.BLUE),
-            Chain(joints=(m, f), color=style.BLACK),
+            *gear(design.mesh, 1, a, np.zeros_like(t), 0.0, ORANGE, "", "ring gear, fixed"),
+            *gear(design.mesh, 0, b, turn, 1.0 - ring / planet, BLUE, "2", "planet"),
+            standing(_points(design, TURN * loop(361)), fraction, GREEN, "path of the point M"),
+            *(Line(points=way + side * 0.5j * size, width=1.5) for side in (-1.0, 1.0)),
+            block(f, 1.6 * size, size, BLACK),
+            Chain(joints=(a, b, m), color=BLUE),
+            Chain(joints=(m, f)),
         ),
-        marks=(
-            Mark(point=a, text="A", pivot=True),
-            Mark(point=b, text="B"),
-            Mark(point=m, text="M"),
-            Mark(point=f, text="F"),
-        ),
+        marks=letters("A", A=a, B=b, M=m, F=f),
         chart=Chart(
-            xlabel="carrier angle [deg]",
-            ylabel="slider, inwards from mid-dwell [mm]",
-            x=360.0 * loop(),
-            now=np.degrees(t),
-            curves=(Curve(label="slider", color=style.BLUE, y=whole, now=inwards),),
+            "carrier angle [deg]",
+            "slider, inwards from mid-dwell [mm]",
+            360.0 * loop(),
+            np.degrees(t),
+            (Curve("slider", BLUE, whole, inwards),),
         ),
-        readouts=(
-            Readout(label="carrier", unit="°", values=np.degrees(t)),
-            Readout(label="slider", unit=" mm", values=inwards),
-        ),
+        readouts=(Readout("carrier", "°", np.degrees(t)), Readout("slider", " mm", inwards)),
     )
 
 

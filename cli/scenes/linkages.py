@@ -6,8 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gearlink.cli.figures import style
-from gearlink.cli.scenes.scene import TURN, Chain, Chart, Curve, Mark, Points, Readout, Reals, loop, track
+from gearlink.cli.scenes.scene import TURN, Chain, Chart, Curve, Mark, Points, Readout, Reals, letters, loop, track
 from gearlink.core.linkages import fourbar_sweep
 from gearlink.core.linkages.fourbar import FourBar
 
@@ -38,27 +37,27 @@ class Joints:
 
     def chain(self) -> Chain:
         """The links."""
-        return Chain(joints=(self.a, self.b, self.c, self.d), color=style.BLACK)
+        return Chain(joints=(self.a, self.b, self.c, self.d))
 
     def marks(self) -> tuple[Mark, ...]:
         """Letters and pivots."""
-        named = (("A", self.a, True), ("B", self.b, False), ("C", self.c, False), ("D", self.d, True))
-        return tuple(Mark(point=point, text=name, pivot=pivot) for name, point, pivot in named)
+        return letters("AD", A=self.a, B=self.b, C=self.c, D=self.d)
 
 
 def coupler_windings(linkage: FourBar) -> float:
     """Turns of coupler and rocker in a turn of the crank: 1 in a drag link, else 0."""
-    return 1.0 if linkage.kind() == "drag-link" else 0.0
+    coupler = fourbar_sweep.solve(linkage, np.array([0.0, TURN])).coupler_angle
+    return float(round((coupler[1] - coupler[0]) / TURN))
 
 
 def over_crank(phi: Reals, curves: tuple[Curve, ...], ylabel: str) -> Chart:
     """A chart over one turn of the crank; its curves have as many points as `loop()`."""
-    return Chart(xlabel="crank angle [deg]", ylabel=ylabel, x=360.0 * loop(), now=np.degrees(phi), curves=curves)
+    return Chart("crank angle [deg]", ylabel, 360.0 * loop(), np.degrees(phi), curves)
 
 
 def crank_readout(phi: Reals) -> Readout:
     """The crank angle."""
-    return Readout(label="crank", unit="°", values=np.degrees(phi))
+    return Readout("crank", "°", np.degrees(phi))
 
 
 def whole_turn() -> Reals:

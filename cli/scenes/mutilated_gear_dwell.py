@@ -1,16 +1,17 @@
-"""The mutilated gear in motion: as many cycles as bring the driven gear, and the four-bar on it, home."""
+"""The mutilated gear: as many cycles as bring the driven gear, and the four-bar on it, home."""
 
 from __future__ import annotations
 
+import cmath
 import math
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.cli.figures import style
+from gearlink.cli.scenes.colors import BLUE, ORANGE, pale
 from gearlink.cli.scenes.gears import gear
 from gearlink.cli.scenes.linkages import Joints
-from gearlink.cli.scenes.scene import TURN, Body, Chart, Curve, Mark, Points, Readout, Reals, Scene, loop, pale, track
+from gearlink.cli.scenes.scene import TURN, Body, Chart, Curve, Mark, Points, Readout, Reals, Scene, loop, track
 from gearlink.core.errors import NoSolution
 
 if TYPE_CHECKING:
@@ -21,31 +22,35 @@ def build(design: MutilatedGearDwell, fraction: Reals) -> Scene:
     """Positions over fractions of the loop; the wheel turns clockwise, a motion begins at fraction 0."""
     cycles = design.mutilated.cycles_to_repeat
     turns = cycles * design.cycle_turns * fraction
-    driven = _driven(design, turns)
-    bars = design.linkage is not None
-    center = track((-1j if bars else -1.0) * design.mesh.center_distance, fraction)
-    toward = 0.5 * math.pi if bars else 0.0
-    # A space of the wheel and a tooth of the driven gear stand on the line of centres where a motion begins.
-    wheel = toward - TURN * turns / design.spec.reduction
-    place = toward + math.pi - math.pi / design.mesh.teeth[1] + driven
-    loop_turns = cycles * design.driven_turn
-    at = None if design.linkage is None else Joints.of(design.linkage, driven + (design.start_crank_angle or 0.0))
+    driven, axis = _driven(design, turns), track(0.0, fraction)
+    bars, toward = design.linkage, 1.0 if design.linkage is None else 1j
+    center = track(-toward * design.mesh.center_distance, fraction)
+    at = None if bars is None else Joints.of(bars, driven + (design.start_crank_angle or 0.0))
     return Scene(
-        parts=(
-            _wheel(design, center, wheel),
-            *gear(design.mesh, 1, track(0.0, fraction), place, loop_turns, style.ORANGE, "2"),
-            *([] if at is None else [at.chain()]),
-        ),
-        marks=(
-            Mark(point=center, pivot=True),
-            *((Mark(point=track(0.0, fraction), pivot=True),) if at is None else at.marks()),
-        ),
+        parts=(*_gears(design, turns, center, toward), *([] if at is None else [at.chain()])),
+        marks=(Mark(center, pivot=True), *((Mark(axis, pivot=True),) if at is None else at.marks())),
         chart=_chart(design, cycles * design.cycle_turns, turns, driven),
-        readouts=(
-            Readout(label="input turns", unit="", values=turns),
-            Readout(label="driven gear", unit="°", values=np.degrees(driven)),
-        ),
+        readouts=(Readout("input turns", "", turns), Readout("driven gear", "°", np.degrees(driven))),
     )
+
+
+def mesh_scene(design: MutilatedGearDwell) -> Scene:
+    """The two gears alone in the middle of a motion, the wheel in the origin."""
+    turns, center = np.array([0.5 * design.motion_turns]), np.zeros(1)
+    marks = (Mark(center, pivot=True), Mark(center + design.mesh.center_distance, pivot=True))
+    return Scene(parts=tuple(_gears(design, turns, center, 1.0)), marks=marks)
+
+
+def _gears(design: MutilatedGearDwell, turns: Reals, center: Points, toward: complex) -> list[Body]:
+    """The wheel, and the driven gear in a direction from it, after turns of the input."""
+    # A space of the wheel and a tooth of the driven gear stand on the line of centres where a motion begins.
+    driven, line = _driven(design, turns), cmath.phase(toward)
+    place = line + math.pi - math.pi / design.mesh.teeth[1] + driven
+    axis, loop_turns = center + toward * design.mesh.center_distance, design.mutilated.cycles_to_repeat
+    return [
+        _wheel(design, center, line - TURN * turns / design.spec.reduction),
+        *gear(design.mesh, 1, axis, place, loop_turns * design.driven_turn, ORANGE, "2", "driven gear"),
+    ]
 
 
 def _driven(design: MutilatedGearDwell, turns: Reals) -> Reals:
@@ -54,8 +59,8 @@ def _driven(design: MutilatedGearDwell, turns: Reals) -> Reals:
 
 def _chart(design: MutilatedGearDwell, whole: float, turns: Reals, driven: Reals) -> Chart:
     x = whole * loop(361)
-    curve = Curve(label="driven", color=style.ORANGE, y=np.degrees(_driven(design, x)), now=np.degrees(driven))
-    return Chart(xlabel="input turns", ylabel="driven gear [deg]", x=x, now=turns, curves=(curve,))
+    curve = Curve("driven", ORANGE, np.degrees(_driven(design, x)), np.degrees(driven))
+    return Chart("input turns", "driven gear [deg]", x, turns, (curve,))
 
 
 def _wheel(design: MutilatedGearDwell, center: Points, turn: Reals) -> Body:
@@ -87,9 +92,11 @@ def _wheel(design: MutilatedGearDwell, center: Points, turn: Reals) -> Body:
         place=center,
         turn=turn,
         repeats=gears.groups,
-        color=style.BLUE,
-        fill=pale(style.BLUE),
-        label="1" if gears.groups > 1 else "",
+        color=BLUE,
+        fill=pale(BLUE),
+        label="1",
+        name=f"wheel, {gears.groups} × {gears.group_teeth} of {gears.full_teeth} teeth",
+        pitch=mesh.working_radius[0],
     )
 
 

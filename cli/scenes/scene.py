@@ -1,6 +1,7 @@
-"""What a moving picture is made of: rigid bodies, chains of links and fixed lines, over the pictures of one loop.
+"""What a picture of a mechanism is made of: rigid bodies, chains of links, fixed lines, over the positions of a loop.
 
-Tracks are arrays over the pictures; points are complex numbers in mm.
+A sheet draws one position or a few of it, a film all of them. Tracks are arrays over the positions; points are complex
+numbers in mm.
 """
 
 from __future__ import annotations
@@ -10,6 +11,8 @@ from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
+
+from gearlink.cli.scenes.colors import BLACK, GREY, pale
 
 Reals: TypeAlias = NDArray[np.float64]
 # Complex, or real where all lies on the x axis.
@@ -25,6 +28,9 @@ class Body:
     outline : (M,) points in the body's own frame
     place, turn : (N,) tracks of its origin and of the direction of its x axis [rad]
     repeats : after a turn by 2 pi/repeats the outline looks the same; 1 without such a symmetry, 0 for a circle
+    label, name : words on the body, and in a legend
+    pitch : radius of the pitch circle of a gear [mm]
+    shows_turn : there to show how far something has turned; left out where nothing moves
     """
 
     outline: Points
@@ -34,8 +40,10 @@ class Body:
     color: str
     fill: str = ""
     width: float = 1.2
-    closed: bool = True
     label: str = ""
+    name: str = ""
+    pitch: float = 0.0
+    shows_turn: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -43,7 +51,7 @@ class Chain:
     """Links from joint to joint, each joint a track; drawn with a circle at every joint."""
 
     joints: tuple[Points, ...]
-    color: str
+    color: str = BLACK
     width: float = 3.5
     marked: bool = True
 
@@ -53,13 +61,13 @@ class Line:
     """A line that stands still."""
 
     points: Points
-    color: str
+    color: str = GREY
     width: float = 1.0
     dashed: bool = False
-    fill: str = ""
+    name: str = ""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True)
 class Mark:
     """Letters at a point that may move, or a fixed pivot."""
 
@@ -68,9 +76,9 @@ class Mark:
     pivot: bool = False
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True)
 class Curve:
-    """A curve of the chart: its values over the loop, and at each picture."""
+    """A curve of the chart: its values over the loop, and at each position."""
 
     label: str
     color: str
@@ -78,7 +86,7 @@ class Curve:
     now: Reals
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True)
 class Chart:
     """A chart below the mechanism with a point that runs along."""
 
@@ -89,9 +97,9 @@ class Chart:
     curves: tuple[Curve, ...]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True)
 class Readout:
-    """A value that is shown with every picture."""
+    """A value that is shown with every position."""
 
     label: str
     unit: str
@@ -103,7 +111,7 @@ Part: TypeAlias = Body | Chain | Line
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Scene:
-    """All of a moving picture; parts are drawn in their order."""
+    """All of a picture; parts are drawn in their order."""
 
     parts: tuple[Part, ...]
     marks: tuple[Mark, ...] = ()
@@ -116,9 +124,14 @@ def track(value: Any, fraction: Reals) -> Points:
     return np.broadcast_to(np.asarray(value, dtype=np.complex128), fraction.shape)
 
 
-def steady(value: Any, fraction: Reals) -> Reals:
-    """A real value as a track."""
-    return np.broadcast_to(np.asarray(value, dtype=np.float64), fraction.shape)
+def letters(pivots: str, **points: Points) -> tuple[Mark, ...]:
+    """Marks of joints by their letters; those named first are pivots of the frame."""
+    return tuple(Mark(point, name, name in pivots) for name, point in points.items())
+
+
+def placed(body: Body, i: int) -> Points:
+    """The outline of a body in a position."""
+    return np.asarray(body.place[i] + body.outline * np.exp(1j * body.turn[i]))
 
 
 def circle(radius: float, count: int = 72) -> Points:
@@ -126,47 +139,30 @@ def circle(radius: float, count: int = 72) -> Points:
     return np.asarray(radius * np.exp(1j * TURN * np.arange(count + 1) / count))
 
 
-def fixed_circle(center: complex, radius: float, color: str, *, dashed: bool = False, width: float = 1.0) -> Line:
-    """A circle that stands still."""
-    return Line(points=center + circle(radius, 120), color=color, dashed=dashed, width=width)
+def fixed_circle(center: complex, radius: float, name: str = "") -> Line:
+    """A dashed circle that stands still."""
+    return Line(points=center + circle(radius, 120), dashed=True, name=name)
 
 
-def standing(points: Points, fraction: Reals, color: str) -> Body:
+def standing(points: Points, fraction: Reals, color: str, name: str = "") -> Body:
     """A line that stands still in front of what is drawn before it."""
-    return Body(
-        outline=points,
-        place=track(0.0, fraction),
-        turn=np.zeros_like(fraction),
-        color=color,
-        width=1.5,
-        closed=False,
-    )
+    level = np.zeros_like(fraction)
+    return Body(outline=points, place=track(0.0, fraction), turn=level, color=color, width=1.5, name=name)
 
 
 def wheel(place: Any, radius: float, fraction: Reals, *, color: str, fill: str, label: str = "") -> Body:
     """A plain disc, such as a roller: it looks the same at every turn."""
-    return Body(
-        outline=circle(radius),
-        place=track(place, fraction),
-        turn=np.zeros_like(fraction),
-        color=color,
-        fill=fill,
-        repeats=0,
-        label=label,
-    )
+    at, level = track(place, fraction), np.zeros_like(fraction)
+    return Body(outline=circle(radius), place=at, turn=level, color=color, fill=fill, repeats=0, label=label)
+
+
+def block(place: Points, width: float, height: float, color: str, label: str = "", *, fill: str = "") -> Body:
+    """A rectangle about a moving point."""
+    corners = 0.5 * (np.array([-1.0, 1.0, 1.0, -1.0, -1.0]) * width + 1j * np.array([-1, -1, 1, 1, -1]) * height)
+    level = np.zeros(len(place))
+    return Body(outline=corners, place=place, turn=level, color=color, fill=fill or pale(color), label=label)
 
 
 def loop(samples: int = 181) -> Reals:
     """Fractions of the loop for a chart, both ends included."""
     return np.linspace(0.0, 1.0, samples)
-
-
-def pale(color: str, share: float = 0.18) -> str:
-    """A colour mixed with white: fills are opaque, so that parts in front hide those behind.
-
-    Example
-        >>> pale("#000000", 0.2)
-        '#cccccc'
-    """
-    parts = (int(color[i : i + 2], 16) for i in (1, 3, 5))
-    return "#" + "".join(f"{round(255 - share * (255 - part)):02x}" for part in parts)

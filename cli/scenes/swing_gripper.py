@@ -1,4 +1,4 @@
-"""The swing gripper in motion: one turn of the cylinder shaft, a sheet."""
+"""The swing gripper: one turn of the cylinder shaft, a sheet."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.cli.figures import style
 from gearlink.cli.scenes.cams import disc_cam
+from gearlink.cli.scenes.colors import BLACK, BLUE, GREY, ORANGE, RED, pale
 from gearlink.cli.scenes.scene import (
     TURN,
     Body,
@@ -22,8 +22,8 @@ from gearlink.cli.scenes.scene import (
     Reals,
     Scene,
     circle,
+    letters,
     loop,
-    pale,
     track,
     wheel,
 )
@@ -41,17 +41,22 @@ def build(design: SwingGripper, fraction: Reals) -> Scene:
     at = _positions(design, degrees)
     a, e = track(at.a, fraction), track(at.e, fraction)
     path = _positions(design, np.linspace(0.0, design.law.starts[3], 121)).f
+    arms = at.d - at.e
+    turn, plate = np.unwrap(np.angle(arms)), np.array([0.0, 1.0, (at.f[0] - at.e) / arms[0], 0.0]) * abs(arms[0])
     parts: list[Part] = [
-        Line(points=path, color=style.ORANGE, width=2.0),
+        Line(points=path, color=ORANGE, width=2.0, name="path of the sheet's edge"),
         *_drum(design, fraction),
         *_cams(design, fraction),
-        Chain(joints=(a, at.c, at.d, e), color=style.BLUE),
-        Chain(joints=(at.d, e, at.f), color=style.BLACK),
+        Body(outline=plate, place=e, turn=turn, color=BLACK, fill=pale(BLACK, 0.12), width=0.5),
+        Chain(joints=(a, at.c, at.d, e), color=BLUE),
+        Chain(joints=(at.d, e, at.f)),
     ]
-    named = (("A", a, True), ("C", at.c, False), ("D", at.d, False), ("E", e, True), ("F", at.f, False))
     return Scene(
         parts=tuple(parts),
-        marks=tuple(Mark(point=point, text=name, pivot=pivot) for name, point, pivot in named),
+        marks=(
+            *letters("AE", A=a, C=at.c, D=at.d, E=e, F=at.f),
+            Mark(track(drum_center(design), fraction), pivot=True),
+        ),
         chart=_chart(design, degrees),
         readouts=_readouts(design, degrees),
     )
@@ -62,19 +67,32 @@ def _positions(design: SwingGripper, degrees: Reals) -> GripperPositions:
     return positions(design.linkage, arm.length, math.radians(arm.direction), degrees)
 
 
+def drum_center(design: SwingGripper) -> complex:
+    """Axis of the drum: as the file has it, or where the handover wants it."""
+    given = design.spec.cylinder.center
+    return complex(*given) if given else design.handover_center
+
+
 def _drum(design: SwingGripper, fraction: Reals) -> list[Part]:
     """The drum that takes the sheet over, with its grippers where the tip meets them at the handover."""
     spec = design.spec
-    center = complex(*spec.cylinder.center) if spec.cylinder.center else design.handover_center
+    center = drum_center(design)
     meeting = complex(_positions(design, np.array([spec.handover])).f[0])
     radius = spec.cylinder.radius
     way = (meeting - center) / abs(meeting - center)
     turn = -spec.swing_sense * (TURN * fraction - math.radians(spec.handover))
     pad = radius * way * np.array([0.86, 1.0])
-    shared = {"place": track(center, fraction), "turn": turn, "color": style.GREY}
+    shared = {"place": track(center, fraction), "turn": turn, "color": GREY}
     return [
-        Body(outline=circle(radius, 144), repeats=0, fill=pale(style.GREY, 0.1), **shared, label="drum"),  # type: ignore[arg-type]
-        Body(outline=pad, width=5.0, closed=False, **{**shared, "color": style.RED}),  # type: ignore[arg-type]
+        Body(
+            outline=circle(radius, 144),
+            repeats=0,
+            fill=pale(GREY, 0.1),
+            label="drum",
+            name=f"drum, radius {radius:g} mm",
+            **shared,  # type: ignore[arg-type]
+        ),
+        Body(outline=pad, width=5.0, **{**shared, "color": RED}),  # type: ignore[arg-type]
     ]
 
 
@@ -93,9 +111,9 @@ def _cams(design: SwingGripper, fraction: Reals) -> list[Part]:
         parts.append(disc_cam(cam, axis, spec.sense * TURN * fraction, color))
     for (roller, angle), color in zip(rollers, _CAM_COLORS, strict=False):
         center = pivot + roller.arm * np.exp(1j * (rocker + math.radians(angle)))
-        parts.append(Chain(joints=(track(pivot, fraction), center), color=style.BLUE, marked=False))
+        parts.append(Chain(joints=(track(pivot, fraction), center), color=BLUE, marked=False))
         parts.append(wheel(center, roller.radius, fraction, color=color, fill=pale(color, 0.3)))
-    parts.append(wheel(axis, max(spec.shaft_radius, 1e-3), fraction, color=style.BLACK, fill="#ffffff"))
+    parts.append(wheel(axis, max(spec.shaft_radius, 1e-3), fraction, color=BLACK, fill="#ffffff"))
     return parts
 
 
@@ -104,20 +122,14 @@ def _swing(design: SwingGripper, degrees: Reals) -> Reals:
 
 
 def _chart(design: SwingGripper, degrees: Reals) -> Chart:
-    curve = Curve(label="gripper", color=style.BLUE, y=_swing(design, 360.0 * loop()), now=_swing(design, degrees))
-    return Chart(
-        xlabel="cylinder angle [deg]",
-        ylabel="swing of the gripper [deg]",
-        x=360.0 * loop(),
-        now=degrees,
-        curves=(curve,),
-    )
+    curve = Curve("gripper", BLUE, _swing(design, 360.0 * loop()), _swing(design, degrees))
+    return Chart("cylinder angle [deg]", "swing of the gripper [deg]", 360.0 * loop(), degrees, (curve,))
 
 
 def _readouts(design: SwingGripper, degrees: Reals) -> tuple[Readout, ...]:
     speed = design.law.evaluate(degrees, 1)[1] * design.shaft_speed * design.spec.arm.length
     return (
-        Readout(label="cylinder", unit="°", values=degrees),
-        Readout(label="swing", unit="°", values=_swing(design, degrees)),
-        Readout(label="speed of the tip", unit=" mm/s", values=speed),
+        Readout("cylinder", "°", degrees),
+        Readout("swing", "°", _swing(design, degrees)),
+        Readout("speed of the tip", " mm/s", speed),
     )

@@ -1,4 +1,4 @@
-"""The two-gear four-bar in motion: one turn of the crank."""
+"""The two-gear four-bar: one turn of the crank."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.cli.figures import style
+from gearlink.cli.scenes.colors import BLUE, ORANGE
 from gearlink.cli.scenes.gears import gear
 from gearlink.cli.scenes.linkages import Joints, coupler_windings, crank_readout, over_crank, whole_turn
 from gearlink.cli.scenes.scene import TURN, Curve, Readout, Reals, Scene, fixed_circle
@@ -21,15 +21,16 @@ def build(design: TwoGearFourBar, fraction: Reals) -> Scene:
     """Positions over fractions of the loop."""
     phi = TURN * fraction
     at = Joints.of(design.linkage, phi)
-    planet = gear(design.mesh, 0, at.b, at.coupler, coupler_windings(design.linkage), style.BLUE, "2")
-    output = gear(design.mesh, 1, at.a, output_turn(design, phi), design.mean_ratio, style.ORANGE, "5")
+    name = "gear 5, ring gear" if design.internal else "gear 5, sun"
+    planet = gear(design.mesh, 0, at.b, at.coupler, coupler_windings(design.linkage), BLUE, "2", "gear 2, planet on BC")
+    output = gear(design.mesh, 1, at.a, output_turn(design, phi), design.mean_ratio, ORANGE, "5", name)
     swept = np.degrees(_output(design, phi))
-    curve = Curve(label="output", color=style.ORANGE, y=np.degrees(_output(design, whole_turn())), now=swept)
+    curve = Curve("output", ORANGE, np.degrees(_output(design, whole_turn())), swept)
     return Scene(
-        parts=(*output, *planet, fixed_circle(0j, design.crank_length, style.GREY, dashed=True), at.chain()),
+        parts=(*output, *planet, fixed_circle(0j, design.crank_length), at.chain()),
         marks=at.marks(),
         chart=over_crank(phi, (curve,), "output angle [deg]"),
-        readouts=(crank_readout(phi), Readout(label="output", unit="°", values=swept)),
+        readouts=(crank_readout(phi), Readout("output", "°", swept)),
     )
 
 

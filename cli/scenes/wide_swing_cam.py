@@ -1,4 +1,4 @@
-"""The wide-swing mechanism in motion: working stroke, rest, return stroke, rest.
+"""The wide-swing mechanism: working stroke, rest, return stroke, rest.
 
 A cam is drawn as far as it is known: the profile of its stroke with the slot of the roller at mid-swing.
 """
@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.cli.figures import style
+from gearlink.cli.scenes.colors import BLACK, BLUE, GREEN, GREY, ORANGE, RED, pale
 from gearlink.cli.scenes.linkages import Joints
 from gearlink.cli.scenes.scene import (
     TURN,
@@ -26,12 +26,11 @@ from gearlink.cli.scenes.scene import (
     Readout,
     Reals,
     Scene,
+    block,
     loop,
-    pale,
     track,
     wheel,
 )
-from gearlink.cli.scenes.slider_crank import block
 
 if TYPE_CHECKING:
     from gearlink.core.wide_swing.design import WideSwingDesign
@@ -95,19 +94,19 @@ class Cycle:
 def build(design: WideSwingDesign, fraction: Reals) -> Scene:
     """Positions over fractions of the loop; the rocker's pivot is the origin, the cam axis stands right of it."""
     cycle = Cycle(design, fraction)
-    marks = [Mark(point=track(0.0, fraction), pivot=True)]
+    marks = [Mark(track(0.0, fraction), pivot=True)]
     if design.spec.cam is not None:
-        marks.append(Mark(point=track(design.spec.cam.center_distance, fraction), pivot=True))
+        marks.append(Mark(track(design.spec.cam.center_distance, fraction), pivot=True))
     if cycle.oscillates:
-        marks.append(Mark(point=_crank_rocker(cycle)[0], text="A", pivot=True))
+        marks.append(Mark(_crank_rocker(cycle)[0], "A", pivot=True))
     drive = "crank" if cycle.oscillates else "cam"
     return Scene(
         parts=(*_device(cycle), *_cams(cycle), *_slider(cycle)),
         marks=tuple(marks),
         chart=_chart(cycle, drive),
         readouts=(
-            Readout(label=drive, unit="°", values=np.degrees(cycle.turned * fraction)),
-            Readout(label="rocker from mid-swing", unit="°", values=np.degrees(cycle.swing)),
+            Readout(drive, "°", np.degrees(cycle.turned * fraction)),
+            Readout("rocker from mid-swing", "°", np.degrees(cycle.swing)),
         ),
     )
 
@@ -120,16 +119,16 @@ def _cams(cycle: Cycle) -> list[Part]:
     if cycle.oscillates:
         turn, joints = _cam_on_rocker(cycle), _crank_rocker(cycle)
         return [
-            *_cam(cycle, design.cam, turn, style.BLUE),
-            Chain(joints=joints, color=style.GREY),
+            *_cam(cycle, design.cam, turn, BLUE),
+            Chain(joints=joints, color=GREY),
             *_roller(cycle, design.cam.rocker_radius),
         ]
     if design.return_cam is None:
-        main = _cam(cycle, design.cam, -cycle.cam_turn(0.0), style.BLUE)
-        back = _cam(cycle, design.cam, cycle.cam_turn(0.5), style.RED, mirrored=True)
+        main = _cam(cycle, design.cam, -cycle.cam_turn(0.0), BLUE)
+        back = _cam(cycle, design.cam, cycle.cam_turn(0.5), RED, mirrored=True)
         return [*back, *main, *_roller(cycle, design.cam.rocker_radius)]
-    main = _cam(cycle, design.cam, math.pi + cycle.cam_turn(0.0), style.BLUE)
-    back = _cam(cycle, design.return_cam, cycle.cam_turn(0.5), style.RED, mirrored=True)
+    main = _cam(cycle, design.cam, math.pi + cycle.cam_turn(0.0), BLUE)
+    back = _cam(cycle, design.return_cam, cycle.cam_turn(0.5), RED, mirrored=True)
     rollers = *_roller(cycle, -design.cam.rocker_radius), *_roller(cycle, design.return_cam.rocker_radius)
     return [*back, *main, *rollers]
 
@@ -144,8 +143,8 @@ def _cam(cycle: Cycle, cam: AnyCam, turn: Reals, color: str, *, mirrored: bool =
     place = track(cam.center_distance, cycle.fraction)
     spokes = np.array([outline[0], 0.0, outline[-1]])
     return [
-        Body(outline=spokes, place=place, turn=turn, color=color, width=0.8, closed=False),
-        Body(outline=outline, place=place, turn=turn, color=color, width=2.4, closed=False),
+        Body(outline=spokes, place=place, turn=turn, color=color, width=0.8),
+        Body(outline=outline, place=place, turn=turn, color=color, width=2.4),
     ]
 
 
@@ -155,8 +154,8 @@ def _roller(cycle: Cycle, arm: float) -> list[Part]:
     cam = cycle.design.spec.cam
     assert cam is not None, "there is a roller where there is a cam"
     return [
-        Chain(joints=(track(0.0, cycle.fraction), center), color=style.BLACK, marked=False),
-        wheel(center, cam.roller_radius, cycle.fraction, color=style.BLACK, fill=pale(style.ORANGE, 0.6)),
+        Chain(joints=(track(0.0, cycle.fraction), center), marked=False),
+        wheel(center, cam.roller_radius, cycle.fraction, color=BLACK, fill=pale(ORANGE, 0.6)),
     ]
 
 
@@ -202,8 +201,8 @@ def _device(cycle: Cycle) -> list[Part]:
     pin = 1j * unloader.arm * np.exp(1j * cycle.swing)
     base = track(1j * unloader.arm * unloader.pivot_ratio, cycle.fraction)
     return [
-        Chain(joints=(base, pin), color=style.GREEN, width=6.0),
-        Chain(joints=(track(0.0, cycle.fraction), pin), color=style.BLACK),
+        Chain(joints=(base, pin), color=GREEN, width=6.0),
+        Chain(joints=(track(0.0, cycle.fraction), pin)),
     ]
 
 
@@ -216,19 +215,14 @@ def _slider(cycle: Cycle) -> list[Part]:
     arm = drive.crank * np.exp(1j * (cycle.swing + drive.middle_angle - 0.5 * math.pi))
     place = -drive.offset - 1j * drive.depth(cycle.swing)[0]
     return [
-        block(place, 0.14 * drive.rod, 0.2 * drive.rod, style.BLUE),
-        Chain(joints=(track(0.0, cycle.fraction), arm, place), color=style.BLACK),
+        block(place, 0.14 * drive.rod, 0.2 * drive.rod, BLUE),
+        Chain(joints=(track(0.0, cycle.fraction), arm, place)),
     ]
 
 
 def _chart(cycle: Cycle, drive: str) -> Chart:
     whole = Cycle(cycle.design, loop(361))
-    curve = Curve(label="rocker", color=style.BLUE, y=np.degrees(whole.swing), now=np.degrees(cycle.swing))
+    curve = Curve("rocker", BLUE, np.degrees(whole.swing), np.degrees(cycle.swing))
     turned = math.degrees(cycle.turned)
-    return Chart(
-        xlabel=f"{drive} angle from the start of the stroke [deg]",
-        ylabel="rocker from mid-swing [deg]",
-        x=turned * loop(361),
-        now=turned * cycle.fraction,
-        curves=(curve,),
-    )
+    x, now = turned * loop(361), turned * cycle.fraction
+    return Chart(f"{drive} angle from the start of the stroke [deg]", "rocker from mid-swing [deg]", x, now, (curve,))

@@ -95,7 +95,7 @@ def test_unknown_pin_is_located(gearlink, designs):
 def test_mutilated_figure_shows_the_table():
     made = factory.design("mutilated_gear_press")
     figure = draw("analyze", made)
-    lines = {line.get_label(): line for axes in figure.subfigs[1].axes for line in axes.lines}
+    lines = {line.get_label(): line for axes in figure.axes for line in axes.lines}
     table = made.table("motion")
     assert list(lines["rocker"].get_ydata()) == list(table.data[table.columns.index("rocker_speed_ratio")])
 
@@ -257,7 +257,7 @@ def test_table_of_the_other_form_is_refused(gearlink, designs):
 def test_five_bar_figure_shows_the_table():
     made = factory.design("five_bar_points")
     figure = draw("analyze", made)
-    lines = {line.get_label(): line for part in figure.subfigs for axes in part.axes for line in axes.lines}
+    lines = {line.get_label(): line for axes in figure.axes for line in axes.lines}
     table = made.table("path")
     x = list(table.data[table.columns.index("x")])
     assert list(lines["path of M"].get_xdata()) == [*x, x[0]]

@@ -6,83 +6,27 @@ from coordinates of some 500 mm within 1e-9 mm; the SVG files of two runs are co
 
 from __future__ import annotations
 
-import copy
 import io
 import math
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-import yaml
-from matplotlib.figure import Figure
+from factory import worked
+from sheets import Sheet, labels, lines, panel, panel_named, points, scaled, sheet
 
-from gearlink.cli.figures.write import draw
-from gearlink.core.kinds import KINDS
-
-KIND = KINDS["flatbed-press"]
 LENGTHS = {"module", "horizontal_distance", "radius", "crank", "coupler", "rocker", "frame", "stroke", "rod", "offset"}
 LENGTHS |= {"length", "print_length", "base_radius", "roller_radius"}
 
 
-def press_file() -> dict[str, Any]:
-    text = (Path(__file__).parents[3] / "designs" / "ty460.yaml").read_text()
-    data: dict[str, Any] = yaml.safe_load(text)
-    return data
-
-
-def changed(changes: dict[str, Any]) -> dict[str, Any]:
-    """The press with keys changed; None takes a key out."""
-    data = copy.deepcopy(press_file())
-    for path, value in changes.items():
-        *parents, key = path.split(".")
-        section = data
-        for parent in parents:
-            section = section[parent]
-        section.pop(key) if value is None else section.update({key: value})
-    return data
-
-
-def scaled(data: Any, factor: float) -> Any:
-    """The same machine, larger or smaller."""
-    if not isinstance(data, dict):
-        return data
-    return {key: value * factor if key in LENGTHS else scaled(value, factor) for key, value in data.items()}
-
-
-def design(data: dict[str, Any], command: str = "press") -> Any:
-    return KIND.design(command, KIND.spec_model().model_validate(data))
-
-
-def drawn(command: str, data: dict[str, Any] | None = None) -> tuple[Any, Figure]:
-    made = design(data or press_file(), command)
-    return made, draw(command, made)
-
-
-def panel(figure: Figure, title: str) -> Any:
-    return next(axes for axes in figure.axes if axes.get_title(loc="left").startswith(title))
-
-
-def panel_named(figure: Figure, ylabel: str) -> Any:
-    return next(axes for axes in figure.axes if axes.get_ylabel().replace("\n", " ") == ylabel)
-
-
-def lines(axes: Any) -> dict[str, Any]:
-    return {line.get_label(): line for line in axes.get_lines() if not line.get_label().startswith("_")}
-
-
-def labels(axes: Any) -> list[str]:
-    return [text.get_text() for text in axes.get_legend().get_texts()]
+@pytest.fixture(scope="module")
+def press() -> Sheet:
+    return sheet("ty460", "press")
 
 
 @pytest.fixture(scope="module")
-def press() -> tuple[Any, Figure]:
-    return drawn("press")
-
-
-@pytest.fixture(scope="module")
-def cam() -> tuple[Any, Figure]:
-    return drawn("cam")
+def cam() -> Sheet:
+    return sheet("ty460", "cam")
 
 
 # press
@@ -90,10 +34,10 @@ def cam() -> tuple[Any, Figure]:
 
 @pytest.mark.parametrize("what", ["displacement", "velocity"])
 @pytest.mark.parametrize("part", ["bed", "cylinder"])
-def test_curves_are_the_table_of_positions(press: tuple[Any, Figure], what: str, part: str) -> None:
-    axes = panel(press[1], "Travel" if what == "displacement" else "Speed")
+def test_curves_are_the_table_of_positions(press: Sheet, what: str, part: str) -> None:
+    axes = panel(press.figure, "Travel" if what == "displacement" else "Speed")
     line = lines(axes)[part]
-    table = design(press_file()).table("positions")
+    table = press.design.table("positions")
     column = table.data[table.columns.index(f"{part}_{what}")]
     np.testing.assert_allclose(line.get_xdata()[::60], table.data[0], atol=1e-12)
     np.testing.assert_allclose(line.get_ydata()[::60], column, rtol=1e-12, atol=1e-9)
@@ -101,18 +45,18 @@ def test_curves_are_the_table_of_positions(press: tuple[Any, Figure], what: str,
     np.testing.assert_array_equal(dots.get_ydata(), column)
 
 
-def test_equal_speeds_stand_on_both_curves(press: tuple[Any, Figure]) -> None:
-    axes = panel(press[1], "Speed")
+def test_equal_speeds_stand_on_both_curves(press: Sheet) -> None:
+    axes = panel(press.figure, "Speed")
     dots = next(line for line in axes.get_lines() if line.get_marker() == "D")
     assert dots.get_label() == "equal: 34.0°, 55.2°, 78.4°, 179.2°"
-    assert dots.get_xdata()[0] == pytest.approx(math.degrees(press[0].sync_start), abs=1e-9)
+    assert dots.get_xdata()[0] == pytest.approx(math.degrees(press.design.sync_start), abs=1e-9)
     for part in ("bed", "cylinder"):
         curve = lines(axes)[part]
         at_dots = np.interp(dots.get_xdata(), curve.get_xdata(), curve.get_ydata())
         np.testing.assert_allclose(dots.get_ydata(), at_dots, rtol=1e-4)
 
 
-def test_the_synchronous_zone_is_shaded_in_both_curves(press: tuple[Any, Figure]) -> None:
+def test_the_synchronous_zone_is_shaded_in_both_curves(press: Sheet) -> None:
     made, figure = press
     for title in ("Travel", "Speed"):
         box = panel(figure, title).patches[0].get_bbox()
@@ -120,20 +64,20 @@ def test_the_synchronous_zone_is_shaded_in_both_curves(press: tuple[Any, Figure]
         assert math.degrees(made.sync_end) == pytest.approx(box.x1)
 
 
-def test_twelve_positions_of_the_bed_chain_keep_their_links(press: tuple[Any, Figure]) -> None:
-    chains = [line for line in panel(press[1], "Bed chain").get_lines() if line.get_linewidth() == 0.6]
+def test_twelve_positions_of_the_bed_chain_keep_their_links(press: Sheet) -> None:
+    chains = [line for line in panel(press.figure, "Bed chain").get_lines() if line.get_linewidth() == 0.6]
     assert len(chains) == 12
-    made = press[0]
+    made = press.design
     for chain in chains:
-        joints = chain.get_xdata() + 1j * chain.get_ydata()
+        joints = points(chain)
         links = np.abs(np.diff(joints))
         np.testing.assert_allclose(links, [116.0, 100.0, 100.0, made.crank_length, 520.0], atol=1e-9)
 
 
-def test_bed_arrows_are_its_speeds_to_one_scale(press: tuple[Any, Figure]) -> None:
-    axes = panel(press[1], "Bed chain")
+def test_bed_arrows_are_its_speeds_to_one_scale(press: Sheet) -> None:
+    axes = panel(press.figure, "Bed chain")
     (quiver,) = [each for each in axes.collections if hasattr(each, "U")]
-    table = design(press_file()).table("positions")
+    table = press.design.table("positions")
     speed = np.asarray(table.data[table.columns.index("bed_velocity")])
     # Printing runs to the right in the figure.
     scale = quiver.U[4] / speed[4]
@@ -145,10 +89,10 @@ def test_bed_arrows_are_its_speeds_to_one_scale(press: tuple[Any, Figure]) -> No
     assert pytest.approx(2000.0 * scale) == key.U
 
 
-def test_cylinder_arrows_are_the_velocity_of_m(press: tuple[Any, Figure]) -> None:
-    axes = panel(press[1], "Cylinder chain")
+def test_cylinder_arrows_are_the_velocity_of_m(press: Sheet) -> None:
+    axes = panel(press.figure, "Cylinder chain")
     (quiver,) = [each for each in axes.collections if hasattr(each, "U")]
-    table = design(press_file()).table("positions")
+    table = press.design.table("positions")
     surface = np.asarray(table.data[table.columns.index("cylinder_velocity")])
     length = np.hypot(quiver.U, quiver.V)
     np.testing.assert_allclose(length / length[0], surface / surface[0], rtol=1e-12)
@@ -158,12 +102,12 @@ def test_cylinder_arrows_are_the_velocity_of_m(press: tuple[Any, Figure]) -> Non
 
 
 @pytest.mark.parametrize(("title", "value"), [("Bed chain", "46.532°"), ("Cylinder chain", "35.724°")])
-def test_least_transmission_angle_is_drawn_and_named(press: tuple[Any, Figure], title: str, value: str) -> None:
-    axes = panel(press[1], title)
+def test_least_transmission_angle_is_drawn_and_named(press: Sheet, title: str, value: str) -> None:
+    axes = panel(press.figure, title)
     (name,) = [label for label in labels(axes) if label.startswith("least transmission angle")]
     assert value in name
     line = lines(axes)[name]
-    joints = line.get_xdata() + 1j * line.get_ydata()
+    joints = points(line)
     before, after = joints[1] - joints[2], joints[3] - joints[2]
     angle = abs(np.angle(after / before, deg=True))
     assert min(angle, 180.0 - angle) == pytest.approx(float(value[:-1]), abs=5e-4)
@@ -175,20 +119,20 @@ def test_least_transmission_angle_is_drawn_and_named(press: tuple[Any, Figure], 
 @pytest.mark.parametrize(
     ("column", "ylabel"), [(1, "lift [mm]"), (2, "velocity [mm/rad]"), (3, "acceleration [mm/rad²]")]
 )
-def test_follower_curves_are_the_table(cam: tuple[Any, Figure], column: int, ylabel: str) -> None:
-    line = panel_named(cam[1], ylabel).get_lines()[0]
-    table = cam[0].table("follower")
+def test_follower_curves_are_the_table(cam: Sheet, column: int, ylabel: str) -> None:
+    line = panel_named(cam.figure, ylabel).get_lines()[0]
+    table = cam.design.table("follower")
     np.testing.assert_array_equal(line.get_xdata()[::4], table.data[0])
     np.testing.assert_allclose(line.get_ydata()[::4], table.data[column], rtol=1e-12, atol=1e-12)
 
 
-def test_phases_are_shaded_and_named(cam: tuple[Any, Figure]) -> None:
-    axes = panel_named(cam[1], "lift [mm]")
+def test_phases_are_shaded_and_named(cam: Sheet) -> None:
+    axes = panel_named(cam.figure, "lift [mm]")
     (names,) = axes.child_axes
     named = [label.get_text() for label in names.get_xticklabels()]
     assert named == ["lead-in", "sync", "transition", "return", "dwell"]
     bounds = [patch.get_bbox().x0 for patch in axes.patches]
-    follower = cam[0].follower
+    follower = cam.design.follower
     starts = [math.degrees(segment.start) for segment in follower.segments]
     assert bounds == pytest.approx([*starts, 0.0])
     # The dwell runs through the end of the turn.
@@ -196,9 +140,9 @@ def test_phases_are_shaded_and_named(cam: tuple[Any, Figure]) -> None:
 
 
 @pytest.mark.parametrize("name", ["main cam", "return cam"])
-def test_cam_outlines_are_the_tables(cam: tuple[Any, Figure], name: str) -> None:
-    axes = panel(cam[1], "Main and return cam")
-    table = cam[0].table(name.replace(" ", "_"))
+def test_cam_outlines_are_the_tables(cam: Sheet, name: str) -> None:
+    axes = panel(cam.figure, "Main and return cam")
+    table = cam.design.table(name.replace(" ", "_"))
     profile = lines(axes)[f"{name}, profile"]
     for drawn_at, column in ((profile.get_xdata(), "x"), (profile.get_ydata(), "y")):
         values = table.data[table.columns.index(column)]
@@ -212,19 +156,19 @@ def test_cam_outlines_are_the_tables(cam: tuple[Any, Figure], name: str) -> None
     np.testing.assert_allclose(pitch.get_xdata()[:-1:2], table.data[table.columns.index("pitch_x")], atol=1e-9)
 
 
-def test_rollers_touch_their_cams_on_the_line(cam: tuple[Any, Figure]) -> None:
-    axes = panel(cam[1], "Main and return cam")
+def test_rollers_touch_their_cams_on_the_line(cam: Sheet) -> None:
+    axes = panel(cam.figure, "Main and return cam")
     rollers = [patch for patch in axes.patches if getattr(patch, "radius", 0.0) == 25.0]
     assert [roller.center[1] for roller in rollers] == pytest.approx([0.0, 0.0], abs=1e-12)
     right, left = (roller.center[0] for roller in rollers)
-    assert right - left == pytest.approx(cam[0].roller_center_distance)
+    assert right - left == pytest.approx(cam.design.roller_center_distance)
     for roller, name in zip(rollers, ("main cam", "return cam"), strict=True):
         line = lines(axes)[f"{name}, profile"]
         reach = np.hypot(line.get_xdata() - roller.center[0], line.get_ydata() - roller.center[1]).min()
         assert reach == pytest.approx(25.0, abs=1e-9)
 
 
-def test_pressure_angle_and_curvature_are_the_tables(cam: tuple[Any, Figure]) -> None:
+def test_pressure_angle_and_curvature_are_the_tables(cam: Sheet) -> None:
     made, figure = cam
     for name in ("main_cam", "return_cam"):
         table = made.table(name)
@@ -238,36 +182,36 @@ def test_pressure_angle_and_curvature_are_the_tables(cam: tuple[Any, Figure]) ->
             np.testing.assert_allclose(line.get_ydata()[:-1:2], values, rtol=1e-12, atol=1e-12)
 
 
-def test_limits_are_drawn(cam: tuple[Any, Figure]) -> None:
-    assert labels(panel(cam[1], "Pressure angle"))[-1] == "limit ±30°"
-    limit = lines(panel(cam[1], "Curvature"))["undercut: 1/roller radius 25 mm"]
+def test_limits_are_drawn(cam: Sheet) -> None:
+    assert labels(panel(cam.figure, "Pressure angle"))[-1] == "limit ±30°"
+    limit = lines(panel(cam.figure, "Curvature"))["undercut: 1/roller radius 25 mm"]
     assert limit.get_ydata()[0] == 1.0 / 25.0
 
 
-def test_compensation_is_the_gap_of_the_two_travels(cam: tuple[Any, Figure]) -> None:
-    axes = panel(cam[1], "Compensation")
+def test_compensation_is_the_gap_of_the_two_travels(cam: Sheet) -> None:
+    axes = panel(cam.figure, "Compensation")
     line = axes.get_lines()[0]
-    assert line.get_xdata()[[0, -1]] == pytest.approx(np.degrees([cam[0].sync_start, cam[0].sync_end]))
-    assert line.get_ydata()[[0, -1]] == pytest.approx([0.0, cam[0].compensation], abs=1e-9)
+    assert line.get_xdata()[[0, -1]] == pytest.approx(np.degrees([cam.design.sync_start, cam.design.sync_end]))
+    assert line.get_ydata()[[0, -1]] == pytest.approx([0.0, cam.design.compensation], abs=1e-9)
 
 
 # Every command, odd designs, files
 
 ODD: dict[str, tuple[dict[str, Any], tuple[str, ...]]] = {
-    "arc without lead-in": (changed({"cam.lead_in": 0, "cam.transition": "arc"}), ("cam",)),
-    "zone from the start": (changed({"sync": {"start": 0, "length": 300}, "cam.lead_in": 30}), ("press", "cam")),
-    "no cam, no gears": (changed({"cam": None, "input_gears": None}), ("press", "analyze")),
-    "other offset": (changed({"bed.offset": -120, "bed.crank_offset_angle": -90}), ("press",)),
-    "bed chain mirrored": (changed({"bed.double_crank.assembly": -1}), ("press",)),
-    "tiny": (scaled(press_file(), 1e-6), ("press", "cam", "crank")),
-    "huge": (scaled(press_file(), 1e6), ("press", "cam", "crank")),
-    "mathematics in its name": (changed({"name": r"$\frac$ " * 20}), ("press",)),
+    "arc without lead-in": ({"cam__lead_in": 0, "cam__transition": "arc"}, ("cam",)),
+    "zone from the start": ({"sync": {"start": 0, "length": 300}, "cam__lead_in": 30}, ("press", "cam")),
+    "no cam, no gears": ({"cam": None, "input_gears": None}, ("press", "analyze")),
+    "other offset": ({"bed__offset": -120, "bed__crank_offset_angle": -90}, ("press",)),
+    "bed chain mirrored": ({"bed__double_crank__assembly": -1}, ("press",)),
+    "tiny": (scaled(worked("ty460"), 1e-6, LENGTHS), ("press", "cam", "crank")),
+    "huge": (scaled(worked("ty460"), 1e6, LENGTHS), ("press", "cam", "crank")),
+    "mathematics in its name": ({"name": r"$\frac$ " * 20}, ("press",)),
 }
 
 
 @pytest.mark.parametrize("command", ["press", "analyze", "cam", "gear", "crank"])
 def test_every_command_draws(command: str) -> None:
-    _, figure = drawn(command)
+    figure = sheet("ty460", command).figure
     figure.savefig(io.BytesIO(), format="png", dpi=40)
     assert f"TY-460: {command}" in figure.get_suptitle()
 
@@ -275,12 +219,12 @@ def test_every_command_draws(command: str) -> None:
 @pytest.mark.parametrize("name", ODD)
 def test_odd_designs_draw_without_warnings(name: str) -> None:
     """Laying the figure out draws everything but its pixels."""
-    data, commands = ODD[name]
+    keys, commands = ODD[name]
     for command in commands:
-        drawn(command, data)
+        sheet("ty460", command, **keys)
 
 
-def test_no_legend_lies_on_curves(press: tuple[Any, Figure], cam: tuple[Any, Figure]) -> None:
+def test_no_legend_lies_on_curves(press: Sheet, cam: Sheet) -> None:
     """Legends of curve panels stand above their axes."""
     for _, figure in (press, cam):
         for axes in figure.axes:

@@ -8,40 +8,29 @@ import math
 
 import numpy as np
 import pytest
+from factory import design
+from sheets import points, sheet, tagged, words
 
 from gearlink.cli.figures.gear_mesh import Mesh, mesh_figure
-from gearlink.cli.figures.write import draw, write_plot
+from gearlink.cli.figures.write import write_plot
 from gearlink.cli.options import Options
-from gearlink.core.gears.design import GearPairDesign
 from gearlink.core.gears.mesh_geometry import MeshGeometry
 from gearlink.core.gears.pair import GearPair
-from gearlink.core.gears.spec import GearPairSpec
 
-
-def design(**keys):
-    given = {"kind": "gear-pair", "name": "pair", "module": 4.0, "teeth": [20, 31], "profile_shift": [0.3, 0.1]}
-    return GearPairDesign(GearPairSpec(**{**given, **keys}))
-
-
-def lines(figure, gid):
-    return [line for axes in figure.axes for line in axes.lines if line.get_gid() == gid]
+DATA = {"kind": "gear-pair", "name": "pair", "module": 4.0, "teeth": [20, 31], "profile_shift": [0.3, 0.1]}
 
 
 def labelled(axes, label):
     return [line for line in axes.lines if line.get_label() == label]
 
 
-def words(figure):
-    return [text.get_text() for axes in figure.axes for text in axes.texts]
-
-
 @pytest.mark.parametrize("command", ["gear", "analyze"])
 def test_whole_gears_have_their_teeth(command):
-    made = design()
-    pair, figure = made.gear_pair, draw(command, made)
+    made, figure = sheet(DATA, command)
+    pair = made.gear_pair
     for gear, center in ((0, 0.0), (1, pair.center_distance)):
-        (line,) = lines(figure, f"teeth-{gear + 1}")
-        radius = np.hypot(np.asarray(line.get_xdata()) - center, line.get_ydata())
+        (body,) = tagged(figure, f"body-{gear + 1}")
+        radius = np.abs(points(body) - center)
         assert radius.max() == pytest.approx(pair.tip_radius[gear], rel=1e-9)
         assert radius.min() == pytest.approx(pair.root_radius[gear], abs=2e-3 * pair.module)
         outside = radius > pair.working_radius[gear]
@@ -49,9 +38,8 @@ def test_whole_gears_have_their_teeth(command):
 
 
 def test_mesh_zone_shows_the_path_of_contact():
-    made = design()
-    geometry = MeshGeometry(made.gear_pair)
-    zone = draw("gear", made).axes[1]
+    made, figure = sheet(DATA, "gear")
+    geometry, zone = MeshGeometry(made.gear_pair), figure.axes[1]
     (path,) = labelled(zone, "path of contact A–E")
     ends = np.asarray(path.get_xdata()) + 1j * np.asarray(path.get_ydata())
     assert ends == pytest.approx(np.array([geometry.contact_start, geometry.contact_end]), rel=1e-12)
@@ -62,8 +50,8 @@ def test_mesh_zone_shows_the_path_of_contact():
 
 
 def test_table_gives_the_designs_values():
-    made = design()
-    shown = words(draw("gear", made))
+    made, figure = sheet(DATA, "gear")
+    shown = words(figure)
     for name in ("center_distance", "working_pressure_angle", "contact_ratio"):
         assert f"{made.quantity(name).value:.6g}" in shown
     for name in ("tip_radius", "base_radius", "tooth_thickness", "specific_sliding"):
@@ -86,14 +74,14 @@ ODD = [
 
 @pytest.mark.parametrize("keys", [*ODD[:4], *(pytest.param(keys, marks=pytest.mark.slow) for keys in ODD[4:])])
 def test_odd_pairs_draw(keys, tmp_path):
-    write_plot("gear", design(**keys), Options(out=tmp_path))
+    write_plot("gear", design(DATA, command="gear", **keys), Options(out=tmp_path))
     assert [path.name for path in tmp_path.iterdir()] == ["pair-gear.png"]
 
 
 def test_teeth_that_no_tool_cuts_are_said_to_be_none():
-    figure = draw("gear", design(teeth=[30, 40], addendum=2.5, profile_shift=[0.0, 0.0]))
+    figure = sheet(DATA, "gear", teeth=[30, 40], addendum=2.5, profile_shift=[0.0, 0.0]).figure
     assert "gear 1: its tool leaves no such teeth" in words(figure)
-    assert not lines(figure, "teeth-1")
+    assert not tagged(figure, "body-1")
 
 
 def test_two_meshes_stand_in_one_figure():

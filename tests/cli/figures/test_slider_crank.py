@@ -1,4 +1,4 @@
-"""Figures of a slider-crank: links of true length, travel and velocity as the kernel has them.
+"""Figures of a slider-crank: links of true length, travel and velocity as the kernel has them, one orientation.
 
 Tolerances
 * lengths of drawn links and travel: 1e-12 of the rod, a handful of operations.
@@ -6,23 +6,15 @@ Tolerances
 
 import numpy as np
 import pytest
+from factory import design
+from sheets import curve, lines, panel, points, sheet, words
 
-from gearlink.cli.figures.slider_crank import dead_centers, pin_and_slider
-from gearlink.cli.figures.write import draw, write_plot
+from gearlink.cli.figures.slider_crank import dead_centers
+from gearlink.cli.figures.write import write_plot
 from gearlink.cli.options import Options
-from gearlink.core.linkages.slider_crank_design import SliderCrankDesign
-from gearlink.core.linkages.slider_crank_spec import SliderCrankSpec
+from gearlink.cli.scenes.slider_crank import build
 
-
-def design(stroke=310.0, rod=520.0, offset=50.0):
-    return SliderCrankDesign(SliderCrankSpec(kind="slider-crank", name="sc", stroke=stroke, rod=rod, offset=offset))
-
-
-def line(figure, gid):
-    (found,) = [line for axes in figure.axes for line in axes.lines if line.get_gid() == gid]
-    return np.asarray(found.get_xdata()), np.asarray(found.get_ydata())
-
-
+DATA = {"kind": "slider-crank", "name": "sc", "stroke": 310.0, "rod": 520.0, "offset": 50.0}
 CASES = [
     (310.0, 520.0, 50.0),
     (300.0, 200.0, -60.0),
@@ -34,18 +26,21 @@ CASES = [
 ]
 
 
+def keys(case):
+    return dict(zip(("stroke", "rod", "offset"), case, strict=True))
+
+
 @pytest.mark.parametrize("case", CASES)
 def test_curves(case):
-    made = design(*case)
+    made, figure = sheet(DATA, "crank", **keys(case))
     stroke, rod, _ = case
-    figure = draw("crank", made)
-    degrees, travel = line(figure, "travel")
+    degrees, travel = curve(figure, "travel")
     assert travel.min() == pytest.approx(0.0, abs=1e-9 * rod)
     assert travel.max() == pytest.approx(stroke, abs=1e-9 * rod)
-    ratio = made.slider_crank.quick_return_ratio
-    top = degrees[np.argmax(travel)]
-    assert top / (360.0 - top) == pytest.approx(ratio, rel=1e-2)
-    _, velocity = line(figure, "velocity")
+    assert degrees[np.argmin(travel)] == pytest.approx(np.degrees(dead_centers(made)[0]) % 360.0, abs=0.5)
+    out = (degrees[np.argmax(travel)] - degrees[np.argmin(travel)]) % 360.0
+    assert out / (360.0 - out) == pytest.approx(made.slider_crank.quick_return_ratio, rel=1e-2)
+    _, velocity = curve(figure, "velocity")
     slope = np.gradient(travel, np.radians(degrees))
     if stroke < 0.9 * made.slider_crank.max_stroke:
         assert np.abs(slope - velocity)[2:-2].max() < 2e-3 * np.abs(velocity).max()
@@ -53,27 +48,38 @@ def test_curves(case):
 
 @pytest.mark.parametrize("case", CASES)
 def test_positions_have_the_lengths_of_the_links(case):
-    made = design(*case)
+    made, figure = sheet(DATA, "crank", **keys(case))
     stroke, rod, offset = case
-    near, far = (pin_and_slider(made, psi) for psi in dead_centers(made))
-    for pin, block in (near, far):
+    drawn = lines(panel(figure, "Crank"))
+    near, far = (
+        points(line) for name in ("folded", "stretched") for label, line in drawn.items() if label.startswith(name)
+    )
+    for pivot, pin, block in (near, far):
+        assert pivot == 0.0
         assert abs(pin) == pytest.approx(made.slider_crank.crank_length, rel=1e-12)
         assert abs(block - pin) == pytest.approx(rod, rel=1e-12)
-        assert block.imag == -offset
-    assert far[1].real - near[1].real == pytest.approx(stroke, abs=1e-9 * rod)
+        assert block.real == -offset
+    # The slider runs below the crank, and its stroke goes away from it.
+    assert near[2].imag - far[2].imag == pytest.approx(stroke, abs=1e-9 * rod)
+
+
+def test_the_sheet_stands_as_the_film_does():
+    made, figure = sheet(DATA, "crank")
+    folded, _ = dead_centers(made)
+    film = build(made, np.array([folded / (2.0 * np.pi)]))
+    (line,) = (line for label, line in lines(panel(figure, "Crank")).items() if label.startswith("folded"))
+    assert points(line).tolist() == [complex(mark.point[0]) for mark in film.marks]
 
 
 def test_drawing_names_its_dimensions():
-    figure = draw("analyze", design())
-    shown = [text.get_text() for text in figure.axes[0].texts]
-    assert {"D", "E", "F", "stroke 310 mm", "offset\n50 mm"} <= set(shown)
-    central = [text.get_text() for text in draw("crank", design(offset=0.0)).axes[0].texts]
-    assert not [text for text in central if "offset" in text]
+    shown = words(sheet(DATA, "analyze").figure)
+    assert {"D", "E", "F", "stroke 310 mm", "offset 50 mm"} <= set(shown)
+    assert not [text for text in words(sheet(DATA, "crank", offset=0.0).figure) if "offset" in text]
 
 
 @pytest.mark.parametrize("case", CASES[1:4])
 def test_odd_designs_draw(case, tmp_path):
-    path = write_plot("crank", design(*case), Options(out=tmp_path))
+    path = write_plot("crank", design(DATA, command="crank", **keys(case)), Options(out=tmp_path))
     assert [path] == list(tmp_path.iterdir())
     assert path.read_bytes().startswith(b"\x89PNG")
 
@@ -83,6 +89,6 @@ def test_a_folder_that_is_a_file_is_refused_and_stays(tmp_path):
 
     (tmp_path / "out").write_text("kept")
     with pytest.raises(CannotWrite):
-        write_plot("crank", design(), Options(out=tmp_path / "out"))
+        write_plot("crank", design(DATA, command="crank"), Options(out=tmp_path / "out"))
     assert [path.name for path in tmp_path.iterdir()] == ["out"]
     assert (tmp_path / "out").read_text() == "kept"

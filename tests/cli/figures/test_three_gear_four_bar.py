@@ -5,18 +5,22 @@ Tolerances
 * magnified dwell: 1e-9 deg, the rounding of output angles of some hundred degrees, ten times.
 """
 
+import cmath
 import math
+import re
 
 import numpy as np
 import pytest
 import yaml
+from factory import design
+from sheets import curve, lines, panel, points, sheet, tagged, words
 
-from gearlink.cli.figures.three_gear_mechanism import dwell_position, position
-from gearlink.cli.figures.write import draw, write_plot
+from gearlink.cli.figures.three_gear_mechanism import dwell_position
+from gearlink.cli.figures.write import write_plot
 from gearlink.cli.options import Options
-from gearlink.core.kinds import KINDS
+from gearlink.core.linkages.fourbar import solve
 
-KIND = KINDS["three-gear-four-bar"]
+MOMENTARY, STEADY = "synth momentary-dwell", "synth variable-speed"
 PRINTED = "{gears: {module: 2.5, crank: 20, idler: 20, output: 60}, links: {crank: 18.0, frame: 121.4}}"
 CASES = {
     "synth dwell": "{gears: {module: 2.0, crank: 40, idler: 72, output: 40}, dwell: {angle: 135.0}}",
@@ -42,23 +46,13 @@ ODD = {
 }
 
 
-def design(command, text):
-    data = {"kind": "three-gear-four-bar", "name": "train", **yaml.safe_load(text)}
-    return KIND.design(command, KIND.spec_model().model_validate(data))
-
-
-def curve(figure, gid):
-    (found,) = [line for axes in figure.axes for line in axes.lines if line.get_gid() == gid]
-    return np.asarray(found.get_xdata()), np.asarray(found.get_ydata())
-
-
-def patches(figure, gid):
-    return [patch for axes in figure.axes for patch in axes.patches if patch.get_gid() == gid]
+def data(text):
+    return {"kind": "three-gear-four-bar", "name": "train", **yaml.safe_load(text)}
 
 
 @pytest.mark.parametrize("command", CASES)
 def test_every_command_draws(command, tmp_path):
-    path = write_plot(command, design(command, CASES[command]), Options(out=tmp_path))
+    path = write_plot(command, design(data(CASES[command]), command=command), Options(out=tmp_path))
     assert path.name == f"train-{command.replace(' ', '-')}.png"
     assert list(tmp_path.iterdir()) == [path]
 
@@ -66,14 +60,13 @@ def test_every_command_draws(command, tmp_path):
 @pytest.mark.parametrize("case", ODD)
 @pytest.mark.parametrize("command", ["analyze", pytest.param("gear", marks=pytest.mark.slow)])
 def test_odd_designs_draw(command, case, tmp_path):
-    write_plot(command, design(command, ODD[case]), Options(out=tmp_path))
+    write_plot(command, design(data(ODD[case]), command=command), Options(out=tmp_path))
 
 
 @pytest.mark.parametrize("case", ["drag link", "mirrored, with tolerance"])
 def test_curves_are_the_tables(case):
-    made = design("analyze", ODD[case])
+    made, figure = sheet(data(ODD[case]))
     table = made.table("motion")
-    figure = draw("analyze", made)
     for name in ("output_angle", "speed_ratio", "acceleration_ratio", "transmission_angle"):
         x, y = curve(figure, name.replace("_", "-"))
         assert x[:-1].tolist() == list(table.data[0])
@@ -83,50 +76,63 @@ def test_curves_are_the_tables(case):
 
 
 def test_mechanism_is_to_scale():
-    made = design("analyze", PRINTED)
-    figure = draw("analyze", made)
-    at = position(made.linkage, dwell_position(made)[0])
-    assert abs(at.c - at.b) == pytest.approx(made.coupler_length, rel=1e-12)
-    for gear, center, teeth in ((1, at.b, 20), (3, at.c, 20), (5, at.d, 60)):
-        (pitch,), (tip,) = patches(figure, f"pitch-{gear}"), patches(figure, f"tip-{gear}")
+    made, figure = sheet(data(PRINTED))
+    angle, _ = dwell_position(made)
+    rocker = solve(made.linkage, angle).rocker_angle
+    b, c = cmath.rect(18.0, angle), 121.4 + cmath.rect(made.rocker_length, rocker)
+    assert abs(c - b) == pytest.approx(made.coupler_length, rel=1e-12)
+    for gear, center, teeth in ((1, b, 20), (3, c, 20), (5, 121.4, 60)):
+        (pitch,), (body,) = tagged(figure, f"pitch-{gear}"), tagged(figure, f"body-{gear}")
         assert complex(*pitch.center) == pytest.approx(center, rel=1e-12)
         assert pitch.radius == pytest.approx(1.25 * teeth, rel=1e-12)
-        assert tip.radius == pytest.approx(1.25 * (teeth + 2), rel=1e-12)
-    (path,) = patches(figure, "crank-circle")
-    assert path.radius == 18.0
+        radius = np.abs(points(body) - center)
+        assert radius.max() == pytest.approx(1.25 * (teeth + 2), rel=1e-12)
+        assert np.count_nonzero(np.diff((radius > pitch.radius).astype(int)) == 1) == teeth
+    circle = points(lines(panel(figure, "Mechanism"))["path of the crank pin B"])
+    np.testing.assert_allclose(np.abs(circle), 18.0, rtol=1e-12)
+
+
+def test_letters_keep_off_the_links():
+    axes = panel(sheet(data(PRINTED)).figure, "Mechanism")
+    chain = next(line for line in axes.lines if line.get_linewidth() > 2.0)
+    joints = axes.transData.transform(chain.get_xydata()) @ np.array([1.0, 1j])
+    for name, joint in zip("ABCD", joints, strict=True):
+        (letter,) = [text for text in axes.texts if text.get_text() == name]
+        away = complex(*letter.get_position())
+        assert abs(away) == pytest.approx(11.5)
+        for other in joints[[abs(joints - joint).argsort()[1]]]:
+            # Not over the nearest joint's link: at least 40 degrees beside it.
+            assert abs(cmath.phase(away / (other - joint))) > math.radians(40.0)
 
 
 def test_position_drawn_is_the_dwell():
-    back = design("analyze", PRINTED)
+    back = design(data(PRINTED))
     angle, words = dwell_position(back)
     assert back.back_step.start < angle < back.back_step.end
     assert words == "middle of the back-step"
-    momentary = design("synth momentary-dwell", CASES["synth momentary-dwell"])
+    momentary, steady = (sheet(data(CASES[command]), command).design for command in (MOMENTARY, STEADY))
     assert dwell_position(momentary) == (momentary.dwell_crank_angles[0], "momentary dwell")
-    steady = design("synth variable-speed", CASES["synth variable-speed"])
     assert dwell_position(steady)[0] == pytest.approx(1.5 * math.pi, abs=1e-7)
 
 
 def test_collision_is_shown_where_there_is_one():
-    assert len(patches(draw("analyze", design("analyze", PRINTED)), "collision")) == 1
-    clear = design("synth momentary-dwell", CASES["synth momentary-dwell"])
-    assert not patches(draw("synth momentary-dwell", clear), "collision")
-    (red,) = patches(draw("analyze", design("analyze", PRINTED)), "collision")
-    z = red.get_xy() @ np.array([1.0, 1j])
+    (red,) = tagged(sheet(data(PRINTED)).figure, "collision")
+    z = points(red)
     assert z.real.max() - z.real.min() == pytest.approx(1.6, abs=1e-3)
     assert np.abs(z - 18.0).max() < 27.5 * (1 + 1e-12)
     assert np.abs(z - 121.4).max() < 77.5 * (1 + 1e-12)
+    assert not tagged(sheet(data(CASES[MOMENTARY]), MOMENTARY).figure, "collision")
 
 
 def test_shafts_are_drawn_where_named():
-    figure = draw("analyze", design("analyze", ODD["drag link"]))
-    assert [patches(figure, f"shaft-{name}")[0].radius for name in ("input", "output")] == [6.0, 8.0]
-    assert not patches(draw("analyze", design("analyze", PRINTED)), "shaft-input")
+    figure = sheet(data(ODD["drag link"])).figure
+    assert [tagged(figure, f"shaft-{name}")[0].radius for name in ("input", "output")] == [6.0, 8.0]
+    assert not tagged(sheet(data(PRINTED)).figure, "shaft-input")
 
 
 def test_magnified_dwell_passes_its_marks():
-    made = design("synth dwell", CASES["synth dwell"])
-    x, y = curve(draw("synth dwell", made), "magnified")
+    made, figure = sheet(data(CASES["synth dwell"]), "synth dwell")
+    x, y = curve(figure, "magnified")
     start = math.degrees(made.back_step.start)
     at = np.interp([start, start + 135.0], x, y)
     assert np.abs(at).max() < 0.05
@@ -135,7 +141,22 @@ def test_magnified_dwell_passes_its_marks():
     assert x[-1] > start + 135.0
 
 
+def test_the_back_step_does_not_hide_the_dwell():
+    made, figure = sheet(data(CASES["synth dwell"]), "synth dwell")
+    for title in ("Output angle", "Dwell, magnified", "Speed ratio"):
+        dwell, *_, step = panel(figure, title).patches
+        wide, narrow = ((box.x0, box.x1) for box in (dwell.get_bbox(), step.get_bbox()))
+        assert wide[1] - wide[0] == pytest.approx(135.0)
+        assert narrow[1] - narrow[0] == pytest.approx(math.degrees(made.back_step.crank_angle))
+        assert not step.get_fill() or step.get_facecolor()[3] == 0.0
+        assert step.get_hatch()
+
+
+def test_rounding_noise_is_zero_in_words():
+    figure = sheet(data(CASES[MOMENTARY]), MOMENTARY).figure
+    assert not [text for text in words(figure) if re.search(r"e[-−]1\d", text)]
+    assert any(text.startswith("0 at ") for text in words(figure))
+
+
 def test_steady_motion_has_no_magnified_dwell():
-    command = "synth variable-speed"
-    figure = draw(command, design(command, CASES[command]))
-    assert not [line for axes in figure.axes for line in axes.lines if line.get_gid() == "magnified"]
+    assert not tagged(sheet(data(CASES[STEADY]), STEADY).figure, "magnified")

@@ -7,42 +7,18 @@ hundred mm within 1e-9 mm; the files of two runs are compared byte by byte.
 from __future__ import annotations
 
 import math
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from matplotlib.figure import Figure
+from factory import design
+from sheets import Sheet, lines, panel, sheet
 
-from gearlink.cli.evaluate import open_design, read_spec
-from gearlink.cli.figures.write import draw
-from gearlink.cli.options import Options
 from gearlink.core.errors import NoSolution
 
-DESIGNS = Path(__file__).resolve().parents[3] / "designs"
 
-
-def design(name: str, command: str, *overrides: str) -> Any:
-    path = str(DESIGNS / f"wide_swing_{name}.yaml")
-    loaded, kind = open_design(path, Options(overrides=overrides))
-    return kind.design(command, read_spec(loaded, kind, path))
-
-
-def drawn(name: str, command: str, *overrides: str) -> tuple[Any, Figure]:
-    made = design(name, command, *overrides)
-    return made, draw(command, made)
-
-
-def panel(figure: Figure, title: str) -> Any:
-    return next(axes for axes in figure.axes if axes.get_title(loc="left").startswith(title))
-
-
-def lines(axes: Any) -> dict[str, Any]:
-    return {line.get_label(): line for line in axes.get_lines() if not line.get_label().startswith("_")}
-
-
-def laid_out(figure: Figure) -> None:
-    figure.draw_without_rendering()
+def drawn(name: str, command: str, **keys: Any) -> Sheet:
+    return sheet(f"wide_swing_{name}", command, **keys)
 
 
 @pytest.mark.parametrize("name", ["twin_cam", "twin_rocker", "slider", "oscillating_cam"])
@@ -112,7 +88,7 @@ def test_contour_has_no_gap_and_no_corner_at_the_dwells() -> None:
     from gearlink.core.wide_swing.outline import contour, dwell_arc
 
     for name in ("twin_cam", "twin_rocker"):
-        made = design(name, "cam")
+        made = design(f"wide_swing_{name}", command="cam")
         cam = made.cam
         run_up, slot, run_out = contour(cam, made.slot_of(cam))
         rest = dwell_arc(cam)
@@ -140,30 +116,29 @@ def test_pressure_angle_and_curvature() -> None:
 
 
 ODD = [
-    ("twin_cam", ("swing=300", "unloader.pivot_ratio=5.3")),
-    ("twin_cam", ("swing=20", "cam.roller_radius=2")),
-    ("twin_cam", ("cam.rocker_radius=60",)),
-    ("twin_cam", ("cam.rocker_radius=74.5",)),
-    ("twin_cam", ("cam.center_distance=2e-4", "cam.roller_radius=8e-6", "cam.shaft_radius=0")),
-    ("twin_cam", ("cam.center_distance=2e8", "cam.roller_radius=8e6", "cam.shaft_radius=2.5e7")),
-    ("twin_rocker", ("swing=260", "unloader.pivot_ratio=6")),
-    ("twin_rocker", ("cycle_angle=140",)),
-    ("oscillating_cam", ("drive.stroke=homeward", "drive.assembly=-1")),
+    ("twin_cam", {"swing": 300, "unloader__pivot_ratio": 5.3}),
+    ("twin_cam", {"swing": 20, "cam__roller_radius": 2}),
+    ("twin_cam", {"cam__rocker_radius": 60}),
+    ("twin_cam", {"cam__rocker_radius": 74.5}),
+    ("twin_cam", {"cam__center_distance": 2e-4, "cam__roller_radius": 8e-6, "cam__shaft_radius": 0}),
+    ("twin_cam", {"cam__center_distance": 2e8, "cam__roller_radius": 8e6, "cam__shaft_radius": 2.5e7}),
+    ("twin_rocker", {"swing": 260, "unloader__pivot_ratio": 6}),
+    ("twin_rocker", {"cycle_angle": 140}),
+    ("oscillating_cam", {"drive__stroke": "homeward", "drive__assembly": -1}),
 ]
 
 
-@pytest.mark.parametrize(("name", "overrides"), ODD)
+@pytest.mark.parametrize(("name", "keys"), ODD)
 @pytest.mark.parametrize("command", ["swing", "cam"])
-def test_odd_designs_draw(name: str, overrides: tuple[str, ...], command: str) -> None:
-    _, figure = drawn(name, command, *overrides)
-    laid_out(figure)
+def test_odd_designs_draw(name: str, keys: dict[str, Any], command: str) -> None:
+    """Laying the figure out draws everything but its pixels."""
+    drawn(name, command, **keys)
 
 
 def test_design_without_cam_or_profile() -> None:
-    looped = ("swing=160", "cycle_angle=150", "unloader.stretch_ratio=0.05", "unloader.pivot_ratio=4")
-    for name, overrides in (("slider", ()), ("twin_rocker", looped), ("twin_cam", ("cam.roller_radius=100",))):
-        _, figure = drawn(name, "swing", *overrides)
-        laid_out(figure)
+    looped = {"swing": 160, "cycle_angle": 150, "unloader__stretch_ratio": 0.05, "unloader__pivot_ratio": 4}
+    for name, keys in (("slider", {}), ("twin_rocker", looped), ("twin_cam", {"cam__roller_radius": 100})):
+        figure = drawn(name, "swing", **keys).figure
         assert not [axes for axes in figure.axes if axes.get_title(loc="left").startswith("Cam of")]
     with pytest.raises(NoSolution, match="loop"):
-        drawn("twin_rocker", "cam", *looped)
+        drawn("twin_rocker", "cam", **looped)

@@ -1,0 +1,88 @@
+"""Sheets in tests: a design with its figure, drawn once for all tests, and what is read from a figure."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from functools import cache
+from typing import Any, NamedTuple
+
+import numpy as np
+from factory import changed, design, worked
+
+from gearlink.cli.figures.write import draw
+
+
+class Sheet(NamedTuple):
+    """A design and the figure of one of its commands."""
+
+    design: Any
+    figure: Any
+
+
+def sheet(given: str | Mapping[str, Any], command: str = "analyze", /, **keys: Any) -> Sheet:
+    """The sheet of a command on the data of a design file, or on a worked design, with changes as in the factory."""
+    return _drawn(json.dumps(changed(worked(given) if isinstance(given, str) else given, **keys)), command)
+
+
+@cache
+def _drawn(data: str, command: str) -> Sheet:
+    made = design(json.loads(data), command=command)
+    return Sheet(made, draw(command, made))
+
+
+def scaled(data: Any, factor: float, lengths: set[str], key: str = "") -> Any:
+    """The data of the same machine, larger or smaller; its forces and inertia are left as they are."""
+    if isinstance(data, dict):
+        kept = {"inertia", "spring"}
+        return {name: value if name in kept else scaled(value, factor, lengths, name) for name, value in data.items()}
+    if isinstance(data, list) and key in lengths:
+        return [value * factor for value in data]
+    return data * factor if key in lengths else data
+
+
+def panel(figure: Any, title: str) -> Any:
+    """The axes whose heading begins so."""
+    return next(axes for axes in figure.axes if axes.get_title(loc="left").startswith(title))
+
+
+def panel_named(figure: Any, ylabel: str) -> Any:
+    """The axes whose label of the y axis begins so."""
+    return next(axes for axes in figure.axes if axes.get_ylabel().replace("\n", " ").startswith(ylabel))
+
+
+def lines(axes: Any) -> dict[str, Any]:
+    """Lines by the words of their legend."""
+    return {line.get_label(): line for line in axes.get_lines() if not line.get_label().startswith("_")}
+
+
+def named(axes: Any) -> dict[str, Any]:
+    """Lines and bodies by the words of their legend."""
+    return {patch.get_label(): patch for patch in axes.patches if not patch.get_label().startswith("_")} | lines(axes)
+
+
+def tagged(figure: Any, gid: str) -> list[Any]:
+    """Lines and patches that carry a name for programs."""
+    return [each for axes in figure.axes for each in (*axes.lines, *axes.patches) if each.get_gid() == gid]
+
+
+def curve(figure: Any, gid: str) -> Any:
+    """x and y of the one line that carries a name for programs."""
+    (line,) = tagged(figure, gid)
+    return np.asarray(line.get_xdata()), np.asarray(line.get_ydata())
+
+
+def points(drawn: Any) -> Any:
+    """The points of a line or of an outline as complex numbers."""
+    xy = drawn.get_xy() if hasattr(drawn, "get_xy") else drawn.get_xydata()
+    return np.asarray(xy) @ np.array([1.0, 1j])
+
+
+def words(figure: Any) -> list[str]:
+    """All texts inside the axes."""
+    return [text.get_text() for axes in figure.axes for text in axes.texts]
+
+
+def labels(axes: Any) -> list[str]:
+    """The words of a legend."""
+    return [text.get_text() for text in axes.get_legend().get_texts()]
