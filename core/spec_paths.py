@@ -20,8 +20,8 @@ def value_at(spec: Any, path: str) -> Any:
         >>> value_at(SimpleNamespace(cam=SimpleNamespace(roller_radius=8.0)), "cam.roller_radius")
         8.0
     """
-    for step in path.split("."):
-        spec = getattr(spec, step)
+    for step in _steps(path):
+        spec = spec[step] if isinstance(step, int) else getattr(spec, step)
     return spec
 
 
@@ -47,12 +47,11 @@ def number_at(spec: Any, path: str) -> float | None:
         >>> number_at(spec, "teeth[1]"), number_at(spec, "cam.base_radius")
         (40, None)
     """
-    for step in _steps(path):
-        try:
-            spec = spec[step] if isinstance(step, int) else getattr(spec, step)
-        except (AttributeError, TypeError, IndexError):
-            return None
-    return spec if isinstance(spec, (int, float)) and not isinstance(spec, bool) else None
+    try:
+        value = value_at(spec, path)
+    except (AttributeError, TypeError, IndexError):
+        return None
+    return value if isinstance(value, (int, float)) and not isinstance(value, bool) else None
 
 
 def changed(spec: Any, values: Iterable[tuple[str, Any]]) -> Any:

@@ -5,10 +5,11 @@ from __future__ import annotations
 import csv
 import io
 import json
+import shlex
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gearlink.cli.commands.design import plot, print_report, show_refusal
 from gearlink.cli.evaluate import build, exit_status, open_design, read_spec, require_command
@@ -16,12 +17,12 @@ from gearlink.cli.files import CannotWrite
 from gearlink.cli.options import Format, Options
 from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.core.errors import NoSolution
-from gearlink.core.spec_paths import replaced, value_at
+from gearlink.core.report import Check, Remedy, Report, remedy_words
+from gearlink.core.spec_paths import changed, value_at
 
 if TYPE_CHECKING:
     from gearlink.core.design import Design
     from gearlink.core.kinds import Kind
-    from gearlink.core.report import Report
 
 _ROUNDS = 8
 
@@ -62,26 +63,42 @@ def repair(kind: Kind, command: str, spec: Any) -> tuple[Any, list[Change]]:
     changes: list[Change] = []
     seen = {spec.model_dump_json()}
     for _ in range(_ROUNDS):
-        design: Any = kind.design(command, spec)
-        if _holds(design, command):
-            break
-        tried = ((one, replaced(spec, one.path, one.value)) for one in design.suggestions())
-        fresh = next((pair for pair in tried if pair[1].model_dump_json() not in seen), None)
+        tried = ((step, changed(spec, step.remedy)) for step in _steps(kind.design(command, spec), command))
+        fresh = next(((step, new) for step, new in tried if new and new.model_dump_json() not in seen), None)
         if fresh is None:
             break
-        (path, value, why), changed = fresh
-        changes.append(Change(path, value_at(spec, path), value, why))
-        seen.add(changed.model_dump_json())
-        spec = changed
+        step, repaired = fresh
+        changes += [Change(path, value_at(spec, path), value, step.why) for path, value in step.remedy]
+        seen.add(repaired.model_dump_json())
+        spec = repaired
     return spec, changes
 
 
-def _holds(design: Design, command: str) -> bool:
-    """Whether the design is refused nowhere and none of its checks fails."""
+class _Step(NamedTuple):
+    """What may be changed in one round, and why."""
+
+    remedy: Remedy
+    why: str
+
+
+def _steps(design: Any, command: str) -> Iterator[_Step]:
+    """What would repair a design, none where it holds: its own suggestions, then the remedies of what fails."""
+    failing = _failing(design, command)
+    if failing is not None and not failing:
+        return
+    for path, value, why in design.suggestions():
+        yield _Step(((path, value),), why)
+    for check in failing or ():
+        if check.remedy:
+            yield _Step(check.remedy, check.message.removesuffix(f"; {remedy_words(check.remedy)}"))
+
+
+def _failing(design: Design, command: str) -> list[Check] | None:
+    """The checks that fail; None where the design is refused."""
     try:
-        return design.report(command).ok
+        return [check for check in design.report(command, findings_only=True).checks if check.status == "fail"]
     except NoSolution:
-        return False
+        return None
 
 
 def _as_plain(changes: Sequence[Change]) -> list[dict[str, Any]]:
@@ -121,12 +138,25 @@ def _as_text(changes: Sequence[Change], options: Options) -> str:
 
         rows = [(f"`{c.path}`", _shown(c.old), _shown(c.new), c.why) for c in changes]
         return (
-            "## Suggestions\n\n" + (markdown_table(("change", "old", "new", "why"), rows) if changes else "none") + "\n"
+            f"## Suggestions\n\n{markdown_table(('change', 'old', 'new', 'why'), rows)}\n\n`{overrides(changes)}`\n"
+            if changes
+            else "## Suggestions\n\nnone\n"
         )
     if not changes:
         return "suggestions: none\n"
     lines = [f"  {c.path}: {_shown(c.old)} -> {_shown(c.new)}    {c.why}" for c in changes]
-    return "\n".join(["suggestions, tried in this order:", *lines, ""])
+    return "\n".join(["suggestions, tried in this order:", *lines, f"  as options: {overrides(changes)}", ""])
+
+
+def overrides(changes: Sequence[Change]) -> str:
+    """The options that make the changes, quoted for a shell; of a key that was changed twice the last value counts.
+
+    Example
+        >>> overrides([Change("teeth[0]", 10, 17, "undercut"), Change("cam.rocker_radius", 80.0, None, "a loop")])
+        "--set 'teeth[0]=17' --set cam.rocker_radius=null"
+    """
+    last = {change.path: change.new for change in changes}
+    return " ".join(f"--set {shlex.quote(f'{path}={json.dumps(value)}')}" for path, value in last.items())
 
 
 def _shown(value: Any) -> str:

@@ -1,13 +1,15 @@
-"""`gearlink swing --suggest`: the changes that are tried, the repaired report, formats and exit status."""
+"""`--suggest`: the changes that are tried, the repaired report, formats and exit status."""
 
 from __future__ import annotations
 
 import json
+import shlex
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from gearlink.cli.commands.suggest import Change, overrides
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import COMMANDS
 from gearlink.core.kinds import KINDS
@@ -151,3 +153,32 @@ def test_cam_command_refuses_a_loop_at_the_key(gearlink: Any, loop: Path) -> Non
     assert ended.status == ExitCode.WRONG_INPUT
     (error,) = ended.json["errors"]
     assert (error["key"], error["line"]) == ("cycle_angle", 4)
+
+
+# Other kinds: the remedies of what fails
+
+COLLIDING = """kind: three-gear-four-bar
+gears: {module: 2.5, crank: 20, idler: 20, output: 60}
+links: {crank: 18, frame: 121.4}
+"""
+TWICE_WRONG = "kind: gear-pair\nmodule: 4\nteeth: [10, 12]\nprofile_shift: [0, 0]\n"
+
+
+@pytest.mark.parametrize(("command", "text"), [("analyze", COLLIDING), ("gear", TWICE_WRONG)])
+def test_the_printed_options_repair_the_design(gearlink: Any, tmp_path: Path, command: str, text: str) -> None:
+    path = tmp_path / "wrong.yaml"
+    path.write_text(text)
+    assert gearlink(command, path).status == ExitCode.FINDING
+    ended = gearlink(command, path, "--suggest")
+    assert ended.status == ExitCode.OK
+    (line,) = (line for line in ended.out.splitlines() if line.startswith("  as options: "))
+    options = shlex.split(line.removeprefix("  as options: "))
+    assert options[0] == "--set"
+    again = gearlink(command, path, *options)
+    assert again.status == ExitCode.OK
+    assert ended.out.endswith(again.out)
+
+
+def test_of_a_key_that_changes_twice_the_last_value_counts() -> None:
+    changes = [Change("teeth[0]", 10, 12, "a"), Change("teeth[0]", 12, 17, "b"), Change("x y", 1.0, None, "c")]
+    assert overrides(changes) == "--set 'teeth[0]=17' --set 'x y=null'"

@@ -1,0 +1,113 @@
+"""Teeth that no tool can cut, flanks that slide much, and internal meshes that do not go together.
+
+Tolerances: none; each side of a limit. The limits stand in closed form beside the designs.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import pytest
+from factory import design
+
+from gearlink.core.errors import NoSolution
+from gearlink.core.gears.checks import gear_check
+from gearlink.core.gears.internal_mesh import InternalMesh
+from gearlink.core.gears.pair import GearPair
+from gearlink.core.spec import GearLimits
+
+WIDEST = math.pi / (4.0 * math.tan(math.radians(20.0)))
+
+
+def checks(name: str, pair: GearPair, limits: GearLimits | None = None) -> list[Any]:
+    return list(gear_check(name, pair, limits or GearLimits(), shifts=True))
+
+
+@pytest.mark.parametrize(("beyond", "status"), [(-1e-9, "pass"), (1e-9, "fail")])
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_shift_beyond_any_tool(beyond: float, status: str, side: float) -> None:
+    """Many teeth, so that tip and root are whole: only the tooth or its space vanishes on the reference circle."""
+    shift = side * (WIDEST + beyond)
+    pair = GearPair.from_shift(2.0, (9000, 9000), (shift, -shift), addendum=0.1)
+    for check in checks("tooth-form", pair):
+        assert (check.code, check.status) == ("GL212", status)
+
+
+def test_tip_inside_the_root() -> None:
+    pair = GearPair.from_shift(2.0, (12, 12), (2.0, 2.0), addendum=0.6, clearance=0.1)
+    (check, _) = checks("tooth-form", pair)
+    assert pair.tip_radius[0] < pair.root_radius[0]
+    assert check.status == "fail"
+    assert check.value <= pair.tip_radius[0] - pair.root_radius[0] + 1e-12
+
+
+def test_pointed_below_the_tip() -> None:
+    pair = GearPair.from_shift(2.0, (12, 60), (1.2, 0.0))
+    assert pair.tip_thickness[0] < 0.0
+    assert [check.status for check in checks("tooth-form", pair)] == ["fail", "pass"]
+
+
+def test_root_that_reaches_the_axis() -> None:
+    assert checks("tooth-form", GearPair.from_shift(2.0, (2, 80)))[0].status == "fail"
+
+
+@pytest.mark.parametrize(("limit", "statuses"), [(None, []), (4.0, ["warn", "pass"]), (5.0, ["pass", "pass"])])
+def test_sliding_is_judged_where_the_file_asks(limit: float | None, statuses: list[str]) -> None:
+    pair = GearPair.from_shift(2.0, (20, 40))
+    sizes = [abs(value) for value in pair.specific_sliding]
+    assert sizes[1] < 4.0 < sizes[0] < 5.0
+    assert [check.status for check in checks("sliding", pair, GearLimits(sliding=limit))] == statuses
+
+
+def test_sliding_without_measure_is_never_passed_in_silence() -> None:
+    data = {"kind": "gear-pair", "module": 2, "teeth": [17, 91], "profile_shift": [0, 0]}
+    found = design(data, command="gear").check("sliding")
+    assert [(check.code, check.status) for check in found] == [("GL209", "warn")]
+    assert found[0].value > 8.0
+
+
+# Internal meshes
+
+
+@pytest.mark.parametrize("pinion", [34, 62, 200])
+def test_one_tooth_of_difference_is_a_finding(pinion: int) -> None:
+    mesh = InternalMesh(1.0, (pinion, pinion + 1))
+    assert mesh.tip_circle_margin == -1.0
+    with pytest.raises(NoSolution, match="encloses"):
+        _ = mesh.tip_fouling_margin
+    gears = {"module": 1, "planet": pinion, "ring": pinion + 1}
+    links = {"coupler": 1.2, "rocker": 1.5, "frame": 1.6}
+    made = design({"kind": "two-gear-four-bar", "gears": gears, "links": links})
+    (check,) = made.check("tip-fouling")
+    assert (check.code, check.status, check.value) == ("GL206", "fail", -1.0)
+    assert made.quantity("tip_fouling_margin") is None if "tip_fouling_margin" in made.quantity_names() else True
+    assert made.report("analyze").quantities
+
+
+@pytest.mark.parametrize("module", [0.3, 0.7, 1.0, 1.1, 7.0])
+@pytest.mark.parametrize("pinion", range(34, 60, 5))
+def test_two_teeth_of_difference_touch(module: float, pinion: int) -> None:
+    """The tip circles touch: rounding decides on which side, and neither is a crash."""
+    mesh = InternalMesh(module, (pinion, pinion + 2))
+    if mesh.tip_circle_margin >= 0.0:
+        assert mesh.tip_fouling_margin < 0.0
+
+
+@pytest.mark.parametrize(("ring", "angle", "words"), [(33, 20.0, "at least 34 teeth"), (75, 1e-7, "larger pressure")])
+def test_ring_without_an_involute_keeps_the_kinematics(ring: int, angle: float, words: str) -> None:
+    gears = {"module": 2, "planet": 23, "ring": ring, "pressure_angle": angle}
+    links = {"coupler": 130, "rocker": 135, "frame": 132}
+    made = design({"kind": "two-gear-four-bar", "gears": gears, "links": links})
+    (check,) = made.check("involute-interference")
+    assert (check.status, words in check.message) == ("fail", True)
+    report = made.report("analyze")
+    names = [quantity.name for quantity in report.quantities]
+    assert "speed_ratio_max" in names
+    assert "contact_ratio" not in names
+
+
+@pytest.mark.parametrize("angle", [1e-300, 1e-12, 1e-7, 8e-7])
+def test_no_pressure_angle_divides_by_nothing(angle: float) -> None:
+    with pytest.raises(NoSolution, match="take a larger pressure angle"):
+        _ = InternalMesh(1.6, (25, 75), math.radians(angle)).contact_ratio

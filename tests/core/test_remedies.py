@@ -1,0 +1,133 @@
+"""Every remedy put into the design file as it is given: the check passes, no other one breaks.
+
+No tolerances: a remedy is whole teeth, tenths of a millimetre, hundredths of a profile shift or half degrees, and what
+it gives is a status. The second way: the remedies are written into the data of the file and the file is read anew.
+"""
+
+from __future__ import annotations
+
+import copy
+import re
+from typing import Any
+
+import pytest
+from oracles.random_designs import KINDS as DRAWN
+from oracles.random_designs import Data, draw
+
+from gearlink.core.errors import NoSolution
+from gearlink.core.kinds import KINDS
+from gearlink.core.remedies import down, left_out, shared, up
+from gearlink.core.report import Check, Remedy, remedy_words
+
+SLOW_KINDS = ("five_bar", "hypocycloid")
+
+
+def with_values(data: Data, remedy: Remedy) -> Data:
+    """The data of a design file after a remedy; a key that is left out is deleted."""
+    repaired = copy.deepcopy(data)
+    for path, value in remedy:
+        *sections, last = [int(s) if s.isdecimal() else s for s in re.findall(r"[^.\[\]]+", path)]
+        place: Any = repaired
+        for section in sections:
+            place = place[section]
+        assert value is not None or last in place
+        if value is None:
+            del place[last]
+        else:
+            place[last] = value
+    return repaired
+
+
+def findings(data: Data, command: str) -> dict[str, list[Check]]:
+    """The findings of a file by the name of their check."""
+    kind = KINDS[data["kind"]]
+    found: dict[str, list[Check]] = {}
+    for check in kind.design(command, kind.spec_model().model_validate(data)).report(command).checks:
+        found.setdefault(check.name, []).append(check)
+    return found
+
+
+def refused(data: Data, command: str) -> bool:
+    try:
+        findings(data, command)
+    except (ValueError, NoSolution):
+        return True
+    return False
+
+
+def commands(data: Data, command: str) -> set[str]:
+    """The command, and what the file asks for besides it."""
+    asked = KINDS[data["kind"]].spec_model().model_validate(data).commands()
+    return {command, *(each for each in asked if not refused(data, each))}
+
+
+def failing(found: dict[str, list[Check]]) -> set[tuple[str, int]]:
+    return {(name, i) for name, checks in found.items() for i, check in enumerate(checks) if check.status == "fail"}
+
+
+def tried(kind: str, count: int) -> tuple[int, int]:
+    """How many findings of random designs fail and how many have a remedy; each remedy is followed."""
+    wrong = repaired = 0
+    for data, command in draw(kind, 1, count):
+        if refused(data, command):
+            continue
+        before = findings(data, command)
+        for name, i in failing(before):
+            wrong += 1
+            check = before[name][i]
+            if not check.remedy:
+                continue
+            repaired += 1
+            assert check.message.endswith(remedy_words(check.remedy))
+            for asked in commands(data, command):
+                was, now = failing(findings(data, asked)), failing(findings(with_values(data, check.remedy), asked))
+                assert now <= was, (data, check)
+                assert (name, i) not in now, (data, check)
+    return wrong, repaired
+
+
+@pytest.mark.parametrize("kind", [name for name in DRAWN if name not in SLOW_KINDS])
+def test_followed_remedies_repair_and_break_nothing(kind: str) -> None:
+    wrong, repaired = tried(kind, 8)
+    assert wrong >= 2
+    assert repaired >= 0.5 * wrong
+
+
+@pytest.mark.stress
+@pytest.mark.parametrize(("kind", "least"), [(kind, 0.2 if kind in SLOW_KINDS else 0.7) for kind in DRAWN])
+def test_many_followed_remedies(kind: str, least: float) -> None:
+    wrong, repaired = tried(kind, 60 if kind in SLOW_KINDS else 400)
+    assert repaired >= least * wrong
+
+
+def test_steps_reach_the_grid_first() -> None:
+    assert up("links.frame").remedy([121.43], 1) == (("links.frame", 121.5),)
+    assert down("links.frame").remedy([121.43], 2) == (("links.frame", 121.3),)
+    assert up("gears.crank", step=1).remedy([17], 3) == (("gears.crank", 20),)
+    assert down("profile_shift[0]", step=0.01).remedy([0.3], 1) == (("profile_shift[0]", 0.29),)
+    assert left_out("sync.start").remedy([3.0], 1) == (("sync.start", None),)
+
+
+def test_what_one_shift_gives_the_other_takes() -> None:
+    more, less = shared("a", "b", step=0.01)
+    assert more.remedy([0.305, 0.1], 1) == (("a", 0.31), ("b", pytest.approx(0.095, abs=1e-15)))
+    assert less.remedy([0.305, 0.1], 1) == (("a", 0.3), ("b", pytest.approx(0.105, abs=1e-15)))
+
+
+def test_no_tooth_is_split() -> None:
+    way = up("gears.planet", "gears.ring", step=1)
+    ratio = type(way)(way.keys, 1, "ratio")
+    assert ratio.remedy([20, 60], 1) == (("gears.planet", 21), ("gears.ring", 63))
+    assert ratio.remedy([20, 50], 1) == ()
+    assert ratio.remedy([20, 50], 2) == (("gears.planet", 22), ("gears.ring", 55))
+
+
+def test_a_kind_without_shifts_hears_nothing_of_them(gearlink: Any, tmp_path: Any) -> None:
+    path = tmp_path / "small.yaml"
+    path.write_text(
+        "kind: three-gear-four-bar\ngears: {module: 2, crank: 14, idler: 40, output: 40}\n"
+        "links: {crank: 10, frame: 90}\n"
+    )
+    ended = gearlink("analyze", path, "--format", "json")
+    assert ended.status == 1
+    assert "shift" not in " ".join(check["message"] for check in ended.json["checks"] if check["status"] == "fail")
