@@ -8,9 +8,9 @@ from collections.abc import Iterator
 from gearlink.core.clearance.bodies import Clearance, Gear, Layout, Shaft
 from gearlink.core.linkages.codes import GEAR_COLLISION, SHAFT_CLEARANCE
 from gearlink.core.remedies import down
-from gearlink.core.report import Check, Status, safely_below
+from gearlink.core.report import Check, Status
 
-SHAFT_WAYS = (*(down(f"shafts.{name}_radius") for name in ("input", "output", "A", "D", "E")), down("gears.rim"))
+SHAFT_WAYS = (*(down(f"shafts.{name}_radius") for name in ("input", "output", *"ADEOW")), down("gears.rim"))
 """How a file may be changed where a shaft is not clear."""
 
 
@@ -68,9 +68,15 @@ def _overlap(pair: Clearance, least_shaft: float) -> str:
     room = pair.gap + math.fsum(shaft.outer for shaft in shafts)
     keys = " and ".join(shaft.key for shaft in shafts)
     text += "overhang the shaft" if len(shafts) == 1 else "overhang one of the shafts"
-    if room < least_shaft * len(shafts):
+    radius = _buildable(room)
+    if room < least_shaft * len(shafts) or radius <= 0.0:
         return text
-    return f"{text}, or set {keys} to at most {safely_below(room)} mm{' together' if len(shafts) > 1 else ''}"
+    return f"{text}, or set {keys} to at most {radius:g} mm{' together' if len(shafts) > 1 else ''}"
+
+
+def _buildable(room: float) -> float:
+    """A radius that fits into the room, or the sum of two, in whole tenths [mm]; the last bit of a gap is rounding."""
+    return math.floor(10.0 * room - 1e-9) / 10.0
 
 
 def _covered_axis(pair: Clearance) -> str:
@@ -96,8 +102,11 @@ def _narrow(pair: Clearance, bare: list[Shaft], limit: float) -> str:
     """A bare axis with less room beside it than a shaft takes."""
     keys, both = " and ".join(shaft.key for shaft in bare), len(bare) > 1
     thinnest = f"{'two of the thinnest shafts take' if both else 'the thinnest shaft takes'} {limit:g} mm"
-    return (
+    text = (
         f"{_words(pair.one)} keeps only {pair.gap:.4g} mm from {_words(pair.other)}{_place(pair)}, {thinnest} "
-        f"(limits.least_shaft): overhang {'one of them' if both else 'it'}, or name its radius in {keys}, at most "
-        f"{safely_below(pair.gap)} mm{' together' if both else ''}"
+        f"(limits.least_shaft): overhang {'one of them' if both else 'it'}"
     )
+    radius = _buildable(pair.gap)
+    if radius <= 0.0:
+        return text
+    return f"{text}, or name {keys}, at most {radius:g} mm{' together' if both else ''}"

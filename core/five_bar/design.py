@@ -18,7 +18,7 @@ from gearlink.core.gears.checks import gear_ways
 from gearlink.core.gears.single_mesh import MESH_CHECKS, mesh_checks
 from gearlink.core.linkages.checks import target_check, transmission_check
 from gearlink.core.remedies import down, either, up
-from gearlink.core.report import Check, Table, safely_above
+from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
@@ -307,14 +307,12 @@ class GearedFiveBar(FiveBarParts):
     def _gap_remedy(self, missing: float) -> str:
         """What would give input and output gear room; the idler's centre distances bound the frame."""
         module, idler = self.spec.gears.module, self.spec.gears.idler or 0
-        fewer = f"the input and output gears {math.ceil(2.0 * missing / module)} teeth smaller together"
-        frame = self.frame_length + missing
+        fewer = f"the input and output gears {math.ceil(2.0 * missing / module + 1e-9)} teeth smaller together"
+        frame = math.ceil(10.0 * (self.frame_length + missing) + 1e-9) / 10.0
         if frame < sum(self.center_distance):
-            return f"make the frame {safely_above(frame)} mm or longer, or {fewer}"
+            return f"make the frame {frame:.9g} mm or longer, or {fewer}"
         more = math.floor((frame - sum(self.center_distance)) / module) + 1
-        return (
-            f"make {fewer}, or the idler {idler + more} teeth or more and the frame {safely_above(frame)} mm or longer"
-        )
+        return f"make {fewer}, or the idler {idler + more} teeth or more and the frame {frame:.9g} mm or longer"
 
     def check_shaft_clearance(self) -> Iterator[Check]:
         """GL302."""
