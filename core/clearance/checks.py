@@ -44,7 +44,7 @@ def shaft_checks(layout: Layout) -> Iterator[Check]:
         status: Status = "pass" if pair.gap >= limit else "warn" if bare else "fail"
         text = f"{_words(pair.one)} keeps {pair.gap:.4g} mm from {_words(pair.other)}{_place(pair)}"
         if status == "fail":
-            text = _overlap(pair, layout.least_shaft)
+            text = _overlap(pair)
         elif status == "warn":
             text = _covered_axis(pair) if pair.gap < 0.0 else _narrow(pair, bare, limit)
         yield SHAFT_CLEARANCE.check(status, text, pair.gap, limit, "mm")
@@ -61,22 +61,13 @@ def _words(body: Gear | Shaft) -> str:
     return f"the axis of the {body.name}" if body.radius is None else f"the {body.name} (radius {body.radius:g} mm)"
 
 
-def _overlap(pair: Clearance, least_shaft: float) -> str:
+def _overlap(pair: Clearance) -> str:
     """A shaft of the file that is not clear."""
-    shafts = [body for body in (pair.one, pair.other) if isinstance(body, Shaft)]
-    text = f"{_words(pair.one)} comes {-pair.gap:.4g} mm into {_words(pair.other)}{_place(pair)}: "
-    room = pair.gap + math.fsum(shaft.outer for shaft in shafts)
-    keys = " and ".join(shaft.key for shaft in shafts)
-    text += "overhang the shaft" if len(shafts) == 1 else "overhang one of the shafts"
-    radius = _buildable(room)
-    if room < least_shaft * len(shafts) or radius <= 0.0:
-        return text
-    return f"{text}, or set {keys} to at most {radius:g} mm{' together' if len(shafts) > 1 else ''}"
-
-
-def _buildable(room: float) -> float:
-    """A radius that fits into the room, or the sum of two, in whole tenths [mm]; the last bit of a gap is rounding."""
-    return math.floor(10.0 * room - 1e-9) / 10.0
+    text = f"{_words(pair.one)} comes {-pair.gap:.4g} mm into {_words(pair.other)}{_place(pair)}"
+    if isinstance(pair.one, Shaft):
+        return f"{text}: overhang one of them, or make them thinner"
+    thinner = ", or make it thinner" if pair.gap + pair.other.outer > 0.0 else ""
+    return f"{text}: overhang the shaft{thinner}"
 
 
 def _covered_axis(pair: Clearance) -> str:
@@ -106,7 +97,8 @@ def _narrow(pair: Clearance, bare: list[Shaft], limit: float) -> str:
         f"{_words(pair.one)} keeps only {pair.gap:.4g} mm from {_words(pair.other)}{_place(pair)}, {thinnest} "
         f"(limits.least_shaft): overhang {'one of them' if both else 'it'}"
     )
-    radius = _buildable(pair.gap)
+    # In whole tenths that can be built; the last bit of a gap is rounding.
+    radius = math.floor(10.0 * pair.gap - 1e-9) / 10.0
     if radius <= 0.0:
         return text
     return f"{text}, or name {keys}, at most {radius:g} mm{' together' if both else ''}"

@@ -298,21 +298,11 @@ class GearedFiveBar(FiveBarParts):
 
     def check_gear_collision(self) -> Iterator[Check]:
         """GL301: input and output gear with an idler between them."""
-        limit = self.spec.limits.gear_gap
         for pair in self.layout.gear_pairs:
             tips = f"{pair.one.outer:.6g} and {pair.other.outer:.6g}"
             why = f"their axes are {pair.distance:.6g} mm apart, their tips reach {tips} mm"
-            yield collision_check(pair, limit, why, self._gap_remedy(limit - pair.gap))
-
-    def _gap_remedy(self, missing: float) -> str:
-        """What would give input and output gear room; the idler's centre distances bound the frame."""
-        module, idler = self.spec.gears.module, self.spec.gears.idler or 0
-        fewer = f"the input and output gears {math.ceil(2.0 * missing / module + 1e-9)} teeth smaller together"
-        frame = math.ceil(10.0 * (self.frame_length + missing) + 1e-9) / 10.0
-        if frame < sum(self.center_distance):
-            return f"make the frame {frame:.9g} mm or longer, or {fewer}"
-        more = math.floor((frame - sum(self.center_distance)) / module) + 1
-        return f"make {fewer}, or the idler {idler + more} teeth or more and the frame {frame:.9g} mm or longer"
+            remedy = "lengthen the frame, as far as the idler reaches, or take smaller gears"
+            yield collision_check(pair, self.spec.limits.gear_gap, why, remedy)
 
     def check_shaft_clearance(self) -> Iterator[Check]:
         """GL302."""
