@@ -103,7 +103,8 @@ def swing_cam(name: str, design: Any) -> Part:
         NoSolution - where the profile does not exist
     """
     cam, mirror = _served(name, design)
-    start, end = design.slot_of(cam)
+    contact = design.contact_of(cam)
+    places = sorted({0.0, *contact[0], 0.5, *contact[1], 1.0})
     middle = complex(_pitch_of(cam, mirror)(np.array([0.5]))[0])
     circles = [Circle("ROLLER_AT_MID_SWING", cam.roller_radius, middle)]
     shaft = design.section.shaft_radius
@@ -112,10 +113,10 @@ def swing_cam(name: str, design: Any) -> Part:
     return Part(
         name=name,
         title=f"{'main' if name == 'main_cam' else 'return'} cam, {'ex' if is_external(cam) else 'in'}ternal profile",
-        stretches=tuple(_of_stroke(cam, mirror, low, high) for low, high in pairwise((0.0, start, 0.5, end, 1.0))),
+        stretches=tuple(_of_stroke(cam, mirror, part, part in contact) for part in pairwise(places)),
         closed=False,
         circles=tuple(circles),
-        notes=_swing_notes(cam, (start, end), mirror),
+        notes=_swing_notes(cam, mirror),
         findings=_swing_findings(cam, design),
         extra_columns=("k", "cam_angle [deg]", "pressure_angle [deg]", "curvature_radius [mm]"),
     )
@@ -143,9 +144,7 @@ def _pitch_of(cam: AnyCam, mirror: bool) -> Callable[[Reals], Points]:
     return pitch
 
 
-def _of_stroke(cam: AnyCam, mirror: bool, low: float, high: float) -> Stretch:
-    touches = low == 0.0 or high == 1.0
-
+def _of_stroke(cam: AnyCam, mirror: bool, part: tuple[float, float], touches: bool) -> Stretch:
     def points(k: Reals) -> Points:
         at = cam.points(k)
         curves = np.stack([at.profile, at.pitch]) if touches else at.pitch[None, :]
@@ -156,17 +155,18 @@ def _of_stroke(cam: AnyCam, mirror: bool, low: float, high: float) -> Stretch:
         return np.stack([k, np.degrees(at.cam_angle), np.degrees(at.pressure_angle), at.curvature_radius])
 
     name = "profile" if touches else "slot"
-    return Stretch(CAM_LAYERS if touches else CAM_LAYERS[1:], points, low, high, name, extra)
+    return Stretch(CAM_LAYERS if touches else CAM_LAYERS[1:], points, *part, name, extra)
 
 
-def _swing_notes(cam: AnyCam, slot: tuple[float, float], mirror: bool) -> tuple[str, ...]:
+def _swing_notes(cam: AnyCam, mirror: bool) -> tuple[str, ...]:
     body = "inside" if is_external(cam) else "outside"
+    (first, start), (end, last) = cam.contact
     return (
         f"roller radius {cam.roller_radius:.9g} mm, centre distance {cam.center_distance:.9g} mm, "
         f"rocker radius {cam.rocker_radius:.9g} mm",
         f"open profile: the body lies {body} it; how it closes through hub and rim is the designer's choice",
-        f"profile given for k = 0 to {slot[0]:.9g} and {slot[1]:.9g} to 1; between them the roller at mid-swing cuts "
-        "its own circle (layer ROLLER_AT_MID_SWING)",
+        f"profile given for k = {first:.9g} to {start:.9g} and {end:.9g} to {last:.9g}; between them the roller at "
+        "mid-swing cuts its own circle (layer ROLLER_AT_MID_SWING)",
         "frame: cam axis at the origin, mid-swing on the x axis" + ("; mirror image of main_cam" if mirror else ""),
     )
 

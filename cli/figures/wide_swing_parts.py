@@ -172,7 +172,7 @@ def _zone(axes: Axes, design: WideSwingDesign) -> None:
 
 
 def curvature_panel(axes: Axes, design: WideSwingDesign) -> None:
-    """Curvature radius of each pitch curve over the stroke, against the roller's."""
+    """Curvature radius of each pitch curve where the roller touches the profile, against the roller's."""
     import numpy as np
 
     from gearlink.core.wide_swing.outline import is_external
@@ -182,8 +182,10 @@ def curvature_panel(axes: Axes, design: WideSwingDesign) -> None:
     k = np.linspace(0.0, 1.0, 1001)[1:-1]
     k = k[k != 0.5]
     for (words, cam), color in zip(design.cams.items(), (style.BLUE, style.GREEN), strict=False):
-        radius = cam.points(k).curvature_radius * (1.0 if is_external(cam) else -1.0)
-        least = f", ≥ {cam.min_curvature_radius:.4g} mm" if design.has_zone(cam) else ""
+        radius, least = cam.points(k).curvature_radius * (1.0 if is_external(cam) else -1.0), ""
+        if design.has_zone(cam):
+            least = f", ≥ {cam.min_curvature_radius:.4g} mm"
+            radius = np.where([any(low <= at <= high for low, high in cam.contact) for at in k], radius, np.nan)
         axes.plot(k, np.where(radius > 0.0, radius, np.nan), color=color, linewidth=1.6, label=words + least)
         if (radius < 0.0).any():
             hollow = np.where(radius < 0.0, -radius, np.nan)

@@ -128,7 +128,7 @@ _SWING = {
     "start_curvature_radius": "R0 = rho^2/(rho + lambda sin(gamma/2) psi''(0)/rho), in centre distances",
     "iteration_energy_parameter": "a_{i+1} = a_i + (b_i + b_{i+1}) dk/2, N <- N (0.5/a(1/2))^e until a(1/2) = 0.5",
     "iteration_error": "N_it/N - 1",
-    "transition_zone": "Dk = (4/3) t_c/phi_ud, t_c = 3 q r_p/(4 p^2)",
+    "transition_zone": "|z(1/2 - Dk) + r_p n - z(1/2)| = r_p; for small rollers Dk = q r_p/(p^2 phi_ud)",
 }
 
 _MOBILITY = {

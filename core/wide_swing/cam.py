@@ -13,6 +13,7 @@ from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.numerics.extremes import maximum_over, minimum_over
 from gearlink.core.report import safely_above, safely_below
 from gearlink.core.results import cached_property
+from gearlink.core.wide_swing.contact import contact_end, fitting_roller, middle_step
 from gearlink.core.wide_swing.curve import PitchCurve, StrokeLaw
 
 LEAST_SPEED_RATIO = 1e-10  # B gamma/phi_ud; 1 - lambda, about as large, keeps six digits
@@ -198,20 +199,48 @@ class WideSwingCam:
         return 0.5 * a * self.speed_ratio_peak, a * (1.0 - ratio) / 6.0 * bracket
 
     @cached_property
-    def transition_zone(self) -> float:
-        """Part Dk of the stroke before mid-swing where the roller, in its slot, has left the profile.
+    def transition_zone_estimate(self) -> float:
+        """`transition_zone` to leading order in r_p/a.
 
         Dk = (4/3) t_c/phi_ud, t_c = 3 q r_p/(4 p^2): the pitch curvature radius has fallen to r_p at t_c
 
         Raises
             NoSolution - where the pitch curve has a loop in place of the cusp (q <= 0)
-        Notes
-            Leading order in r_p/a; `wide_swing_contact.contact_end` is the exact place.
         """
         p, q = self.cusp
         if q <= 0.0:
             raise NoSolution(self._loop_message(q))
         return q * self.roller_radius / (p * p * self.cycle_angle)
+
+    @cached_property
+    def contact(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Parts of the stroke in which the roller touches the profile.
+
+        Raises
+            NoSolution - for a profile that does not exist, or where the roller at mid-swing covers its start
+        """
+        self.require_profile()
+        end = contact_end(self)
+        return (0.0, end), (1.0 - end, 1.0)
+
+    @cached_property
+    def transition_zone(self) -> float:
+        """Part of the stroke each side of mid-swing where the roller, in its slot, has left the profile.
+
+        Raises
+            NoSolution - for a profile that does not exist
+        Notes
+            1/2 where the roller at mid-swing covers the profile of the whole run-up.
+        """
+        self.require_profile()
+        try:
+            return 0.5 - self.contact[0][1]
+        except NoSolution:
+            return 0.5
+
+    def largest_roller(self, zone: float) -> float:
+        """Radius of the roller whose transition zone is a given share of the stroke [mm]."""
+        return fitting_roller(*middle_step(self, zone))
 
     @cached_property
     def loop_margin(self) -> float:
@@ -256,12 +285,14 @@ class WideSwingCam:
 
     @cached_property
     def max_pressure_angle(self) -> float:
-        """Largest magnitude of the pressure angle outside the transition zone [rad].
+        """Largest magnitude of the pressure angle where the roller touches the profile [rad].
 
         Raises
-            NoSolution - where the transition zone fills the stroke
+            NoSolution - where it touches nothing
+        Notes
+            With a rocker radius below that of (18), (24) the contact lasts to mid-swing, where the angle is 90 deg.
         """
-        return maximum_over(lambda k: np.abs(self.pressure_angle(k)), 0.0, self.zone_start, samples=128).value
+        return maximum_over(lambda k: np.abs(self.pressure_angle(k)), *self.contact[0], samples=128).value
 
     def pressure_angle(self, k: Reals) -> Reals:
         """Pressure angle at fractions k < 1/2 of the stroke [rad], of the pitch curve even where it has a loop.
@@ -272,33 +303,21 @@ class WideSwingCam:
 
     @cached_property
     def min_curvature_radius(self) -> float:
-        """Least radius of the pitch curve where it bulges from the body, outside the transition zone [mm].
+        """Least radius of the pitch curve where it bulges from the body and the roller touches it [mm].
 
         Raises
-            NoSolution - where the transition zone fills the stroke
+            NoSolution - where it touches nothing
         Notes
-            Inside the zone the radius falls to zero at mid-swing whatever the design. Infinite where the curve
-            bulges nowhere outside it.
+            In the transition zone the radius falls to zero at mid-swing whatever the design. Infinite where the
+            curve bulges nowhere outside it.
         """
-        end = self.zone_start
-        peak = maximum_over(
-            lambda k: self.sense * self.curve.curvature(self.curve.state(k)), 0.0, end, samples=128
-        ).value
-        return self.center_distance / peak if peak > 0.0 else math.inf
+        peak = maximum_over(self.bulge, *self.contact[0], samples=128).value
+        return 1.0 / peak if peak > 0.0 else math.inf
 
-    @property
-    def zone_start(self) -> float:
-        """k where the transition zone begins.
-
-        Raises
-            NoSolution - where the zone fills the stroke
-        """
-        if self.transition_zone >= 0.5:
-            raise NoSolution(
-                f"the transition zone is {self.transition_zone:.4g} of the stroke, more than its half: "
-                f"make the roller radius less than {safely_below(0.5 * self.roller_radius / self.transition_zone)} mm"
-            )
-        return 0.5 - self.transition_zone
+    def bulge(self, k: Reals) -> Reals:
+        """Curvature of the pitch curve [1/mm], positive where it bulges from the body."""
+        curvature: Reals = self.sense / self.center_distance * self.curve.curvature(self.curve.state(k))
+        return curvature
 
     def points(self, k: Reals) -> CamPoints:
         """Pitch curve, profile, pressure angle and curvature at given fractions of the stroke.
@@ -314,9 +333,8 @@ class WideSwingCam:
             NoSolution - for k outside 0 to 1, or a profile that does not exist
         Notes
             The body lies inside an external and outside an internal profile. k = 1/2 is taken as the end of the
-            run-up. The profile points between `wide_swing_contact.contact_end` and its mirror image are cut away
-            by the slot that the roller needs at mid-swing. The curvature keeps a relative accuracy of about 1e-13
-            up to the cusp itself.
+            run-up. The profile points between the two parts of `contact` are cut away by the slot that the
+            roller needs at mid-swing. The curvature keeps a relative accuracy of about 1e-13 up to the cusp itself.
         Example
             >>> from gearlink.core.wide_swing.elastic_law import ElasticLaw, Pneumatic
             >>> law = ElasticLaw(Pneumatic(2.5), math.radians(120))

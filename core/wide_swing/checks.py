@@ -72,11 +72,9 @@ def balancing(design: WideSwingDesign) -> Iterator[Check]:
 # Cams
 
 
-def _judged(design: WideSwingDesign, *, zone: bool) -> Iterator[tuple[str, AnyCam]]:
-    """The cams with a profile, and with `zone` those whose transition zone leaves something to judge."""
-    for words, cam in design.cams.items():
-        if (cam is not design.cam or design.has_profile) and (not zone or design.has_zone(cam)):
-            yield words, cam
+def _judged(design: WideSwingDesign) -> list[tuple[str, AnyCam]]:
+    """The cams with a profile."""
+    return [(words, cam) for words, cam in design.cams.items() if cam is not design.cam or design.has_profile]
 
 
 def profile_exists(design: WideSwingDesign) -> Check:
@@ -96,13 +94,17 @@ def profile_exists(design: WideSwingDesign) -> Check:
 
 
 def pressure_angle(design: WideSwingDesign) -> Iterator[Check]:
-    """GL401 outside the transition zone."""
+    """GL401 where the roller touches the profile."""
     limit = design.spec.limits.pressure_angle
-    for words, cam in _judged(design, zone=True):
+    for words, cam in _judged(design):
+        if not design.has_zone(cam):
+            continue
         value = math.degrees(cam.max_pressure_angle)
         text = f"the pressure angle of the {words} reaches {value:.6g} deg"
         if design.spec.drive is None:
-            text += " outside the transition zone"
+            text += (
+                " outside the transition zone" if cam.transition_zone > 0.0 else ", the contact lasting to mid-swing"
+            )
         if value > limit:
             text += f", above the limit {limit:g} deg: {_pressure_remedy(design)}"
         yield cams.PRESSURE_ANGLE.check("fail" if value > limit else "pass", text, value, limit, "deg")
@@ -119,22 +121,48 @@ def _pressure_remedy(design: WideSwingDesign) -> str:
 
 
 def cam_undercut(design: WideSwingDesign) -> Iterator[Check]:
-    """GL402: roller against the curvature outside the transition zone, and against the source's (27)."""
+    """GL402: roller against the curvature where it touches the profile, and against the source's (27)."""
     roller = design.section.roller_radius
-    for words, cam in _judged(design, zone=True):
-        least = cam.min_curvature_radius
-        share = roller / least
-        status: Status = "fail" if share >= 1.0 else "warn" if share > 0.8 else "pass"
-        text = (
-            f"roller radius {roller:g} mm against the least curvature radius {least:.6g} mm of the {words} "
-            "outside the transition zone"
-        )
+    for words, cam in _judged(design):
+        status, text, share = _undercut(cam, words) if design.has_zone(cam) else _covered(cam, words)
         if status != "pass":
             most = remedies.roller_for_curvature(design)
             text += f": take a roller of at most {most:.12g} mm or a larger cam.center_distance"
         yield cams.CAM_UNDERCUT.check(status, text, share, 1.0)
     if design.spec.layout == "twin-rocker" and design.has_profile:
         yield from _against_estimate(design, roller)
+
+
+def _undercut(cam: AnyCam, words: str) -> tuple[Status, str, float]:
+    roller, least = cam.roller_radius, cam.min_curvature_radius
+    share, place = roller / least, f"outside {_left_out(cam)}"
+    status: Status = "fail" if share >= 1.0 else "warn" if share > 0.8 else "pass"
+    if share == 0.0:
+        return status, f"the pitch curve of the {words} bulges nowhere {place}: no roller undercuts it", share
+    return (
+        status,
+        f"roller radius {roller:g} mm against the least curvature radius {least:.6g} mm of the {words} {place}",
+        share,
+    )
+
+
+def _covered(cam: AnyCam, words: str) -> tuple[Status, str, None]:
+    return (
+        "fail",
+        f"the roller, radius {cam.roller_radius:g} mm, where it stands still covers the profile of the {words}",
+        None,
+    )
+
+
+def _left_out(cam: AnyCam) -> str:
+    """The parts of the stroke in which the roller does not touch the profile."""
+    (first, _), (_, last) = cam.contact
+    ends = [
+        f"the {name} {part:.3g} of the stroke" for name, part in (("first", first), ("last", 1.0 - last)) if part > 0.0
+    ]
+    if not ends:
+        return "the transition zone"
+    return f"the transition zone and {' and '.join(ends)}, where the roller that stands still covers the profile"
 
 
 def _against_estimate(design: WideSwingDesign, roller: float) -> Iterator[Check]:
@@ -151,7 +179,7 @@ def _against_estimate(design: WideSwingDesign, roller: float) -> Iterator[Check]
 def transition_zone(design: WideSwingDesign) -> Iterator[Check]:
     """GL507: the contact changes sides within a small part of the stroke."""
     limit = design.spec.limits.transition_zone
-    for words, cam in _judged(design, zone=False):
+    for words, cam in _judged(design):
         zone = cam.transition_zone
         text = f"the roller changes sides of the {words} over {zone:.4g} of the stroke each side of mid-swing"
         if zone > limit:

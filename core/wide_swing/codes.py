@@ -33,7 +33,8 @@ TRANSITION_ZONE = Rule(
     "About mid-swing the roller leaves the profile and crosses its slot over more than limits.transition_zone.",
     "Within this zone the device alone guides the rocker; play and wear grow with it.",
     "Take a smaller roller, or a larger cam.center_distance.",
-    "Dk = (4/3) t_c/phi_ud, t_c = 3 q r_p/(4 p^2), p and q of the pitch curve's cusp",
+    "|z(1/2 - Dk) + r_p n - z(1/2)| = r_p; for small rollers Dk = (4/3) t_c/phi_ud, t_c = 3 q r_p/(4 p^2), p and q of "
+    "the pitch curve's cusp",
     "own derivation",
     ("transition-zone",),
     ("cam.roller_radius", "cam"),

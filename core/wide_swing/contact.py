@@ -1,93 +1,110 @@
-"""Curvature and contact of a wide-swing cam about mid-swing: the exact limits and the dissertation's estimates."""
+"""Contact of a wide-swing roller about mid-swing: its exact end, and the dissertation's estimates of curvature."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.numerics.roots import bracketed_root
-from gearlink.core.wide_swing.cam import WideSwingCam
+from gearlink.core.report import safely_below
+
+if TYPE_CHECKING:
+    from gearlink.core.wide_swing.cam import WideSwingCam
+
+Step: TypeAlias = Callable[[float], tuple[float, float]]
+
+_SMALLEST = 1e-4
+"""Below this share of the stroke the leading order, good to the square of the zone, is nearer than the solution."""
 
 
-def undercut_start(cam: WideSwingCam) -> float:
-    """Fraction of the stroke where the pitch curve's radius has fallen to the roller's: k with R(k) = r_p.
+def covered(step: Step, roller_radius: float, far: float, estimate: float | None) -> float:
+    """Part of the stroke beside a stop of the pitch curve over which the roller, standing there, covers the profile.
+
+    |z + r_p n - z(stop)| = r_p
 
     Parameters
-        cam : WideSwingCam
+        step : function of the part t of the stroke from the stop - length of the pitch point's way from the stop,
+            and its component against the profile's normal [mm]
+        roller_radius : float [mm]
+        far : float - t at which the profile must be free
+        estimate : float or None - leading order at a cusp; None where the pitch curve runs smoothly
     Returns
-        k : float - below 1/2
+        t : float - 0 where nothing is covered
     Raises
-        NoSolution - where the radius is below the roller's at the start already
-    Example
-        >>> from gearlink.core.wide_swing.elastic_law import ElasticLaw, Pneumatic
-        >>> law = ElasticLaw(Pneumatic(2.5), math.radians(120))
-        >>> round(undercut_start(WideSwingCam("twin-cam", law, math.radians(120), 200.0, 8.0)), 9)
-        0.471778076
+        NoSolution - where the profile is covered as far as `far`
+    Notes
+        At a cusp t has a relative error of at most 1e-7, at t = 1e-4.
     """
-    limit = cam.center_distance / cam.roller_radius
+    if estimate is not None and estimate < _SMALLEST:
+        return estimate
 
-    def excess(k: float) -> float:
-        return cam.sense * float(cam.curve.curvature(cam.curve.state(np.array([k])))[0]) - limit
+    def clearance(t: float) -> float:
+        length, depth = step(t)
+        return length * length - 2.0 * roller_radius * depth
 
-    if excess(0.0) >= 0.0:
+    if clearance(far) <= 0.0:
         raise NoSolution(
-            f"roller radius {cam.roller_radius:.6g} mm: the pitch curve's radius at the start is "
-            f"{abs(cam.start_curvature_radius):.6g} mm; make the roller smaller or the centre distance larger"
+            f"roller radius {roller_radius:.6g} mm: where the roller stands still it covers the whole profile; make it "
+            f"less than {safely_below(fitting_roller(*step(far)))} mm, or the centre distance larger"
         )
-    return bracketed_root(excess, 0.0, 0.5 - 1e-9)
+    last, t, nearest = far, 0.7 * far, 0.01 * (_SMALLEST if estimate is None else estimate)
+    while t > nearest:
+        if clearance(t) < 0.0:
+            return bracketed_root(clearance, t, last)
+        last, t = t, 0.7 * t
+    return 0.0
+
+
+def fitting_roller(length: float, depth: float) -> float:
+    """Radius of the roller that is just free of the profile after a step from its stop [mm]; infinite where all are.
+
+    r_p = |d|^2/(-2 d n)
+
+    Parameters
+        length, depth : float [mm] - |d| and -d n of the step
+    """
+    return length * length / (2.0 * depth) if depth > 0.0 else math.inf
 
 
 def contact_end(cam: WideSwingCam) -> float:
     """Fraction of the stroke where the roller leaves the profile, whose rest its slot at mid-swing has cut away.
 
-    |z(k) + r_p n(k) - z(1/2)| = r_p
-
     Parameters
         cam : WideSwingCam
     Returns
-        k : float - below 1/2; the mirror image 1 - k is where contact begins again
+        k : float - at most 1/2; the mirror image 1 - k is where contact begins again
     Raises
-        NoSolution - where the roller at mid-swing reaches the start of the profile, or is too large there
+        NoSolution - where the roller at mid-swing covers the start of the profile, or the pitch curve has a loop
     Notes
-        1/2 - k is 4/3 of 1/2 - undercut_start as the roller radius tends to zero. With a rocker radius below that of
-        (18), (24) the pitch curve turns smoothly at mid-swing; 1/2 where nothing is cut away then.
+        With a rocker radius below that of (18), (24) the pitch curve turns smoothly at mid-swing; 1/2 where the
+        roller, standing there, cuts nothing away.
     Example
+        >>> from gearlink.core.wide_swing.cam import WideSwingCam
         >>> from gearlink.core.wide_swing.elastic_law import ElasticLaw, Pneumatic
         >>> law = ElasticLaw(Pneumatic(2.5), math.radians(120))
         >>> round(contact_end(WideSwingCam("twin-cam", law, math.radians(120), 200.0, 8.0)), 9)
         0.462338155
     """
-    middle = -(1.0 - cam.ratio)
-    diameter = 2.0 * cam.roller_radius / cam.center_distance
-
-    def clearance(k: float) -> float:
-        state = cam.curve.state(np.array([k]))
-        step = complex(cam.curve.pitch(state)[0]) - middle
-        normal = cam.sense * complex(cam.curve.normal(state)[0])
-        return abs(step) ** 2 + diameter * (step * normal.conjugate()).real
-
-    if cam.rocker_radius < cam.nominal_rocker_radius:
-        return _first_fall(clearance)
-    if clearance(0.0) <= 0.0:
-        raise NoSolution(
-            f"roller radius {cam.roller_radius:.6g} mm: the roller at mid-swing covers the start of the profile; "
-            "make it smaller or the centre distance larger"
-        )
-    return bracketed_root(clearance, 0.0, undercut_start(cam))
+    smooth = cam.rocker_radius < cam.nominal_rocker_radius
+    estimate = None if smooth else cam.transition_zone_estimate
+    return 0.5 - covered(lambda t: middle_step(cam, t), cam.roller_radius, 0.5, estimate)
 
 
-def _first_fall(clearance: Callable[[float], float]) -> float:
-    """The first place before mid-swing where the clearance falls below 0, or 1/2."""
-    last = 0.0
-    for i in range(1, 60):
-        k = 0.5 - 0.5 * 0.7**i
-        if clearance(k) < 0.0:
-            return bracketed_root(clearance, last, k)
-        last = k
-    return 0.5
+def middle_step(cam: WideSwingCam, t: float) -> tuple[float, float]:
+    """Length of the pitch point's step to mid-swing from t before it, and its part along the profile's normal [mm]."""
+    state = cam.curve.state(np.array([0.5 - t]))
+    theta, psi, versed = (float(x[0]) for x in (state.theta, state.psi, state.s))
+    # z(k) - z(1/2) in terms that vanish at mid-swing, each of them exact
+    half = complex(math.cos(0.5 * theta), math.sin(0.5 * theta))
+    turned = -2j * math.sin(0.5 * theta) * half * (1.0 - cam.ratio)
+    step = turned + cam.ratio * half * half * complex(-versed, math.sin(psi))
+    normal = complex(cam.curve.normal(state)[0])
+    size = cam.center_distance
+    return size * abs(step), -size * cam.sense * (step * normal.conjugate()).real
 
 
 def start_radius_estimate(cam: WideSwingCam, k: float = 0.1) -> float:
@@ -106,6 +123,7 @@ def start_radius_estimate(cam: WideSwingCam, k: float = 0.1) -> float:
         A circle centred on the first radius; 3 % above to 11 % below `start_curvature_radius` for a twin-cam,
         no use for a twin-rocker.
     Example
+        >>> from gearlink.core.wide_swing.cam import WideSwingCam
         >>> from gearlink.core.wide_swing.elastic_law import ElasticLaw, Pneumatic
         >>> law = ElasticLaw(Pneumatic(2.5), math.radians(120))
         >>> round(start_radius_estimate(WideSwingCam("twin-cam", law, math.radians(120), 200.0, 8.0)), 9)
@@ -137,6 +155,7 @@ def middle_radius_estimate(cam: WideSwingCam, k: float = 0.45) -> float:
         The circle tangent to the radial line at mid-swing. The true radius falls to zero there; this is 3/8 of the
         true one at k, and equal to it near k = 0.481.
     Example
+        >>> from gearlink.core.wide_swing.cam import WideSwingCam
         >>> from gearlink.core.wide_swing.elastic_law import ElasticLaw, Pneumatic
         >>> law = ElasticLaw(Pneumatic(2.5), math.radians(120))
         >>> round(middle_radius_estimate(WideSwingCam("twin-rocker", law, math.radians(80), 200.0, 4.0)), 9)

@@ -159,11 +159,7 @@ class WideSwingDesign(Design):
 
     def has_zone(self, cam: AnyCam) -> bool:
         """Whether a cam has a profile outside the transition zone, so that it can be judged there."""
-        from gearlink.core.wide_swing.oscillating_cam import REST_SHARE
-
-        if cam is self.cam and not self.has_profile:
-            return False
-        return cam.transition_zone < 0.5 - REST_SHARE
+        return (cam is not self.cam or self.has_profile) and cam.transition_zone < 0.5
 
     @cached_property
     def start_radius_estimate(self) -> float:
@@ -188,16 +184,15 @@ class WideSwingDesign(Design):
 
     def slot_of(self, cam: AnyCam) -> tuple[float, float]:
         """Fractions of the stroke between which a cam's profile is cut away."""
-        from gearlink.core.wide_swing.cam import WideSwingCam
-        from gearlink.core.wide_swing.contact import contact_end
+        (_, start), (end, _) = self.contact_of(cam)
+        return start, end
 
+    def contact_of(self, cam: AnyCam) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Parts of the stroke in which the roller touches a cam's profile."""
         with self._profile_key:
             cam.require_profile()
         with at_key("cam.roller_radius"):
-            if isinstance(cam, WideSwingCam):
-                end = contact_end(cam)
-                return end, 1.0 - end
-            return cam.slot()
+            return cam.contact
 
     @property
     def _profile_key(self) -> Any:
@@ -262,7 +257,7 @@ class WideSwingDesign(Design):
             names = [*_DRIVE, *(name for name in names if name not in (*_OF_EVEN_CAM, *_NEED_PROFILE))]
         if not self._profile_exists():
             names = [name for name in names if name not in (*_NEED_PROFILE, *_NEED_ZONE)]
-        elif not self._zone_leaves_room():
+        elif not self.has_zone(self.cam):
             names = [name for name in names if name == "transition_zone" or name not in _NEED_ZONE]
         return names
 
@@ -272,12 +267,6 @@ class WideSwingDesign(Design):
         except NoSolution:
             # refused altogether: the quantities say so, each with its key
             return True
-
-    def _zone_leaves_room(self) -> bool:
-        try:
-            return self.has_zone(self.cam) and self.slot_of(self.cam)[0] > 0.0
-        except NoSolution as error:
-            return error.key != "cam.roller_radius"
 
     @classmethod
     def quantity_names(cls) -> tuple[str, ...]:

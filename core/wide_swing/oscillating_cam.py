@@ -6,6 +6,7 @@ turns evenly; the wide-swing rocker follows its law of motion over the same stro
 
 from __future__ import annotations
 
+import cmath
 import math
 from dataclasses import dataclass
 
@@ -16,14 +17,15 @@ from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.linkages.fourbar_sweep import solve
 from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.numerics.extremes import maximum_over
-from gearlink.core.numerics.roots import bracketed_root
-from gearlink.core.report import safely_below
 from gearlink.core.results import cached_property
 from gearlink.core.wide_swing.cam import LEAST_SPEED_RATIO, CamPoints, too_small_swing
+from gearlink.core.wide_swing.contact import covered, fitting_roller
 from gearlink.core.wide_swing.curve import StrokeLaw
 
-REST_SHARE = 0.02
-"""Part of the stroke at either end in which the cam hardly moves: its curvature there is of no account."""
+_STOP = 1e-4
+"""Nearer to a stop, in strokes, the curve bends as it does at the stop, and its curvature has few digits."""
+_FAR = 0.49
+"""How far from a stop, in strokes, the roller must have left its circle there for a profile to be left."""
 
 
 @dataclass(frozen=True)
@@ -169,44 +171,96 @@ class OscillatingCam:
         return -math.atan((1.0 - self.ratio) * second / (first * self.law.swing * self.law.velocity_peak))
 
     @property
-    def cusp_bend(self) -> float:
-        """Sense of the cusp at mid-swing: positive for a cusp, negative for a loop.
-
-        Im(conj(z2) z3)/|z2|^2 with the second and third derivatives of z after k
-        """
-        return self._cusp[0]
-
-    @property
     def loop_margin(self) -> float:
-        """What must be positive for the profile to exist: `cusp_bend`."""
+        """What must be positive for the profile to exist: the sense of the cusp at mid-swing, negative for a loop."""
         return self._cusp[0]
 
+    @cached_property
+    def _cusp(self) -> tuple[float, float]:
+        return self._stop(0.5)
+
+    def _stop(self, k: float) -> tuple[float, float]:
+        """Im(conj(z2) z3)/|z2|^2, positive for a bulge, and |z2| at mid-swing or an end, where z'(k) = 0."""
+        _, chi1, chi2, chi3 = (float(x[0]) for x in self.drive.motion(np.array([k]), 3))
+        swing, r = self.law.swing, self.ratio
+        view = self.law.middle_view(np.array([k]))
+        phi1, phi2 = swing * float(view.velocity[0]), swing * float(view.acceleration[0])
+        # at the ends the rocker stands still, and the jerk that the law gives it with it
+        phi3 = swing * self.law.middle_jerk if k == 0.5 else 0.0
+        arm = r * cmath.exp(1j * float(view.angle[0]))
+        f, f1 = arm - 1.0, 1j * phi1 * arm
+        f2, f3 = (1j * phi2 - phi1**2) * arm, (1j * phi3 - 3.0 * phi1 * phi2 - 1j * phi1**3) * arm
+        second = f2 + 2j * chi1 * f1 + (1j * chi2 - chi1**2) * f
+        third = f3 + 3j * chi1 * f2 + 3.0 * (1j * chi2 - chi1**2) * f1
+        third += (1j * chi3 - 3.0 * chi1 * chi2 - 1j * chi1**3) * f
+        return (second.conjugate() * third).imag / abs(second) ** 2, abs(second)
+
     @property
-    def transition_zone(self) -> float:
-        """Part Dk of the stroke each side of mid-swing where the roller, in its slot, has left the profile.
+    def transition_zone_estimate(self) -> float:
+        """`transition_zone` to leading order in r_p/a.
 
         Dk = q r_p/p^2 = 2 r_p Im(conj(z2) z3)/(3 a |z2|^3), p = |z2|/2, q = Im(conj(z2) z3)/(6 |z2|)
 
         Raises
             NoSolution - where the pitch curve has a loop
-        Notes
-            Leading order in r_p/a, as `WideSwingCam.transition_zone`.
         """
         self.require_profile()
-        bend, second = self._cusp
+        return self._left(self._cusp)
+
+    def _left(self, stop: tuple[float, float]) -> float:
+        """Part of the stroke over which the roller leaves a stop, to leading order."""
+        bend, second = stop
         return 2.0 * bend * self.roller_radius / (3.0 * second * self.center_distance)
 
     @cached_property
-    def _cusp(self) -> tuple[float, float]:
-        """Im(conj(z2) z3)/|z2|^2 and |z2| at mid-swing."""
-        _, chi1, chi2, chi3 = (float(x[0]) for x in self.drive.motion(np.array([0.5]), 3))
-        phi1, phi3 = self.law.swing * self.law.velocity_peak, self.law.swing * self.law.middle_jerk
-        r = self.ratio
-        f, f1, f2, f3 = r - 1.0, 1j * r * phi1, -r * phi1**2, 1j * r * (phi3 - phi1**3)
-        second = f2 + 2j * chi1 * f1 + (1j * chi2 - chi1**2) * f
-        third = f3 + 3j * chi1 * f2 + 3.0 * (1j * chi2 - chi1**2) * f1
-        third += (1j * chi3 - 3.0 * chi1 * chi2 - 1j * chi1**3) * f
-        return (second.conjugate() * third).imag / abs(second) ** 2, abs(second)
+    def contact(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Parts of the stroke in which the roller touches the profile.
+
+        Raises
+            NoSolution - for a loop, or where the roller, standing at a stop, covers the profile of half the stroke
+        Notes
+            Cam and rocker stop together at both ends, so the pitch curve begins and ends with radius 0. Where it
+            bulges there, the standing roller covers the first points of the profile as its slot does at mid-swing.
+        """
+        self.require_profile()
+        start, end = self._cover(0.0, 1.0), self._cover(1.0, -1.0)
+        return (start, self._cover(0.5, -1.0)), (self._cover(0.5, 1.0), end)
+
+    def _cover(self, stop: float, side: float) -> float:
+        """How far from a stop, on one side of it, the roller that stands there covers the profile."""
+        shape = self._stop(stop)
+        if shape[0] <= 0.0:
+            return stop
+        return stop + side * covered(
+            lambda t: self._step(stop + side * t, stop), self.roller_radius, _FAR, self._left(shape)
+        )
+
+    def _step(self, k: float, stop: float) -> tuple[float, float]:
+        """Length of the pitch point's step from a stop, and its part against the profile's normal [mm]."""
+        points = self.points(np.array([k, stop]))
+        step = complex(points.pitch[0] - points.pitch[1])
+        normal = complex(points.profile[0] - points.pitch[0]) / self.roller_radius
+        return abs(step), -(step * normal.conjugate()).real
+
+    @cached_property
+    def transition_zone(self) -> float:
+        """Part of the stroke beside mid-swing, on its wider side, where the roller has left the profile in its slot.
+
+        Raises
+            NoSolution - where the pitch curve has a loop
+        Notes
+            1/2 where the roller covers the profile of half the stroke.
+        """
+        self.require_profile()
+        try:
+            (_, before), (after, _) = self.contact
+        except NoSolution:
+            return 0.5
+        return max(0.5 - before, after - 0.5)
+
+    def largest_roller(self, zone: float) -> float:
+        """Radius of the roller whose transition zone is a given share of the stroke [mm]."""
+        return min(fitting_roller(*self._step(0.5 + side * zone, 0.5)) for side in (-1.0, 1.0))
 
     @property
     def middle_radius(self) -> float:
@@ -254,49 +308,23 @@ class OscillatingCam:
 
     @cached_property
     def min_curvature_radius(self) -> float:
-        """Least radius of the pitch curve where it bulges from the body [mm].
+        """Least radius of the pitch curve where it bulges from the body and the roller touches it [mm].
 
         Raises
-            NoSolution - for a loop, or a transition zone that fills the stroke
+            NoSolution - for a loop, or where the roller touches nothing
         Notes
-            Left out are the transition zone and the first and last fiftieth of the stroke, in which cam and rocker
-            come from or to a standstill and move by about 1/1000 of their swings.
+            Outside `contact` the radius falls to zero at mid-swing, and at an end that bulges, whatever the design.
+            At an end that is hollow nothing is to be found.
         """
-        zone = self.transition_zone
-        if zone >= 0.5 - REST_SHARE:
-            raise NoSolution(
-                f"the transition zone is {zone:.4g} of the stroke: make the roller radius less than "
-                f"{safely_below(0.4 * self.roller_radius / zone)} mm"
-            )
-        peak = max(
-            maximum_over(lambda k: 1.0 / self.points(k).curvature_radius, start, end, samples=128).value
-            for start, end in ((REST_SHARE, 0.5 - zone), (0.5 + zone, 1.0 - REST_SHARE))
-        )
+        (first, start), (end, last) = self.contact
+        parts = ((max(first, _STOP), start), (end, min(last, 1.0 - _STOP)))
+        peak = max(maximum_over(self.bulge, *part, samples=128).value for part in parts)
         return 1.0 / peak if peak > 0.0 else math.inf
 
-    def slot(self) -> tuple[float, float]:
-        """Fractions of the stroke between which the roller's slot at mid-swing has cut the profile away.
-
-        |z(k) + r_p n(k) - z(1/2)| = r_p
-
-        Raises
-            NoSolution - for a loop, or where the roller at mid-swing covers the profile of a whole half stroke
-        """
-        inner, far = 0.55 * self.transition_zone, 0.5 - REST_SHARE
-        if inner >= far or min(self._clearance(0.5 - far), self._clearance(0.5 + far)) <= 0.0:
-            raise NoSolution(
-                f"roller radius {self.roller_radius:.6g} mm: the roller at mid-swing covers the profile of half the "
-                f"stroke; make it at most {safely_below(0.1 * self.roller_radius / self.transition_zone)} mm"
-            )
-        return (
-            bracketed_root(self._clearance, 0.5 - far, 0.5 - inner),
-            bracketed_root(self._clearance, 0.5 + inner, 0.5 + far),
-        )
-
-    def _clearance(self, k: float) -> float:
-        """Distance of the contact point from the roller at mid-swing [mm]."""
-        points = self.points(np.array([k, 0.5]))
-        return abs(complex(points.profile[0] - points.pitch[1])) - self.roller_radius
+    def bulge(self, k: Reals) -> Reals:
+        """Curvature of the pitch curve [1/mm], positive where it bulges from the body."""
+        curvature: Reals = 1.0 / self.points(k).curvature_radius
+        return curvature
 
     def require_profile(self) -> None:
         """Refuse a pitch curve with a loop.
@@ -304,9 +332,9 @@ class OscillatingCam:
         Raises
             NoSolution - with what to change
         """
-        if self.cusp_bend <= 0.0:
+        if self.loop_margin <= 0.0:
             raise NoSolution(
-                f"the pitch curve has a loop at mid-swing (measure {self.cusp_bend:.4g}, must be above 0): "
+                f"the pitch curve has a loop at mid-swing (measure {self.loop_margin:.4g}, must be above 0): "
                 "put mid-swing nearer to the cam's largest speed by changing the link lengths"
             )
 

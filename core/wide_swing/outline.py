@@ -55,8 +55,8 @@ def contour(cam: AnyCam, slot: tuple[float, float], count: int = 400) -> tuple[P
     Raises
         NoSolution - for a profile that does not exist
     """
-    run_up = cam.points(np.linspace(0.0, slot[0], count)).profile
-    run_out = cam.points(np.linspace(slot[1], 1.0, count)).profile
+    run_up = cam.points(np.linspace(cam.contact[0][0], slot[0], count)).profile
+    run_out = cam.points(np.linspace(slot[1], cam.contact[1][1], count)).profile
     middle = complex(cam.points(np.array([0.5])).pitch[0])
     return run_up, _slot_bottom(cam, middle, run_up[-1], run_out[0]), run_out
 
@@ -81,10 +81,11 @@ def dwell_arc(cam: AnyCam, count: int = 181) -> Points:
     Raises
         NoSolution - for a profile that does not exist
     """
-    last, first = (complex(z) for z in cam.points(np.array([1.0, 0.0])).profile)
+    (begin, _), (_, end) = cam.contact
+    last, first = (complex(z) for z in cam.points(np.array([end, begin])).profile)
     middle = complex(cam.points(np.array([0.5])).pitch[0])
-    start, end = (float(np.angle(z / -middle)) for z in (last, first))
+    start, stop = (float(np.angle(z / -middle)) for z in (last, first))
     share: Reals = np.linspace(0.0, 1.0, count)
     radius = abs(last) ** (1.0 - share) * abs(first) ** share
-    result: Points = -middle / abs(middle) * radius * np.exp(1j * (start + (end - start) * share))
+    result: Points = -middle / abs(middle) * radius * np.exp(1j * (start + (stop - start) * share))
     return result

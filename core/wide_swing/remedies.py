@@ -44,15 +44,15 @@ def center_distance(design: WideSwingDesign) -> float:
 
 def roller_for_zone(design: WideSwingDesign) -> float:
     """Roller radius that brings every cam's transition zone within the limit [mm]."""
-    limit, roller = design.spec.limits.transition_zone, design.section.roller_radius
-    zones = [cam.transition_zone for cam in design.cams.values() if cam is not design.cam or design.has_profile]
-    return float(safely_below(roller * limit / max(zones) / _STRICTLY))
+    limit = design.spec.limits.transition_zone
+    cams = [cam for cam in design.cams.values() if cam is not design.cam or design.has_profile]
+    return float(safely_below(min(cam.largest_roller(limit) for cam in cams) / _STRICTLY))
 
 
 def roller_for_curvature(design: WideSwingDesign) -> float:
-    """Roller radius that keeps well below every cam's least curvature radius [mm]."""
-    least = min(cam.min_curvature_radius for cam in design.cams.values() if design.has_zone(cam))
-    return float(safely_below(0.8 * least / _STRICTLY))
+    """Roller radius that keeps well below every cam's least curvature radius [mm]; one that touches where none does."""
+    judged = [cam.min_curvature_radius for cam in design.cams.values() if design.has_zone(cam)]
+    return float(safely_below(0.8 * min(judged) / _STRICTLY)) if judged else roller_for_zone(design)
 
 
 # Angles
@@ -130,12 +130,10 @@ def _pressure_somewhere(cam: AnyCam) -> float:
     import numpy as np
 
     try:
-        end = 0.5 - cam.transition_zone
+        start, end = cam.contact[0]
     except NoSolution:
         return math.inf
-    if end <= 0.0:
-        return math.inf
-    return float(np.abs(cam.pressure_angle(np.linspace(0.0, end, 17))).max())
+    return float(np.abs(cam.pressure_angle(np.linspace(start, end, 17))).max())
 
 
 # Combined mechanisms

@@ -79,7 +79,7 @@ def iteration(design: WideSwingDesign, _samples: int | None = None) -> Table:
 
 
 def main_cam(design: WideSwingDesign, samples: int | None = None) -> Table:
-    """The cam of the working stroke; where the slot at mid-swing cuts the profile away, x and y are empty."""
+    """The cam of the working stroke; where the roller's slot cuts the profile away, x and y are empty."""
     return _cam(design, "main_cam", design.cam, 1.0, samples)
 
 
@@ -93,11 +93,12 @@ def return_cam(design: WideSwingDesign, samples: int | None = None) -> Table:
 def _cam(design: WideSwingDesign, name: str, cam: AnyCam, mirror: float, samples: int | None) -> Table:
     import numpy as np
 
-    start, end = design.slot_of(cam)
+    (first, start), (end, last) = design.contact_of(cam)
     points = cam.points(_k(samples))
-    gone = (points.k > start) & (points.k < end)
+    k = points.k
+    gone = (k < first) | ((k > start) & (k < end)) | (k > last)
     columns = {
-        "k": (points.k, "1"),
+        "k": (k, "1"),
         "cam_angle": (np.degrees(points.cam_angle), "deg"),
         "pitch_x": (points.pitch.real, "mm"),
         "pitch_y": (mirror * points.pitch.imag, "mm"),

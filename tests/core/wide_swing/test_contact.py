@@ -16,12 +16,7 @@ import pytest
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.wide_swing.cam import Layout, WideSwingCam
-from gearlink.core.wide_swing.contact import (
-    contact_end,
-    middle_radius_estimate,
-    start_radius_estimate,
-    undercut_start,
-)
+from gearlink.core.wide_swing.contact import contact_end, middle_radius_estimate, start_radius_estimate
 from gearlink.core.wide_swing.elastic_law import ElasticLaw, Pneumatic
 
 CASES = {
@@ -38,11 +33,21 @@ def cam(layout: Layout) -> WideSwingCam:
     return WideSwingCam(layout, LAW, math.radians(cycle), 1.0, roller)
 
 
+def undercut_start(mechanism: WideSwingCam) -> float:
+    """k where the pitch curve's radius has fallen to the roller's, by halving."""
+    low, high = 0.0, 0.5
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        radius = mechanism.sense * float(mechanism.points(np.array([middle])).curvature_radius[0])
+        low, high = (middle, high) if not 0.0 < radius < mechanism.roller_radius else (low, middle)
+    return low
+
+
 @pytest.mark.parametrize(("case", "layout"), BOTH)
 def test_reference_limits_and_estimates(case: str, layout: Layout) -> None:
     expected, mechanism = CASES[case], cam(layout)
     assert undercut_start(mechanism) == pytest.approx(expected["k_R_eq_rp"], abs=1e-12)
-    leading = 0.5 - 0.75 * mechanism.transition_zone
+    leading = 0.5 - 0.75 * mechanism.transition_zone_estimate
     assert leading == pytest.approx(expected["k_R_eq_rp_leading"], abs=1e-14)
     assert start_radius_estimate(mechanism) == pytest.approx(expected["R_eq23(k=0.1)"], rel=1e-13)
     # the angle at k = 0.45 is a difference of two numbers a hundred times larger
@@ -70,7 +75,9 @@ def test_four_thirds(case: str, layout: Layout) -> None:
         smaller = replace(mechanism, roller_radius=roller)
         lost, cut = 0.5 - contact_end(smaller), 0.5 - undercut_start(smaller)
         excess.append(abs(lost / cut - 4.0 / 3.0))
-        assert lost == pytest.approx(smaller.transition_zone, rel=0.03 * roller / mechanism.roller_radius + 1e-6)
+        # the next order is the square of the roller's radius
+        share = roller / mechanism.roller_radius
+        assert lost == pytest.approx(smaller.transition_zone_estimate, rel=0.003 * share**2 + 1e-6)
     assert excess[0] < 2e-3
     assert excess[1] < 0.2 * excess[0]
 
@@ -90,7 +97,46 @@ def test_estimate_of_the_start_serves_the_twin_cam_alone() -> None:
 
 
 def test_roller_too_large() -> None:
-    with pytest.raises(NoSolution, match=r"radius at the start is 0\.466804 mm; make the roller smaller"):
-        undercut_start(replace(cam("twin-cam"), roller_radius=0.5))
-    with pytest.raises(NoSolution, match="make"):
-        contact_end(replace(cam("twin-cam"), roller_radius=0.47))
+    large = replace(cam("twin-cam"), roller_radius=0.5)
+    with pytest.raises(NoSolution, match="make it less than") as refusal:
+        contact_end(large)
+    limit = float(refusal.value.message.split("less than ")[1].split(" mm")[0])
+    # five digits of the limit are printed
+    assert contact_end(replace(large, roller_radius=limit)) < 1e-3
+    with pytest.raises(NoSolution):
+        contact_end(replace(large, roller_radius=1.0001 * limit))
+
+
+@pytest.mark.parametrize(("case", "layout"), BOTH)
+@pytest.mark.parametrize("zone", [0.2, 0.04, 1e-3])
+def test_largest_roller_has_the_zone_that_was_asked_for(case: str, layout: Layout, zone: float) -> None:
+    mechanism = cam(layout)
+    fitted = replace(mechanism, roller_radius=mechanism.largest_roller(zone))
+    assert fitted.transition_zone == pytest.approx(zone, rel=1e-9)
+
+
+@pytest.mark.parametrize(("case", "layout"), BOTH)
+def test_leading_order_takes_over_without_a_step(case: str, layout: Layout) -> None:
+    """Rollers with zones just above and below 1e-4 of the stroke: both forms agree to the 1e-7 that either keeps."""
+    mechanism = cam(layout)
+    small = replace(mechanism, roller_radius=mechanism.largest_roller(1.0001e-4))
+    smaller = replace(mechanism, roller_radius=0.9998 * small.roller_radius)
+    for each in (small, smaller):
+        assert each.transition_zone == pytest.approx(each.transition_zone_estimate, rel=1e-7)
+
+
+@pytest.mark.parametrize(("share", "free"), [(0.9, True), (0.99, True), (0.9999, False)])
+def test_shorter_rocker_is_judged_to_mid_swing_where_nothing_is_cut(share: float, free: bool) -> None:
+    """A smooth curve carries through mid-swing, with 90 deg there; next to (18) the standing roller still cuts it."""
+    nominal = cam("twin-cam")
+    shorter = replace(nominal, given_rocker_radius=share * nominal.rocker_radius)
+    rollers = shorter.points(np.linspace(0.0, 1.0, 4001)).pitch
+    profile = shorter.points(np.linspace(0.0, 0.5, 400)).profile
+    clear = np.abs(profile[:, None] - rollers[None, :]).min() >= shorter.roller_radius * (1 - 1e-9)
+    assert clear == free
+    if free:
+        assert shorter.contact == ((0.0, 0.5), (0.5, 1.0))
+        assert math.degrees(shorter.max_pressure_angle) == pytest.approx(90.0, abs=1e-6)
+    else:
+        assert shorter.transition_zone == pytest.approx(nominal.transition_zone, rel=0.1)
+        assert math.degrees(shorter.max_pressure_angle) < 45.0

@@ -120,7 +120,9 @@ class TestReferences:
         assert value(made, "start_radius_estimate") == close(200.0 * want["R_eq23(k=0.1)"])
         assert value(made, "middle_radius_estimate") == close(200.0 * want["R_eq27(k=0.45)"])
         p, q = want["cusp_p"], want["cusp_q"]
-        assert value(made, "transition_zone") == close(q * 0.04 / (p * p * math.radians(120.0)))
+        leading = q * 0.04 / (p * p * math.radians(120.0))
+        assert made.even_cam.transition_zone_estimate == close(leading)
+        assert value(made, "transition_zone") == 0.5 - value(made, "contact_end") == pytest.approx(leading, rel=1e-3)
         rows = table(made, "main_cam")
         row = int(np.argmin(np.abs(rows["k"] - 0.25)))
         assert rows["x"][row] == close(200.0 * want["prof_x(0.25)"])
@@ -212,12 +214,14 @@ class TestCombined:
     def test_zone_of_oscillating_cam(self) -> None:
         """To leading order the radius has fallen to the roller's three quarters of the way into the zone."""
         cam = driven(cam=CAM | {"roller_radius": 0.01}).oscillating_cam
-        k = np.array([0.5 - 0.75 * cam.transition_zone, 0.5 + 0.75 * cam.transition_zone])
+        zone = cam.transition_zone_estimate
+        k = np.array([0.5 - 0.75 * zone, 0.5 + 0.75 * zone])
         # next order: a share of the size of the zone, 5e-5, times its slope
         np.testing.assert_allclose(cam.points(k).curvature_radius, 0.01, rtol=1e-3)
-        start, end = cam.slot()
-        assert (0.5 - start) / cam.transition_zone == pytest.approx(1.0, rel=1e-3)
-        assert (end - 0.5) / cam.transition_zone == pytest.approx(1.0, rel=1e-3)
+        larger = driven(cam=CAM | {"roller_radius": 0.2}).oscillating_cam
+        (_, start), (end, _) = larger.contact
+        assert (0.5 - start) / larger.transition_zone_estimate == pytest.approx(1.0, rel=1e-3)
+        assert (end - 0.5) / larger.transition_zone_estimate == pytest.approx(1.0, rel=1e-3)
 
     def test_pressure_angle_of_oscillating_cam_has_no_noise_at_the_ends(self) -> None:
         cam = driven().oscillating_cam
@@ -521,3 +525,36 @@ def test_spring_of_given_length_is_judged_by_formula_4() -> None:
         assert made.motion.min_pivot_ratio == close(1.0 + (150.0 + 40.0 + stretch) / 120.0)
         assert made.motion.fitting_pivot_ratio is not None
         assert (ratio >= made.motion.min_pivot_ratio) == (ratio >= made.motion.fitting_pivot_ratio)
+
+
+@pytest.mark.parametrize(("radius", "status"), [(70.0, "fail"), (74.0, "fail"), (74.55, "pass")])
+def test_shorter_rocker_is_judged_as_its_table_shows_it(radius: float, status: str) -> None:
+    """Below (18), 74.550035 mm, contact lasts to mid-swing with 90 deg there; rounded to 74.55 nothing changes."""
+    made = design(cam=CAM | {"rocker_radius": radius})
+    assert statuses(made, "pressure-angle") == [status]
+    rows = table(made, "main_cam")
+    largest = np.abs(rows["pressure_angle"])[~np.isnan(rows["x"])].max()
+    assert value(made, "max_pressure_angle") >= largest * (1 - 1e-9)
+    assert (largest == pytest.approx(90.0)) == (status == "fail")
+
+
+def test_zone_is_judged_by_its_exact_end() -> None:
+    """Here the leading order, 0.0498, would pass the limit of 0.05; contact ends 0.0516 before mid-swing."""
+    unloader = {"type": "spring", "pivot_ratio": 4.1098, "stretch_ratio": 0.334, "arm": 60.0}
+    cam = {"center_distance": 127.3, "roller_radius": 8.05}
+    made = design(layout="twin-rocker", swing=126.1, cycle_angle=49.3, unloader=unloader, cam=cam)
+    (internal, external) = made.check("transition-zone")
+    assert made.even_cam.transition_zone_estimate == pytest.approx(0.04976, abs=5e-6)
+    assert (internal.status, internal.value) == ("fail", 0.5 - made.contact_end)
+    assert made.contact_end == pytest.approx(0.44837, abs=5e-6)
+    assert external.status in ("pass", "fail")
+
+
+def test_curve_that_bulges_nowhere_has_no_least_radius_in_its_words() -> None:
+    """A twin-rocker with a very short arm is hollow all the way: 'inf mm' is no length."""
+    cam = CAM | {"rocker_radius": 10.9, "roller_radius": 40.0}
+    made = design(layout="twin-rocker", swing=160.0, cycle_angle=56.0, unloader=PNEUMATIC | {"pivot_ratio": 5.3}, cam=cam)
+    check = made.check("cam-undercut")[0]
+    assert (check.status, check.value) == ("pass", 0.0)
+    assert "bulges nowhere" in check.message
+    assert "inf" not in check.message

@@ -116,8 +116,8 @@ def test_stops_have_no_curvature_radius() -> None:
     np.testing.assert_allclose(points.profile, near.profile, atol=1e-6)
 
 
-def test_cusp_bend_is_the_sign_of_the_curvature_there() -> None:
-    assert CAM.cusp_bend > 0.0
+def test_loop_margin_is_the_sign_of_the_curvature_at_mid_swing() -> None:
+    assert CAM.loop_margin > 0.0
     assert np.all(CAM.points(np.array([0.49, 0.51])).curvature_radius > 0.0)
 
 
@@ -129,3 +129,58 @@ def test_refusals() -> None:
     with pytest.raises(NoSolution, match=r"too small to compute a cam with.*set swing to at least") as refused:
         _ = OscillatingCam(DRIVE, ElasticLaw(Pneumatic(2.5), 1e-14), 1.0, 0.02).ratio
     assert refused.value.key == "swing"
+
+
+def example(roller: float = 8.0, assembly: int = 1) -> OscillatingCam:
+    """The worked design: 60, 180, 96, 192 mm, centre distance 200 mm."""
+    drive = CrankRockerDrive(FourBar(60.0, 180.0, 96.0, 192.0, assembly))
+    return OscillatingCam(drive, ElasticLaw(Pneumatic(2.6), SWING), 200.0, roller)
+
+
+@pytest.mark.parametrize("cam", [example(), example(assembly=-1), example(roller=2.0)])
+def test_roller_touches_the_profile_where_contact_says(cam: OscillatingCam) -> None:
+    """By brute force over every place of the roller in the stroke: free where it touches, cut where it does not."""
+    rollers = cam.points(np.concatenate([[0.0, 0.5, 1.0], np.linspace(0.0, 1.0, 3001)])).pitch
+
+    def nearest(k: Any) -> Any:
+        return np.abs(cam.points(k).profile[:, None] - rollers[None, :]).min(axis=1) / cam.roller_radius
+
+    (first, start), (end, last) = cam.contact
+    for low, high in cam.contact:
+        assert nearest(np.linspace(low, high, 300)).min() >= 1.0 - 1e-10
+    lost = [np.linspace(start, end, 42)[1:-1]]
+    if first > 0.0:
+        lost.append(np.linspace(0.0, first, 42)[1:-1])
+    if last < 1.0:
+        lost.append(np.linspace(last, 1.0, 42)[1:-1])
+    inside = np.concatenate(lost)
+    assert np.all(nearest(inside[inside != 0.5]) < 1.0)
+
+
+def test_bulging_end_is_covered_and_hollow_end_is_not() -> None:
+    """The worked design starts with a bulge and ends hollow; 0.752 of the least radius is 4/3 of a cusp's, to 2 %."""
+    cam = example()
+    (first, _), (_, last) = cam.contact
+    assert 0.002 < first < 0.003
+    assert last == 1.0
+    start, end = cam.points(np.array([1e-3, 1.0 - 1e-3])).curvature_radius
+    assert start > 0.0 > end
+    assert cam.roller_radius / float(cam.points(np.array([first])).curvature_radius[0]) == pytest.approx(0.75, rel=0.03)
+
+
+@pytest.mark.parametrize("cam", [example(), example(assembly=-1), example(roller=2.0)])
+def test_least_radius_is_that_of_the_points_that_are_touched(cam: OscillatingCam) -> None:
+    """What the table prints where it gives a profile is nowhere a smaller bulge than the quantity says."""
+    k = np.concatenate([np.linspace(low, high, 20001) for low, high in cam.contact])
+    radii = cam.points(k[(k > 0.0) & (k < 1.0)]).curvature_radius
+    least = float(radii[radii > 0.0].min())
+    assert cam.min_curvature_radius == pytest.approx(least, rel=1e-6)
+    assert cam.min_curvature_radius <= least * (1 + 1e-9)
+
+
+def test_standing_roller_that_covers_all_is_refused_with_a_number() -> None:
+    with pytest.raises(NoSolution, match="make it less than") as refused:
+        _ = example(150.0).contact
+    limit = float(refused.value.message.split("less than ")[1].split(" mm")[0])
+    assert example(150.0).transition_zone == 0.5
+    assert example(0.999 * limit).transition_zone < 0.5
