@@ -553,7 +553,9 @@ def test_zone_is_judged_by_its_exact_end() -> None:
 def test_curve_that_bulges_nowhere_has_no_least_radius_in_its_words() -> None:
     """A twin-rocker with a very short arm is hollow all the way: 'inf mm' is no length."""
     cam = CAM | {"rocker_radius": 10.9, "roller_radius": 40.0}
-    made = design(layout="twin-rocker", swing=160.0, cycle_angle=56.0, unloader=PNEUMATIC | {"pivot_ratio": 5.3}, cam=cam)
+    made = design(
+        layout="twin-rocker", swing=160.0, cycle_angle=56.0, unloader=PNEUMATIC | {"pivot_ratio": 5.3}, cam=cam
+    )
     check = made.check("cam-undercut")[0]
     assert (check.status, check.value) == ("pass", 0.0)
     assert "bulges nowhere" in check.message
