@@ -206,6 +206,19 @@ def remedy_words(remedy: Remedy) -> str:
     )
 
 
+def without_noise(value: float, scale: float) -> float:
+    """The value, or 0 where it is below the rounding error of what has the size `scale`.
+
+    A closed form in double precision is off by a few ulp of its largest term; 8 ulp are taken, twice the most that
+    the residuals of the worked designs show.
+
+    Example
+        >>> without_noise(-4.46e-13, 2970.0), without_noise(-4.46e-10, 2970.0)
+        (0.0, -4.46e-10)
+    """
+    return value if abs(value) > 8.0 * math.ulp(scale) else 0.0
+
+
 def safely_below(value: float, digits: int = 5) -> str:
     """A recommended upper bound, rounded down to so many digits: applied as printed, it holds.
 

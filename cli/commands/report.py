@@ -20,7 +20,7 @@ from gearlink.cli.files import CannotWrite, safe_stem, write_atomically
 from gearlink.cli.options import Options
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.errors import show_errors
-from gearlink.cli.render.numbers import number, readable_rows, thinning
+from gearlink.cli.render.numbers import number, quiet, readable_rows, scales, thinning
 from gearlink.core.nomenclature import term
 from gearlink.core.version import VERSION
 
@@ -113,11 +113,12 @@ def _part(design: Design, report: Report) -> Iterator[str]:
     yield f"<h2>{escape(report.command)}</h2>"
     yield _picture(report.command, design)
     if report.quantities:
+        scale = scales(report)
         rows = (
             (
                 q.name.replace("_", " "),
                 q.symbol,
-                number(q.value, 9),
+                number(quiet(q.value, scale.get(q.unit, 0.0)), 9),
                 "" if q.unit == "1" else q.unit,
                 q.words,
                 term(q.name).source,

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import Any
 
-from gearlink.core.report import Table
+from gearlink.core.report import Report, Table, without_noise
 
 
 def number(value: object, digits: int = 7) -> str:
@@ -25,6 +25,36 @@ def number(value: object, digits: int = 7) -> str:
     return str(value)
 
 
+def scales(report: Report) -> dict[str, float]:
+    """The largest number of each unit in a report: what is below its rounding error is noise beside it.
+
+    Ratios and shares are judged beside 1 at least, the size of what they are quotients of.
+    """
+    found = {"1": 1.0}
+    for unit, values in _values(report):
+        found[unit] = max(found.get(unit, 0.0), _largest(values))
+    return found
+
+
+def _values(report: Report) -> Iterator[tuple[str, Any]]:
+    yield from ((q.unit, q.value if isinstance(q.value, list) else [q.value]) for q in report.quantities)
+    yield from ((check.unit, (check.value, check.limit)) for check in report.checks)
+    for table in report.tables:
+        yield from zip(table.units, table.data, strict=True)
+
+
+def quiet(value: object, scale: float) -> object:
+    """A number, or a list of them, with 0 for what is rounding beside `scale`.
+
+    Example
+        >>> quiet([2.2e-16, 1.5], 1.5), quiet(40, 1.0), quiet(None, 1.0)
+        ([0.0, 1.5], 40, None)
+    """
+    if isinstance(value, list):
+        return [quiet(item, scale) for item in value]
+    return without_noise(value, scale) if isinstance(value, float) else value
+
+
 def thinning(step: int, table: Table) -> str:
     """Which rows of a table are shown, in words.
 
@@ -39,14 +69,14 @@ def thinning(step: int, table: Table) -> str:
 
 def readable_rows(table: Table, step: int = 1, digits: int = 6) -> list[list[str]]:
     """Every `step`-th row as text; values that are rounding beside their column's largest are shown as 0."""
-    noise = [_noise(column) for column in table.data]
+    noise = [1e-13 * _largest(column) for column in table.data]
     rows = table.thinned(step).each_row()
     return [[number(_quiet(x, level), digits) for x, level in zip(row, noise, strict=True)] for row in rows]
 
 
-def _noise(column: Any) -> float:
+def _largest(column: Any) -> float:
     items: Iterable[object] = column.tolist() if hasattr(column, "tolist") else column
-    return 1e-13 * max((abs(x) for x in items if isinstance(x, float) and math.isfinite(x)), default=0.0)
+    return max((abs(x) for x in items if isinstance(x, float) and math.isfinite(x)), default=0.0)
 
 
 def _quiet(value: object, level: float) -> object:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from rich import box
@@ -15,8 +15,8 @@ from rich.text import Text
 
 from gearlink.cli.options import Options
 from gearlink.cli.printable import visible
-from gearlink.cli.render.numbers import number, readable_rows, thinning
-from gearlink.core.report import Check, Quantity, Report, Table
+from gearlink.cli.render.numbers import number, quiet, readable_rows, scales, thinning
+from gearlink.core.report import Check, Report, Table
 
 _MOST_ROWS = 24
 _STYLE = {"pass": "green", "warn": "yellow", "fail": "bold red"}
@@ -29,7 +29,7 @@ def show(report: Report, options: Options) -> None:
     console = console_for(options)
     console.print(Text(f"{visible(' '.join(report.name.split()))}: {report.command} ({report.kind})", style="bold"))
     if report.quantities:
-        console.print(_quantities(report.quantities, console))
+        console.print(_quantities(report, console))
     for table in report.tables:
         _show_table(table, console)
     findings = [c for c in report.checks if c.status != "pass"]
@@ -39,7 +39,7 @@ def show(report: Report, options: Options) -> None:
     passes = [c for c in report.checks if c.status == "pass"]
     if passes:
         console.print()
-        console.print(_passes(passes, console))
+        console.print(_passes(passes, scales(report), console))
     counts = {status: sum(c.status == status for c in report.checks) for status in ("fail", "warn", "pass")}
     if report.checks:
         verdict = ", ".join(f"{n} {status}" for status, n in counts.items() if n)
@@ -78,16 +78,18 @@ def grid_for(console: Console) -> Grid:
     )
 
 
-def _quantities(quantities: Sequence[Quantity], console: Console) -> Grid:
-    grid = grid_for(console)
+def _quantities(report: Report, console: Console) -> Grid:
+    grid, scale = grid_for(console), scales(report)
     wide = console.width >= _WIDE
     for head in ("quantity", "symbol", "value", "unit", *(["meaning"] if wide else [])):
         grid.add_column(
             head, justify="right" if head == "value" else "left", overflow="fold", no_wrap=head == "quantity"
         )
-    for q in quantities:
+    for q in report.quantities:
         unit = "" if q.unit == "1" else q.unit
-        grid.add_row(q.name, q.symbol, number(q.value), unit, *([q.words] if wide else []))
+        grid.add_row(
+            q.name, q.symbol, number(quiet(q.value, scale.get(q.unit, 0.0))), unit, *([q.words] if wide else [])
+        )
     return grid
 
 
@@ -102,7 +104,7 @@ def _findings(checks: Sequence[Check], console: Console) -> Grid:
     return grid
 
 
-def _passes(checks: Sequence[Check], console: Console) -> Grid:
+def _passes(checks: Sequence[Check], scale: Mapping[str, float], console: Console) -> Grid:
     """Passed checks, a line per kind: how often, and the value nearest to its limit."""
     grid = grid_for(console)
     for head in ("passed", "code", "value", "limit", "unit"):
@@ -114,7 +116,8 @@ def _passes(checks: Sequence[Check], console: Console) -> Grid:
         nearest = min(group, key=_room)
         times = f" ({len(group)}x)" if len(group) > 1 else ""
         unit = "" if nearest.unit == "1" else nearest.unit
-        grid.add_row(name + times, code, number(nearest.value, 5), number(nearest.limit, 5), unit)
+        value = quiet(nearest.value, scale.get(nearest.unit, 0.0))
+        grid.add_row(name + times, code, number(value, 5), number(nearest.limit, 5), unit)
     return grid
 
 

@@ -7,7 +7,7 @@ import math
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.codes import TARGET, TRANSMISSION_ANGLE
 from gearlink.core.linkages.fourbar import FourBar
-from gearlink.core.report import Check, safely_above
+from gearlink.core.report import Check, safely_above, without_noise
 
 _POOR = math.radians(3.0)
 
@@ -30,7 +30,8 @@ def transmission_check(
 def target_check(what: str, residual: float, tolerance: float, unit: str) -> Check:
     """GL307: the residual of a synthesis, measured on the motion of the design that it gives."""
     met = abs(residual) <= tolerance
-    text = f"{what} is missed by {residual:.3g} {unit}"
+    shown = without_noise(residual, 360.0) if unit == "deg" else residual
+    text = f"{what} is missed by {shown:.3g} {unit}"
     if not met:
         text += f", more than {tolerance:.3g} {unit}: ask for less, or free more of the links"
     return TARGET.check("pass" if met else "fail", text, residual, tolerance, unit)

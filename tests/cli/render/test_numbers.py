@@ -1,0 +1,66 @@
+"""Rounding is shown as 0, at its scale; what is small but real stays, and JSON keeps every digit."""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import Any
+
+import pytest
+
+from gearlink.cli.render.numbers import quiet, scales
+from gearlink.core.report import Check, Quantity, Report, Table, without_noise
+
+NOISE = re.compile(r"\d[\d.]*e-1[2-9]")
+
+
+@pytest.mark.parametrize("scale", [1.0, 0.3, 1000.0, 2970.0, 1e-9, 1e12])
+def test_eight_ulp_of_the_scale(scale: float) -> None:
+    assert without_noise(8.0 * math.ulp(scale), scale) == 0.0
+    assert without_noise(-8.0 * math.ulp(scale), scale) == 0.0
+    for real in (8.5 * math.ulp(scale), -1e-14 * scale, 1e-9 * scale, scale):
+        assert without_noise(real, scale) == real
+
+
+def test_nothing_is_noise_beside_nothing() -> None:
+    assert without_noise(1e-300, 0.0) == 1e-300
+    assert quiet([None, "a", 3, 1e-17], 0.0) == [None, "a", 3, 1e-17]
+
+
+def test_each_unit_has_its_own_scale() -> None:
+    report = Report(
+        "k",
+        "n",
+        "c",
+        (
+            Quantity("a", [1e-14, -200.0], "mm", "", ""),
+            Quantity("b", 1e-14, "1", "", ""),
+            Quantity("n", 7, "1", "", ""),
+        ),
+        (Check("GL301", "x", "pass", "", 1e-12, 3.0, "mm/s"),),
+        (Table("t", ("v", "w"), ("mm/s", "-"), ([5000.0, None], ["a", math.inf])),),
+    )
+    assert scales(report) == {"mm": 200.0, "1": 1.0, "mm/s": 5000.0, "-": 0.0}
+
+
+@pytest.mark.parametrize(
+    ("command", "design"),
+    [
+        ("synth momentary-dwell", "thesis_example_3_mended"),
+        ("press", "ty460"),
+        ("cam", "ty460"),
+        ("gripper", "swing_gripper"),
+        ("analyze", "five_bar_positions"),
+    ],
+)
+def test_no_noise_among_the_results(gearlink: Any, designs: Any, command: str, design: str) -> None:
+    path = designs / f"{design}.yaml"
+    assert not NOISE.search(gearlink(*command.split(), path).out)
+
+
+def test_json_keeps_full_precision(gearlink: Any, designs: Any) -> None:
+    """The least speed of a momentary dwell is 0 but for rounding: the table says 0, JSON what was computed."""
+    line = ("synth", "momentary-dwell", designs / "thesis_example_3_mended.yaml")
+    assert re.search(r"speed_ratio_min .* 0 *$", gearlink(*line).out, re.MULTILINE)
+    value = gearlink(*line, "--format", "json").json["quantities"]["speed_ratio_min"]["value"]
+    assert value == pytest.approx(0.0, abs=1e-15)
