@@ -53,6 +53,7 @@ def build(
         "tables": options.tables,
         "only": only,
         "samples": options.samples,
+        "in_parts": options.format is Format.CSV,
         "findings_only": findings_only,
     }
     try:

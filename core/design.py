@@ -8,16 +8,20 @@ no other state, so there is no order in which things must be called.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
+from itertools import count
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from gearlink.core.errors import GearlinkError
 from gearlink.core.nomenclature import term
+from gearlink.core.numerics.rows import Rows
 from gearlink.core.remedies import Way, with_remedies
-from gearlink.core.report import Check, Quantity, Remedy, Report, Table
+from gearlink.core.report import Check, Quantity, Remedy, Report, Table, TableInParts
 from gearlink.core.results import step
+
+_PART_SIZES = (65_521, 65_537)
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,6 +134,21 @@ class Design:
             table: Table = getattr(self, f"table_{name}")(samples)
         return table
 
+    def table_in_parts(self, name: str, samples: int) -> Table:
+        """A table by name that holds some ten thousand of its rows at a time, where they can be computed so."""
+        # Two primes above the turns of any table, the length of none: one leaves a last part neither full nor empty.
+        size = next(prime for prime in _PART_SIZES if samples % prime)
+
+        def parts() -> Iterator[Table]:
+            for first in count(0, size):
+                part = self.table(name, samples=Rows.part(samples, first, size))
+                yield part
+                if part.length != size:  # the last, or one that is whole
+                    return
+
+        first = next(parts())
+        return first if first.length != size else TableInParts(name, first.columns, first.units, first.data, parts)
+
     def check(self, name: str) -> list[Check]:
         """The findings of a check by name; a check that does not apply to this design gives none."""
         method = "check_" + name.replace("-", "_")
@@ -168,6 +187,7 @@ class Design:
         samples: int | None = None,
         only: bool = False,
         findings_only: bool = False,
+        in_parts: bool = False,
     ) -> Report:
         """The report of a command.
 
@@ -179,6 +199,7 @@ class Design:
             only : bool - give the named tables alone
             findings_only : bool - give the checks that do not pass alone; the command's quantities are computed all
                 the same, since a mechanism that does not exist has none, its tables are not
+            in_parts : bool - compute the rows of long tables while they are read
         Raises
             UnknownName - for a name that the design does not have
             NoSolution - where no mechanism exists
@@ -197,7 +218,10 @@ class Design:
             command=command,
             quantities=tuple(quantity for quantity in found if quantity is not None),
             checks=tuple(check for check in checks if check.status != "pass" or not findings_only),
-            tables=tuple(self.table(name, samples=samples) for name in asked),
+            tables=tuple(
+                self.table_in_parts(name, samples) if in_parts and samples else self.table(name, samples=samples)
+                for name in asked
+            ),
         )
 
 

@@ -161,6 +161,18 @@ class Table:
 
 
 @dataclass(frozen=True, slots=True)
+class TableInParts(Table):
+    """A table of any length whose rows are computed while they are read; `data` are those of its first part alone."""
+
+    parts: Callable[[], Iterator[Table]]
+
+    def each_row(self) -> Iterator[tuple[float | str | None, ...]]:
+        """The rows of one part after the other."""
+        for part in self.parts():
+            yield from part.each_row()
+
+
+@dataclass(frozen=True, slots=True)
 class Report:
     """All that a command says about one design."""
 

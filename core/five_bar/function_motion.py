@@ -105,11 +105,13 @@ class FunctionFiveBar:
         (low, least), (high, greatest) = self.reach_squared.extremes(start, end)
         return (low, math.sqrt(max(least, 0.0))), (high, math.sqrt(greatest))
 
-    def closure(self, start: float, end: float) -> None:
+    def closure(self, start: float, end: float) -> tuple[tuple[float, float], tuple[float, float]]:
         """Refuse a five-bar whose follower and output do not reach from C to E all over a range of the input.
 
         |c - e| < |CE| < c + e
 
+        Returns
+            least, greatest : (float, float) - the extremes of |CE|, as `reach_extremes`
         Raises
             NoSolution - naming the worst input angle, the distance there, the limit, and by how much to change it
         """
@@ -127,6 +129,7 @@ class FunctionFiveBar:
                 f"follower and output differ by {shortest:.9g} mm; make them more equal by more than "
                 f"{safely_above(shortest - least, 4)} mm, lengthen the frame, or narrow the range"
             )
+        return (low, least), (high, greatest)
 
     def min_transmission_angle(self, start: float, end: float) -> tuple[float, float]:
         """Least angle between follower and output over a range, an obtuse one counted from the other side.
@@ -138,9 +141,8 @@ class FunctionFiveBar:
         Source
             own derivation; VDI 2142
         """
-        self.closure(start, end)
         found = []
-        for place, distance in self.reach_extremes(start, end):
+        for place, distance in self.closure(start, end):
             gamma = acute(transmission_angle(distance, self.follower, self.output))
             found.append((gamma, place))
         return min(found)

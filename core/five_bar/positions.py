@@ -157,16 +157,18 @@ def _step(value: Reals, slopes: Reals, damping: Reals) -> Reals:
 
 def _moving(bar: FunctionFiveBar, positions: Positions) -> Iterator[FunctionFiveBar]:
     """The five-bar in the assembly, if any, in which its motion meets the positions."""
+    first, last = positions[0][0], positions[-1][0]
     for assembly in (1, -1):
         made = replace(bar, assembly=assembly)
-        try:
-            angle, _ = made.min_transmission_angle(positions[0][0], positions[-1][0])
+        try:  # the cheap questions first: few candidates come to the last one
+            if (
+                all(_stands(made, phi, psi) for phi, psi in positions)
+                and made.min_transmission_angle(first, last)[0] >= _LEAST_ANGLE
+                and max(map(abs, position_errors(made, positions))) <= _EXACT
+            ):
+                yield made
         except NoSolution:  # it opens on the way, in either assembly
             return
-        if angle < _LEAST_ANGLE or not all(_stands(made, phi, psi) for phi, psi in positions):
-            continue
-        if max(map(abs, position_errors(made, positions))) <= _EXACT:
-            yield made
 
 
 def _stands(bar: FunctionFiveBar, phi: float, psi: float) -> bool:

@@ -7,6 +7,8 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from gearlink.core.numerics.rows import Rows
+
 Reals: TypeAlias = NDArray[np.float64]
 Points: TypeAlias = NDArray[np.complex128]
 """Points or vectors of the plane, x + i y."""
@@ -17,14 +19,15 @@ def turn_degrees(samples: int | None = None, turns: int = 1) -> Reals:
     """Angles that divide turns into equal steps, from 0.
 
     Parameters
-        samples : int - angles of a turn, 360 where none are given
+        samples : int - angles of a turn, 360 where none are given; `Rows`: a part of all angles
         turns : int
     Returns
-        angles : (samples * turns,) array [deg]
+        angles : (samples * turns,) array [deg], or the part
     Example
         >>> turn_degrees(3).tolist()
         [0.0, 120.0, 240.0]
     """
     count = (samples or 360) * turns
-    angles: Reals = np.arange(count, dtype=np.float64) * (360.0 * turns / count)
+    first, last = (samples.first, min(samples.first + samples.size, count)) if isinstance(samples, Rows) else (0, count)
+    angles: Reals = np.arange(first, last, dtype=np.float64) * (360.0 * turns / count)
     return angles

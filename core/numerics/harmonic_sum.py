@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
-from gearlink.core.numerics.roots import bracketed_root, sign_changes
+from gearlink.core.numerics.roots import bracketed_root, roots_on
 
 _STEPS_PER_WAVE = 40
-_MANY = 4000
+_MANY = 200  # places from which arrays are faster, numpy's import left aside
 
 
 @dataclass(frozen=True)
@@ -48,30 +49,37 @@ class HarmonicSum:
             >>> HarmonicSum(5.0, ((2.0, 1.0, 0.0),)).extremes(-1.0, 1.0)[1]
             (0.0, 7.0)
         """
-        fastest = max((abs(f) for _, f, _ in self.terms), default=0.0)
-        count = max(8, math.ceil(_STEPS_PER_WAVE * fastest * (end - start) / (2.0 * math.pi)))
-        grid = [start + (end - start) * i / count for i in range(count + 1)]
-        brackets = self._few_brackets(grid) if count > _MANY else sign_changes([self.slope(x) for x in grid])
-        places = [bracketed_root(self.slope, grid[i], grid[i + 1]) for i in brackets]
-        found = [(x, self.value(x)) for x in (start, end, *places)]
-        return min(found, key=lambda pair: pair[1]), max(found, key=lambda pair: pair[1])
+        return _extremes(self, start, end)
 
-    def _few_brackets(self, grid: list[float]) -> list[int]:
-        """Steps of a grid that hold a root of the derivative and may hold the least or the greatest value.
+    def few_brackets(self, start: float, end: float, count: int) -> list[tuple[float, float]]:
+        """Steps, of `count` to an interval, that hold a root of the derivative and may hold an extreme of the whole.
 
         Within a step the sum passes the nearer end's value by no more than h^2/8 max |f''|.
         """
         import numpy as np
 
-        x = np.array(grid)
+        x = start + (end - start) * np.arange(count + 1) / count
         slopes, values = np.zeros(x.size), np.zeros(x.size)
         for a, f, p in self.terms:
             angle = f * x + p
             slopes -= a * f * np.sin(angle)
             values += a * np.cos(angle)
         bend = sum(abs(a) * f * f for a, f, _ in self.terms)
-        slack = bend * (grid[1] - grid[0]) ** 2 / 8.0 + 1e-12 * sum(abs(a) for a, _, _ in self.terms)
+        slack = bend * (x[1] - x[0]) ** 2 / 8.0 + 1e-12 * sum(abs(a) for a, _, _ in self.terms)
         low, high = np.minimum(values[:-1], values[1:]), np.maximum(values[:-1], values[1:])
         extreme = (low - slack <= low.min()) | (high + slack >= high.max())
         turning = (np.sign(slopes[:-1]) != np.sign(slopes[1:])) | (slopes[:-1] == 0.0)
-        return [int(i) for i in np.flatnonzero(extreme & turning)]
+        chosen = np.flatnonzero(extreme & turning)
+        return list(zip(x[chosen].tolist(), x[chosen + 1].tolist(), strict=True))
+
+
+@lru_cache(maxsize=4)  # a closure, a transmission angle and a motion ask for the same
+def _extremes(total: HarmonicSum, start: float, end: float) -> tuple[tuple[float, float], tuple[float, float]]:
+    fastest = max((abs(f) for _, f, _ in total.terms), default=0.0)
+    count = max(8, math.ceil(_STEPS_PER_WAVE * fastest * (end - start) / (2.0 * math.pi)))
+    if count > _MANY:
+        places = [bracketed_root(total.slope, *bracket) for bracket in total.few_brackets(start, end, count)]
+    else:
+        places = roots_on(total.slope, [start + (end - start) * i / count for i in range(count + 1)])
+    found = [(x, total.value(x)) for x in (start, end, *places)]
+    return min(found, key=lambda pair: pair[1]), max(found, key=lambda pair: pair[1])

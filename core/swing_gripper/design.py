@@ -142,7 +142,7 @@ class SwingGripper(GripperHandover, GripperClosure, Design):
         """Both ways side by side: deviation of the angles, steps, opening of the loop, error of the closed form."""
         import numpy as np
 
-        degrees, loop = self._loop_at(samples)
+        degrees, loop = self._loop_at(samples and int(samples))  # never in parts: the steps are those of the whole turn
         columns = {
             "theta": (degrees, "deg"),
             "deviation": (np.degrees(loop.deviation), "deg"),

@@ -11,6 +11,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from factory import design
 from sweeps import mostly_slow
 
 from gearlink.core.errors import NoSolution
@@ -19,6 +20,7 @@ from gearlink.core.five_bar.family import UNKNOWNS, FiveBarFamily
 from gearlink.core.five_bar.fit import fit_path, judge
 from gearlink.core.five_bar.path import distances, points, sweep
 from gearlink.core.five_bar.path_motion import PathFiveBar
+from gearlink.core.numerics.harmonic_sum import HarmonicSum
 
 BAR = PathFiveBar(20.0, 60.0, 60.0, 20.0, 50.0, Fraction(-1), math.radians(90.0))
 BARS = [
@@ -162,3 +164,27 @@ def test_winding_near_a_dead_point():
     assert [
         math.remainder(a - bar.coupler_angle(float(x)), 2.0 * math.pi) for a, x in zip(coarse, phi, strict=True)
     ] == (pytest.approx([0.0] * 181, abs=1e-9))
+
+
+def test_a_long_range_of_the_input_takes_bounded_work(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Ten turns of the input: candidates are dropped at the positions before their whole motion is followed."""
+    calls = 0
+    slope = HarmonicSum.slope
+
+    def counted(self: HarmonicSum, x: float) -> float:
+        nonlocal calls
+        calls += 1
+        return slope(self, x)
+
+    monkeypatch.setattr(HarmonicSum, "slope", counted)
+    spec = {
+        "kind": "geared-five-bar",
+        "form": "function",
+        "gears": {"module": 2, "planet": 25, "sun": 20, "mesh": "internal"},
+        "links": {"coupler": 27, "follower": 72, "output": 54, "frame": 90},
+        "phase": 60,
+        "target": {"positions": [[-3600, -2811], [300, 0.1]]},
+    }
+    with pytest.raises(NoSolution, match="no five-bar was found"):
+        design(spec).require("analyze")
+    assert calls < 100_000

@@ -1,0 +1,84 @@
+"""Long tables as CSV: computed and written a part at a time, the same rows as at once.
+
+The rows are compared exactly: each stands alone, so a part holds the same doubles as the whole.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import gearlink.core.design
+from gearlink.cli.evaluate import open_design, read_spec
+from gearlink.cli.options import Options
+from gearlink.core.design import Design
+from gearlink.core.errors import GearlinkError
+from gearlink.core.report import Table, TableInParts
+
+DESIGNS = sorted((Path(__file__).resolve().parents[2] / "designs").glob("*.yaml"))
+SIZES = (37, 43)  # no table of fixed length has so many rows
+
+
+@pytest.fixture
+def asked(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """Lengths of the tables that are computed, parts being of 37 or 43 rows."""
+    lengths: list[int] = []
+    table = Design.table
+
+    def counted(self: Design, name: str, *, samples: int | None = None) -> Table:
+        made = table(self, name, samples=samples)
+        lengths.append(made.length)
+        return made
+
+    monkeypatch.setattr(gearlink.core.design, "_PART_SIZES", SIZES)
+    monkeypatch.setattr(Design, "table", counted)
+    return lengths
+
+
+@pytest.mark.parametrize("path", DESIGNS, ids=lambda path: path.stem)
+@pytest.mark.usefixtures("asked")
+def test_parts_hold_the_rows_of_the_whole(path: Path) -> None:
+    loaded, kind = open_design(str(path), Options())
+    spec = read_spec(loaded, kind, str(path))
+    for command in spec.commands():
+        design = kind.design(command, spec)
+        for name in design.table_names():
+            try:
+                whole = design.table(name, samples=3 * 37)  # 37 leaves no last part: 43 has to serve
+            except GearlinkError:  # a table that this design does not have
+                continue
+            parts = design.table_in_parts(name, 3 * 37)
+            assert (parts.columns, parts.units) == (whole.columns, whole.units)
+            assert list(map(tuple, parts.each_row())) == list(map(tuple, whole.each_row())), name
+
+
+@pytest.mark.parametrize(
+    ("command", "file"),
+    [("analyze", "two_gear_drag_link"), ("cam", "ty460"), ("gripper", "swing_gripper"), ("analyze", "five_bar_path")],
+)
+def test_no_more_than_a_part_is_held(gearlink: Any, asked: list[int], command: str, file: str) -> None:
+    path = DESIGNS[0].parent / f"{file}.yaml"
+    csv = gearlink(command, path, "--samples", 500, "--format", "csv").out
+    assert asked
+    assert max(asked) <= max(SIZES)
+    asked.clear()
+    table = gearlink(command, path, "--samples", 500, "--format", "md").out
+    assert max(asked) >= 500
+    assert csv.count("\n") > 500
+    assert table
+
+
+def test_a_short_table_is_computed_once(gearlink: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    calls: list[Any] = []
+    table = Design.table
+    monkeypatch.setattr(Design, "table", lambda *a, **k: calls.append(k) or table(*a, **k))
+    gearlink("analyze", DESIGNS[0].parent / "two_gear_drag_link.yaml", "--samples", 720, "--format", "csv")
+    assert len(calls) == 1
+
+
+def test_long_tables_are_read_as_often_as_asked() -> None:
+    part = Table("t", ("x",), ("1",), ((1.0, 2.0),))
+    whole = TableInParts("t", ("x",), ("1",), part.data, lambda: iter([part, part]))
+    assert whole.rows() == whole.rows() == [[1.0], [2.0], [1.0], [2.0]]
