@@ -16,6 +16,7 @@ import factory
 import numpy as np
 import pytest
 from pydantic import ValidationError
+from sweeps import mostly_slow
 
 from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.spec_paths import replaced, value_at
@@ -374,7 +375,7 @@ MENDED: list[tuple[WideSwingDesign, str, str]] = [
 ]
 
 
-@pytest.mark.parametrize(("made", "check", "path"), MENDED)
+@pytest.mark.parametrize(("made", "check", "path"), mostly_slow(MENDED, 10))
 def test_recommendation_as_given_repairs_the_finding(made: WideSwingDesign, check: str, path: str) -> None:
     suggestion = next(each for each in made.suggestions() if each.path == path)
     assert suggestion.why
@@ -393,7 +394,7 @@ def test_recommendation_as_given_repairs_the_finding(made: WideSwingDesign, chec
     assert path not in [again.path for again in repaired.suggestions() if again.why == suggestion.why]
 
 
-@pytest.mark.parametrize("made", [case[0] for case in MENDED])
+@pytest.mark.parametrize("made", mostly_slow([case[0] for case in MENDED], 6))
 def test_recommended_numbers_stand_in_the_message(made: WideSwingDesign) -> None:
     """What `suggestions` gives is what the finding prints."""
     try:
