@@ -8,7 +8,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
 MODULES = [
-    path.relative_to(ROOT).with_suffix("").as_posix().replace("/", ".")
+    path.relative_to(ROOT).with_suffix("").as_posix().replace("/", ".").removesuffix(".__init__")
     for top in ("core", "cli")
     for path in sorted((ROOT / top).rglob("*.py"))
     if ">>> " in path.read_text(encoding="utf-8")
