@@ -90,6 +90,9 @@ def _magnified(axes: Axes, design: ThreeGearFourBar) -> None:
     width = dwell.width or 60.0
     low = dwell.start - (0.25 * width if dwell.width else 0.5 * width)
     high = dwell.start + (1.25 * width if dwell.width else 0.5 * width)
+    if (window := _window(design, dwell.start)) is not None:
+        room = 0.08 * window.width
+        low, high = min(low, window.start - room), max(high, window.start + window.width + room)
     degrees = np.linspace(low, high, 401)
     at_start = output_angle(design.linkage, design.train, math.radians(dwell.start))
     output = output_motion(design.linkage, design.train, np.radians(degrees)).output_angle - at_start
@@ -98,7 +101,7 @@ def _magnified(axes: Axes, design: ThreeGearFourBar) -> None:
     panels.heading(axes, "Dwell, magnified")
     axes.plot(degrees, np.degrees(output), color=style.BLUE, linewidth=1.6, gid="magnified")
     axes.axhline(0.0, color=style.GREY, linewidth=0.8)
-    _tolerance(axes, design, at_start, low)
+    _tolerance(axes, design, at_start, dwell.start)
     if dwell.width:
         _back_step_marks(axes, design, dwell)
     else:
@@ -108,6 +111,16 @@ def _magnified(axes: Axes, design: ThreeGearFourBar) -> None:
             f"{dwell.start % linkage.TURN:.5g}°", (dwell.start, 0.0), (6, -12), textcoords="offset points", fontsize=8
         )
     axes.set_xlim(low, high)
+
+
+def _window(design: ThreeGearFourBar, near: float) -> Stretch | None:
+    """The dwell within a tolerance, in the turn [deg] that starts half a turn before a place."""
+    found = design.tolerance_dwell
+    if found is None:
+        return None
+    start = math.degrees(found.start)
+    turns = math.floor((start - near) / linkage.TURN + 0.5)
+    return Stretch(start - linkage.TURN * turns, math.degrees(found.crank_angle))
 
 
 def _back_step_marks(axes: Axes, design: ThreeGearFourBar, dwell: Stretch) -> None:
@@ -133,26 +146,25 @@ def _back_step_marks(axes: Axes, design: ThreeGearFourBar, dwell: Stretch) -> No
     axes.set_ylim(min(low, -2.2 * back), max(high, 0.9 * back))
 
 
-def _tolerance(axes: Axes, design: ThreeGearFourBar, at_start: float, low: float) -> None:
-    """The band that the tolerance dwell keeps to, where the file asks for one."""
-    found = design.tolerance_dwell
-    if found is None or design.output_tolerance is None:
+def _tolerance(axes: Axes, design: ThreeGearFourBar, at_start: float, near: float) -> None:
+    """The band that the tolerance dwell keeps to, where there is one."""
+    found, window = design.tolerance_dwell, _window(design, near)
+    if found is None or window is None or design.output_tolerance is None:
         return
     from gearlink.core.three_gear.motion import output_angle
 
-    turns = math.ceil((math.radians(low) - found.start) / (2.0 * math.pi) - 0.5)
-    start = found.start + 2.0 * math.pi * max(turns, 0)
+    start = math.radians(window.start)
     shift = output_angle(design.linkage, design.train, start) - output_angle(design.linkage, design.train, found.start)
     middle = math.degrees(found.output_angle + shift - at_start)
     band = math.degrees(design.output_tolerance)
     axes.fill_between(
-        [math.degrees(start), math.degrees(start + found.crank_angle)],
+        [window.start, window.start + window.width],
         middle - band,
         middle + band,
         color=style.GREEN,
         alpha=0.25,
         linewidth=0,
-        label=f"within ±{band:g}° over {math.degrees(found.crank_angle):.5g}°",
+        label=f"within ±{band:g}° over {window.width:.5g}°",
     )
     panels.legend_above(axes, 1)
 
