@@ -47,7 +47,7 @@ def crank_pin(crank: float, frame: float, start: float = 0.0, end: float = _TURN
         reach : Reach - |d - a| and d + a where the range passes them, else the distances at its ends
     Example
         >>> crank_pin(18.0, 121.4).nearest, round(crank_pin(10.0, 61.0, math.radians(60.0), math.pi).nearest, 9)
-        (103.4, 56.67450926)
+        (103.4, 56.665686266)
     """
     ends = [
         (math.hypot(frame - crank, 2.0 * math.sqrt(crank * frame) * math.sin(0.5 * phi)), phi) for phi in (start, end)

@@ -114,7 +114,7 @@ def back_steps(speed: Function, angle: Function, places: list[float]) -> list[Ba
     Example
         >>> speed, angle = (lambda x: 1 + 2 * math.sin(x)), (lambda x: x - 2 * math.cos(x))
         >>> [(round(s.crank_angle, 12), round(s.angle, 12)) for s in back_steps(speed, angle, [3.66, 5.76])]
-        [(2.1, 1.370215408131)]
+        [(2.1, 1.369683001218)]
     """
     if len(places) < 2:
         return []
