@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 def draw(command: str, design: SwingGripper) -> Figure:
     """Rocker, pressure angle and curvature over the cam angle; below them the cams to scale."""
-    cams = design.cams
+    cams = design.cams.discs
     made = panels.page(f"{design.spec.name}: {command}")
     rows: Any = made.add_gridspec(4, 1, height_ratios=(1.2, 1.3, 1.3, 5.2))
     curves = [made.add_subplot(rows[i]) for i in range(3)]
@@ -55,15 +55,15 @@ def _cams(axes: Axes, design: SwingGripper) -> None:
     assert spec is not None, "the cams have asked for it"
     panels.drawing(axes, "Cams at cam angle 0, to scale")
     axis, pivot = design.cam_center, np.array([linkage.input_pivot])
-    for cam, color in zip(design.cams, panels.CAM_COLORS, strict=False):
+    for cam, color in zip(design.cams.discs, panels.CAM_COLORS, strict=False):
         panels.cam_outline(axes, cam, color, axis)
     scene = build(design, np.zeros(1))
     rocker = [part for part in scene.parts if isinstance(part, Chain) and not part.marked]
     c = next(mark.point for mark in scene.marks if mark.text == "C")
     arm = Chain(joints=(pivot, c), color=style.GREY)
     scene_axes.draw(axes, Scene(parts=(*rocker, arm), marks=letters("A", A=pivot, C=c)))
-    panels.base_circles(axes, design.cams, axis)
+    panels.base_circles(axes, design.cams.discs, axis)
     if spec.shaft_radius > 0.0:
         style.circle(axes, axis, spec.shaft_radius, color=style.BLACK, linewidth=0.9)
         axes.plot([], [], color=style.BLACK, linewidth=0.9, label=f"shaft, {spec.shaft_radius:g} mm")
-    panels.cam_axis(axes, axis, design.cams, spec.sense, spec.shaft_radius)
+    panels.cam_axis(axes, axis, design.cams.discs, spec.sense, spec.shaft_radius)

@@ -123,4 +123,4 @@ def mechanism(axes: Axes, design: SwingGripper) -> None:
     e, drum = complex(design.linkage.output_pivot), drum_center(design)
     axes.plot([e.real, drum.real], [e.imag, drum.imag], color=style.GREY, linewidth=0.7, linestyle="-.", zorder=3)
     if design.spec.cam is not None:
-        panels.cam_axis(axes, design.cam_center, design.cams, design.spec.cam.sense, design.spec.cam.shaft_radius)
+        panels.cam_axis(axes, design.cam_center, design.cams.discs, design.spec.cam.sense, design.spec.cam.shaft_radius)

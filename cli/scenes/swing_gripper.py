@@ -107,7 +107,7 @@ def _cams(design: SwingGripper, fraction: Reals) -> list[Part]:
     if spec.return_roller is not None:
         rollers.append((spec.return_roller, spec.roller.angle + spec.return_roller.angle))
     parts: list[Part] = []
-    for cam, color in zip(design.cams, _CAM_COLORS, strict=False):
+    for cam, color in zip(design.cams.discs, _CAM_COLORS, strict=False):
         parts.append(disc_cam(cam, axis, spec.sense * TURN * fraction, color))
     for (roller, angle), color in zip(rollers, _CAM_COLORS, strict=False):
         center = pivot + roller.arm * np.exp(1j * (rocker + math.radians(angle)))

@@ -35,7 +35,7 @@ CURVATURE = 1e-14
 @pytest.mark.parametrize("row", TABLE, ids=lambda row: str(row["theta_deg"]))
 def test_both_cams_of_the_table(row: dict) -> None:
     angle = np.radians([float(row["theta_deg"])])
-    for number, cam in enumerate(DESIGN.cams, start=1):
+    for number, cam in enumerate(DESIGN.cams.discs, start=1):
         at = cam.at(angle)
         expected = {key: float(row[f"cam{number}_{key}"]) for key in ("x", "y", "alpha_deg", "rho_pitch")}
         assert abs(at.profile[0] - complex(expected["x"], expected["y"])) <= POINT
@@ -47,7 +47,7 @@ def test_both_cams_of_the_table(row: dict) -> None:
 def test_points_of_the_reference(name: str) -> None:
     case = CASES[name]
     expected = {key: float(value) for key, value in case["expected"].items()}
-    cam = DESIGN.cams[case["inputs"]["roller"] - 1]
+    cam = DESIGN.cams.discs[case["inputs"]["roller"] - 1]
     at = cam.at(np.radians([case["inputs"]["theta_deg"]]))
     assert abs(at.pitch[0] - complex(expected["px"], expected["py"])) <= POINT
     assert abs(at.profile[0] - complex(expected["cx"], expected["cy"])) <= POINT
@@ -59,7 +59,7 @@ def test_points_of_the_reference(name: str) -> None:
 
 def test_extremes_of_the_reference() -> None:
     expected = {key: float(value) for key, value in CASES["EXT-01"]["expected"].items()}
-    main, back = (cam.max_pressure_angle for cam in DESIGN.cams)
+    main, back = (cam.max_pressure_angle for cam in DESIGN.cams.discs)
     assert math.degrees(main.value) == pytest.approx(-expected["alpha1_min_deg"], rel=0.0, abs=ANGLE)
     assert math.degrees(back.value) == pytest.approx(expected["alpha2_max_deg"], rel=0.0, abs=ANGLE)
     assert math.degrees(main.place) == pytest.approx(expected["at_alpha1_min_deg"], rel=0.0, abs=1e-5)
@@ -110,11 +110,11 @@ def test_turning_the_whole_machine_changes_nothing(angle: float) -> None:
     for name in ("min_curvature_radius", "min_radius", "max_radius"):
         assert getattr(other, name) == pytest.approx(getattr(DESIGN, name), rel=64 * EPS, abs=0.0), name
     angles = np.radians(np.arange(0.0, 360.0, 3.0))
-    for one, two in zip(DESIGN.cams, other.cams, strict=True):
+    for one, two in zip(DESIGN.cams.discs, other.cams.discs, strict=True):
         turn = np.exp(1j * math.radians(angle))
         assert np.abs(two.at(angles).profile - turn * one.at(angles).profile).max() <= 10 * POINT
         assert np.abs(two.at(angles).curvature - one.at(angles).curvature).max() <= 4 * CURVATURE
-    torque = [design.inertia_torques(np.arange(0.0, 360.0, 3.0))[0] for design in (DESIGN, other)]
+    torque = [design.closure.inertia_torques(np.arange(0.0, 360.0, 3.0))[0] for design in (DESIGN, other)]
     assert np.abs(torque[1] - torque[0]).max() <= 512 * EPS * 293.0
     moved = complex(DESIGN.handover_center) * np.exp(1j * math.radians(angle)) + 12.0 + 70.0j
     assert abs(other.handover_center - moved) <= 1e-12
@@ -125,17 +125,17 @@ def test_the_mirrored_machine_is_the_same_machine() -> None:
     for name in ("handover_speed", "total_swing", "min_transmission_angle", "lift_off_speed", "max_pressure_angle"):
         assert getattr(other, name) == pytest.approx(getattr(DESIGN, name), rel=16 * EPS, abs=0.0), name
     angles = np.radians(np.arange(0.0, 360.0, 3.0))
-    for one, two in zip(DESIGN.cams, other.cams, strict=True):
+    for one, two in zip(DESIGN.cams.discs, other.cams.discs, strict=True):
         assert np.abs(two.at(angles).profile - np.conj(one.at(angles).profile)).max() <= POINT
         assert np.abs(np.abs(two.at(angles).pressure_angle) - np.abs(one.at(angles).pressure_angle)).max() <= 32 * EPS
-    assert other.lift_sense == -DESIGN.lift_sense
+    assert other.closure.lift_sense == -DESIGN.closure.lift_sense
     assert abs(other.handover_center - DESIGN.handover_center.conjugate()) <= 1e-12
     assert {check.status for check in other.report("analyze").checks} == {"pass"}
 
 
 def test_profile_keeps_the_roller_off_itself() -> None:
     angles = np.linspace(0.0, 2.0 * math.pi, 721)[:-1]
-    for cam in DESIGN.cams:
+    for cam in DESIGN.cams.discs:
         pitch, profile = cam.points(angles)
         gaps = np.abs(profile[:, None] - pitch[None, :])
         assert gaps.min() == pytest.approx(30.0, rel=0.0, abs=1e-12)
@@ -164,11 +164,6 @@ def test_rows_of_the_tables() -> None:
         ({"total_swing": 40.0}, "total_swing", r"phases.constant by \+1.88888889 deg"),
         ({"arm__length": 20.0}, "arm.length", "swings 587.25 deg, a turn or more.*arm longer than 32.625 mm"),
         ({"cylinder__radius": 1e12}, "arm.length", "radius less than 1241.38 mm"),
-        (
-            {"output_direction": 38.0, "limits": {"transmission_angle": 1.0}},
-            "cam.center",
-            "pressure angle 90 deg.*for 45 deg: set cam.center to",
-        ),
         ({"cam__return_roller__angle": 20.0}, "cam.return_roller.angle", "above 30.94 deg"),
     ],
     ids=lambda value: str(value)[:40],
@@ -177,6 +172,42 @@ def test_refusals_name_key_value_and_remedy(changes: dict, key: str, words: str)
     with pytest.raises(NoSolution, match=words) as refused:
         machine(**changes).report("gripper")
     assert refused.value.key == key
+
+
+_NO_CAM = [
+    (
+        {"output_direction": 38.0, "limits": {"transmission_angle": 1.0}},
+        "cam.center",
+        "pressure angle 90 deg.*for 45 deg: set cam.center to",
+    ),
+    ({"cam__center": None, "size": {"pressure_angle": 20.0}}, "size.pressure_angle", "no cam centre keeps"),
+]
+
+
+@pytest.mark.parametrize("command", ["gripper", "analyze"])
+@pytest.mark.parametrize(("changes", "key", "words"), _NO_CAM, ids=["relative pole", "size"])
+def test_the_motion_is_shown_though_the_cam_is_impossible(command: str, changes: dict, key: str, words: str) -> None:
+    design = machine(**changes)
+    report = design.report(command)
+    (failed,) = [check for check in report.checks if check.name == "pressure-angle"]
+    assert (failed.code, failed.status, failed.value) == ("GL401", "fail", None)
+    assert re.search(words, failed.message)
+    assert {"handover_speed", "total_swing", "newton_agreement"} <= {q.name for q in report.quantities}
+    assert not {"max_pressure_angle", "lift_off_speed"} & {q.name for q in report.quantities}
+    assert [table.name for table in report.tables] == ["motion"]
+    without = {key: value for key, value in changes.items() if not key.startswith(("cam", "size"))}
+    alone = machine(**without, cam=None).report(command)
+    assert report.quantities == alone.quantities
+    with pytest.raises(NoSolution, match=words) as refused:
+        design.report("cam")
+    assert refused.value.key == key
+
+
+@pytest.mark.parametrize("command", ["gripper", "analyze", "cam"])
+def test_a_linkage_that_cannot_swing_is_refused_with_its_own_key(command: str) -> None:
+    with pytest.raises(NoSolution) as refused:
+        machine(links__input=20.0).report(command)
+    assert refused.value.key == "links"
 
 
 @pytest.mark.parametrize(
@@ -235,7 +266,7 @@ def test_the_centre_that_is_recommended_keeps_the_limit(limit: float) -> None:
 
 
 def test_the_recommended_centre_of_the_mirrored_machine_is_the_mirrored_centre() -> None:
-    assert abs(mirrored()._center_for(28.0) - DESIGN._center_for(28.0).conjugate()) <= 1e-10
+    assert abs(mirrored().cams.center_for(28.0) - DESIGN.cams.center_for(28.0).conjugate()) <= 1e-10
 
 
 @pytest.mark.parametrize("direction", [24.4, 23.9])

@@ -31,11 +31,11 @@ MASSES = Masses(0.11, 0.42, 0.018, 3.2, 0.05)
 def test_torques_and_forces_of_the_reference() -> None:
     case = CASES["DYN-01"]["expected"]
     degrees = np.array([71.5])
-    main, back = EXAMPLE.inertia_torques(degrees)
-    assert EXAMPLE.lift_sense == -1
+    main, back = EXAMPLE.closure.inertia_torques(degrees)
+    assert EXAMPLE.closure.lift_sense == -1
     one, two = contact_torques(400.0, main, back, -1)
     force = 1.0 / 0.16
-    pressure = [cam.pressure_angle(np.radians(degrees)) for cam in EXAMPLE.cams]
+    pressure = [cam.pressure_angle(np.radians(degrees)) for cam in EXAMPLE.cams.discs]
     for key, value, scale in (
         ("T_inertia", main[0], LARGEST),
         ("T_contact1", one[0], 700.0),
@@ -48,14 +48,14 @@ def test_torques_and_forces_of_the_reference() -> None:
 
 def test_worst_torque_of_the_turn() -> None:
     expected = CASES["EXT-01"]["expected"]
-    worst = EXAMPLE._worst_unloading[0]
+    worst = EXAMPLE.closure.worst_unloading[0]
     assert worst.value == pytest.approx(float(expected["T_inertia_max"]), rel=0.0, abs=32 * EPS * LARGEST)
     # The place of a maximum is known to the root of its value's rounding.
     assert worst.place == pytest.approx(float(expected["at_T_inertia_max_deg"]), rel=0.0, abs=1e-5)
     speed = 12000.0 * math.sqrt(400.0 / float(expected["T_inertia_max"]))
     assert EXAMPLE.lift_off_speed == pytest.approx(speed, rel=64 * EPS, abs=0.0)
     least = float(REFERENCE["example_extremes_1deg_scan"]["T_inertia"]["min"])
-    assert EXAMPLE.inertia_torques(np.array([275.0]))[0][0] == pytest.approx(least, rel=1e-11, abs=0.0)
+    assert EXAMPLE.closure.inertia_torques(np.array([275.0]))[0][0] == pytest.approx(least, rel=1e-11, abs=0.0)
 
 
 @pytest.mark.parametrize(("start", "end"), [(0.0, 100.0), (112.0, 162.0), (170.0, 290.0)])
@@ -79,7 +79,7 @@ def test_work_of_the_inertia_torque_is_gain_of_energy(start: float, end: float, 
 
 
 def test_a_dwell_needs_no_torque() -> None:
-    main, back = EXAMPLE.inertia_torques(np.array([165.0, 300.0, 345.0]))
+    main, back = EXAMPLE.closure.inertia_torques(np.array([165.0, 300.0, 345.0]))
     assert (main == 0.0).all()
     assert (back == 0.0).all()
 
@@ -87,7 +87,7 @@ def test_a_dwell_needs_no_torque() -> None:
 def test_torque_grows_with_the_square_of_the_speed() -> None:
     fast = machine(speed=24000.0)
     degrees = np.arange(0.0, 360.0, 5.0)
-    one, other = EXAMPLE.inertia_torques(degrees)[0], fast.inertia_torques(degrees)[0]
+    one, other = EXAMPLE.closure.inertia_torques(degrees)[0], fast.closure.inertia_torques(degrees)[0]
     assert np.abs(other - 4.0 * one).max() <= 16 * EPS * 4.0 * LARGEST
     assert fast.lift_off_speed == pytest.approx(EXAMPLE.lift_off_speed, rel=16 * EPS, abs=0.0)
 
@@ -177,7 +177,7 @@ def test_a_spring_that_pushes_is_refused() -> None:
 
 def test_rollers_on_one_side_are_refused() -> None:
     with pytest.raises(NoSolution, match=r"above 30\.94 deg") as refused:
-        _ = machine(cam__return_roller__angle=20.0).lift_sense
+        _ = machine(cam__return_roller__angle=20.0).closure.lift_sense
     assert refused.value.key == "cam.return_roller.angle"
 
 

@@ -1,4 +1,4 @@
-"""What the parts of a swing gripper's design share: its law, its linkage, and the motion at the tables' rows."""
+"""The motion of a swing gripper: its law, its linkage, and the loop both ways."""
 
 from __future__ import annotations
 
@@ -12,21 +12,25 @@ if TYPE_CHECKING:
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.swing_gripper.law import SixPhaseLaw
     from gearlink.core.swing_gripper.linkage import GripperLinkage, GripperMotion
+    from gearlink.core.swing_gripper.loop import TwoWays
     from gearlink.core.swing_gripper.spec import SwingGripperSpec
 
 _STATED = 1e-6
 
 
-class GripperBase:
-    """Reads the spec alone."""
+def require(spec: SwingGripperSpec, section: str, words: str) -> Any:
+    """A section of the design file that a result needs."""
+    value = getattr(spec, section)
+    if value is None:
+        raise MissingSection(f"this needs the section {section}: {words}", key=section)
+    return value
 
-    spec: SwingGripperSpec
 
-    def _require(self, section: str, words: str) -> Any:
-        value = getattr(self.spec, section)
-        if value is None:
-            raise MissingSection(f"this needs the section {section}: {words}", key=section)
-        return value
+class Motion:
+    """Law and linkage of a design file."""
+
+    def __init__(self, spec: SwingGripperSpec) -> None:
+        self.spec = spec
 
     @cached_property
     def shaft_speed(self) -> float:
@@ -100,3 +104,36 @@ class GripperBase:
 
         degrees = turn_degrees(samples)
         return degrees, self.linkage.motion(degrees, 2)
+
+    @cached_property
+    def min_transmission_angle(self) -> tuple[float, float]:
+        """Least transmission angles at D and at C over the swing [rad]."""
+        at_d, at_c = self.linkage.least_transmission
+        return at_d.value, at_c.value
+
+    @cached_property
+    def loop(self) -> TwoWays:
+        """Closed form against Newton-Raphson at every degree of the turn."""
+        return self.loop_at()[1]
+
+    def loop_at(self, samples: int | None = None) -> tuple[Reals, TwoWays]:
+        """Cylinder angles in degrees, and closed form against Newton-Raphson there."""
+        from gearlink.core.swing_gripper.loop import two_ways
+
+        degrees, motion = self.rows(samples)
+        return degrees, two_ways(self.linkage, motion)
+
+    @property
+    def newton_agreement(self) -> float:
+        """Largest difference of closed form and Newton-Raphson over the turn [rad]."""
+        return float(self.loop.deviation.max())
+
+    @property
+    def newton_iterations(self) -> int:
+        """Most Newton-Raphson steps at a position."""
+        return int(self.loop.iterations.max())
+
+    @property
+    def condition_number(self) -> float:
+        """Largest condition number of the loop over the swing, 1/sin(mu), mu the lesser of the angles at C and D."""
+        return 1.0 / math.sin(min(self.min_transmission_angle))
