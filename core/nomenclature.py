@@ -185,7 +185,7 @@ _MUTILATED = {
     "cycles_to_repeat": Term("", "1", "cycles until the driven gear stands at the same place again"),
     "start_crank_angle": Term("phi_0", "deg", "crank angle of the dwell"),
     "rocker_swing": Term("", "deg", "swing of the rocker"),
-    "rocker_start_speed": Term("", "1", "rocker speed over input speed right after the start"),
+    "rocker_start_speed": Term("", "1", "rocker speed over input speed right after the hardest start"),
     "tip_fouling_margin": Term("", "mm", "room between the tips of planet and ring gear", "own derivation"),
 }
 

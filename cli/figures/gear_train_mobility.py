@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _COLORS = (style.BLUE, style.ORANGE, style.GREEN, style.PURPLE, style.SKY, style.RED)
+_ALONE = 0.5  # gears that all sit on one pin, which a check tells
 
 
 def draw(command: str, design: GearTrainMobility) -> Figure:
@@ -29,6 +30,7 @@ def draw(command: str, design: GearTrainMobility) -> Figure:
 
 def diagram(axes: Axes, design: GearTrainMobility) -> None:
     """Pins on a circle, links between them, gears round their pins; a dot marks the link a gear is fixed to."""
+    design.require_names()
     places = pin_places(design)
     panels.heading(axes, "Structure, not to scale")
     axes.set_axis_off()
@@ -36,7 +38,8 @@ def diagram(axes: Axes, design: GearTrainMobility) -> None:
         _link(axes, name, [places[pin] for pin in pins])
     for i, train in enumerate(design.spec.trains):
         color = _COLORS[i % len(_COLORS)]
-        half = min(abs(places[p.at] - places[q.at]) for p in train.gears for q in train.gears if p.at != q.at) / 2.0
+        apart = [abs(places[p.at] - places[q.at]) for p in train.gears for q in train.gears if p.at != q.at]
+        half = min(apart, default=_ALONE) / 2.0
         words = f"train {i + 1}: R = {design.fixed_ends[i]}, {design.mobility_changes[i]:+d}"
         axes.plot([], [], color=color, linewidth=1.6, label=words)
         for gear in train.gears:

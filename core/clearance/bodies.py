@@ -76,6 +76,11 @@ class Clearance:
     distance: float
     angle: float | None
 
+    @property
+    def bare(self) -> tuple[Shaft, ...]:
+        """Shafts of the two whose radius the file does not name."""
+        return tuple(body for body in (self.one, self.other) if isinstance(body, Shaft) and body.radius is None)
+
 
 def least_gap(one: Gear | Shaft, other: Gear | Shaft, reach: Reach) -> Clearance:
     """The least gap of two bodies over the cycle.

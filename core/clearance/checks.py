@@ -39,7 +39,7 @@ def shaft_checks(layout: Layout) -> Iterator[Check]:
         the thinnest shaft that would be built; less is a warning, since that shaft may end before the gears.
     """
     for pair in layout.shaft_pairs:
-        bare = [body for body in (pair.one, pair.other) if isinstance(body, Shaft) and body.radius is None]
+        bare = pair.bare
         limit = layout.least_shaft * len(bare)
         status: Status = "pass" if pair.gap >= limit else "warn" if bare else "fail"
         text = f"{_words(pair.one)} keeps {pair.gap:.4g} mm from {_words(pair.other)}{_place(pair)}"
@@ -89,7 +89,7 @@ def _covered_axis(pair: Clearance) -> str:
     )
 
 
-def _narrow(pair: Clearance, bare: list[Shaft], limit: float) -> str:
+def _narrow(pair: Clearance, bare: tuple[Shaft, ...], limit: float) -> str:
     """A bare axis with less room beside it than a shaft takes."""
     keys, both = " and ".join(shaft.key for shaft in bare), len(bare) > 1
     thinnest = f"{'two of the thinnest shafts take' if both else 'the thinnest shaft takes'} {limit:g} mm"

@@ -16,6 +16,17 @@ START_SHOCK = Rule(
     ("start-shock",),
     ("start_angle", "reduction", "gears"),
 )
+GAP = Rule(
+    "GL316",
+    "gap does not free the driven gear",
+    "Between the last tooth of a group and the first of the next, some tooth stays in contact, or nearly so.",
+    "The driven gear is held by its locking arc only while no tooth drives it: without that time both fight.",
+    "Take fewer teeth in a group or more full teeth.",
+    "Z_M/g - n + 1 - eps pitches without contact; fails below 0, warns below 1",
+    "own derivation: each tooth is in contact for eps pitches, the teeth beside a gap stand Z_M/g - n + 1 apart",
+    ("gap",),
+    ("gears.group_teeth", "gears"),
+)
 DWELL_QUALITY = Rule(
     "GL311",
     "dwell shorter than wanted",

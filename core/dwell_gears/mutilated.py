@@ -116,6 +116,11 @@ class MutilatedGear:
         """Cycles after which the driven gear stands at the same place again, Z_F/gcd(Z_F, n)."""
         return self.driven_teeth // math.gcd(self.driven_teeth, self.group_teeth)
 
+    @property
+    def gap(self) -> float:
+        """Pitches from the last tooth of a group to the first of the next, Z_M/g - n + 1."""
+        return self.full_teeth / self.groups - self.group_teeth + 1.0
+
     def driven_angle(self, input_angle: float) -> float:
         """Angle of the driven gear, counted in its own sense; 0 where a motion starts at input angle 0.
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from gearlink.core.clearance.bodies import Layout
 from gearlink.core.clearance.checks import SHAFT_WAYS, shaft_checks
 from gearlink.core.design import Outline, placed
 from gearlink.core.dwell_gears.bodies import mutilated_layout
-from gearlink.core.dwell_gears.codes import START_SHOCK
+from gearlink.core.dwell_gears.codes import GAP, START_SHOCK
 from gearlink.core.dwell_gears.mutilated import MutilatedGear
 from gearlink.core.errors import at_key
 from gearlink.core.gears.checks import GEAR_CHECKS, gear_ways
@@ -19,7 +19,7 @@ from gearlink.core.gears.single_mesh import MESH_CHECKS, MESH_QUANTITIES, Single
 from gearlink.core.linkages.checks import check_linkage, transmission_check
 from gearlink.core.linkages.fourbar import FourBar, solve
 from gearlink.core.linkages.nearest_passes import joint_to_crank_pivot
-from gearlink.core.remedies import Way, either, up
+from gearlink.core.remedies import Way, down, either, up
 from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
 
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from gearlink.core.dwell_gears.mutilated_spec import MutilatedGearDwellSpec
 
 _TURN = 2.0 * math.pi
+_SHOWN_CYCLES = 100
 # A rocker that starts with less than this share of the driven gear's speed starts from rest.
 _AT_REST = 1e-6
 
@@ -37,6 +38,13 @@ _TEETH = (
     Way(("gears.driven", "gears.group_teeth"), 1, "ratio"),
 )
 _LINKS = either("links.crank", "links.frame", "links.rocker", "links.coupler")
+
+
+class Start(NamedTuple):
+    """The start of a motion: crank angle [rad], and rocker speed over input speed right after it."""
+
+    crank_angle: float
+    rocker_speed: float
 
 
 class MutilatedGearDwell(SingleMesh):
@@ -62,13 +70,18 @@ class MutilatedGearDwell(SingleMesh):
                 "rocker_start_speed",
                 "min_transmission_angle",
             ),
-            ("start-shock", "shaft-clearance", "transmission-angle", *GEAR_CHECKS),
+            ("start-shock", "gap", "shaft-clearance", "transmission-angle", *GEAR_CHECKS),
             ("motion",),
         ),
         "gear": Outline(MESH_QUANTITIES, MESH_CHECKS),
     }
 
-    ways = {"shaft-clearance": SHAFT_WAYS, "transmission-angle": _LINKS, **gear_ways(*_TEETH)}
+    ways = {
+        "gap": (down("gears.group_teeth", step=1), up("gears.full_teeth", step=1)),
+        "shaft-clearance": SHAFT_WAYS,
+        "transmission-angle": _LINKS,
+        **gear_ways(*_TEETH),
+    }
 
     @cached_property
     def mutilated(self) -> MutilatedGear:
@@ -127,12 +140,21 @@ class MutilatedGearDwell(SingleMesh):
         folded, stretched = (solve(linkage, phi).rocker_angle for phi in self._dead_centers(linkage))
         return abs(folded - stretched)
 
+    @cached_property
+    def hardest_start(self) -> Start | None:
+        """The start of a motion, among those of all cycles, at which the rocker is fastest."""
+        linkage, first = self.linkage, self.start_crank_angle
+        if linkage is None or first is None:
+            return None
+        cycles = range(self.cycles_to_repeat)
+        angles = [first + _TURN * (cycle * self.spec.gears.group_teeth / self.spec.gears.driven) for cycle in cycles]
+        starts = [Start(angle, self.driven_speed_ratio * solve(linkage, angle, 1).rocker_velocity) for angle in angles]
+        return max(starts, key=lambda start: abs(start.rocker_speed))
+
     @property
     def rocker_start_speed(self) -> float | None:
-        """Rocker speed over input speed right after the start, when the driven gear has taken up its own."""
-        if self.linkage is None or self.start_crank_angle is None:
-            return None
-        return self.driven_speed_ratio * solve(self.linkage, self.start_crank_angle, 1).rocker_velocity
+        """Rocker speed over input speed right after the hardest start, when the driven gear has taken up its own."""
+        return None if self.hardest_start is None else self.hardest_start.rocker_speed
 
     @property
     def min_transmission_angle(self) -> float | None:
@@ -153,10 +175,10 @@ class MutilatedGearDwell(SingleMesh):
         return mutilated_layout(self)
 
     def table_motion(self, samples: int | None = None) -> Table:
-        """Driven gear and rocker over one cycle; the motion begins at input angle 0."""
-        count = samples or 360
+        """Driven gear and rocker until both are back at their place, or over a hundred cycles; a motion begins at 0."""
+        count, cycles = samples or 360, min(self.cycles_to_repeat, _SHOWN_CYCLES)
         cycle = _TURN * self.cycle_turns
-        inputs = [cycle * i / count for i in range(count)]
+        inputs = [cycle * i / count for i in range(cycles * count)]
         driven = [self.mutilated.driven_angle(angle) for angle in inputs]
         speeds = [self.driven_speed_ratio if self.mutilated.moves(angle) else 0.0 for angle in inputs]
         columns: dict[str, tuple[list[float], str]] = {
@@ -181,15 +203,30 @@ class MutilatedGearDwell(SingleMesh):
             f"the driven gear starts and stops at once with {ratio:.6g} of the input speed; pitch circles do not show "
             "the cut tips of the first and last tooth, nor the locking arcs: draw them, and add entry cams or springs"
         )
-        rocker = self.rocker_start_speed
-        if rocker is not None and abs(rocker) > _AT_REST * ratio:
-            text += (
-                f"; the rocker starts with {rocker:.4g} of the input speed: leave start_angle out, at a dead centre it"
-            )
-            text += " would start from rest"
-        elif rocker is not None:
-            text += "; the rocker itself starts from rest, at a dead centre"
+        if self.hardest_start is not None:
+            text += f"; {self._start_in_words(self.hardest_start)}"
         return START_SHOCK.check("warn", text, ratio, 0.0)
+
+    def _start_in_words(self, start: Start) -> str:
+        if abs(start.rocker_speed) <= _AT_REST * self.driven_speed_ratio:
+            which = "" if self.cycles_to_repeat == 1 else " in every cycle"
+            return f"the rocker itself starts from rest, at a dead centre{which}"
+        text = f"the rocker starts with {start.rocker_speed:.4g} of the input speed"
+        if self.cycles_to_repeat == 1:
+            return f"{text}: leave start_angle out, at a dead centre it would start from rest"
+        return (
+            f"{text} where the crank stands at {math.degrees(start.crank_angle) % 360.0:.6g} deg: only a group of "
+            f"{self.spec.gears.driven} teeth, a whole turn of the driven gear, starts from a dead centre every time"
+        )
+
+    def check_gap(self) -> Check:
+        """GL316: how long no tooth is in contact."""
+        free, subject = (
+            self.mutilated.gap - self.mesh.contact_ratio,
+            "the way of the wheel without contact [pitches]",
+        )
+        remedy = "the locking arc needs it: take fewer teeth in a group or more full teeth"
+        return GAP.below(free, 0.0, 1.0, "1", subject, remedy)
 
     def check_shaft_clearance(self) -> Iterator[Check]:
         """GL302."""

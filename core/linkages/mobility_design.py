@@ -57,7 +57,7 @@ class GearTrainMobility(Design):
     @cached_property
     def fixed_ends(self) -> list[int]:
         """R of each train: gears that are fixed to a link."""
-        self._require_names()
+        self.require_names()
         return [sum(gear.fixed_to is not None for gear in train.gears) for train in self.spec.trains]
 
     @cached_property
@@ -89,7 +89,7 @@ class GearTrainMobility(Design):
 
     def check_train_fit(self) -> Iterator[Check]:
         """GL308: what keeps a train from running on the linkage, one finding per reason."""
-        self._require_names()
+        self.require_names()
         for i, train in enumerate(self.spec.trains, start=1):
             reasons = [*self._fixing(train), *self._meshes(train)]
             for reason in reasons:
@@ -156,22 +156,39 @@ class GearTrainMobility(Design):
             yield from self._distance(train.module, one, other, common[0], f"gears {j} and {j + 1}")
 
     def _distance(self, module: float | None, one: Gear, other: Gear, link: str, which: str) -> Iterator[str]:
-        """Why the centre distance is not the link's length, where the file gives what is needed to tell."""
-        length = self.spec.links[link].length
-        if module is None or one.teeth is None or other.teeth is None or length is None:
+        """Why the centre distance is not the link's length or another mesh's, where the file tells them."""
+        if module is None or one.teeth is None or other.teeth is None:
             return
         if one.ring and other.ring:
             yield f"{which} are both ring gears, which cannot mesh: leave out ring at one of them"
             return
-        teeth = abs(one.teeth - other.teeth) if one.ring or other.ring else one.teeth + other.teeth
-        distance = module * teeth / 2.0
-        if abs(distance - length) > _DISTANCE_TOLERANCE * module:
+        distance, length = _center_distance(module, one, other), self.spec.links[link].length
+        if length is not None:
+            if abs(distance - length) > _DISTANCE_TOLERANCE * module:
+                yield (
+                    f"{which} mesh at {distance:.9g} mm, but {link} is {length:.9g} mm long: make it {distance:.9g} mm "
+                    "or change the teeth"
+                )
+            return
+        first, apart = self._first_distance[frozenset((one.at, other.at))]
+        if abs(distance - apart) > _DISTANCE_TOLERANCE * module:
             yield (
-                f"{which} mesh at {distance:.9g} mm, but {link} is {length:.9g} mm long: make it {distance:.9g} mm or "
-                "change the teeth"
+                f"{which} mesh at {distance:.9g} mm, but train {first} holds {one.at} and {other.at} {apart:.9g} mm "
+                "apart: change module or teeth of one of the two"
             )
 
-    def _require_names(self) -> None:
+    @cached_property
+    def _first_distance(self) -> dict[frozenset[str], tuple[int, float]]:
+        """For two pins the first train that tells their distance [mm], counted from 1, and the distance."""
+        found: dict[frozenset[str], tuple[int, float]] = {}
+        for i, train in enumerate(self.spec.trains, start=1):
+            for one, other in pairwise(train.gears):
+                if train.module is not None and one.teeth is not None and other.teeth is not None:
+                    distance = _center_distance(train.module, one, other)
+                    found.setdefault(frozenset((one.at, other.at)), (i, distance))
+        return found
+
+    def require_names(self) -> None:
         """Refuse gears on pins or links that the linkage does not have."""
         pins = mobility.pin_names(self.links)
         for i, train in enumerate(self.spec.trains):
@@ -184,6 +201,14 @@ class GearTrainMobility(Design):
                     raise NoSolution(
                         f"the linkage has no link {gear.fixed_to}; it has {known}", key=f"{place}.fixed_to"
                     )
+
+
+def _center_distance(module: float, one: Gear, other: Gear) -> float:
+    """Of two gears whose teeth are known [mm]; a ring gear has the other within it."""
+    assert one.teeth is not None, "asked for only with teeth"
+    assert other.teeth is not None, "asked for only with teeth"
+    teeth = abs(one.teeth - other.teeth) if one.ring or other.ring else one.teeth + other.teeth
+    return module * teeth / 2.0
 
 
 def _words(train: Train) -> str:

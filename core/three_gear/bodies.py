@@ -9,13 +9,14 @@ from gearlink.core.clearance.reach import constant, coupler_joint, crank_pin
 from gearlink.core.three_gear.motion import tip_radius
 
 if TYPE_CHECKING:
-    from gearlink.core.three_gear.design import ThreeGearFourBar
+    from gearlink.core.linkages.fourbar import FourBar
+    from gearlink.core.three_gear.motion import GearTrain
+    from gearlink.core.three_gear.spec import ThreeGearSpec
 
 
-def layout(design: ThreeGearFourBar) -> Layout:
+def layout(links: FourBar, train: GearTrain, spec: ThreeGearSpec) -> Layout:
     """Gears, shafts and distances; the crank gear is one body with crank and input shaft."""
-    links, spec, shafts = design.linkage, design.spec, design.spec.shafts
-    module, train = spec.gears.module, design.train
+    module, shafts = spec.gears.module, spec.shafts
     crank, idler, output = (tip_radius(teeth, module) for teeth in (train.crank, train.idler, train.output))
     return Layout(
         gears=(

@@ -69,10 +69,10 @@ WAYS = {
         down("momentary.eccentricity"),
     ),
     "shaft-clearance": (
-        *SHAFT_WAYS,
         *_LINKS,
         *either("gears.idler", step=1),
         *_TEETH,
+        *SHAFT_WAYS,
     ),
     "transmission-angle": (*_LINKS, up("gears.idler", step=1), *_TEETH, down("momentary.eccentricity")),
     **gear_ways(*_TEETH),
@@ -234,7 +234,7 @@ class ThreeGearFourBar(Design):
     @cached_property
     def layout(self) -> Layout:
         """The bodies in the plane of the gears."""
-        return bodies.layout(self)
+        return bodies.layout(self.linkage, self.train, self.spec)
 
     @cached_property
     def gear_gap(self) -> float:

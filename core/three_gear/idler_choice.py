@@ -50,8 +50,9 @@ def smallest_idler(
     min_transmission_angle: float,
     min_gear_gap: float,
     addendum: float = 1.0,
+    clear: Callable[[FourBar, int], bool] | None = None,
 ) -> int:
-    """Smallest idler from 17 to 400 teeth whose design keeps transmission angle and gear gap.
+    """Smallest idler from 17 to 400 teeth whose design keeps transmission angle and gear gap, and clears the shafts.
 
     mu_min >= limit  and  s15 >= limit
 
@@ -62,6 +63,8 @@ def smallest_idler(
         min_transmission_angle : float [rad] - limit of mu_min
         min_gear_gap : float [mm] - limit of the gap between the tips of gears 1 and 5
         addendum : float - h_a*
+        clear : function of linkage and idler - whether no gear reaches a shaft; where no idler does, shafts do not
+            count: only more teeth on crank and output gear, or thinner shafts, help there
     Returns
         idler_teeth : int
     Raises
@@ -80,6 +83,7 @@ def smallest_idler(
     """
     reached: list[tuple[int, float, float]] = []
     refusal: NoSolution | None = None
+    beside = 0
     for idler in range(LEAST_IDLER, GREATEST_IDLER + 1):
         try:
             linkage = design(idler)
@@ -89,8 +93,12 @@ def smallest_idler(
         angle = linkage.min_transmission_angle()
         gap = gear_gap(linkage, GearTrain(crank_teeth, idler, output_teeth), module, addendum)
         if angle >= min_transmission_angle and gap >= min_gear_gap:
-            return idler
+            if clear is None or clear(linkage, idler):
+                return idler
+            beside = beside or idler
         reached.append((idler, angle, gap))
+    if beside:
+        return beside
     if refusal is not None and not reached:
         raise refusal
     raise NoSolution(_obstacle(reached, min_transmission_angle, min_gear_gap), key="gears.idler")

@@ -15,6 +15,7 @@ from gearlink.core.report import Check
 from gearlink.core.results import cached_property
 from gearlink.core.three_gear import dwells, symmetric_back_step
 from gearlink.core.three_gear import symmetric_family as family
+from gearlink.core.three_gear.bodies import layout
 from gearlink.core.three_gear.codes import ACHIEVED
 from gearlink.core.three_gear.design import CHECKS, QUANTITIES, ThreeGearFourBar
 from gearlink.core.three_gear.families import (
@@ -62,6 +63,7 @@ class Synthesis(ThreeGearFourBar):
                 gears.module,
                 min_transmission_angle=math.radians(limits.transmission_angle),
                 min_gear_gap=limits.gear_gap,
+                clear=self._clears_shafts,
             )
         except MissingSection:
             raise
@@ -70,6 +72,14 @@ class Synthesis(ThreeGearFourBar):
                 raise
             words = f"no idler from {LEAST_IDLER} to {GREATEST_IDLER} teeth meets the task: {error.message}"
             raise NoSolution(words, key="gears.idler") from error
+
+    def _clears_shafts(self, linkage: FourBar, idler: int) -> bool:
+        """Whether no gear reaches a shaft that the file names."""
+        shafts, gears = self.spec.shafts, self.spec.gears
+        if shafts is None:
+            return True
+        found = layout(linkage, GearTrain(gears.crank, idler, gears.output), self.spec).shaft_pairs
+        return all(pair.gap >= 0.0 for pair in found if not pair.bare)
 
     def depends_on_idler(self, _refusal: NoSolution) -> bool:
         """Whether another idler could avoid a refusal of `linkage_of`."""

@@ -128,3 +128,35 @@ def test_linkage_that_does_not_turn_is_refused():
     with pytest.raises(NoSolution) as refused:
         _ = design(links=LINKS | {"crank": 90.0}).start_crank_angle
     assert refused.value.key == "links"
+
+
+def test_a_motion_that_begins_between_dead_centres_is_named():
+    """Two stops: the first motion begins at the dead centre, the second half a turn of the driven gear on."""
+    made = design(links=LINKS, gears__group_teeth=10, gears__stops=2)
+    linkage = FourBar(40.0, 120.0, 100.0, 140.0)
+    second = made.start_crank_angle + math.pi
+    expected = made.driven_speed_ratio * solve(linkage, second, 1).rocker_velocity
+    assert abs(expected) > 0.01
+    assert made.rocker_start_speed == pytest.approx(expected, rel=1e-14)
+    (shock,) = made.check("start-shock")
+    assert f"stands at {math.degrees(second) % 360.0:.6g} deg" in shock.message
+    assert "from rest" not in shock.message
+
+
+def test_the_table_runs_until_everything_repeats():
+    made = design(links=LINKS, gears__group_teeth=10, gears__stops=2)
+    data = dict(zip(made.table("motion").columns, made.table("motion").data, strict=True))
+    assert len(data["input_angle"]) == 2 * 360
+    assert data["driven_angle"][0] == 0.0
+    assert data["driven_angle"][359] == pytest.approx(180.0, rel=1e-14)
+    assert data["driven_angle"][719] == pytest.approx(360.0, rel=1e-14)
+    assert data["rocker_angle"][719] == pytest.approx(data["rocker_angle"][0], rel=1e-13)
+
+
+@pytest.mark.parametrize(("group", "status"), [(59, "warn"), (58, "pass"), (30, "pass")])
+def test_gap_against_the_contact_ratio(group, status):
+    """One missing tooth of 60: teeth two pitches apart, each 1.78 pitches long in contact."""
+    made = design(reduction=1, gears__full_teeth=60, gears__group_teeth=group, gears__driven=group)
+    (check,) = made.check("gap")
+    assert (check.code, check.status) == ("GL316", status)
+    assert check.value == pytest.approx(60 - group + 1 - made.mesh.contact_ratio, rel=1e-14)

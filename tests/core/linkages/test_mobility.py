@@ -188,3 +188,28 @@ def test_refusals(links, trains, key):
     with pytest.raises(NoSolution) as refused:
         _ = design(links, trains).mobility
     assert refused.value.key == key
+
+
+def test_two_trains_hold_two_pins_at_one_distance():
+    """Own derivation: A and E stay 40 mm apart by the first train, 50 by the second."""
+    first, second = train("A:input", "E:output", module=2.0), train("A", "E", module=2.0)
+    for data, teeth in ((first, (20, 20)), (second, (20, 30))):
+        for gear, count in zip(data["gears"], teeth, strict=True):
+            gear["teeth"] = count
+    found = design(FIVE_BAR, [first, second], wanted=2).check("train-fit")
+    assert [check.status for check in found] == ["pass", "fail"]
+    assert "50 mm" in found[1].message
+    assert "40 mm" in found[1].message
+    second["gears"][1]["teeth"] = 20
+    assert {check.status for check in design(FIVE_BAR, [first, second], wanted=2).check("train-fit")} == {"pass"}
+
+
+@pytest.mark.parametrize(("at", "status"), [("nowhere", 2), ("A", 0)])
+def test_the_diagram_asks_for_names_first(gearlink, tmp_path, at, status):
+    path = tmp_path / "six.yaml"
+    path.write_text(
+        "kind: gear-train-mobility\nlinks: {frame: {pins: [A, F]}, crank: {pins: [A, B]}}\n"
+        f"trains: [{{gears: [{{at: {at}}}, {{at: A}}]}}]\n"
+    )
+    ended = gearlink("analyze", path, "--quantity", "link_count", "--plot", "--out", tmp_path)
+    assert ended.status == status
