@@ -51,3 +51,14 @@ BACK_STEP = Rule(
     ("back-step",),
     ("dwell.angle", "dwell"),
 )
+DWELL_TOLERANCE = Rule(
+    "GL317",
+    "tolerance in which a dwell has no end",
+    "The band of the tolerance, or of the play, is as wide as what the output gains in a turn of the crank.",
+    "The output would never leave its place: what is asked for is no dwell.",
+    "Give a smaller dwell_tolerance or dwell_backlash.",
+    "tol < pi mean_ratio; of a play j at the output gear tol = j/(2 r5)",
+    "own derivation",
+    ("dwell-tolerance",),
+    ("dwell_tolerance", "dwell_backlash"),
+)

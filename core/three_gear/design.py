@@ -19,7 +19,7 @@ from gearlink.core.remedies import down, either, up
 from gearlink.core.report import Check, Table, safely_above, safely_below
 from gearlink.core.results import cached_property
 from gearlink.core.three_gear import bodies, dwells, motion
-from gearlink.core.three_gear.codes import ACHIEVED
+from gearlink.core.three_gear.codes import ACHIEVED, DWELL_TOLERANCE
 from gearlink.core.three_gear.idler_choice import idler_for_ratio
 from gearlink.core.three_gear.momentary_dwell import crank_with_room
 from gearlink.core.three_gear.motion import Extremes, GearTrain
@@ -75,6 +75,7 @@ WAYS = {
         *SHAFT_WAYS,
     ),
     "transmission-angle": (*_LINKS, up("gears.idler", step=1), *_TEETH, down("momentary.eccentricity")),
+    "dwell-tolerance": (down("dwell_tolerance", step=0.01), down("dwell_backlash", step=0.01)),
     **gear_ways(*_TEETH),
 }
 
@@ -85,7 +86,7 @@ class ThreeGearFourBar(Design):
     kind = "three-gear-four-bar"
     spec: ThreeGearSpec
     outlines = {
-        "analyze": Outline((*QUANTITIES, *_ANALYSIS), CHECKS, ("motion",)),
+        "analyze": Outline((*QUANTITIES, *_ANALYSIS), (*CHECKS, "dwell-tolerance"), ("motion",)),
         "gear": Outline(_MESH_QUANTITIES, GEAR_CHECKS),
     }
     extra_tables = ("motion",)
@@ -205,14 +206,19 @@ class ThreeGearFourBar(Design):
 
     @cached_property
     def tolerance_dwell(self) -> ToleranceDwell | None:
-        """The longest dwell within the tolerance of the output, where the file gives one."""
+        """The longest dwell within the tolerance of the output, where the file gives one that has an end."""
         tolerance = self.output_tolerance
-        if tolerance is None:
+        if tolerance is None or tolerance >= self._endless_tolerance:
             return None
         from gearlink.core.three_gear.tolerance_dwell import tolerance_dwell
 
         with at_key("dwell_tolerance" if self.spec.dwell_backlash is None else "dwell_backlash"):
             return tolerance_dwell(self.linkage, self.train, tolerance)
+
+    @property
+    def _endless_tolerance(self) -> float:
+        """Half of what the output gains in a turn of the crank [rad]: within it, the output never leaves its place."""
+        return math.pi * self.mean_ratio
 
     @property
     def output_tolerance(self) -> float | None:
@@ -319,6 +325,17 @@ class ThreeGearFourBar(Design):
         """GL303."""
         remedy = "shorten the crank or take a larger idler"
         return transmission_check(self.min_transmission_angle, self.spec.limits.transmission_angle, remedy)
+
+    def check_dwell_tolerance(self) -> Iterator[Check]:
+        """GL317 where the file gives a tolerance or a play."""
+        if self.output_tolerance is None:
+            return
+        given, limit = math.degrees(self.output_tolerance), math.degrees(self._endless_tolerance)
+        text = f"the tolerance of the dwell is +-{given:.6g} deg, the output gains {2.0 * limit:.6g} deg in a turn"
+        good = given < limit
+        if not good:
+            text += f": within it a dwell has no end, give less than {safely_below(limit)} deg"
+        yield DWELL_TOLERANCE.check("pass" if good else "fail", text, given, limit, "deg")
 
     def check_rounded_ratio(self) -> Iterator[Check]:
         """GL304 where the file gives i3: whole teeth may change it."""

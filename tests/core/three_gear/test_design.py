@@ -440,3 +440,19 @@ def test_gear_gap_sweeps_nothing():
     found.quantity("gear_gap")
     assert not set(vars(found)) & {"speed_extremes", "dwell_crank_angles", "meshes"}
     assert math.isclose(found.gear_gap, -1.6, abs_tol=1e-12)
+
+
+@pytest.mark.parametrize("key", ["dwell_tolerance", "dwell_backlash"])
+def test_a_tolerance_without_end_is_a_finding(key):
+    """Half of the gain of a turn of example 3; a play counts at the output gear's circle, r5 = 75 mm."""
+    limit = 180.0 * design(**EXAMPLE_3).mean_ratio
+    scale = 1.0 if key == "dwell_tolerance" else math.radians(2.0 * 75.0)
+    for share, status in ((0.999, "pass"), (1.001, "fail")):
+        made = design(**EXAMPLE_3, **{key: share * limit * scale})
+        (check,) = made.check("dwell-tolerance")
+        assert (check.code, check.status) == ("GL317", status)
+        assert check.limit == pytest.approx(limit, rel=1e-14)
+        names = [quantity.name for quantity in made.report("analyze").quantities]
+        assert ("tolerance_dwell_angle" in names) == (status == "pass")
+        assert "speed_ratio_max" in names
+    assert design(**EXAMPLE_3).check("dwell-tolerance") == []
