@@ -79,17 +79,22 @@ def _in_processes(left: list[Sequence[Path]], options: BatchOptions, jobs: int) 
     Notes
         A process that dies (memory, a signal) takes the executor with it. Chunks are begun in the order in which
         they are given, so the dead process was at one of the first `jobs` unfinished ones: their files are tried
-        again one by one, each in a process of its own, and the other chunks in a new executor.
+        again one by one, each in a process of its own, and the other chunks in a new executor. Where the system
+        gives no more processes or descriptors, this process does the rest.
     """
     while left:
         given: dict[Future[list[Outcome]], Sequence[Path]] = {}
-        with workers(min(jobs, len(left))) as pool:
-            with suppress(BrokenExecutor):
-                for files in left:
-                    given[pool.submit(_chunk, files, options)] = files
-            for future in as_completed(given):
-                if not isinstance(future.exception(), BrokenExecutor):
-                    yield len(given[future]), future.result()
+        try:
+            with workers(min(jobs, len(left))) as pool:
+                with suppress(BrokenExecutor):
+                    for files in left:
+                        given[pool.submit(_chunk, files, options)] = files
+                for future in as_completed(given):
+                    if not isinstance(future.exception(), BrokenExecutor):
+                        yield len(given[future]), future.result()
+        except OSError:  # at the first submission, which starts the processes
+            yield from ((1, outcomes(path, options)) for files in left for path in files)
+            return
         finished = {id(files) for future, files in given.items() if future.exception() is None}
         left = [files for files in left if id(files) not in finished]
         for path in (path for files in left[:jobs] for path in files):
@@ -106,7 +111,7 @@ def _alone(path: Path, options: BatchOptions) -> list[Outcome]:
     try:
         with workers(1) as pool:
             return pool.submit(_chunk, [path], options).result()
-    except BrokenExecutor:
+    except (BrokenExecutor, OSError):
         message = "fault: the process that had this file died; `gearlink check` on it alone may show why"
         wrong = Diagnostic("GL199", message, file=str(path))
         return [Outcome(str(path), "", stem_of(path), "", ExitCode.FAULT, None, (wrong,))]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+import os
 import re
 import unicodedata
 from pathlib import Path
@@ -147,3 +148,16 @@ def test_every_finding_of_a_design_is_shown(gearlink: Any, designs: Path) -> Non
     assert len(findings) > 1
     rows = list(csv.DictReader(io.StringIO(gearlink(*line, "--format", "csv").out)))
     assert sorted(row["finding"].partition(": ")[2] for row in rows) == sorted(findings)
+
+
+@pytest.mark.parametrize(
+    "line", ["report", "crank --plot", "animate --format html", "crank --format json", "crank --format csv"]
+)
+def test_a_file_name_that_is_no_utf8(gearlink: Any, tmp_path: Path, line: str) -> None:
+    """The design has its name from the file, and pictures, pages and results bear it."""
+    path = tmp_path / os.fsdecode(b"bad\xff.yaml")
+    path.write_text(CRANK)
+    command, *options = line.split()
+    ended = gearlink(command, path, "--out", tmp_path / "out", *options)
+    assert ended.status == 0, ended.err
+    assert "\udcff" not in ended.out + ended.err

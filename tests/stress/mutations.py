@@ -51,7 +51,9 @@ CHARACTERS = "\t\x00\x07\u00a0\uff1a\u2028#:-{}[]&*!|>'\"%@`,\\\r\n eE0"
 
 
 def command_of(text: str, rng: Random) -> list[str]:
-    """A command that suits the kind, or any."""
+    """A command that suits the kind, or one that takes any kind."""
+    if rng.random() < 0.2:
+        return [rng.choice(("check", "batch"))]
     match = re.search(r"^kind:\s*([\w-]+)", text, re.MULTILINE)
     return rng.choice(COMMANDS.get(match[1] if match else "", ["analyze"])).split()
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 import re
@@ -260,6 +261,21 @@ def test_a_process_that_dies_costs_its_one_file(
     assert len(results) == len({result.file for result in results}) == 100
     assert {Path(result.file).name for result in results if result.errors} == deadly
     assert capfd.readouterr().err == ""
+
+
+def test_without_processes_the_batch_is_done_here(gearlink: Any, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The system's limit of processes or open files is reached."""
+
+    def none_left(*_: object) -> None:
+        raise OSError(errno.EAGAIN, "Resource temporarily unavailable")
+
+    one = gearlink("batch", folder, "--format", "json", "-j", "1")
+    monkeypatch.setattr(os, "fork", none_left)
+    for i in range(24):
+        (folder / f"crank_{i:02}.yaml").write_text(CRANK.format(stroke=100 + i))
+    two = gearlink("batch", folder, "--format", "json", "-j", "2")
+    assert len(plain(two)) == 28
+    assert [d for d in plain(two) if "crank_" not in d["file"]] == plain(one)
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="forked processes")
