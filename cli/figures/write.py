@@ -23,6 +23,8 @@ _FIXED_METADATA: dict[str, dict[str, Any]] = {
 }
 
 
+# One part in a hundred longer than at the usual 6, in two thirds of the time.
+_PACKING: dict[str, Any] = {"png": {"pil_kwargs": {"compress_level": 3}}}
 _FIXED_STYLE = {"svg.hashsalt": "gearlink", "svg.fonttype": "path", "pdf.fonttype": 42}
 _ASIAN_FONTS = ("Noto Sans CJK SC", "Source Han Sans SC", "WenQuanYi Zen Hei", "Microsoft YaHei", "PingFang SC")
 
@@ -43,7 +45,7 @@ def settled(made: Figure) -> Figure:
     limits = [(axes.get_xlim(), axes.get_ylim()) for axes in made.axes]
     if layout := made.get_layout_engine():
         layout.execute(made)
-    made.set_layout_engine("none")
+    made.set_layout_engine(None)  # "none" would have savefig draw the panels a time more, for a layout
     for axes, (x, y) in zip(made.axes, limits, strict=True):
         box = axes.get_position(original=True).bounds
         axes.set_position(tuple(round(side, 5) for side in box))
@@ -78,7 +80,7 @@ def save(make: Callable[[], Figure], name: str, stream: IO[bytes], ending: str) 
     with matplotlib.rc_context(style), warnings.catch_warnings():
         # A script that no installed font has is drawn as boxes; the picture is still worth having.
         warnings.filterwarnings("ignore", message="Glyph .* missing from font")
-        make().savefig(stream, format=ending, metadata=_FIXED_METADATA[ending])
+        make().savefig(stream, format=ending, metadata=_FIXED_METADATA[ending], **_PACKING.get(ending, {}))
 
 
 def families(name: str) -> list[str]:

@@ -57,3 +57,18 @@ def test_nothing_half_written_remains(
     assert ended.status == 2
     assert "No space left" in ended.err
     assert not list(tmp_path.iterdir())
+
+
+def test_every_panel_is_drawn_once(
+    gearlink: Any, designs: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """With an engine of layout, if only in name, savefig draws all panels once more before it draws them."""
+    drawn: list[Figure] = []
+    draw = Figure.draw
+    monkeypatch.setattr(Figure, "draw", lambda self, renderer: drawn.append(self) or draw(self, renderer))
+    for ending in ("png", "svg", "pdf"):
+        ended = gearlink(
+            "crank", designs / "ty460_slider_crank.yaml", "--plot", "--plot-format", ending, "--out", tmp_path
+        )
+        assert ended.status == 0
+    assert len(drawn) == 3
