@@ -12,7 +12,9 @@ def as_markdown(report: Report) -> str:
     """The report as Markdown: a heading, then quantities, checks and tables."""
     parts = [f"# {_inline(' '.join(report.name.split()))}: {report.command}"]
     if report.quantities:
-        rows = [(f"`{q.name}`", q.symbol, text_of(q.value), q.unit, q.words) for q in report.quantities]
+        rows = [
+            (f"`{q.name}`", q.symbol, text_of(q.value), q.unit, q.words) for q in report.quantities if q.value != []
+        ]
         parts.append(markdown_table(("quantity", "symbol", "value", "unit", "meaning"), rows))
     if report.checks:
         checks = [(c.status, c.code, c.name, c.message) for c in report.checks]

@@ -86,6 +86,8 @@ def _quantities(report: Report, console: Console) -> Grid:
             head, justify="right" if head == "value" else "left", overflow="fold", no_wrap=head == "quantity"
         )
     for q in report.quantities:
+        if q.value == []:  # no standstill has no place
+            continue
         unit = "" if q.unit == "1" else q.unit
         grid.add_row(
             q.name, q.symbol, number(quiet(q.value, scale.get(q.unit, 0.0))), unit, *([q.words] if wide else [])

@@ -112,9 +112,9 @@ def frame_ratio_at_nonuniformity(i3: ArrayLike, nonuniformity: ArrayLike) -> Rea
         i3 : array [1] - negative
         nonuniformity : array [1] - 0 < delta < 2 (1 - i3); at 2 the output just stops, above it steps back
     Returns
-        frame_ratio : array [1] - above 1
+        frame_ratio : array [1] - above 1; not a number where this i3 does not reach the nonuniformity
     Raises
-        NoSolution - for a value outside its range
+        NoSolution - for a nonuniformity that is not positive, and where no i3 reaches it
     Example
         >>> frame_ratio_at_nonuniformity(-1.0, [1.0, 2.0]).round(6).tolist()
         [7.872983, 3.732051]
@@ -124,13 +124,13 @@ def frame_ratio_at_nonuniformity(i3: ArrayLike, nonuniformity: ArrayLike) -> Rea
     """
     ratio, delta = np.broadcast_arrays(_ratios(i3), np.asarray(nonuniformity, dtype=float))
     wrong = ~((delta > 0.0) & (delta < 2.0 * (1.0 - ratio)))
-    if np.any(wrong):
+    if np.any(~(delta > 0.0)) or np.all(wrong):
         at, value = float(ratio[wrong].flat[0]), float(delta[wrong].flat[0])
         raise NoSolution(
             f"no frame ratio gives the nonuniformity {value:.9g} at i3 = {at:.9g}: it must lie above 0 and below "
             f"2 (1 - i3) = {2.0 * (1.0 - at):.9g}; reduce it or make -i3 larger"
         )
-    q = 2.0 * (1.0 - ratio) / delta
+    q = np.where(wrong, np.nan, 2.0 * (1.0 - ratio) / delta)
     return np.asarray(q + np.sqrt((q - 1.0) * (q + 1.0)))
 
 

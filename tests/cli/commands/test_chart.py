@@ -112,7 +112,7 @@ def test_without_a_name_the_charts_are_listed(gearlink: Any) -> None:
         (("back-step", "--range=-1:1"), "must be negative and finite"),
         (("back-step", "--curves", "30,x"), "values of back_step_crank_angle [deg]"),
         (("back-step", "--curves", "190"), "below 180 deg"),
-        (("nonuniformity", "--curves", "3"), "2 (1 - i3) ="),
+        (("nonuniformity", "--curves", "13"), "2 (1 - i3) ="),
         (("speed-swing", "--curves", "3"), "has one curve"),
         (("speed-swing", "--range", "0:3"), "frame/crank starts at 1"),
         (("back-step", "--design", "designs/ty460.yaml"), "a flatbed-press has no place"),
@@ -144,3 +144,10 @@ def test_nothing_half_written_where_the_folder_refuses(gearlink: Any, tmp_path: 
     ended = gearlink("chart", "back-step", "--plot", "--out", tmp_path / "file")
     assert (ended.status, ended.out) == (2, "")
     assert [path.name for path in tmp_path.iterdir()] == ["file"]
+
+
+def test_cells_beyond_the_reach_of_a_curve_are_blank(gearlink: Any) -> None:
+    ended = gearlink("chart", "nonuniformity", "--curves", "6", "--range=-5:-0.1", "--format", "json")
+    rows = ended.json["tables"]["nonuniformity"]["rows"]
+    assert all((ratio is None) == (2.0 * (1.0 - i3) <= 6.0) for i3, ratio in rows)
+    assert None in (ratio for _, ratio in rows)

@@ -100,10 +100,17 @@ def test_back_step_keeps_its_digits_next_to_the_momentary_dwell() -> None:
         (lambda: charts.back_step_at_crank_angle(-1.0, [0.1, math.pi]), "180 deg; it must lie"),
         (lambda: charts.back_step_at_crank_angle(-1.0, math.nan), "nan deg"),
         (lambda: charts.speed_swing_share([2.0, 0.5]), "frame ratio is 0.5"),
-        (lambda: charts.frame_ratio_at_nonuniformity([-1.0, -0.5], 3.2), r"2 \(1 - i3\) = 3;"),
+        (lambda: charts.frame_ratio_at_nonuniformity([-0.4, -0.5], 3.2), r"2 \(1 - i3\) = 2.8;"),
         (lambda: charts.frame_ratio_at_nonuniformity(-1.0, 0.0), "above 0"),
     ],
 )
 def test_refusals_name_value_and_limit(call: Any, words: str) -> None:
     with pytest.raises(NoSolution, match=words):
         call()
+
+
+def test_a_ratio_that_does_not_reach_the_nonuniformity_has_no_value():
+    """At i3 = -0.5 it ends at 2 (1 - i3) = 3."""
+    reached, blank = charts.frame_ratio_at_nonuniformity([-1.0, -0.5], 3.2)
+    assert reached == charts.frame_ratio_at_nonuniformity(-1.0, 3.2)
+    assert math.isnan(blank)
