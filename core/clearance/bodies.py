@@ -8,10 +8,10 @@ between them lie in planes beside that of the gears; design files give them no w
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import combinations
+from itertools import chain, combinations
 from typing import TYPE_CHECKING, Protocol
 
 from gearlink.core.clearance.reach import Reach
@@ -32,7 +32,6 @@ class Gear:
         outer : float [mm] - tip radius; of a ring gear its rim's
         inner : float [mm] - tip radius of a ring gear, within which a body may lie; an external gear has none
         mates : str - letters of the axes whose gears mesh with it; it is enough if one of two mates names the other
-        fixed_to : str - letters of further axes whose shafts are one rigid body with it
     """
 
     name: str
@@ -40,7 +39,6 @@ class Gear:
     outer: float
     inner: float = -math.inf
     mates: str = ""
-    fixed_to: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,8 +112,8 @@ class Layout:
 
     Parameters
         gears, shafts : bodies
-        reaches : mapping - Reach of two axes by their letters in alphabetical order, "AD"; a distance that the design
-            leaves free is not in it, and no gap is computed across it
+        reaches : mapping - Reach of two axes by their letters in alphabetical order, "AD"; missing where the bodies
+            are one, or where the design leaves the distance free
         least_shaft : float [mm] - radius of the thinnest shaft that would be built
     """
 
@@ -124,33 +122,23 @@ class Layout:
     reaches: Mapping[str, Reach]
     least_shaft: float
 
-    def _clearance(self, one: Gear | Shaft, other: Gear | Shaft) -> Iterator[Clearance]:
-        reach = self.reaches.get("".join(sorted(one.axis + other.axis)))
-        if reach is not None:
-            yield least_gap(one, other, reach)
-
     @cached_property
     def gear_pairs(self) -> tuple[Clearance, ...]:
         """Every two gears that do not mesh."""
-        return tuple(
-            pair
-            for one, other in combinations(self.gears, 2)
-            if other.axis not in one.axis + one.mates and one.axis not in other.mates
-            for pair in self._clearance(one, other)
-        )
+        pairs = combinations(self.gears, 2)
+        return tuple(self._gaps((a, b) for a, b in pairs if a.axis not in b.mates and b.axis not in a.mates))
 
     @cached_property
     def shaft_pairs(self) -> tuple[Clearance, ...]:
-        """Every gear against every shaft on which it is not, then the shafts against each other."""
-        return tuple(self._shaft_pairs())
+        """Every gear against every shaft, then the shafts against each other."""
+        gears = ((gear, shaft) for shaft in self.shafts for gear in self.gears)
+        return tuple(self._gaps(chain(gears, combinations(self.shafts, 2))))
 
-    def _shaft_pairs(self) -> Iterator[Clearance]:
-        for shaft in self.shafts:
-            for gear in self.gears:
-                if shaft.axis not in gear.axis + gear.fixed_to:
-                    yield from self._clearance(gear, shaft)
-        for one, other in combinations(self.shafts, 2):
-            yield from self._clearance(one, other)
+    def _gaps(self, pairs: Iterable[tuple[Gear | Shaft, Gear | Shaft]]) -> Iterator[Clearance]:
+        for one, other in pairs:
+            reach = self.reaches.get("".join(sorted(one.axis + other.axis)))
+            if reach is not None:
+                yield least_gap(one, other, reach)
 
     @property
     def gear_gap(self) -> float | None:

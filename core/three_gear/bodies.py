@@ -20,7 +20,7 @@ def layout(links: FourBar, train: GearTrain, spec: ThreeGearSpec) -> Layout:
     crank, idler, output = (tip_radius(teeth, module) for teeth in (train.crank, train.idler, train.output))
     return Layout(
         gears=(
-            Gear("the crank gear", "B", crank, mates="C", fixed_to="A"),
+            Gear("the crank gear", "B", crank, mates="C"),
             Gear("the idler", "C", idler, mates="BD"),
             Gear("the output gear", "D", output, mates="C"),
         ),

@@ -53,6 +53,8 @@ def packages(modules: set[str]) -> set[str]:
         ("crank", "designs/ty460.yaml", "--format", "json"),
         ("press", "designs/ty460.yaml", "--quantity", "crank_length"),
         ("press", "designs/ty460.yaml", "--quantity", "sync_start"),
+        ("check", "designs/wide_lever.yaml"),
+        ("check", "designs/two_gear_ring.yaml"),
     ],
     ids=lambda arguments: "-".join(a.removesuffix(".yaml").rpartition("/")[2] for a in arguments),
 )
