@@ -110,7 +110,8 @@ _GRIPPER = {
     "Re(conj(v_G/w1) a_G)",
     "newton_agreement": "max |closed form - Newton-Raphson| of coupler and input angle over the turn",
     "condition_number": "1/sin(mu) of the loop's Jacobian, largest over the swing",
-    "lift_off_speed": "n* = n sqrt(T_s/max(-s_c T_in)), likewise for the return roller; the lesser",
+    "lift_off_speed": "n* = n sqrt(T_s/max(-s_c T_in)), likewise for the return roller; the lesser; "
+    "wide-swing, in 1/min: n* = n0 sqrt(1 + rho - f)",
 }
 
 _SWING = {
@@ -120,8 +121,11 @@ _SWING = {
     "acceleration_peak": "C = max |c|, c = (N/2) lambda gamma X sin(phi)/l, X force and l length of the device",
     "min_pivot_ratio": "cylinder: p + sqrt(p^2 - 1), p = (q^2 - cos(gamma/2))/(q^2 - 1); spring: 1 + (l_0 + l_k + "
     "S_0)/r_d",
-    "force": "P = N J gamma^2/(2 r_d T^2)",
-    "spring_rate": "c_s = N J gamma^2/(2 r_d^2 T^2)",
+    "force": "P = (1 + rho) N J gamma^2/(2 r_d T^2)",
+    "spring_rate": "c_s = (1 + rho) N J gamma^2/(2 r_d^2 T^2)",
+    "contact_force": "F = max J gamma |c| rho/(T0^2 r cos delta)",
+    "drive_torque_peak": "M_dr = J gamma^2 max(b c)/(T^2 phi_ud)",
+    "drive_balancing_ratio": "K_y2 = (1 + g)/(rho + f + g), g shaft.linkage_share",
     "rocker_radius": "r = a/(B alpha + 1) (twin-cam), a/(B alpha - 1) (twin-rocker), alpha = gamma/phi_ud",
     "profile_correction": "xi = angle at the cam axis between roller centre and centre line at the end of the stroke",
     "phase_angle": "Phi = phi_ud/2 - xi",

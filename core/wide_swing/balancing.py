@@ -87,21 +87,22 @@ def inertia_torque_peak(inertia: float, law: ElasticLaw, time: float) -> float:
     return inertia * law.swing * law.acceleration_peak / time**2
 
 
-def balancing_ratio(speed_ratio: Reals, residual_fraction: float = 0.0) -> Reals:
+def balancing_ratio(speed_ratio: Reals, residual_fraction: float = 0.0, reserve: float = 0.0) -> Reals:
     """How many times the device lowers the torque on the rocker axis.
 
-    K_y1 = n^2/(|n^2 - n0^2| + f n0^2)
+    K_y1 = n^2/(|n^2 - (1 + rho) n0^2| + f n0^2)
 
     Parameters
         speed_ratio : (N,) array - n/n0, 0 or more
         residual_fraction : float - f, what friction, force error and linkage inertia leave at n0, as a part of
             the inertia torque there; 1/4.6 and 1/3.4 were measured
+        reserve : float - rho, force of the device above the one that balances at n0, as a share of it
     Returns
-        ratio : (N,) array - infinite at n0 when f = 0
+        ratio : (N,) array - infinite at n0 when f = rho = 0
     Raises
         NoSolution - when a speed or f is negative
     Notes
-        Below 1, where the device harms, for n < n0/sqrt(2) (f = 0).
+        Below 1, where the device harms, for n < n0 sqrt((1 + rho + f)/2).
     Example
         >>> balancing_ratio(np.array([0.5, 1.0]), 0.25).round(12).tolist()
         [0.25, 4.0]
@@ -109,16 +110,27 @@ def balancing_ratio(speed_ratio: Reals, residual_fraction: float = 0.0) -> Reals
     Source
         wide-swing dissertation, chapter 5; own derivation
     """
-    if residual_fraction < 0.0 or bool(np.any(speed_ratio < 0.0)):
-        raise NoSolution("speeds and the residual fraction must be 0 or more")
-    left = np.abs((speed_ratio - 1.0) * (speed_ratio + 1.0)) + residual_fraction
+    left = _left(speed_ratio, residual_fraction, reserve)
     with np.errstate(divide="ignore"):
         result: Reals = speed_ratio**2 / left
     return result
 
 
+def _left(speed_ratio: Reals, residual_fraction: float, reserve: float) -> Reals:
+    """Torque that is left on the rocker axis, as a part of the inertia torque at n0."""
+    if min(residual_fraction, reserve) < 0.0 or bool(np.any(speed_ratio < 0.0)):
+        raise NoSolution("speeds, the residual fraction and the reserve must be 0 or more")
+    left: Reals = np.abs((speed_ratio - 1.0) * (speed_ratio + 1.0) - reserve) + residual_fraction
+    return left
+
+
 def speed_sweep(
-    inertia: float, law: ElasticLaw, time: float, speed_ratio: Reals, residual_fraction: float = 0.0
+    inertia: float,
+    law: ElasticLaw,
+    time: float,
+    speed_ratio: Reals,
+    residual_fraction: float = 0.0,
+    reserve: float = 0.0,
 ) -> SpeedSweep:
     """Torque peaks on the rocker axis with and without the device over the speed.
 
@@ -129,7 +141,7 @@ def speed_sweep(
         law : ElasticLaw
         time : float [s] - T0 of one stroke at the design speed
         speed_ratio : (N,) array - n/n0
-        residual_fraction : float - f of `balancing_ratio`
+        residual_fraction, reserve : float - f and rho of `balancing_ratio`
     Returns
         sweep : SpeedSweep
     Raises
@@ -144,9 +156,9 @@ def speed_sweep(
     Source
         wide-swing dissertation, chapter 5; own derivation
     """
-    ratio = balancing_ratio(speed_ratio, residual_fraction)
+    ratio = balancing_ratio(speed_ratio, residual_fraction, reserve)
     design = inertia_torque_peak(inertia, law, time)
-    left = np.abs((speed_ratio - 1.0) * (speed_ratio + 1.0)) + residual_fraction
+    left = _left(speed_ratio, residual_fraction, reserve)
     return SpeedSweep(speed_ratio, design * speed_ratio**2, design * left, ratio)
 
 
@@ -175,7 +187,7 @@ def power_peak(law: ElasticLaw) -> float:
 
 
 def drive_torque_peak(inertia: float, law: ElasticLaw, time: float, cycle_angle: float) -> float:
-    """Largest torque on the cam shaft of an even drive, without a device.
+    """Largest torque on the cam shaft of an even drive, without a device and without its links' own torque.
 
     M_dr = J gamma^2 max(b c)/(T^2 phi_ud)
 
@@ -204,17 +216,20 @@ def drive_torque_peak(inertia: float, law: ElasticLaw, time: float, cycle_angle:
     return share * law.swing / cycle_angle * power_peak(law)
 
 
-def drive_balancing_ratio(speed_ratio: Reals, linkage_fraction: float) -> Reals:
+def drive_balancing_ratio(
+    speed_ratio: Reals, linkage_fraction: float, residual_fraction: float = 0.0, reserve: float = 0.0
+) -> Reals:
     """How many times the device lowers the torque on the cam shaft.
 
-    K_y2 = n^2 (1 + g)/(|n^2 - n0^2| + g n^2)
+    K_y2 = n^2 (1 + g)/(|n^2 - (1 + rho) n0^2| + f n0^2 + g n^2)
 
     Parameters
         speed_ratio : (N,) array - n/n0, 0 or more
         linkage_fraction : float - g, torque of the links that the device does not unload, as a part of the
             rocker's inertia torque on the same shaft and at the same speed
+        residual_fraction, reserve : float - f and rho of `balancing_ratio`
     Returns
-        ratio : (N,) array - infinite at n0 when g = 0
+        ratio : (N,) array - infinite at n0 when f = g = rho = 0
     Raises
         NoSolution - when a speed or g is negative
     Notes
@@ -226,10 +241,10 @@ def drive_balancing_ratio(speed_ratio: Reals, linkage_fraction: float) -> Reals:
     Source
         wide-swing dissertation, chapter 5; own derivation
     """
-    if linkage_fraction < 0.0 or bool(np.any(speed_ratio < 0.0)):
-        raise NoSolution("speeds and the linkage fraction must be 0 or more")
+    if linkage_fraction < 0.0:
+        raise NoSolution("the linkage fraction must be 0 or more")
     square = speed_ratio**2
-    left = np.abs((speed_ratio - 1.0) * (speed_ratio + 1.0)) + linkage_fraction * square
+    left = _left(speed_ratio, residual_fraction, reserve) + linkage_fraction * square
     with np.errstate(divide="ignore"):
         result: Reals = square * (1.0 + linkage_fraction) / left
     return result

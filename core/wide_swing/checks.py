@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 def unloader_turnability(design: WideSwingDesign) -> Iterator[Check]:
     """GL504: the device can follow the whole swing."""
-    least, ratio = design.motion.fitting_pivot_ratio, design.spec.unloader.pivot_ratio
+    least, ratio = design.motion.min_pivot_ratio, design.spec.unloader.pivot_ratio
     if least is None:
         return
     status: Status = "fail" if ratio < least else "pass"
@@ -67,6 +67,19 @@ def balancing(design: WideSwingDesign) -> Iterator[Check]:
         share = (lowest / design.spec.speed) ** 2
         text += f"; at {lowest:g} rev/min lower its force or rate to {share:.3g} of the design value, or take it off"
     yield codes.BALANCING.check(status, text, lowest, harm, "1/min")
+
+
+def force_reserve(design: WideSwingDesign) -> Check:
+    """GL511: the device presses the roller to its cam at the design speed, with a tenth of speed to spare."""
+    speed, lift_off, unloader = design.spec.speed, design.unloading.lift_off_speed, design.spec.unloader
+    status: Status = "pass"
+    if lift_off < 1.1 * speed * (1.0 - 1e-9):
+        status = "fail" if speed > lift_off * (1.0 + 1e-9) else "warn"
+    text = f"above {lift_off:.6g} rev/min the roller leaves its cam; the design speed is {speed:g} rev/min"
+    if status != "pass":
+        just, safe = (remedies.reserve(unloader.residual, margin) for margin in (0.0, 0.1))
+        text += f": make unloader.reserve {safe:.12g} or more for a tenth of speed to spare, {just:.12g} just holds it"
+    return codes.FORCE_RESERVE.check(status, text, lift_off, speed, "1/min")
 
 
 # Cams

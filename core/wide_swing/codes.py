@@ -46,7 +46,7 @@ BALANCING = Rule(
     "The device's torque stays while the inertia's falls with the square of the speed: below n0/sqrt(2) more "
     "torque is needed with the device than without.",
     "Lower its force or rate for slow running, or take it off.",
-    "K_y1 = n^2/(|n^2 - n0^2| + f n0^2) > 1, that is n > n0/sqrt(2) where f = 0",
+    "K_y1 = n^2/(|n^2 - (1 + rho) n0^2| + f n0^2) > 1, that is n > n0 sqrt((1 + rho + f)/2)",
     "wide-swing dissertation, chapter 5; own derivation",
     ("balancing",),
     ("operating_speed_min", "unloader"),
@@ -72,4 +72,19 @@ CYCLE_ANGLES = Rule(
     "own derivation",
     ("cycle-angles",),
     ("cycle_angle",),
+)
+FORCE_RESERVE = Rule(
+    "GL511",
+    "roller leaves its cam at speed",
+    "The speed above which the roller leaves its cam is below the design speed (fails), or less than a tenth above it, "
+    "as without a reserve (warns).",
+    "A device that just balances the inertia presses no roller to its cam: play, friction or a little more speed and "
+    "the rocker swings free of it.",
+    "Make unloader.reserve the value of the message or more, or lower the speed; the torque that is left grows with "
+    "the reserve.",
+    "n_l = n0 sqrt(1 + rho - f), rho unloader.reserve, f unloader.residual; F = J gamma |c| (1 + rho - (n/n0)^2)/"
+    "(T0^2 r cos delta)",
+    "own derivation",
+    ("force-reserve",),
+    ("unloader.reserve", "unloader"),
 )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
@@ -14,6 +15,8 @@ from gearlink.core.wide_swing.motion import Motion
 from gearlink.core.wide_swing.unloading import Unloading
 
 if TYPE_CHECKING:
+    from gearlink.core.numerics.arrays import Reals
+    from gearlink.core.report import Quantity
     from gearlink.core.wide_swing.cam import Layout, WideSwingCam
     from gearlink.core.wide_swing.oscillating_cam import OscillatingCam
     from gearlink.core.wide_swing.outline import AnyCam
@@ -56,6 +59,8 @@ _PROFILE = {
     "transition_zone": "cam.transition_zone",
     "contact_end": "contact_end",
     "max_pressure_angle": "cam.max_pressure_angle",
+    "lift_off_speed": "unloading.lift_off_speed",
+    "contact_force": "contact_force",
 }
 _ITERATION = {
     "iteration_energy_parameter": "unloading.iteration.energy_parameter",
@@ -65,7 +70,7 @@ _ITERATION = {
 _CURVATURE = {"min_curvature_radius": "cam.min_curvature_radius"}
 _PATHS = _LAW | _TORQUE | _SHAFT | _SLIDER | _DRIVE | _PROFILE | _CURVATURE | _ITERATION
 _NEED_PROFILE = ("start_radius_estimate", "middle_radius_estimate")
-_NEED_ZONE = ("transition_zone", "max_pressure_angle", "min_curvature_radius", "contact_end")
+_NEED_ZONE = ("transition_zone", "max_pressure_angle", "min_curvature_radius", "contact_end", "contact_force")
 
 _CAM = ("max_pressure_angle", "min_curvature_radius", "max_radius", "min_radius")
 _LAW_CHECKS = ("unloader-turnability", "force-closure", "cycle-angles", "balancing")
@@ -82,7 +87,7 @@ class WideSwingDesign(Design):
         "cam": Outline(_CAM, _CAM_CHECKS, ("main_cam", "return_cam")),
         "analyze": Outline(tuple(_LAW), _LAW_CHECKS, ("law", "balance")),
     }
-    extra_tables = ("iteration", "slider")
+    extra_tables = ("iteration", "slider", "contact")
 
     # Parts
 
@@ -194,6 +199,22 @@ class WideSwingDesign(Design):
         with at_key("cam.roller_radius"):
             return cam.contact
 
+    def touches(self, cam: AnyCam, k: Reals) -> Any:
+        """Whether the roller touches a cam's profile at fractions of the stroke."""
+        (first, start), (end, last) = self.contact_of(cam)
+        return ((k >= first) & (k <= start)) | ((k >= end) & (k <= last))
+
+    @cached_property
+    def contact_force(self) -> float:
+        """Greatest force of the roller on any of the cams over the stroke at the design speed [N]."""
+        from gearlink.core.numerics.extremes import maximum_over
+
+        return max(
+            maximum_over(lambda k, cam=cam: self.unloading.contact_force(cam, k), *part, samples=128).value  # type: ignore[misc]
+            for cam in self.cams.values()
+            for part in self.contact_of(cam)
+        )
+
     @property
     def _profile_key(self) -> Any:
         """What a refused profile is refused with: the key to change."""
@@ -202,6 +223,11 @@ class WideSwingDesign(Design):
         return at_key("cycle_angle" if self.section.rocker_radius is None else "cam.rocker_radius")
 
     # Results
+
+    def quantity(self, name: str) -> Quantity | None:
+        """As for every design; the speed of lift-off is the cam's."""
+        found = super().quantity(name)
+        return replace(found, unit="1/min") if found is not None and name == "lift_off_speed" else found
 
     def raw(self, name: str) -> Any:
         """A quantity by its place among the parts; one of a profile that does not exist says which key to change."""
@@ -216,13 +242,14 @@ class WideSwingDesign(Design):
         return None if math.isinf(value) else value
 
     table_law, table_slider, table_balance = tables.law, tables.slider, tables.balance
-    table_iteration, table_main_cam, table_return_cam = tables.iteration, tables.main_cam, tables.return_cam
+    table_iteration, table_contact = tables.iteration, tables.contact
+    table_main_cam, table_return_cam = tables.main_cam, tables.return_cam
 
     check_unloader_turnability, check_force_closure = checks.unloader_turnability, checks.force_closure
     check_cycle_angles, check_balancing = checks.cycle_angles, checks.balancing
     check_profile_exists, check_pressure_angle = checks.profile_exists, checks.pressure_angle
     check_cam_undercut, check_transition_zone = checks.cam_undercut, checks.transition_zone
-    check_shaft_clearance = checks.shaft_clearance
+    check_shaft_clearance, check_force_reserve = checks.shaft_clearance, checks.force_reserve
 
     pressure_repair = cached_property(remedies.pressure)
     suggestions = remedies.suggestions
@@ -243,7 +270,7 @@ class WideSwingDesign(Design):
             tables.append("slider")
         if spec.cam is not None:
             quantities += self._profile_quantities(command)
-            checks += _CAM_CHECKS
+            checks += (*_CAM_CHECKS, "force-reserve")
         if spec.method == "iteration":
             quantities += _ITERATION
             tables.append("iteration")

@@ -52,29 +52,11 @@ class Motion:
         """Least pivot ratio of this device, or of a usual cylinder where the file says too little of a spring."""
         from gearlink.core.wide_swing.device import least_pivot_ratio_pneumatic
 
-        return self.fitting_pivot_ratio or least_pivot_ratio_pneumatic(self.swing)
+        return self.min_pivot_ratio or least_pivot_ratio_pneumatic(self.swing)
 
     @cached_property
     def min_pivot_ratio(self) -> float | None:
-        """Pivot ratio that the device must have, (3) or (4), where the file says enough of it.
-
-        Notes
-            (4) holds the spring's mounting stretch, which is taken at the file's own pivot ratio. It falls as
-            that ratio grows, so the ratio asked for is met by a design that takes it; `fitting_pivot_ratio` is
-            the one that just meets its own.
-        """
-        unloader = self.spec.unloader
-        if unloader.type == "pneumatic" or unloader.closed_length is None:
-            return self.fitting_pivot_ratio
-        from gearlink.core.wide_swing.device import DeviceGeometry
-
-        stroke = DeviceGeometry(self.device, self.swing).stroke
-        dead = (unloader.closed_length + unloader.end_fittings) / unloader.arm
-        return 1.0 + dead + unloader.stretch_ratio * stroke
-
-    @cached_property
-    def fitting_pivot_ratio(self) -> float | None:
-        """Least pivot ratio of a device that just fits, where the file says enough of it."""
+        """Least pivot ratio of a device that just fits, (3) or (4) solved, where the file says enough of it."""
         from gearlink.core.wide_swing import device
 
         unloader = self.spec.unloader

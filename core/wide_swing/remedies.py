@@ -29,6 +29,15 @@ class Suggestion(NamedTuple):
     why: str
 
 
+def reserve(residual: float, margin: float) -> float:
+    """Reserve of the device with which the roller lifts off a share of the speed above the design speed.
+
+    rho = (1 + margin)^2 - 1 + f
+    """
+    needed = margin * (2.0 + margin) + residual
+    return float(safely_above(needed)) if needed > 0.0 else 0.0
+
+
 # Lengths that follow from similarity
 
 
@@ -182,13 +191,13 @@ def suggestions(design: WideSwingDesign) -> list[Suggestion]:
     Returns
         suggestions : list of (path, value, why) - value None: leave the key out; each path once
     Notes
-        In the order device, slider or drive, cyclogram, shaft, profile, pressure angle, roller. A change may bring
-        up another finding: apply the first, and ask again.
+        In the order device, slider or drive, cyclogram, shaft, profile, pressure angle, roller, reserve. A change
+        may bring up another finding: apply the first, and ask again.
     Source
         own derivation; the conditions are those of the wide-swing dissertation
     """
     found: dict[str, Suggestion] = {}
-    for step in (_device, _combination, _cycle, _shaft, _profile, _pressure, _roller):
+    for step in (_device, _combination, _cycle, _shaft, _profile, _pressure, _roller, _reserve):
         try:
             suggestion = step(design)
         except NoSolution:
@@ -268,3 +277,10 @@ def _roller(design: WideSwingDesign) -> Suggestion | None:
     if _fails(design, "cam-undercut"):
         values.append((roller_for_curvature(design), "the roller is too large for the pitch curve"))
     return Suggestion("cam.roller_radius", *min(values)) if values else None
+
+
+def _reserve(design: WideSwingDesign) -> Suggestion | None:
+    if design.spec.cam is None or not _fails(design, "force-reserve"):
+        return None
+    value = reserve(design.spec.unloader.residual, 0.1)
+    return Suggestion("unloader.reserve", value, "the roller leaves its cam at the design speed")

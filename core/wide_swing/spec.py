@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, LiteralString, NoReturn
+from typing import Annotated, Literal, LiteralString, NoReturn, TypeAlias
 
 from pydantic import Field, ValidationInfo, field_validator, model_validator
 from pydantic_core import PydanticCustomError
@@ -25,6 +25,25 @@ def _refuse(key: str, message: LiteralString, code: LiteralString = "GL111", **w
     raise PydanticCustomError(code, message, {"key": key, **words})
 
 
+Residual: TypeAlias = Annotated[
+    float,
+    Field(
+        ge=0,
+        le=1,
+        description="share of the inertia torque that friction and force error leave at the design speed",
+        json_schema_extra={"unit": "1"},
+    ),
+]
+Reserve: TypeAlias = Annotated[
+    float,
+    Field(
+        ge=0,
+        description="force above the one that balances the inertia at the design speed, as a share of it",
+        json_schema_extra={"unit": "1"},
+    ),
+]
+
+
 class Pneumatic(Spec):
     """A cylinder under constant pressure."""
 
@@ -34,9 +53,8 @@ class Pneumatic(Spec):
     extension_ratio: Annotated[float, Field(gt=1, json_schema_extra={"unit": "1"})] = Field(
         13 / 9, description="extended over retracted length, q"
     )
-    residual: Annotated[float, Field(ge=0, le=1, json_schema_extra={"unit": "1"})] = Field(
-        0.0, description="share of the inertia torque that friction and force error leave at the design speed"
-    )
+    residual: Residual = 0.0
+    reserve: Reserve = 0.0
 
 
 class SpringDevice(Spec):
@@ -51,9 +69,8 @@ class SpringDevice(Spec):
         None, description="allowable stretch over closed length, in place of closed_length; steel 1 to 2"
     )
     end_fittings: Distance = Field(0.0, description="length of the end fittings")
-    residual: Annotated[float, Field(ge=0, le=1, json_schema_extra={"unit": "1"})] = Field(
-        0.0, description="share of the inertia torque that friction and force error leave at the design speed"
-    )
+    residual: Residual = 0.0
+    reserve: Reserve = 0.0
 
     @model_validator(mode="after")
     def _one_length(self) -> SpringDevice:
@@ -74,8 +91,8 @@ class SwingCam(Spec):
 class SwingShaft(Spec):
     """The drive of the cam shaft; with it go the dynamic coefficient and the torque of the cam shaft."""
 
-    natural_frequency: Annotated[float, Field(gt=0, json_schema_extra={"unit": "1/s"})] = Field(
-        description="natural frequency of the drive in torsion"
+    natural_frequency: Annotated[float, Field(gt=0, json_schema_extra={"unit": "Hz"})] = Field(
+        description="natural frequency of the drive in torsion, in cycles a second"
     )
     damping: Annotated[float, Field(ge=0, lt=1, json_schema_extra={"unit": "1"})] = Field(
         0.0, description="damping ratio of the drive"

@@ -40,15 +40,42 @@ def slider(design: WideSwingDesign, samples: int | None = None) -> Table:
     return Table.of("slider", columns)
 
 
+def _speed_shares() -> Any:
+    import numpy as np
+
+    return np.arange(10, 135, 5) / 100.0
+
+
+def contact(design: WideSwingDesign, samples: int | None = None) -> Table:
+    """Force of the roller on the cam over the stroke and the speed, empty where it does not touch the profile."""
+    import numpy as np
+
+    shares, stroke = _speed_shares(), _k(samples)
+    k, share = np.tile(stroke, shares.size), np.repeat(shares, stroke.size)
+    columns = {"k": (k, "1"), "force": (_force(design, design.cam, k, share), "N"), "speed_share": (share, "1")}
+    if design.return_cam is not None:
+        columns["return_force"] = (_force(design, design.return_cam, k, share), "N")
+    return Table.of("contact", columns)
+
+
+def _force(design: WideSwingDesign, cam: AnyCam, k: Any, share: Any) -> Any:
+    import numpy as np
+
+    touching = design.touches(cam, k) & (k != 0.5)
+    force = np.full_like(k, np.nan)
+    force[touching] = design.unloading.contact_force(cam, k[touching], share[touching])
+    return force
+
+
 def balance(design: WideSwingDesign, _samples: int | None = None) -> Table:
     """Torque on the rocker axis with and without the device, over the speed."""
     import numpy as np
 
     from gearlink.core.wide_swing.balancing import drive_balancing_ratio, speed_sweep
 
-    share, spec, motion = np.arange(10, 135, 5) / 100.0, design.spec, design.motion
-    inertia, residual = design.unloading.even_inertia, spec.unloader.residual
-    sweep = speed_sweep(inertia, motion.plain_law, motion.stroke_time, share, residual)
+    share, spec, motion = _speed_shares(), design.spec, design.motion
+    inertia, losses = design.unloading.even_inertia, (spec.unloader.residual, spec.unloader.reserve)
+    sweep = speed_sweep(inertia, motion.plain_law, motion.stroke_time, share, *losses)
     with np.errstate(divide="ignore", invalid="ignore"):
         ratio = sweep.torque_without / sweep.torque_with
     columns = {
@@ -58,7 +85,7 @@ def balance(design: WideSwingDesign, _samples: int | None = None) -> Table:
         "ratio": (ratio, "1"),
     }
     if spec.shaft is not None:
-        columns["drive_ratio"] = (drive_balancing_ratio(share, spec.shaft.linkage_share), "1")
+        columns["drive_ratio"] = (drive_balancing_ratio(share, spec.shaft.linkage_share, *losses), "1")
     return Table.of("balance", columns)
 
 
@@ -93,10 +120,9 @@ def return_cam(design: WideSwingDesign, samples: int | None = None) -> Table:
 def _cam(design: WideSwingDesign, name: str, cam: AnyCam, mirror: float, samples: int | None) -> Table:
     import numpy as np
 
-    (first, start), (end, last) = design.contact_of(cam)
     points = cam.points(_k(samples))
     k = points.k
-    gone = (k < first) | ((k > start) & (k < end)) | (k > last)
+    gone = ~design.touches(cam, k)
     columns = {
         "k": (k, "1"),
         "cam_angle": (np.degrees(points.cam_angle), "deg"),

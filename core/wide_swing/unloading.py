@@ -9,8 +9,10 @@ from gearlink.core.errors import MissingSection, at_key
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
+    from gearlink.core.numerics.arrays import Reals
     from gearlink.core.wide_swing.iteration import LegacyLaw
     from gearlink.core.wide_swing.motion import Motion
+    from gearlink.core.wide_swing.outline import AnyCam
     from gearlink.core.wide_swing.spec import SwingShaft, WideSwingSpec
 
 
@@ -28,19 +30,24 @@ class Unloading:
         parameter = motion.law.energy_parameter
         return parameter, motion.inertia, motion.swing, self.spec.unloader.arm, motion.stroke_time
 
+    @property
+    def _whole(self) -> float:
+        """1 + rho, force of the device over the one that balances the inertia at the design speed."""
+        return 1.0 + self.spec.unloader.reserve
+
     @cached_property
     def force(self) -> float | None:
-        """Force of a pneumatic device at the design speed [N]."""
+        """Force of a pneumatic device, with its reserve [N]."""
         from gearlink.core.wide_swing.device import force
 
-        return force(*self._sizing) if self.spec.unloader.type == "pneumatic" else None
+        return self._whole * force(*self._sizing) if self.spec.unloader.type == "pneumatic" else None
 
     @cached_property
     def spring_rate(self) -> float | None:
-        """Rate of a spring at the design speed [N/mm]."""
+        """Rate of a spring, with its reserve [N/mm]."""
         from gearlink.core.wide_swing.device import spring_rate
 
-        return spring_rate(*self._sizing) if self.spec.unloader.type == "spring" else None
+        return self._whole * spring_rate(*self._sizing) if self.spec.unloader.type == "spring" else None
 
     @cached_property
     def iteration(self) -> LegacyLaw:
@@ -65,7 +72,7 @@ class Unloading:
 
     @cached_property
     def drive_torque_peak(self) -> float:
-        """Torque of the cam shaft without the device at the design speed [N m]."""
+        """Torque of the cam shaft without the device and without `linkage_share` at the design speed [N m]."""
         from gearlink.core.wide_swing.balancing import drive_torque_peak
 
         motion, law = self.motion, self.motion.rocker_alone("drive_torque_peak")
@@ -73,9 +80,10 @@ class Unloading:
 
     @property
     def drive_balancing_ratio(self) -> float | None:
-        """K_y2 at the design speed; None where no link's torque is left."""
-        share = self._shaft.linkage_share
-        return (1.0 + share) / share if share > 0.0 else None
+        """K_y2 at the design speed; None where no torque is left."""
+        share, unloader = self._shaft.linkage_share, self.spec.unloader
+        left = unloader.reserve + unloader.residual + share
+        return (1.0 + share) / left if left > 0.0 else None
 
     @cached_property
     def dynamic_coefficient(self) -> float:
@@ -104,5 +112,37 @@ class Unloading:
 
     @property
     def harmful_speed(self) -> float:
-        """Speed up to which the device raises the torque, n0 sqrt((1 + f)/2) [rev/min]."""
-        return self.spec.speed * math.sqrt(0.5 * (1.0 + self.spec.unloader.residual))
+        """Speed up to which the device raises the torque, n0 sqrt((1 + rho + f)/2) [rev/min]."""
+        return self.spec.speed * math.sqrt(0.5 * (self._whole + self.spec.unloader.residual))
+
+    # Force closure
+
+    @property
+    def lift_off_speed(self) -> float:
+        """Speed above which the roller leaves its cam, n0 sqrt(1 + rho - f) [rev/min]."""
+        return self.spec.speed * math.sqrt(self._whole - self.spec.unloader.residual)
+
+    def contact_force(self, cam: AnyCam, k: Reals, speed_ratio: float | Reals = 1.0) -> Reals:
+        """Force of the roller on a cam, along their normal.
+
+        F = J gamma |c| ((1 + rho) - (n/n0)^2)/(T0^2 r cos delta)
+
+        Parameters
+            cam : WideSwingCam or OscillatingCam
+            k : (N,) array - fractions of the stroke, mid-swing left out
+            speed_ratio : float or (N,) array - n/n0
+        Returns
+            force : (N,) array [N] - positive where the profile is pressed, in run-up and run-out; negative where the
+                roller leaves it
+        Notes
+            Friction is left out. In run-up the device is stronger than the inertia and the cam holds the rocker back;
+            in run-out the inertia is weaker than the device and the cam pushes.
+        """
+        import numpy as np
+
+        motion = self.motion
+        scale = 1e3 * motion.inertia * motion.swing / (motion.stroke_time**2 * cam.rocker_radius)
+        acceleration = np.abs(motion.plain_law.invariants(k, 2)[2])
+        excess = self.spec.unloader.reserve - (speed_ratio - 1.0) * (speed_ratio + 1.0)
+        force: Reals = scale * excess * acceleration / np.cos(cam.pressure_angle(k))
+        return force

@@ -471,6 +471,19 @@ class TestSections:
         assert table(made, "balance")["drive_ratio"][at_design] == close(5.0)
         assert design(shaft={"natural_frequency": 60.0}).quantity("drive_balancing_ratio") is None
 
+    @pytest.mark.parametrize(("residual", "reserve"), [(0.22, 0.0), (0.22, 0.3), (0.0, 0.1)])
+    def test_drive_ratio_counts_residual_and_reserve(self, residual: float, reserve: float) -> None:
+        """With 0.22 of residual and 0.25 of the links 1.25/0.47 = 2.66; the table says the same at the design speed."""
+        shaft = {"natural_frequency": 60.0, "linkage_share": 0.25}
+        made = design(shaft=shaft, unloader=PNEUMATIC | {"residual": residual, "reserve": reserve})
+        assert value(made, "drive_balancing_ratio") == close(1.25 / (residual + reserve + 0.25))
+        rows = table(made, "balance")
+        at_design = int(np.argmin(np.abs(rows["speed"] - 100.0)))
+        assert rows["drive_ratio"][at_design] == close(1.25 / (residual + reserve + 0.25))
+        # at half the speed: inertia and links fall to a quarter, the device stays
+        half = int(np.argmin(np.abs(rows["speed"] - 50.0)))
+        assert rows["drive_ratio"][half] == close(0.25 * 1.25 / (1.0 + reserve - 0.25 + residual + 0.0625))
+
     @pytest.mark.parametrize(
         ("name", "key"),
         [
@@ -512,20 +525,36 @@ def test_laziness() -> None:
     made.report("swing", quantities=("min_pivot_ratio",))
     fresh = design()
     fresh.report("swing", quantities=("min_pivot_ratio",))
-    assert set(vars(fresh.motion)) <= {"spec", "swing", "fitting_pivot_ratio", "min_pivot_ratio"}
+    assert set(vars(fresh.motion)) <= {"spec", "swing", "min_pivot_ratio"}
 
 
 def test_spring_of_given_length_is_judged_by_formula_4() -> None:
-    """(4) at the file's own ratio; above or below it together with the ratio that just fits."""
+    """The least ratio solves (4) with its own stretch, whatever ratio the file has; it is the check's limit."""
     unloader = {"type": "spring", "stretch_ratio": 0.5, "arm": 120, "closed_length": 150, "end_fittings": 40}
     for ratio in (2.2, 2.9, 2.92, 4.0):
         made = design(unloader={**unloader, "pivot_ratio": ratio}, cam=None)
-        half = 0.5 * made.motion.swing
-        longest = math.sqrt(1.0 + ratio * ratio - 2.0 * ratio * math.cos(half))
-        stretch = 0.5 * 120.0 * (longest - (ratio - 1.0))
-        assert made.motion.min_pivot_ratio == close(1.0 + (150.0 + 40.0 + stretch) / 120.0)
-        assert made.motion.fitting_pivot_ratio is not None
-        assert (ratio >= made.motion.min_pivot_ratio) == (ratio >= made.motion.fitting_pivot_ratio)
+        least = value(made, "min_pivot_ratio")
+        longest = math.sqrt(1.0 + least * least - 2.0 * least * math.cos(0.5 * made.motion.swing))
+        stretch = 0.5 * 120.0 * (longest - (least - 1.0))
+        assert least == close(1.0 + (150.0 + 40.0 + stretch) / 120.0)
+        assert statuses(made, "unloader-turnability") == ["pass" if ratio >= least else "fail"]
+        just = {**unloader, "pivot_ratio": least * (1.0 + 1e-9)}
+        assert statuses(design(unloader=just, cam=None), "unloader-turnability") == ["pass"]
+
+
+def test_least_ratio_of_a_spring_far_from_its_own() -> None:
+    """Swing 219.9, ratio 4.43: (4) solved gives 3.192302, not the 3.158318 of the stretch at 4.43."""
+    unloader = {
+        "type": "spring",
+        "pivot_ratio": 4.43,
+        "arm": 106.8,
+        "stretch_ratio": 1.09,
+        "closed_length": 51.1,
+        "end_fittings": 12.6,
+    }
+    assert value(design(swing=219.9, unloader=unloader, cam=None), "min_pivot_ratio") == pytest.approx(
+        3.192302, abs=5e-7
+    )
 
 
 @pytest.mark.parametrize(("radius", "status"), [(70.0, "fail"), (74.0, "fail"), (74.55, "pass")])
