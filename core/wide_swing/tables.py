@@ -120,9 +120,9 @@ def return_cam(design: WideSwingDesign, samples: int | None = None) -> Table:
 def _cam(design: WideSwingDesign, name: str, cam: AnyCam, mirror: float, samples: int | None) -> Table:
     import numpy as np
 
-    points = cam.points(_k(samples))
-    k = points.k
+    k = _k(samples)
     gone = ~design.touches(cam, k)
+    points = cam.points(k)
     columns = {
         "k": (k, "1"),
         "cam_angle": (np.degrees(points.cam_angle), "deg"),

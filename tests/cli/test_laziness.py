@@ -183,7 +183,7 @@ _EVALUATED = [
     ("gripper", "swing_gripper", "min_transmission_angle", "law linkage"),
     ("cam", "swing_gripper", "max_pressure_angle", "law linkage section center main_cam return_cam"),
     ("swing", "wide_swing_twin_cam", "energy_parameter", "swing device plain_law"),
-    ("swing", "wide_swing_twin_cam", "min_pivot_ratio", "swing fitting_pivot_ratio"),
+    ("swing", "wide_swing_twin_cam", "min_pivot_ratio", "swing"),
     ("swing", "wide_swing_twin_cam", "spring_rate", "swing device plain_law"),
     ("analyze", "six_bar_two_trains", "linkage_mobility", "links"),
     ("analyze", "mutilated_gear_press", "dwell_share", "mutilated"),
