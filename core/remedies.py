@@ -11,11 +11,11 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.report import Check, Remedy, remedy_words
+from gearlink.core.results import cached_property
 from gearlink.core.spec_paths import changed, number_at
 
 if TYPE_CHECKING:

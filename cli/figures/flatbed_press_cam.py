@@ -77,8 +77,10 @@ def _cams(axes: Axes, design: FlatbedPress) -> None:
     cams = (design.main_cam, design.return_cam)
     rollers = [panels.cam_outline(axes, cam, color) for cam, color in zip(cams, panels.CAM_COLORS, strict=True)]
     panels.base_circles(axes, cams)
-    panels.cam_axis(axes, 0j, cams, 1)
-    reach = 1.15 * design.spec.cam.roller_radius if design.spec.cam else 0.0
+    spec = design.cams.section
+    panels.cam_shaft(axes, 0j, spec.shaft_radius)
+    panels.cam_axis(axes, 0j, cams, 1, spec.shaft_radius)
+    reach = 1.15 * spec.roller_radius
     left, right = rollers[1].real - reach, rollers[0].real + reach
     axes.plot([left, right], [0.0, 0.0], color=style.GREY, linewidth=0.8, linestyle="-.", zorder=2)
     axes.plot(

@@ -273,6 +273,13 @@ def base_circles(axes: Axes, cams: Sequence[DiscCam], axis: complex = 0j) -> Non
         axes.plot([], [], color=color, linewidth=1.0, linestyle=dots, label=f"base circle, {text} mm")
 
 
+def cam_shaft(axes: Axes, axis: complex, radius: float) -> None:
+    """The shaft of the cams, where the file gives its radius [mm]."""
+    if radius > 0.0:
+        style.circle(axes, axis, radius, color=style.BLACK, linewidth=0.9)
+        axes.plot([], [], color=style.BLACK, linewidth=0.9, label=f"shaft, {radius:g} mm")
+
+
 def cam_axis(axes: Axes, axis: complex, cams: Sequence[DiscCam], sense: int, shaft_radius: float = 0.0) -> None:
     """The cam axis with an arrow in the sense of rotation, clear of the shaft."""
     import numpy as np

@@ -63,7 +63,5 @@ def _cams(axes: Axes, design: SwingGripper) -> None:
     arm = Chain(joints=(pivot, c), color=style.GREY)
     scene_axes.draw(axes, Scene(parts=(*rocker, arm), marks=letters("A", A=pivot, C=c)))
     panels.base_circles(axes, design.cams.discs, axis)
-    if spec.shaft_radius > 0.0:
-        style.circle(axes, axis, spec.shaft_radius, color=style.BLACK, linewidth=0.9)
-        axes.plot([], [], color=style.BLACK, linewidth=0.9, label=f"shaft, {spec.shaft_radius:g} mm")
+    panels.cam_shaft(axes, axis, spec.shaft_radius)
     panels.cam_axis(axes, axis, design.cams.discs, spec.sense, spec.shaft_radius)

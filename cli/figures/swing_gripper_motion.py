@@ -23,8 +23,8 @@ _HANDOVER = style.RED
 
 
 def draw(command: str, design: SwingGripper) -> Figure:
-    """Swing, its derivatives and the mechanism; torques where the file has cam, inertia and spring."""
-    forces = None not in (design.spec.cam, design.spec.inertia, design.spec.spring)
+    """Swing, its derivatives and the mechanism; torques where there are cams, inertia and spring."""
+    forces = design.cams.stand and None not in (design.spec.inertia, design.spec.spring)
     heights = [1.3, 1.1, 1.1, 1.7, 5.3] if forces else [1.3, 1.1, 1.1, 5.3]
     made = panels.page(f"{design.spec.name}: {command}", (sum(heights) + 1.6) / 12.1)
     rows: Any = made.add_gridspec(len(heights), 1, height_ratios=heights)
@@ -122,5 +122,5 @@ def mechanism(axes: Axes, design: SwingGripper) -> None:
         scene_axes.lightly(axes, linkage, i, color, f"{name}, {degrees:g}°")
     e, drum = complex(design.linkage.output_pivot), drum_center(design)
     axes.plot([e.real, drum.real], [e.imag, drum.imag], color=style.GREY, linewidth=0.7, linestyle="-.", zorder=3)
-    if design.spec.cam is not None:
+    if design.spec.cam is not None and design.cams.stand:
         panels.cam_axis(axes, design.cam_center, design.cams.discs, design.spec.cam.sense, design.spec.cam.shaft_radius)

@@ -97,9 +97,9 @@ def _drum(design: SwingGripper, fraction: Reals) -> list[Part]:
 
 
 def _cams(design: SwingGripper, fraction: Reals) -> list[Part]:
-    """Cams on the shaft, rollers on the rocker."""
+    """Cams on the shaft, rollers on the rocker; none where the cams cannot be."""
     spec = design.spec.cam
-    if spec is None:
+    if spec is None or not design.cams.stand:
         return []
     axis, pivot = track(design.cam_center, fraction), design.linkage.input_pivot
     rocker = design.linkage.motion(360.0 * fraction, 0).input_angle

@@ -10,11 +10,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from functools import cached_property
 from itertools import chain, combinations
 from typing import TYPE_CHECKING, Protocol
 
 from gearlink.core.clearance.reach import Reach
+from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
     from gearlink.core.gears.internal_mesh import InternalMesh

@@ -177,6 +177,11 @@ class GripperCams:
         except NoSolution:
             return False
 
+    @property
+    def stand(self) -> bool:
+        """Whether the file has cams and they can be."""
+        return self.spec.cam is not None and not self.is_refused
+
     def explained(self, refusal: NoSolution) -> NoSolution:
         """The refusal of a cam, with the centre at which there is one where it does not say so itself."""
         if refusal.key:

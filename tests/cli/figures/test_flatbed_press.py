@@ -230,3 +230,10 @@ def test_no_legend_lies_on_curves(press: Sheet, cam: Sheet) -> None:
         for axes in figure.axes:
             if axes.get_legend() and axes.axison and axes.get_ylabel():
                 assert axes.get_legend().get_window_extent().y0 >= axes.get_window_extent().y1 - 1.0
+
+
+def test_the_shaft_is_drawn_where_the_file_gives_one() -> None:
+    axes = panel(sheet("ty460", "cam", cam__shaft_radius=35.0).figure, "Main and return cam")
+    (shaft,) = [patch for patch in axes.patches if getattr(patch, "radius", 0.0) == 35.0]
+    assert shaft.center == (0.0, 0.0)
+    assert "shaft, 35 mm" in [line.get_label() for line in axes.get_lines()]

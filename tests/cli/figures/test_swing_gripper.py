@@ -198,3 +198,18 @@ def test_odd_designs_draw_without_warnings(name: str) -> None:
 def test_torques_are_left_out_where_the_file_has_none() -> None:
     figure = sheet(PAPER, "gripper", **BARE).figure
     assert not any(axes.get_title(loc="left").startswith("Torques") for axes in figure.axes)
+
+
+@pytest.mark.parametrize("command", ["gripper", "analyze"])
+@pytest.mark.parametrize(
+    "keys",
+    [
+        {"output_direction": 38.0, "limits__transmission_angle": 1.0},
+        {"cam__center": None, "size__pressure_angle": 5.0},
+    ],
+    ids=["relative pole", "size"],
+)
+def test_the_motion_is_drawn_though_the_cam_is_impossible(command: str, keys: dict[str, Any]) -> None:
+    figure = sheet("swing_gripper", command, **keys).figure
+    assert panel(figure, "Mechanism at the bite")
+    assert not [axes for axes in figure.axes if axes.get_title(loc="left").startswith("Torques")]
