@@ -61,7 +61,7 @@ def changed(spec: Any, values: Iterable[tuple[str, Any]]) -> Any:
         spec : pydantic model
         values : (path, value) pairs; None leaves the key out
     """
-    data = spec.model_dump(exclude_unset=True)
+    data = spec.model_dump(exclude_unset=True, by_alias=True)
     for path, value in values:
         *sections, last = _steps(path)
         place = data

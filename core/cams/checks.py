@@ -90,20 +90,21 @@ def hub_checks(rule: Rule, cams: Sequence[DiscCam], shaft: float, farther: Calla
 
 
 def step_check(
-    code: str, name: str, steps: Sequence[tuple[str, float]], peak: float, unit: str, bad: Status, remedy: str
+    rule: Rule, steps: Sequence[tuple[str, float]], peak: float, unit: str, bad: Status, remedy: str
 ) -> Check:
     """GL403 or GL404: the largest jump of a lift derivative at a joint.
 
     Parameters
+        rule : VELOCITY_STEP or ACCELERATION_STEP
         steps : (joint, jump) pairs
         peak : float - largest magnitude of that derivative; a jump below 1e-5 of it is rounding of the input
         bad : 'warn' or 'fail' - what a jump means
     """
     step = max((jump for _, jump in steps), key=abs)
-    quantity = name.removesuffix("-step")
+    quantity = rule.name.removesuffix("-step")
     limit = 1e-5 * peak
     if abs(step) <= limit:
-        return Check(code, name, "pass", f"the lift's {quantity} is continuous at every joint", abs(step), limit, unit)
+        return rule.check("pass", f"the lift's {quantity} is continuous at every joint", abs(step), limit, unit)
     listed = ", ".join(f"{joint} {jump:+.4g}" for joint, jump in steps if abs(jump) > limit)
     text = f"the lift's {quantity} jumps ({listed} {unit}): {remedy}"
-    return Check(code, name, bad, text, abs(step), limit, unit)
+    return rule.check(bad, text, abs(step), limit, unit)

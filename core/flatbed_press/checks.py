@@ -6,12 +6,13 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
+from gearlink.core.cams.codes import ACCELERATION_STEP, VELOCITY_STEP
 from gearlink.core.errors import NoSolution
 from gearlink.core.flatbed_press import codes
 from gearlink.core.flatbed_press.zone import zone_end
 from gearlink.core.linkages.checks import transmission_check
 from gearlink.core.linkages.codes import SHAFT_CLEARANCE
-from gearlink.core.report import Check, safely_above
+from gearlink.core.report import Check, Rule, safely_above
 
 if TYPE_CHECKING:
     from gearlink.core.flatbed_press.compensation import Joint
@@ -146,16 +147,16 @@ def shaft_clearance(design: FlatbedPress) -> Iterator[Check]:
 def velocity_step(design: FlatbedPress) -> Check:
     """GL403 at every joint of the lift."""
     remedy = "let the zone start where bed and cylinder have the same speed (leave sync.start out)"
-    return _steps(design, "GL403", "velocity-step", "first", "mm/rad", "fail", remedy)
+    return _steps(design, VELOCITY_STEP, "first", "mm/rad", "fail", remedy)
 
 
 def acceleration_step(design: FlatbedPress) -> Check:
     """GL404 at every joint of the lift."""
     remedy = "a lead_in before the zone, transition quartic and return_law cycloidal take the jumps away"
-    return _steps(design, "GL404", "acceleration-step", "second", "mm/rad^2", "warn", remedy)
+    return _steps(design, ACCELERATION_STEP, "second", "mm/rad^2", "warn", remedy)
 
 
-def _steps(design: FlatbedPress, code: str, name: str, derivative: str, unit: str, bad: Any, remedy: str) -> Check:
+def _steps(design: FlatbedPress, rule: Rule, derivative: str, unit: str, bad: Any, remedy: str) -> Check:
     from gearlink.core.cams.checks import step_check
 
     follower = design.cams.follower
@@ -164,8 +165,8 @@ def _steps(design: FlatbedPress, code: str, name: str, derivative: str, unit: st
         for segment in follower.segments
         for angle in (segment.start, 0.5 * (segment.start + segment.end), segment.end)
     )
-    steps = [(_joint(joint), float(getattr(joint, name.replace("-", "_")))) for joint in follower.joints]
-    return step_check(code, name, steps, peak, unit, bad, remedy)
+    steps = [(_joint(joint), float(getattr(joint, rule.name.replace("-", "_")))) for joint in follower.joints]
+    return step_check(rule, steps, peak, unit, bad, remedy)
 
 
 def _joint(joint: Joint) -> str:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from gearlink.core.cams import codes as cam_codes
 from gearlink.core.linkages.checks import transmission_check
 from gearlink.core.linkages.codes import SHAFT_CLEARANCE
-from gearlink.core.report import Check, Status, safely_above, safely_below
+from gearlink.core.report import Check, Rule, Status, safely_above, safely_below
 from gearlink.core.swing_gripper import codes
 
 if TYPE_CHECKING:
@@ -73,25 +73,25 @@ def conditioning(design: SwingGripper) -> Check:
 
 def velocity_step(design: SwingGripper) -> Check:
     """GL403 at the six joints of the law."""
-    return _steps(design, "GL403", "velocity-step", 1, "fail")
+    return _steps(design, cam_codes.VELOCITY_STEP, 1, "fail")
 
 
 def acceleration_step(design: SwingGripper) -> Iterator[Check]:
     """GL404 at the six joints of the law, and within a law."""
-    yield _steps(design, "GL404", "acceleration-step", 2, "warn")
+    yield _steps(design, cam_codes.ACCELERATION_STEP, 2, "warn")
     for phase in design.motion.law.inner_steps:
         text = f"the acceleration jumps within phase {phase}: take a law like modified-sine in laws.{phase}"
         yield cam_codes.ACCELERATION_STEP.check("warn", text)
 
 
-def _steps(design: SwingGripper, code: str, name: str, order: int, bad: Status) -> Check:
+def _steps(design: SwingGripper, rule: Rule, order: int, bad: Status) -> Check:
     import numpy as np
 
     from gearlink.core.cams.checks import step_check
 
     peak = float(np.abs(design.motion.law.evaluate(np.arange(0.0, 360.0, 0.5), order)[order]).max())
     unit = "rad/rad" if order == 1 else "rad/rad^2"
-    return step_check(code, name, _jumps(design, order), peak, unit, bad, "take laws without end acceleration in laws")
+    return step_check(rule, _jumps(design, order), peak, unit, bad, "take laws without end acceleration in laws")
 
 
 def _jumps(design: SwingGripper, order: int) -> list[tuple[str, float]]:

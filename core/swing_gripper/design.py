@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.design import Design, Outline, placed
 from gearlink.core.errors import NoSolution
-from gearlink.core.report import Report
+from gearlink.core.report import Remedy, Report
 from gearlink.core.results import cached_property
 from gearlink.core.swing_gripper import checks, tables
 from gearlink.core.swing_gripper.cams import GripperCams
@@ -39,6 +41,12 @@ class SwingGripper(Design):
         "analyze": Outline((*_LAW, *_LOOP), _LAW_CHECKS, ("motion",)),
     }
     extra_tables = ("forces", "newton", "handover_window")
+
+    def candidates(self, check: str) -> Iterator[Remedy]:
+        """The torque that leaves a tenth of speed in reserve: it grows with the square of the speed."""
+        spring, speed = self.spec.spring, self.raw("lift_off_speed") if check == "lift-off" else None
+        if spring is not None and spring.torque is not None and speed:
+            yield (("spring.torque", float(math.ceil(spring.torque * (1.1 * self.spec.speed / speed) ** 2))),)
 
     # Parts
 

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 from gearlink.core.cams.checks import pressure_angle_checks, step_check, undercut_checks
+from gearlink.core.cams.codes import VELOCITY_STEP
 from gearlink.core.cams.disc_cam import DiscCam
 from gearlink.core.cams.profile import translating
 
@@ -130,9 +131,9 @@ def test_pressure_angle_against_its_limit(limit, status):
 
 def test_steps_below_a_share_of_the_peak_are_rounding():
     steps = [("a/b at 1 deg", 1e-4), ("b/a at 2 deg", -2e-3)]
-    quiet = step_check("GL403", "velocity-step", steps, 201.0, "mm/rad", "fail", "repair it")
+    quiet = step_check(VELOCITY_STEP, steps, 201.0, "mm/rad", "fail", "repair it")
     assert (quiet.status, quiet.value, quiet.limit) == ("pass", 2e-3, pytest.approx(2.01e-3))
-    loud = step_check("GL403", "velocity-step", steps, 199.0, "mm/rad", "fail", "repair it")
+    loud = step_check(VELOCITY_STEP, steps, 199.0, "mm/rad", "fail", "repair it")
     assert (loud.status, loud.value) == ("fail", 2e-3)
     assert "velocity jumps (b/a at 2 deg -0.002 mm/rad): repair it" in loud.message
     assert "a/b" not in loud.message
