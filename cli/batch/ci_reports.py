@@ -5,11 +5,12 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterator, Sequence
+from itertools import zip_longest
 from pathlib import PurePath
 from typing import Any
 from xml.sax.saxutils import escape, quoteattr
 
-from gearlink.cli.batch.outcome import Outcome
+from gearlink.cli.batch.outcome import Fix, Outcome
 from gearlink.cli.printable import visible
 from gearlink.cli.texts.codes import explanations
 from gearlink.core.version import VERSION
@@ -86,22 +87,32 @@ def as_sarif(results: Sequence[Outcome]) -> str:
     entries: list[dict[str, Any]] = []
     rules: dict[str, dict[str, Any]] = {}
     for outcome in results:
-        for status, code, name, message, line, column in _findings(outcome):
+        fixes = [None] * len(outcome.errors) + list(outcome.fixes)
+        for fix, (status, code, name, message, line, column) in zip_longest(fixes, _findings(outcome)):
             rules.setdefault(code, _rule(code, name))
             region = {"startLine": line, "startColumn": column}
             place = {"artifactLocation": {"uri": _uri(outcome.file)}, "region": region}
-            entries.append(
-                {
-                    "ruleId": code,
-                    "level": _SARIF_LEVEL[status],
-                    "message": {"text": f"{outcome.name} ({outcome.command or 'read'}): {message}"},
-                    "locations": [{"physicalLocation": place}],
-                }
-            )
+            entry = {
+                "ruleId": code,
+                "level": _SARIF_LEVEL[status],
+                "message": {"text": f"{outcome.name} ({outcome.command or 'read'}): {message}"},
+                "locations": [{"physicalLocation": place}],
+            }
+            entries.append(entry if fix is None else entry | {"fixes": [_sarif_fix(outcome.file, fix)]})
     driver = {"name": "gearlink", "version": VERSION, "rules": [rules[code] for code in sorted(rules)]}
     run = {"tool": {"driver": driver}, "columnKind": "unicodeCodePoints", "results": entries}
     schema = "https://json.schemastore.org/sarif-2.1.0.json"
     return json.dumps({"$schema": schema, "version": "2.1.0", "runs": [run]}, ensure_ascii=False, indent=1) + "\n"
+
+
+def _sarif_fix(file: str, fix: Fix) -> dict[str, Any]:
+    """The replacement of a number, as SARIF writes it."""
+    region = {"startLine": fix.line, "startColumn": fix.column, "endLine": fix.line, "endColumn": fix.end}
+    replacement = {"deletedRegion": region, "insertedContent": {"text": fix.text}}
+    return {
+        "description": {"text": f"replace it by {fix.text}"},
+        "artifactChanges": [{"artifactLocation": {"uri": _uri(file)}, "replacements": [replacement]}],
+    }
 
 
 def _rule(code: str, name: str) -> dict[str, Any]:

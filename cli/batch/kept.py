@@ -104,7 +104,7 @@ def _require_sense(outcome: Outcome) -> None:
         raise ValueError("a place before the first line or column")
     if not all(map(_is_error, outcome.errors)) or (outcome.report is None) == (not outcome.errors):
         raise ValueError("neither a report nor errors")
-    if len(outcome.places) not in (0, len(outcome.to_repair)):
+    if len(outcome.places) not in (0, len(outcome.to_repair)) or len(outcome.fixes) != len(outcome.places):
         raise ValueError("places of other findings")
     if outcome.report is not None:
         _require_tables(outcome.report)

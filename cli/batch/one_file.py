@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from time import perf_counter
 
 from gearlink.cli.batch.options import BatchOptions
-from gearlink.cli.batch.outcome import Outcome
+from gearlink.cli.batch.outcome import Fix, Outcome
 from gearlink.cli.evaluate import build, exit_status, open_design, read_spec
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite, stem_of
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import LoadedFile, parse_path
-from gearlink.core.report import Report
+from gearlink.core.report import Remedy, Report
 
 
 def outcomes(path: Path, options: BatchOptions) -> list[Outcome]:
@@ -34,9 +35,10 @@ def _computed(path: Path, options: BatchOptions) -> Iterator[Outcome]:
         report: Report | None = None,
         errors: Sequence[Diagnostic] = (),
         places: tuple[tuple[int, int], ...] = (),
+        fixes: tuple[Fix | None, ...] = (),
     ) -> Outcome:
         seconds = perf_counter() - start
-        return Outcome(file, kind_name, name, command, status, report, tuple(errors), places, seconds)
+        return Outcome(file, kind_name, name, command, status, report, tuple(errors), places, fixes, seconds)
 
     try:
         loaded, kind = open_design(file, options.design)
@@ -50,8 +52,8 @@ def _computed(path: Path, options: BatchOptions) -> Iterator[Outcome]:
                     from gearlink.cli.batch.out import write_results
 
                     write_results(path, design, report, options)
-                places = _places(loaded, report) if options.with_places else ()
-                yield ended(exit_status(report, strict=options.design.strict), report, places=places)
+                places, fixes = (_places(loaded, report), _fixes(loaded, report)) if options.with_places else ((), ())
+                yield ended(exit_status(report, strict=options.design.strict), report, (), places, fixes)
             except DesignFileError as error:
                 yield ended(ExitCode.WRONG_INPUT, errors=error.diagnostics)
             except CannotWrite as error:
@@ -69,3 +71,15 @@ def _places(loaded: LoadedFile, report: Report) -> tuple[tuple[int, int], ...]:
 
     bad = (check for check in report.checks if check.status != "pass")
     return tuple(loaded.place_in_file(parse_path(key_of(loaded.data, check)) or ("kind",)) for check in bad)
+
+
+def _fixes(loaded: LoadedFile, report: Report) -> tuple[Fix | None, ...]:
+    return tuple(_fix(loaded, check.remedy) for check in report.checks if check.status != "pass")
+
+
+def _fix(loaded: LoadedFile, remedy: Remedy) -> Fix | None:
+    if len(remedy) != 1 or remedy[0][1] is None:
+        return None
+    (key, value), *_ = remedy
+    found = loaded.number_in_file(parse_path(key) or ())
+    return None if found is None else Fix(*found, json.dumps(value))

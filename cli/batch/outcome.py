@@ -11,10 +11,21 @@ from gearlink.core.report import Check, Report
 
 
 @dataclass(frozen=True, slots=True)
+class Fix:
+    """A number of a design file to be replaced: its line, first column, the column after it, and the new text."""
+
+    line: int
+    column: int
+    end: int
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
 class Outcome:
     """What became of one command on one design file.
 
-    `places` holds line and column of each check that did not pass, where the output of the batch shows them.
+    `places` holds line and column of each check that did not pass, where the output of the batch shows them, `fixes`
+    what its remedy replaces, if that is one number of the file.
     `note` is what the cache could not do for its file.
     """
 
@@ -26,6 +37,7 @@ class Outcome:
     report: Report | None = None
     errors: tuple[Diagnostic, ...] = ()
     places: tuple[tuple[int, int], ...] = ()
+    fixes: tuple[Fix | None, ...] = ()
     seconds: float = 0.0
     cached: bool = False
     note: str = ""

@@ -14,7 +14,7 @@ import pytest
 
 from gearlink.cli.batch.kept import as_bytes, restored
 from gearlink.cli.batch.key import NoKey, own_key
-from gearlink.cli.batch.outcome import Outcome
+from gearlink.cli.batch.outcome import Fix, Outcome
 from gearlink.cli.reading.diagnostics import Diagnostic
 from gearlink.core.report import Check, Quantity, Report, Table
 
@@ -231,10 +231,14 @@ GOOD = Outcome(
         "a",
         "gear",
         (Quantity("q", [1.0, 2.5], "mm", "q", "words"), Quantity("n", 3, "1", "n", "words")),
-        (Check("GL301", "collision", "fail", "m", 1.0, None, "mm"), Check("GL302", "axis", "pass", "m")),
+        (
+            Check("GL301", "collision", "fail", "m", 1.0, None, "mm", (("a[0]", 2.5), ("b", None))),
+            Check("GL302", "axis", "pass", "m"),
+        ),
         (Table("t", ("a", "b"), ("mm", "1"), ([1.0, None], ["x", 2])),),
     ),
     places=((3, 1),),
+    fixes=(Fix(3, 5, 8, "2.5"),),
 )
 WRONG = Outcome("f.yaml", "", "a", "", 2, errors=(Diagnostic("GL105", "m", "f.yaml", 2, 3),))
 
@@ -271,7 +275,7 @@ def test_no_field_of_another_type_is_taken(good: Outcome) -> None:
             except ValueError:
                 continue
             taken.append((path, value))
-    allowed = {(0, "cached")}  # a truth value there is one
+    allowed = {(0, "cached"), (0, "fixes")}  # a truth value there is one; a finding may have no fix
     assert {path for path, _ in taken} <= allowed | {(0, "report", "tables", 0, "data", i) for i in (0, 1)}
 
 

@@ -164,6 +164,29 @@ class TestFormats:
         levels = {(r["ruleId"], r["level"]) for r in run["results"]}
         assert {("GL301", "error"), ("GL302", "warning"), ("GL106", "error")} <= levels
 
+    def test_a_fix_of_sarif_put_into_the_file_repairs_it(self, gearlink: Any, tmp_path: Path) -> None:
+        path = tmp_path / "colliding.yaml"
+        path.write_text(
+            "kind: three-gear-four-bar\ngears: {module: 2.5, crank: 20, idler: 20, output: 60}\n"
+            "links:\n  crank: 18\n  frame: 121.4   # too short\n"
+        )
+        for _ in range(2):  # the second time from the cache
+            out = gearlink("batch", path, "--format", "sarif", "--cache", tmp_path / "cache").out
+            (result,) = (r for r in json.loads(out)["runs"][0]["results"] if r["ruleId"] == "GL301")
+            (change,) = result["fixes"][0]["artifactChanges"]
+            assert change["artifactLocation"] == result["locations"][0]["physicalLocation"]["artifactLocation"]
+        (replacement,) = change["replacements"]
+        region, lines = replacement["deletedRegion"], path.read_text().splitlines(keepends=True)
+        row = lines[region["startLine"] - 1]
+        assert row[region["startColumn"] - 1 : region["endColumn"] - 1] == "121.4"
+        new = row[: region["startColumn"] - 1] + replacement["insertedContent"]["text"] + row[region["endColumn"] - 1 :]
+        lines[region["startLine"] - 1] = new
+        path.write_text("".join(lines))
+        assert gearlink("analyze", path).status == ExitCode.OK
+        overridden = gearlink("batch", path, "--format", "sarif", "--set", "links.frame=121.4").out
+        (result,) = (r for r in json.loads(overridden)["runs"][0]["results"] if r["ruleId"] == "GL301")
+        assert "fixes" not in result
+
     @pytest.mark.parametrize("form", ["junit", "sarif", "github"])
     def test_places_are_kept(self, gearlink: Any, folder: Path, tmp_path: Path, form: str) -> None:
         line = ("batch", folder, "--format", form, "--cache", tmp_path / "cache")
