@@ -88,9 +88,9 @@ def tried(kind: str, count: int) -> tuple[int, int]:
 
 @pytest.mark.parametrize("kind", [name for name in DRAWN if name not in SLOW_KINDS])
 def test_followed_remedies_repair_and_break_nothing(kind: str) -> None:
-    wrong, repaired = tried(kind, 8)
+    wrong, repaired = tried(kind, 12)
     assert wrong >= 2
-    assert repaired >= 0.5 * wrong
+    assert repaired >= 0.3 * wrong
 
 
 @pytest.mark.stress
