@@ -65,7 +65,7 @@ class Design:
     """Base of the design classes.
 
     `outlines` says what each command shows, `extra_tables` what can be added, `ways` how a file may be changed where
-    a check fails, `trials` how many changes are tried for it. A design that `advises` says in the words of a failing
+    a check fails. A design that `advises` says in the words of a failing
     check what would help.
     """
 
@@ -73,11 +73,15 @@ class Design:
     outlines: ClassVar[dict[str, Outline]]
     extra_tables: ClassVar[tuple[str, ...]] = ()
     ways: ClassVar[Mapping[str, tuple[Way, ...]]] = {}
-    trials: ClassVar[int] = 150
     advises = True
 
     def __init__(self, spec: Any) -> None:
         self.spec = spec
+
+    @property
+    def trials(self) -> int:
+        """How many changes are tried for a check that fails: as many as take a tenth of a second or so."""
+        return 150
 
     def outline(self, command: str) -> Outline:
         """The outline of a command."""

@@ -63,7 +63,11 @@ class HypocycloidDwell(SingleMesh):
         "transmission-angle": (up("rod.length"),),
         **gear_ways(Way(("gears.planet", "gears.ring"), 1, "ratio")),
     }
-    trials = 20
+
+    @property
+    def trials(self) -> int:
+        """A rod that is sought takes some ms."""
+        return 20
 
     def candidates(self, check: str) -> Iterator[Remedy]:
         """What the slider does over the dwell that is wanted; a curve with a cusp less."""

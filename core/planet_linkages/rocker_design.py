@@ -74,6 +74,11 @@ class GearedRocker(SingleMesh):
         **gear_ways(*_TEETH),
     }
 
+    @property
+    def trials(self) -> int:
+        """A crank that is sought for a swing takes nearly a tenth of a second each time."""
+        return 150 if self.spec.target is None else 10
+
     # Gears and links
 
     coupler_gear_teeth: int = placed("spec.gears.coupler")
