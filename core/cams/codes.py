@@ -7,7 +7,8 @@ from gearlink.core.report import Rule
 PRESSURE_ANGLE = Rule(
     "GL401",
     "pressure angle too large",
-    "The angle between the follower's motion and the common normal at the contact exceeds limits.pressure_angle.",
+    "The angle between the follower's motion and the common normal at the contact exceeds limits.pressure_angle, or no "
+    "cam can make the motion at all (no value is given then).",
     "The cam pushes aside instead of along: high side forces, wear, and in the end jamming.",
     "Enlarge the base circle, give the motion more cam angle, or move the cam centre; for a translating follower "
     "30 deg is usual, for a rocking one 45 deg.",
