@@ -212,6 +212,7 @@ class WideSwingDesign(Design):
         return max(
             maximum_over(lambda k, cam=cam: self.unloading.contact_force(cam, k), *part, samples=128).value  # type: ignore[misc]
             for cam in self.cams.values()
+            if cam is self.cam or self.has_zone(cam)
             for part in self.contact_of(cam)
         )
 

@@ -135,14 +135,14 @@ def _pressure_holds(trial: WideSwingDesign) -> bool:
 
 
 def _pressure_somewhere(cam: AnyCam) -> float:
-    """Largest pressure angle at a few places of the stroke [rad], infinite where the pitch curve has a loop."""
+    """Largest pressure angle at a few places well before mid-swing [rad], infinite where the pitch curve has a loop."""
     import numpy as np
 
     try:
-        start, end = cam.contact[0]
+        end = 0.5 - 4.0 * cam.transition_zone_estimate
     except NoSolution:
         return math.inf
-    return float(np.abs(cam.pressure_angle(np.linspace(start, end, 17))).max())
+    return float(np.abs(cam.pressure_angle(np.linspace(0.0, end, 17))).max()) if end > 0.0 else 0.0
 
 
 # Combined mechanisms

@@ -186,3 +186,20 @@ def test_without_a_cam_no_roller_is_judged() -> None:
     assert "force-reserve" not in made.outline("swing").checks
     with pytest.raises(NoSolution):
         made.table("contact")
+
+
+def test_return_cam_without_contact_is_a_finding_and_no_refusal() -> None:
+    """The roller covers the external profile of this twin-rocker alone: GL402 and GL507 fail, the rest is shown."""
+    rocker = {"layout": "twin-rocker", "swing": 150.0, "cycle_angle": 60.0}
+    made = next(
+        made
+        for radius in range(10, 200, 5)
+        if not (made := design(reserve=0.3, cam=CAM | {"roller_radius": float(radius)}, **rocker)).has_zone(
+            made.return_cam  # type: ignore[arg-type]
+        )
+    )
+    assert made.has_zone(made.cam)
+    report = made.report("swing")
+    assert {"contact_force", "transition_zone"} <= {each.name for each in report.quantities}
+    failed = {check.code for check in report.checks if check.status == "fail" and "external" in check.message}
+    assert {"GL402", "GL507"} <= failed
