@@ -13,16 +13,18 @@ from gearlink.cli.commands.explain import names
 from gearlink.cli.texts.codes import explanations
 from gearlink.cli.texts.files import FILES
 from gearlink.cli.texts.formulas import FORMULAS
+from gearlink.core.codes import rules
 from gearlink.core.kinds import KINDS
 from gearlink.core.nomenclature import TERMS
 
 ROOT = Path(__file__).parents[3]
-SOURCES = [
-    path.read_text()
+PATHS = [
+    path
     for top in ("core", "cli")
     for path in sorted((ROOT / top).rglob("*.py"))
     if path.name not in ("codes.py", "files.py")
 ]
+SOURCES = [path.read_text() for path in PATHS]
 
 
 def emitted() -> set[str]:
@@ -34,11 +36,18 @@ def test_every_code_is_explained_and_every_explanation_has_a_code() -> None:
     assert {rule.code for rule in FILES} == emitted()
 
 
-def test_every_check_is_explained_under_its_code() -> None:
-    """Code and name stand side by side where a check is made; two meanings of one code would show here."""
-    texts = explanations()
-    pairs = {pair for text in SOURCES for pair in re.findall(r'\(\s*"(GL\d{3})",\s*"([a-z-]+)"', text)}
-    assert [(code, name) for code, name in sorted(pairs) if name not in texts[code].checks] == []
+def test_findings_are_made_from_rules_alone() -> None:
+    """No code is written where a check is made, and every rule judges somewhere."""
+    checks = [text for path, text in zip(PATHS, SOURCES, strict=True) if "core" in path.parts]
+    assert [text for text in checks if re.search(r'\bCheck\(\s*"GL', text)] == []
+    used = {name for text in checks for name in re.findall(r"\b[A-Z][A-Z_]+\b", text)}
+    named = [
+        name
+        for path in (ROOT / "core").rglob("codes.py")
+        for name in re.findall(r"(?m)^([A-Z_]+) = Rule", path.read_text())
+    ]
+    assert len(named) == len(rules())
+    assert set(named) <= used
 
 
 def test_every_check_of_a_design_is_explained() -> None:
