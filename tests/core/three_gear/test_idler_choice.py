@@ -2,6 +2,7 @@
 
 import math
 
+import factory
 import pytest
 
 from gearlink.core.errors import NoSolution
@@ -103,3 +104,33 @@ def test_a_task_that_no_idler_can_do_keeps_its_own_refusal():
     with pytest.raises(NoSolution, match="step back") as caught:
         smallest_idler(lambda z: momentary_linkage(25.0, 1.25 * z, 75.0, 26.0), 20, 60, 2.5, **LIMITS)
     assert caught.value.key == ""
+
+
+@pytest.mark.parametrize("radius", [10.0, 37.0])
+def test_the_idler_clears_the_shafts_of_the_file(radius):
+    """Brute force over the idlers: limits and shafts; 37 mm is more than the idler beside the output shaft leaves."""
+    data = {"kind": "three-gear-four-bar", "gears": {"module": 2, "crank": 40, "output": 40}, "dwell": {"angle": 90.0}}
+
+    def statuses(**keys):
+        made = factory.design(data, command="synth dwell", **keys)
+        names = ("gear-collision", "transmission-angle", "shaft-clearance")
+        return made.idler_teeth, {name: {check.status for check in made.check(name)} for name in names}
+
+    bare, _ = statuses()
+    shafts = {"input_radius": 0.5, "output_radius": radius}
+    chosen, found = statuses(shafts=shafts)
+    kept = {idler: statuses(gears__idler=idler, shafts=shafts)[1] for idler in range(17, 160)}
+    good = [idler for idler, each in kept.items() if not any("fail" in status for status in each.values())]
+    assert chosen == (good[0] if good else bare)
+    assert bool(good) == ("fail" not in found["shaft-clearance"])
+
+
+def test_more_teeth_on_crank_and_output_make_room_for_the_input_shaft():
+    """The idler keeps r1 - m from the crank's axis where it folds: only larger gears 1 and 5 help."""
+    data = {"kind": "three-gear-four-bar", "gears": {"module": 2, "crank": 40, "output": 40}, "dwell": {"angle": 90.0}}
+    report = factory.design(data, command="synth dwell", shafts={"input_radius": 12.0}).report("synth dwell")
+    (failed,) = [check for check in report.checks if check.status == "fail"]
+    assert failed.name == "shaft-clearance"
+    assert [key for key, _ in failed.remedy] == ["gears.crank", "gears.output"]
+    assert {value for _, value in failed.remedy} == {failed.remedy[0][1]}
+    assert failed.remedy[0][1] > 40
