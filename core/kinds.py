@@ -99,7 +99,13 @@ KINDS: dict[str, Kind] = {
         Kind(
             "two-gear-four-bar",
             "planet_linkages.two_gear_spec:TwoGearFourBarSpec",
-            {"analyze": _TWO_GEAR, "gear": _TWO_GEAR},
+            {
+                "synth dwell": "planet_linkages.two_gear_synthesis:DwellSynthesis",
+                "synth back-step": "planet_linkages.two_gear_synthesis:BackStepSynthesis",
+                "synth momentary-dwell": "planet_linkages.two_gear_synthesis:MomentaryDwellSynthesis",
+                "analyze": _TWO_GEAR,
+                "gear": _TWO_GEAR,
+            },
         ),
         Kind(
             "geared-rocker",

@@ -5,11 +5,14 @@ from __future__ import annotations
 import math
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.codes import TARGET, TRANSMISSION_ANGLE
+from gearlink.core.linkages.codes import DWELL_EDGE, DWELL_WINDOW, TARGET, TRANSMISSION_ANGLE
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.report import Check, safely_above, without_noise
 
 _POOR = math.radians(3.0)
+_EDGE = 0.992  # back-step over band from which on a frame a little off may lose a quarter of the window
+_NARROW = 0.05  # mm, an interval of the frame that a workshop holds with care
+_FIT = 1e-9
 
 
 def transmission_check(
@@ -35,6 +38,36 @@ def target_check(what: str, residual: float, tolerance: float, unit: str) -> Che
     if not met:
         text += f", more than {tolerance:.3g} {unit}: ask for less, or free more of the links"
     return TARGET.check("pass" if met else "fail", text, residual, tolerance, unit)
+
+
+def dwell_window_check(window: float, asked: float, tolerance: float) -> Check:
+    """GL313: the crank angle over which the output stays within +- a tolerance, against the one asked for [all rad]."""
+    got, wish, band = math.degrees(window), math.degrees(asked), math.degrees(tolerance)
+    text = f"the output stays within +-{band:g} deg over {got:.6g} deg of the crank"
+    good = got >= wish * (1.0 - _FIT)
+    if not good:
+        text += f", {wish:g} deg were asked for: ask for less, or allow a greater tolerance"
+    return DWELL_WINDOW.check("pass" if good else "fail", text, got, wish, "deg")
+
+
+def dwell_edge_check(share: float, interval: list[float] | None) -> Check:
+    """GL314: how near a window is to its jump, by the share of its band that the back-step takes.
+
+    Parameters
+        share : float - back-step over band
+        interval : list of 2 float [mm] - frames between which the wish is met, where there is one
+    """
+    text = f"the back-step takes {share:.5g} of the band"
+    width = None if interval is None else interval[1] - interval[0]
+    if width is not None:
+        text += f"; the frame may lie within {width:.4g} mm"
+    near = _EDGE < share <= 1.0 + _FIT
+    narrow = width is not None and width < _NARROW
+    if near:
+        text += ": a frame a little off makes it exceed the band, and a quarter of the window is lost; keep a margin"
+    elif narrow:
+        text += f", less than {_NARROW} mm: ask for a shorter window or a greater tolerance"
+    return DWELL_EDGE.check("warn" if near or narrow else "pass", text, share, _EDGE)
 
 
 def check_linkage(linkage: FourBar) -> str:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from gearlink.core.clearance.bodies import Layout
 from gearlink.core.clearance.checks import SHAFT_WAYS, shaft_checks
 from gearlink.core.design import Outline, placed
-from gearlink.core.errors import NoSolution, at_key
+from gearlink.core.errors import MissingSection, NoSolution, at_key
 from gearlink.core.gears.checks import gear_ways
 from gearlink.core.gears.internal_mesh import InternalMesh
 from gearlink.core.gears.pair import GearPair
@@ -32,6 +32,34 @@ if TYPE_CHECKING:
 _STANDSTILL_TOLERANCE = 1e-9
 _LINK_TOLERANCE = 1e-9
 
+QUANTITIES = (
+    "planet_teeth",
+    "output_teeth",
+    "gear_ratio",
+    "linkage_kind",
+    "crank_length",
+    "coupler_length",
+    "rocker_length",
+    "frame_length",
+    "mean_ratio",
+    "speed_ratio_max",
+    "speed_ratio_min",
+    "speed_ratio_max_at",
+    "speed_ratio_min_at",
+    "nonuniformity",
+    "coupler_ratio_max",
+    "coupler_ratio_min",
+    "standstill_coupler_ratio",
+    "dwell_teeth_ratio",
+    "motion",
+    "dwell_crank_angles",
+    "back_step_angle",
+    "back_step_crank_angle",
+    "min_transmission_angle",
+    "contact_ratio",
+)
+CHECKS = ("dwell-condition", "shaft-clearance", "transmission-angle", *MESH_CHECKS)
+
 UNIDIRECTIONAL, MOMENTARY_DWELL, BACK_STEP = "unidirectional", "momentary-dwell", "back-step"
 
 
@@ -46,36 +74,7 @@ class TwoGearFourBar(SingleMesh):
     kind = "two-gear-four-bar"
     spec: TwoGearFourBarSpec
     outlines = {
-        "analyze": Outline(
-            (
-                "planet_teeth",
-                "output_teeth",
-                "gear_ratio",
-                "linkage_kind",
-                "crank_length",
-                "coupler_length",
-                "rocker_length",
-                "frame_length",
-                "mean_ratio",
-                "speed_ratio_max",
-                "speed_ratio_min",
-                "speed_ratio_max_at",
-                "speed_ratio_min_at",
-                "nonuniformity",
-                "coupler_ratio_max",
-                "coupler_ratio_min",
-                "standstill_coupler_ratio",
-                "dwell_teeth_ratio",
-                "motion",
-                "dwell_crank_angles",
-                "back_step_angle",
-                "back_step_crank_angle",
-                "min_transmission_angle",
-                "contact_ratio",
-            ),
-            ("dwell-condition", "shaft-clearance", "transmission-angle", *MESH_CHECKS),
-            ("motion",),
-        ),
+        "analyze": Outline(QUANTITIES, CHECKS, ("motion",)),
         "gear": Outline(MESH_QUANTITIES, MESH_CHECKS),
     }
 
@@ -125,17 +124,29 @@ class TwoGearFourBar(SingleMesh):
     @cached_property
     def linkage(self) -> FourBar:
         """The four-bar."""
-        links, crank = self.spec.links, self.crank_length
-        if links.crank is not None and abs(links.crank - crank) > _LINK_TOLERANCE * crank:
+        frame = self.spec.links.frame
+        if frame is None:
+            raise MissingSection("this command needs links.frame; a synth command seeks it", key="links.frame")
+        return self.linkage_of(frame)
+
+    def linkage_of(self, frame: float) -> FourBar:
+        """The four-bar of a frame [mm]."""
+        links = self.spec.links
+        with at_key("links"):
+            linkage = FourBar(self.checked_crank(), links.coupler, links.rocker, frame, self.spec.assembly)
+            check_linkage(linkage)
+        return linkage
+
+    def checked_crank(self) -> float:
+        """Centre distance of the gears [mm], which a crank in the file must agree with."""
+        given, crank = self.spec.links.crank, self.crank_length
+        if given is not None and abs(given - crank) > _LINK_TOLERANCE * crank:
             raise NoSolution(
-                f"crank {links.crank:.9g} mm is not the centre distance of the gears, {crank:.9g} mm: leave it out, or "
+                f"crank {given:.9g} mm is not the centre distance of the gears, {crank:.9g} mm: leave it out, or "
                 "change module or teeth",
                 key="links.crank",
             )
-        with at_key("links"):
-            linkage = FourBar(crank, links.coupler, links.rocker, links.frame, self.spec.assembly)
-            check_linkage(linkage)
-        return linkage
+        return crank
 
     @property
     def linkage_kind(self) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
@@ -45,7 +45,37 @@ class TwoGearLinks(Spec):
     crank: Length | None = Field(None, description="crank AB; left out: the centre distance of the gears")
     coupler: Length = Field(description="coupler BC")
     rocker: Length = Field(description="rocker CD")
-    frame: Length = Field(description="frame AD")
+    frame: Length | None = Field(None, description="frame AD; left out where a synthesis seeks it")
+
+
+class StandingDwell(Spec):
+    """Asked of `synth dwell`: a crank angle over which the output stays within a tolerance; the frame is sought."""
+
+    window: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
+        None, description="crank angle over which the output stays within +-tolerance"
+    )
+    tolerance: Annotated[float, Field(gt=0, lt=180, json_schema_extra={"unit": "deg"})] | None = Field(
+        None, description="output tolerance +- of the window; alone: the longest window is sought"
+    )
+    margin: Annotated[float, Field(ge=0, lt=1, json_schema_extra={"unit": "1"})] | None = Field(
+        None, description="share of the tolerance that the design keeps in hand, with tolerance alone; default 0.01"
+    )
+
+    @model_validator(mode="after")
+    def _one_wish(self) -> StandingDwell:
+        if self.window is None and self.tolerance is None:
+            raise PydanticCustomError("GL106", "give window, tolerance or both", {"key": "tolerance"})
+        if self.margin is not None and self.window is not None:
+            raise PydanticCustomError("GL111", "margin goes with tolerance alone: leave it out", {"key": "margin"})
+        return self
+
+
+class BackStepAngle(Spec):
+    """Asked of `synth back-step`; the frame is sought."""
+
+    angle: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] = Field(
+        description="back-step of the output"
+    )
 
 
 class MotionTarget(Spec):
@@ -62,9 +92,33 @@ class TwoGearFourBarSpec(DesignSpec):
     links: TwoGearLinks
     assembly: Assembly = Field(1, description="+1: C left of the vector from B to D; -1: its mirror image")
     target: MotionTarget | None = None
+    dwell: StandingDwell | None = None
+    back_step: BackStepAngle | None = None
     limits: LinkageLimits = LinkageLimits()
     shafts: PivotShafts | None = None
 
+    @model_validator(mode="after")
+    def _frame_given_or_sought(self) -> TwoGearFourBarSpec:
+        syntheses = self._syntheses()
+        if self.links.frame is None and not syntheses:
+            message = "give frame, or have it sought: give dwell, back_step, or target: {{motion: momentary-dwell}}"
+            raise PydanticCustomError("GL106", message, {"key": "links.frame"})
+        sections = [name for name in ("dwell", "back_step") if getattr(self, name) is not None]
+        if self.links.frame is not None and sections:
+            message = "links.frame is what {section} has sought: leave one of them out"
+            raise PydanticCustomError("GL111", message, {"key": "links.frame", "section": sections[0]})
+        return self
+
+    def _syntheses(self) -> tuple[str, ...]:
+        """The syntheses that the file asks for."""
+        momentary = self.target is not None and self.target.motion == "momentary-dwell" and self.links.frame is None
+        asked = {
+            "synth dwell": self.dwell is not None,
+            "synth back-step": self.back_step is not None,
+            "synth momentary-dwell": momentary,
+        }
+        return tuple(command for command, wanted in asked.items() if wanted)
+
     def commands(self) -> tuple[str, ...]:
         """What the file asks for."""
-        return ("analyze", "gear")
+        return (*(self._syntheses() or ("analyze",)), "gear")

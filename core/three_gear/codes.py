@@ -17,29 +17,6 @@ ACHIEVED = Rule(
     ("gears.i3", "back_step.angle", "back_step", "gears"),
 )
 
-DWELL_WINDOW = Rule(
-    "GL313",
-    "window of the dwell shorter than asked for",
-    "The output leaves the band of +-tolerance before the crank has turned through the window.",
-    "The machine works while the output is taken to stand: what it does there is off by more than the tolerance.",
-    "Ask for a shorter window, allow a greater tolerance, or take an idler of fewer teeth.",
-    "longest crank angle with |phi5 - middle| <= tolerance, against dwell.window",
-    "own derivation; thesis 4.2.1 speaks of a dwell within usual deviations",
-    ("dwell-window",),
-    ("dwell.window", "dwell"),
-)
-DWELL_EDGE = Rule(
-    "GL314",
-    "dwell close to its jump",
-    "The back-step nearly fills the band, or the frame lengths that meet the wish lie close together.",
-    "The window is longest where the back-step just fits the band. A frame a little off makes it exceed the band, and "
-    "the window falls at once to three quarters.",
-    "Leave margin at its default, ask for a shorter window, or hold the frame to the interval that is given.",
-    "0.992 < D/(2 tolerance) <= 1, or frame_length_interval below 0.05 mm",
-    "own derivation: the longest window has D = 2 tolerance",
-    ("dwell-edge",),
-    ("dwell.margin", "dwell.tolerance", "dwell"),
-)
 BACK_STEP = Rule(
     "GL315",
     "output moves during the dwell angle",

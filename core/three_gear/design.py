@@ -25,8 +25,8 @@ from gearlink.core.three_gear.momentary_dwell import crank_with_room
 from gearlink.core.three_gear.motion import Extremes, GearTrain
 
 if TYPE_CHECKING:
+    from gearlink.core.linkages.band_dwell import ToleranceDwell
     from gearlink.core.three_gear.spec import ThreeGearSpec
-    from gearlink.core.three_gear.tolerance_dwell import ToleranceDwell
 
 QUANTITIES = (
     "i3",

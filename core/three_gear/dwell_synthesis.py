@@ -8,12 +8,14 @@ from typing import Any
 
 from gearlink.core.design import Outline
 from gearlink.core.errors import NoSolution, at_key
+from gearlink.core.linkages.band_dwell import ToleranceDwell
+from gearlink.core.linkages.checks import dwell_edge_check, dwell_window_check
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.report import Check
 from gearlink.core.results import cached_property
 from gearlink.core.three_gear import symmetric_back_step, window_dwell
-from gearlink.core.three_gear.codes import BACK_STEP, DWELL_EDGE, DWELL_WINDOW
+from gearlink.core.three_gear.codes import BACK_STEP
 from gearlink.core.three_gear.design import CHECKS, QUANTITIES
 from gearlink.core.three_gear.families import (
     Family,
@@ -27,13 +29,10 @@ from gearlink.core.three_gear.families import (
 from gearlink.core.three_gear.idler_choice import LEAST_IDLER
 from gearlink.core.three_gear.motion import GearTrain
 from gearlink.core.three_gear.synthesis import BackStepFamily
-from gearlink.core.three_gear.tolerance_dwell import ToleranceDwell, tolerance_dwell
+from gearlink.core.three_gear.tolerance_dwell import tolerance_dwell
 
 _MARGIN = 0.01
 _PLAIN_TOLERANCE = math.radians(1.0)  # of a dwell that names none
-_EDGE = 0.992  # back-step over band from which on a frame a little off may lose a quarter of the window
-_NARROW = 0.05  # mm, an interval of the frame that a workshop holds with care
-_FIT = 1e-9
 
 _WORDS = "angle, or window and tolerance (deg)"
 _DWELL = (
@@ -222,32 +221,14 @@ class DwellSynthesis(BackStepFamily):
         dwell = self.tolerance_dwell
         if self.window is None or self._band is None or dwell is None:
             return
-        got, asked = math.degrees(dwell.crank_angle), self._wish.window
-        text = f"the output stays within +-{math.degrees(self._band):g} deg over {got:.6g} deg of the crank"
-        good = got >= asked * (1.0 - _FIT)
-        if not good:
-            text += f", {asked:g} deg were asked for: ask for less, or allow a greater tolerance"
-        yield DWELL_WINDOW.check("pass" if good else "fail", text, got, asked, "deg")
+        yield dwell_window_check(dwell.crank_angle, self.window, self._band)
 
     def check_dwell_edge(self) -> Iterator[Check]:
         """GL314 where the file asks for a tolerance: how near the window is to its jump."""
         step, band = self.back_step, self._band
         if step is None or band is None:
             return
-        share, interval = 0.5 * step.angle / band, self.frame_length_interval
-        text = f"the back-step takes {share:.5g} of the band"
-        width = None if interval is None else interval[1] - interval[0]
-        if width is not None:
-            text += f"; the frame may lie within {width:.4g} mm"
-        near = _EDGE < share <= 1.0 + _FIT
-        narrow = width is not None and width < _NARROW
-        if near:
-            text += (
-                ": a frame a little off makes it exceed the band, and a quarter of the window is lost; keep a margin"
-            )
-        elif narrow:
-            text += f", less than {_NARROW} mm: ask for a shorter window or a greater tolerance"
-        yield DWELL_EDGE.check("warn" if near or narrow else "pass", text, share, _EDGE)
+        yield dwell_edge_check(0.5 * step.angle / band, self.frame_length_interval)
 
     def check_back_step(self) -> Iterator[Check]:
         """GL315 where phi13 is asked for: what the output does meanwhile."""

@@ -1,0 +1,137 @@
+"""The longest dwell of any output within a band: it stays within +- tol of a place that is free to choose."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from gearlink.core.errors import NoSolution
+from gearlink.core.numerics.roots import bracketed_root
+
+_TURN = 2.0 * math.pi
+_FIT = 1e-13
+
+
+@dataclass(frozen=True, slots=True)
+class ToleranceDwell:
+    """A dwell within a tolerance.
+
+    start : float [rad] - crank angle of its start, in [0, 2 pi)
+    crank_angle : float [rad] - its length
+    output_angle : float [rad] - the middle of the output's range there, counted from the crank angle 0 with
+        the start as it stands
+    """
+
+    start: float
+    crank_angle: float
+    output_angle: float
+
+
+@dataclass(frozen=True, slots=True)
+class Valley:
+    """Part of the turn around the least speed: output angle, its rate, and the crank angles [rad] that bound the parts.
+
+    first, second : phi(1), phi(2), or the least speed's place twice; low, high : the greatest speed's before and after
+    mean : output turns per crank turn, positive
+    """
+
+    angle: Callable[[float], float]
+    speed: Callable[[float], float]
+    first: float
+    second: float
+    low: float
+    high: float
+    mean: float
+
+    def reach(self, level: float, left: float, right: float) -> float:
+        """Crank angle between two others where the output passes a level."""
+        f_left, f_right = self.angle(left) - level, self.angle(right) - level
+        if f_left * f_right >= 0.0:
+            return left if abs(f_left) < abs(f_right) else right
+        return bracketed_root(lambda phi: self.angle(phi) - level, left, right)
+
+
+def longest_in_band(valley: Valley, tolerance: float) -> ToleranceDwell:
+    """Longest crank interval over which the output stays within +- tol of a place that is free to choose.
+
+    phi5(R) - phi5(L) = 2 tol  and  W(L) = W(R) >= 0,   both standstills between L and R;
+    with a back-step D > 2 tol instead  phi5(L) = phi5(R) = phi5(1) - 2 tol  or  phi5(2) + 2 tol, the longer
+
+    Parameters
+        valley : Valley - of an output with at most one back-step a turn
+        tolerance : float [rad] - 0 < tol < pi times the mean ratio
+    Returns
+        dwell : ToleranceDwell [rad]
+    Raises
+        NoSolution - for a tolerance that is not positive, or so wide that the whole turn lies within it
+    Notes
+        Bracketed roots inside a bracketed root, all monotone between the greatest speeds before and after the
+        least one. Where W(L) = W(R) cannot hold with both standstills inside, the end that binds is taken. At
+        tol = D/2 and small back-steps the dwell is one third longer than phi13, which uses one side of the band.
+    Example
+        >>> eased = Valley(lambda x: x - math.sin(x), lambda x: 1.0 - math.cos(x), 0.0, 0.0, -math.pi, math.pi, 1.0)
+        >>> round(longest_in_band(eased, math.pi / 2.0 - 1.0).crank_angle, 12)
+        3.14159265359
+
+    Source
+        own derivation; thesis 4.2.1 speaks of a dwell "within usual deviations"
+    """
+    limit = math.pi * valley.mean
+    if not 0.0 < tolerance < limit:
+        raise NoSolution(
+            f"the tolerance of the dwell is {math.degrees(tolerance):.9g} deg; it must be positive and below "
+            f"{math.degrees(limit):.9g} deg, half of what the output gains in a turn of the crank"
+        )
+    drop = max(0.0, valley.angle(valley.first) - valley.angle(valley.second))
+    # The longest interval jumps where the back-step just fits: a tolerance meant to fit it must not miss it by an ulp.
+    if drop > 2.0 * tolerance * (1.0 + _FIT) + _FIT * limit:
+        left, right, middle = _around_one_extreme(valley, tolerance)
+    else:
+        left, right, middle = _around_both(valley, tolerance, drop)
+    start = left % _TURN % _TURN  # twice: a tiny negative angle is rounded up to a whole turn by the first
+    return ToleranceDwell(start, right - left, middle - valley.mean * (left - start))
+
+
+def _around_both(valley: Valley, tolerance: float, drop: float) -> tuple[float, float, float]:
+    """Interval that holds both standstills; p is what the output rises from L to its place at phi(2)."""
+    bottom = valley.angle(valley.second)
+    spare = max(0.0, 2.0 * tolerance - drop)
+    top = bottom + drop
+    most_left = bottom - valley.angle(valley.low)
+    most_right = valley.angle(valley.high) - top
+
+    def ends(p: float) -> tuple[float, float]:
+        left = valley.reach(bottom - p, valley.low, valley.first)
+        return left, valley.reach(top + spare - p, valley.second, valley.high)
+
+    def gain(p: float) -> float:
+        left, right = ends(p)
+        return valley.speed(right) - valley.speed(left)
+
+    low, high = max(0.0, spare - most_right), min(spare, most_left)
+    if gain(low) <= 0.0:
+        p = low
+    elif gain(high) >= 0.0:
+        p = high
+    else:
+        p = bracketed_root(gain, low, high)
+    left, right = ends(p)
+    return left, right, bottom - p + tolerance
+
+
+def _around_one_extreme(valley: Valley, tolerance: float) -> tuple[float, float, float]:
+    """The longer of the intervals around the place of phi(1) and that of phi(2), for a back-step above 2 tol."""
+    top, bottom = valley.angle(valley.first), valley.angle(valley.second)
+    floor, ceiling = top - 2.0 * tolerance, bottom + 2.0 * tolerance
+    before = (
+        valley.reach(floor, valley.second - _TURN, valley.first),
+        valley.reach(floor, valley.first, valley.second),
+    )
+    after = (
+        valley.reach(ceiling, valley.first, valley.second),
+        valley.reach(ceiling, valley.second, valley.first + _TURN),
+    )
+    if before[1] - before[0] >= after[1] - after[0]:
+        return *before, floor + tolerance
+    return *after, ceiling - tolerance

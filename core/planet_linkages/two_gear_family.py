@@ -1,0 +1,311 @@
+"""Two-gear four-bars of given gears, coupler and rocker in one unknown, the frame: momentary dwell, back-step, window.
+
+The output stands still where the line CD passes through the pitch point P of the gears on AB. With u = PC along that
+line, positive towards D, the triangle BCP and the triangle of A, P and D give
+
+    d^2 = r5^2 + (u - c)^2 + q (u - c) (r2^2 + u^2 - b^2)/u,   q = r5/r2, negative for a ring gear
+
+so that standstills come in pairs, and a pair is one momentary dwell where d^2 is stationary in u:
+
+    2 (1 + q) u^3 - c (2 + q) u^2 - c q (b^2 - r2^2) = 0
+
+With a sun the output stands still in drag links alone, with frames from that of the momentary dwell up to the change
+point; with a ring gear in crank-rockers alone, with frames from the change point up to that of the momentary dwell.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from gearlink.core.errors import NoSolution
+from gearlink.core.linkages import standstills
+from gearlink.core.linkages.band_dwell import ToleranceDwell, Valley, longest_in_band
+from gearlink.core.linkages.fourbar import FourBar, solve
+from gearlink.core.linkages.standstills import BackStep, Turning
+from gearlink.core.numerics.gauss import integral
+from gearlink.core.numerics.roots import bracketed_root, roots_on
+from gearlink.core.planet_linkages.planet import PlanetLinkage
+from gearlink.core.report import safely_above, safely_below
+
+_BEFORE_CHANGE_POINT = 1e-6  # share of a range of frames left out at the end where the linkage flattens
+_AT_CHANGE_POINT = 1e-10  # for limits of the teeth, which approach theirs with the root of this share
+_TURN = 2.0 * math.pi
+
+
+@dataclass(frozen=True, slots=True)
+class Family:
+    """Gears and links without the frame.
+
+    crank, coupler, rocker : float [mm] - the crank is the centre distance of the gears
+    ratio : float - i = -z2/z5 for a sun, +z2/z5 for a ring gear
+    assembly : +1 or -1
+    """
+
+    crank: float
+    coupler: float
+    rocker: float
+    ratio: float
+    assembly: int = 1
+
+    @property
+    def ring(self) -> bool:
+        """Whether the output is a ring gear."""
+        return self.ratio > 0.0
+
+    def drive(self, frame: float) -> PlanetLinkage:
+        """The drive of a frame [mm]."""
+        linkage = FourBar(self.crank, self.coupler, self.rocker, frame, self.assembly)
+        return PlanetLinkage(linkage, self.ratio, "crank")
+
+
+@dataclass(frozen=True, slots=True)
+class Ripple:
+    """A dwell whose band the back-step fills: crank angle of its window and half the band [rad]."""
+
+    crank_angle: float
+    tolerance: float
+
+
+def frame_range(family: Family) -> tuple[float, float]:
+    """Frames between which the output may stand still at all, by the class of the linkage.
+
+    sun, drag link:       0 < d < a + b + c - 2 max(a, b, c)
+    ring, crank-rocker:   a + |b - c| < d < b + c - a
+
+    Returns
+        low, high : float [mm] - the linkage flattens at the high end (sun), at both (ring)
+    Raises
+        NoSolution - where no frame makes such a linkage of the links
+    Example
+        >>> frame_range(Family(54.0, 48.0, 50.0, -2.0)), frame_range(Family(50.0, 80.0, 90.0, 0.375))
+        ((0.0, 44.0), (60.0, 120.0))
+
+    Source
+        Grashof's rule; that each gear stands in one class alone: own derivation for the sun
+    """
+    a, b, c = family.crank, family.coupler, family.rocker
+    if family.ring:
+        if not a < min(b, c):
+            raise NoSolution(
+                f"with a ring gear the output stands still in a crank-rocker alone: the crank, {a:.9g} mm by the "
+                f"gears, must be shorter than coupler and rocker; make both longer than that, or the module smaller",
+                key="links.coupler" if b <= c else "links.rocker",
+            )
+        return math.fsum((a, abs(b - c))), math.fsum((b, c, -a))
+    longest = max(a, b, c)
+    high = math.fsum((a, b, c, -2.0 * longest))
+    if high <= 0.0:
+        raise NoSolution(
+            f"with a sun the output stands still in a drag link alone, the frame its shortest link; with crank "
+            f"{a:.9g} (by the gears), coupler {b:.9g} and rocker {c:.9g} mm there is none: the longest must be "
+            f"shorter than the other two together, {a + b + c - longest:.9g} mm",
+            key="links.rocker" if c == longest else "links.coupler",
+        )
+    return 0.0, high
+
+
+def stationary_frames(family: Family) -> list[float]:
+    """Frames [mm] of the range at which the number of standstills changes, from the cubic in u; one or none.
+
+    Example
+        >>> [round(d, 9) for d in stationary_frames(Family(54.0, 48.0, 50.0, -2.0))]
+        [17.077972858]
+
+    Source
+        own derivation, see the module
+    """
+    q, c = -1.0 / family.ratio, family.rocker
+    r2 = family.crank / abs(1.0 + q)
+    k = (family.coupler - r2) * (family.coupler + r2)
+    terms = (2.0 * (1.0 + q), -c * (2.0 + q), -c * q * k)
+    low, high = frame_range(family)
+    found = []
+    for u in _places(*terms):
+        cosine = (u - k / u) / (2.0 * r2)
+        square = q * q * r2 * r2 + (u - c) ** 2 + 2.0 * q * r2 * (u - c) * cosine
+        if abs(cosine) <= 1.0 and low * low < square < high * high:
+            found.append(math.sqrt(square))
+    return sorted(found)
+
+
+def _places(cubic: float, square: float, constant: float) -> list[float]:
+    """Real roots u, none of them 0, of cubic u^3 + square u^2 + constant; it turns at 0 and at -2 square/(3 cubic)."""
+    if constant == 0.0:
+        return [-square / cubic] if square else []
+    far = 1.0 + (abs(square) + math.sqrt(abs(constant * cubic)) + abs(constant)) / abs(cubic)
+    turning = -2.0 * square / (3.0 * cubic)
+    return roots_on(lambda u: (cubic * u + square) * u * u + constant, sorted({-far, 0.0, turning, far}))
+
+
+def momentary_frame(family: Family) -> float:
+    """Frame with which the output stops once a turn without stepping back.
+
+    Returns
+        frame : float [mm] - d*
+    Raises
+        NoSolution - where the links and gears have none, naming the teeth that have
+    Example
+        >>> round(momentary_frame(Family(50.0, 80.0, 90.0, 0.375)), 9)
+        82.462174487
+
+    Source
+        own derivation, see the module
+    """
+    found = stationary_frames(family)
+    if not found:
+        raise NoSolution(_never(family), key="gears.ring" if family.ring else "gears.sun")
+    return found[0]
+
+
+def stepping(family: Family) -> tuple[float, float]:
+    """Frames between which the output steps back, from the momentary dwell to just before the change point.
+
+    Returns
+        quiet, steep : float [mm] - for a ring gear the quiet one is the longer
+    Raises
+        NoSolution - see `momentary_frame`
+    """
+    low, high = frame_range(family)
+    margin = _BEFORE_CHANGE_POINT * (high - low)
+    return momentary_frame(family), low + margin if family.ring else high - margin
+
+
+def quiet_end(family: Family) -> float:
+    """The frame [mm] at the other end of the range, where no drive of the family steps back."""
+    low, high = frame_range(family)
+    margin = _BEFORE_CHANGE_POINT * (high - low)
+    return high - margin if family.ring else low + margin
+
+
+def turnings(drive: PlanetLinkage) -> list[Turning]:
+    """Extremes of the speed ratio over the turn."""
+    return standstills.turnings(drive.speed, drive.acceleration)
+
+
+def back_step(drive: PlanetLinkage) -> BackStep | None:
+    """The back-step of an output that makes one, else None.
+
+    Notes
+        The angle of a short back-step is the integral of the speed, as it would cancel in the difference of angles.
+    """
+    places = standstills.standstills(drive.speed, turnings(drive), 0.0)
+    steps = standstills.back_steps(drive.speed, drive.angle, places)
+    if not steps:
+        return None
+    step = max(steps, key=lambda one: one.angle)
+    links = drive.linkage
+    # The speed is analytic as far from the real crank angles as the linkage is from a dead point, and B from D.
+    strip = min(links.min_transmission_angle(), abs(math.log(links.frame / links.crank)))
+    if step.crank_angle >= 0.5 * strip:
+        return step
+    return BackStep(step.start, step.end, step.crank_angle, -integral(drive.speed, step.start, step.end))
+
+
+def ripple(drive: PlanetLinkage) -> Ripple | None:
+    """The window over which the output stays within the band that its back-step fills; None without a back-step.
+
+    phi5(L) = phi5(phi(2)),   phi5(R) = phi5(phi(1)),   window = R - L,   band = D = 2 tau
+    """
+    step = back_step(drive)
+    if step is None:
+        return None
+    top = drive.angle(step.start)
+    bottom = top - step.angle
+    left = bracketed_root(lambda phi: drive.angle(phi) - bottom, step.end - _TURN, step.start)
+    right = bracketed_root(lambda phi: drive.angle(phi) - top, step.end, step.start + _TURN)
+    return Ripple(right - left, 0.5 * step.angle)
+
+
+def tolerance_dwell(drive: PlanetLinkage, tolerance: float) -> ToleranceDwell:
+    """Longest crank interval over which the output stays within +- a tolerance [rad] of a place that is free.
+
+    Raises
+        NoSolution - for a tolerance that is not positive, or so wide that the whole turn lies within it
+    Notes
+        See `gearlink.core.linkages.band_dwell`; the speed runs one way between the extremes beside the least one.
+    """
+    extremes, step = turnings(drive), back_step(drive)
+    at = min(range(len(extremes)), key=lambda i: extremes[i].speed)
+    least = extremes[at].place
+    before, after = extremes[at - 1].place, extremes[(at + 1) % len(extremes)].place
+    first = second = least
+    if step is not None:
+        first = least - (least - step.start) % _TURN
+        second = first + step.crank_angle
+    low, high = least - (least - before) % _TURN, least + (after - least) % _TURN
+    return longest_in_band(Valley(drive.angle, drive.speed, first, second, low, high, drive.mean_ratio()), tolerance)
+
+
+def back_step_of(drive: PlanetLinkage) -> float:
+    """Measure: the back-step D [rad]."""
+    step = back_step(drive)
+    return 0.0 if step is None else step.angle
+
+
+def window_of(drive: PlanetLinkage) -> float:
+    """Measure: the window of equal ripple [rad]."""
+    found = ripple(drive)
+    return 0.0 if found is None else found.crank_angle
+
+
+def solved(family: Family, measure: Callable[[PlanetLinkage], float], target: float, what: str) -> float:
+    """Frame with which the output steps back and a measure that rises with the back-step meets a target.
+
+    Parameters
+        measure : `back_step_of` or `window_of`
+        target : float [rad] - positive
+        what : str - the wish in words, for a refusal
+    Returns
+        frame : float [mm]
+    Raises
+        NoSolution - for a target beyond what the frames reach, naming the limit
+    Example
+        >>> family = Family(50.0, 80.0, 90.0, 0.375)
+        >>> round(solved(family, back_step_of, math.radians(3.3965353000171943), "this back-step"), 9)
+        74.216
+
+    Source
+        own derivation: back-step and window rise from the momentary dwell to the change point (scans in the tests)
+    """
+    quiet, steep = stepping(family)
+    most = measure(family.drive(steep))
+    if not target <= most:
+        limit = safely_below(math.degrees(most))
+        raise NoSolution(f"{what} is more than these gears and links reach, {limit} deg; ask for less")
+    return bracketed_root(lambda frame: measure(family.drive(frame)) - target, quiet, steep)
+
+
+def _never(family: Family) -> str:
+    """Why gears and links have no momentary dwell, and the teeth that have."""
+    low, high = frame_range(family)
+    margin = _AT_CHANGE_POINT * (high - low)
+    limits = f"frames between {low:.9g} and {high:.9g} mm"
+    teeth = abs(1.0 / family.ratio)
+    if not family.ring:
+        reach = max(t.speed for t in coupler_turnings(family.drive(high - margin))) - 1.0
+        return (
+            f"with {limits} the output never stands still: z5/z2 = {teeth:.6g} must be below {safely_below(reach)} "
+            "with links of these lengths; take fewer teeth on the sun or more on the planet"
+        )
+    reach, least = (
+        1.0 - min(t.speed for t in coupler_turnings(family.drive(d))) for d in (low + margin, high - margin)
+    )
+    if teeth < least:
+        return (
+            f"with {limits} the output steps back always, with no momentary dwell to start from: z5/z2 = {teeth:.6g} "
+            f"must be above {safely_above(least)} with links of these lengths; take more teeth on the ring gear"
+        )
+    return (
+        f"with {limits} the output never stands still: z5/z2 = {teeth:.6g} must be below {safely_below(reach)} with "
+        "links of these lengths; take fewer teeth on the ring gear or more on the planet"
+    )
+
+
+def coupler_turnings(drive: PlanetLinkage) -> list[Turning]:
+    """Extremes of the coupler's speed per crank speed; those of the output lie at the same crank angles."""
+    links = drive.linkage
+    return standstills.turnings(
+        lambda phi: solve(links, phi, 1).coupler_velocity, lambda phi: solve(links, phi, 2).coupler_acceleration
+    )

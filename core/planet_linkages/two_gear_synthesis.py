@@ -1,0 +1,223 @@
+"""Syntheses of the two-gear four-bar: the frame for a momentary dwell, a back-step, or a dwell in a tolerance."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+from gearlink.core.design import Outline
+from gearlink.core.errors import MissingSection, NoSolution, at_key
+from gearlink.core.linkages.band_dwell import ToleranceDwell
+from gearlink.core.linkages.checks import dwell_edge_check, dwell_window_check, target_check
+from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.numerics.roots import bracketed_root
+from gearlink.core.planet_linkages import two_gear_family as kernel
+from gearlink.core.planet_linkages.two_gear_design import CHECKS, QUANTITIES, TwoGearFourBar
+from gearlink.core.report import Check, safely_above, safely_below
+from gearlink.core.results import cached_property
+
+_MARGIN = 0.01
+_FIT = 1e-6  # deg, what a back-step of the printed frame may miss
+_DWELL = ("tolerance_dwell_angle", "tolerance_dwell_start", "dwell_tolerance", "window_limit", "frame_length_interval")
+
+
+class Synthesis(TwoGearFourBar):
+    """What the syntheses share: gears, coupler and rocker are given, the frame is sought."""
+
+    def sought_frame(self) -> float:
+        """The frame [mm] that meets the task."""
+        raise NotImplementedError
+
+    def section(self, name: str, words: str) -> Any:
+        """A section of the file that this synthesis needs."""
+        value = getattr(self.spec, name)
+        if value is None:
+            raise MissingSection(f"this synthesis needs the section {name}: {words}", key=name)
+        return value
+
+    @cached_property
+    def family(self) -> kernel.Family:
+        """Gears and links without the frame."""
+        links = self.spec.links
+        return kernel.Family(self.checked_crank(), links.coupler, links.rocker, self.gear_ratio, self.spec.assembly)
+
+    @cached_property
+    def linkage(self) -> FourBar:
+        """The four-bar with the frame that meets the task."""
+        if self.spec.links.frame is not None:
+            raise NoSolution("links.frame is what this command seeks: leave it out", key="links.frame")
+        return self.linkage_of(self.sought_frame())
+
+
+class MomentaryDwellSynthesis(Synthesis):
+    """`synth momentary-dwell`: nothing else is given; the frame follows in closed form."""
+
+    outlines = {"synth momentary-dwell": Outline(QUANTITIES, CHECKS, ("motion",))}
+
+    def sought_frame(self) -> float:
+        """The double root of the standstills' equation."""
+        return kernel.momentary_frame(self.family)
+
+
+class BackStepSynthesis(Synthesis):
+    """`synth back-step`: the back-step of the output is given."""
+
+    outlines = {"synth back-step": Outline(QUANTITIES, ("target", *CHECKS), ("motion",))}
+
+    @property
+    def _wish(self) -> float:
+        return float(self.section("back_step", "angle (deg)").angle)
+
+    def sought_frame(self) -> float:
+        """The root of the back-step over the frame."""
+        with at_key("back_step.angle"):
+            words = f"a back-step of {self._wish:g} deg"
+            return kernel.solved(self.family, kernel.back_step_of, math.radians(self._wish), words)
+
+    def check_target(self) -> Check:
+        """GL307: the back-step of the finished design, measured on its motion."""
+        residual = math.degrees(self.back_step_angle or 0.0) - self._wish
+        return target_check("the back-step", residual, _FIT, "deg")
+
+
+class DwellSynthesis(Synthesis):
+    """`synth dwell`: a window, a tolerance, or both are given."""
+
+    outlines = {"synth dwell": Outline((*QUANTITIES, *_DWELL), ("dwell-window", "dwell-edge", *CHECKS), ("motion",))}
+
+    # The wish
+
+    @property
+    def _wish(self) -> Any:
+        return self.section("dwell", "window, tolerance or both (deg)")
+
+    @cached_property
+    def window(self) -> float | None:
+        """Crank angle [rad] over which the output is to stay within the tolerance."""
+        return None if self._wish.window is None else math.radians(self._wish.window)
+
+    @cached_property
+    def asked_tolerance(self) -> float | None:
+        """Tolerance of the output to either side [rad] that the file names."""
+        return None if self._wish.tolerance is None else math.radians(self._wish.tolerance)
+
+    # The frame
+
+    def sought_frame(self) -> float:
+        """The back-step that fills the band, or the window of equal ripple: the root over the frame."""
+        self._refuse_wide_band()
+        with at_key("dwell.tolerance" if self.window is None else "dwell.window"):
+            if self.window is None:
+                return self._frame_of_band(self._aimed_at)
+            self._refuse_even_motion(self.window)
+            words = f"a window of {self._wish.window:g} deg"
+            frame = kernel.solved(self.family, kernel.window_of, self.window, words)
+            self._refuse_narrow_band(0.5 * kernel.back_step_of(self.family.drive(frame)))
+            return frame
+
+    @property
+    def _aimed_at(self) -> float:
+        tolerance = self.asked_tolerance
+        assert tolerance is not None
+        return tolerance * (1.0 - (_MARGIN if self._wish.margin is None else self._wish.margin))
+
+    def _frame_of_band(self, tolerance: float) -> float:
+        words = f"a back-step of twice the tolerance, {math.degrees(2.0 * tolerance):.6g} deg,"
+        return kernel.solved(self.family, kernel.back_step_of, 2.0 * tolerance, words)
+
+    @property
+    def _mean(self) -> float:
+        """Output turns per crank turn, in the class of linkage in which the output stands still."""
+        return 1.0 - self.gear_ratio if self.internal else 1.0
+
+    def _refuse_wide_band(self) -> None:
+        band = self.asked_tolerance
+        if band is not None and band >= math.pi * self._mean:
+            raise NoSolution(
+                f"a band of +-{math.degrees(band):.9g} deg holds the output over the whole turn: the tolerance must be "
+                f"below {180.0 * self._mean:.9g} deg, half of what the output gains in a turn of the crank",
+                key="dwell.tolerance",
+            )
+
+    def _refuse_even_motion(self, window: float) -> None:
+        band = self.asked_tolerance
+        if band is not None and self._mean * window <= 2.0 * band:
+            raise NoSolution(
+                f"an even motion stays within +-{math.degrees(band):.9g} deg over that window: it needs no linkage; "
+                "ask for a longer window or a smaller tolerance"
+            )
+
+    def _refuse_narrow_band(self, least: float) -> None:
+        band = self.asked_tolerance
+        if band is None or least <= band:
+            return
+        longest = safely_below(math.degrees(self._longest(band)))
+        raise NoSolution(
+            f"the output cannot stay within +-{math.degrees(band):.9g} deg over {self._wish.window:g} deg with these "
+            f"gears and links: at most over {longest} deg, or within +-{safely_above(math.degrees(least))} deg; ask "
+            "for one of these"
+        )
+
+    def _longest(self, band: float) -> float:
+        return kernel.window_of(self.family.drive(self._frame_of_band(band)))
+
+    # What is reached
+
+    @property
+    def dwell_tolerance(self) -> float | None:
+        """Half of what the output covers in the window, which is half the back-step [rad]."""
+        return None if self.back_step is None else 0.5 * self.back_step.angle
+
+    @cached_property
+    def tolerance_dwell(self) -> ToleranceDwell | None:
+        """The longest dwell within the tolerance asked for; without one within the band which the back-step fills."""
+        tolerance = self.asked_tolerance or self.dwell_tolerance
+        return None if tolerance is None else kernel.tolerance_dwell(self.drive, tolerance)
+
+    @property
+    def tolerance_dwell_angle(self) -> float | None:
+        """Its length [rad]."""
+        return None if self.tolerance_dwell is None else self.tolerance_dwell.crank_angle
+
+    @property
+    def tolerance_dwell_start(self) -> float | None:
+        """Crank angle of its start [rad]."""
+        return None if self.tolerance_dwell is None else self.tolerance_dwell.start
+
+    @cached_property
+    def window_limit(self) -> float | None:
+        """Longest window that these gears and links reach at the asked tolerance [rad]."""
+        return None if self.asked_tolerance is None else self._longest(self.asked_tolerance)
+
+    @cached_property
+    def frame_length_interval(self) -> list[float] | None:
+        """Frames [mm] between which window and tolerance are met.
+
+        At one end the back-step fills the band, at the other the window is just as long as asked.
+        """
+        window, band = self.window, self.asked_tolerance
+        if window is None or band is None:
+            return None
+        family, frame = self.family, self.linkage.frame
+
+        def spare(other: float) -> float:
+            return kernel.tolerance_dwell(family.drive(other), band).crank_angle - window
+
+        filled, far = self._frame_of_band(band), kernel.quiet_end(family)
+        even = far if spare(far) >= 0.0 else bracketed_root(spare, frame, far)
+        return sorted((filled, even))
+
+    # Checks
+
+    def check_dwell_window(self) -> Iterator[Check]:
+        """GL313 where the file asks for both window and tolerance."""
+        dwell, window, band = self.tolerance_dwell, self.window, self.asked_tolerance
+        if dwell is not None and window is not None and band is not None:
+            yield dwell_window_check(dwell.crank_angle, window, band)
+
+    def check_dwell_edge(self) -> Iterator[Check]:
+        """GL314 where the file asks for a tolerance: how near the window is to its jump."""
+        reached, band = self.dwell_tolerance, self.asked_tolerance
+        if reached is not None and band is not None:
+            yield dwell_edge_check(reached / band, self.frame_length_interval)

@@ -1,0 +1,276 @@
+"""Two-gear four-bars with a sought frame, against 38-digit cases, the standstills' cubic, and scans of the output.
+
+Tolerances: the cases hold to 1e-12 relative, the condition number of the frame being near 1. A scan on a grid of
+0.1 deg finds a window up to two of its steps shorter than the exact one, and never a longer one than the optimum.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import random
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import factory
+import numpy as np
+import pytest
+
+from gearlink.core.errors import MissingSection, NoSolution
+from gearlink.core.linkages import fourbar_sweep
+from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.standstills import standstills
+from gearlink.core.planet_linkages import two_gear_family as kernel
+from gearlink.core.planet_linkages.planet import PlanetLinkage
+from gearlink.core.planet_linkages.two_gear_family import Family
+
+CASES = json.loads((Path(__file__).parents[2] / "reference" / "dwell.json").read_text())
+SUN, RING = Family(54.0, 48.0, 50.0, -2.0), Family(32.0, 64.0, 80.0, 0.6)
+GRID = 0.1  # deg
+EXACT = 1e-12
+
+
+def families(count: int, seed: int) -> Iterator[Family]:
+    """Gears and links whose output has a momentary dwell, suns and ring gears by turns."""
+    draw = random.Random(seed)
+    while count:
+        ratio = draw.uniform(0.2, 0.9) if count % 2 else -math.exp(draw.uniform(-1.0, 1.0))
+        lengths = [math.exp(draw.uniform(-1.0, 1.2)) for _ in range(2)]
+        family = Family(1.0, *lengths, ratio, draw.choice((1, -1)))
+        try:
+            low, high = kernel.frame_range(family)
+            frame = kernel.momentary_frame(family)
+        except NoSolution:
+            continue
+        if 0.02 < (frame - low) / (high - low) < 0.98:
+            count -= 1
+            yield family
+
+
+def standing(family: Family, frame: float) -> int:
+    """Number of standstills by the cubic in u for a given frame, (1 + q) u^3 - ..., solved by numpy."""
+    q, b, c = -1.0 / family.ratio, family.coupler, family.rocker
+    r2 = family.crank / abs(1.0 + q)
+    k = r2 * r2 - b * b
+    u = np.roots([1.0 + q, -c * (2.0 + q), (q * r2) ** 2 + c * c - frame * frame + q * k, -q * c * k])
+    u = u[np.abs(u.imag) < 1e-9 * np.abs(u)].real
+    return int(np.sum(np.abs((k + u * u) / (2.0 * r2 * u)) <= 1.0))
+
+
+def by_turnings(drive: PlanetLinkage) -> int:
+    return len(standstills(drive.speed, kernel.turnings(drive), 0.0))
+
+
+def outputs(drive: PlanetLinkage) -> np.ndarray[Any, Any]:
+    """Output angle [deg] over two turns on the grid."""
+    places = np.radians(np.arange(0.0, 720.0, GRID))
+    coupler = fourbar_sweep.solve(drive.linkage, places, 0).coupler_angle
+    return np.degrees((1.0 - drive.ratio) * places + drive.ratio * coupler)
+
+
+def scanned_window(drive: PlanetLinkage, tolerance: float) -> float:
+    """Longest window [deg] within +- a tolerance [deg], by sliding one over the samples of two turns."""
+    angles, best, left = outputs(drive), 0, 0
+    turn = len(angles) // 2
+    for right in range(len(angles)):
+        while angles[left : right + 1].max() - angles[left : right + 1].min() > 2.0 * tolerance:
+            left += 1
+        best = max(best, min(right - left, turn))
+    return best * GRID
+
+
+@pytest.mark.parametrize("case", [pytest.param(c, id=c["name"]) for c in CASES if c["name"].startswith("B6.")])
+def test_momentary_frame(case: Any) -> None:
+    given, wanted = case["input"], case["expected"]
+    family = Family(abs(given["r2"] + given["r5"]), given["coupler"], given["rocker"], -given["r2"] / given["r5"])
+    assert kernel.momentary_frame(family) == pytest.approx(wanted["frame"], rel=EXACT)
+    for name, value in wanted.items():
+        if name.startswith("back_step_at_frame_"):
+            frame = float(name.rpartition("_")[2])
+            step = kernel.back_step_of(family.drive(frame))
+            assert math.degrees(step) == pytest.approx(value, rel=1e-11)
+            assert kernel.solved(family, kernel.back_step_of, step, "this") == pytest.approx(frame, rel=1e-11)
+
+
+@pytest.mark.parametrize("family", list(families(24, 1)))
+def test_the_number_of_standstills_changes_at_the_momentary_dwell_alone(family: Family) -> None:
+    low, high = kernel.frame_range(family)
+    limit = kernel.momentary_frame(family)
+    below, above = (2, 0) if family.ring else (0, 2)
+    near = 1e-7 * limit
+    for count in (lambda d: by_turnings(family.drive(d)), lambda d: standing(family, d)):
+        assert (count(limit - near), count(limit + near)) == (below, above)
+    for part in np.linspace(0.01, 0.99, 25):
+        frame = low + part * (high - low)
+        assert standing(family, frame) == (below if frame < limit else above)
+
+
+def test_each_output_gear_stands_in_one_class_of_linkage_alone() -> None:
+    """A sun never in a crank-rocker, a ring gear never in a drag link: random links and gears."""
+    draw, seen = random.Random(2), {"crank-rocker": 0, "drag-link": 0}
+    while min(seen.values()) < 60:
+        linkage = FourBar(*(math.exp(draw.uniform(0.0, 2.0)) for _ in range(4)))
+        kind = linkage.kind()
+        if kind not in seen:
+            continue
+        seen[kind] += 1
+        ratio = -math.exp(draw.uniform(-2.0, 2.0)) if kind == "crank-rocker" else draw.uniform(0.05, 0.95)
+        assert by_turnings(PlanetLinkage(linkage, ratio, "crank")) == 0
+
+
+@pytest.mark.parametrize("family", list(families(12, 3)))
+def test_back_step_and_window_rise_towards_the_change_point(family: Family) -> None:
+    quiet, steep = kernel.stepping(family)
+    frames = [quiet + part * (steep - quiet) for part in (0.001, 0.05, 0.2, 0.4, 0.6, 0.8, 0.95, 1.0)]
+    steps = [kernel.back_step_of(family.drive(d)) for d in frames]
+    windows = [kernel.window_of(family.drive(d)) for d in frames]
+    assert steps == sorted(steps)
+    assert steps[0] > 0.0
+    assert windows == sorted(windows)
+    assert kernel.back_step(family.drive(quiet + 1e-6 * (quiet - steep))) is None
+
+
+@pytest.mark.parametrize("family", [SUN, RING])
+def test_a_short_back_step_keeps_its_digits(family: Family) -> None:
+    """D = c (d - d*)^(3/2) near the momentary dwell, where it is far below the rounding of the output angle."""
+    quiet, steep = kernel.stepping(family)
+    shares = [1e-7, 1e-8]
+    one, other = (kernel.back_step_of(family.drive(quiet + s * (steep - quiet))) for s in shares)
+    assert one / other == pytest.approx(10.0**1.5, rel=1e-5)
+
+
+@pytest.mark.parametrize(("family", "tolerance"), [(SUN, 0.5), (SUN, 2.0), (RING, 0.5), (RING, 0.1)])
+@pytest.mark.parametrize("share", [0.6, 1.5, 0.0])
+def test_tolerance_dwell_against_a_scan(family: Family, tolerance: float, share: float) -> None:
+    """With a back-step of a share of the band: within it, beyond it, none."""
+    if share:
+        frame = kernel.solved(family, kernel.back_step_of, math.radians(2.0 * share * tolerance), "this")
+    else:
+        frame = kernel.momentary_frame(family)
+    drive = family.drive(frame)
+    found = kernel.tolerance_dwell(drive, math.radians(tolerance))
+    scanned = scanned_window(drive, tolerance)
+    assert scanned <= math.degrees(found.crank_angle) <= scanned + 2.0 * GRID
+    inside = [drive.angle(found.start + part * found.crank_angle) for part in np.linspace(0.0, 1.0, 201)]
+    assert max(inside) - min(inside) <= math.radians(2.0 * tolerance) * (1.0 + 1e-9)
+
+
+@pytest.mark.parametrize("family", [SUN, RING])
+def test_no_frame_has_a_longer_window_than_the_one_whose_back_step_fills_the_band(family: Family) -> None:
+    tolerance = 0.5
+    best = kernel.solved(family, kernel.back_step_of, math.radians(2.0 * tolerance), "this")
+    window = math.degrees(kernel.window_of(family.drive(best)))
+    low, high = kernel.frame_range(family)
+    frames = [low + part * (high - low) for part in np.linspace(0.02, 0.98, 15)]
+    frames += [best + step * (high - low) for step in (-0.01, -0.001, 0.001, 0.01)]
+    assert max(scanned_window(family.drive(d), tolerance) for d in frames) < window
+
+
+@pytest.mark.parametrize(
+    ("family", "words", "nearer"),
+    [
+        (Family(100.0, 80.0, 60.0, -0.05), "must be below ", -2e-4),
+        (Family(20.0, 80.0, 90.0, 0.15), "must be below ", -2e-4),
+        (Family(20.0, 30.0, 35.0, 0.95), "must be above ", 2e-4),
+    ],
+)
+def test_teeth_that_a_refusal_names(family: Family, words: str, nearer: float) -> None:
+    """A little beyond the limit there is a momentary dwell, a little short of it there is none."""
+    with pytest.raises(NoSolution, match=words) as refusal:
+        kernel.momentary_frame(family)
+    limit = float(refusal.value.message.split(words)[1].split()[0])
+    sign = 1.0 if family.ring else -1.0
+    beyond, short = (replace(family, ratio=sign / (limit * (1.0 + step))) for step in (nearer, -nearer))
+    assert kernel.stationary_frames(beyond)
+    assert not kernel.stationary_frames(short)
+
+
+# The designs
+
+SUNS = {"gears": {"module": 2.0, "planet": 36, "sun": 18}, "links": {"coupler": 48.0, "rocker": 50.0}}
+RINGS = {"gears": {"module": 2.0, "planet": 48, "ring": 80}, "links": {"coupler": 64.0, "rocker": 80.0}}
+MOMENTARY = {"target": {"motion": "momentary-dwell"}}
+
+
+def made(command: str, data: dict[str, Any], **sections: Any) -> Any:
+    return factory.design({"kind": "two-gear-four-bar"} | data | sections, command=f"synth {command}")
+
+
+@pytest.mark.parametrize("data", [SUNS, RINGS])
+def test_momentary_design(data: dict[str, Any]) -> None:
+    design = made("momentary-dwell", data, **MOMENTARY)
+    assert design.motion == "momentary-dwell"
+    assert abs(design.speed_ratio_min) < 1e-12
+
+
+@pytest.mark.parametrize("data", [SUNS, RINGS])
+def test_back_step_design(data: dict[str, Any]) -> None:
+    design = made("back-step", data, back_step={"angle": 5.0})
+    assert math.degrees(design.back_step_angle) == pytest.approx(5.0, rel=1e-11)
+    assert design.check_target().status == "pass"
+
+
+@pytest.mark.parametrize("data", [SUNS, RINGS])
+def test_dwell_design(data: dict[str, Any]) -> None:
+    alone = made("dwell", data, dwell={"tolerance": 0.5})
+    assert math.degrees(alone.dwell_tolerance) == pytest.approx(0.495, rel=1e-9)
+    assert alone.window_limit > alone.tolerance_dwell_angle > 0.98 * alone.window_limit
+    wish = math.degrees(alone.window_limit) - 5.0
+    both = made("dwell", data, dwell={"window": wish, "tolerance": 0.5})
+    flattest = made("dwell", data, dwell={"window": wish})
+    assert both.linkage == flattest.linkage
+    assert math.degrees(flattest.tolerance_dwell_angle) == pytest.approx(wish, rel=1e-9)
+    assert math.degrees(flattest.dwell_tolerance) < 0.5
+    low, high = both.frame_length_interval
+    assert low < both.linkage.frame < high
+    # One end of the interval is the edge of the window, the other the back-step that fills the band.
+    for frame, inward in ((low, 1.0), (high, -1.0)):
+        inside, outside = (
+            kernel.tolerance_dwell(both.family.drive(frame + sign * inward * 1e-5), math.radians(0.5)).crank_angle
+            for sign in (1.0, -1.0)
+        )
+        assert math.degrees(outside) < wish < math.degrees(inside)
+    assert {check.status for check in (*both.check_dwell_window(), *both.check_dwell_edge())} == {"pass"}
+    bare = made("dwell", data, dwell={"tolerance": 0.5, "margin": 0.0})
+    assert [check.status for check in bare.check_dwell_edge()] == ["warn"]
+
+
+@pytest.mark.parametrize(
+    ("command", "data", "sections", "key", "words"),
+    [
+        ("dwell", RINGS, {"dwell": {"window": 100.0, "tolerance": 0.5}}, "dwell.window", "at most over 65.7"),
+        ("dwell", RINGS, {"dwell": {"window": 2.0, "tolerance": 0.5}}, "dwell.window", "needs no linkage"),
+        ("dwell", RINGS, {"dwell": {"tolerance": 72.0}}, "dwell.tolerance", "below 72 deg"),
+        ("back-step", SUNS, {"back_step": {"angle": 300.0}}, "back_step.angle", "173.9"),
+        (
+            "momentary-dwell",
+            SUNS | {"links": {"coupler": 20.0, "rocker": 80.0}},
+            MOMENTARY,
+            "links.rocker",
+            "shorter than the other two together, 74 mm",
+        ),
+        (
+            "momentary-dwell",
+            RINGS | {"links": {"coupler": 31.0, "rocker": 80.0}},
+            MOMENTARY,
+            "links.coupler",
+            "crank-rocker alone",
+        ),
+    ],
+)
+def test_refusals(command: str, data: dict[str, Any], sections: Any, key: str, words: str) -> None:
+    with pytest.raises(NoSolution) as refusal:
+        made(command, data, **sections).linkage  # noqa: B018
+    assert refusal.value.key == key
+    assert words in refusal.value.message
+
+
+def test_frame_and_sections() -> None:
+    with pytest.raises(NoSolution, match="leave it out"):
+        made("momentary-dwell", SUNS | {"links": {"coupler": 48.0, "rocker": 50.0, "frame": 20.0}}).linkage  # noqa: B018
+    with pytest.raises(MissingSection, match="section dwell"):
+        made("dwell", SUNS, **MOMENTARY).linkage  # noqa: B018
+    with pytest.raises(MissingSection, match="needs links"):
+        factory.design({"kind": "two-gear-four-bar"} | SUNS | MOMENTARY, command="analyze").linkage  # noqa: B018
