@@ -26,7 +26,7 @@ def test_results_are_steps_of_the_one_that_asked_for_them(capsys: pytest.Capture
     assert run(["press", "designs/ty460.yaml", "--profile", "-q"]) == 0
     lines = [line[22:] for line in capsys.readouterr().err.splitlines()]
     depth = {line.strip(): (len(line) - len(line.lstrip())) // 2 for line in lines}
-    assert depth["compute"] < depth["FlatbedPress.sync_start"] < depth["FlatbedPress.cylinder"]
+    assert depth["compute"] < depth["PressMotion.sync_start"] < depth["PressMotion.cylinder"]
     assert depth["FlatbedPress.table_positions"] == depth["FlatbedPress.check_sync_speed"] == depth["compute"] + 1
 
 
