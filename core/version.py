@@ -1,3 +1,3 @@
 """The version of gearlink, alone in a module so that `--version` imports nothing else."""
 
-VERSION = "0.1.0"
+VERSION = "0.2.0"
