@@ -57,7 +57,7 @@ TARGET = Rule(
     "residual = value reached - value asked for",
     "own derivation",
     ("target",),
-    ("target", "target.swing", "links"),
+    ("target", "target.swing", "back_step.angle", "links"),
 )
 TRAIN_FIT = Rule(
     "GL308",

@@ -29,6 +29,11 @@ class Synthesis(TwoGearFourBar):
         """The frame [mm] that meets the task."""
         raise NotImplementedError
 
+    @property
+    def trials(self) -> int:
+        """A frame that is sought for a back-step takes nearly a tenth of a second each time."""
+        return 10
+
     def section(self, name: str, words: str) -> Any:
         """A section of the file that this synthesis needs."""
         value = getattr(self.spec, name)
