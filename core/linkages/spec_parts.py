@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
 from pydantic import Field
 from pydantic_core import PydanticCustomError
 
@@ -23,6 +25,20 @@ class PivotShafts(Spec):
 
     A_radius: Length | None = Field(None, description="radius of the input shaft at A")
     D_radius: Length | None = Field(None, description="radius of the rocker's shaft at D")
+
+
+class DwellBand(Spec):
+    """A dwell within a tolerance: a crank angle, a tolerance, or both."""
+
+    window: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
+        None, description="crank angle over which the output stays within +-tolerance"
+    )
+    tolerance: Annotated[float, Field(gt=0, lt=180, json_schema_extra={"unit": "deg"})] | None = Field(
+        None, description="output tolerance +- of the window; alone: the longest window is sought"
+    )
+    margin: Annotated[float, Field(ge=0, lt=1, json_schema_extra={"unit": "1"})] | None = Field(
+        None, description="share of the tolerance that the design keeps in hand, with tolerance alone; default 0.01"
+    )
 
 
 class FourLinks(Spec):

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.linkages.spec_parts import LinkageLimits, PivotShafts, require_rim
+from gearlink.core.linkages.spec_parts import DwellBand, LinkageLimits, PivotShafts, require_rim
 from gearlink.core.spec import Assembly, DesignSpec, Length, PressureAngle, Spec, Teeth
 
 
@@ -48,18 +48,8 @@ class TwoGearLinks(Spec):
     frame: Length | None = Field(None, description="frame AD; left out where a synthesis seeks it")
 
 
-class StandingDwell(Spec):
+class StandingDwell(DwellBand):
     """Asked of `synth dwell`: a crank angle over which the output stays within a tolerance; the frame is sought."""
-
-    window: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
-        None, description="crank angle over which the output stays within +-tolerance"
-    )
-    tolerance: Annotated[float, Field(gt=0, lt=180, json_schema_extra={"unit": "deg"})] | None = Field(
-        None, description="output tolerance +- of the window; alone: the longest window is sought"
-    )
-    margin: Annotated[float, Field(ge=0, lt=1, json_schema_extra={"unit": "1"})] | None = Field(
-        None, description="share of the tolerance that the design keeps in hand, with tolerance alone; default 0.01"
-    )
 
     @model_validator(mode="after")
     def _one_wish(self) -> StandingDwell:

@@ -210,8 +210,10 @@ class DwellSynthesis(Synthesis):
             return kernel.tolerance_dwell(family.drive(other), band).crank_angle - window
 
         filled, far = self._frame_of_band(band), kernel.quiet_end(family)
-        even = far if spare(far) >= 0.0 else bracketed_root(spare, frame, far)
-        return sorted((filled, even))
+        if spare(far) >= 0.0:
+            return sorted((filled, far))
+        # A window as long as the limit leaves one frame, where rounding decides the sign.
+        return sorted((filled, bracketed_root(spare, frame, far) if spare(frame) > 0.0 else frame))
 
     # Checks
 

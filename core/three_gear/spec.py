@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.linkages.spec_parts import LinkageLimits
+from gearlink.core.linkages.spec_parts import DwellBand, LinkageLimits
 from gearlink.core.spec import Assembly, DesignSpec, Length, PressureAngle, SignedLength, Spec, Teeth
 
 
@@ -58,20 +58,11 @@ class Placing(Spec):
         return self
 
 
-class Dwell(Placing):
+class Dwell(DwellBand, Placing):
     """Asked of `synth dwell`: a crank angle until the output is back (angle), or one within a tolerance (window)."""
 
     angle: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
         None, description="crank angle phi13 from the start of the back-step until the output is back at its place"
-    )
-    window: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
-        None, description="crank angle over which the output stays within +-tolerance"
-    )
-    tolerance: Annotated[float, Field(gt=0, lt=180, json_schema_extra={"unit": "deg"})] | None = Field(
-        None, description="output tolerance +- of the window; alone: the longest window is sought"
-    )
-    margin: Annotated[float, Field(ge=0, lt=1, json_schema_extra={"unit": "1"})] | None = Field(
-        None, description="share of the tolerance that the design keeps in hand, with tolerance alone; default 0.01"
     )
 
     @model_validator(mode="after")

@@ -237,6 +237,18 @@ def test_dwell_design(data: dict[str, Any]) -> None:
     assert [check.status for check in bare.check_dwell_edge()] == ["warn"]
 
 
+@pytest.mark.parametrize("data", [SUNS, RINGS])
+@pytest.mark.parametrize("tolerance", [1e-6, 0.5, 5.0])
+def test_window_as_long_as_the_limit(data: dict[str, Any], tolerance: float) -> None:
+    """There the frames that meet the wish shrink to one, and the check of the edge says so."""
+    limit = math.degrees(made("dwell", data, dwell={"tolerance": tolerance}).window_limit) * (1.0 - 1e-9)
+    design = made("dwell", data, dwell={"window": limit, "tolerance": tolerance})
+    low, high = design.frame_length_interval
+    assert 0.0 <= high - low < 1e-6
+    assert [check.status for check in design.check_dwell_window()] == ["pass"]
+    assert [check.status for check in design.check_dwell_edge()] == ["warn"]
+
+
 @pytest.mark.parametrize(
     ("command", "data", "sections", "key", "words"),
     [
