@@ -74,7 +74,7 @@ FIGURES = [*((names[0], "analyze") for names in WORKED.values()), ("two_gear_sta
 OTHERS = [(name, command) for _, name in PAIRS for command in asked(name) if (name, command) not in FIGURES]
 
 
-@pytest.mark.parametrize(("name", "command"), mostly_slow(FIGURES + OTHERS, len(FIGURES)))
+@pytest.mark.parametrize(("name", "command"), mostly_slow(FIGURES + OTHERS, 2))
 def test_figures_are_written(name, command, gearlink, designs, tmp_path):
     ended = gearlink(*command.split(), designs / f"{name}.yaml", "--plot", "--plot-format", "svg", "--out", tmp_path)
     assert ended.status == 0

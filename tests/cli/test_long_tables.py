@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from sweeps import mostly_slow
 
 import gearlink.core.design
 from gearlink.cli.evaluate import open_design, read_spec
@@ -37,7 +38,7 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     return lengths
 
 
-@pytest.mark.parametrize("path", DESIGNS, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", mostly_slow(DESIGNS, 5), ids=lambda path: path.stem)
 @pytest.mark.usefixtures("asked")
 def test_parts_hold_the_rows_of_the_whole(path: Path) -> None:
     loaded, kind = open_design(str(path), Options())

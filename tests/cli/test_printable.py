@@ -14,6 +14,7 @@ from typing import Any
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from sweeps import mostly_slow
 
 from gearlink.cli.printable import cell, glyphs, visible
 
@@ -99,7 +100,7 @@ def hostile(request: Any, tmp_path: Path, designs: Path, monkeypatch: pytest.Mon
     return place
 
 
-@pytest.mark.parametrize("form", ["table", "csv", "md"])
+@pytest.mark.parametrize("form", mostly_slow(["table", "csv", "md"], 2))
 def test_batch_and_check(gearlink: Any, hostile: Path, form: str) -> None:
     for command in ("batch", "check"):
         ended = gearlink(command, hostile, "--format", form)
@@ -117,7 +118,7 @@ def test_annotations(gearlink: Any, hostile: Path) -> None:
         assert harmless(line[2:])
 
 
-@pytest.mark.parametrize("form", ["table", "csv", "md"])
+@pytest.mark.parametrize("form", mostly_slow(["table", "csv", "md"], 1))
 def test_design_commands(gearlink: Any, hostile: Path, form: str) -> None:
     for path in sorted(hostile.iterdir()):
         for line in (("analyze", path), ("check", path), ("diff", path, path)):

@@ -40,11 +40,17 @@ with workers(2) as pool:
 """
 
 
+def _heed() -> None:
+    """A runner in the background, or under nohup, hands ignored signals down to its children."""
+    for name in ("SIGHUP", "SIGINT", "SIGQUIT"):
+        signal.signal(getattr(signal, name), signal.SIG_DFL)
+
+
 @pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP", "SIGQUIT", "SIGUSR1", "SIGKILL"])
 def test_workers_end_with_their_parent(tmp_path: Path, name: str) -> None:
     """The reader of their common output gets its end, which it does not while any of them lives."""
     command = [sys.executable, "-c", PARENT, str(tmp_path)]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as parent:
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=_heed) as parent:
         assert parent.stdout is not None
         assert parent.stderr is not None
         assert parent.stdout.readline() == b"ready\n"

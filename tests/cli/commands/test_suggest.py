@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from sweeps import mostly_slow
 
 from gearlink.cli.commands.suggest import Change, overrides
 from gearlink.cli.exit_codes import ExitCode
@@ -140,7 +141,7 @@ def test_wrong_kind(gearlink: Any, designs: Path) -> None:
     assert ended.json["errors"][0]["code"] == "GL113"
 
 
-@pytest.mark.parametrize("name", ["twin_cam", "twin_rocker", "slider", "oscillating_cam"])
+@pytest.mark.parametrize("name", mostly_slow(["twin_cam", "twin_rocker", "slider", "oscillating_cam"], 1))
 def test_worked_designs_pass(gearlink: Any, designs: Path, name: str) -> None:
     path = designs / f"wide_swing_{name}.yaml"
     for command in ("swing", "analyze", *(() if name == "slider" else ("cam",))):

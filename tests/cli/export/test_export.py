@@ -218,7 +218,7 @@ def test_a_tolerance_out_of_range(gearlink: Any, tmp_path: Path, tolerance: str)
 
 
 @pytest.mark.parametrize("more", [(), ("--curve", "spline"), ("--as", "svg")])
-@pytest.mark.parametrize("teeth", [9000, 2000])
+@pytest.mark.parametrize("teeth", mostly_slow([2000, 9000], 1))
 def test_what_a_refusal_of_too_many_points_recommends_works(
     gearlink: Any, tmp_path: Path, teeth: int, more: tuple[str, ...]
 ) -> None:

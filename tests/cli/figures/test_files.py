@@ -30,7 +30,7 @@ FIGURES = [
 ]
 
 
-@pytest.mark.parametrize(("command", "name", "ending"), mostly_slow(FIGURES, 3))
+@pytest.mark.parametrize(("command", "name", "ending"), mostly_slow(FIGURES, 1))
 def test_one_file_the_same_every_time(
     gearlink: Any, designs: Path, tmp_path: Path, command: str, name: str, ending: str
 ) -> None:

@@ -20,7 +20,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from oracles.forty_digits import scca_acceleration
-from sweeps import examples
+from sweeps import examples, mostly_slow
 
 from gearlink.core.cams.laws import REST_TO_REST, REST_TO_SPEED, Law, law
 from gearlink.core.errors import NoSolution
@@ -128,7 +128,7 @@ def moments(shares: tuple[Fraction, ...], x: float) -> list[mpmath.mpf]:
     ]
 
 
-@pytest.mark.parametrize("name", SHARES)
+@pytest.mark.parametrize("name", mostly_slow(list(SHARES), 3))
 def test_integrals_of_the_acceleration(name: str) -> None:
     shares = SHARES[name]
     rule, follower = law(name), law(f"velocity-{name}")

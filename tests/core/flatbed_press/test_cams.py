@@ -20,6 +20,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 from oracles.press import PRESSES, TY460
+from sweeps import mostly_slow
 
 from gearlink.core.errors import MissingSection
 from gearlink.core.flatbed_press.design import FlatbedPress
@@ -314,12 +315,14 @@ def test_sized_cams_pass_their_own_checks(limit, cam):
         assert {check.status for check in design.check(name)} == {"pass"}, name
 
 
-@pytest.mark.parametrize("cam", [{"lead_in": 12.0}, {"transition": "arc"}, {"roller_radius": 40.0, "lead_in": 12.0}])
+@pytest.mark.parametrize(
+    "cam", mostly_slow([{"lead_in": 12.0}, {"transition": "arc"}, {"roller_radius": 40.0, "lead_in": 12.0}], 1)
+)
 def test_base_radius_by_curvature_against_the_roots_of_its_own_equation(cam):
     """(R^2 + s'^2)^3 = q^2 (R^2 + 2 s'^2 - R s'')^2 of every row, q = r_g/0.8: the largest root is R needed there."""
     design = sized(40.0, **cam)
     follower, q = design.follower, design.spec.cam.roller_radius / 0.8
-    theta = np.concatenate([np.linspace(s.start, s.end, 1501)[1:-1] for s in follower.segments])
+    theta = np.concatenate([np.linspace(s.start, s.end, 301)[1:-1] for s in follower.segments])
     lift = follower.lift(theta, 2)
     both, needed = sum(follower.lift_range), []
     for s, k, a in zip(lift.value, lift.first, lift.second, strict=True):
@@ -328,8 +331,8 @@ def test_base_radius_by_curvature_against_the_roots_of_its_own_equation(cam):
             whole = np.poly1d([1.0, 0.0, k * k]) ** 3 - q * q * flat**2
             real = [z.real for z in whole.roots if abs(z.imag) < 1e-9 * abs(z) and z.real > 0.0 and flat(z.real) > 0.0]
             needed += [z - shift for z in real]
-    # rows miss the place of the extreme by half a step of some 3e-4 rad, beside a joint by a whole one
-    assert design.cam_base_radius == pytest.approx(max(needed), rel=2e-3)
+    # rows miss the place of the extreme by half a step of some 2e-3 rad, beside a joint by a whole one
+    assert design.cam_base_radius == pytest.approx(max(needed), rel=1e-2)
     assert design.cam_base_radius >= max(needed) * (1.0 - 1e-12)
 
 

@@ -375,7 +375,7 @@ MENDED: list[tuple[WideSwingDesign, str, str]] = [
 ]
 
 
-@pytest.mark.parametrize(("made", "check", "path"), mostly_slow(MENDED, 10))
+@pytest.mark.parametrize(("made", "check", "path"), mostly_slow(MENDED, 4))
 def test_recommendation_as_given_repairs_the_finding(made: WideSwingDesign, check: str, path: str) -> None:
     suggestion = next(each for each in made.suggestions() if each.path == path)
     assert suggestion.why
