@@ -123,7 +123,7 @@ def test_demo_fits_a_screen(gearlink: Any, tmp_path: Path, monkeypatch: pytest.M
     lines = [line for line in recipe.splitlines() if re.match(r"\S+/gearlink |echo", line)]
     commands = [line.split()[1:] for line in lines if "/gearlink" in line]
     assert [command[:3] for command in commands] == [
-        ["synth", "dwell", "designs/candy_feed.yaml"],
+        ["synth", "dwell", "designs/standing_feed.yaml"],
         ["cam", "designs/ty460.yaml", "--plot"],
     ]
     shown = sum(math.ceil(len(line) / 80) for line in lines)

@@ -64,7 +64,7 @@ def dwell_edge_check(share: float, interval: list[float] | None) -> Check:
     near = _EDGE < share <= 1.0 + _FIT
     narrow = width is not None and width < _NARROW
     if near:
-        text += ": a frame a little off makes it exceed the band, and a quarter of the window is lost; keep a margin"
+        text += ": a frame a little off makes it exceed the band and costs a quarter of the window; ask for less"
     elif narrow:
         text += f", less than {_NARROW} mm: ask for a shorter window or a greater tolerance"
     return DWELL_EDGE.check("warn" if near or narrow else "pass", text, share, _EDGE)

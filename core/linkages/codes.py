@@ -99,7 +99,8 @@ DWELL_EDGE = Rule(
     "The back-step nearly fills the band, or the frame lengths that meet the wish lie close together.",
     "The window is longest where the back-step just fits the band. A frame a little off makes it exceed the band, and "
     "the window falls at once to three quarters.",
-    "Leave margin at its default, ask for a shorter window, or hold the frame to the interval that is given.",
+    "Ask for less: a shorter window, or with a tolerance alone margin at its default; or hold the frame to the "
+    "interval that is given.",
     "0.992 < D/(2 tolerance) <= 1, or frame_length_interval below 0.05 mm",
     "own derivation: the longest window has D = 2 tolerance",
     ("dwell-edge",),

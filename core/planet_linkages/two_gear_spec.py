@@ -91,7 +91,7 @@ class TwoGearFourBarSpec(DesignSpec):
     def _frame_given_or_sought(self) -> TwoGearFourBarSpec:
         syntheses = self._syntheses()
         if self.links.frame is None and not syntheses:
-            message = "give frame, or have it sought: give dwell, back_step, or target: {{motion: momentary-dwell}}"
+            message = "give frame, or have it sought: give dwell, back_step, or target with motion: momentary-dwell"
             raise PydanticCustomError("GL106", message, {"key": "links.frame"})
         sections = [name for name in ("dwell", "back_step") if getattr(self, name) is not None]
         if self.links.frame is not None and sections:

@@ -7,12 +7,12 @@ from collections.abc import Iterator
 from typing import Any
 
 from gearlink.core.design import Outline
-from gearlink.core.errors import NoSolution, at_key
+from gearlink.core.errors import MissingSection, NoSolution, at_key
 from gearlink.core.linkages.band_dwell import ToleranceDwell
 from gearlink.core.linkages.checks import dwell_edge_check, dwell_window_check
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.numerics.roots import bracketed_root
-from gearlink.core.report import Check
+from gearlink.core.report import Check, safely_below
 from gearlink.core.results import cached_property
 from gearlink.core.three_gear import symmetric_back_step, window_dwell
 from gearlink.core.three_gear.codes import BACK_STEP
@@ -27,7 +27,8 @@ from gearlink.core.three_gear.families import (
     with_crank,
 )
 from gearlink.core.three_gear.idler_choice import LEAST_IDLER
-from gearlink.core.three_gear.motion import GearTrain
+from gearlink.core.three_gear.momentary_dwell import wrap
+from gearlink.core.three_gear.motion import GearTrain, output_angle
 from gearlink.core.three_gear.synthesis import BackStepFamily
 from gearlink.core.three_gear.tolerance_dwell import tolerance_dwell
 
@@ -140,12 +141,45 @@ class DwellSynthesis(BackStepFamily):
             "one of these"
         )
 
+    def chosen_idler(self) -> int:
+        """The smallest that keeps the limits; a refusal names the longest window that one within them reaches."""
+        try:
+            return super().chosen_idler()
+        except MissingSection:
+            raise
+        except NoSolution as error:
+            raise NoSolution(error.message + self._best_within_limits(), key=error.key) from error
+
+    def _best_within_limits(self) -> str:
+        """The longest window at the asked tolerance, of the smallest idler that keeps the limits.
+
+        That idler was tried with the default margin, which costs a third of a percent of the window.
+        """
+        if self.window is None or self._band is None or self.general:
+            return ""
+        tolerance = self._wish.model_copy(update={"window": None})
+        longest = DwellSynthesis(self.spec.model_copy(update={"dwell": tolerance}))
+        try:
+            idler, limit = longest.idler_teeth, longest.window_limit
+        except NoSolution:
+            return ""
+        assert limit is not None
+        return (
+            f"; within the limits the output stays within +-{math.degrees(self._band):.9g} deg over at most "
+            f"{safely_below(0.996 * math.degrees(limit))} deg (idler {idler})"
+        )
+
     def depends_on_idler(self, refusal: NoSolution) -> bool:
         """A window that the smallest idler does not reach, no idler does: it falls with the idler's teeth."""
         if refusal.key not in ("dwell.window", "dwell.tolerance"):
             return super().depends_on_idler(refusal)
         self.linkage_of(LEAST_IDLER)  # its refusal names the best that can be had
         return True
+
+    @property
+    def trials(self) -> int:
+        """A dwell within a tolerance is sought anew for each of them, which takes some hundredths of a second."""
+        return 150 if self._wish.angle is not None and not self.general else 8
 
     # What is reached
 
@@ -168,10 +202,16 @@ class DwellSynthesis(BackStepFamily):
     @cached_property
     def tolerance_dwell(self) -> ToleranceDwell | None:
         """The longest dwell within the tolerance; without a tolerance that of the band which the back-step fills."""
-        if self.asked_tolerance is not None or self.back_step is None:
+        step = self.back_step
+        if self.asked_tolerance is not None or step is None:
             return super().tolerance_dwell
-        found = ripple(self.linkage, self.train)
-        return ToleranceDwell(found.start, found.crank_angle, found.output_angle)
+        if self.general:
+            found = ripple(self.linkage, self.train)
+            return ToleranceDwell(found.start, found.crank_angle, found.output_angle)
+        phi13 = symmetric_back_step.dwell_angle(self.i3, step.crank_angle)
+        start = wrap(step.start - (phi13 - step.crank_angle))
+        middle = output_angle(self.linkage, self.train, start) + 0.5 * step.angle
+        return ToleranceDwell(start, 2.0 * phi13 - step.crank_angle, middle)
 
     @cached_property
     def window_limit(self) -> float | None:

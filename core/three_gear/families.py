@@ -155,6 +155,8 @@ def solved(family: Family, measure: Callable[[FourBar], float], target: float, w
     """
     low, high = family.stepping()
     least, most = measure(family.linkage(low)), measure(family.linkage(high))
+    if most <= 0.0:
+        raise NoSolution(f"{what} cannot be had: no linkage with this crank or frame makes the output step back")
     if not target <= most:
         raise NoSolution(f"{what} is more than these gears reach, {_deg(most)} deg; ask for less")
     if not target >= least:

@@ -13,6 +13,7 @@ from gearlink.core.three_gear.momentary_dwell import (
     balanced_eccentricity,
     crank_with_room,
     eccentricity_for_frame,
+    least_eccentricity,
     momentary_crank_angle,
     momentary_linkage,
 )
@@ -39,7 +40,8 @@ class MomentaryDwellSynthesis(Synthesis):
         crank = crank_with_room(*radii, distance)
         if crank is None:
             raise NoSolution(
-                f"a momentary dwell of these gears has no gap of {wish.gap:g} mm between gears 1 and 5; ask for less",
+                f"a momentary dwell of these gears has no gap of {wish.gap:g} mm between gears 1 and 5; ask for less "
+                f"than {self._widest_gap(radii):.6g} mm",
                 key="momentary.gap",
             )
         return crank
@@ -49,6 +51,11 @@ class MomentaryDwellSynthesis(Synthesis):
         crank = self._crank_of(idler)
         with at_key("momentary.eccentricity"):
             return momentary_linkage(*self._radii(idler), crank, self.spec.assembly)
+
+    def _widest_gap(self, radii: tuple[float, float, float]) -> float:
+        """The gap of the shortest crank with a momentary dwell [mm]."""
+        shortest = least_eccentricity(*radii)
+        return radii[1] * 2.0 - 2.0 * shortest - 2.0 * self.spec.gears.module
 
     def depends_on_idler(self, _refusal: NoSolution) -> bool:
         """A crank not below the radius of gear 1 is too long with every idler."""
@@ -62,6 +69,11 @@ class MomentaryDwellSynthesis(Synthesis):
 
     def _gap_remedy(self, missing: float) -> str:
         words = super()._gap_remedy(missing)
+        wish = self.section("momentary", "eccentricity (mm)")
+        if wish.gap is not None:
+            return f"set momentary.gap to at least {self.spec.limits.gear_gap:g} mm"
+        if wish.eccentricity is None:
+            return words
         shorter = self._longest_crank_with_room()
         return (
             words

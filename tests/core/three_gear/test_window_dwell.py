@@ -14,6 +14,7 @@ from typing import Any
 
 import mpmath
 import pytest
+from factory import design
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -180,3 +181,28 @@ class TestRefusals:
     def test_window_beyond_the_family(self) -> None:
         with pytest.raises(NoSolution, match="whatever the tolerance"):
             crank_angle_for_window(-1.8, window_limit(-1.8))
+
+
+def test_what_the_limits_leave_is_named_and_can_be_had() -> None:
+    wish = {"kind": "three-gear-four-bar", "gears": {"module": 2.0, "crank": 40, "output": 40}}
+    refused = design({**wish, "dwell": {"window": 80.0, "tolerance": 0.5}}, command="synth dwell")
+    with pytest.raises(NoSolution, match="within the limits") as caught:
+        _ = refused.linkage
+    assert caught.value.key == "gears.idler"
+    longest = float(caught.value.message.rpartition("at most ")[2].split()[0])
+    made = design({**wish, "dwell": {"window": longest, "tolerance": 0.5}}, command="synth dwell")
+    assert {check.status for check in made.report("synth dwell").checks} <= {"pass", "warn"}
+
+
+def test_a_tiny_dwell_angle_is_met() -> None:
+    made = design(
+        {
+            "kind": "three-gear-four-bar",
+            "gears": {"module": 2.0, "crank": 40, "idler": 60, "output": 40},
+            "dwell": {"angle": 0.001},
+        },
+        command="synth dwell",
+    )
+    window = made.quantity("tolerance_dwell_angle")
+    assert window is not None
+    assert window.value == pytest.approx(4.0 / 3.0 * 0.001, rel=1e-9)
