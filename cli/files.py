@@ -6,12 +6,15 @@ import os
 import re
 import signal
 import stat
-from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
-from pathlib import Path
-from typing import IO
 
 from gearlink.core.errors import GearlinkError
+
+TYPE_CHECKING = False  # as typing has it
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+    from pathlib import Path
+    from typing import IO
 
 
 class CannotWrite(GearlinkError):
@@ -118,4 +121,6 @@ def stem_of(source: str | Path) -> str:
         >>> stem_of("designs/ty460.yaml"), stem_of(os.fsdecode(b"bad\\xff.yaml"))
         ('ty460', 'bad\N{REPLACEMENT CHARACTER}')
     """
+    from pathlib import Path
+
     return "".join(each if each.isprintable() else "\N{REPLACEMENT CHARACTER}" for each in Path(source).stem)

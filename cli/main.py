@@ -6,10 +6,13 @@ import gc
 import io
 import os
 import sys
-from typing import Any, TextIO
 
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import leave_nothing_behind
+
+TYPE_CHECKING = False  # as typing has it, whose import takes longer than --version
+if TYPE_CHECKING:
+    from typing import Any, TextIO
 
 
 def main() -> None:

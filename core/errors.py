@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Literal
+TYPE_CHECKING = False  # as typing has it, whose import takes longer than all of this module
+if TYPE_CHECKING:
+    from typing import Literal
 
 
 class GearlinkError(Exception):
