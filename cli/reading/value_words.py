@@ -65,14 +65,14 @@ def bound(kind: str, context: dict[str, Any]) -> str:
 
 
 def choices(context: dict[str, Any]) -> list[str]:
-    """The values of a literal, as pydantic lists them.
+    """The values of a literal, as a design file writes them.
 
     Example
-        >>> choices({"expected": "'arc', 'parabola' or 'quartic'"}), choices({"expected": "1 or -1"})
-        (["'arc'", "'parabola'", "'quartic'"], ['1', '-1'])
+        >>> choices({"expected": "'arc', 'parabola' or 'quartic'"}), choices({"expected": "True"})
+        (["'arc'", "'parabola'", "'quartic'"], ['true'])
     """
     words = re.findall(r"'[^']*'|[^\s,']+", str(context.get("expected", "")))
-    return [word for word in words if word != "or"]
+    return [{"True": "true", "False": "false"}.get(word, word) for word in words if word != "or"]
 
 
 def whole_number_remedy(value: float) -> str:

@@ -80,7 +80,8 @@ def _range(node: Node) -> str:
     """Bounds or choices of a node; of its alternatives or of its elements where it has none itself."""
     choices = [node["const"]] if "const" in node else node.get("enum", ())
     if choices:
-        return "" if len(choices) > _MOST_CHOICES else " or ".join(str(choice) for choice in choices)
+        words = [str(choice).lower() if isinstance(choice, bool) else str(choice) for choice in choices]
+        return "" if len(words) > _MOST_CHOICES else " or ".join(words)
     bounds = [f"{word} {node[bound]:g}" for bound, word in _BOUNDS if bound in node]
     if bounds:
         return ", ".join(bounds)
