@@ -107,7 +107,9 @@ class ThreeGearFourBar(Design):
 
     def chosen_idler(self) -> int:
         """Teeth of an idler that the file leaves out; only a synthesis can choose one."""
-        raise MissingSection("this command needs gears.idler (teeth) or gears.i3", key="gears.idler")
+        asked = [f"`{command}`" for command in self.spec.commands() if command.startswith("synth")]
+        chooses = f"; {' or '.join(asked)} chooses the idler of this file" if asked else ""
+        raise MissingSection(f"this command needs gears.idler (teeth) or gears.i3{chooses}", key="gears.idler")
 
     crank_teeth: int = placed("spec.gears.crank")
     output_teeth: int = placed("spec.gears.output")
