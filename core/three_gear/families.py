@@ -26,6 +26,7 @@ from gearlink.core.three_gear.momentary_dwell import (
     balanced_eccentricity,
     eccentricity_for_frame,
     eccentricity_range,
+    least_eccentricity,
     momentary_frame_length,
     wrap,
 )
@@ -241,8 +242,6 @@ def _measure(train: GearTrain, of_step: Callable[[FourBar, BackStep], float]) ->
 
 
 def _momentary_range(r1: float, r3: float, r5: float) -> tuple[float, float]:
-    from gearlink.core.three_gear.momentary_dwell import least_eccentricity
-
     try:
         return eccentricity_range(r1, r3, r5)
     except NoSolution:
