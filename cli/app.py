@@ -5,11 +5,13 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable
 from dataclasses import replace
+from functools import cache
 from itertools import pairwise
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
+import typer.main
 
 from gearlink.cli.batch.options import BatchFormat, BatchOptions, FailOn
 from gearlink.cli.bench.command import register as register_bench
@@ -118,10 +120,16 @@ def _root(
         raise typer.Exit
 
 
+@cache
+def _tree() -> Callable[..., Any]:
+    """The commands with their parameters, made once for all lines that a process runs."""
+    return typer.main.get_command(app)
+
+
 def invoke(arguments: list[str]) -> int:
     """Run the command line and give its exit status."""
     try:
-        status = app(args=arguments, standalone_mode=False)
+        status = _tree()(args=arguments, standalone_mode=False)
     except typer.Exit as end:
         return int(end.exit_code)
     except typer.Abort:

@@ -7,6 +7,7 @@ the unloading devices need.
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 import numpy as np
 
@@ -14,7 +15,8 @@ from gearlink.core.errors import NoSolution
 from gearlink.core.numerics.arrays import Reals
 
 
-def landen_ladder(modulus: float, complement: float) -> list[tuple[float, float, float]]:
+@lru_cache(maxsize=16)
+def landen_ladder(modulus: float, complement: float) -> tuple[tuple[float, float, float], ...]:
     """Arithmetic-geometric means (a, b, c) from a = 1, b = k', c = k down to c = 0 at rounding.
 
     a_{n+1} = (a + b)/2, b_{n+1} = sqrt(a b), c_{n+1} = c^2/(4 a_{n+1})
@@ -22,7 +24,7 @@ def landen_ladder(modulus: float, complement: float) -> list[tuple[float, float,
     Parameters
         modulus, complement : float - k in [0, 1) and k' in (0, 1], k^2 + k'^2 = 1
     Returns
-        ladder : list of (a, b, c)
+        ladder : tuple of (a, b, c)
     Raises
         NoSolution - when k' is not in (0, 1]
     Notes
@@ -41,7 +43,7 @@ def landen_ladder(modulus: float, complement: float) -> list[tuple[float, float,
         a, b, c = ladder[-1]
         mean = 0.5 * (a + b)
         ladder.append((mean, math.sqrt(a * b), c * c / (4.0 * mean)))
-    return ladder
+    return tuple(ladder)
 
 
 def complete_integral(complement: float) -> float:
@@ -114,7 +116,7 @@ def amplitude(z: Reals, modulus: float, complement: float) -> Reals:
     """
     ladder = landen_ladder(modulus, complement)
     phi = 2.0 ** (len(ladder) - 1) * ladder[-1][0] * np.asarray(z, dtype=np.float64)
-    for a, b, c in reversed(ladder[1:]):
+    for a, b, c in ladder[:0:-1]:
         sine, cosine = np.sin(phi), np.cos(phi)
         # arcsin(c sin(phi)/a), which loses half the digits where its argument is near 1
         phi = 0.5 * (phi + np.arctan2(c * sine, np.hypot(a * cosine, b * sine)))

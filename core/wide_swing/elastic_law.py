@@ -49,6 +49,7 @@ __all__ = [
 ]
 
 _NEWTON_STEPS = 40
+_GRID = np.linspace(0.0, 0.5 * math.pi, 33)
 # A step as small is as good as none: subnormal numbers have no full set of digits to settle in.
 _FAINTEST = 1e-300
 
@@ -233,7 +234,7 @@ class ElasticLaw:
     def _place(self, sine: float) -> float:
         """k of the first half where sin(phi/2) = m * sine."""
         angle = np.array([math.atan2(math.sqrt((1.0 - sine) * (1.0 + sine)), sine)])
-        return float(self._time_of(angle, self.clock, from_middle=False)[0]) / (self.swing * self._rate)
+        return float(self._time_of(angle, from_middle=False)[0]) / (self.swing * self._rate)
 
     @overload
     def evaluate(self, k: float, order: int = 2) -> tuple[float, ...]: ...
@@ -338,21 +339,22 @@ class ElasticLaw:
         second = k > 0.5
         folded = np.where(second, 1.0 - k, k)
         near_start = folded < 0.25
-        v = self._invert(folded[near_start], self.clock, from_middle=False)
-        u = self._invert(0.5 - folded[~near_start], self._clock_from_middle, from_middle=True)
+        v = self._invert(folded[near_start], from_middle=False)
+        u = self._invert(0.5 - folded[~near_start], from_middle=True)
         sine, cosine = np.empty_like(folded), np.empty_like(folded)
         sine[near_start], cosine[near_start] = np.cos(v), np.sin(v)
         sine[~near_start], cosine[~near_start] = np.sin(u), np.cos(u)
         return sine, cosine, second
 
-    def _invert(self, k: Reals, clock: CosineSeries, *, from_middle: bool) -> Reals:
+    def _invert(self, k: Reals, *, from_middle: bool) -> Reals:
         """Angle u from mid-swing, or v = pi/2 - u from the start, at the fraction k counted from there."""
+        if not k.size:
+            return k
         scale = self.swing * self._rate
-        grid = np.linspace(0.0, 0.5 * math.pi, 33)
-        angle = np.interp(k, self._time_of(grid, clock, from_middle=from_middle) / scale, grid)
+        angle = np.interp(k, self._from_middle if from_middle else self._from_start, _GRID)
         for _ in range(_NEWTON_STEPS):
             sine, cosine = (np.sin(angle), np.cos(angle)) if from_middle else (np.cos(angle), np.sin(angle))
-            excess = self._time_of(angle, clock, from_middle=from_middle) - k * scale
+            excess = self._time_of(angle, from_middle=from_middle) - k * scale
             step = excess / self.slowness(sine, cosine)
             # a step past an end of the half stroke stops there; the next one starts from the end
             angle = np.clip(angle - step, 0.0, 0.5 * math.pi)
@@ -362,8 +364,18 @@ class ElasticLaw:
                 return angle
         raise NoSolution(f"the law of motion did not settle in {_NEWTON_STEPS} Newton steps; report this design")
 
-    def _time_of(self, angle: Reals, clock: CosineSeries, *, from_middle: bool) -> Reals:
+    @cached_property
+    def _from_start(self) -> Reals:
+        """Fractions of the stroke to the angles of the grid, counted from the start."""
+        return self._time_of(_GRID, from_middle=False) / (self.swing * self._rate)
+
+    @cached_property
+    def _from_middle(self) -> Reals:
+        """The same, counted from mid-swing."""
+        return self._time_of(_GRID, from_middle=True) / (self.swing * self._rate)
+
+    def _time_of(self, angle: Reals, *, from_middle: bool) -> Reals:
         """gamma sqrt(N) times the fraction of the stroke to u from mid-swing, or to v from the start."""
-        shrink = self.modulus_complement if from_middle else 1.0
+        clock, shrink = (self._clock_from_middle, self.modulus_complement) if from_middle else (self.clock, 1.0)
         sine, cosine = np.sin(angle), shrink * np.cos(angle)
         return clock.integral(incomplete_integral(sine, cosine, self.modulus, self.modulus_complement))
