@@ -50,7 +50,42 @@ _GEAR_LINKAGE = {
     "input_speed": Term("n1", "1/min", "speed of the input"),
     "tolerance_dwell_start": Term("phi_L", "deg", "crank angle at which that interval starts"),
     "acceleration_ratio_max": Term("(e5/w1^2)max", "1", "greatest output acceleration", "thesis (4-25)"),
+    "acceleration_ratio_max_at": Term("", "deg", "crank angle of the greatest output acceleration"),
     "acceleration_ratio_min": Term("(e5/w1^2)min", "1", "least output acceleration", "thesis (4-25)"),
+    "acceleration_ratio_min_at": Term("", "deg", "crank angle of the least output acceleration"),
+}
+
+_REAL_SPEED = {
+    "turn_time": Term("T", "ms", "time of an input turn"),
+    "output_speed_max": Term("w5_max", "rad/s", "greatest speed of the output at this input speed"),
+    "output_speed_min": Term("w5_min", "rad/s", "least speed of the output at this input speed"),
+    "output_acceleration_max": Term("e5_max", "rad/s^2", "greatest acceleration of the output at this input speed"),
+    "output_acceleration_min": Term("e5_min", "rad/s^2", "least acceleration of the output at this input speed"),
+    "back_step_time": Term("t12", "ms", "time of the back-step"),
+    "dwell_time": Term("t_d", "ms", "time of the dwell"),
+    "tolerance_dwell_time": Term("t_tol", "ms", "time of the longest dwell within the tolerance"),
+    "motion_time": Term("t_m", "ms", "time of a motion between two dwells"),
+    "driven_speed": Term("w_F", "rad/s", "speed of the driven gear while it moves"),
+    "rocker_speed_at_start": Term("w_R0", "rad/s", "speed of the rocker right after the hardest start"),
+    "slider_velocity_max": Term("v_max", "mm/s", "greatest velocity of the slider at this input speed"),
+    "slider_velocity_min": Term("v_min", "mm/s", "least velocity of the slider at this input speed"),
+    "slider_acceleration_max": Term("a_max", "mm/s^2", "greatest acceleration of the slider at this input speed"),
+    "slider_acceleration_min": Term("a_min", "mm/s^2", "least acceleration of the slider at this input speed"),
+    "forward_time": Term("t_f", "ms", "time of the slider's stroke away from the crank's axis"),
+    "return_time": Term("t_r", "ms", "time of the slider's stroke towards the crank's axis"),
+}
+
+_SLIDER = {
+    "velocity_max": Term("v'_max", "mm/rad", "greatest slider velocity per input speed, outwards"),
+    "velocity_max_at": Term("", "deg", "input angle of the greatest slider velocity"),
+    "velocity_min": Term("v'_min", "mm/rad", "least slider velocity per input speed: the greatest inwards"),
+    "velocity_min_at": Term("", "deg", "input angle of the least slider velocity"),
+    "acceleration_max": Term("a'_max", "mm/rad^2", "greatest slider acceleration per square of the input speed"),
+    "acceleration_max_at": Term("", "deg", "input angle of the greatest slider acceleration"),
+    "acceleration_min": Term("a'_min", "mm/rad^2", "least slider acceleration per square of the input speed"),
+    "acceleration_min_at": Term("", "deg", "input angle of the least slider acceleration"),
+    "forward_angle": Term("theta_F", "deg", "input angle of the slider's stroke away from the crank's axis"),
+    "return_angle": Term("theta_R", "deg", "input angle of the slider's stroke towards the crank's axis"),
 }
 
 _GEAR_PAIR = {
@@ -254,6 +289,8 @@ _FIVE_BAR = {
 
 TERMS: dict[str, Term] = {
     **_GEAR_LINKAGE,
+    **_REAL_SPEED,
+    **_SLIDER,
     **_GEAR_PAIR,
     **_SLIDER_CRANK,
     **_PRESS,

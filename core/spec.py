@@ -38,6 +38,7 @@ class DesignSpec(Spec):
     )
 
 
+Speed = Annotated[float, Field(ge=1e-6, le=1e6, json_schema_extra={"unit": "1/min"})]
 Length = Annotated[float, Field(gt=0, json_schema_extra={"unit": "mm"})]
 SignedLength = Annotated[float, Field(json_schema_extra={"unit": "mm"})]
 Distance = Annotated[float, Field(ge=0, json_schema_extra={"unit": "mm"})]
@@ -49,6 +50,14 @@ Coefficient = Annotated[float, Field(gt=0, le=3, json_schema_extra={"unit": "1"}
 Ratio = Annotated[float, Field(gt=0, json_schema_extra={"unit": "1"})]
 Share = Annotated[float, Field(ge=0, json_schema_extra={"unit": "1"})]
 Assembly = Literal[1, -1]
+
+
+class DrivenSpec(DesignSpec):
+    """The keys of a kind whose input turns at an even speed."""
+
+    input_speed: Speed | None = Field(
+        None, description="speed of the input; gives real speeds, accelerations and times besides the ratios"
+    )
 
 
 class _LawNames:

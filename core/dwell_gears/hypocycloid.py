@@ -13,6 +13,7 @@ arc.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from gearlink.core.errors import NoSolution
@@ -20,6 +21,7 @@ from gearlink.core.numerics.roots import bracketed_root, roots_on
 from gearlink.core.results import cached_property
 
 _STEPS_PER_ARC = 48
+_TURN = 2.0 * math.pi
 
 
 @dataclass(frozen=True)
@@ -81,12 +83,27 @@ class HypocycloidSlider:
 
     def acceleration(self, t: float) -> float:
         """Slider's acceleration outwards at constant carrier speed, d2s/dt2 [mm/rad^2]."""
-        k = self.cusps - 1
-        _, y_1 = self._rates(t)
-        y, w = self.point(t).imag, math.sqrt(self.rod**2 - self.point(t).imag ** 2)
-        x_2 = self.planet_radius * k * (k * math.cos(k * t) - math.cos(t))
-        y_2 = -self.planet_radius * k * (k * math.sin(k * t) + math.sin(t))
+        (_, y_1), (x_2, y_2), y = self._rates(t), self._second_rates(t), self.point(t).imag
+        w = math.sqrt(self.rod**2 - y * y)
         return x_2 - (y_1 * y_1 + y * y_2) / w - (y * y_1) ** 2 / w**3
+
+    def jerk(self, t: float) -> float:
+        """Slider's jerk outwards at constant carrier speed, d3s/dt3 [mm/rad^3].
+
+        w w''' + 3 w' w'' = -(3 y' y'' + y y'''),   w = sqrt(L^2 - y^2)
+        """
+        k, scale = self.cusps - 1, self.planet_radius * (self.cusps - 1)
+        (_, y_1), (_, y_2), y = self._rates(t), self._second_rates(t), self.point(t).imag
+        x_3 = scale * (math.sin(t) - k * k * math.sin(k * t))
+        y_3 = -scale * (k * k * math.cos(k * t) + math.cos(t))
+        w = math.sqrt(self.rod**2 - y * y)
+        w_1 = -y * y_1 / w
+        w_2 = -(y_1 * y_1 + y * y_2 + w_1 * w_1) / w
+        return x_3 - (3.0 * (y_1 * y_2 + w_1 * w_2) + y * y_3) / w
+
+    def _second_rates(self, t: float) -> tuple[float, float]:
+        k, scale = self.cusps - 1, self.planet_radius * (self.cusps - 1)
+        return scale * (k * math.cos(k * t) - math.cos(t)), -scale * (k * math.sin(k * t) + math.sin(t))
 
     def _rates(self, t: float) -> tuple[float, float]:
         k = self.cusps - 1
@@ -108,6 +125,28 @@ class HypocycloidSlider:
         count = _STEPS_PER_ARC * self.cusps
         grid = [math.pi * (i + 0.5) / count for i in range(count)]
         return [(t, self.deviation(t)) for t in (0.0, *roots_on(self.speed, grid), math.pi)]
+
+    @cached_property
+    def fastest(self) -> tuple[float, float]:
+        """Greatest speed outwards [mm/rad] and its carrier angle in [0, 2 pi) [rad]; inwards it is the mirror image."""
+        return self._greatest(self.speed, self.acceleration)
+
+    @cached_property
+    def hardest(self) -> tuple[float, float]:
+        """Greatest acceleration outwards [mm/rad^2] and its carrier angle in [0, pi]."""
+        return self._greatest(self.acceleration, self.jerk)
+
+    @cached_property
+    def hardest_inwards(self) -> tuple[float, float]:
+        """Greatest acceleration inwards, as a negative number [mm/rad^2], and its carrier angle in [0, pi]."""
+        value, place = self._greatest(lambda t: -self.acceleration(t), self.jerk)
+        return -value, place
+
+    def _greatest(self, f: Callable[[float], float], slope: Callable[[float], float]) -> tuple[float, float]:
+        count = 2 * _STEPS_PER_ARC * self.cusps
+        grid = [_TURN * (i + 0.5) / count for i in range(count)]
+        value, place = max((f(t), -t) for t in (0.0, math.pi, *roots_on(slope, grid)))
+        return value, -place
 
     @property
     def stroke(self) -> float:

@@ -18,6 +18,7 @@ from gearlink.core.gears.checks import gear_ways
 from gearlink.core.gears.internal_mesh import InternalMesh
 from gearlink.core.gears.single_mesh import INTERNAL_QUANTITIES, MESH_CHECKS, SingleMesh
 from gearlink.core.linkages.checks import transmission_check
+from gearlink.core.real_speed import RealSpeed, per_time
 from gearlink.core.remedies import Way, up
 from gearlink.core.report import Check, Remedy, Table
 from gearlink.core.results import cached_property
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
     from gearlink.core.dwell_gears.hypocycloid_spec import HypocycloidDwellSpec
 
 
-class HypocycloidDwell(SingleMesh):
+class HypocycloidDwell(RealSpeed, SingleMesh):
     """Slider that dwells while a point of the planet runs along an arc about its centre."""
 
     kind = "hypocycloid-dwell"
@@ -51,6 +52,21 @@ class HypocycloidDwell(SingleMesh):
                 "ripple_share",
                 "min_transmission_angle",
                 "contact_ratio",
+                "velocity_max",
+                "velocity_max_at",
+                "velocity_min",
+                "velocity_min_at",
+                "acceleration_max",
+                "acceleration_max_at",
+                "acceleration_min",
+                "acceleration_min_at",
+                "input_speed",
+                "turn_time",
+                "slider_velocity_max",
+                "slider_velocity_min",
+                "slider_acceleration_max",
+                "slider_acceleration_min",
+                "dwell_time",
             ),
             ("dwell-quality", "shaft-clearance", "transmission-angle", *MESH_CHECKS),
             ("motion",),
@@ -191,6 +207,57 @@ class HypocycloidDwell(SingleMesh):
             return self.slider.dwell_angle(self.spec.dwell.tolerance)
 
     @property
+    def velocity_max(self) -> float:
+        """Greatest velocity of the slider outwards [mm/rad]."""
+        return self.slider.fastest[0]
+
+    @property
+    def velocity_max_at(self) -> float:
+        """Carrier angle of it [rad]."""
+        return self.slider.fastest[1]
+
+    @property
+    def velocity_min(self) -> float:
+        """Greatest velocity inwards, as a negative number [mm/rad]: the motion is its own mirror image."""
+        return -self.slider.fastest[0]
+
+    @property
+    def velocity_min_at(self) -> float:
+        """Carrier angle of it [rad]."""
+        return 2.0 * math.pi - self.slider.fastest[1]
+
+    @property
+    def acceleration_max(self) -> float:
+        """Greatest acceleration of the slider outwards [mm/rad^2]."""
+        return self.slider.hardest[0]
+
+    @property
+    def acceleration_max_at(self) -> float:
+        """Carrier angle of it, the lesser of two [rad]."""
+        return self.slider.hardest[1]
+
+    @property
+    def acceleration_min(self) -> float:
+        """Greatest acceleration inwards, as a negative number [mm/rad^2]."""
+        return self.slider.hardest_inwards[0]
+
+    @property
+    def acceleration_min_at(self) -> float:
+        """Carrier angle of it, the lesser of two [rad]."""
+        return self.slider.hardest_inwards[1]
+
+    slider_velocity_max: float | None = per_time("velocity_max", 1)
+    slider_velocity_min: float | None = per_time("velocity_min", 1)
+    slider_acceleration_max: float | None = per_time("acceleration_max", 2)
+    slider_acceleration_min: float | None = per_time("acceleration_min", 2)
+    dwell_time: float | None = per_time("_dwell_reached", -1)
+
+    @property
+    def _dwell_reached(self) -> float:
+        """Carrier angle of the dwell within the tolerance, else of the one that is wanted [rad]."""
+        return self.tolerance_carrier_angle or self.dwell_carrier_angle
+
+    @property
     def min_transmission_angle(self) -> float:
         """Least angle between the rod and the normal of the slide line over the turn [rad]."""
         return 0.5 * math.pi - self.slider.max_rod_angle
@@ -215,7 +282,8 @@ class HypocycloidDwell(SingleMesh):
             "x": ([p.real for p in points], "mm"),
             "y": ([p.imag for p in points], "mm"),
         }
-        return Table.of("motion", columns)
+        rates = {"slider_velocity": ("velocity", 1), "slider_acceleration": ("acceleration", 2)}
+        return Table.of("motion", self.timed(columns, "carrier_angle", rates))
 
     # Checks
 

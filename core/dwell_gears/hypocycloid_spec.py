@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.linkages.spec_parts import LinkageLimits
-from gearlink.core.spec import DesignSpec, Length, PressureAngle, Spec, Teeth
+from gearlink.core.spec import DrivenSpec, Length, PressureAngle, Spec, Teeth
 
 CarrierAngle = Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})]
 
@@ -62,7 +62,7 @@ class CarrierShaft(Spec):
     O_radius: Length | None = Field(None, description="radius of the carrier's shaft, in the middle of the ring gear")
 
 
-class HypocycloidDwellSpec(DesignSpec):
+class HypocycloidDwellSpec(DrivenSpec):
     """Ring gear, planet on a carrier, and a rod from the planet's pitch circle to a slider."""
 
     kind: Literal["hypocycloid-dwell"]

@@ -19,6 +19,8 @@ from gearlink.core.gears.single_mesh import MESH_CHECKS, MESH_QUANTITIES, Single
 from gearlink.core.linkages.checks import check_linkage, transmission_check
 from gearlink.core.linkages.fourbar import FourBar, solve
 from gearlink.core.linkages.nearest_passes import joint_to_crank_pivot
+from gearlink.core.linkages.swing import rocker_swing
+from gearlink.core.real_speed import RealSpeed, per_time
 from gearlink.core.remedies import Way, down, either, up
 from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
@@ -47,7 +49,7 @@ class Start(NamedTuple):
     rocker_speed: float
 
 
-class MutilatedGearDwell(SingleMesh):
+class MutilatedGearDwell(RealSpeed, SingleMesh):
     """Reduction, mutilated wheel and driven gear; the crank on its shaft stands while the gap passes."""
 
     kind = "mutilated-gear-dwell"
@@ -69,6 +71,12 @@ class MutilatedGearDwell(SingleMesh):
                 "rocker_swing",
                 "rocker_start_speed",
                 "min_transmission_angle",
+                "input_speed",
+                "turn_time",
+                "motion_time",
+                "dwell_time",
+                "driven_speed",
+                "rocker_speed_at_start",
             ),
             ("start-shock", "gap", "shaft-clearance", "transmission-angle", *GEAR_CHECKS),
             ("motion",),
@@ -134,11 +142,7 @@ class MutilatedGearDwell(SingleMesh):
     @property
     def rocker_swing(self) -> float | None:
         """Swing of the rocker between its dead centres [rad]; a drag link has none."""
-        linkage = self.linkage
-        if linkage is None or linkage.kind() != "crank-rocker":
-            return None
-        folded, stretched = (solve(linkage, phi).rocker_angle for phi in self._dead_centers(linkage))
-        return abs(folded - stretched)
+        return None if self.linkage is None else rocker_swing(self.linkage)
 
     @cached_property
     def hardest_start(self) -> Start | None:
@@ -160,6 +164,19 @@ class MutilatedGearDwell(SingleMesh):
     def min_transmission_angle(self) -> float | None:
         """Least transmission angle of the turn [rad]."""
         return None if self.linkage is None else self.linkage.min_transmission_angle()
+
+    driven_speed: float | None = per_time("driven_speed_ratio", 1)
+    rocker_speed_at_start: float | None = per_time("rocker_start_speed", 1)
+
+    @property
+    def motion_time(self) -> float | None:
+        """Time of a motion of the driven gear [ms]."""
+        return None if self.turn_time is None else self.turn_time * self.motion_turns
+
+    @property
+    def dwell_time(self) -> float | None:
+        """Time for which it stands [ms]."""
+        return None if self.turn_time is None else self.turn_time * self.dwell_turns
 
     @staticmethod
     def _dead_centers(linkage: FourBar) -> tuple[float, float]:
@@ -192,7 +209,10 @@ class MutilatedGearDwell(SingleMesh):
             columns["rocker_angle"] = ([math.degrees(state.rocker_angle) for state in states], "deg")
             rocker = [state.rocker_velocity * speed for state, speed in zip(states, speeds, strict=True)]
             columns["rocker_speed_ratio"] = (rocker, "1")
-        return Table.of("motion", columns)
+        rates = {"driven_speed": ("driven_speed_ratio", 1)}
+        if "rocker_speed_ratio" in columns:
+            rates["rocker_speed"] = ("rocker_speed_ratio", 1)
+        return Table.of("motion", self.timed(columns, "input_angle", rates))
 
     # Checks
 

@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.linkages.spec_parts import FourLinks, LinkageLimits, PivotShafts
-from gearlink.core.spec import Angle, Assembly, DesignSpec, Length, PressureAngle, Spec, Teeth
+from gearlink.core.spec import Angle, Assembly, DrivenSpec, Length, PressureAngle, Spec, Teeth
 
 
 class MutilatedGears(Spec):
@@ -30,7 +30,7 @@ class MutilatedShafts(PivotShafts):
     W_radius: Length | None = Field(None, description="radius of the shaft of the mutilated wheel, W")
 
 
-class MutilatedGearDwellSpec(DesignSpec):
+class MutilatedGearDwellSpec(DrivenSpec):
     """Reduction, mutilated wheel, driven gear and, on its shaft, the crank of a four-bar."""
 
     kind: Literal["mutilated-gear-dwell"]

@@ -17,6 +17,7 @@ from gearlink.core.five_bar.parts import FiveBarParts
 from gearlink.core.gears.checks import gear_ways
 from gearlink.core.gears.single_mesh import MESH_CHECKS, mesh_checks
 from gearlink.core.linkages.checks import target_check, transmission_check
+from gearlink.core.real_speed import RealSpeed
 from gearlink.core.remedies import down, either, up
 from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
@@ -37,7 +38,7 @@ _LINKS = (
 )
 
 
-class GearedFiveBar(FiveBarParts):
+class GearedFiveBar(RealSpeed, FiveBarParts):
     """A five-bar whose gears take away one of its two freedoms."""
 
     kind = "geared-five-bar"
@@ -73,6 +74,8 @@ class GearedFiveBar(FiveBarParts):
                 "center_distance",
                 "gear_gap",
                 "contact_ratio",
+                "input_speed",
+                "turn_time",
             ),
             ("closure", "target", "gear-collision", "shaft-clearance", "transmission-angle", *MESH_CHECKS),
             ("path", "function", "deviations"),
@@ -243,9 +246,17 @@ class GearedFiveBar(FiveBarParts):
             "y": (found.point.imag, "mm"),
             "x_velocity": (found.velocity.real, "mm/rad"),
             "y_velocity": (found.velocity.imag, "mm/rad"),
+            "x_acceleration": (found.acceleration.real, "mm/rad^2"),
+            "y_acceleration": (found.acceleration.imag, "mm/rad^2"),
             "transmission_angle": (np.degrees(dead_point_distance(found.transmission_angle)), "deg"),
         }
-        return Table.of("path", columns)
+        rates = {
+            "point_x_velocity": ("x_velocity", 1),
+            "point_y_velocity": ("y_velocity", 1),
+            "point_x_acceleration": ("x_acceleration", 2),
+            "point_y_acceleration": ("y_acceleration", 2),
+        }
+        return Table.of("path", self.timed(columns, "input_angle", rates))
 
     def table_deviations(self, _samples: int | None = None) -> Table:
         """Every point that is asked for and its distance from the path."""
@@ -265,8 +276,10 @@ class GearedFiveBar(FiveBarParts):
             "input_angle": ([math.degrees(angle) for angle in angles], "deg"),
             "output_angle": ([math.degrees(angle) for angle in bar.output_angles(angles)], "deg"),
             "speed_ratio": ([bar.output_speed(angle) for angle in angles], "1"),
+            "acceleration_ratio": ([bar.output_acceleration(angle) for angle in angles], "1"),
         }
-        return Table.of("function", columns)
+        rates = {"output_speed": ("speed_ratio", 1), "output_acceleration": ("acceleration_ratio", 2)}
+        return Table.of("function", self.timed(columns, "input_angle", rates))
 
     # Checks
 

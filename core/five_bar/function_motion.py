@@ -89,6 +89,27 @@ class FunctionFiveBar:
         along, arm = (end - self.joint(phi)) / self.follower, (end - self.frame) / self.output
         return (speed * along.conjugate()).real / (self.output * (along * arm.conjugate()).imag)
 
+    def output_acceleration(self, phi: float) -> float:
+        """Output acceleration per square of the input speed, d2psi/dphi2.
+
+        a4 = (Re[C'' e^(-i t3)] - c w3^2 + e w4^2 cos(psi - t3))/(e sin(t3 - psi))
+
+        Raises
+            NoSolution - where follower and output do not reach
+        Source
+            own derivation: the loop C + c e^(i t3) = E + e e^(i psi), differentiated twice
+        """
+        m = self.coupler_ratio
+        crank, coupler = cmath.rect(self.input, phi), cmath.rect(self.coupler, self.phase + m * phi)
+        end = self.end(phi)
+        along, arm = (end - self.joint(phi)) / self.follower, (end - self.frame) / self.output
+        turn = along * arm.conjugate()
+        w3 = (1j * (crank + m * coupler) * arm.conjugate()).real / (self.follower * turn.imag)
+        w4 = self.output_speed(phi)
+        pull = -((crank + m * m * coupler) * along.conjugate()).real
+        pull += self.output * w4 * w4 * turn.real - self.follower * w3 * w3
+        return pull / (self.output * turn.imag)
+
     @cached_property
     def reach_squared(self) -> HarmonicSum:
         """|CE|^2 over the input angle."""

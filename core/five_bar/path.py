@@ -27,19 +27,21 @@ class PathSweep:
     transmission_angle: Reals
     point: Points
     velocity: Points
+    acceleration: Points
 
 
 def sweep(bar: PathFiveBar, phi: Reals, offset: complex) -> PathSweep:
-    """Coupler angle, transmission angle, coupler point and its velocity.
+    """Coupler angle, transmission angle, coupler point, its velocity and acceleration.
 
     w2 = Re[(B' - D') e^(-i t3)]/(b sin(t2 - t3)),   M' = B' + i w2 (M - B)
+    a2 = Re[(B'' - D'' - w2^2 (C - B) + w3^2 (C - D)) e^(-i t3)]/(b sin(t2 - t3)),   M'' = B'' + (i a2 - w2^2) (M - B)
 
     Parameters
         bar : PathFiveBar
         phi : (N,) array [rad] - ascending
         offset : complex [mm] - u + i v
     Returns
-        sweep : PathSweep - angles [rad], point [mm], velocity [mm/rad]
+        sweep : PathSweep - angles [rad], point [mm], velocity [mm/rad], acceleration [mm/rad^2]
     Raises
         NoSolution - where the five-bar opens anywhere in its period
     Example
@@ -51,8 +53,8 @@ def sweep(bar: PathFiveBar, phi: Reals, offset: complex) -> PathSweep:
     """
     bar.closure()
     start, end, u2, u3, gamma = _position(bar, phi)
-    velocity = _velocity(bar, start, end, u2, u3, offset)
-    return PathSweep(_continuous(bar, phi), gamma, start + offset * u2, velocity)
+    velocity, acceleration = _rates(bar, start, end, u2, u3, offset)
+    return PathSweep(_continuous(bar, phi), gamma, start + offset * u2, velocity, acceleration)
 
 
 def points(bar: PathFiveBar, phi: Reals, offset: complex) -> Points:
@@ -78,12 +80,18 @@ def _position(bar: PathFiveBar, phi: Reals) -> tuple[Points, Points, Points, Poi
     return start, end, (joint - start) / b, (joint - end) / c, gamma
 
 
-def _velocity(bar: PathFiveBar, start: Points, end: Points, u2: Points, u3: Points, offset: complex) -> Points:
-    """Velocity of the coupler point, of what `_position` gives."""
-    speeds = 1j * start, 1j * float(bar.ratio) * (end - bar.frame)
-    w2 = ((speeds[0] - speeds[1]) * np.conj(u3)).real / (bar.coupler * (u2 * np.conj(u3)).imag)
-    velocity: Points = speeds[0] + 1j * w2 * offset * u2
-    return velocity
+def _rates(
+    bar: PathFiveBar, start: Points, end: Points, u2: Points, u3: Points, offset: complex
+) -> tuple[Points, Points]:
+    """Velocity and acceleration of the coupler point, of what `_position` gives."""
+    k, b, c = float(bar.ratio), bar.coupler, bar.follower
+    sine, apart = (u2 * np.conj(u3)).imag, 1j * (start - k * (end - bar.frame))
+    w2, w3 = (apart * np.conj(u3)).real / (b * sine), (apart * np.conj(u2)).real / (c * sine)
+    pull = -start + k * k * (end - bar.frame) - w2 * w2 * b * u2 + w3 * w3 * c * u3
+    a2 = (pull * np.conj(u3)).real / (b * sine)
+    velocity: Points = 1j * start + 1j * w2 * offset * u2
+    acceleration: Points = -start + (1j * a2 - w2 * w2) * offset * u2
+    return velocity, acceleration
 
 
 def _continuous(bar: PathFiveBar, phi: Reals) -> Reals:
@@ -177,7 +185,7 @@ def _near(bar: PathFiveBar, offset: complex, targets: Points) -> tuple[float, Re
     step, at_once = bar.period / count, max(1, _AT_ONCE // count)
     grid = np.asarray(step * np.arange(count), dtype=np.float64)
     start, end, u2, u3, _ = _position(bar, grid)
-    path, velocity = start + offset * u2, _velocity(bar, start, end, u2, u3, offset)
+    path, (velocity, _) = start + offset * u2, _rates(bar, start, end, u2, u3, offset)
     blocks = [targets[i : i + at_once] for i in range(0, targets.size, at_once)]
     places = [near_places(path[None, :], velocity[None, :], step, block, _BRANCHES)[0] for block in blocks]
     return step, grid[np.concatenate(places)]

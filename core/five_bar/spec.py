@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.linkages.spec_parts import LinkageLimits, require_rim
-from gearlink.core.spec import Angle, Assembly, DesignSpec, Length, PressureAngle, SignedLength, Spec, Teeth
+from gearlink.core.spec import Angle, Assembly, DrivenSpec, Length, PressureAngle, SignedLength, Spec, Teeth
 
 TurnAngle = Annotated[float, Field(ge=-3600, le=3600, json_schema_extra={"unit": "deg"})]
 
@@ -94,7 +94,7 @@ class FiveBarTarget(Spec):
     tolerance: Length | None = Field(None, description="path: greatest distance of a point that is accepted")
 
 
-class GearedFiveBarSpec(DesignSpec):
+class GearedFiveBarSpec(DrivenSpec):
     """Two couplers between two links that gears hold in ratio."""
 
     kind: Literal["geared-five-bar"]

@@ -227,9 +227,9 @@ def slider(psi: float, crank: float, rod: float, offset: float = 0.0, order: int
     Parameters
         psi : float [rad] - direction of the crank from +x, counter-clockwise
         crank, rod, offset : float [mm] - r, L, e (signed)
-        order : 0, 1 or 2 - derivatives wanted
+        order : 0 to 3 - derivatives wanted
     Returns
-        h, h', h'' up to the order : tuple of floats [mm, mm/rad, mm/rad^2]
+        h and its derivatives up to the order : tuple of floats [mm, mm/rad, mm/rad^2, mm/rad^3]
     Raises
         NoSolution - when the rod does not reach the slide line there, or just reaches it (derivatives)
     Notes
@@ -255,7 +255,13 @@ def slider(psi: float, crank: float, rod: float, offset: float = 0.0, order: int
     first = w1 - crank * cosine
     if order == 1:
         return depth, first
-    return depth, first, crank * sine - (u1 * u1 - u * crank * cosine + w1 * w1) / w
+    u2 = -crank * cosine
+    w2 = -(u1 * u1 + u * u2 + w1 * w1) / w
+    second = w2 + crank * sine
+    if order == 2:
+        return depth, first, second
+    w3 = -(3.0 * (u1 * u2 + w1 * w2) - u * u1) / w
+    return depth, first, second, w3 + crank * cosine
 
 
 def not_reached(psi: float, crank: float, rod: float, offset: float) -> str:

@@ -1,18 +1,45 @@
-"""The offset slider-crank as a design: crank length from stroke."""
+"""The offset slider-crank as a design: crank length from stroke, and the motion of its slider."""
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 from gearlink.core.design import Design, Outline, placed
 from gearlink.core.errors import at_key
-from gearlink.core.linkages.slider_crank import SliderCrank
+from gearlink.core.linkages.checks import transmission_check
+from gearlink.core.linkages.slider_crank import SliderCrank, slider
+from gearlink.core.linkages.standstills import Turning, turnings
+from gearlink.core.real_speed import RealSpeed, per_time
+from gearlink.core.remedies import down, either, up
+from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
     from gearlink.core.linkages.slider_crank_spec import SliderCrankSpec
 
 SLIDER_QUANTITIES = ("quick_return_ratio", "dead_center_extended", "dead_center_folded", "max_stroke")
+_MOTION = (
+    "forward_angle",
+    "return_angle",
+    "velocity_max",
+    "velocity_max_at",
+    "velocity_min",
+    "velocity_min_at",
+    "acceleration_max",
+    "acceleration_max_at",
+    "acceleration_min",
+    "acceleration_min_at",
+    "min_transmission_angle",
+    "input_speed",
+    "turn_time",
+    "forward_time",
+    "return_time",
+    "slider_velocity_max",
+    "slider_velocity_min",
+    "slider_acceleration_max",
+    "slider_acceleration_min",
+)
 
 
 class SliderCrankQuantities:
@@ -25,18 +52,133 @@ class SliderCrankQuantities:
     max_stroke: float = placed("slider_crank.max_stroke")
 
 
-class SliderCrankDesign(SliderCrankQuantities, Design):
-    """The slider-crank of a design file."""
+class SliderCrankDesign(RealSpeed, SliderCrankQuantities, Design):
+    """The slider-crank of a design file; its crank turns counter-clockwise, F lies below D on x = -offset."""
 
     kind = "slider-crank"
     spec: SliderCrankSpec
     outlines = {
         "crank": Outline(("crank_length", *SLIDER_QUANTITIES)),
-        "analyze": Outline(("crank_length", *SLIDER_QUANTITIES)),
+        "analyze": Outline(("crank_length", *SLIDER_QUANTITIES, *_MOTION), ("transmission-angle",), ("motion",)),
     }
+    ways = {"transmission-angle": (up("rod"), down("stroke"), *either("offset"))}
 
     @cached_property
     def slider_crank(self) -> SliderCrank:
         """The kernel's view of the spec."""
         with at_key("stroke"):
             return SliderCrank(self.spec.stroke, self.spec.rod, self.spec.offset)
+
+    def depth(self, angle: float, order: int) -> float:
+        """Depth of the slider below D, or its derivative of an order up to 3 [mm/rad^order]."""
+        return slider(angle, self.crank_length, self.spec.rod, self.spec.offset, order)[order]
+
+    @property
+    def _dead_centers(self) -> tuple[float, float]:
+        """Input angles with the slider nearest to D and farthest from it [rad]."""
+        folded, extended = self.dead_center_folded, self.dead_center_extended
+        return 0.5 * math.pi - folded, 1.5 * math.pi - extended
+
+    @property
+    def forward_angle(self) -> float:
+        """Input angle of the stroke away from D [rad]."""
+        near, far = self._dead_centers
+        return far - near
+
+    @property
+    def return_angle(self) -> float:
+        """Input angle of the stroke towards D [rad]."""
+        return 2.0 * math.pi - self.forward_angle
+
+    @cached_property
+    def speed_turnings(self) -> list[Turning]:
+        """Extremes of the slider's velocity per input angle, least first."""
+        return _ranked(turnings(lambda x: self.depth(x, 1), lambda x: self.depth(x, 2)))
+
+    @cached_property
+    def acceleration_turnings(self) -> list[Turning]:
+        """Extremes of its acceleration per square of the input angle, least first."""
+        return _ranked(turnings(lambda x: self.depth(x, 2), lambda x: self.depth(x, 3)))
+
+    @property
+    def velocity_max(self) -> float:
+        """Greatest velocity of the slider away from D [mm/rad]."""
+        return self.speed_turnings[-1].speed
+
+    @property
+    def velocity_max_at(self) -> float:
+        """Input angle of it [rad]."""
+        return self.speed_turnings[-1].place
+
+    @property
+    def velocity_min(self) -> float:
+        """Greatest velocity towards D, as a negative number [mm/rad]."""
+        return self.speed_turnings[0].speed
+
+    @property
+    def velocity_min_at(self) -> float:
+        """Input angle of it [rad]."""
+        return self.speed_turnings[0].place
+
+    @property
+    def acceleration_max(self) -> float:
+        """Greatest acceleration of the slider away from D [mm/rad^2]."""
+        return self.acceleration_turnings[-1].speed
+
+    @property
+    def acceleration_max_at(self) -> float:
+        """Input angle of it [rad]."""
+        return self.acceleration_turnings[-1].place
+
+    @property
+    def acceleration_min(self) -> float:
+        """Greatest acceleration towards D, as a negative number [mm/rad^2]."""
+        return self.acceleration_turnings[0].speed
+
+    @property
+    def acceleration_min_at(self) -> float:
+        """Input angle of it [rad]."""
+        return self.acceleration_turnings[0].place
+
+    slider_velocity_max: float | None = per_time("velocity_max", 1)
+    slider_velocity_min: float | None = per_time("velocity_min", 1)
+    slider_acceleration_max: float | None = per_time("acceleration_max", 2)
+    slider_acceleration_min: float | None = per_time("acceleration_min", 2)
+    forward_time: float | None = per_time("forward_angle", -1)
+    return_time: float | None = per_time("return_angle", -1)
+
+    @property
+    def min_transmission_angle(self) -> float:
+        """Least angle between the rod and the normal of the slide line over the turn [rad]: 90 deg less the rod's."""
+        return math.acos((self.crank_length + abs(self.spec.offset)) / self.spec.rod)
+
+    def table_motion(self, samples: int | None = None) -> Table:
+        """The slider over a turn of the crank; displacement counts from the dead centre nearest to D."""
+        import numpy as np
+
+        from gearlink.core.linkages.slider_crank_sweep import slider as sweep
+        from gearlink.core.numerics.arrays import turn_degrees
+
+        degrees, (crank, rod, offset) = turn_degrees(samples), (self.crank_length, self.spec.rod, self.spec.offset)
+        angles = np.radians(degrees)
+        depth, velocity, acceleration = sweep(angles, crank, rod, offset, 2)
+        lean = np.degrees(np.arcsin((crank * np.cos(angles) + offset) / rod))
+        columns = {
+            "input_angle": (degrees, "deg"),
+            "displacement": (depth - self.depth(self._dead_centers[0], 0), "mm"),
+            "velocity": (velocity, "mm/rad"),
+            "acceleration": (acceleration, "mm/rad^2"),
+            "rod_angle": (lean, "deg"),
+            "transmission_angle": (90.0 - np.abs(lean), "deg"),
+        }
+        rates = {"slider_velocity": ("velocity", 1), "slider_acceleration": ("acceleration", 2)}
+        return Table.of("motion", self.timed(columns, "input_angle", rates))
+
+    def check_transmission_angle(self) -> Check:
+        """GL303: the rod against the slide line."""
+        remedy = "lengthen the rod, or bring the slide line nearer"
+        return transmission_check(self.min_transmission_angle, self.spec.limits.transmission_angle, remedy)
+
+
+def _ranked(found: list[Turning]) -> list[Turning]:
+    return sorted(found, key=lambda turning: turning.speed)

@@ -6,16 +6,23 @@ from typing import Literal
 
 from pydantic import Field, model_validator
 
-from gearlink.core.spec import DesignSpec, Length, SignedLength, require_offset_below_rod
+from gearlink.core.spec import AcuteAngle, DrivenSpec, Length, SignedLength, Spec, require_offset_below_rod
 
 
-class SliderCrankSpec(DesignSpec):
+class SliderLimits(Spec):
+    """Limits of the checks."""
+
+    transmission_angle: AcuteAngle = Field(40.0, description="least transmission angle, 90 deg less the rod's lean")
+
+
+class SliderCrankSpec(DrivenSpec):
     """An offset slider-crank given by its stroke."""
 
     kind: Literal["slider-crank"]
     stroke: Length = Field(description="stroke of the slider")
     rod: Length = Field(description="connecting rod")
     offset: SignedLength = Field(0.0, description="offset of the slide line from the crank's axis")
+    limits: SliderLimits = SliderLimits()
 
     @model_validator(mode="after")
     def _reachable(self) -> SliderCrankSpec:
@@ -24,4 +31,4 @@ class SliderCrankSpec(DesignSpec):
 
     def commands(self) -> tuple[str, ...]:
         """What the file asks for."""
-        return ("crank",)
+        return ("crank", "analyze")

@@ -97,6 +97,16 @@ class PlanetLinkage:
         carrier = 0.0 if self.carrier == "crank" else state.rocker_acceleration
         return (1.0 - self.ratio) * carrier + self.ratio * state.coupler_acceleration
 
+    def jerk(self, crank_angle: float) -> float:
+        """Jerk ratio of the output gear at constant crank speed, d2W/dphi2 [1/rad^2].
+
+        Raises
+            NoSolution - where the linkage does not close
+        """
+        state = solve(self.linkage, crank_angle, 3)
+        carrier = 0.0 if self.carrier == "crank" else state.rocker_jerk
+        return (1.0 - self.ratio) * carrier + self.ratio * state.coupler_jerk
+
     def mean_ratio(self) -> float:
         """Net output turns per crank turn.
 

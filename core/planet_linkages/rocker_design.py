@@ -15,10 +15,12 @@ from gearlink.core.gears.pair import GearPair
 from gearlink.core.gears.single_mesh import SingleMesh
 from gearlink.core.linkages.checks import check_linkage, target_check, transmission_check
 from gearlink.core.linkages.fourbar import FourBar, solve
-from gearlink.core.linkages.nearest_passes import joint_to_crank_pivot
+from gearlink.core.linkages.standstills import Turning, turnings
+from gearlink.core.linkages.swing import rocker_swing
 from gearlink.core.planet_linkages.bodies import rocker_layout
 from gearlink.core.planet_linkages.planet import PlanetLinkage
 from gearlink.core.planet_linkages.rocker_synthesis import crank_for_swing, extreme_crank_angles
+from gearlink.core.real_speed import RealSpeed, per_time
 from gearlink.core.remedies import down, either, up
 from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
@@ -36,7 +38,7 @@ _FEWER = (down("gears.coupler", step=1), down("gears.output", step=1))
 _LINKS = either("links.crank", "links.frame", "links.coupler")
 
 
-class GearedRocker(SingleMesh):
+class GearedRocker(RealSpeed, SingleMesh):
     """Crank-rocker with a gear on the coupler at C and the output gear on D; the rocker is their centre distance."""
 
     kind = "geared-rocker"
@@ -57,10 +59,22 @@ class GearedRocker(SingleMesh):
                 "naive_multiple",
                 "extreme_crank_angles",
                 "speed_ratio_max",
+                "speed_ratio_max_at",
                 "speed_ratio_min",
+                "speed_ratio_min_at",
+                "acceleration_ratio_max",
+                "acceleration_ratio_max_at",
+                "acceleration_ratio_min",
+                "acceleration_ratio_min_at",
                 "min_transmission_angle",
                 "swing_residual",
                 "contact_ratio",
+                "input_speed",
+                "turn_time",
+                "output_speed_max",
+                "output_speed_min",
+                "output_acceleration_max",
+                "output_acceleration_min",
             ),
             ("target", "shaft-clearance", "transmission-angle", *GEAR_CHECKS),
             ("motion",),
@@ -157,10 +171,9 @@ class GearedRocker(SingleMesh):
     @property
     def rocker_swing(self) -> float:
         """Swing of the rocker between the dead centres [rad]."""
-        links = self.linkage
-        ends = joint_to_crank_pivot(links.crank, links.coupler, links.rocker, links.frame, links.assembly)
-        folded, stretched = (solve(links, end.crank_angle).rocker_angle for end in ends)
-        return abs(folded - stretched)
+        swing = rocker_swing(self.linkage)
+        assert swing is not None, "the linkage is a crank-rocker"
+        return swing
 
     @property
     def swing_multiple(self) -> float:
@@ -179,22 +192,59 @@ class GearedRocker(SingleMesh):
         return None if target is None else self.output_swing - math.radians(target.swing)
 
     @cached_property
-    def _speeds(self) -> tuple[float, float]:
-        """Least and greatest speed ratio."""
-        from gearlink.core.linkages.standstills import turnings
+    def fastest(self) -> tuple[Turning, Turning]:
+        """Greatest and least speed ratio and their places."""
+        return _both(turnings(self.drive.speed, self.drive.acceleration))
 
-        found = [t.speed for t in turnings(self.drive.speed, self.drive.acceleration)]
-        return min(found), max(found)
+    @cached_property
+    def hardest(self) -> tuple[Turning, Turning]:
+        """Greatest and least acceleration ratio and their places."""
+        return _both(turnings(self.drive.acceleration, self.drive.jerk))
 
     @property
     def speed_ratio_max(self) -> float:
         """Greatest output speed per input speed."""
-        return self._speeds[1]
+        return self.fastest[0].speed
+
+    @property
+    def speed_ratio_max_at(self) -> float:
+        """Crank angle of it [rad]."""
+        return self.fastest[0].place
 
     @property
     def speed_ratio_min(self) -> float:
         """Least output speed per input speed, on the way back."""
-        return self._speeds[0]
+        return self.fastest[1].speed
+
+    @property
+    def speed_ratio_min_at(self) -> float:
+        """Crank angle of it [rad]."""
+        return self.fastest[1].place
+
+    @property
+    def acceleration_ratio_max(self) -> float:
+        """Greatest output acceleration per square of the input speed."""
+        return self.hardest[0].speed
+
+    @property
+    def acceleration_ratio_max_at(self) -> float:
+        """Crank angle of it [rad]."""
+        return self.hardest[0].place
+
+    @property
+    def acceleration_ratio_min(self) -> float:
+        """Least output acceleration per square of the input speed."""
+        return self.hardest[1].speed
+
+    @property
+    def acceleration_ratio_min_at(self) -> float:
+        """Crank angle of it [rad]."""
+        return self.hardest[1].place
+
+    output_speed_max: float | None = per_time("speed_ratio_max", 1)
+    output_speed_min: float | None = per_time("speed_ratio_min", 1)
+    output_acceleration_max: float | None = per_time("acceleration_ratio_max", 2)
+    output_acceleration_min: float | None = per_time("acceleration_ratio_min", 2)
 
     @property
     def min_transmission_angle(self) -> float:
@@ -229,7 +279,8 @@ class GearedRocker(SingleMesh):
             ),
             "transmission_angle": (np.degrees(dead_point_distance(sweep.transmission_angle)), "deg"),
         }
-        return Table.of("motion", columns)
+        rates = {"output_speed": ("speed_ratio", 1), "output_acceleration": ("acceleration_ratio", 2)}
+        return Table.of("motion", self.timed(columns, "crank_angle", rates))
 
     # Checks
 
@@ -247,3 +298,9 @@ class GearedRocker(SingleMesh):
         """GL303."""
         remedy = "shorten the crank, and gain the swing by more teeth on the coupler gear"
         return transmission_check(self.min_transmission_angle, self.spec.limits.transmission_angle, remedy)
+
+
+def _both(found: list[Turning]) -> tuple[Turning, Turning]:
+    """The greatest and the least of some extremes."""
+    ranked = sorted(found, key=lambda turning: turning.speed)
+    return ranked[-1], ranked[0]

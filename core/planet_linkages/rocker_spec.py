@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.linkages.spec_parts import LinkageLimits, PivotShafts
-from gearlink.core.spec import Assembly, DesignSpec, Length, PressureAngle, Spec, Teeth
+from gearlink.core.spec import Assembly, DrivenSpec, Length, PressureAngle, Spec, Teeth
 
 
 class RockerGears(Spec):
@@ -37,7 +37,7 @@ class SwingTarget(Spec):
     )
 
 
-class GearedRockerSpec(DesignSpec):
+class GearedRockerSpec(DrivenSpec):
     """A crank-rocker whose coupler carries a gear that drives one on the rocker's axis."""
 
     kind: Literal["geared-rocker"]

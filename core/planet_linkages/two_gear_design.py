@@ -18,9 +18,11 @@ from gearlink.core.linkages import standstills
 from gearlink.core.linkages.checks import check_linkage, transmission_check
 from gearlink.core.linkages.fourbar import FourBar, solve
 from gearlink.core.linkages.standstills import BackStep, Turning
+from gearlink.core.linkages.swing import rocker_swing
 from gearlink.core.planet_linkages.bodies import two_gear_layout
 from gearlink.core.planet_linkages.codes import DWELL_CONDITION
 from gearlink.core.planet_linkages.planet import PlanetLinkage, standstill_coupler_ratio
+from gearlink.core.real_speed import RealSpeed, per_time
 from gearlink.core.remedies import down, either, up
 from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
@@ -57,6 +59,18 @@ QUANTITIES = (
     "back_step_crank_angle",
     "min_transmission_angle",
     "contact_ratio",
+    "acceleration_ratio_max",
+    "acceleration_ratio_max_at",
+    "acceleration_ratio_min",
+    "acceleration_ratio_min_at",
+    "rocker_swing",
+    "input_speed",
+    "turn_time",
+    "output_speed_max",
+    "output_speed_min",
+    "output_acceleration_max",
+    "output_acceleration_min",
+    "back_step_time",
 )
 CHECKS = ("dwell-condition", "shaft-clearance", "transmission-angle", *MESH_CHECKS)
 
@@ -68,7 +82,7 @@ _FEWER = tuple(down(f"gears.{gear}", step=1) for gear in ("planet", "sun", "ring
 _LINKS = either("links.frame", "links.rocker", "links.coupler")
 
 
-class TwoGearFourBar(SingleMesh):
+class TwoGearFourBar(RealSpeed, SingleMesh):
     """Planet on the coupler, sun or ring gear on the crank's axis; the crank is their centre distance."""
 
     kind = "two-gear-four-bar"
@@ -207,6 +221,37 @@ class TwoGearFourBar(SingleMesh):
     speed_ratio_min: float = placed("slowest.speed")
     speed_ratio_min_at: float = placed("slowest.place")
 
+    @cached_property
+    def acceleration_turnings(self) -> list[Turning]:
+        """Extremes of the acceleration ratio."""
+        return standstills.turnings(self.drive.acceleration, self.drive.jerk)
+
+    @property
+    def hardest(self) -> Turning:
+        """The greatest acceleration ratio and its place."""
+        return max(self.acceleration_turnings, key=lambda t: t.speed)
+
+    @property
+    def hardest_back(self) -> Turning:
+        """The least acceleration ratio and its place."""
+        return min(self.acceleration_turnings, key=lambda t: t.speed)
+
+    acceleration_ratio_max: float = placed("hardest.speed")
+    acceleration_ratio_max_at: float = placed("hardest.place")
+    acceleration_ratio_min: float = placed("hardest_back.speed")
+    acceleration_ratio_min_at: float = placed("hardest_back.place")
+
+    output_speed_max: float | None = per_time("speed_ratio_max", 1)
+    output_speed_min: float | None = per_time("speed_ratio_min", 1)
+    output_acceleration_max: float | None = per_time("acceleration_ratio_max", 2)
+    output_acceleration_min: float | None = per_time("acceleration_ratio_min", 2)
+    back_step_time: float | None = per_time("back_step_crank_angle", -1)
+
+    @property
+    def rocker_swing(self) -> float | None:
+        """Swing of the rocker between its dead centres [rad]; a drag link has none."""
+        return rocker_swing(self.linkage)
+
     @property
     def nonuniformity(self) -> float:
         """(max - min)/mean of the speed ratio."""
@@ -279,7 +324,12 @@ class TwoGearFourBar(SingleMesh):
             "coupler_ratio": (sweep.coupler_velocity, "1"),
             "transmission_angle": (np.degrees(dead_point_distance(sweep.transmission_angle)), "deg"),
         }
-        return Table.of("motion", columns)
+        rates = {
+            "output_speed": ("speed_ratio", 1),
+            "output_acceleration": ("acceleration_ratio", 2),
+            "coupler_speed": ("coupler_ratio", 1),
+        }
+        return Table.of("motion", self.timed(columns, "crank_angle", rates))
 
     # Checks
 

@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.linkages.spec_parts import DwellBand, LinkageLimits, PivotShafts, require_rim
-from gearlink.core.spec import Assembly, DesignSpec, Length, PressureAngle, Spec, Teeth
+from gearlink.core.spec import Assembly, DrivenSpec, Length, PressureAngle, Spec, Teeth
 
 
 class PlanetGears(Spec):
@@ -74,7 +74,7 @@ class MotionTarget(Spec):
     motion: Literal["unidirectional", "momentary-dwell", "back-step"] = Field(description="kind of output motion")
 
 
-class TwoGearFourBarSpec(DesignSpec):
+class TwoGearFourBarSpec(DrivenSpec):
     """A four-bar whose coupler carries a gear that drives one on the crank's axis."""
 
     kind: Literal["two-gear-four-bar"]

@@ -14,12 +14,20 @@ from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.planet_linkages import two_gear_family as kernel
 from gearlink.core.planet_linkages.two_gear_design import CHECKS, QUANTITIES, TwoGearFourBar
+from gearlink.core.real_speed import per_time
 from gearlink.core.report import Check, safely_above, safely_below
 from gearlink.core.results import cached_property
 
 _MARGIN = 0.01
 _FIT = 1e-6  # deg, what a back-step of the printed frame may miss
-_DWELL = ("tolerance_dwell_angle", "tolerance_dwell_start", "dwell_tolerance", "window_limit", "frame_length_interval")
+_DWELL = (
+    "tolerance_dwell_angle",
+    "tolerance_dwell_start",
+    "dwell_tolerance",
+    "window_limit",
+    "frame_length_interval",
+    "tolerance_dwell_time",
+)
 
 
 class Synthesis(TwoGearFourBar):
@@ -189,6 +197,8 @@ class DwellSynthesis(Synthesis):
     def tolerance_dwell_start(self) -> float | None:
         """Crank angle of its start [rad]."""
         return None if self.tolerance_dwell is None else self.tolerance_dwell.start
+
+    tolerance_dwell_time: float | None = per_time("tolerance_dwell_angle", -1)
 
     @cached_property
     def window_limit(self) -> float | None:

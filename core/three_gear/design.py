@@ -15,6 +15,8 @@ from gearlink.core.gears.pair import GearPair
 from gearlink.core.linkages.checks import check_linkage, transmission_check
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.linkages.standstills import BackStep
+from gearlink.core.linkages.swing import rocker_swing
+from gearlink.core.real_speed import RealSpeed, per_time
 from gearlink.core.remedies import down, either, up
 from gearlink.core.report import Check, Table, safely_above, safely_below
 from gearlink.core.results import cached_property
@@ -50,9 +52,33 @@ QUANTITIES = (
     "min_transmission_angle",
     "gear_gap",
     "nonuniformity",
+    "speed_ratio_max_at",
+    "speed_ratio_min_at",
+    "acceleration_ratio_max",
+    "acceleration_ratio_max_at",
+    "acceleration_ratio_min",
+    "acceleration_ratio_min_at",
+    "rocker_swing",
+    "tolerance_dwell_angle",
+    "tolerance_dwell_start",
+    "input_speed",
+    "turn_time",
+    "output_speed_max",
+    "output_speed_min",
+    "output_acceleration_max",
+    "output_acceleration_min",
+    "back_step_time",
+    "dwell_time",
+    "tolerance_dwell_time",
 )
-_ANALYSIS = ("acceleration_ratio_max", "acceleration_ratio_min", "tolerance_dwell_angle", "tolerance_dwell_start")
-CHECKS = ("gear-collision", "shaft-clearance", "transmission-angle", "rounded-ratio", *GEAR_CHECKS)
+CHECKS = (
+    "gear-collision",
+    "shaft-clearance",
+    "transmission-angle",
+    "rounded-ratio",
+    "dwell-tolerance",
+    *GEAR_CHECKS,
+)
 MESHES = ("crank_idler", "idler_output")
 _MESH_QUANTITIES = tuple(f"{mesh}.{name}" for mesh in MESHES for name in GEAR_QUANTITIES)
 _TEETH = (
@@ -80,13 +106,13 @@ WAYS = {
 }
 
 
-class ThreeGearFourBar(Design):
+class ThreeGearFourBar(RealSpeed, Design):
     """A three-gear four-bar of given links; the syntheses replace `linkage`, `idler_teeth` and closed forms."""
 
     kind = "three-gear-four-bar"
     spec: ThreeGearSpec
     outlines = {
-        "analyze": Outline((*QUANTITIES, *_ANALYSIS), (*CHECKS, "dwell-tolerance"), ("motion",)),
+        "analyze": Outline(QUANTITIES, CHECKS, ("motion",)),
         "gear": Outline(_MESH_QUANTITIES, GEAR_CHECKS),
     }
     extra_tables = ("motion",)
@@ -169,8 +195,25 @@ class ThreeGearFourBar(Design):
 
     speed_ratio_max: float = placed("speed_extremes.greatest")
     speed_ratio_min: float = placed("speed_extremes.least")
+    speed_ratio_max_at: float = placed("speed_extremes.greatest_angle")
+    speed_ratio_min_at: float = placed("speed_extremes.least_angle")
     acceleration_ratio_max: float = placed("acceleration_extremes.greatest")
+    acceleration_ratio_max_at: float = placed("acceleration_extremes.greatest_angle")
     acceleration_ratio_min: float = placed("acceleration_extremes.least")
+    acceleration_ratio_min_at: float = placed("acceleration_extremes.least_angle")
+
+    output_speed_max: float | None = per_time("speed_ratio_max", 1)
+    output_speed_min: float | None = per_time("speed_ratio_min", 1)
+    output_acceleration_max: float | None = per_time("acceleration_ratio_max", 2)
+    output_acceleration_min: float | None = per_time("acceleration_ratio_min", 2)
+    back_step_time: float | None = per_time("back_step_crank_angle", -1)
+    dwell_time: float | None = per_time("dwell_angle", -1)
+    tolerance_dwell_time: float | None = per_time("tolerance_dwell_angle", -1)
+
+    @property
+    def rocker_swing(self) -> float | None:
+        """Swing of the rocker between its dead centres [rad]; a drag link has none."""
+        return rocker_swing(self.linkage)
 
     @cached_property
     def dwell_crank_angles(self) -> list[float]:
@@ -281,7 +324,8 @@ class ThreeGearFourBar(Design):
             "acceleration_ratio": (sweep.acceleration_ratio, "1"),
             "transmission_angle": (np.degrees(sweep.transmission_angle), "deg"),
         }
-        return Table.of("motion", columns)
+        rates = {"output_speed": ("speed_ratio", 1), "output_acceleration": ("acceleration_ratio", 2)}
+        return Table.of("motion", self.timed(columns, "crank_angle", rates))
 
     # Checks
 

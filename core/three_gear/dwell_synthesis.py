@@ -37,8 +37,6 @@ _PLAIN_TOLERANCE = math.radians(1.0)  # of a dwell that names none
 
 _WORDS = "angle, or window and tolerance (deg)"
 _DWELL = (
-    "tolerance_dwell_angle",
-    "tolerance_dwell_start",
     "dwell_tolerance",
     "window_limit",
     "frame_ratio_interval",

@@ -8,7 +8,8 @@ from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.linkages.spec_parts import DwellBand, LinkageLimits
-from gearlink.core.spec import Assembly, DesignSpec, Length, PressureAngle, SignedLength, Spec, Teeth
+from gearlink.core.real_speed import other_speed
+from gearlink.core.spec import Assembly, DrivenSpec, Length, PressureAngle, SignedLength, Spec, Teeth
 
 
 class Gears(Spec):
@@ -132,7 +133,7 @@ class Shafts(Spec):
     output_radius: Length | None = Field(None, description="radius of the output shaft at D")
 
 
-class ThreeGearSpec(DesignSpec):
+class ThreeGearSpec(DrivenSpec):
     """Gear on the crank, idler on the coupler pin, output gear on the rocker's axis."""
 
     kind: Literal["three-gear-four-bar"]
@@ -161,6 +162,14 @@ class ThreeGearSpec(DesignSpec):
         if self.dwell is not None and self.dwell.tolerance is not None and self.dwell_tolerance is not None:
             message = "dwell_tolerance and dwell.tolerance are the same wish: give one"
             raise PydanticCustomError("GL111", message, {"key": "dwell_tolerance"})
+        return self
+
+    @model_validator(mode="after")
+    def _one_speed(self) -> ThreeGearSpec:
+        if self.speed is None or self.gears.crank != self.gears.output or self.speed.crank or self.speed.frame:
+            return self
+        if wrong := other_speed(self.input_speed, 0.5 * (self.speed.min + self.speed.max)):
+            raise PydanticCustomError("GL111", "{wrong}", {"key": "input_speed", "wrong": wrong})
         return self
 
     def commands(self) -> tuple[str, ...]:

@@ -7,10 +7,11 @@ from collections.abc import Callable, Iterator
 from functools import cache
 from typing import Any
 
-from gearlink.core.design import Outline, placed
+from gearlink.core.design import Outline
 from gearlink.core.errors import MissingSection, NoSolution, at_key
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.linkages.standstills import BackStep
+from gearlink.core.real_speed import other_speed
 from gearlink.core.report import Check
 from gearlink.core.results import cached_property
 from gearlink.core.three_gear import dwells, symmetric_back_step
@@ -32,6 +33,7 @@ from gearlink.core.three_gear.idler_choice import GREATEST_IDLER, LEAST_IDLER, i
 from gearlink.core.three_gear.motion import Extremes, GearTrain, gear_gap
 
 _STANDSTILL = 1.5 * math.pi
+_TURN = 2.0 * math.pi
 
 
 class Synthesis(ThreeGearFourBar):
@@ -185,14 +187,21 @@ class SymmetricSynthesis(Synthesis):
         return self.linkage.frame / self.linkage.crank if self.general else self.frame_ratio_at(self.i3)
 
     @cached_property
-    def speed_limits(self) -> family.SpeedLimits | Extremes:
-        """Greatest and least speed ratio, of the symmetric family in closed form (thesis (4-13))."""
+    def speed_extremes(self) -> Extremes:
+        """Of the symmetric family in closed form (thesis (4-13)): half a turn apart."""
         if self.general:
-            return self.speed_extremes
-        return family.speed_ratio_limits(self.i3, self.frame_ratio)
+            return super().speed_extremes
+        limits = family.speed_ratio_limits(self.i3, self.frame_ratio)
+        return Extremes(limits.greatest, (self._middle + math.pi) % _TURN, limits.least, self._middle)
 
-    speed_ratio_max: float = placed("speed_limits.greatest")
-    speed_ratio_min: float = placed("speed_limits.least")
+    @cached_property
+    def acceleration_extremes(self) -> Extremes:
+        """Of the symmetric family in closed form: a quarter turn after and before the least speed."""
+        if self.general:
+            return super().acceleration_extremes
+        peak = family.peak_acceleration_ratio(self.i3, self.frame_ratio)
+        after, before = (self._middle + 0.5 * math.pi) % _TURN, (self._middle - 0.5 * math.pi) % _TURN
+        return Extremes(peak, after, -peak, before)
 
     @property
     def _middle(self) -> float:
@@ -305,7 +314,7 @@ class VariableSpeedSynthesis(SymmetricSynthesis):
     """`synth variable-speed`: the output speed swings between two values, the input turns at their mean."""
 
     task = "speed"
-    outlines = {"synth variable-speed": Outline((*QUANTITIES, "input_speed"), CHECKS)}
+    outlines = {"synth variable-speed": Outline(QUANTITIES, CHECKS)}
 
     def in_family(self, family: Family, train: GearTrain) -> FourBar:
         """W_min/W_max = min/max, met by the root of the one unknown."""
@@ -319,7 +328,10 @@ class VariableSpeedSynthesis(SymmetricSynthesis):
     def input_speed(self) -> float:
         """Input speed [1/min] at which the output swings between the two: their mean where I = 1."""
         speed = self.section("speed", "min, max (rev/min)")
-        return float(speed.max) / self.speed_ratio_max if self.general else 0.5 * (speed.min + speed.max)
+        found = float(speed.max) / self.speed_ratio_max if self.general else 0.5 * (speed.min + speed.max)
+        if wrong := other_speed(self.spec.input_speed, found):
+            raise NoSolution(wrong, key="input_speed")
+        return found
 
     def frame_ratio_for(self, i3: float) -> float:
         """Thesis (4-20)."""

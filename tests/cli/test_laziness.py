@@ -165,7 +165,7 @@ _EVALUATED = [
         "synth dwell",
         "candy_feed",
         "speed_ratio_max",
-        "idler_teeth train general frame_ratio frame_ratio_at crank_angle_at speed_limits",
+        "idler_teeth train general frame_ratio frame_ratio_at crank_angle_at speed_extremes",
     ),
     ("synth dwell", "candy_feed", "dwell_crank_angles", "idler_teeth train general crank_angle_at"),
     ("synth back-step", "thesis_example_1", "coupler_length", "idler_teeth"),

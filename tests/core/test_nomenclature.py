@@ -23,6 +23,8 @@ UNITS = {
     "deg",
     "1",
     "mm/s",
+    "mm/s^2",
+    "ms",
     "mm/rad",
     "mm/rad^2",
     "rad/s",

@@ -205,6 +205,10 @@ def mirrored(one, other):
             assert second[name] == pytest.approx([360.0 - v for v in reversed(found)], abs=1e-9)
         elif name == "acceleration_ratio_max":
             assert second["acceleration_ratio_min"] == pytest.approx(-found, rel=1e-11)
+        elif name.endswith("_at"):
+            image = {"acceleration_ratio_max_at": "acceleration_ratio_min_at",
+                     "acceleration_ratio_min_at": "acceleration_ratio_max_at"}.get(name, name)  # fmt: skip
+            assert abs(math.remainder(second[image] + found, 360.0)) < 1e-9, name
         elif name == "tolerance_dwell_start":
             start = (360.0 - found - first["tolerance_dwell_angle"]) % 360.0
             assert second[name] == pytest.approx(start, abs=1e-6)
