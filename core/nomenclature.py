@@ -186,6 +186,15 @@ _SWING = {
     "middle_radius_estimate": Term("Rm*", "mm", "the source's estimate of R at mid-swing", "dissertation (27)"),
     "contact_end": Term("k_c", "1", "fraction of the stroke at which the roller leaves the profile", "own derivation"),
     "contact_force": Term("F", "N", "greatest force of a roller on its cam at the design speed", "own derivation"),
+    "dwell_force": Term("F_d", "N", "greatest force of a roller on its cam during the rests", "own derivation"),
+    "sectors_external": Term(
+        "", "deg", "external profile: driven, arc, free, arc from its stroke on", "own derivation"
+    ),
+    "sectors_internal": Term(
+        "", "deg", "internal profile: driven, arc, free, arc from its stroke on", "own derivation"
+    ),
+    "sectors_return": Term("", "deg", "return cam: driven, arc, free, arc from its stroke on", "own derivation"),
+    "longer_stroke_reserve": Term("", "1", "force of the device to spare in the longer stroke", "own derivation"),
     "power_peak": Term("max(b c)", "1", "peak of the power invariant", "own derivation"),
     "drive_torque_peak": Term("M_dr", "N m", "torque of the cam shaft without device and linkage_share", "chapter 5"),
     "dynamic_coefficient": Term("K_d", "1", "torque with the drive's elasticity over the calculated one", "chapter 5"),

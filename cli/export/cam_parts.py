@@ -14,6 +14,7 @@ from gearlink.cli.export.contour import JOIN, Circle, Part
 from gearlink.cli.export.sampling import Points, Reals, Stretch
 from gearlink.core.cams.checks import undercut_checks
 from gearlink.core.cams.disc_cam import DiscCam
+from gearlink.core.wide_swing.closed_cam import SECTORS
 
 if TYPE_CHECKING:
     from gearlink.core.wide_swing.outline import AnyCam
@@ -126,7 +127,7 @@ def _served(name: str, design: Any) -> tuple[AnyCam, bool]:
     """The cam of a stroke, and whether its mirror image is meant."""
     if name == "main_cam":
         return design.cam, False
-    return (design.cam, True) if design.return_cam is None else (design.return_cam, False)
+    return design.return_cam or design.cam, design.spec.layout == "twin-cam"
 
 
 def _swing_findings(cam: AnyCam, design: Any) -> tuple[str, ...]:
@@ -168,6 +169,58 @@ def _swing_notes(cam: AnyCam, mirror: bool) -> tuple[str, ...]:
         f"profile given for k = {first:.9g} to {start:.9g} and {end:.9g} to {last:.9g}; between them the roller at "
         "mid-swing cuts its own circle (layer ROLLER_AT_MID_SWING)",
         "frame: cam axis at the origin, mid-swing on the x axis" + ("; mirror image of main_cam" if mirror else ""),
+    )
+
+
+def closed_cam(name: str, design: Any) -> Part:
+    """A wide-swing cam over the whole cycle as one closed contour; a twin-rocker's two in the frame of one body.
+
+    Raises
+        NoSolution - where the profile does not exist
+    """
+    cycle = design.cycle
+    late = name != "contour"
+    closed, frame = (cycle.back, cycle.of_back) if late else (cycle.main, cycle.of_main)
+    start, end = (k * closed.own for k in closed.slot)
+    places = [(0, 0.0), (0, start), (0, 0.5 * closed.own), (0, end), *((i, closed.starts[i]) for i in (1, 2, 3))]
+    ends = [t for _, t in places[1:]] + [closed.starts[4]]
+    spans = [(i, low, high) for (i, low), high in zip(places, ends, strict=True) if high > low]
+    shaft = design.section.shaft_radius
+    found = design.check("closed-contour")
+    return Part(
+        name=name,
+        title=f"{'return' if late else 'main'} cam, closed {'ex' if is_external(closed.cam) else 'in'}ternal contour",
+        stretches=tuple(_of_sector(closed, frame, *span) for span in spans),
+        closed=True,
+        circles=(Circle("SHAFT", shaft),) if shaft > 0.0 else (),
+        notes=_closed_notes(closed, cycle, late),
+        findings=tuple(found[late].message for _ in (0,) if found[late].status == "fail"),
+        extra_columns=("cam_angle_of_own_stroke [deg]",),
+    )
+
+
+def _of_sector(closed: Any, frame: Any, sector: int, low: float, high: float) -> Stretch:
+    def points(t: Reals) -> Points:
+        return np.stack([frame(closed.contour_of(sector, t)), frame(closed.pitch_of(sector, t))])
+
+    return Stretch(CAM_LAYERS, points, low, high, SECTORS[sector], lambda t: np.degrees(t)[None, :])
+
+
+def _closed_notes(closed: Any, cycle: Any, late: bool) -> tuple[str, ...]:
+    cam = closed.cam
+    sectors = ", ".join(f"{math.degrees(angle):.9g}" for angle in closed.sectors)
+    frame = "cam axis at the origin, mid-swing of " + ("the return stroke" if late else "the working stroke")
+    if late and not cycle.external_working:
+        frame = "that of the internal contour: both profiles stand on one body in their true mutual place"
+    else:
+        frame += " on the x axis"
+    return (
+        f"roller radius {cam.roller_radius:.9g} mm, centre distance {cam.center_distance:.9g} mm, "
+        f"rocker radius {cam.rocker_radius:.9g} mm",
+        f"sectors of the pitch curve from its own stroke on: driven, arc, free, arc: {sectors} deg; in the free sector "
+        f"the contour keeps {closed.clearance:.9g} mm from the roller",
+        f"the body lies {'in' if is_external(cam) else 'out'}side; the roller's slot at mid-swing is part of it",
+        f"frame: {frame}",
     )
 
 

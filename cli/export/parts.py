@@ -59,11 +59,14 @@ def _gripper(design: Any) -> Makers:
 def _wide_swing(design: Any) -> Makers:
     if design.spec.cam is None:
         return {}
-    from gearlink.cli.export.cam_parts import swing_cam
+    from gearlink.cli.export.cam_parts import closed_cam, swing_cam
 
     # A cam on the rocker of a crank-rocker serves both strokes.
     names = ("main_cam", "return_cam") if design.spec.drive is None else ("main_cam",)
-    return {name: partial(swing_cam, name, design) for name in names}
+    found: Makers = {name: partial(swing_cam, name, design) for name in names}
+    if design.spec.cycle is not None:
+        found |= {name: partial(closed_cam, name, design) for name in ("contour", "return_contour")}
+    return found
 
 
 def _pair(design: Any, key: str = "") -> Makers:

@@ -26,6 +26,8 @@ def cams_of(design: WideSwingDesign) -> list[tuple[str, AnyCam, float]]:
         return [("Oscillating cam", design.cam, 1.0)]
     if design.return_cam is None:
         return [(working, design.cam, 1.0), ("Cam of the return stroke (mirror image)", design.cam, -1.0)]
+    if design.spec.layout == "twin-cam":
+        return [(working, design.cam, 1.0), ("Cam of the return stroke", design.return_cam, -1.0)]
     return [
         ("Internal profile, working stroke", design.cam, 1.0),
         ("External profile, return stroke", design.return_cam, 1.0),
@@ -70,7 +72,8 @@ def _body(axes: Axes, design: WideSwingDesign, cam: AnyCam, mirror: float) -> No
     from gearlink.core.wide_swing.outline import contour, dwell_arc, is_external
 
     run_up, bottom, run_out = contour(cam, design.slot_of(cam))
-    edge, rest = np.concatenate((run_up, bottom, run_out)), dwell_arc(cam)
+    edge = np.concatenate((run_up, bottom, run_out))
+    rest = dwell_arc(cam) if design.spec.cycle is None else _rest_of_turn(design, cam, mirror)
     x, y = _mirrored(np.concatenate((edge, rest)), mirror)
     if is_external(cam):
         axes.fill(x, y, color=style.BLUE, alpha=0.10, linewidth=0, zorder=1)
@@ -87,6 +90,17 @@ def _body(axes: Axes, design: WideSwingDesign, cam: AnyCam, mirror: float) -> No
         zorder=3,
         label="slot, in which the roller changes sides",
     )
+
+
+def _rest_of_turn(design: WideSwingDesign, cam: AnyCam, mirror: float) -> Any:
+    """Arcs and free sector of a closed contour, in the frame of the cam's own stroke."""
+    import numpy as np
+
+    from gearlink.core.wide_swing.outline import is_external
+
+    closed = design.cycle.back if cam is design.return_cam or mirror < 0.0 else design.cycle.main
+    rest = np.concatenate([points for _, points in closed.outline()[3:]])
+    return rest if is_external(cam) else -rest.conj()
 
 
 def _ring(axes: Axes, x: Any, y: Any, radius: float) -> None:

@@ -25,9 +25,19 @@ def draw(command: str, design: WideSwingDesign) -> Figure:
     Raises
         NoSolution - for a profile that does not exist
     """
-    made = panels.page(f"{design.spec.name}: {command} ({design.spec.layout}, {design.spec.swing:g}° swing)", 1.0)
+    whole = design.spec.cycle is not None
+    title = f"{design.spec.name}: {command} ({design.spec.layout}, {design.spec.swing:g}° swing)"
+    made = panels.page(title, 1.6 if whole else 1.0)
     drawn = cams_of(design)
-    grid = made.add_gridspec(4, 1, height_ratios=[1.75, 1.2, 0.2, 1.05])
+    rows = made.add_gridspec(3, 1, height_ratios=[2.3, 0.9, 4.2]) if whole else None
+    if rows is not None:
+        from gearlink.cli.figures.wide_swing_cycle import contours_panel, cycle_panel
+
+        contours_panel(made, rows[0], design)
+        cycle_panel(made.add_subplot(rows[1]), design)
+    heights = [1.75, 1.2, 0.2, 1.05]
+    place = made.add_gridspec(1, 1)[0] if rows is None else rows[2]
+    grid = place.subgridspec(4, 1, height_ratios=heights)
     large, close, below = (grid[i].subgridspec(1, n) for i, n in ((0, len(drawn)), (1, len(drawn)), (3, 2)))
     for i, (title, cam, mirror) in enumerate(drawn):
         axes = made.add_subplot(large[0, i])

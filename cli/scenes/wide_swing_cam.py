@@ -1,6 +1,7 @@
 """The wide-swing mechanism: working stroke, rest, return stroke, rest.
 
-A cam is drawn as far as it is known: the profile of its stroke with the slot of the roller at mid-swing.
+A cam is drawn as far as it is known: as a closed contour where the file gives a cycle, else the profile of its stroke
+with the slot of the roller at mid-swing.
 """
 
 from __future__ import annotations
@@ -49,10 +50,19 @@ class Cycle:
         """Whether the cam rides on a crank-rocker."""
         return self.design.spec.drive is not None
 
+    @property
+    def whole(self) -> bool:
+        """Whether strokes and rests fill one turn as the file says."""
+        return self.design.spec.cycle is not None
+
     @cached_property
     def turned(self) -> float:
         """Angle that the cam, or the crank, turns in the loop: whole turns with room for both strokes [rad]."""
-        return TURN if self.oscillates else TURN * math.ceil(2.0 * self.design.motion.cycle_angle / TURN - 1e-9)
+        return (
+            TURN
+            if self.oscillates or self.whole
+            else TURN * math.ceil(2.0 * self.design.motion.cycle_angle / TURN - 1e-9)
+        )
 
     @cached_property
     def share(self) -> float:
@@ -63,6 +73,8 @@ class Cycle:
     def stroke(self) -> Reals:
         """k, fraction of the stroke: from 0 to 1 and back; the return takes the law from its other end."""
         at = np.mod(self.fraction, 1.0)
+        if self.whole:
+            return self.design.cycle.main.swing_share(TURN * at)
         if self.oscillates:
             return np.where(at <= self.share, at / self.share, self._back(at))
         out, back = np.clip(at / self.share, 0.0, 1.0), np.clip((at - 0.5) / self.share, 0.0, 1.0)
@@ -86,9 +98,13 @@ class Cycle:
         share = law.invariants(self.stroke, 0)[0]
         return np.asarray((share - 0.5) * self.design.motion.swing)
 
-    def cam_turn(self, late: float) -> Reals:
-        """Angle of an evenly turning cam from mid-swing of its stroke, which begins at a fraction [rad]."""
-        return self.turned * (self.fraction - late) - 0.5 * self.design.motion.cycle_angle
+    def cam_turn(self, *, back: bool = False) -> Reals:
+        """Angle of an evenly turning cam from mid-swing of the stroke that it guides, the return of the last [rad]."""
+        motion = self.design.motion
+        late = 0.5 * self.turned if back else 0.0
+        if back and self.whole:
+            late = sum(motion.cycle_angles[:2])
+        return self.turned * self.fraction - late - 0.5 * (motion.return_angle if back else motion.cycle_angle)
 
 
 def build(design: WideSwingDesign, fraction: Reals) -> Scene:
@@ -123,18 +139,22 @@ def _cams(cycle: Cycle) -> list[Part]:
             Chain(joints=joints, color=GREY),
             *_roller(cycle, design.cam.rocker_radius),
         ]
-    if design.return_cam is None:
-        main = _cam(cycle, design.cam, -cycle.cam_turn(0.0), BLUE)
-        back = _cam(cycle, design.cam, cycle.cam_turn(0.5), RED, mirrored=True)
-        return [*back, *main, *_roller(cycle, design.cam.rocker_radius)]
-    main = _cam(cycle, design.cam, math.pi + cycle.cam_turn(0.0), BLUE)
-    back = _cam(cycle, design.return_cam, cycle.cam_turn(0.5), RED, mirrored=True)
+    other = design.return_cam or design.cam
+    back = _cam(cycle, other, cycle.cam_turn(back=True), RED, mirrored=True)
+    if design.spec.layout == "twin-cam":
+        main = _cam(cycle, design.cam, -cycle.cam_turn(), BLUE)
+        arms = dict.fromkeys((design.cam.rocker_radius, other.rocker_radius))
+        return [*back, *main, *(part for arm in arms for part in _roller(cycle, arm))]
+    assert design.return_cam is not None, "a twin-rocker has two shapes"
+    main = _cam(cycle, design.cam, math.pi + cycle.cam_turn(), BLUE)
     rollers = *_roller(cycle, -design.cam.rocker_radius), *_roller(cycle, design.return_cam.rocker_radius)
     return [*back, *main, *rollers]
 
 
 def _cam(cycle: Cycle, cam: AnyCam, turn: Reals, color: str, *, mirrored: bool = False) -> list[Part]:
-    """The contour of a stroke, open as it is known, and spokes to the cam axis."""
+    """The closed contour of a cycle; else that of a stroke, open as it is known, and spokes to the cam axis."""
+    if cycle.whole:
+        return [_closed(cycle, turn, color, late=mirrored)]
     from gearlink.core.wide_swing.outline import contour
 
     run_up, slot, run_out = contour(cam, cycle.design.slot_of(cam), 160)
@@ -146,6 +166,17 @@ def _cam(cycle: Cycle, cam: AnyCam, turn: Reals, color: str, *, mirrored: bool =
         Body(outline=spokes, place=place, turn=turn, color=color, width=0.8),
         Body(outline=outline, place=place, turn=turn, color=color, width=2.4),
     ]
+
+
+def _closed(cycle: Cycle, turn: Reals, color: str, *, late: bool) -> Body:
+    """A closed contour in the frame of the stroke that it guides."""
+    whole = cycle.design.cycle
+    closed = whole.back if late else whole.main
+    outline = np.concatenate([points for _, points in closed.outline(90)])
+    outline = outline.conj() if late else whole.of_main(outline)
+    return Body(
+        outline=outline, place=track(closed.cam.center_distance, cycle.fraction), turn=turn, color=color, width=2.4
+    )
 
 
 def _roller(cycle: Cycle, arm: float) -> list[Part]:

@@ -10,7 +10,7 @@ from gearlink.core.cams import codes as cams
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages import codes as linkages
 from gearlink.core.report import Check, Status, safely_above, safely_below
-from gearlink.core.wide_swing import codes, remedies
+from gearlink.core.wide_swing import codes, cycle_checks, remedies
 
 if TYPE_CHECKING:
     from gearlink.core.wide_swing.design import WideSwingDesign
@@ -47,6 +47,9 @@ def force_closure(design: WideSwingDesign) -> Iterator[Check]:
 def cycle_angles(design: WideSwingDesign) -> Iterator[Check]:
     """GL510: both strokes find room in one turn of the cam."""
     if design.spec.drive is not None:
+        return
+    if design.spec.cycle is not None:
+        yield from cycle_checks.cycle_angles(design)
         return
     both = 2.0 * math.degrees(design.motion.cycle_angle)
     text = f"both strokes take {both:g} deg of the cam's turn"
@@ -126,6 +129,8 @@ def pressure_angle(design: WideSwingDesign) -> Iterator[Check]:
 def _pressure_remedy(design: WideSwingDesign) -> str:
     repair = design.pressure_repair
     if repair is None:
+        if design.spec.cycle is not None:
+            return "no swing alone was found that keeps it; give that stroke another angle in cycle"
         keys = "cycle_angle and no swing" if design.spec.drive is None else "drive.crank and no swing"
         return f"no {keys} alone was found that keeps it; a twin-cam wants a swing near 2 acos(r/a)"
     if repair.value is None:

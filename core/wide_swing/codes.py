@@ -65,13 +65,14 @@ FORCE_CLOSURE = Rule(
 CYCLE_ANGLES = Rule(
     "GL510",
     "two strokes take more than a turn",
-    "Working and return stroke together take more cam angle than a turn has.",
-    "The two profiles would overlap.",
-    "Reduce cycle_angle to 180 deg or less.",
-    "2 phi_ud <= 360 deg",
+    "Working and return stroke together take more cam angle than a turn has; of a cycle, a rest has no length (a "
+    "warning).",
+    "The two profiles would overlap; without a rest between them the hollows of both strokes meet in an edge.",
+    "Reduce cycle_angle to 180 deg or less; give both rests of a cycle some degrees.",
+    "2 phi_ud <= 360 deg; working + far_dwell + return + near_dwell = 360 deg, rests above 0",
     "own derivation",
     ("cycle-angles",),
-    ("cycle_angle",),
+    ("cycle_angle", "cycle"),
 )
 FORCE_RESERVE = Rule(
     "GL511",
@@ -87,4 +88,27 @@ FORCE_RESERVE = Rule(
     "own derivation",
     ("force-reserve",),
     ("unloader.reserve", "unloader"),
+)
+CLOSED_CONTOUR = Rule(
+    "GL512",
+    "roller cuts into the closed contour",
+    "On its way round the whole turn a roller would cut into its own cam: beside a joint, in the sector where the "
+    "other cam guides, or where two hollows come near each other.",
+    "The contour that is drawn would not be left standing, and the rocker would lose its guidance there.",
+    "Take a smaller cam.roller_radius or cam.free_clearance, longer rests, or a larger cam.center_distance.",
+    "least distance of contour and path of the roller's centre >= r_p",
+    "own derivation",
+    ("closed-contour",),
+    ("cam.roller_radius", "cam.free_clearance", "cycle", "cam"),
+)
+PROFILE_PLANES = Rule(
+    "GL513",
+    "profiles of one cam need two planes",
+    "The internal and the external profile of a twin-rocker's cam overlap as seen along its axis (a warning).",
+    "A body with both in one plane would lack the metal between them.",
+    "Put the profiles side by side, or take smaller rollers.",
+    "rho_2 - r_p > rho_1 + r_p during the rests, rho_1 the external profile's pitch radius, rho_2 the internal one's",
+    "own derivation",
+    ("profile-planes",),
+    ("cam.roller_radius", "cam"),
 )

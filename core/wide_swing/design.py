@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from gearlink.core.design import Design, Outline
 from gearlink.core.errors import MissingSection, NoSolution, at_key
 from gearlink.core.results import cached_property
-from gearlink.core.wide_swing import checks, remedies, tables
+from gearlink.core.wide_swing import checks, cycle_checks, remedies, tables
 from gearlink.core.wide_swing.motion import Motion
 from gearlink.core.wide_swing.unloading import Unloading
 
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.report import Quantity
     from gearlink.core.wide_swing.cam import Layout, WideSwingCam
+    from gearlink.core.wide_swing.cycle import WholeCycle
     from gearlink.core.wide_swing.oscillating_cam import OscillatingCam
     from gearlink.core.wide_swing.outline import AnyCam
     from gearlink.core.wide_swing.spec import SwingCam, WideSwingSpec
@@ -48,6 +49,7 @@ _DRIVE = {
     "cam_swing": "motion.drive.swing",
     "middle_pressure_angle": "oscillating_cam.middle_pressure_angle",
 }
+_OF_REST = ("dwell_force",)
 _OF_EVEN_CAM = ("profile_correction", "largest_profile_correction", "phase_angle", "start_curvature_radius")
 _PROFILE = {
     "rocker_radius": "cam.rocker_radius",
@@ -61,6 +63,13 @@ _PROFILE = {
     "max_pressure_angle": "cam.max_pressure_angle",
     "lift_off_speed": "unloading.lift_off_speed",
     "contact_force": "contact_force",
+    "dwell_force": "dwell_force",
+}
+_CYCLE = {
+    "sectors_external": "cycle.sectors_external",
+    "sectors_internal": "cycle.sectors_internal",
+    "sectors_return": "cycle.sectors_return",
+    "longer_stroke_reserve": "cycle.longer_stroke_reserve",
 }
 _ITERATION = {
     "iteration_energy_parameter": "unloading.iteration.energy_parameter",
@@ -68,12 +77,13 @@ _ITERATION = {
     "iteration_error": "unloading.iteration_error",
 }
 _CURVATURE = {"min_curvature_radius": "cam.min_curvature_radius"}
-_PATHS = _LAW | _TORQUE | _SHAFT | _SLIDER | _DRIVE | _PROFILE | _CURVATURE | _ITERATION
+_PATHS = _LAW | _TORQUE | _SHAFT | _SLIDER | _DRIVE | _PROFILE | _CURVATURE | _CYCLE | _ITERATION
 _NEED_PROFILE = ("start_radius_estimate", "middle_radius_estimate")
 _NEED_ZONE = ("transition_zone", "max_pressure_angle", "min_curvature_radius", "contact_end", "contact_force")
 
 _CAM = ("max_pressure_angle", "min_curvature_radius", "max_radius", "min_radius")
 _LAW_CHECKS = ("unloader-turnability", "force-closure", "cycle-angles", "balancing")
+_CYCLE_CHECKS = ("acceleration-step", "closed-contour", "profile-planes")
 _CAM_CHECKS = ("profile-exists", "pressure-angle", "cam-undercut", "transition-zone", "shaft-clearance")
 
 
@@ -87,7 +97,7 @@ class WideSwingDesign(Design):
         "cam": Outline(_CAM, _CAM_CHECKS, ("main_cam", "return_cam")),
         "analyze": Outline(tuple(_LAW), _LAW_CHECKS, ("law", "balance")),
     }
-    extra_tables = ("iteration", "slider", "contact")
+    extra_tables = ("iteration", "slider", "contact", "contour", "joints")
 
     # Parts
 
@@ -118,22 +128,28 @@ class WideSwingDesign(Design):
         """The cam of the working stroke, turning evenly."""
         if self.spec.drive is not None:
             raise NoSolution("this is a result of a cam that turns evenly: leave out drive", key="drive")
-        return self._even(self.spec.layout, self.section.rocker_radius)
+        return self._even(self.spec.layout, self.motion.cycle_angle, self.section.rocker_radius)
 
     @cached_property
     def return_cam(self) -> WideSwingCam | None:
-        """A return cam of another shape: the external profile of the twin-rocker."""
-        return self._even("twin-cam", None) if self.spec.layout == "twin-rocker" else None
+        """A return cam of another shape: the external profile of the twin-rocker, or one of another cam angle."""
+        if self.spec.layout == "twin-cam" and self.motion.return_angle == self.motion.cycle_angle:
+            return None
+        return self._even("twin-cam", self.motion.return_angle, None)
 
-    def _even(self, layout: Layout, rocker_radius: float | None) -> WideSwingCam:
+    def _even(self, layout: Layout, angle: float, rocker_radius: float | None) -> WideSwingCam:
         from gearlink.core.wide_swing.cam import WideSwingCam
 
-        section, motion = self.section, self.motion
-        law = motion.plain_law
-        with at_key("cycle_angle"):
-            return WideSwingCam(
-                layout, law, motion.cycle_angle, section.center_distance, section.roller_radius, rocker_radius
-            )
+        section, law = self.section, self.motion.plain_law
+        with at_key("cycle_angle" if self.spec.cycle is None else "cycle"):
+            return WideSwingCam(layout, law, angle, section.center_distance, section.roller_radius, rocker_radius)
+
+    @cached_property
+    def cycle(self) -> WholeCycle:
+        """Both cams as closed contours over a whole turn."""
+        from gearlink.core.wide_swing.cycle import WholeCycle
+
+        return WholeCycle(self)
 
     @cached_property
     def oscillating_cam(self) -> OscillatingCam:
@@ -149,6 +165,8 @@ class WideSwingDesign(Design):
         """The cams that are checked, by the words that a message calls them."""
         if self.return_cam is None:
             return {"cam": self.cam}
+        if self.spec.layout == "twin-cam":
+            return {"cam": self.cam, "return cam": self.return_cam}
         return {"internal profile": self.cam, "external profile": self.return_cam}
 
     # Where a profile stands
@@ -216,11 +234,18 @@ class WideSwingDesign(Design):
             for part in self.contact_of(cam)
         )
 
+    @cached_property
+    def dwell_force(self) -> float:
+        """Greatest force of a roller on its cam during the rests [N]."""
+        return self.unloading.dwell_force(self.cams.values())
+
     @property
     def _profile_key(self) -> Any:
         """What a refused profile is refused with: the key to change."""
         if self.spec.drive is not None:
             return at_key("drive")
+        if self.spec.cycle is not None and self.section.rocker_radius is None:
+            return at_key("cycle.working")
         return at_key("cycle_angle" if self.section.rocker_radius is None else "cam.rocker_radius")
 
     # Results
@@ -244,6 +269,7 @@ class WideSwingDesign(Design):
 
     table_law, table_slider, table_balance = tables.law, tables.slider, tables.balance
     table_iteration, table_contact = tables.iteration, tables.contact
+    table_contour, table_joints = tables.contour, tables.joints
     table_main_cam, table_return_cam = tables.main_cam, tables.return_cam
 
     check_unloader_turnability, check_force_closure = checks.unloader_turnability, checks.force_closure
@@ -251,6 +277,8 @@ class WideSwingDesign(Design):
     check_profile_exists, check_pressure_angle = checks.profile_exists, checks.pressure_angle
     check_cam_undercut, check_transition_zone = checks.cam_undercut, checks.transition_zone
     check_shaft_clearance, check_force_reserve = checks.shaft_clearance, checks.force_reserve
+    check_acceleration_step, check_closed_contour = cycle_checks.acceleration_step, cycle_checks.closed_contour
+    check_profile_planes = cycle_checks.profile_planes
 
     pressure_repair = cached_property(remedies.pressure)
     suggestions = remedies.suggestions
@@ -261,8 +289,11 @@ class WideSwingDesign(Design):
         """What the sections of the file allow; a profile with a loop leaves its quantities out of `swing`."""
         base, spec = self.outlines[command], self.spec
         cams = ("main_cam", "return_cam") if spec.drive is None else ("main_cam",)
+        turn = ("joints",) if spec.cycle is not None else ()
+        of_turn = _CYCLE_CHECKS if spec.cycle is not None else ()
         if command == "cam":
-            return Outline(base.quantities, base.checks, cams)
+            sectors = tuple(_CYCLE) if spec.cycle is not None else ()
+            return Outline((*base.quantities, *sectors), (*base.checks, *of_turn), (*cams, *turn))
         quantities = [*base.quantities, *(_SLIDER if spec.slider is not None else _TORQUE)]
         checks, tables = [*base.checks], [*base.tables]
         if spec.shaft is not None:
@@ -271,18 +302,20 @@ class WideSwingDesign(Design):
             tables.append("slider")
         if spec.cam is not None:
             quantities += self._profile_quantities(command)
-            checks += (*_CAM_CHECKS, "force-reserve")
+            checks += (*_CAM_CHECKS, "force-reserve", *of_turn)
         if spec.method == "iteration":
             quantities += _ITERATION
             tables.append("iteration")
         if command == "analyze" and spec.cam is not None and self._profile_exists():
-            tables += cams
+            tables += (*cams, *turn)
         return Outline(tuple(quantities), tuple(checks), tuple(tables))
 
     def _profile_quantities(self, command: str) -> list[str]:
         names = [*_PROFILE, *(_CURVATURE if command == "analyze" else ())]
         if self.spec.drive is not None:
-            names = [*_DRIVE, *(name for name in names if name not in (*_OF_EVEN_CAM, *_NEED_PROFILE))]
+            names = [*_DRIVE, *(name for name in names if name not in (*_OF_EVEN_CAM, *_OF_REST, *_NEED_PROFILE))]
+        if self.spec.cycle is not None and self._profile_exists():
+            names += _CYCLE
         if not self._profile_exists():
             names = [name for name in names if name not in (*_NEED_PROFILE, *_NEED_ZONE)]
         elif not self.has_zone(self.cam):

@@ -151,13 +151,42 @@ class Motion:
 
     @cached_property
     def cycle_angle(self) -> float:
-        """phi_ud, turn of the shaft that runs evenly during one stroke [rad]."""
+        """phi_ud, turn of the shaft that runs evenly during the working stroke [rad]."""
+        if self.spec.cycle is not None:
+            return math.radians(self.spec.cycle.working)
         given = self.spec.cycle_angle
         return self.drive.crank_span if given is None else math.radians(given)
 
+    @property
+    def return_angle(self) -> float:
+        """The same of the return stroke [rad]."""
+        return self.cycle_angle if self.spec.cycle is None else math.radians(self.spec.cycle.return_)
+
+    @property
+    def cycle_angles(self) -> tuple[float, float, float, float]:
+        """Working stroke, far dwell, return stroke, near dwell [rad]."""
+        if self.spec.cycle is None:
+            words = "this needs the section cycle: working, far_dwell, return, near_dwell"
+            raise MissingSection(words, key="cycle")
+        working, far, back, near = (math.radians(length) for length in self.spec.cycle.lengths())
+        return working, far, back, near
+
+    @property
+    def device_angle(self) -> float:
+        """Cam angle of the shorter stroke [rad]: one device serves both, and its free swing takes one time."""
+        return min(self.cycle_angle, self.return_angle)
+
     @cached_property
     def stroke_time(self) -> float:
-        """Time of one stroke at the design speed [s]."""
+        """Time of the shorter stroke at the design speed [s]; the device is sized by it."""
+        return self._time_of(self.device_angle)
+
+    @cached_property
+    def working_time(self) -> float:
+        """Time of the working stroke at the design speed [s]."""
+        return self._time_of(self.cycle_angle)
+
+    def _time_of(self, angle: float) -> float:
         from gearlink.core.wide_swing.balancing import stroke_time
 
-        return stroke_time(self.cycle_angle, self.spec.speed * 2.0 * math.pi / 60.0)
+        return stroke_time(angle, self.spec.speed * 2.0 * math.pi / 60.0)

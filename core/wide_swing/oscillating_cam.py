@@ -142,6 +142,11 @@ class OscillatingCam:
             if not 0.0 < value < math.inf:
                 raise NoSolution(f"the {name} is {value:.6g} mm; it must be above 0")
 
+    @property
+    def cycle_angle(self) -> float:
+        """Crank angle of one stroke [rad]."""
+        return self.drive.crank_span
+
     @cached_property
     def _middle(self) -> tuple[float, float]:
         """chi' and chi'' at mid-swing."""
@@ -173,11 +178,7 @@ class OscillatingCam:
     @property
     def loop_margin(self) -> float:
         """What must be positive for the profile to exist: the sense of the cusp at mid-swing, negative for a loop."""
-        return self._cusp[0]
-
-    @cached_property
-    def _cusp(self) -> tuple[float, float]:
-        return self._stop(0.5)
+        return self._stop(0.5)[0]
 
     def _stop(self, k: float) -> tuple[float, float]:
         """Im(conj(z2) z3)/|z2|^2, positive for a bulge, and |z2| at mid-swing or an end, where z'(k) = 0."""
@@ -205,7 +206,7 @@ class OscillatingCam:
             NoSolution - where the pitch curve has a loop
         """
         self.require_profile()
-        return self._left(self._cusp)
+        return self._left(self._stop(0.5))
 
     def _left(self, stop: tuple[float, float]) -> float:
         """Part of the stroke over which the roller leaves a stop, to leading order."""

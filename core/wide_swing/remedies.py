@@ -81,6 +81,8 @@ def profile(design: WideSwingDesign) -> Suggestion | None:
         return None if value is None else Suggestion("drive.crank", value, "the pitch curve has a loop")
     if design.section.rocker_radius is not None:
         return Suggestion("cam.rocker_radius", None, "the pitch curve has a loop with a longer rocker")
+    if design.spec.cycle is not None:
+        return None  # what one angle gives up another takes over, and which is the designer's choice
     return Suggestion("cycle_angle", cycle_angle(design), "the pitch curve has a loop at mid-swing")
 
 
@@ -102,7 +104,7 @@ def _ways(design: WideSwingDesign) -> Iterator[tuple[str, tuple[float, ...]]]:
     """Keys that bear on the pressure angle and how far each may go."""
     if design.spec.drive is not None:
         yield "drive.crank", (0.05 * design.spec.drive.crank,)
-    else:
+    elif design.spec.cycle is None:
         yield "cycle_angle", (1.0, 180.0)
     yield "swing", (5.0, 300.0)
 
@@ -257,7 +259,7 @@ def _profile(design: WideSwingDesign) -> Suggestion | None:
     try:
         cam = design.cam
     except NoSolution:
-        if design.spec.layout != "twin-rocker":
+        if design.spec.layout != "twin-rocker" or design.spec.cycle is not None:
             raise
         # a twin-rocker whose rocker is slower than its cam
         return Suggestion("cycle_angle", cycle_angle(design), "a twin-rocker must turn faster than its cam")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Annotated, Literal, LiteralString, NoReturn, TypeAlias
 
 from pydantic import Field, ValidationInfo, field_validator, model_validator
@@ -25,6 +26,7 @@ def _refuse(key: str, message: LiteralString, code: LiteralString = "GL111", **w
     raise PydanticCustomError(code, message, {"key": key, **words})
 
 
+Phase: TypeAlias = Annotated[float, Field(ge=0, lt=360, json_schema_extra={"unit": "deg"})]
 Residual: TypeAlias = Annotated[
     float,
     Field(
@@ -86,6 +88,34 @@ class SwingCam(Spec):
     roller_radius: Length = Field(description="radius of the roller")
     rocker_radius: Length | None = Field(None, description="rocker radius, in place of the one with no pressure angle")
     shaft_radius: Distance = Field(0.0, description="cam shaft; 0: not checked")
+    free_clearance: Distance = Field(
+        0.5, description="room between a roller and the sector of a closed contour in which the other cam guides"
+    )
+
+
+class SwingCycle(Spec):
+    """Cam angles of a whole cycle, in place of cycle_angle; their sum is 360."""
+
+    working: Phase = Field(gt=0, description="working stroke, run-up and run-out")
+    far_dwell: Phase = Field(description="rest at the far end")
+    return_: Phase = Field(alias="return", gt=0, description="return stroke")
+    near_dwell: Phase = Field(description="rest at the near end")
+
+    @model_validator(mode="after")
+    def _one_turn(self) -> SwingCycle:
+        total = math.fsum(self.lengths())
+        if abs(total - 360.0) > 1e-9:
+            given = "working, far_dwell, return and near_dwell"
+            raise PydanticCustomError(
+                "GL108",
+                "{given} sum to {total} deg; one turn of the cam is 360: change near_dwell by {change}",
+                {"key": "near_dwell", "given": given, "total": f"{total:.9g}", "change": f"{360.0 - total:+.9g}"},
+            )
+        return self
+
+    def lengths(self) -> tuple[float, float, float, float]:
+        """The four angles in their order [deg]."""
+        return self.working, self.far_dwell, self.return_, self.near_dwell
 
 
 class SwingShaft(Spec):
@@ -142,9 +172,10 @@ class WideSwingSpec(DesignSpec):
         description="twin-cam: external profile; twin-rocker: internal profile"
     )
     drive: SwingDrive | None = None
+    cycle: SwingCycle | None = None
     swing: Annotated[float, Field(gt=0, le=300, json_schema_extra={"unit": "deg"})] = Field(description="whole swing")
     cycle_angle: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
-        None, validate_default=True, description="cam angle of one stroke; left out where a drive gives it"
+        None, validate_default=True, description="cam angle of one stroke; left out where a cycle or a drive gives it"
     )
     speed: Annotated[float, Field(gt=0, json_schema_extra={"unit": "1/min"})] = Field(description="of the cam")
     inertia: Annotated[float, Field(ge=0, json_schema_extra={"unit": "kg m^2"})] = Field(
@@ -169,8 +200,9 @@ class WideSwingSpec(DesignSpec):
     @classmethod
     def _given_unless_driven(cls, value: float | None, info: ValidationInfo) -> float | None:
         """With the other fields, so that a missing key is reported together with every other error of the file."""
-        if value is None and info.data.get("drive", ...) is None:
-            words = "cycle_angle: cam angle of one stroke, run-up and run-out"
+        drive, cycle = (info.data.get(name, ...) for name in ("drive", "cycle"))
+        if value is None and drive is None and cycle is None:
+            words = "cycle_angle: cam angle of one stroke, run-up and run-out; or the section cycle of a whole turn"
             _refuse("cycle_angle", "the key 'cycle_angle' is missing", "GL106", help=words)
         return value
 
@@ -178,6 +210,8 @@ class WideSwingSpec(DesignSpec):
     def _sections_agree(self) -> WideSwingSpec:
         if self.slider is None and self.inertia == 0.0:
             _refuse("inertia", "inertia must be above 0 where no slider carries the mass", "GL108")
+        if self.cycle is not None and self.cycle_angle is not None:
+            _refuse("cycle_angle", "cycle_angle and cycle exclude each other: give one")
         if self.drive is not None:
             self._agree_with_drive()
         if self.slider is not None:
@@ -191,6 +225,8 @@ class WideSwingSpec(DesignSpec):
         return self
 
     def _agree_with_drive(self) -> None:
+        if self.cycle is not None:
+            _refuse("cycle", "the drive's dead centres give the crank angles of both strokes: leave out cycle")
         if self.cycle_angle is not None:
             _refuse("cycle_angle", "the drive's dead centres give the crank angle of the stroke: leave out cycle_angle")
         if self.cam is None:

@@ -35,7 +35,7 @@ def slider(design: WideSwingDesign, samples: int | None = None) -> Table:
         "velocity": (b, "1"),
         "acceleration": (c, "1"),
         "travel": (moved.stroke * a, "mm"),
-        "speed": (moved.stroke / design.motion.stroke_time * b, "mm/s"),
+        "speed": (moved.stroke / design.motion.working_time * b, "mm/s"),
     }
     return Table.of("slider", columns)
 
@@ -105,16 +105,25 @@ def iteration(design: WideSwingDesign, _samples: int | None = None) -> Table:
     return Table.of("iteration", columns)
 
 
+def contour(design: WideSwingDesign, samples: int | None = None) -> Table:
+    """Both cams as closed contours over one turn."""
+    return design.cycle.table(samples)
+
+
+def joints(design: WideSwingDesign, _samples: int | None = None) -> Table:
+    """The joints of both closed contours."""
+    return design.cycle.joints()
+
+
 def main_cam(design: WideSwingDesign, samples: int | None = None) -> Table:
     """The cam of the working stroke; where the roller's slot cuts the profile away, x and y are empty."""
     return _cam(design, "main_cam", design.cam, 1.0, samples)
 
 
 def return_cam(design: WideSwingDesign, samples: int | None = None) -> Table:
-    """The cam of the return stroke: the mirror image (twin-cam), or the external profile of the twin-rocker."""
-    if design.return_cam is None:
-        return _cam(design, "return_cam", design.even_cam, -1.0, samples)
-    return _cam(design, "return_cam", design.return_cam, 1.0, samples)
+    """The cam of the return stroke: a mirror image (twin-cam), or the external profile of the twin-rocker."""
+    mirror = -1.0 if design.spec.layout == "twin-cam" else 1.0
+    return _cam(design, "return_cam", design.return_cam or design.even_cam, mirror, samples)
 
 
 def _cam(design: WideSwingDesign, name: str, cam: AnyCam, mirror: float, samples: int | None) -> Table:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from gearlink.core.errors import MissingSection, at_key
@@ -76,7 +77,7 @@ class Unloading:
         from gearlink.core.wide_swing.balancing import drive_torque_peak
 
         motion, law = self.motion, self.motion.rocker_alone("drive_torque_peak")
-        return drive_torque_peak(self.spec.inertia, law, motion.stroke_time, motion.cycle_angle)
+        return drive_torque_peak(self.spec.inertia, law, motion.stroke_time, motion.device_angle)
 
     @property
     def drive_balancing_ratio(self) -> float | None:
@@ -125,7 +126,7 @@ class Unloading:
     def contact_force(self, cam: AnyCam, k: Reals, speed_ratio: float | Reals = 1.0) -> Reals:
         """Force of the roller on a cam, along their normal.
 
-        F = J gamma |c| ((1 + rho) - (n/n0)^2)/(T0^2 r cos delta)
+        F = J gamma |c| ((1 + rho) - (n T0/(n0 T))^2)/(T0^2 r cos delta)
 
         Parameters
             cam : WideSwingCam or OscillatingCam
@@ -136,13 +137,29 @@ class Unloading:
                 roller leaves it
         Notes
             Friction is left out. In run-up the device is stronger than the inertia and the cam holds the rocker back;
-            in run-out the inertia is weaker than the device and the cam pushes.
+            in run-out the inertia is weaker than the device and the cam pushes. T0 is the time of the shorter of two
+            strokes, T that of the cam's own.
         """
         import numpy as np
 
         motion = self.motion
+        speed_ratio = speed_ratio * (motion.device_angle / cam.cycle_angle)
         scale = 1e3 * motion.inertia * motion.swing / (motion.stroke_time**2 * cam.rocker_radius)
         acceleration = np.abs(motion.plain_law.invariants(k, 2)[2])
         excess = self.spec.unloader.reserve - (speed_ratio - 1.0) * (speed_ratio + 1.0)
         force: Reals = scale * excess * acceleration / np.cos(cam.pressure_angle(k))
         return force
+
+    def dwell_force(self, cams: Iterable[AnyCam]) -> float:
+        """Greatest force of a roller on its cam during the rests, when the cam bears the whole device [N].
+
+        F = (1 + rho) J gamma c(0)/(T0^2 r cos delta0)
+
+        Parameters
+            cams : of both strokes
+        Returns
+            force : float [N] - it also acts at the ends of the strokes of a machine that barely turns
+        """
+        import numpy as np
+
+        return max(float(self.contact_force(cam, np.zeros(1), 0.0)[0]) for cam in cams)

@@ -286,6 +286,21 @@ def test_the_roller_nowhere_enters_a_swing_profile(build: Any, name: str, form: 
     assert np.median(reach) == pytest.approx(roller, rel=0.0, abs=2.0 * T + AGAIN)
 
 
+@pytest.mark.parametrize("name", ["contour", "return_contour"])
+def test_a_cycle_is_one_closed_contour_round_the_roller(name: str) -> None:
+    design = factory.design("wide_swing_cycle", command="cam")
+    exported = made(design, name)
+    assert all(line.closed for line in exported.lines)
+    assert len(exported.lines) == 2
+    (edge,), (pitch,) = drawn(exported, "PROFILE"), drawn(exported, "PITCH_CURVE")
+    table, before = design.table("contour", samples=1000), "return_" if name.startswith("return") else ""
+    on = table[f"{before}x"] + 1j * table[f"{before}y"]
+    assert distance(on[~np.isnan(on)], edge).max() <= exported.error + AGAIN
+    reach = distance(pitch, edge)
+    assert reach.min() >= design.section.roller_radius - 2.0 * T - AGAIN
+    assert reach.max() <= design.section.roller_radius + design.section.free_clearance + 2.0 * T + AGAIN
+
+
 @pytest.mark.parametrize(("build", "name"), SWING_CAMS)
 def test_a_swing_profile_ends_on_the_roller_at_mid_swing(build: Any, name: str) -> None:
     exported = made(build(), name)

@@ -102,6 +102,23 @@ def test_contour_has_no_gap_and_no_corner_at_the_dwells() -> None:
         assert cam.points(np.array([1.0])).profile[0] == pytest.approx(run_out[-1], abs=1e-12)
 
 
+def test_closed_contours_are_the_table_s() -> None:
+    for keys in ({}, {"layout": "twin-cam"}):
+        made, figure = drawn("cycle", "cam", **keys)
+        cycle = made.cycle
+        titles = ("Both profiles",) * 2 if not keys else ("Cam of the working", "Cam of the return")
+        for title, cam, frame in zip(titles, (cycle.main, cycle.back), (cycle.of_main, cycle.of_back), strict=True):
+            found = [np.asarray(line.get_xydata()) @ [1, 1j] for line in panel(figure, title).get_lines()]
+            for _, points in cam.outline():
+                want = frame(points)
+                assert any(line.shape == want.shape and np.abs(line - want).max() < 1e-9 for line in found)
+        curve = lines(panel(figure, "Cycle"))["rocker"]
+        table = made.table("contour", samples=720)
+        np.testing.assert_array_equal(np.asarray(curve.get_ydata())[:-1], table["rocker_angle"])
+        words = {text.get_text() for text in panel(figure, "Cycle").texts}
+        assert words == {"working stroke\n80°", "far dwell\n70°", "return stroke\n100°", "near dwell\n110°"}
+
+
 def test_pressure_angle_and_curvature() -> None:
     made, figure = drawn("twin_rocker", "cam")
     axes = panel(figure, "Pressure angle")
