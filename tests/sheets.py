@@ -1,16 +1,21 @@
-"""Sheets in tests: a design with its figure, drawn once for all tests, and what is read from a figure."""
+"""Sheets in tests: a design with its figure, drawn once for all tests, and what is read from a figure.
+
+What a panel shows stands in its artists before the panels are placed, and placing them takes ten times as long: a
+`sheet` is not placed, a `placed_sheet` is, as a file of it would be.
+"""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
 from factory import changed, design, worked
+from sweeps import mostly_slow
 
-from gearlink.cli.figures.write import draw
+from gearlink.cli.figures.write import draw, panels
 
 
 class Sheet(NamedTuple):
@@ -22,12 +27,39 @@ class Sheet(NamedTuple):
 
 def sheet(given: str | Mapping[str, Any], command: str = "analyze", /, **keys: Any) -> Sheet:
     """The sheet of a command on the data of a design file, or on a worked design, with changes as in the factory."""
-    return _drawn(json.dumps(changed(worked(given) if isinstance(given, str) else given, **keys)), command)
+    return _drawn(_as_key(given, keys), command)
+
+
+def placed_sheet(given: str | Mapping[str, Any], command: str = "analyze", /, **keys: Any) -> Sheet:
+    """The same, with its panels placed: everything is drawn but the pixels."""
+    return _placed(_as_key(given, keys), command)
+
+
+def odd_sheets(cases: Iterable[Any], quick: int = 3) -> list[Any]:
+    """Cases of designs that must draw, each with what draws it: the first few as a sheet in `make test`, all placed in
+    `make check-full`."""
+    rows = [case if isinstance(case, tuple) else (case,) for case in cases]
+    return mostly_slow([*((*row, sheet) for row in rows[:quick]), *((*row, placed_sheet) for row in rows)], quick)
+
+
+def _as_key(given: str | Mapping[str, Any], keys: dict[str, Any]) -> str:
+    return json.dumps(changed(worked(given) if isinstance(given, str) else given, **keys))
+
+
+@cache
+def _made(data: str, command: str) -> Any:
+    return design(json.loads(data), command=command)
 
 
 @cache
 def _drawn(data: str, command: str) -> Sheet:
-    made = design(json.loads(data), command=command)
+    made = _made(data, command)
+    return Sheet(made, panels(command, made))
+
+
+@cache
+def _placed(data: str, command: str) -> Sheet:
+    made = _made(data, command)
     return Sheet(made, draw(command, made))
 
 

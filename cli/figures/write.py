@@ -30,10 +30,14 @@ _ASIAN_FONTS = ("Noto Sans CJK SC", "Source Han Sans SC", "WenQuanYi Zen Hei", "
 
 
 def draw(command: str, design: Design) -> Figure:
-    """The figure of a command on a design, from the module named after the kind."""
-    module = import_module("gearlink.cli.figures." + design.kind.replace("-", "_"))
-    made: Figure = module.draw(command, design)
-    return settled(made)
+    """The figure of a command on a design, its panels placed."""
+    return settled(panels(command, design))
+
+
+def panels(command: str, design: Design) -> Figure:
+    """The figure of a command on a design, from the module named after the kind, its panels not placed yet."""
+    made: Figure = import_module("gearlink.cli.figures." + design.kind.replace("-", "_")).draw(command, design)
+    return made
 
 
 def settled(made: Figure) -> Figure:

@@ -10,10 +10,12 @@ from typing import Any
 import pytest
 from sweeps import mostly_slow
 
+from gearlink.cli.commands import suggest
 from gearlink.cli.commands.suggest import Change, overrides
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import COMMANDS
 from gearlink.core.kinds import KINDS
+from gearlink.core.spec_paths import value_at
 
 LOOP = """kind: wide-swing-cam
 layout: twin-rocker
@@ -25,6 +27,22 @@ unloader: {type: spring, pivot_ratio: 4, stretch_ratio: 0.05, arm: 60}
 cam: {center_distance: 150, roller_radius: 4, shaft_radius: 20}
 """
 CANNOT_TURN = LOOP.replace("pivot_ratio: 4", "pivot_ratio: 0.9")
+
+
+_repair, _repaired = suggest.repair, {}
+
+
+@pytest.fixture(autouse=True)
+def searched_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The same design is repaired once: the tests differ in what they do with what was found."""
+
+    def repair(kind: Any, command: str, spec: Any) -> Any:
+        key = command, spec.model_dump_json()
+        if key not in _repaired:
+            _repaired[key] = _repair(kind, command, spec)
+        return _repaired[key]
+
+    monkeypatch.setattr(suggest, "repair", repair)
 
 
 @pytest.fixture
@@ -57,7 +75,7 @@ def test_changes_put_in_by_hand_give_the_same_report(gearlink: Any, loop: Path) 
 
 def test_refused_design_is_repaired(gearlink: Any, tmp_path: Path) -> None:
     path = tmp_path / "stuck.yaml"
-    path.write_text(CANNOT_TURN)
+    path.write_text(CANNOT_TURN.replace("cycle_angle: 150", "cycle_angle: 100"))
     assert gearlink("swing", path).status == ExitCode.WRONG_INPUT
     ended = gearlink("swing", path, "--suggest", "--format", "json")
     assert ended.status == ExitCode.OK
@@ -112,10 +130,16 @@ def test_what_cannot_be_repaired_keeps_its_status(gearlink: Any, designs: Path, 
     assert no_folder.status == ExitCode.WRONG_INPUT
 
 
-def test_figure_is_that_of_the_repaired_design(gearlink: Any, loop: Path, tmp_path: Path) -> None:
-    ended = gearlink("swing", loop, "--suggest", "--plot", "--out", tmp_path, "--quiet")
+def test_figure_is_that_of_the_repaired_design(gearlink: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    drawn: list[Any] = []
+    monkeypatch.setattr(suggest, "plot", lambda command, design, _: drawn.append((command, design.spec)))
+    path = tmp_path / "wrong.yaml"
+    path.write_text(TWICE_WRONG)
+    ended = gearlink("gear", path, "--suggest", "--plot", "--out", tmp_path, "--format", "json")
     assert ended.status == ExitCode.OK
-    assert (tmp_path / "loop-swing.png").stat().st_size > 50_000
+    ((command, spec),) = drawn
+    (change, *_) = ended.json["suggestions"]
+    assert (command, value_at(spec, change["path"])) == ("gear", change["new"])
 
 
 @pytest.mark.parametrize("command", COMMANDS)

@@ -9,7 +9,7 @@ import math
 import numpy as np
 import pytest
 from factory import design
-from sheets import points, sheet, tagged, words
+from sheets import odd_sheets, points, sheet, tagged, words
 
 from gearlink.cli.figures.gear_mesh import Mesh, mesh_figure
 from gearlink.cli.figures.write import write_plot
@@ -72,9 +72,13 @@ ODD = [
 ]
 
 
-@pytest.mark.parametrize("keys", [*ODD[:4], *(pytest.param(keys, marks=pytest.mark.slow) for keys in ODD[4:])])
-def test_odd_pairs_draw(keys, tmp_path):
-    write_plot("gear", design(DATA, command="gear", **keys), Options(out=tmp_path))
+@pytest.mark.parametrize(("keys", "drawn"), odd_sheets(ODD))
+def test_odd_pairs_draw(keys, drawn):
+    drawn(DATA, "gear", **keys)
+
+
+def test_a_picture_is_written(tmp_path):
+    write_plot("gear", design(DATA, command="gear"), Options(out=tmp_path))
     assert [path.name for path in tmp_path.iterdir()] == ["pair-gear.png"]
 
 

@@ -7,7 +7,8 @@ Tolerances
 import numpy as np
 import pytest
 from factory import design
-from sheets import curve, lines, panel, points, sheet, words
+from sheets import curve, lines, panel, placed_sheet, points, sheet, words
+from sweeps import mostly_slow
 
 from gearlink.cli.figures.slider_crank import dead_centers
 from gearlink.cli.figures.write import write_plot
@@ -77,11 +78,10 @@ def test_drawing_names_its_dimensions():
     assert not [text for text in words(sheet(DATA, "crank", offset=0.0).figure) if "offset" in text]
 
 
-@pytest.mark.parametrize("case", CASES[1:4])
-def test_odd_designs_draw(case, tmp_path):
-    path = write_plot("crank", design(DATA, command="crank", **keys(case)), Options(out=tmp_path))
-    assert [path] == list(tmp_path.iterdir())
-    assert path.read_bytes().startswith(b"\x89PNG")
+@pytest.mark.parametrize("command", mostly_slow(["crank", "analyze"], 1))
+@pytest.mark.parametrize("case", mostly_slow([[case] for case in CASES], 1))
+def test_every_command_draws(case, command):
+    placed_sheet(DATA, command, **keys(case[0]))
 
 
 def test_a_folder_that_is_a_file_is_refused_and_stays(tmp_path):

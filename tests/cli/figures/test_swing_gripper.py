@@ -14,7 +14,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from sheets import Sheet, lines, named, panel, panel_named, points, scaled, sheet
+from sheets import Sheet, lines, named, odd_sheets, panel, panel_named, placed_sheet, points, scaled, sheet
+from sweeps import mostly_slow
 
 LENGTHS = {"radius", "length", "input", "coupler", "output", "center", "arm", "shaft_radius"}
 CASES = json.loads((Path(__file__).parents[2] / "reference" / "contract" / "gripper.json").read_text())
@@ -46,8 +47,8 @@ def test_law_is_that_of_the_motion_table(gripper: Sheet, order: int, ylabel: str
     np.testing.assert_allclose(line.get_ydata()[::4], expected, rtol=1e-12, atol=1e-12)
 
 
-def test_axes_on_the_right_are_the_rates_in_time(gripper: Sheet) -> None:
-    made, figure = gripper
+def test_axes_on_the_right_are_the_rates_in_time() -> None:
+    made, figure = placed_sheet(PAPER, "gripper")
     figure.canvas.draw()
     for ylabel, factor in (("β′", made.shaft_speed), ("β″", made.shaft_speed**2)):
         axes = panel_named(figure, ylabel)
@@ -180,19 +181,18 @@ ODD: dict[str, tuple[dict[str, Any], tuple[str, ...]]] = {
 }
 
 
-@pytest.mark.parametrize("command", ["gripper", "cam", "analyze"])
+@pytest.mark.parametrize("command", mostly_slow(["gripper", "cam", "analyze"], 1))
 def test_every_command_draws(command: str) -> None:
-    figure = sheet(PAPER, command).figure
+    figure = placed_sheet(PAPER, command).figure
     figure.savefig(io.BytesIO(), format="png", dpi=40)
     assert f"paper: {command}" in figure.get_suptitle()
 
 
-@pytest.mark.parametrize("name", ODD)
-def test_odd_designs_draw_without_warnings(name: str) -> None:
-    """Laying the figure out draws everything but its pixels."""
+@pytest.mark.parametrize(("name", "drawn"), odd_sheets(ODD))
+def test_odd_designs_draw_without_warnings(name: str, drawn: Any) -> None:
     keys, commands = ODD[name]
     for command in commands:
-        sheet(PAPER, command, **keys)
+        drawn(PAPER, command, **keys)
 
 
 def test_torques_are_left_out_where_the_file_has_none() -> None:

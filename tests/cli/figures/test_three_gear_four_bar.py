@@ -13,7 +13,8 @@ import numpy as np
 import pytest
 import yaml
 from factory import design
-from sheets import curve, lines, panel, points, sheet, tagged, words
+from sheets import curve, lines, odd_sheets, panel, placed_sheet, points, sheet, tagged, words
+from sweeps import mostly_slow
 
 from gearlink.cli.figures.three_gear_mechanism import dwell_position
 from gearlink.cli.figures.write import write_plot
@@ -50,17 +51,17 @@ def data(text):
     return {"kind": "three-gear-four-bar", "name": "train", **yaml.safe_load(text)}
 
 
-@pytest.mark.parametrize("command", CASES)
+@pytest.mark.parametrize("command", mostly_slow(list(CASES), 1))
 def test_every_command_draws(command, tmp_path):
     path = write_plot(command, design(data(CASES[command]), command=command), Options(out=tmp_path))
     assert path.name == f"train-{command.replace(' ', '-')}.png"
     assert list(tmp_path.iterdir()) == [path]
 
 
-@pytest.mark.parametrize("case", ODD)
+@pytest.mark.parametrize(("case", "drawn"), odd_sheets(ODD))
 @pytest.mark.parametrize("command", ["analyze", pytest.param("gear", marks=pytest.mark.slow)])
-def test_odd_designs_draw(command, case, tmp_path):
-    write_plot(command, design(data(ODD[case]), command=command), Options(out=tmp_path))
+def test_odd_designs_draw(case, command, drawn):
+    drawn(data(ODD[case]), command)
 
 
 @pytest.mark.parametrize("case", ["drag link", "mirrored, with tolerance"])
@@ -93,7 +94,7 @@ def test_mechanism_is_to_scale():
 
 
 def test_letters_keep_off_the_links():
-    axes = panel(sheet(data(PRINTED)).figure, "Mechanism")
+    axes = panel(placed_sheet(data(PRINTED)).figure, "Mechanism")
     chain = next(line for line in axes.lines if line.get_linewidth() > 2.0)
     joints = axes.transData.transform(chain.get_xydata()) @ np.array([1.0, 1j])
     for name, joint in zip("ABCD", joints, strict=True):

@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 import pytest
 from factory import design
-from sheets import Sheet, lines, panel, sheet
+from sheets import Sheet, lines, odd_sheets, panel, placed_sheet, sheet
+from sweeps import mostly_slow
 
 from gearlink.core.errors import NoSolution
 
@@ -21,7 +22,7 @@ def drawn(name: str, command: str, **keys: Any) -> Sheet:
     return sheet(f"wide_swing_{name}", command, **keys)
 
 
-@pytest.mark.parametrize("name", ["twin_cam", "twin_rocker", "slider", "oscillating_cam"])
+@pytest.mark.parametrize("name", mostly_slow(["twin_cam", "slider", "twin_rocker", "oscillating_cam"], 2))
 def test_law_is_the_table_s(name: str) -> None:
     made, figure = drawn(name, "swing")
     data = made.table("law").data
@@ -60,7 +61,7 @@ def test_slider_is_the_table_s() -> None:
         ("oscillating_cam", ("Oscillating cam",)),
     ],
 )
-@pytest.mark.parametrize("command", ["swing", "cam"])
+@pytest.mark.parametrize("command", ["cam", pytest.param("swing", marks=pytest.mark.slow)])
 def test_cams_are_drawn_to_scale(name: str, titles: tuple[str, ...], command: str) -> None:
     made, figure = drawn(name, command)
     cams = [made.cam, made.return_cam or made.cam]
@@ -139,6 +140,8 @@ def test_pressure_angle_and_curvature() -> None:
 
 
 ODD = [
+    ("twin_rocker", {"cycle_angle": 140}),
+    ("oscillating_cam", {"drive__stroke": "homeward", "drive__assembly": -1}),
     ("twin_cam", {"swing": 300, "unloader__pivot_ratio": 5.3}),
     ("twin_cam", {"swing": 20, "cam__roller_radius": 2}),
     ("twin_cam", {"cam__rocker_radius": 60}),
@@ -146,16 +149,18 @@ ODD = [
     ("twin_cam", {"cam__center_distance": 2e-4, "cam__roller_radius": 8e-6, "cam__shaft_radius": 0}),
     ("twin_cam", {"cam__center_distance": 2e8, "cam__roller_radius": 8e6, "cam__shaft_radius": 2.5e7}),
     ("twin_rocker", {"swing": 260, "unloader__pivot_ratio": 6}),
-    ("twin_rocker", {"cycle_angle": 140}),
-    ("oscillating_cam", {"drive__stroke": "homeward", "drive__assembly": -1}),
 ]
 
 
-@pytest.mark.parametrize(("name", "keys"), ODD)
-@pytest.mark.parametrize("command", ["swing", "cam"])
-def test_odd_designs_draw(name: str, keys: dict[str, Any], command: str) -> None:
-    """Laying the figure out draws everything but its pixels."""
-    drawn(name, command, **keys)
+@pytest.mark.parametrize(("name", "keys", "place"), odd_sheets(ODD))
+@pytest.mark.parametrize("command", ["swing", pytest.param("cam", marks=pytest.mark.slow)])
+def test_odd_designs_draw(name: str, keys: dict[str, Any], command: str, place: Any) -> None:
+    place(f"wide_swing_{name}", command, **keys)
+
+
+@pytest.mark.parametrize("command", ["swing", pytest.param("cam", marks=pytest.mark.slow)])
+def test_every_command_draws(command: str) -> None:
+    assert f"wide-swing-twin-cam: {command}" in placed_sheet("wide_swing_twin_cam", command).figure.get_suptitle()
 
 
 def test_design_without_cam_or_profile() -> None:
