@@ -19,6 +19,7 @@ from gearlink.cli.commands.laws import laws
 from gearlink.cli.commands.picture_options import register as register_pictures
 from gearlink.cli.commands.reference_options import register
 from gearlink.cli.exit_codes import ExitCode
+from gearlink.cli.exploring.register import register as register_exploring
 from gearlink.cli.export.register import register as register_export
 from gearlink.cli.options import COMMANDS, OPTIONS, Options
 from gearlink.cli.quick import run_line
@@ -103,6 +104,7 @@ def _share(text: str) -> tuple[int, int]:
 register(app)
 register_export(app)
 register_bench(app)
+register_exploring(app)
 register_pictures(app)
 app.command("laws")(laws)
 for _command in (*app.registered_commands, *synth.registered_commands):  # whole in the list of commands, not cut short

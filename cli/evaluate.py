@@ -14,7 +14,8 @@ from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import LoadedFile
 from gearlink.core.design import UnknownName
 from gearlink.core.errors import NoSolution
-from gearlink.core.kinds import KINDS, Kind
+from gearlink.core.kinds import FILES, STUDY, Kind
+from gearlink.core.study.faults import WrongStudy
 
 if TYPE_CHECKING:
     from gearlink.core.design import Design
@@ -35,12 +36,17 @@ def evaluate(command: str, source: str, options: Options) -> tuple[Design, Repor
 def open_design(source: str, options: Options) -> tuple[LoadedFile, Kind]:
     """The text of a design file as located data, and its kind."""
     loaded = load(source, overrides=options.overrides)
-    return loaded, KINDS[read_kind(loaded, tuple(KINDS))]
+    return loaded, FILES[read_kind(loaded, tuple(FILES))]
 
 
 def read_spec(loaded: LoadedFile, kind: Kind, source: str) -> Any:
     """The validated spec, named after the file where it names no design."""
-    return named(validate(loaded, kind.spec_model()), source)
+    spec = named(validate(loaded, kind.spec_model()), source)
+    if kind is not STUDY:
+        return spec
+    from gearlink.cli.reading.base_design import with_base
+
+    return with_base(loaded, spec)
 
 
 def build(
@@ -63,6 +69,10 @@ def build(
         raise DesignFileError([diagnose_no_solution(loaded, error)]) from error
     except UnknownName as error:
         raise DesignFileError([_unknown_name(error)]) from error
+    except WrongStudy as error:
+        from gearlink.cli.reading.base_design import located
+
+        raise DesignFileError(located(loaded, error.faults)) from error
     return design, report
 
 

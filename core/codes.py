@@ -12,6 +12,7 @@ from gearlink.core.gears import codes as gears
 from gearlink.core.linkages import codes as linkages
 from gearlink.core.planet_linkages import codes as planet_linkages
 from gearlink.core.report import Rule
+from gearlink.core.study import codes as studies
 from gearlink.core.swing_gripper import codes as swing_gripper
 from gearlink.core.three_gear import codes as three_gear
 from gearlink.core.wide_swing import codes as wide_swing
@@ -27,6 +28,7 @@ _ROOMS = (
     flatbed_press,
     swing_gripper,
     wide_swing,
+    studies,
 )
 
 

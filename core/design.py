@@ -121,7 +121,7 @@ class Design:
         if value is None:
             return None
         entry = term(name)
-        return Quantity(name, _in_unit(value, entry.unit), entry.unit, entry.symbol, entry.words)
+        return Quantity(name, in_unit(value, entry.unit), entry.unit, entry.symbol, entry.words)
 
     def table(self, name: str, *, samples: int | None = None) -> Table:
         """A table by name, in the units of the design files.
@@ -240,8 +240,8 @@ def _tables_of(kind: type[Design]) -> tuple[str, ...]:
     return tuple(dict.fromkeys([*shown, *kind.extra_tables]))
 
 
-def _in_unit(value: Any, unit: str) -> Any:
-    """Radians to degrees where the unit asks for it; pairs and lists become lists."""
+def in_unit(value: Any, unit: str) -> Any:
+    """A value in the unit of design files: radians to degrees where it is an angle; pairs and lists become lists."""
     if isinstance(value, (list, tuple)):
-        return [_in_unit(item, unit) for item in value]
+        return [in_unit(item, unit) for item in value]
     return math.degrees(value) if unit == "deg" else value

@@ -8,15 +8,20 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from gearlink.core.design import Design
+    from gearlink.core.design_axis import Maker
 
 
 @dataclass(frozen=True, slots=True)
 class Kind:
-    """Where the spec model and, for each command, the design class of a kind stand ("module:Class")."""
+    """Where the spec model and, for each command, the design class of a kind stand ("module:Class").
+
+    `axis` is where its array form stands, which computes many designs at once; empty where it has none.
+    """
 
     name: str
     spec: str
     commands: dict[str, str]
+    axis: str = ""
 
     def spec_model(self) -> Any:
         """The pydantic model of the kind's design file."""
@@ -30,6 +35,11 @@ class Kind:
     def design_class(self, command: str) -> Any:
         """The class that serves a command."""
         return _load(f"gearlink.core.{self.commands[command]}")
+
+    def axis_maker(self) -> Maker | None:
+        """What makes the kind's array form, where it has one."""
+        found: Maker | None = _load(f"gearlink.core.{self.axis}") if self.axis else None
+        return found
 
 
 def _load(place: str) -> Any:
@@ -120,3 +130,7 @@ KINDS: dict[str, Kind] = {
         ),
     )
 }
+
+STUDY = Kind("study", "study.spec:StudySpec", {"explore": "explore.exploration:Exploration"})
+FILES: dict[str, Kind] = {**KINDS, STUDY.name: STUDY}
+"""Every kind of file: designs, and studies of many designs."""

@@ -296,6 +296,17 @@ _FIVE_BAR = {
     "position_errors": Term("", "deg", "output angle reached less that asked for, at each position"),
 }
 
+_STUDY = {
+    "designs": Term("N", "1", "designs of a study that were computed"),
+    "refused": Term("", "1", "designs of a study without a mechanism, or without one of the objectives"),
+    "feasible": Term("", "1", "designs of a study that satisfy all checks and conditions"),
+    "front_size": Term("", "1", "designs that no other one dominates, equal ones all counted"),
+    "kept": Term("", "1", "boxes of the resolution that hold the front, one design each"),
+    "shown": Term("", "1", "kept designs that a terminal shows, at most 50"),
+    "exhaustive": Term("", "1", "whether all designs were computed, so that the front is exact"),
+    "knee": Term("", "1", "index of the kept design with the least sum of objectives, each scaled from 0 to 1"),
+}
+
 TERMS: dict[str, Term] = {
     **_GEAR_LINKAGE,
     **_REAL_SPEED,
@@ -311,6 +322,7 @@ TERMS: dict[str, Term] = {
     **_PLANET_LINKAGE,
     **_HYPOCYCLOID,
     **_FIVE_BAR,
+    **_STUDY,
 }
 
 

@@ -63,15 +63,29 @@ def changed(spec: Any, values: Iterable[tuple[str, Any]]) -> Any:
     """
     data = spec.model_dump(exclude_unset=True, by_alias=True)
     for path, value in values:
-        *sections, last = _steps(path)
-        place = data
-        for step in sections:
-            place = place[step] if isinstance(step, int) else place.setdefault(step, {})
-        place[last] = value
+        put(data, path, value)
     try:
         return type(spec).model_validate(data)
     except ValueError:
         return None
+
+
+def put(data: Any, path: str, value: Any) -> None:
+    """Set a value in the data of a design file; sections that are missing are made.
+
+    Raises
+        LookupError, TypeError - where the path leads through something that is no section, or beyond a list
+    Example
+        >>> data = {"teeth": [17, 40]}
+        >>> put(data, "teeth[1]", 41)
+        >>> put(data, "limits.gear_gap", 0.5)
+        >>> data
+        {'teeth': [17, 41], 'limits': {'gear_gap': 0.5}}
+    """
+    *sections, last = _steps(path)
+    for step in sections:
+        data = data[step] if isinstance(step, int) else data.setdefault(step, {})
+    data[last] = value
 
 
 def _steps(path: str) -> list[str | int]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from gearlink.core.kinds import KINDS
+from gearlink.core.kinds import FILES
 from gearlink.core.nomenclature import TERMS
 
 TARGET = Path(__file__).parent / "nomenclature.md"
@@ -32,7 +32,7 @@ def text() -> str:
 def _kinds_by_quantity() -> dict[str, list[str]]:
     """For each quantity, the kinds that give it."""
     found: dict[str, list[str]] = {}
-    for kind in KINDS.values():
+    for kind in FILES.values():
         names: dict[str, None] = {}
         for command in kind.commands:
             names.update(dict.fromkeys(kind.design_class(command).quantity_names()))

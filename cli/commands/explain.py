@@ -56,7 +56,7 @@ def find(subject: str) -> list[Topic]:
 
 def _topics(name: str) -> Iterator[Topic]:
     from gearlink.cli.texts.codes import explanations
-    from gearlink.core.kinds import KINDS
+    from gearlink.core.kinds import FILES
     from gearlink.core.nomenclature import TERMS
 
     texts = explanations()
@@ -65,8 +65,8 @@ def _topics(name: str) -> Iterator[Topic]:
     for text in texts.values():
         if name in text.checks:
             yield _check(name, text)
-    if name in KINDS:
-        yield _kind(KINDS[name])
+    if name in FILES:
+        yield _kind(FILES[name])
     if name.rpartition(".")[2] in TERMS:
         yield _quantity(name.rpartition(".")[2])
     if name in _laws():
@@ -76,12 +76,12 @@ def _topics(name: str) -> Iterator[Topic]:
 def names() -> tuple[str, ...]:
     """Everything that can be explained."""
     from gearlink.cli.texts.codes import explanations
-    from gearlink.core.kinds import KINDS
+    from gearlink.core.kinds import FILES
     from gearlink.core.nomenclature import TERMS
 
     texts = explanations()
     checks = [check for text in texts.values() for check in text.checks]
-    return tuple(dict.fromkeys([*texts, *checks, *KINDS, *TERMS, *_laws()]))
+    return tuple(dict.fromkeys([*texts, *checks, *FILES, *TERMS, *_laws()]))
 
 
 def _laws() -> tuple[str, ...]:
@@ -109,11 +109,11 @@ def _check(name: str, text: Rule) -> Topic:
 
 def _kinds_with_checks(checks: tuple[str, ...]) -> str:
     """Kinds whose design class makes one of the checks, whether a command always shows it or a section calls for it."""
-    from gearlink.core.kinds import KINDS
+    from gearlink.core.kinds import FILES
 
     methods = ["check_" + check.replace("-", "_") for check in checks]
     found = []
-    for kind in KINDS.values():
+    for kind in FILES.values():
         classes = {kind.design_class(command) for command in kind.commands}
         shown = {check for cls in classes for outline in cls.outlines.values() for check in outline.checks}
         if shown.intersection(checks) or any(hasattr(cls, method) for cls in classes for method in methods):
@@ -142,9 +142,9 @@ def _quantity(name: str) -> Topic:
 
 def _givers(name: str) -> Iterator[str]:
     """Kinds that have the quantity and the commands that show it."""
-    from gearlink.core.kinds import KINDS
+    from gearlink.core.kinds import FILES
 
-    for kind in KINDS.values():
+    for kind in FILES.values():
         always, known = [], False
         for command in kind.commands:
             cls = kind.design_class(command)

@@ -7,15 +7,15 @@ from difflib import get_close_matches
 from gearlink.cli.options import Options
 from gearlink.cli.reading.diagnostics import Diagnostic
 from gearlink.cli.render.errors import show_errors
-from gearlink.core.kinds import KINDS, Kind
+from gearlink.core.kinds import FILES, Kind
 
 
 def kind_named(name: str) -> Kind | None:
     """The kind, or None after the error has been shown."""
-    if name in KINDS:
-        return KINDS[name]
-    near = get_close_matches(name.lower().replace("_", "-"), KINDS, n=3, cutoff=0.4)
-    known = f"the kinds are {', '.join(KINDS)}"
+    if name in FILES:
+        return FILES[name]
+    near = get_close_matches(name.lower().replace("_", "-"), FILES, n=3, cutoff=0.4)
+    known = f"the kinds are {', '.join(FILES)}"
     remedy = f"nearest: {', '.join(near)}; {known}" if near else known
     show_errors([Diagnostic("GL109", f"no kind {name!r}", "<command line>", key=name, help=remedy)], Options())
     return None

@@ -74,7 +74,8 @@ def worked_design(kind: Kind) -> str:
     """The text of the kind's worked design: the file that bears its name, else the first by name."""
     texts = {
         file.name.rpartition(".")[0]: file.read_text(encoding="utf-8")
-        for file in resources.files("gearlink.designs").iterdir()
+        for folder in (resources.files("gearlink.designs"), resources.files("gearlink.designs") / "studies")
+        for file in folder.iterdir()
         if file.name.endswith(".yaml")
     }
     own = {stem: text for stem, text in texts.items() if (found := _KIND.search(text)) and found[1] == kind.name}

@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import cache
 
 from gearlink.cli.texts.files import FILES
+from gearlink.cli.texts.studies import STUDIES
 from gearlink.core.codes import rules
 from gearlink.core.report import Rule
 
@@ -12,4 +13,4 @@ from gearlink.core.report import Rule
 @cache
 def explanations() -> dict[str, Rule]:
     """Every code with its texts, in the order of the codes: those of files and command lines, then the checks'."""
-    return {rule.code: rule for rule in FILES} | rules()
+    return {rule.code: rule for rule in (*FILES, *STUDIES)} | rules()

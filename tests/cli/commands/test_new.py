@@ -12,7 +12,7 @@ from jsonschema import Draft7Validator
 from gearlink.cli.reading.design_file import load, validate
 from gearlink.cli.texts.schema import kind_schema
 from gearlink.cli.texts.spec_keys import spec_keys
-from gearlink.core.kinds import KINDS
+from gearlink.core.kinds import FILES as KINDS
 
 
 @pytest.mark.parametrize("kind", KINDS)

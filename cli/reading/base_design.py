@@ -1,0 +1,71 @@
+"""The base design of a study, which stands in it or in the file that it names; and faults of a study located."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from gearlink.cli.reading.design_file import load, read_kind, validate
+from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
+from gearlink.cli.reading.loaded_file import LoadedFile
+from gearlink.cli.reading.yaml_reader import Tree, format_path
+from gearlink.core.kinds import KINDS
+from gearlink.core.study.faults import Fault
+
+
+def with_base(loaded: LoadedFile, spec: Any) -> Any:
+    """A study's spec with the data of its base design, validated, in `design`.
+
+    Raises
+        DesignFileError - GL156 at the places of the base, GL101 where there is no such file
+    """
+    if spec.of is None:
+        base = _inside(loaded)
+        where = "the base design"
+    else:
+        path = base_path(loaded.file, spec.of)
+        try:
+            base = load(str(path))
+        except DesignFileError as error:
+            if error.diagnostics[0].code != "GL101":
+                raise
+            wrong = error.diagnostics[0]
+            message = f"the base design {path}: {wrong.message}"
+            raise DesignFileError([loaded.report("GL101", message, ("of",), help=wrong.help)]) from None
+        where = f"the base design of {loaded.file}"
+    try:
+        validate(base, KINDS[read_kind(base, tuple(KINDS))].spec_model())
+    except DesignFileError as error:
+        below = "" if spec.of is not None else "design."
+        raise DesignFileError([_of_base(d, where, below) for d in error.diagnostics]) from None
+    return spec.model_copy(update={"design": base.data})
+
+
+def base_path(study: str, of: str) -> Path:
+    """Where the file of `of` stands: relative to the study, or to the current folder where that is no file."""
+    return Path(of) if study.startswith("<") else Path(study).parent / of
+
+
+def _inside(loaded: LoadedFile) -> LoadedFile:
+    """The design that stands in a study, as a file of its own whose keys lie in the study's text."""
+    marks = (loaded.tree.marks or {}).get("design")
+    at, below = (marks[0], marks[2]) if marks else (loaded.tree.at, None)
+    tree = Tree(loaded.tree.source, loaded.data["design"], below, at)
+    overrides = [replace(o, path=o.path[1:]) for o in loaded.overrides if o.path[:1] == ("design",) and len(o.path) > 1]
+    return LoadedFile(loaded.file, loaded.data["design"], tree, overrides)
+
+
+def _of_base(wrong: Diagnostic, where: str, below: str) -> Diagnostic:
+    return replace(wrong, code="GL156", message=f"{where}: {wrong.message}", key=f"{below}{wrong.key}")
+
+
+def located(loaded: LoadedFile, faults: Sequence[Fault]) -> list[Diagnostic]:
+    """Faults of a study at their keys."""
+    found = []
+    for fault in faults:
+        place = ("of",) if fault.place[:1] == ("design",) and "design" not in loaded.data else fault.place
+        key = format_path(tuple(fault.place))
+        found.append(loaded.report(fault.code, fault.message, place, key=key, help=fault.help))
+    return found

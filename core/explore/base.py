@@ -1,0 +1,209 @@
+"""The base design of a study: the designs that differ from it by some keys, and the quantities they have."""
+
+from __future__ import annotations
+
+import copy
+import json
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from difflib import get_close_matches
+from functools import cached_property
+from typing import Any
+
+from pydantic import ValidationError
+
+from gearlink.core.codes import rules
+from gearlink.core.design import Design, in_unit
+from gearlink.core.errors import NoSolution
+from gearlink.core.kinds import KINDS, Kind
+from gearlink.core.nomenclature import term
+from gearlink.core.spec_paths import put
+
+Changes = Iterable[tuple[str, Any]]
+_DEEPEST = 4
+_WHOLE = ("int_type", "int_from_float")
+
+
+class Refused(Exception):
+    """A design that does not exist: `key` is the key of the design file that it is refused for, `code` its code."""
+
+    def __init__(self, key: str, message: str, code: str = "GL112") -> None:
+        super().__init__(message)
+        self.key, self.code = key, code
+
+
+@dataclass(frozen=True)
+class Base:
+    """The base design.
+
+    Parameters
+        data : dict - of its design file
+        command : str - whose checks count
+    """
+
+    data: dict[str, Any]
+    command: str
+
+    @cached_property
+    def kind(self) -> Kind:
+        """Its kind."""
+        return KINDS[self.data["kind"]]
+
+    def changed(self, changes: Changes) -> dict[str, Any]:
+        """The data of its file with other values at some paths; None leaves a key out."""
+        data = copy.deepcopy(self.data)
+        for path, value in changes:
+            put(data, path, value)
+        return data
+
+    def spec(self, changes: Changes = ()) -> Any:
+        """The spec of a design with other values at some paths.
+
+        Raises
+            ValidationError, NoSolution - where the model refuses it
+        """
+        # As JSON: in strict mode a list then serves a tuple field.
+        return self.kind.spec_model().model_validate_json(json.dumps(self.changed(changes)))
+
+    def design(self, changes: Changes = ()) -> Design:
+        """The design with other values at some paths.
+
+        Raises
+            Refused - where the model refuses it
+        """
+        try:
+            made = self.kind.design(self.command, self.spec(changes))
+        except ValidationError as error:
+            raise Refused(*_first(error)) from error
+        except NoSolution as error:
+            raise Refused(error.key, error.message, error.code) from error
+        made.advises = False
+        return made
+
+    def takes(self, changes: Changes) -> str:
+        """What the model has against other values at some paths; empty where it takes them."""
+        try:
+            self.spec(changes)
+        except ValidationError as error:
+            return _first(error)[1]
+        except NoSolution as error:
+            return error.message
+        return ""
+
+    def knows(self, path: str) -> bool:
+        """Whether the model has such a key."""
+        try:
+            self.spec([(path, None)])
+        except ValidationError as error:
+            return all(item["type"] != "extra_forbidden" for item in error.errors(include_url=False))
+        except (LookupError, TypeError, AttributeError):
+            return False
+        except NoSolution:
+            pass
+        return True
+
+    def is_whole(self, path: str) -> bool:
+        """Whether a key takes whole numbers alone."""
+        try:
+            self.spec([(path, 17.5)])
+        except ValidationError as error:
+            return any(item["type"] in _WHOLE for item in error.errors(include_url=False))
+        except NoSolution:
+            pass
+        return False
+
+    # Quantities
+
+    @cached_property
+    def places(self) -> dict[str, str]:
+        """The command that gives each quantity of the kind: that of the study where its class can."""
+        own = self.kind.design_class(self.command)
+        found: dict[str, str] = dict.fromkeys(own.quantity_names(), self.command)
+        for command in self.kind.commands:
+            other = self.kind.design_class(command)
+            place = self.command if issubclass(own, other) else command
+            for name in other.quantity_names():
+                found.setdefault(name, place)
+        return found
+
+    def unit(self, name: str) -> str:
+        """The unit of a quantity, with its index or without."""
+        return term(name.partition("[")[0]).unit
+
+    def values(self, design: Design, names: Iterable[str]) -> dict[str, Any]:
+        """Quantities of a design in the units of design files.
+
+        Parameters
+            design : of this base
+            names : with an index where one element of a list is wanted
+        Raises
+            Refused - where there is no such mechanism
+        """
+        made = {self.command: design}
+        found = {}
+        for name in names:
+            plain, _, index = name.partition("[")
+            command = self.places[plain]
+            if command not in made:
+                made[command] = self.kind.design(command, design.spec)
+            try:
+                value = made[command].raw(plain)
+            except NoSolution as error:
+                raise Refused(error.key, error.message, error.code) from error
+            value = None if value is None else in_unit(value, term(plain).unit)
+            found[name] = _element(value, index) if index else value
+        return found
+
+    def nearest(self, name: str, known: Iterable[str]) -> str:
+        """The nearest known names, in words."""
+        known = list(known)
+        near = get_close_matches(name[:100], known, n=3, cutoff=0.5)
+        return f"nearest: {', '.join(near)}" if near else f"known: {', '.join(known[:12])}"
+
+    @cached_property
+    def codes(self) -> dict[str, tuple[str, ...]]:
+        """The codes of the command's checks, each with the names of its checks."""
+        checks = self.kind.design_class(self.command).outlines[self.command].checks
+        return {
+            code: tuple(name for name in rule.checks if name in checks)
+            for code, rule in rules().items()
+            if any(name in checks for name in rule.checks)
+        }
+
+    @cached_property
+    def units(self) -> dict[str, str]:
+        """The units of the model's keys by their paths; those of elements of a list are the list's."""
+        return dict(_units(self.kind.spec_model().model_json_schema()))
+
+
+def _element(value: Any, index: str) -> Any:
+    """An element of a list; None where the list has none there."""
+    place = int(index.rstrip("]"))
+    return value[place] if isinstance(value, list) and place < len(value) else None
+
+
+def _first(error: ValidationError) -> tuple[str, str, str]:
+    """Key, message and code of the first thing that a model refuses."""
+    item = error.errors(include_url=False)[0]
+    steps = [step for step in item["loc"] if isinstance(step, int) or step.isidentifier()]
+    below = str((item.get("ctx") or {}).get("key", ""))
+    key = "".join(f"[{step}]" if isinstance(step, int) else f".{step}" for step in steps)
+    key = f"{key}.{below}" if below else key
+    code = item["type"] if item["type"].startswith("GL") else "GL108"
+    return key.removeprefix("."), item["msg"][:1].lower() + item["msg"][1:], code
+
+
+def _units(schema: dict[str, Any]) -> Iterator[tuple[str, str]]:
+    """Path and unit of every key of a JSON Schema."""
+
+    def below(section: dict[str, Any], before: str) -> Iterator[tuple[str, str]]:
+        for name, node in section.get("properties", {}).items():
+            parts = (node, *node.get("anyOf", ()), *node.get("allOf", ()))
+            inner = [schema["$defs"][part["$ref"].rpartition("/")[2]] for part in parts if "$ref" in part]
+            if not inner:
+                unit = next((part["unit"] for part in parts if "unit" in part), "1")
+                yield before + name, "1" if unit == "teeth" else unit
+            for part in inner if before.count(".") < _DEEPEST else ():
+                yield from below(part, f"{before}{name}.")
+
+    yield from below(schema, "")

@@ -1,0 +1,125 @@
+"""What a study found: the rows to be shown, each computed again by the design's own class."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from gearlink.core.explore.chunks import RANKED, Chunk, multiples_of
+from gearlink.core.explore.one_by_one import Single, single
+from gearlink.core.explore.pareto import best_boxes, boxes, front, knee, spread
+from gearlink.core.explore.problem import Problem
+from gearlink.core.numerics.arrays import Reals
+from gearlink.core.study.faults import BrokenPromise
+
+SHOWN = 50
+AGREE = 1e-9
+
+
+@dataclass(frozen=True)
+class Row:
+    """A kept design: its index, its variables as (path, value), and its own figures in the order of `Problem.shown`."""
+
+    index: int
+    variables: tuple[tuple[str, Any], ...]
+    figures: tuple[Any, ...]
+
+
+@dataclass(frozen=True)
+class Found:
+    """The result of a study.
+
+    Parameters
+        problem : Problem
+        total : Chunk - of all designs together
+    """
+
+    problem: Problem
+    total: Chunk
+
+    @cached_property
+    def front_size(self) -> int:
+        """Designs of the exact front, equal points all counted."""
+        return len(front(multiples_of(self.problem, self.total.rows)))
+
+    @cached_property
+    def kept_rows(self) -> Reals:
+        """Index and columns of one design of each box, sorted by the objectives, the best of the first one first."""
+        rows = self.total.rows
+        multiples = multiples_of(self.problem, rows)
+        if multiples.shape[1] == 1:
+            places = best_boxes(multiples, RANKED)
+        else:
+            best = front(multiples)
+            places = best[boxes(multiples[best])]
+        order = np.lexsort((rows[places, 0], *reversed(list(multiples[places].T))))
+        return rows[places[order]]
+
+    @cached_property
+    def rows(self) -> tuple[Row, ...]:
+        """The kept designs by their own class.
+
+        Raises
+            BrokenPromise - GL160 where that gives other figures than the search had
+        """
+        return tuple(self._row(kept) for kept in self.kept_rows)
+
+    def _row(self, kept: Reals) -> Row:
+        problem, index = self.problem, int(kept[0])
+        changes = self.changes(index)
+        again = single(problem.base, changes, problem.names, problem.must_pass)
+        figures = tuple(figure(expression, again) for _, expression, _ in problem.shown)
+        self._agree(index, kept[1:], figures, again)
+        keys = dict(changes)
+        return Row(index, tuple((v.path, keys[v.path]) for v in problem.variables), figures)
+
+    def changes(self, index: int) -> list[tuple[str, Any]]:
+        """Paths and values of a design by its index."""
+        return self.problem.changes(self.problem.order.columns(np.array([index]))[:, 0])
+
+    def _agree(self, index: int, kept: Reals, figures: tuple[Any, ...], again: Single) -> None:
+        for (name, _, _), had, has in zip(self.problem.shown, kept, figures, strict=True):
+            number = isinstance(has, (int, float))
+            if again.refused or (number and not math.isclose(had, has, rel_tol=AGREE, abs_tol=AGREE)):
+                what = f"is refused ({again.what})" if again.refused else f"has {name} {has!r}"
+                raise BrokenPromise(
+                    f"GL160: design {index} {what} by its own class, the search had {name} {float(had)!r}: "
+                    f"{dict(self.changes(index))}"
+                )
+        bad = {check.code for check in again.findings if check.status == "fail"} & set(self.problem.must_pass)
+        if bad:
+            raise BrokenPromise(f"GL160: design {index} fails {', '.join(sorted(bad))} by its own class alone")
+
+    @cached_property
+    def _objectives(self) -> Reals:
+        """Objectives of the kept rows, to be minimised."""
+        signs = np.array([wish.sign for wish in self.problem.objectives])
+        values: Reals = self.kept_rows[:, 1 : 1 + len(signs)] * signs
+        return values
+
+    @cached_property
+    def knee(self) -> int | None:
+        """Index of the design at the knee."""
+        place = None if self._objectives.shape[1] == 1 else knee(self._objectives)
+        return None if place is None else int(self.kept_rows[place, 0])
+
+    @cached_property
+    def chosen(self) -> tuple[int, ...]:
+        """Places of the kept rows that a terminal shows: all, or 50 far from each other."""
+        place = knee(self._objectives) if self._objectives.shape[1] > 1 else 0
+        return tuple(map(int, spread(self._objectives, SHOWN, place or 0)))
+
+
+def figure(expression: Any, found: Single) -> Any:
+    """The value of an expression of a single design; None where it does not apply."""
+    if found.refused or any(found.values.get(name) is None for name in expression.names):
+        return None
+    values = found.values
+    if isinstance(expression.tree, str):
+        return values[expression.tree]
+    value = float(expression.value({name: float(values[name]) for name in expression.names}))
+    return value if math.isfinite(value) else None

@@ -1,0 +1,185 @@
+"""What a study seeks: objectives with their resolution, and conditions on quantities."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from gearlink.core.numerics.arrays import Mask
+from gearlink.core.study.expressions import Expression, NotAnExpression, parse
+from gearlink.core.study.faults import Fault, Place
+
+_AMOUNT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S.*)?")
+_CONDITION = re.compile(r"(.*?)(>=|<=|==|<|>)(.*)", re.DOTALL)
+_WORD = re.compile(r"[A-Za-z][\w-]*")
+COMPARED: dict[str, Callable[[Any, Any], Any]] = {
+    ">=": np.greater_equal,
+    "<=": np.less_equal,
+    "==": np.equal,
+    ">": np.greater,
+    "<": np.less,
+}
+
+
+@dataclass(frozen=True)
+class Objective:
+    """A quantity to be made small or large.
+
+    Parameters
+        name : str - of a quantity or of a defined one
+        expression : Expression
+        sign : float - 1 to be minimised, -1 to be maximised
+        resolution : float - a difference that is worth nothing, in `unit`
+        unit : str
+    """
+
+    name: str
+    expression: Expression
+    sign: float
+    resolution: float
+    unit: str
+
+
+@dataclass(frozen=True)
+class Condition:
+    """A condition that a design must meet.
+
+    Parameters
+        text : str - as the file has it
+        expression : Expression - what is compared
+        sign : str - one of `COMPARED`
+        limit : float or str - a number, or a word
+        unit : str
+    """
+
+    text: str
+    expression: Expression
+    sign: str
+    limit: float | str
+    unit: str
+
+    def holds(self, value: Any) -> Mask:
+        """Where it holds; nowhere where the quantity does not apply."""
+        with np.errstate(invalid="ignore"):
+            held: Mask = np.asarray(COMPARED[self.sign](value, self.limit), dtype=bool)
+        return held
+
+
+@dataclass(frozen=True)
+class Names:
+    """The names that expressions may have: quantities with their units, and what the study defines.
+
+    Parameters
+        unit_of : function - the unit of a quantity without index
+        known : names of the quantities
+        defined : expressions by name
+        nearest : function - the nearest known names of one, in words
+    """
+
+    unit_of: Callable[[str], str]
+    known: frozenset[str]
+    defined: Mapping[str, Expression]
+    nearest: Callable[[str, Any], str]
+
+    def expression(self, text: str, place: Place) -> Expression:
+        """An expression of quantities alone, what is defined put in.
+
+        Raises
+            FaultFound
+        """
+        try:
+            found = parse(text)
+        except NotAnExpression as error:
+            raise FaultFound(Fault("GL152", f"{text.strip()!r} cannot be read: {error}", place)) from None
+        for name in found.names:
+            if name not in self.defined and name.partition("[")[0] not in self.known:
+                helps = self.nearest(name, [*self.defined, *self.known])
+                raise FaultFound(Fault("GL152", f"no quantity {name!r} of this kind of design", place, helps))
+        return Expression(found.text, _with(found.tree, self.defined))
+
+    def unit(self, expression: Expression) -> str | None:
+        """The unit of an expression, None where any will do."""
+        return expression.unit(lambda name: self.unit_of(name.partition("[")[0]))
+
+
+class FaultFound(Exception):
+    """One fault, where reading cannot go on without what is wrong."""
+
+    def __init__(self, fault: Fault) -> None:
+        super().__init__(fault.message)
+        self.fault = fault
+
+
+def _with(tree: Any, defined: Mapping[str, Expression]) -> Any:
+    if isinstance(tree, str):
+        return defined[tree].tree if tree in defined else tree
+    return (tree[0], [_with(part, defined) for part in tree[1]]) if isinstance(tree, tuple) else tree
+
+
+def objective(name: str, given: float | str, sign: float, names: Names, place: Place) -> Objective:
+    """An objective of the file.
+
+    Raises
+        FaultFound - GL152 for its name, GL153 for the unit, GL154 for the resolution
+    """
+    expression = names.expression(name, place)
+    amount = _AMOUNT.fullmatch(given) if isinstance(given, str) else None
+    size = float(given) if isinstance(given, (int, float)) else float(amount[1]) if amount else 0.0
+    if not 0.0 < size < np.inf:
+        message = f"{name} needs a resolution above 0, not {given!r}: the difference that you would not pay for"
+        raise FaultFound(Fault("GL154", message, place, "such as 10 mm"))
+    unit = _same_unit(name, expression, (amount[2] or "").strip() if amount else "", names, place)
+    return Objective(name, expression, sign, size, unit)
+
+
+def condition(text: str, names: Names, place: Place) -> Condition:
+    """A condition of the file.
+
+    Raises
+        FaultFound - GL152, GL153
+    """
+    parts = _CONDITION.fullmatch(text)
+    if parts is None:
+        helps = "such as min_transmission_angle >= 45 deg"
+        raise FaultFound(Fault("GL152", f"{text!r} compares nothing: it has none of >=, <=, ==, <, >", place, helps))
+    left, sign, right = (part.strip() for part in parts.groups())
+    expression = names.expression(left, place)
+    amount = _AMOUNT.fullmatch(right)
+    if amount is not None:
+        limit = float(amount[1])
+        return Condition(text, expression, sign, limit, _same_unit(left, expression, amount[2] or "", names, place))
+    if sign != "==" or not _WORD.fullmatch(right):
+        message = f"{right!r} is no number" + ("" if sign == "==" else ": words are compared by == alone")
+        raise FaultFound(Fault("GL152", message, place, "such as frame_length <= 220 mm, or motion == back-step"))
+    return Condition(text, expression, sign, right, "1")
+
+
+def _same_unit(name: str, expression: Expression, given: str, names: Names, place: Place) -> str:
+    own, given = names.unit(expression), given.strip()
+    if own is not None and given not in ("", own):
+        shown = "a pure number" if own == "1" else f"in {own}"
+        raise FaultFound(Fault("GL153", f"{name} is {shown}, not in {given}", place, f"give it in {own}"))
+    return own or given or "1"
+
+
+def contradiction(conditions: list[Condition]) -> tuple[int, int] | None:
+    """The places of two conditions on one quantity that no value meets; None where there are none."""
+    for j, one in enumerate(conditions):
+        for i, other in enumerate(conditions[:j]):
+            if one.expression.tree == other.expression.tree and _exclude(one, other):
+                return i, j
+    return None
+
+
+def _exclude(one: Condition, other: Condition) -> bool:
+    if isinstance(one.limit, str) or isinstance(other.limit, str):
+        return one.limit != other.limit
+    limits = [(wish.sign, float(wish.limit)) for wish in (one, other)]
+    low = max((limit for sign, limit in limits if sign in (">=", ">", "==")), default=-np.inf)
+    high = min((limit for sign, limit in limits if sign in ("<=", "<", "==")), default=np.inf)
+    open_end = any(sign in ("<", ">") for sign, _ in limits)
+    return bool(low > high or (low == high and open_end))

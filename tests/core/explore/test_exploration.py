@@ -1,0 +1,186 @@
+"""Studies against the plain way: every design by its class in a loop, the front by all pairs.
+
+Indices and counts are exact; figures of the front are the design class's own.
+"""
+
+from __future__ import annotations
+
+import itertools
+import json
+from pathlib import Path
+from typing import Any
+
+import factory
+import pytest
+
+from gearlink.core.errors import NoSolution
+from gearlink.core.explore.exploration import Exploration
+from gearlink.core.study.faults import WrongStudy
+from gearlink.core.study.spec import StudySpec
+
+CASES = {c["name"]: c for c in json.loads((Path(__file__).parents[2] / "reference" / "explore.json").read_text())}
+FEED = {
+    "kind": "three-gear-four-bar",
+    "gears": {"module": 2, "crank": 40, "idler": 72, "output": 40},
+    "dwell": {"angle": 135},
+}
+
+
+def study(**keys: Any) -> Exploration:
+    data = {"kind": "study", "design": FEED, **keys}
+    return Exploration(StudySpec.model_validate_json(json.dumps(data)))
+
+
+def small(name: str) -> Exploration:
+    given = CASES[name]["input"]
+    crank, idler = given["crank"], given["idler_ratio"]
+    return study(
+        variables={
+            "gears.crank": {"from": crank[0], "to": crank[1], "step": 1, "also": ["gears.output"]},
+            "gears.idler": {"from": idler[0], "to": idler[1], "times": "gears.crank"},
+            "gears.module": {"values": given["modules"]},
+            "dwell.angle": {"values": given["angles"]},
+        },
+        define={"envelope": "frame_length + crank_length + crank_idler.tip_radius[1]"},
+        minimize=dict(
+            zip(
+                ("envelope", "back_step_angle", "speed_ratio_max"),
+                (given["resolution"][i] for i in (0, 2, 3)),
+                strict=True,
+            )
+        ),
+        maximize={"min_transmission_angle": given["resolution"][1]},
+    )
+
+
+def test_study_of_record() -> None:
+    want, found = CASES["dwell-study-small"]["expected"], small("dwell-study-small")
+    assert (found.designs, found.refused, found.feasible) == (want["designs"], want["refused"], want["feasible"])
+    assert found.front_size == want["front"]
+    rows = found.table("front").rows()
+    assert [row[0] for row in rows] == [row[0] for row in want["kept"]]
+    why = {row[1]: row for row in found.table("why").rows()}
+    for code, count in want["failing"].items():
+        assert why[code][2] == count
+        assert why[code][3] == want["failing_alone"][code]
+
+
+def plain_way(conditions: Any) -> tuple[list[int], int, int]:
+    """Indices of the exact front, how many satisfy everything, how many are refused; unequal gears among them."""
+    rows, refused = [], 0
+    teeth = itertools.product(range(18, 27, 2), range(18, 27, 2), (20, 30, 44), (60.0, 150.0, 179.0))
+    for index, (crank, output, idler, angle) in enumerate(teeth):
+        made = factory.design(
+            FEED,
+            command="synth dwell",
+            gears__crank=crank,
+            gears__output=output,
+            gears__idler=idler,
+            dwell__angle=angle,
+        )
+        try:
+            values = [made.quantity(name).value for name in ("frame_length", "min_transmission_angle", "gear_gap")]
+        except NoSolution:
+            refused += 1
+            continue
+        checks = [c for name in made.outline("synth dwell").checks for c in made.check(name)]
+        if all(check.status != "fail" for check in checks) and conditions(values):
+            rows.append((index, round(values[0] / 1e-6), round(-values[1] / 1e-7)))
+    front = [i for i, f, m in rows if not any(g <= f and n <= m and (g < f or n < m) for _, g, n in rows)]
+    return front, len(rows), refused
+
+
+def test_refusals_conditions_and_checks_against_the_plain_way() -> None:
+    found = study(
+        variables={
+            "gears.crank": {"from": 18, "to": 26, "step": 2},
+            "gears.output": {"from": 18, "to": 26, "step": 2},
+            "gears.idler": {"values": [20, 30, 44]},
+            "dwell.angle": {"values": [60.0, 150.0, 179.0]},
+        },
+        minimize={"frame_length": "1 mm"},
+        maximize={"min_transmission_angle": 0.1},
+        where=["gear_gap >= 1 mm"],
+        checks={"must_pass": "all"},
+    )
+    front, feasible, refused = plain_way(lambda values: values[2] >= 1.0)
+    assert (found.front_size, found.feasible, found.refused) == (len(front), feasible, refused)
+    assert {row.index for row in found.found.rows} <= set(front)
+    why = {row[0]: row for row in found.table("why").rows()}
+    assert why["refused gears.output"][2] == refused == 180
+    gap = why["gear_gap >= 1 mm"]
+    assert gap[4] < gap[5] == 1.0
+
+
+def test_one_objective_is_a_ranking() -> None:
+    found = study(
+        variables={"gears.idler": {"from": 40, "to": 120}},
+        minimize={"frame_length": "0.5 mm"},
+        checks={"must_pass": "none"},
+    )
+    rows = found.table("front").rows()
+    assert found.front_size == 1
+    assert [row[1] for row in rows] == list(range(40, 90))  # each idler its own box, 50 of them
+    assert found.knee is None
+
+
+def test_absent_objective_is_a_refusal_and_an_absent_condition_does_not_hold() -> None:
+    base = {**FEED, "speed": {"min": 100, "max": 300}}
+    keys: dict[str, Any] = {
+        "design": base,
+        "command": "synth variable-speed",
+        "variables": {"speed.min": {"values": [50, 100]}},
+    }
+    found = study(**keys, minimize={"back_step_angle": 1})
+    assert (found.refused, found.feasible) == (2, 0)
+    assert [row[0] for row in found.table("why").rows()][-1] == "refused no back_step_angle"
+    assert not found.report("explore").ok
+    found = study(**keys, minimize={"frame_length": 1}, where=["back_step_angle <= 5"])
+    assert (found.refused, found.feasible) == (0, 0)
+
+
+def test_words_are_conditions_and_quantities_of_other_commands_serve() -> None:
+    found = study(
+        variables={"dwell.angle": {"values": [60, 135]}},
+        minimize={"acceleration_ratio_max": 0.01},
+        where=["motion == back-step", "crank_teeth == 40", "idler_output.contact_ratio > 1.5"],
+    )
+    assert (found.feasible, found.front_size) == (2, 1)
+
+
+@pytest.mark.parametrize(
+    ("keys", "code", "place"),
+    [
+        ({"variables": {"gears.cranc": {"values": [1]}}}, "GL151", ("variables", "gears.cranc")),
+        (
+            {"variables": {"gears.idler": {"from": 1, "to": 2, "times": "x"}}},
+            "GL151",
+            ("variables", "gears.idler", "times"),
+        ),
+        ({"variables": {"gears.idler": {"from": 0, "to": 2}}}, "GL156", ("variables", "gears.idler", "from")),
+        ({"variables": {"gears.i3": {"values": [-2.0]}}}, "GL156", ("variables", "gears.i3", "values")),
+        ({"variables": {"gears.idler": {"from": 30.2, "to": 30.8}}}, "GL111", ("variables", "gears.idler")),
+        ({"minimize": {"frame": 1}}, "GL152", ("minimize", "frame")),
+        ({"minimize": {"dwell_crank_angles": 1}}, "GL152", ("minimize", "dwell_crank_angles")),
+        ({"minimize": {"frame_length": "1 deg"}}, "GL153", ("minimize", "frame_length")),
+        ({"minimize": {"frame_length": "wide"}}, "GL154", ("minimize", "frame_length")),
+        ({"where": ["i3 == -1.8"]}, "GL152", ("where", 0)),
+        ({"where": ["motion >= back-step"]}, "GL152", ("where", 0)),
+        ({"where": ["frame_length > 9", "frame_length < 9"]}, "GL111", ("where", 1)),
+        ({"checks": {"must_pass": ["GL400"]}}, "GL152", ("checks", "must_pass", 0)),
+        ({"define": {"frame_length": "2"}}, "GL152", ("define", "frame_length")),
+        ({"command": "press"}, "GL113", ("command",)),
+        ({"design": {**FEED, "dwell": {"angle": 359}}}, "GL156", ("design", "dwell", "angle")),
+        ({"sampling": {"method": "grid", "budget": 40}}, "GL155", ("sampling", "budget")),
+        (
+            {"sampling": {"method": "grid"}, "variables": {"dwell.angle": {"from": 90, "to": 100}}},
+            "GL155",
+            ("variables", "dwell.angle"),
+        ),
+    ],
+)
+def test_wrong_studies(keys: dict[str, Any], code: str, place: tuple[Any, ...]) -> None:
+    plain = {"variables": {"gears.idler": {"from": 40, "to": 90}}, "minimize": {"frame_length": 1}}
+    with pytest.raises(WrongStudy) as caught:
+        study(**{**plain, **keys}).report("explore")
+    assert [(fault.code, fault.place) for fault in caught.value.faults] == [(code, place)]
