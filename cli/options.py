@@ -98,6 +98,7 @@ COMMANDS = {
     "gripper": "Swing gripper: six-phase law, vector loop, handover, cams, force closure.",
     "swing": "Wide-swing cam mechanism with unloading device: law, sizing, profile, balancing.",
     "cam": "The cams of a design: follower motion, profiles, pressure angle, curvature.",
+    "loads": "Torque, joint and tooth forces, flywheel and motor, contact stress, vibration.",
     "synth dwell": "Size the linkage for a dwell over a given crank angle.",
     "synth back-step": "Size the linkage for a back-step.",
     "synth variable-speed": "Size the linkage for an output speed that varies between two values.",

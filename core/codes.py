@@ -10,6 +10,7 @@ from gearlink.core.five_bar import codes as five_bar
 from gearlink.core.flatbed_press import codes as flatbed_press
 from gearlink.core.gears import codes as gears
 from gearlink.core.linkages import codes as linkages
+from gearlink.core.loads import codes as loads
 from gearlink.core.planet_linkages import codes as planet_linkages
 from gearlink.core.report import Rule
 from gearlink.core.study import codes as studies
@@ -29,6 +30,7 @@ _ROOMS = (
     swing_gripper,
     wide_swing,
     studies,
+    loads,
 )
 
 

@@ -70,6 +70,7 @@ KINDS: dict[str, Kind] = {
                 "synth momentary-dwell": "three_gear.momentary_synthesis:MomentaryDwellSynthesis",
                 "analyze": _THREE_GEAR,
                 "gear": _THREE_GEAR,
+                "loads": "three_gear.loads:ThreeGearLoads",
             },
         ),
         Kind(
@@ -83,6 +84,7 @@ KINDS: dict[str, Kind] = {
             {
                 "crank": "linkages.slider_crank_design:SliderCrankDesign",
                 "analyze": "linkages.slider_crank_design:SliderCrankDesign",
+                "loads": "linkages.slider_crank_loads:SliderCrankLoads",
             },
         ),
         Kind(
@@ -115,18 +117,27 @@ KINDS: dict[str, Kind] = {
                 "synth momentary-dwell": "planet_linkages.two_gear_synthesis:MomentaryDwellSynthesis",
                 "analyze": _TWO_GEAR,
                 "gear": _TWO_GEAR,
+                "loads": "planet_linkages.loads:TwoGearLoads",
             },
         ),
         Kind(
             "geared-rocker",
             "planet_linkages.rocker_spec:GearedRockerSpec",
-            {"analyze": _GEARED_ROCKER, "gear": _GEARED_ROCKER},
+            {"analyze": _GEARED_ROCKER, "gear": _GEARED_ROCKER, "loads": "planet_linkages.loads:GearedRockerLoads"},
         ),
-        Kind("geared-five-bar", "five_bar.spec:GearedFiveBarSpec", {"analyze": _FIVE_BAR, "gear": _FIVE_BAR}),
+        Kind(
+            "geared-five-bar",
+            "five_bar.spec:GearedFiveBarSpec",
+            {"analyze": _FIVE_BAR, "gear": _FIVE_BAR, "loads": "five_bar.loads:FiveBarLoads"},
+        ),
         Kind(
             "hypocycloid-dwell",
             "dwell_gears.hypocycloid_spec:HypocycloidDwellSpec",
-            {"analyze": _HYPOCYCLOID, "gear": _HYPOCYCLOID},
+            {
+                "analyze": _HYPOCYCLOID,
+                "gear": _HYPOCYCLOID,
+                "loads": "dwell_gears.hypocycloid_loads:HypocycloidDwellLoads",
+            },
         ),
     )
 }

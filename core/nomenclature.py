@@ -307,6 +307,30 @@ _STUDY = {
     "knee": Term("", "1", "index of the kept design with the least sum of objectives, each scaled from 0 to 1"),
 }
 
+_LOADS = {
+    "input_torque_mean": Term("M_m", "N m", "mean input torque over the period"),
+    "input_torque_rms": Term("M_rms", "N m", "root mean square of the input torque"),
+    "input_torque_max": Term("M_max", "N m", "greatest input torque", "virtual power"),
+    "input_torque_max_at": Term("phi_max", "deg", "input angle of the greatest input torque"),
+    "input_torque_min": Term("M_min", "N m", "least input torque", "virtual power"),
+    "input_torque_min_at": Term("phi_min", "deg", "input angle of the least input torque"),
+    "input_power_mean": Term("P_m", "W", "mean input power"),
+    "input_power_peak": Term("P_max", "W", "greatest input power"),
+    "reflected_inertia_min": Term("J_min", "kg m^2", "least inertia of all links as the input feels it"),
+    "reflected_inertia_max": Term("J_max", "kg m^2", "greatest inertia of all links as the input feels it"),
+    "reflected_inertia_mean": Term("J_m", "kg m^2", "mean over the input angle of the reflected inertia"),
+    "torque_reversals": Term("", "1", "changes of sign of the input torque over the period"),
+    "energy_fluctuation": Term("dW", "J", "greatest less least surplus of a constant drive torque over the load"),
+    "shaking_force_max": Term("F_s", "N", "greatest force of the moving masses on the frame"),
+    "shaking_moment_max": Term("M_s", "N m", "greatest moment of the moving masses about the input's pivot"),
+    "peak": Term("F_max", "N", "greatest force of a pin over the period"),
+    "equivalent": Term("P", "N", "equivalent load of a pin over its relative turning, exponent 3 or 10/3", "ISO 281"),
+    "travel": Term("", "1", "relative turns of a pin per input turn, both senses counted"),
+    "tooth_force_max": Term("F_t", "N", "greatest tangential force of a mesh"),
+    "reversals": Term("", "1", "changes of flank of a mesh over the period"),
+    "power_identity": Term("", "1", "difference of the input torques by virtual power and by the joint forces"),
+}
+
 TERMS: dict[str, Term] = {
     **_GEAR_LINKAGE,
     **_REAL_SPEED,
@@ -323,6 +347,7 @@ TERMS: dict[str, Term] = {
     **_HYPOCYCLOID,
     **_FIVE_BAR,
     **_STUDY,
+    **_LOADS,
 }
 
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import unicodedata
+from importlib import import_module
 from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
-from pydantic_core import PydanticCustomError
+from pydantic_core import PydanticCustomError, core_schema
 
 
 class Spec(BaseModel):
@@ -39,6 +40,36 @@ class DesignSpec(Spec):
 
 
 Speed = Annotated[float, Field(ge=1e-6, le=1e6, json_schema_extra={"unit": "1/min"})]
+
+
+class Deferred:
+    """Annotates a section whose model is imported when a file has that section, not before.
+
+    Parameters
+        place : str - "module:Class", below `gearlink.core`
+    """
+
+    def __init__(self, place: str) -> None:
+        self.place = place
+
+    def model(self) -> type[BaseModel]:
+        """The section's model."""
+        module, _, name = self.place.partition(":")
+        found: type[BaseModel] = getattr(import_module(f"gearlink.core.{module}"), name)
+        return found
+
+    def __get_pydantic_core_schema__(self, _source: Any, _handler: Any) -> core_schema.CoreSchema:
+        return core_schema.no_info_plain_validator_function(self._validated)
+
+    def _validated(self, value: Any) -> BaseModel:
+        # A design whose spec is changed and validated anew brings a section that is valid already.
+        return value if isinstance(value, self.model()) else self.model().model_validate(value)
+
+    def __get_pydantic_json_schema__(self, _schema: Any, handler: Any) -> dict[str, Any]:
+        found: dict[str, Any] = handler(self.model().__pydantic_core_schema__)
+        return found
+
+
 Length = Annotated[float, Field(gt=0, json_schema_extra={"unit": "mm"})]
 SignedLength = Annotated[float, Field(json_schema_extra={"unit": "mm"})]
 Distance = Annotated[float, Field(ge=0, json_schema_extra={"unit": "mm"})]

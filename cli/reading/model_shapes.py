@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, Union, get_args, get_
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
+from gearlink.core.spec import Deferred
+
 if TYPE_CHECKING:
     from gearlink.cli.reading.loaded_file import KeyPath
 
@@ -77,6 +79,8 @@ def _flat(annotation: Any, constraints: tuple[Any, ...] = ()) -> Iterator[Shape]
     origin = get_origin(annotation)
     if origin is Annotated:
         inner, *extra = get_args(annotation)
+        if deferred := next((item for item in extra if isinstance(item, Deferred)), None):
+            inner = deferred.model()
         yield from _flat(inner, constraints + tuple(_constraints(extra)))
     elif origin in (Union, types.UnionType):
         for member in get_args(annotation):

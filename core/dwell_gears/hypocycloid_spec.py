@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.linkages.spec_parts import LinkageLimits
-from gearlink.core.spec import DrivenSpec, Length, PressureAngle, Spec, Teeth
+from gearlink.core.spec import Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth
 
 CarrierAngle = Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})]
 
@@ -72,6 +72,9 @@ class HypocycloidDwellSpec(DrivenSpec):
     target: DwellTarget | None = None
     limits: LinkageLimits = LinkageLimits()
     shafts: CarrierShaft | None = None
+    loads: Annotated[Any, Deferred("dwell_gears.loads_spec:HypocycloidLoads")] | None = Field(
+        None, description="masses, forces and drive, for the command loads"
+    )
 
     @model_validator(mode="after")
     def _rod_or_target(self) -> HypocycloidDwellSpec:
@@ -88,4 +91,4 @@ class HypocycloidDwellSpec(DrivenSpec):
 
     def commands(self) -> tuple[str, ...]:
         """What the file asks for."""
-        return ("analyze", "gear")
+        return ("analyze", "gear", *(("loads",) if self.loads is not None else ()))

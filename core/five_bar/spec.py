@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.linkages.spec_parts import LinkageLimits, require_rim
-from gearlink.core.spec import Angle, Assembly, DrivenSpec, Length, PressureAngle, SignedLength, Spec, Teeth
+from gearlink.core.spec import Angle, Assembly, Deferred, DrivenSpec, Length, PressureAngle, SignedLength, Spec, Teeth
 
 TurnAngle = Annotated[float, Field(ge=-3600, le=3600, json_schema_extra={"unit": "deg"})]
 
@@ -30,6 +30,9 @@ class FiveBarGears(Spec):
         None, description="outer radius of the ring gear; left out: 2 modules outside its root circle"
     )
     pressure_angle: PressureAngle = Field(20.0, description="pressure angle of the reference profile")
+    idler_side: Literal[1, -1] = Field(
+        1, description="path, with an idler: +1: its axis O left of A->E; -1: right of it"
+    )
 
     @property
     def ring_teeth(self) -> int | None:
@@ -110,6 +113,9 @@ class GearedFiveBarSpec(DrivenSpec):
     target: FiveBarTarget | None = None
     limits: LinkageLimits = LinkageLimits()
     shafts: FiveBarShafts | None = None
+    loads: Annotated[Any, Deferred("five_bar.loads_spec:FiveBarLoads")] | None = Field(
+        None, description="masses, forces and drive, for the command loads"
+    )
 
     @model_validator(mode="after")
     def _form(self) -> GearedFiveBarSpec:
@@ -156,7 +162,7 @@ class GearedFiveBarSpec(DrivenSpec):
 
     def commands(self) -> tuple[str, ...]:
         """What the file asks for."""
-        return ("analyze", "gear")
+        return ("analyze", "gear", *(("loads",) if self.loads is not None else ()))
 
 
 _NEEDED = {

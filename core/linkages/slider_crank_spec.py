@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 
-from gearlink.core.spec import AcuteAngle, DrivenSpec, Length, SignedLength, Spec, require_offset_below_rod
+from gearlink.core.spec import AcuteAngle, Deferred, DrivenSpec, Length, SignedLength, Spec, require_offset_below_rod
 
 
 class SliderLimits(Spec):
@@ -24,11 +24,16 @@ class SliderCrankSpec(DrivenSpec):
     offset: SignedLength = Field(0.0, description="offset of the slide line from the crank's axis")
     limits: SliderLimits = SliderLimits()
 
+    loads: Annotated[Any, Deferred("linkages.slider_crank_loads_spec:SliderCrankLoads")] | None = Field(
+        None, description="masses, forces and drive, for the command loads"
+    )
+
     @model_validator(mode="after")
     def _reachable(self) -> SliderCrankSpec:
         require_offset_below_rod(self.rod, self.offset, "offset")
         return self
 
     def commands(self) -> tuple[str, ...]:
-        """What the file asks for: the crank, and the motion where it names a speed or a limit."""
-        return ("crank", "analyze") if {"input_speed", "limits"} & self.model_fields_set else ("crank",)
+        """What the file asks for: the crank, the motion where it names a speed or a limit, the loads where it has any."""
+        motion = ("analyze",) if {"input_speed", "limits"} & self.model_fields_set else ()
+        return ("crank", *motion, *(("loads",) if self.loads is not None else ()))

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.linkages.spec_parts import LinkageLimits, PivotShafts
-from gearlink.core.spec import Assembly, DrivenSpec, Length, PressureAngle, Spec, Teeth
+from gearlink.core.spec import Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth
 
 
 class RockerGears(Spec):
@@ -47,6 +47,9 @@ class GearedRockerSpec(DrivenSpec):
     target: SwingTarget | None = None
     limits: LinkageLimits = LinkageLimits()
     shafts: PivotShafts | None = None
+    loads: Annotated[Any, Deferred("planet_linkages.loads_spec:PlanetLoads")] | None = Field(
+        None, description="masses, forces and drive, for the command loads"
+    )
 
     @model_validator(mode="after")
     def _crank_or_swing(self) -> GearedRockerSpec:
@@ -64,4 +67,4 @@ class GearedRockerSpec(DrivenSpec):
 
     def commands(self) -> tuple[str, ...]:
         """What the file asks for."""
-        return ("analyze", "gear")
+        return ("analyze", "gear", *(("loads",) if self.loads is not None else ()))

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.linkages.spec_parts import DwellBand, LinkageLimits, PivotShafts, require_rim
-from gearlink.core.spec import Assembly, DrivenSpec, Length, PressureAngle, Spec, Teeth
+from gearlink.core.spec import Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth
 
 
 class PlanetGears(Spec):
@@ -86,6 +86,9 @@ class TwoGearFourBarSpec(DrivenSpec):
     back_step: BackStepAngle | None = None
     limits: LinkageLimits = LinkageLimits()
     shafts: PivotShafts | None = None
+    loads: Annotated[Any, Deferred("planet_linkages.loads_spec:PlanetLoads")] | None = Field(
+        None, description="masses, forces and drive, for the command loads"
+    )
 
     @model_validator(mode="after")
     def _frame_given_or_sought(self) -> TwoGearFourBarSpec:
@@ -111,4 +114,5 @@ class TwoGearFourBarSpec(DrivenSpec):
 
     def commands(self) -> tuple[str, ...]:
         """What the file asks for."""
-        return (*(self._syntheses() or ("analyze",)), "gear")
+        loads = ("loads",) if self.loads is not None and self.links.frame is not None else ()
+        return (*(self._syntheses() or ("analyze",)), "gear", *loads)

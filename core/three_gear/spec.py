@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.linkages.spec_parts import DwellBand, LinkageLimits
 from gearlink.core.real_speed import other_speed
-from gearlink.core.spec import Assembly, DrivenSpec, Length, PressureAngle, SignedLength, Spec, Teeth
+from gearlink.core.spec import Assembly, Deferred, DrivenSpec, Length, PressureAngle, SignedLength, Spec, Teeth
 
 
 class Gears(Spec):
@@ -152,6 +152,9 @@ class ThreeGearSpec(DrivenSpec):
     )
     limits: LinkageLimits = LinkageLimits()
     shafts: Shafts | None = None
+    loads: Annotated[Any, Deferred("three_gear.loads_spec:ThreeGearLoads")] | None = Field(
+        None, description="masses, forces and drive, for the command loads"
+    )
 
     @model_validator(mode="after")
     def _one_tolerance(self) -> ThreeGearSpec:
@@ -180,5 +183,6 @@ class ThreeGearSpec(DrivenSpec):
             "synth variable-speed": self.speed,
             "synth momentary-dwell": self.momentary,
             "analyze": self.links,
+            "loads": self.loads if self.links is not None else None,
         }
         return tuple(command for command, section in asked.items() if section is not None) or ("analyze",)

@@ -19,6 +19,15 @@ from gearlink.core.nomenclature import TERMS, Term, term
 
 REFERENCE = Path(__file__).parents[1] / "reference" / "contract"
 UNITS = {
+    "kg m^2",
+    "W",
+    "J",
+    "N/mm^2",
+    "kg mm",
+    "Hz",
+    "h",
+    "ms",
+    "um",
     "mm",
     "deg",
     "1",

@@ -1,0 +1,60 @@
+"""The loads of a hypocycloid dwell: carrier, planet in a fixed ring, rod, slider."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from gearlink.core.dwell_gears.hypocycloid_design import HypocycloidDwell
+from gearlink.core.loads.design import LoadsDesign, loads_outline
+from gearlink.core.results import cached_property
+
+if TYPE_CHECKING:
+    from gearlink.core.dwell_gears.hypocycloid_spec import HypocycloidDwellSpec
+    from gearlink.core.loads.mechanism import Connection, Mechanism
+    from gearlink.core.numerics.arrays import Reals
+
+_MM = 1e-3
+
+
+class HypocycloidDwellLoads(LoadsDesign):
+    """Input angle: the carrier's from the middle of the dwell's arc; the slider moves on +x."""
+
+    kind = "hypocycloid-dwell"
+    spec: HypocycloidDwellSpec
+    links, sliding = ("carrier", "planet", "rod", "slider"), ("slider",)
+    pins, meshes = ("O", "planet", "M", "F"), ("mesh_ring",)
+    outlines = loads_outline(pins, meshes)
+
+    @cached_property
+    def design(self) -> HypocycloidDwell:
+        """The geometry."""
+        return HypocycloidDwell(self.spec)
+
+    def kinematics(self, phi: Reals) -> Mechanism:
+        """The four links at carrier angles, the ring's centre at 0."""
+        from gearlink.core.loads.kinematics import fixed, slider, standing, steady
+        from gearlink.core.loads.mechanism import FRAME, Guide, Link, Mechanism, Mesh, Pin
+
+        geometry = self.design.slider
+        r, n = geometry.planet_radius * _MM, geometry.cusps
+        carrier = Link(fixed(0j, phi), steady(phi))
+        planet = Link(carrier.at((n - 1) * r), steady(phi, -(n - 1.0)))
+        point = planet.at(-r)
+        turn, end = slider(point, geometry.rod * _MM, 0j, 1.0 + 0j)
+        links = {
+            "carrier": carrier,
+            "planet": planet,
+            "rod": Link(point, turn),
+            "slider": Link(end, standing(0.0, phi)),
+        }
+        tangent = math.tan(math.radians(self.spec.gears.pressure_angle))
+        connections: list[Connection] = [
+            Pin("O", FRAME, "carrier", carrier.origin.value),
+            Pin("planet", "carrier", "planet", planet.origin.value),
+            Pin("M", "planet", "rod", point.value),
+            Pin("F", "rod", "slider", end.value),
+            Guide("guide", FRAME, "slider", end.value, 1.0 + 0j),
+            Mesh("mesh_ring", FRAME, "planet", carrier.origin.value, carrier.unit, n * r, r, tangent, True, "carrier"),
+        ]
+        return Mechanism(links, connections, "carrier", travel={"slider": 1.0 + 0j})

@@ -1,0 +1,148 @@
+"""The loads of a geared five-bar in either form: two links on the frame, two couplers, the gears between them."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from typing import TYPE_CHECKING
+
+from gearlink.core.errors import NoSolution, at_key
+from gearlink.core.five_bar.design import GearedFiveBar
+from gearlink.core.loads.design import LoadsDesign, loads_outline
+from gearlink.core.results import cached_property
+
+if TYPE_CHECKING:
+    from gearlink.core.five_bar.function_motion import FunctionFiveBar
+    from gearlink.core.five_bar.loads_spec import FiveBarLoads as Section
+    from gearlink.core.five_bar.spec import GearedFiveBarSpec
+    from gearlink.core.loads.mechanism import Connection, Link, Mechanism
+    from gearlink.core.numerics.arrays import Reals
+
+_MM = 1e-3
+_MOST_TURNS = 1000
+
+
+class FiveBarLoads(LoadsDesign):
+    """Input, coupler, follower, output; with an idler in the path form that too."""
+
+    kind = "geared-five-bar"
+    spec: GearedFiveBarSpec
+    section: Section
+    links = ("input", "coupler", "follower", "output", "idler")
+    pins, meshes = ("A", "B", "C", "D", "E", "O"), ("mesh_14", "mesh_1i", "mesh_i4", "mesh_25")
+    outlines = loads_outline(pins, meshes)
+
+    @cached_property
+    def design(self) -> GearedFiveBar:
+        """The geometry."""
+        return GearedFiveBar(self.spec)
+
+    @cached_property
+    def has_idler(self) -> bool:
+        """Whether an idler stands between input and output."""
+        return self.design.is_path and self.spec.gears.idler is not None
+
+    @cached_property
+    def own_links(self) -> tuple[str, ...]:
+        """The links that this design has."""
+        if not self.has_idler and self.section.links.idler is not None:
+            raise NoSolution("this five-bar has no idler: leave its mass out", key="loads.links.idler")
+        return self.links if self.has_idler else self.links[:-1]
+
+    @property
+    def turns(self) -> int:
+        """Input turns of the whole period."""
+        turns = self.design.period_turns
+        if turns > _MOST_TURNS:
+            raise NoSolution(
+                f"the gears repeat only after {turns} input turns: loads are computed for at most {_MOST_TURNS}; "
+                "choose teeth with a common factor",
+                key="gears",
+            )
+        return turns
+
+    @cached_property
+    def function_bar(self) -> FunctionFiveBar:
+        """The function form over its whole period."""
+        bar = self.design.function_bar
+        with at_key("range" if self.spec.range is not None else "links"):
+            bar.closure(0.0, 2.0 * math.pi * self.turns)
+        return bar
+
+    @property
+    def _tangent(self) -> float:
+        return math.tan(math.radians(self.spec.gears.pressure_angle))
+
+    def _radius(self, teeth: int | None) -> float:
+        return 0.5 * self.spec.gears.module * _MM * (teeth or 0)
+
+    def kinematics(self, phi: Reals) -> Mechanism:
+        """The links at input angles, A at 0 and E on +x."""
+        from gearlink.core.loads.mechanism import Mechanism
+
+        links, connections = self._path(phi) if self.design.is_path else self._function(phi)
+        return Mechanism(links, connections, "input")
+
+    def _path(self, phi: Reals) -> tuple[dict[str, Link], list[Connection]]:
+        from gearlink.core.loads.kinematics import dyad, fixed, steady
+        from gearlink.core.loads.mechanism import FRAME, Link, Pin
+
+        bar = self.design.path_bar
+        first = Link(fixed(0j, phi), steady(phi))
+        last = Link(fixed(bar.frame * _MM, phi), steady(phi, float(bar.ratio), bar.phase))
+        b, d = first.at(bar.input * _MM), last.at(bar.output * _MM)
+        t2, t3 = dyad(b, d, bar.coupler * _MM, bar.follower * _MM, bar.assembly)
+        links = {"input": first, "coupler": Link(b, t2), "follower": Link(d, t3), "output": last}
+        pins: list[Connection] = [
+            Pin("A", FRAME, "input", first.origin.value),
+            Pin("B", "input", "coupler", b.value),
+            Pin("C", "coupler", "follower", links["coupler"].at(bar.coupler * _MM).value),
+            Pin("D", "output", "follower", d.value),
+            Pin("E", FRAME, "output", last.origin.value),
+        ]
+        return links, pins + self._path_gears(links, phi)
+
+    def _path_gears(self, links: dict[str, Link], phi: Reals) -> list[Connection]:
+        """The mesh of input and output, or those with the idler between them, which joins the links."""
+        from gearlink.core.loads.kinematics import fixed, steady
+        from gearlink.core.loads.mechanism import FRAME, Link, Mesh, Pin
+
+        gears, tangent = self.spec.gears, self._tangent
+        r1, r4 = self._radius(gears.input), self._radius(gears.output)
+        a, e = links["input"].origin.value, links["output"].origin.value
+        if not self.has_idler:
+            if gears.mesh == "internal" and r4 > r1:
+                return [Mesh("mesh_14", "output", "input", e, -1.0 + 0j, r4, r1, tangent, True)]
+            return [Mesh("mesh_14", "input", "output", a, 1.0 + 0j, r1, r4, tangent, gears.mesh == "internal")]
+        ri, frame = self._radius(gears.idler), self.design.path_bar.frame * _MM
+        near, far = r1 + ri, ri + r4
+        along = 0.5 * (frame + (near - far) * (near + far) / frame)
+        axis = cmath.rect(near, self.spec.gears.idler_side * math.acos(along / near))
+        center = fixed(axis, phi)
+        links["idler"] = Link(center, steady(phi, -r1 / ri))
+        return [
+            Pin("O", FRAME, "idler", center.value),
+            Mesh("mesh_1i", "input", "idler", a, axis / near, r1, ri, tangent),
+            Mesh("mesh_i4", "idler", "output", center.value, (frame - axis) / far, ri, r4, tangent),
+        ]
+
+    def _function(self, phi: Reals) -> tuple[dict[str, Link], list[Connection]]:
+        from gearlink.core.loads.kinematics import dyad, fixed, steady
+        from gearlink.core.loads.mechanism import FRAME, Link, Mesh, Pin
+
+        bar, gears = self.function_bar, self.spec.gears
+        first = Link(fixed(0j, phi), steady(phi))
+        coupler = Link(first.at(bar.input * _MM), steady(phi, bar.coupler_ratio, bar.phase))
+        c, pivot = coupler.at(bar.coupler * _MM), fixed(bar.frame * _MM, phi)
+        t3, t4 = dyad(c, pivot, bar.follower * _MM, bar.output * _MM, bar.assembly)
+        links = {"input": first, "coupler": coupler, "follower": Link(c, t3), "output": Link(pivot, t4)}
+        r5, r2 = self._radius(gears.ring or gears.sun), self._radius(gears.planet)
+        return links, [
+            Pin("A", FRAME, "input", first.origin.value),
+            Pin("B", "input", "coupler", coupler.origin.value),
+            Pin("C", "coupler", "follower", c.value),
+            Pin("D", "follower", "output", links["output"].at(bar.output * _MM).value),
+            Pin("E", FRAME, "output", pivot.value),
+            Mesh("mesh_25", FRAME, "coupler", first.origin.value, first.unit, r5, r2, self._tangent,
+                 gears.ring is not None, "input"),
+        ]  # fmt: skip

@@ -1,0 +1,47 @@
+"""A four-bar as links under load: what all machines that hold one give to `gearlink.core.loads`."""
+
+from __future__ import annotations
+
+from gearlink.core.linkages import fourbar_sweep
+from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.loads.kinematics import Turn, carried, fixed, steady
+from gearlink.core.loads.mechanism import FRAME, Link, Pin
+from gearlink.core.numerics.arrays import Reals
+
+MM = 1e-3
+
+
+def four_bar(linkage: FourBar, phi: Reals) -> dict[str, Link]:
+    """Crank, coupler and rocker at crank angles, A at 0 and D on +x; lengths in m.
+
+    Parameters
+        linkage : FourBar [mm]
+        phi : (N,) array [rad] - crank angles, which are the input angles
+    Returns
+        links : crank (A->B), coupler (B->C), rocker (D->C)
+    Raises
+        NoSolution - where the linkage does not close
+    Example
+        >>> import numpy as np
+        >>> links = four_bar(FourBar(18.0, 50.0, 100.0, 121.4), np.array([0.0]))
+        >>> round(float(links["rocker"].turn.first[0]), 9)
+        -0.174081238
+    """
+    sweep = fourbar_sweep.solve(linkage, phi, 2)
+    crank = Link(fixed(0j, phi), steady(phi))
+    origin = carried(crank.origin, crank.turn, linkage.crank * MM)
+    coupler = Link(origin, Turn(sweep.coupler_angle, sweep.coupler_velocity, sweep.coupler_acceleration))
+    rocker = Link(
+        fixed(linkage.frame * MM, phi), Turn(sweep.rocker_angle, sweep.rocker_velocity, sweep.rocker_acceleration)
+    )
+    return {"crank": crank, "coupler": coupler, "rocker": rocker}
+
+
+def four_bar_pins(links: dict[str, Link], linkage: FourBar) -> list[Pin]:
+    """A, B, C, D of these links."""
+    return [
+        Pin("A", FRAME, "crank", links["crank"].origin.value),
+        Pin("B", "crank", "coupler", links["coupler"].origin.value),
+        Pin("C", "coupler", "rocker", links["rocker"].at(linkage.rocker * MM).value),
+        Pin("D", FRAME, "rocker", links["rocker"].origin.value),
+    ]

@@ -1,0 +1,50 @@
+"""The loads of a slider-crank: crank, rod, slider."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from gearlink.core.errors import at_key
+from gearlink.core.linkages.slider_crank import SliderCrank
+from gearlink.core.loads.design import LoadsDesign, loads_outline
+from gearlink.core.results import cached_property
+
+if TYPE_CHECKING:
+    from gearlink.core.linkages.slider_crank_spec import SliderCrankSpec
+    from gearlink.core.loads.mechanism import Connection, Mechanism
+    from gearlink.core.numerics.arrays import Reals
+
+_MM = 1e-3
+
+
+class SliderCrankLoads(LoadsDesign):
+    """Input angle: direction of the crank from +x; the slider lies below on x = -offset and travels along -y."""
+
+    kind = "slider-crank"
+    spec: SliderCrankSpec
+    links, sliding = ("crank", "rod", "slider"), ("slider",)
+    pins, meshes = ("D", "E", "F"), ()
+    outlines = loads_outline(pins, meshes)
+
+    @cached_property
+    def slider_crank(self) -> SliderCrank:
+        """The geometry."""
+        with at_key("stroke"):
+            return SliderCrank(self.spec.stroke, self.spec.rod, self.spec.offset)
+
+    def kinematics(self, phi: Reals) -> Mechanism:
+        """The three links at crank angles, D at 0."""
+        from gearlink.core.loads.kinematics import fixed, slider, standing, steady
+        from gearlink.core.loads.mechanism import FRAME, Guide, Link, Mechanism, Pin
+
+        crank = Link(fixed(0j, phi), steady(phi))
+        pin = crank.at(self.slider_crank.crank_length * _MM)
+        turn, end = slider(pin, self.spec.rod * _MM, complex(-self.spec.offset * _MM), -1j)
+        links = {"crank": crank, "rod": Link(pin, turn), "slider": Link(end, standing(0.0, phi))}
+        connections: list[Connection] = [
+            Pin("D", FRAME, "crank", crank.origin.value),
+            Pin("E", "crank", "rod", pin.value),
+            Pin("F", "rod", "slider", end.value),
+            Guide("guide", FRAME, "slider", end.value, -1j),
+        ]
+        return Mechanism(links, connections, "crank", travel={"slider": -1j})

@@ -1,0 +1,127 @@
+"""Load of a pin over the period, and of a mesh."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from gearlink.core.loads.machine import zeros
+from gearlink.core.loads.mechanism import Pin, rates
+from gearlink.core.loads.reversals import places
+from gearlink.core.results import cached_property
+
+if TYPE_CHECKING:
+    from gearlink.core.loads.design import LoadsDesign
+    from gearlink.core.loads.spec import Bearing
+    from gearlink.core.numerics.arrays import Points, Reals
+
+BALL, ROLLER = 3.0, 10.0 / 3.0
+
+
+class PinLoad:
+    """A pin's force and its relative turning.
+
+    Parameters
+        design : LoadsDesign
+        name : str
+        bearing : Bearing of the file, or None
+    """
+
+    def __init__(self, design: LoadsDesign, name: str, bearing: Bearing | None) -> None:
+        self.design, self.name, self.bearing = design, name, bearing
+
+    def force(self, phi: Reals) -> Points:
+        """Force on the second link [N]."""
+        return self.design.machine.reactions(phi).force(self.name)
+
+    def rate(self, phi: Reals) -> Reals:
+        """Relative turning per input angle."""
+        mechanism = self.design.machine.at(phi)
+        pin = next(each for each in mechanism.connections if each.name == self.name)
+        assert isinstance(pin, Pin), "only pins are asked for"
+        return rates(mechanism, pin.first, pin.second)
+
+    @cached_property
+    def known(self) -> bool:
+        """Whether its force can be had; not where a direction that it depends on is unknown."""
+        return self.name not in self.design.unknown_joints
+
+    @cached_property
+    def peak(self) -> float | None:
+        """Greatest force [N]."""
+        return self.design.extreme(lambda phi: np.abs(self.force(phi))).value if self.known else None
+
+    @cached_property
+    def reversals(self) -> list[float]:
+        """Input angles where the relative turning changes its sense [rad]."""
+        machine = self.design.machine
+        return zeros(self.rate, machine.period, machine.turns)
+
+    def _mean(self, power: float) -> tuple[float, float]:
+        """Mean of |F|^p over the travel, scaled by the peak, and the travel [rad]."""
+        from gearlink.core.loads.machine import Panels
+
+        machine, peak = self.design.machine, self.peak or 1.0
+        panels = Panels.over(machine.period, sorted({*machine.breaks, *self.reversals} - {0.0, machine.period}))
+        way = np.abs(self.rate(panels.nodes))
+        travel = panels.integral(way)
+        if travel == 0.0:
+            return 0.0, 0.0
+        return panels.integral(way * (np.abs(self.force(panels.nodes)) / peak) ** power) / travel, travel
+
+    @property
+    def exponent(self) -> float:
+        """3 for balls, 10/3 for rollers and needles."""
+        kind = "ball" if self.bearing is None else self.bearing.kind
+        return ROLLER if kind in ("roller", "needle") else BALL
+
+    @cached_property
+    def equivalent(self) -> float | None:
+        """(int |F|^p |dt| / int |dt|)^(1/p) [N], over the relative turning; None for a pin that does not turn."""
+        if not self.known:
+            return None
+        mean, travel = self._mean(self.exponent)
+        return (self.peak or 0.0) * mean ** (1.0 / self.exponent) if travel > 0.0 else None
+
+    @cached_property
+    def travel(self) -> float:
+        """Relative turns per input turn, both senses counted."""
+        machine = self.design.machine
+        edges = sorted({0.0, machine.period, *self.reversals})
+        from gearlink.core.loads.machine import Panels
+
+        panels = Panels.over(machine.period, edges[1:-1])
+        return panels.integral(np.abs(self.rate(panels.nodes))) / (2.0 * math.pi * machine.turns)
+
+
+class MeshLoad:
+    """A mesh's tangential force over the period.
+
+    Parameters
+        design : LoadsDesign
+        name : str
+    """
+
+    def __init__(self, design: LoadsDesign, name: str) -> None:
+        self.design, self.name = design, name
+
+    def force(self, phi: Reals) -> Reals:
+        """F_t on the second gear [N]."""
+        return np.asarray(self.design.machine.reactions(phi).unknowns[self.name][0])
+
+    @cached_property
+    def tooth_force_max(self) -> float:
+        """Greatest magnitude of the tangential force [N]."""
+        return self.design.extreme(lambda phi: np.abs(self.force(phi))).value
+
+    @cached_property
+    def reversal_places(self) -> list[float]:
+        """Input angles where the teeth change flanks [rad]."""
+        return places(self.force, self.design.machine, self.tooth_force_max)
+
+    @property
+    def reversals(self) -> int:
+        """How often the teeth change flanks over the period."""
+        return len(self.reversal_places)

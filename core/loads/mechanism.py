@@ -1,0 +1,225 @@
+"""What a machine gives to have its loads computed: links that move, and what connects them.
+
+Lengths in m, angles in rad. A connection acts on its second link with the forces named here and on its first link with
+the opposite; `FRAME` stands for the frame. The unknowns are linear, so that all of them come out of one system.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from gearlink.core.loads.kinematics import Point, Turn, carried
+from gearlink.core.numerics.arrays import Points, Reals
+
+FRAME = "frame"
+
+
+@dataclass(frozen=True)
+class Link:
+    """A link in motion: its origin, which is its first joint, and the direction of its x axis."""
+
+    origin: Point
+    turn: Turn
+
+    @cached_property
+    def unit(self) -> Points:
+        """e^(i t)."""
+        return np.asarray(np.exp(1j * self.turn.value))
+
+    def at(self, arm: complex) -> Point:
+        """A point given in link coordinates [m]."""
+        return carried(self.origin, self.turn, arm, self.unit)
+
+
+class Column(NamedTuple):
+    """One unknown: the force that its unit gives on the second link, where it acts, and a couple."""
+
+    first: str
+    second: str
+    force: Points | complex
+    at: Points
+    couple: float
+
+
+class Radial(NamedTuple):
+    """The force on the second link that goes with the magnitude of an unknown, per its unit."""
+
+    force: Points
+    at: Points
+
+
+@dataclass(frozen=True)
+class Pin:
+    """A pin joint: X and Y on the second link."""
+
+    name: str
+    first: str
+    second: str
+    at: Points
+
+    def columns(self) -> list[Column]:
+        """Unit forces along x and y."""
+        return [Column(self.first, self.second, unit, self.at, 0.0) for unit in (1.0 + 0j, 1j)]
+
+
+@dataclass(frozen=True)
+class Guide:
+    """A slide without play: a force across the direction `along`, and a couple."""
+
+    name: str
+    first: str
+    second: str
+    at: Points
+    along: complex
+
+    def columns(self) -> list[Column]:
+        """The force i u and the couple."""
+        return [
+            Column(self.first, self.second, 1j * self.along, self.at, 0.0),
+            Column(self.first, self.second, 0j, self.at, 1.0),
+        ]
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """A gear mesh: the tangential force at the pitch point, and the radial one that goes with its magnitude.
+
+    Fields
+        center : (N,) array [m] - centre of the first gear
+        toward : (N,) array - e, unit vector from the first centre to the second (of a ring: to the planet's)
+        radius, mate_radius : float [m] - working radii of the first and the second gear
+        tangent : float - tan of the working pressure angle
+        internal : bool - the first gear is a ring
+        carrier : str - link that holds both axes, for the friction of the mesh
+    """
+
+    name: str
+    first: str
+    second: str
+    center: Points
+    toward: Points | complex
+    radius: float
+    mate_radius: float
+    tangent: float
+    internal: bool = False
+    carrier: str = FRAME
+
+    @property
+    def pitch_point(self) -> Points:
+        """Where the pitch circles touch."""
+        return np.asarray(self.center + self.radius * self.toward)
+
+    def columns(self) -> list[Column]:
+        """F_t i e at the pitch point."""
+        return [Column(self.first, self.second, 1j * self.toward, self.pitch_point, 0.0)]
+
+    def radial(self) -> Radial:
+        """Away from the first centre; towards a ring's centre."""
+        sign = -1.0 if self.internal else 1.0
+        return Radial(np.asarray(sign * self.tangent * self.toward + np.zeros_like(self.center)), self.pitch_point)
+
+
+@dataclass(frozen=True)
+class Rack:
+    """A rack that a pinion meets: the force along the pitch line, and the separating one.
+
+    Fields
+        center : (N,) array [m] - of the pinion
+        along, normal : complex - of the pitch line; from the rack to the pinion
+        mate_radius : float [m] - of the pinion
+        tangent : float - tan of the pressure angle
+    """
+
+    name: str
+    first: str
+    second: str
+    center: Points
+    along: complex
+    normal: complex
+    mate_radius: float
+    tangent: float
+    radius: float = field(default=0.0, init=False)
+    carrier: str = FRAME
+
+    @property
+    def pitch_point(self) -> Points:
+        """Where the pitch line touches the pinion."""
+        return np.asarray(self.center - self.mate_radius * self.normal)
+
+    def columns(self) -> list[Column]:
+        """F_t u at the pitch point."""
+        return [Column(self.first, self.second, self.along, self.pitch_point, 0.0)]
+
+    def radial(self) -> Radial:
+        """From the rack to the pinion."""
+        return Radial(np.full(self.center.shape, self.tangent * self.normal), self.pitch_point)
+
+
+@dataclass(frozen=True)
+class Contact:
+    """A roller on a cam: one force along the normal at the roller's centre."""
+
+    name: str
+    first: str
+    second: str
+    at: Points
+    normal: Points
+
+    def columns(self) -> list[Column]:
+        """N n_out."""
+        return [Column(self.first, self.second, self.normal, self.at, 0.0)]
+
+
+Connection = Pin | Guide | Mesh | Rack | Contact
+Toothed = (Mesh, Rack)
+
+
+@dataclass(frozen=True)
+class Mechanism:
+    """A machine at an array of input angles.
+
+    Fields
+        links : by name, in the order of the machine
+        connections : what joins them
+        drive : str - link that the input torque acts on
+        sense : float - +1 where that link turns with the input, -1 where against it
+        pivot : complex [m] - about which the frame's moment is taken
+        travel : direction in which a link slides, for a force given as a number
+        sense_of_output : links whose applied torque counts against their angle here (none, as a rule)
+    """
+
+    links: Mapping[str, Link]
+    connections: Sequence[Connection]
+    drive: str
+    sense: float = 1.0
+    pivot: complex = 0j
+    travel: Mapping[str, complex] = field(default_factory=dict)
+
+    @property
+    def meshes(self) -> list[Mesh | Rack]:
+        """The connections that have teeth."""
+        return [each for each in self.connections if isinstance(each, Toothed)]
+
+    @property
+    def rows(self) -> int:
+        """How many input angles."""
+        return len(next(iter(self.links.values())).turn.value)
+
+    def link(self, name: str) -> Link | None:
+        """A link by name, None for the frame."""
+        return None if name == FRAME else self.links[name]
+
+
+def rates(mechanism: Mechanism, first: str, second: str) -> Reals:
+    """Turning of the second link against the first, per input angle: t_j' - t_i'."""
+
+    def rate(name: str) -> Reals | float:
+        link = mechanism.link(name)
+        return 0.0 if link is None else link.turn.first
+
+    return np.asarray(rate(second) - rate(first) + np.zeros(mechanism.rows))

@@ -1,0 +1,80 @@
+"""The tables of `loads`, a row per degree of the input over a whole period."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from gearlink.core.report import Table
+
+if TYPE_CHECKING:
+    from gearlink.core.loads.design import LoadsDesign
+    from gearlink.core.numerics.arrays import Reals
+
+MOST_TURNS = 100
+Columns = dict[str, tuple[Any, str]]
+
+
+def _rows(design: LoadsDesign, samples: int | None) -> tuple[Reals, Reals, Columns]:
+    """Input angles in rad and deg of the rows, and the first column."""
+    import numpy as np
+
+    from gearlink.core.numerics.arrays import turn_degrees
+
+    degrees = turn_degrees(samples, min(design.turns, MOST_TURNS))
+    return np.radians(degrees), degrees, {"input_angle": (degrees, "deg")}
+
+
+def torque(design: LoadsDesign, samples: int | None = None) -> Table:
+    """Input torque and its parts, reflected inertia and power over the input angle."""
+    phi, _, columns = _rows(design, samples)
+    machine = design.machine
+    reduced, whole = machine.reduced(phi), machine.torque(phi)
+    inertial = reduced.inertial(machine.speed)
+    columns |= {
+        "input_torque": (whole, "N m"),
+        "inertia_part": (inertial, "N m"),
+        "load_part": (whole - inertial, "N m"),
+        "reflected_inertia": (reduced.inertia, "kg m^2"),
+        "reflected_inertia_slope": (reduced.slope, "kg m^2"),
+        "power": (whole * machine.speed, "W"),
+    }
+    return Table.of("torque", columns)
+
+
+def joints(design: LoadsDesign, samples: int | None = None) -> Table:
+    """Every pin's force on the second link of the joint, and those of the guides."""
+    from gearlink.core.loads.mechanism import Guide, Pin
+
+    phi, _, columns = _rows(design, samples)
+    found = design.machine.reactions(phi)
+    for each in found.mechanism.connections:
+        if not isinstance(each, (Pin, Guide)) or each.name in design.unknown_joints:
+            continue
+        force = found.force(each.name)
+        columns |= {
+            f"{each.name}_x": (force.real, "N"),
+            f"{each.name}_y": (force.imag, "N"),
+            each.name: (abs(force), "N"),
+        }
+        if isinstance(each, Guide):
+            columns[f"{each.name}_moment"] = (found.unknowns[each.name][1], "N m")
+    return Table.of("joints", columns)
+
+
+def teeth(design: LoadsDesign, samples: int | None = None) -> Table:
+    """Tangential and radial tooth force of every mesh."""
+    phi, _, columns = _rows(design, samples)
+    found = design.machine.reactions(phi)
+    for mesh in found.mechanism.meshes:
+        tangential = found.unknowns[mesh.name][0]
+        columns[mesh.name] = (tangential, "N")
+        columns[f"{mesh.name}_radial"] = (abs(tangential) * mesh.tangent, "N")
+    return Table.of("teeth", columns)
+
+
+def frame(design: LoadsDesign, samples: int | None = None) -> Table:
+    """Shaking force and moment of the masses on the frame."""
+    phi, _, columns = _rows(design, samples)
+    force, moment = design.shaking(phi)
+    columns |= {"force_x": (force.real, "N"), "force_y": (force.imag, "N"), "moment": (moment, "N m")}
+    return Table.of("frame", columns)

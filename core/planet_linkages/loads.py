@@ -1,0 +1,129 @@
+"""The loads of a two-gear four-bar and of a geared rocker: a four-bar, a free gear, a mesh on the carrier link."""
+
+from __future__ import annotations
+
+import math
+from abc import abstractmethod
+from typing import TYPE_CHECKING, Any
+
+from gearlink.core.linkages.fourbar import FourBar, solve
+from gearlink.core.linkages.fourbar_loads import MM, four_bar, four_bar_pins
+from gearlink.core.loads.design import LoadsDesign, loads_outline
+from gearlink.core.planet_linkages.rocker_design import GearedRocker
+from gearlink.core.planet_linkages.two_gear_design import TwoGearFourBar
+from gearlink.core.results import cached_property
+
+if TYPE_CHECKING:
+    from gearlink.core.loads.kinematics import Turn
+    from gearlink.core.loads.mechanism import Link, Mechanism, Mesh
+    from gearlink.core.numerics.arrays import Reals
+
+_MESHES = ("mesh_25",)
+
+
+class PlanetLinkageLoads(LoadsDesign):
+    """What both have: crank, coupler with a gear, rocker, and a free gear on the pivot of the carrier link."""
+
+    links = ("crank", "coupler", "rocker", "output")
+    meshes = _MESHES
+    design: Any
+    output_pin: str
+
+    @cached_property
+    def linkage(self) -> FourBar:
+        """The four-bar."""
+        found: FourBar = self.design.linkage
+        return found
+
+    @cached_property
+    def _start(self) -> tuple[float, float]:
+        """Coupler and rocker angle at crank angle 0, from which the free gear counts."""
+        state = solve(self.linkage, 0.0)
+        return state.coupler_angle, state.rocker_angle
+
+    @abstractmethod
+    def carrier_turn(self, links: dict[str, Link]) -> Turn:
+        """Angle of the link that carries the gears, 0 at crank angle 0."""
+
+    @abstractmethod
+    def mesh_of(self, links: dict[str, Link]) -> Mesh:
+        """The mesh of output and coupler."""
+
+    def kinematics(self, phi: Reals) -> Mechanism:
+        """The four links at crank angles."""
+        from gearlink.core.loads.kinematics import from_start, mixed
+        from gearlink.core.loads.mechanism import FRAME, Link, Mechanism, Pin
+
+        links, ratio = four_bar(self.linkage, phi), self.design.gear_ratio
+        pins = four_bar_pins(links, self.linkage)
+        coupler = from_start(links["coupler"].turn, self._start[0])
+        pivot = links["crank" if self.output_pin == "A_output" else "rocker"].origin
+        links["output"] = Link(pivot, mixed((1.0 - ratio, self.carrier_turn(links)), (ratio, coupler)))
+        return Mechanism(
+            links, [*pins, Pin(self.output_pin, FRAME, "output", pivot.value), self.mesh_of(links)], "crank"
+        )
+
+    @property
+    def tangent(self) -> float:
+        """tan of the pressure angle."""
+        return math.tan(math.radians(self.spec.gears.pressure_angle))
+
+    def radius(self, teeth: int) -> float:
+        """Pitch radius [m]."""
+        return 0.5 * float(self.spec.gears.module) * MM * teeth
+
+
+class TwoGearLoads(PlanetLinkageLoads):
+    """Planet on the coupler at B, output gear or ring on A."""
+
+    kind = "two-gear-four-bar"
+    output_pin = "A_output"
+    pins = ("A", "B", "C", "D", "A_output")
+    outlines = loads_outline(pins, _MESHES)
+
+    @cached_property
+    def design(self) -> TwoGearFourBar:
+        """The geometry."""
+        return TwoGearFourBar(self.spec)
+
+    def carrier_turn(self, links: dict[str, Link]) -> Turn:
+        """The crank's."""
+        return links["crank"].turn
+
+    def mesh_of(self, links: dict[str, Link]) -> Mesh:
+        """Along the crank."""
+        from gearlink.core.loads.mechanism import Mesh
+
+        design, crank = self.design, links["crank"]
+        r5, r2 = self.radius(design.output_teeth), self.radius(design.planet_teeth)
+        return Mesh("mesh_25", "output", "coupler", crank.origin.value, crank.unit, r5, r2, self.tangent,
+                    design.internal, "crank")  # fmt: skip
+
+
+class GearedRockerLoads(PlanetLinkageLoads):
+    """Gear on the coupler at C, output gear on D."""
+
+    kind = "geared-rocker"
+    output_pin = "D_output"
+    pins = ("A", "B", "C", "D", "D_output")
+    outlines = loads_outline(pins, _MESHES)
+
+    @cached_property
+    def design(self) -> GearedRocker:
+        """The geometry."""
+        return GearedRocker(self.spec)
+
+    def carrier_turn(self, links: dict[str, Link]) -> Turn:
+        """The rocker's."""
+        from gearlink.core.loads.kinematics import from_start
+
+        return from_start(links["rocker"].turn, self._start[1])
+
+    def mesh_of(self, links: dict[str, Link]) -> Mesh:
+        """Along the rocker."""
+        from gearlink.core.loads.mechanism import Mesh
+
+        design, rocker = self.design, links["rocker"]
+        r5, r2 = self.radius(design.output_teeth), self.radius(design.coupler_gear_teeth)
+        return Mesh("mesh_25", "output", "coupler", rocker.origin.value, rocker.unit, r5, r2, self.tangent,
+                    False, "rocker")  # fmt: skip

@@ -1,0 +1,74 @@
+"""The loads of a three-gear four-bar: its links, its joints, its two meshes."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from gearlink.core.linkages.fourbar import solve
+from gearlink.core.linkages.fourbar_loads import MM, four_bar, four_bar_pins
+from gearlink.core.loads.design import LoadsDesign, loads_outline
+from gearlink.core.results import cached_property
+from gearlink.core.three_gear.design import ThreeGearFourBar
+
+if TYPE_CHECKING:
+    from gearlink.core.loads.mechanism import Mechanism
+    from gearlink.core.numerics.arrays import Reals
+    from gearlink.core.three_gear.loads_spec import ThreeGearLoads as Section
+    from gearlink.core.three_gear.spec import ThreeGearSpec
+
+_PINS = ("A", "B", "C", "C_idler", "D", "D_output")
+_MESHES = ("mesh_13", "mesh_35")
+
+
+class ThreeGearLoads(LoadsDesign):
+    """Crank with gear 1, coupler, rocker, idler on C, output gear on D."""
+
+    kind = "three-gear-four-bar"
+    spec: ThreeGearSpec
+    section: Section
+    links = ("crank", "coupler", "rocker", "idler", "output")
+    pins, meshes = _PINS, _MESHES
+    outlines = loads_outline(_PINS, _MESHES)
+
+    @cached_property
+    def design(self) -> ThreeGearFourBar:
+        """The geometry."""
+        return ThreeGearFourBar(self.spec)
+
+    @cached_property
+    def _start(self) -> tuple[float, float]:
+        """Coupler and rocker angle at crank angle 0, from which the gears count."""
+        state = solve(self.design.linkage, 0.0)
+        return state.coupler_angle, state.rocker_angle
+
+    def kinematics(self, phi: Reals) -> Mechanism:
+        """The five links at crank angles."""
+        from gearlink.core.loads.kinematics import from_start, mixed, steady
+        from gearlink.core.loads.mechanism import FRAME, Link, Mechanism, Mesh, Pin
+
+        design, train = self.design, self.design.train
+        linkage, module = design.linkage, self.spec.gears.module * MM
+        links = four_bar(linkage, phi)
+        coupler, rocker = (
+            from_start(links[name].turn, start) for name, start in zip(("coupler", "rocker"), self._start, strict=True)
+        )
+        i2, i3 = -train.crank / train.idler, -train.idler / train.output
+        idler = mixed((i2, steady(phi)), (1.0 - i2, coupler))
+        pins = four_bar_pins(links, linkage)
+        center_c = links["rocker"].at(linkage.rocker * MM)
+        links["idler"] = Link(center_c, idler)
+        links["output"] = Link(links["rocker"].origin, mixed((i3, idler), (1.0 - i3, rocker)))
+        r1, r3, r5 = (0.5 * module * teeth for teeth in (train.crank, train.idler, train.output))
+        tangent = math.tan(math.radians(self.spec.gears.pressure_angle))
+        meshes = [
+            Mesh("mesh_13", "crank", "idler", links["coupler"].origin.value, links["coupler"].unit, r1, r3, tangent,
+                 carrier="coupler"),
+            Mesh("mesh_35", "output", "idler", links["output"].origin.value, links["rocker"].unit, r5, r3, tangent,
+                 carrier="rocker"),
+        ]  # fmt: skip
+        pins += [
+            Pin("C_idler", self.section.idler_pin, "idler", center_c.value),
+            Pin("D_output", FRAME, "output", links["output"].origin.value),
+        ]
+        return Mechanism(links, [*pins, *meshes], "crank")
