@@ -94,7 +94,7 @@ def test_no_machine_imports_another(machine: str) -> None:
     assert not [(a, b) for a in own for b in arrows()[a] if _room(b) in others]
 
 
-@pytest.mark.parametrize("library", ["numerics", "cams", "linkages", "gears"])
+@pytest.mark.parametrize("library", ["numerics", "cams", "linkages", "gears", "loads"])
 def test_libraries_are_free_of_machines(library: str) -> None:
     own = [name for name in MODULES if name.startswith(f"core.{library}.")]
     assert own

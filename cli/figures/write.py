@@ -6,7 +6,7 @@ import warnings
 from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, Any
+from typing import IO, TYPE_CHECKING, Any, cast
 
 from gearlink.cli.files import safe_stem, write_atomically
 from gearlink.cli.options import Options
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from gearlink.core.design import Design
+    from gearlink.core.loads.design import LoadsDesign
 
 _FIXED_METADATA: dict[str, dict[str, Any]] = {
     "png": {"Software": "gearlink"},
@@ -35,7 +36,12 @@ def draw(command: str, design: Design) -> Figure:
 
 
 def panels(command: str, design: Design) -> Figure:
-    """The figure of a command on a design, from the module named after the kind, its panels not placed yet."""
+    """The figure of a command on a design, from the module named after the kind, not placed yet; all kinds
+    share that of `loads`."""
+    if command == "loads":
+        from gearlink.cli.figures import loads
+
+        return loads.draw(cast("LoadsDesign", design))
     made: Figure = import_module("gearlink.cli.figures." + design.kind.replace("-", "_")).draw(command, design)
     return made
 

@@ -34,6 +34,6 @@ class SliderCrankSpec(DrivenSpec):
         return self
 
     def commands(self) -> tuple[str, ...]:
-        """What the file asks for: the crank, the motion where it names a speed or a limit, the loads where it has any."""
+        """What the file asks for: the crank, the motion with a speed or a limit, the loads with theirs."""
         motion = ("analyze",) if {"input_speed", "limits"} & self.model_fields_set else ()
         return ("crank", *motion, *(("loads",) if self.loads is not None else ()))

@@ -33,7 +33,6 @@ UNITS = {
     "1",
     "mm/s",
     "mm/s^2",
-    "ms",
     "mm/rad",
     "mm/rad^2",
     "rad/s",
@@ -42,7 +41,6 @@ UNITS = {
     "N",
     "N/mm",
     "N m",
-    "kg m^2",
     "sheets/h",
 }
 OUTLINES = [
