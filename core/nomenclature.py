@@ -102,13 +102,28 @@ _GEAR_PAIR = {
     "working_radius": Term("r_w", "mm", "working pitch radius r_b/cos(alpha_wt)", "ISO 21771"),
     "tip_radius": Term("r_a", "mm", "tip radius", "ISO 21771"),
     "root_radius": Term("r_f", "mm", "root radius", "ISO 21771"),
-    "tooth_thickness": Term("s", "mm", "tooth thickness on the reference circle", "ISO 21771"),
+    "tooth_thickness": Term("s", "mm", "tooth thickness on the reference circle (normal section)", "ISO 21771"),
     "tip_pressure_angle": Term("alpha_a", "deg", "pressure angle at the tip", "ISO 21771"),
     "tip_thickness": Term("s_a", "mm", "tooth thickness at the tip", "ISO 21771"),
     "min_shift_no_undercut": Term("x_min", "1", "least shift without undercut (rack tool)", "ISO 21771"),
     "span_measurement": Term("W_k", "mm", "span measurement over k teeth", "ISO 21771"),
     "span_teeth": Term("k", "1", "teeth spanned", "ISO 21771"),
     "specific_sliding": Term("zeta", "1", "specific sliding at the root end of the active flank", "ISO 21771"),
+    "transverse_pressure_angle": Term("alpha_t", "deg", "transverse pressure angle", "ISO 21771"),
+    "base_helix_angle": Term("beta_b", "deg", "helix angle on the base circle", "ISO 21771"),
+    "overlap_ratio": Term("eps_beta", "1", "overlap ratio", "ISO 21771"),
+    "total_contact_ratio": Term("eps_gamma", "1", "total contact ratio", "ISO 21771"),
+    "usable_contact_ratio": Term("eps_use", "1", "transverse contact ratio over what the tools leave of the involutes"),
+    "path_of_contact": Term("g_alpha", "mm", "length of the path of contact", "ISO 21771"),
+    "form_radius": Term("r_Ff", "mm", "root form radius, where the flank ends", "ISO 21771"),
+    "used_root_radius": Term("r_Nf", "mm", "radius at which contact reaches the root (nominal)", "ISO 21771"),
+    "tip_clearance": Term("c", "mm", "clearance between the gear's tip and the mate's root", "ISO 21771"),
+    "specific_sliding_tip": Term("zeta_a", "1", "specific sliding at the tip", "ISO 21771"),
+    "sliding_factor": Term("K_g", "1", "sliding over pitch line speed, at A and at E", "ISO 21771"),
+    "involute_margin": Term("rho_A1", "mm", "room of the ring's tip before the pinion's base tangent point"),
+    "radial_assembly_margin": Term(
+        "s_rad", "mm", "room for a pinion that goes into its ring along the line of centres"
+    ),
 }
 
 _SLIDER_CRANK = {

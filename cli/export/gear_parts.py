@@ -56,14 +56,16 @@ def _length(curve: Curve, low: float, high: float) -> float:
 
 
 def _notes(pair: GearPair, number: int, profile: ToothProfile) -> tuple[str, ...]:
+    helix = f", helix angle {math.degrees(pair.helix_angle):.9g} deg" if pair.helix_angle else ""
+    section = "; transverse section" if pair.helix_angle else ""
     notes = [
         f"module {pair.module:g} mm, {profile.teeth} teeth, profile shift {profile.shift:.9g}, "
-        f"pressure angle {math.degrees(pair.pressure_angle):.9g} deg",
+        f"pressure angle {math.degrees(pair.pressure_angle):.9g} deg{helix}",
         f"tip radius {profile.outer_radius:.9g} mm, root radius {profile.root_radius:.9g} mm, "
-        f"tooth thickness on the reference circle {pair.tooth_thickness[number]:.9g} mm",
+        f"tooth thickness on the reference circle (normal section) {pair.tooth_thickness[number]:.9g} mm",
         f"root cut by a rack tool with a tip rounding of {profile.tool_rounding:.6g} module; involute from "
         f"{profile.form_radius:.9g} mm" + (", undercut" if profile.undercut else ""),
         "no backlash: thin the teeth by the allowance that the drawing gives",
-        "frame: gear axis at the origin, middle of a tooth space on the x axis",
+        f"frame: gear axis at the origin, middle of a tooth space on the x axis{section}",
     ]
     return tuple(notes)

@@ -74,9 +74,13 @@ def _pair(design: Any, key: str = "") -> Makers:
         from gearlink.cli.export.gear_parts import gear_of
 
         with at_key(key):
-            return gear_of(design.gear_pair, number, f"gear{number + 1}", f"gear {number + 1}")
+            part = gear_of(design.gear_pair, number, f"gear{number + 1}", f"gear {number + 1}")
+        if design.gear_pair.internal:
+            part = replace(part, notes=(*part.notes, "the ring gear is not exported: its roots depend on its cutter"))
+        return part
 
-    return {f"gear{number + 1}": partial(gear, number) for number in (0, 1)}
+    numbers = (0,) if design.gear_pair.internal else (0, 1)
+    return {f"gear{number + 1}": partial(gear, number) for number in numbers}
 
 
 def _three_gears(design: Any) -> Makers:

@@ -13,6 +13,7 @@ from gearlink.cli.figures import panels, scene_axes, style
 from gearlink.cli.scenes.gear_pair import pair_scene
 from gearlink.cli.scenes.scene import Body, Points, Scene
 from gearlink.core.errors import NoSolution
+from gearlink.core.gears.checks import gear_quantity
 from gearlink.core.gears.mesh_geometry import MeshGeometry
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.nomenclature import term
@@ -43,6 +44,7 @@ _OF_GEAR = (
 )
 _WORDS = {
     "reference_radius": "reference radius",
+    "tooth_thickness": "tooth thickness on the reference circle",
     "working_radius": "working pitch radius",
     "specific_sliding": "specific sliding at the foot of the flank",
     "tip_shortening": "tip shortening coefficient",
@@ -106,8 +108,8 @@ def whole_gears(axes: Axes, mesh: Mesh) -> None:
 
 def _axis_distance(axes: Axes, pair: GearPair) -> None:
     """The centre distance, below the gears."""
-    drop = -1.12 * max(pair.tip_radius)
-    words = f"$a_w$ = {pair.center_distance:.6g} mm"
+    drop = -1.12 * max(abs(radius) for radius in (*pair.tip_radius, pair.root_radius[1]))
+    words = f"$a_w$ = {abs(pair.center_distance):.6g} mm"
     style.dimension(
         axes,
         complex(0.0, drop),
@@ -151,6 +153,9 @@ def mesh_zone(axes: Axes, mesh: Mesh) -> None:
 
 def _zone_teeth(axes: Axes, mesh: Mesh, gear: int, high: float) -> None:
     pair, geometry = mesh.pair, mesh.geometry
+    if pair.teeth[gear] < 0:
+        _zone_ring(axes, mesh)
+        return
     pitch_angle = 2.0 * math.pi / pair.teeth[gear]
     beside = math.ceil(1.3 * high / (pair.root_radius[gear] * pitch_angle)) + 1 if pair.root_radius[gear] > 0 else 99
     count = min(pair.teeth[gear], 2 * beside + 1)
@@ -167,6 +172,19 @@ def _zone_teeth(axes: Axes, mesh: Mesh, gear: int, high: float) -> None:
     axes.plot(teeth.real, teeth.imag, color=color, linewidth=1.5, zorder=3, gid=f"zone-{gear + 1}")
 
 
+def _zone_ring(axes: Axes, mesh: Mesh) -> None:
+    """The teeth of a ring, and its body out to the rim."""
+    from gearlink.core.gears.mesh_phase import ring_of
+
+    pair, geometry = mesh.pair, mesh.geometry
+    center = geometry.axes[1]
+    teeth = ring_of(pair, 48) * np.exp(1j * geometry.first_space[1]) + center
+    rim = center - 2.0 * pair.root_radius[1] * np.exp(-2j * math.pi * np.linspace(0.0, 1.0, 181))
+    body = np.concatenate([teeth, rim])
+    axes.fill(body.real, body.imag, facecolor=COLORS[1], alpha=0.16, linewidth=0)
+    axes.plot(teeth.real, teeth.imag, color=COLORS[1], linewidth=1.5, zorder=3, gid="zone-2")
+
+
 def _zone_circles(axes: Axes, mesh: Mesh, gear: int, high: float, wide: float) -> None:
     """Base, working and tip circle as arcs, those that pass the zone."""
     pair, center = mesh.pair, mesh.geometry.axes[gear]
@@ -177,9 +195,9 @@ def _zone_circles(axes: Axes, mesh: Mesh, gear: int, high: float, wide: float) -
     )
     inward = 1.0 if gear else -1.0
     for name, radius, dashes, color in kinds:
-        if abs(abs(mesh.geometry.pitch_point - center) - radius[gear]) > wide:
+        if abs(abs(mesh.geometry.pitch_point - center) - abs(radius[gear])) > wide:
             continue
-        reach = min(math.pi, 2.0 * high / radius[gear])
+        reach = min(math.pi, 2.0 * high / abs(radius[gear]))
         arc = center + inward * -1.0 * radius[gear] * np.exp(1j * np.linspace(-reach, reach, 181))
         axes.plot(arc.real, arc.imag, color=color, linewidth=0.9, linestyle=dashes, label=name, zorder=2)
 
@@ -283,7 +301,10 @@ def _headed(name: str) -> tuple[str, str, str]:
 def _text(pair: GearPair, name: str, gear: int | None = None) -> str:
     """A value to six digits; what the pair does not have is a dash."""
     try:
-        value = getattr(pair, name) if gear is None else getattr(pair, name)[gear]
+        found = gear_quantity(pair, name)
     except NoSolution:
+        found = None
+    if found is None:
         return "–"
+    value = found[gear or 0] if isinstance(found, tuple) else found
     return f"{math.degrees(value) if term(name).unit == 'deg' else value:.6g}"

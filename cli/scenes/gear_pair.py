@@ -28,14 +28,20 @@ def pair_scene(pair: GearPair, labels: tuple[str, str], fraction: Reals) -> Scen
     """Both gears over a loop of whole pitches; at its start two flanks touch at the pitch point."""
     pitches = loop_pitches(pair.teeth)
     turns = pitches / pair.teeth[0], -pitches / pair.teeth[1]
-    first = TURN * turns[0] * fraction + MeshGeometry(pair).first_space[0]
-    second = driven_turn(pair.teeth, np.zeros_like(fraction), first)
+    start = MeshGeometry(pair).first_space
+    first = TURN * turns[0] * fraction + start[0]
+    if pair.internal:
+        second = TURN * turns[1] * fraction + start[1]
+    else:
+        second = driven_turn(pair.teeth, np.zeros_like(fraction), first)
     one, two = track(0.0, fraction), track(pair.center_distance, fraction)
+    bodies = (
+        gear(pair, 0, one, first, turns[0], BLUE, labels[0], f"gear {labels[0]}"),
+        gear(pair, 1, two, second, turns[1], ORANGE, labels[1], f"gear {labels[1]}"),
+    )
+    behind, before = bodies[::-1] if pair.internal else bodies
     return Scene(
-        parts=(
-            *gear(pair, 0, one, first, turns[0], BLUE, labels[0], f"gear {labels[0]}"),
-            *gear(pair, 1, two, second, turns[1], ORANGE, labels[1], f"gear {labels[1]}"),
-        ),
+        parts=(*behind, *before),
         marks=(Mark(one, pivot=True), Mark(two, pivot=True)),
     )
 
@@ -47,7 +53,7 @@ def loop_pitches(teeth: tuple[int, int]) -> int:
         >>> loop_pitches((20, 40)), loop_pitches((72, 72)), loop_pitches((101, 103))
         (20, 36, 36)
     """
-    z1, z2 = teeth
+    z1, z2 = teeth[0], abs(teeth[1])
     if z1 <= _MOST_PITCHES and holes_for(z1 / z2):
         return z1
     return max(range(1, _MOST_PITCHES + 1), key=lambda k: (bool(holes_for(k / z1)) + bool(holes_for(k / z2)), k))

@@ -10,8 +10,8 @@ import numpy as np
 from gearlink.cli.scenes.colors import WHITE, pale
 from gearlink.cli.scenes.scene import TURN, Body, Points, Reals, circle
 from gearlink.core.errors import NoSolution
-from gearlink.core.gears.internal_mesh import InternalMesh
-from gearlink.core.gears.mesh_phase import ring_outline
+from gearlink.core.gears.internal_mesh import RIM_MODULES, InternalMesh
+from gearlink.core.gears.mesh_phase import ring_of, ring_outline
 from gearlink.core.gears.pair import GearPair
 
 _HOLES = (5, 4, 6, 3, 7, 8, 9, 10, 11, 12)
@@ -37,13 +37,15 @@ def gear(
         loop_turns : float - turns of the gear over the loop; the holes are so many that they come to meet themselves
         label, name : words on the gear, and in a legend, where the number of teeth is added
     """
-    teeth, tip = pair.teeth[number], pair.tip_radius[number]
+    teeth, tip = abs(pair.teeth[number]), pair.tip_radius[number]
     look = Body(outline=np.zeros(1), place=place, turn=turn, color=color, fill=pale(color), width=1.0, label=label)
     radii = pair.reference_radius if isinstance(pair, InternalMesh) else pair.working_radius
-    look = replace(look, name=f"{name}, z = {teeth}".removeprefix(", "), pitch=radii[number])
+    look = replace(look, name=f"{name}, z = {pair.teeth[number]}".removeprefix(", "), pitch=abs(radii[number]))
+    if isinstance(pair, GearPair) and pair.teeth[number] < 0:
+        return _ring(look, teeth, ring_of(pair), -pair.root_radius[1] + RIM_MODULES * pair.module)
     if isinstance(pair, InternalMesh):
         if number == 1:
-            return _ring(pair, look)
+            return _ring(look, teeth, ring_outline(pair), pair.rim_radius)
         pair = GearPair.from_shift(pair.module, (teeth, teeth), (0.0, 0.0), pressure_angle=pair.pressure_angle)
         number = 0
     outline = _teeth(pair, number)
@@ -66,10 +68,10 @@ def _teeth(pair: GearPair, number: int) -> Points | None:
         return None
 
 
-def _ring(mesh: InternalMesh, look: Body) -> list[Body]:
-    rim = replace(look, outline=circle(mesh.rim_radius, 144), repeats=0)
-    inside = replace(look, outline=ring_outline(mesh), repeats=mesh.teeth[1], fill=WHITE, label="", name="", pitch=0.0)
-    return [rim, inside]
+def _ring(look: Body, count: int, inside: Points, rim_radius: float) -> list[Body]:
+    rim = replace(look, outline=circle(rim_radius, 144), repeats=0)
+    teeth = replace(look, outline=inside, repeats=count, fill=WHITE, label="", name="", pitch=0.0)
+    return [rim, teeth]
 
 
 def holes_for(loop_turns: float) -> int:

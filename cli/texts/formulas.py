@@ -39,27 +39,43 @@ _GEAR_LINKAGE = {
 }
 
 _GEAR_PAIR = {
-    "working_pressure_angle": "cos(alpha_wt) = a cos(alpha)/a_w, or inv(alpha_wt) = inv(alpha) + 2 tan(alpha) "
+    "working_pressure_angle": "cos(alpha_wt) = a cos(alpha_t)/a_w, or inv(alpha_wt) = inv(alpha_t) + 2 tan(alpha) "
     "(x1 + x2)/(z1 + z2)",
-    "center_distance": "a_w = a + y m = a cos(alpha)/cos(alpha_wt)",
-    "reference_center_distance": "a = m (z1 + z2)/2",
-    "shift_sum": "x1 + x2 = (z1 + z2) (inv(alpha_wt) - inv(alpha))/(2 tan(alpha))",
+    "center_distance": "a_w = a + y m = a cos(alpha_t)/cos(alpha_wt)",
+    "reference_center_distance": "a = m (z1 + z2)/(2 cos(beta)), z2 < 0 for a ring",
+    "shift_sum": "x1 + x2 = (z1 + z2) (inv(alpha_wt) - inv(alpha_t))/(2 tan(alpha))",
     "center_distance_modification": "y = (a_w - a)/m",
-    "tip_shortening": "dy = x1 + x2 - y",
+    "tip_shortening": "dy = -k; full: x1 + x2 - y",
     "contact_ratio": "eps_alpha = (z1 (tan(alpha_a1) - tan(alpha_wt)) + z2 (tan(alpha_a2) - tan(alpha_wt)))/(2 pi)",
     "profile_shift": "given, or x1 = x2 = (x1 + x2)/2, or as shift_split says",
-    "reference_radius": "r = m z/2",
-    "base_radius": "r_b = r cos(alpha)",
+    "reference_radius": "r = m z/(2 cos(beta))",
+    "base_radius": "r_b = r cos(alpha_t)",
     "working_radius": "r_w = a_w z/(z1 + z2) = r_b/cos(alpha_wt)",
-    "tip_radius": "r_a = r + (h_a* + x - k) m",
-    "root_radius": "r_f = r - (h_a* + c* - x) m",
+    "tip_radius": "r_a = r + (h_a* + x + k) m",
+    "root_radius": "r_f = r - (h_fP* - x) m, h_fP* of the tool, else h_a* + c*",
     "tooth_thickness": "s = m (pi/2 + 2 x tan(alpha))",
     "tip_pressure_angle": "cos(alpha_a) = r_b/r_a",
-    "tip_thickness": "s_a = r_a (s/r - 2 (inv(alpha_a) - inv(alpha)))",
-    "min_shift_no_undercut": "x_min = h_a* - z sin^2(alpha)/2",
-    "span_measurement": "W_k = m cos(alpha) (pi (k - 1/2) + z inv(alpha)) + 2 x m sin(alpha)",
-    "span_teeth": "k for which |sqrt(r_b^2 + (W_k/2)^2) - (r + x m)| is least",
+    "tip_thickness": "s_a = r_a (s/(r cos(beta)) - 2 (inv(alpha_a) - inv(alpha_t))) cos(beta_a)",
+    "min_shift_no_undercut": "x_min = h - z sin^2(alpha_t)/(2 cos(beta)), h = h_a*, or h_fP* - rho* (1 - sin(alpha)) "
+    "of a tool",
+    "span_measurement": "W_k = m cos(alpha) (pi (k - 1/2) + z inv(alpha_t)) + 2 x m sin(alpha)",
+    "span_teeth": "k for which |sqrt(r_b^2 + (W_k cos(beta_b)/2)^2) - (r + x m)| is least",
     "specific_sliding": "zeta = 1 - (w_mate rho_mate)/(w rho), contact at the mate's tip",
+    "transverse_pressure_angle": "tan(alpha_t) = tan(alpha)/cos(beta)",
+    "base_helix_angle": "sin(beta_b) = sin(beta) cos(alpha)",
+    "overlap_ratio": "eps_beta = b sin(beta)/(pi m), b the lesser width",
+    "total_contact_ratio": "eps_gamma = eps_alpha + eps_beta",
+    "usable_contact_ratio": "eps_alpha less what lies below the form radii, over p_et",
+    "path_of_contact": "g_alpha = rho_E1 - rho_A1 = eps_alpha p_et",
+    "form_radius": "r_Ff^2 = r_b^2 + (r sin(alpha_t) - h_Ff m/sin(alpha_t))^2, h_Ff = h_fP* - rho* (1 - sin(alpha)) - "
+    "x; with undercut or protuberance: where fillet and involute cross",
+    "used_root_radius": "r_Nf1^2 = r_b1^2 + rho_A1^2, rho_A1 = a_w sin(alpha_wt) - sqrt(r_a2^2 - r_b2^2)",
+    "tip_clearance": "c_1 = a_w - r_a1 - r_f2, c_2 = a_w - r_f1 - r_a2",
+    "specific_sliding_tip": "zeta_E1 = 1 - rho_E2/(u rho_E1), zeta_A2 = 1 - u rho_A1/rho_A2",
+    "sliding_factor": "K_gA = (rho_C1 - rho_A1) (1 + 1/u)/r_w1, K_gE = (rho_E1 - rho_C1) (1 + 1/u)/r_w1",
+    "involute_margin": "rho_A1 = a_w sin(alpha_wt) - sqrt(r_a2^2 - r_b2^2), both signed",
+    "radial_assembly_margin": "(t_1 + inv(alpha_a1) - inv(alpha_wt)) z1/z2 - t_2 - inv(alpha_a2) + inv(alpha_wt), "
+    "times r_a2",
 }
 
 _SLIDER_CRANK = {

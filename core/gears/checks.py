@@ -16,6 +16,7 @@ from gearlink.core.gears.codes import (
     TOOTH_FORM,
     UNDERCUT,
 )
+from gearlink.core.gears.data import shown
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.remedies import Way, down, up
 from gearlink.core.report import Check, Status, safely_above
@@ -29,7 +30,7 @@ class GearQuantities:
     reference_center_distance: float
     shift_sum: float
     center_distance_modification: float
-    tip_shortening: float
+    tip_shortening: float | tuple[float, float]
     contact_ratio: float
     profile_shift: tuple[float, float]
     reference_radius: tuple[float, float]
@@ -40,9 +41,9 @@ class GearQuantities:
     tooth_thickness: tuple[float, float]
     tip_pressure_angle: tuple[float, float]
     tip_thickness: tuple[float, float]
-    min_shift_no_undercut: tuple[float, float]
-    span_measurement: tuple[float, float]
-    span_teeth: tuple[int, int]
+    min_shift_no_undercut: tuple[float, float | None]
+    span_measurement: tuple[float, float | None]
+    span_teeth: tuple[int, int | None]
     specific_sliding: tuple[float, float] | None
 
 
@@ -94,9 +95,10 @@ def gear_quantity(pair: GearPair, name: str) -> Any:
     Notes
         The check `involute-interference` fails where it goes beyond and says so.
     """
-    if name == "specific_sliding" and min(pair.interference_margin) <= 0.0:
+    if name == "specific_sliding" and not pair.slides:
         return None
-    return getattr(pair, name)
+    value = getattr(pair, name)
+    return shown(name, value) if pair.internal else value
 
 
 def gear_check(name: str, pair: GearPair, limits: Limits, mesh: str = "", shifts: bool = False) -> Iterator[Check]:
@@ -144,6 +146,8 @@ class _Gear(NamedTuple):
 
 
 def _undercut(gear: _Gear, limits: Limits) -> Iterator[Check]:
+    if gear.pair.teeth[gear.place] < 0:
+        return
     x, least = gear.of("profile_shift"), gear.of("min_shift_no_undercut")
     status: Status = "pass" if x >= least else "warn" if x >= least - limits.undercut else "fail"
     teeth = gear.pair.teeth[gear.place]
@@ -181,18 +185,27 @@ def _interference(gear: _Gear, _limits: Limits) -> Iterator[Check]:
 
 def _root_clearance(gear: _Gear, _limits: Limits) -> Iterator[Check]:
     least, usual = 0.05, 0.15
-    # The profile's own coefficient: with full tip shortening it is what remains, and carries no rounding.
-    clearance = gear.pair.clearance
+    clearance = _clearance_at_root(gear.pair, gear.place)
     subject = f"{gear.named('the clearance at the root of ')} over the module"
-    remedy = f"raise the clearance coefficient to {least if clearance < least else usual:g} or more"
+    deeper = gear.pair.tools[gear.place] is not None
+    remedy = f"raise the {'addendum of its tool' if deeper else 'clearance coefficient'}"
+    if not deeper and gear.pair.keeps_clearance:
+        remedy += f" to {least if clearance < least else usual:g} or more"
+    else:
+        remedy += f", or shorten the tips of gear {2 - gear.place}"
     yield ROOT_CLEARANCE.below(clearance, least, usual, "1", subject, remedy)
+
+
+def _clearance_at_root(pair: GearPair, gear: int) -> float:
+    """Clearance at the root of a gear over the module; that of the profile where the tips keep it, free of rounding."""
+    return pair.clearance if pair.keeps_clearance else round(pair.tip_clearance[1 - gear] / pair.module, 12)
 
 
 def _tooth_form(gear: _Gear, _limits: Limits) -> Iterator[Check]:
     thickness, root = gear.of("tooth_thickness"), gear.of("root_radius")
     parts = {
         "the height of the teeth of ": gear.of("tip_radius") - root,
-        "the root radius of ": root,
+        "the root radius of ": abs(root) if gear.pair.teeth[gear.place] < 0 else root,
         "the tip thickness of ": gear.of("tip_thickness"),
         "the tooth thickness on the reference circle of ": thickness,
         "the tooth space on the reference circle of ": math.pi * gear.pair.module - thickness,

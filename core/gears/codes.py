@@ -12,7 +12,8 @@ UNDERCUT = Rule(
     "The profile shift is less than a rack cutter needs to leave the involute whole; fails beyond limits.undercut.",
     "The cutter takes away part of the flank at the root: the tooth is weaker and contact ratio is lost.",
     "Raise the profile shift of that gear to x_min, take more teeth, or a larger pressure angle.",
-    "x >= x_min = h_a* - z sin^2(alpha)/2; fails below x_min - limits.undercut (0.05), warns below x_min",
+    "x >= x_min = h - z sin^2(alpha_t)/(2 cos(beta)), h = h_a* or to where the tool's straight flank ends; fails "
+    "below x_min - limits.undercut (0.05), warns below x_min",
     "own derivation: the cutter's tip line passes the base tangent point; quantities of ISO 21771",
     ("undercut",),
     _TEETH,
@@ -35,7 +36,7 @@ CONTACT_RATIO = Rule(
     "Below 1 the drive is interrupted; a little above 1 it runs roughly with worn or inaccurate teeth.",
     "Take more teeth of a smaller module, a smaller pressure angle, or less profile shift.",
     "eps = (z1 (tan alpha_a1 - tan alpha_wt) + z2 (tan alpha_a2 - tan alpha_wt))/(2 pi); fails below "
-    "limits.contact_ratio (1.1), warns up to 0.1 above",
+    "limits.contact_ratio (1.1), warns up to 0.1 above; of helical gears with face_width eps_gamma is judged",
     "ISO 21771; the limit is usual practice",
     ("contact-ratio",),
     _TEETH,
@@ -87,12 +88,27 @@ TOOTH_FORM = Rule(
 TIP_FOULING = Rule(
     "GL206",
     "tips foul in an internal mesh",
-    "The tips of planet and ring gear cut into each other where their tip circles cross, outside the contact.",
+    "The tips of planet and ring gear cut into each other where their tip circles cross, outside the contact; or the "
+    "planet cannot be put into its ring along the line of centres (radial-assembly: a warning, a failure with "
+    "assembly: radial).",
     "The gears cannot turn, or cannot be put together.",
-    "Give the ring gear more teeth or the planet fewer: at 20 deg about 8 teeth of difference are needed.",
-    "z1 (inv alpha_a1 + delta_1) - z2 (inv alpha_a2 + delta_2) + (z2 - z1) inv alpha >= 0, delta the angles from "
-    "the line of centres to where the tip circles cross",
+    "Give the ring gear more teeth or the planet fewer: at 20 deg about 8 teeth of difference are needed; or shorten "
+    "the tips.",
+    "z1 (inv alpha_a1 + delta_1) - z2 (inv alpha_a2 + delta_2) + (z2 - z1) inv alpha_wt >= 0, delta the angles from "
+    "the line of centres to where the tip circles cross; radial-assembly: t_1 + inv alpha_a1 - inv alpha_wt >= z2/z1 "
+    "(t_2 + inv alpha_a2 - inv alpha_wt) at the place of least room",
     "own derivation",
-    ("tip-fouling",),
-    ("gears",),
+    ("tip-fouling", "radial-assembly"),
+    ("gears", "teeth"),
+)
+FILLET = Rule(
+    "GL207",
+    "the mate's tip meets the root fillet",
+    "Contact reaches deeper than the involute that the tool leaves: r_Nf < r_Ff.",
+    "The tip of the mate runs on the fillet, which is no involute: noise, scoring, jamming.",
+    "Raise the profile shift, shorten the mate's tips, or take a tool with a smaller rounding or a larger addendum.",
+    "r_Nf >= r_Ff - 1e-4 m; fails where the file names a tool or cutter, for rings and helical gears, else warns",
+    "ISO 21771; form radius: own derivation, compared with a rolled tool",
+    ("fillet-interference",),
+    ("tool", "cutter", *_TEETH),
 )

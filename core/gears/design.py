@@ -2,89 +2,91 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.design import Design, Outline
-from gearlink.core.errors import NoSolution, at_key
+from gearlink.core.errors import at_key
 from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantities, gear_check, gear_quantity
+from gearlink.core.gears.data import DRAWING_QUANTITIES, GearData
+from gearlink.core.gears.drawing_checks import DRAWING_CHECKS, drawing_check, helical_contact
+from gearlink.core.gears.from_spec import data_of, pair_of
 from gearlink.core.gears.pair import GearPair
-from gearlink.core.remedies import down, either, shared, up
+from gearlink.core.remedies import Way, down, either, shared, up
 from gearlink.core.report import Check
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
     from gearlink.core.gears.spec import GearPairSpec
 
-_AGREE = 1e-6
-
-
 _SHIFTS = (
     *shared("profile_shift[0]", "profile_shift[1]", step=0.01),
     *either("profile_shift[0]", "profile_shift[1]", "shift_split", step=0.01),
 )
-_TEETH = (up("teeth[0]", step=1), up("teeth[1]", step=1))
 _ANGLE = either("pressure_angle", step=0.5)
-_WAYS = {
-    "undercut": (*_SHIFTS, *_TEETH, *_ANGLE),
-    "tip-thickness": (*_SHIFTS, down("addendum", step=0.01), *_TEETH, *_ANGLE),
-    "contact-ratio": (*_SHIFTS, up("addendum", step=0.01), *_TEETH, *_ANGLE),
-    "involute-interference": (*_SHIFTS, down("addendum", step=0.01), *_TEETH, *_ANGLE),
-    "tooth-form": (*_SHIFTS, down("addendum", step=0.01), *_TEETH, *_ANGLE),
-    "root-clearance": (up("clearance", step=0.01),),
-}
+_LOWER = down("addendum", step=0.01)
+
+
+def _ways(*teeth: Way) -> dict[str, tuple[Way, ...]]:
+    return {
+        "undercut": (*_SHIFTS, *teeth, *_ANGLE),
+        "tip-thickness": (*_SHIFTS, _LOWER, *teeth, *_ANGLE),
+        "contact-ratio": (*_SHIFTS, up("addendum", step=0.01), *teeth, *_ANGLE),
+        "involute-interference": (*_SHIFTS, _LOWER, *teeth, *_ANGLE),
+        "tooth-form": (*_SHIFTS, _LOWER, *teeth, *_ANGLE),
+        "root-clearance": (up("clearance", step=0.01),),
+        "fillet-interference": (*_SHIFTS, _LOWER, *teeth),
+        "tip-fouling": (*_SHIFTS, _LOWER, *teeth, *_ANGLE),
+        "radial-assembly": (*_SHIFTS, _LOWER, *teeth, *_ANGLE),
+    }
+
+
+_WAYS = _ways(up("teeth[0]", step=1), up("teeth[1]", step=1))
+_WAYS_WITH_RING = _ways(down("teeth[1]", step=1), *either("teeth[0]", step=1))
 
 
 class GearPairDesign(GearQuantities, Design):
-    """External spur gears, given by centre distance, by profile shifts, or by both in agreement."""
+    """Cylindrical gears, given by centre distance, by profile shifts, or by both."""
 
     kind = "gear-pair"
     spec: GearPairSpec
     outlines = {
-        "gear": Outline(GEAR_QUANTITIES, GEAR_CHECKS),
-        "analyze": Outline(GEAR_QUANTITIES, GEAR_CHECKS),
+        "gear": Outline((*GEAR_QUANTITIES, *DRAWING_QUANTITIES), (*GEAR_CHECKS, *DRAWING_CHECKS)),
+        "analyze": Outline((*GEAR_QUANTITIES, *DRAWING_QUANTITIES), (*GEAR_CHECKS, *DRAWING_CHECKS)),
     }
-    ways = _WAYS
+
+    @property
+    def ways(self) -> dict[str, tuple[Way, ...]]:  # type: ignore[override]
+        """More teeth of a ring are a smaller number."""
+        return _WAYS_WITH_RING if self.spec.teeth[1] < 0 else _WAYS
 
     @cached_property
     def gear_pair(self) -> GearPair:
         """The pair of the design file.
 
         Raises
-            NoSolution - where centre distance and shifts contradict each other, or the teeth cannot mesh
+            NoSolution - where the teeth cannot mesh
         """
-        spec = self.spec
-        teeth = (spec.teeth[0], spec.teeth[1])
-        profile = {
-            "pressure_angle": math.radians(spec.pressure_angle),
-            "addendum": spec.addendum,
-            "clearance": spec.clearance,
-        }
-        if spec.profile_shift is None:
-            assert spec.center_distance is not None, "the spec asks for one of the two"
-            with at_key("center_distance"):
-                return GearPair.from_center_distance(
-                    spec.module, teeth, spec.center_distance, split=spec.shift_split, **profile
-                )
-        with at_key("profile_shift"):
-            pair = GearPair.from_shift(spec.module, teeth, (spec.profile_shift[0], spec.profile_shift[1]), **profile)
-            distance = pair.center_distance
-        if spec.center_distance is not None and abs(spec.center_distance - distance) > _AGREE * spec.module:
-            raise NoSolution(
-                f"center_distance {spec.center_distance!r} mm and profile_shift contradict each other: these shifts "
-                f"give {distance!r} mm; leave one of the two out",
-                key="center_distance",
-            )
-        return pair
+        with at_key(self._placed_by):
+            return pair_of(self.spec)
+
+    @cached_property
+    def data(self) -> GearData:
+        """The pair with all that its drawing needs."""
+        return data_of(self.spec, self.gear_pair)
 
     def raw(self, name: str) -> Any:
         """Every quantity is the pair's."""
         with at_key(self._placed_by):
-            return gear_quantity(self.gear_pair, name)
+            return gear_quantity(self.gear_pair, name) if name in GEAR_QUANTITIES else self.data.quantity(name)
 
     def check(self, name: str) -> list[Check]:
         """Every check is the pair's."""
         with at_key(self._placed_by):
+            if name in DRAWING_CHECKS:
+                radial = self.spec.assembly == "radial"
+                return list(drawing_check(name, self.data, self.spec.limits, radial=radial))
+            if name == "contact-ratio" and (found := helical_contact(self.data, self.spec.limits)):
+                return [found]
             return list(gear_check(name, self.gear_pair, self.spec.limits, shifts=True))
 
     @property

@@ -12,7 +12,7 @@ from gearlink.core.results import cached_property
 Pair = tuple[float, float]
 _MOST_TEETH = 10_000
 
-_RIM_MODULES = 2.0
+RIM_MODULES = 2.0
 
 
 @dataclass(frozen=True)
@@ -104,7 +104,7 @@ class InternalMesh:
     @property
     def rim_radius(self) -> float:
         """Outer radius of the ring gear [mm]."""
-        return self.root_radius[1] + _RIM_MODULES * self.module if self.rim is None else self.rim
+        return self.root_radius[1] + RIM_MODULES * self.module if self.rim is None else self.rim
 
     @cached_property
     def tip_pressure_angle(self) -> Pair:

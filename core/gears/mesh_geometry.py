@@ -67,12 +67,12 @@ class MeshGeometry:
     @cached_property
     def contact_end(self) -> complex:
         """Where contact ends: the line of action on the tip circle of gear 1 [mm]."""
-        return self.base_tangents[1] - self.pair.interference_margin[0] * self.direction
+        return self.base_tangents[1] - self.pair.signs[1] * self.pair.interference_margin[0] * self.direction
 
     @cached_property
     def base_pitch(self) -> float:
-        """p_b = pi m cos(alpha) [mm], from one contact point to the next."""
-        return math.pi * self.pair.module * math.cos(self.pair.pressure_angle)
+        """p_et = pi m_t cos(alpha_t) [mm], from one contact point to the next."""
+        return self.pair.base_pitch
 
     @cached_property
     def contacts(self) -> list[complex]:
@@ -84,15 +84,17 @@ class MeshGeometry:
 
     @cached_property
     def first_space(self) -> tuple[float, float]:
-        """Polar angle of the middle of a tooth space of each gear, about its own axis [rad].
+        """Polar angle of the middle of a tooth space of each gear, about its own axis [rad]; of a ring that of a tooth.
 
-        half a space on the working circle = pi/z - s/(2 r) + inv(alpha') - inv(alpha): above the centre line on
-        gear 1, below it on gear 2
+        half a space on the working circle = pi/z - s/(2 r cos(beta)) + inv(alpha_wt) - inv(alpha_t): above the centre
+        line on gear 1, below it on gear 2
         """
+        if self.pair.internal:
+            return self._half_space(0), self._half_space(1) - math.pi / self.pair.teeth[1]
         return self._half_space(0), math.pi + self._half_space(1)
 
     def _half_space(self, gear: int) -> float:
         pair = self.pair
-        tooth = pair.tooth_thickness[gear] / (2.0 * pair.reference_radius[gear])
-        rise = involute(pair.working_pressure_angle) - involute(pair.pressure_angle)
+        tooth = pair.tooth_thickness[gear] / (2.0 * pair.reference_radius[gear] * math.cos(pair.helix_angle))
+        rise = involute(pair.working_pressure_angle) - involute(pair.transverse_pressure_angle)
         return math.pi / pair.teeth[gear] - tooth + rise

@@ -1,101 +1,83 @@
-"""An external spur gear pair with profile shift, each value worked out when it is asked for."""
+"""A cylindrical gear pair with profile shift, spur or helical, external or internal, each value worked out when asked.
+
+Signs are those of ISO 21771: a ring has negative teeth, and with them its radii, the centre distance, and the gear
+ratio are negative; every formula then holds for both kinds. Shift, heights and tool multiply the normal module.
+"""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Literal
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.gears import teeth
-from gearlink.core.gears.involute import involute, involute_rise, rise_of_involute
-from gearlink.core.report import safely_above
+from gearlink.core.gears import pair_limits, teeth
+from gearlink.core.gears.involute import involute, involute_rise
+from gearlink.core.gears.pitch_pair import Pair as Pair
+from gearlink.core.gears.pitch_pair import PitchPair
+from gearlink.core.gears.root_fillet import RackCutRoot
+from gearlink.core.gears.tools import RackTool, standard_tool
 from gearlink.core.results import cached_property
 
-Pair = tuple[float, float]
+TipRule = Literal["full", "none"] | Pair
 
 
 @dataclass(frozen=True, kw_only=True)
-class GearPair:
-    """External spur gear pair without backlash, from its profile shifts or from its centre distance.
+class GearPair(PitchPair):
+    """Cylindrical gear pair, from its profile shifts, its centre distance, or both.
 
-    cos(alpha') = a cos(alpha)/a',  x_1 + x_2 = (z_1 + z_2)(inv(alpha') - inv(alpha))/(2 tan(alpha))
+    cos(alpha_wt) = a cos(alpha_t)/a_w,  x_1 + x_2 = (z_1 + z_2)(inv(alpha_wt) - inv(alpha_t))/(2 tan(alpha_n))
 
     Parameters
-        module : float [mm] - m > 0
-        teeth : (int, int) - z_1, z_2 >= 1
-        pressure_angle : float [rad] - alpha of the reference profile, 0 < alpha < pi/2
+        module, teeth, pressure_angle, given_shift, given_distance, given_first_shift, helix_angle - as PitchPair
         addendum, clearance : float [module] - h_a*, c* of the reference profile
-        given_shift : (float, float) or None [module] - x_1, x_2
-        given_distance : float or None [mm] - a'; exactly one of shifts and distance is given
-        given_first_shift : float or None [module] - x_1 beside a centre distance; None shares equally
+        tip : "full", "none" or (k_1, k_2) [module] - tip alteration; None: full for external pairs, none for a ring
+        given_tip_radius : (float, float) or None [mm] - magnitudes, in place of the tip alteration
+        tools : (RackTool or None, ...) - tool of each gear; None: addendum and clearance of the profile
+        given_spans : (int or None, ...) - teeth that a span measurement goes over; None: chosen
+        shaped_root : float or None [mm] - root radius of a ring as a pinion cutter leaves it, its magnitude
     Returns
-        Properties: lengths in mm, angles in rad, coefficients in modules; a pair is (gear 1, gear 2).
+        Properties: lengths in mm, angles in rad, coefficients in modules; a pair is (gear 1, gear 2). Radii of a
+        ring and the centre distance of its pair are negative.
     Raises
         NoSolution - on construction for impossible data; from a property that does not exist
     Notes
-        Everything is written in the rise alpha' - alpha of the pressure angle, so that neither the sum of
+        Everything is written in the rise alpha_wt - alpha_t of the pressure angle, so that neither the sum of
         shifts nor the tip shortening is a small difference of large numbers; at the reference centre distance
         both are exactly 0. Of the data the shift sum from a centre distance inherits the condition number
-        a'/(a' - a): a' carries only so many digits. Otherwise a few ulp. Pressure angles near 0 (a centre
-        distance near the sum of the base radii) have the condition number 1/tan^2(alpha').
+        a_w/(a_w - a): a_w carries only so many digits. Otherwise a few ulp. Pressure angles near 0 (a centre
+        distance near the sum of the base radii) have the condition number 1/tan^2(alpha_wt).
     Example
         >>> pair = GearPair.from_center_distance(4.0, (72, 72), 290.2912330746487)
         >>> round(math.degrees(pair.working_pressure_angle), 10), round(pair.shift_sum, 10)
         (21.2076131545, 0.5895483575)
-        >>> [round(r, 4) for r in pair.tip_radius]
-        [149.1121, 149.1121]
+        >>> ring = GearPair(module=2.0, teeth=(21, -67), given_shift=(0.3, -0.3))
+        >>> ring.center_distance, ring.tip_radius, round(ring.contact_ratio, 6)
+        (-46.0, (23.6, -65.6), 1.736394)
 
     Source
-        TY-460 report 1.1; the difference forms are an own derivation
+        ISO 21771; the difference forms are an own derivation
     """
 
-    module: float
-    teeth: tuple[int, int]
-    pressure_angle: float = math.radians(20.0)
     addendum: float = 1.0
     clearance: float = 0.25
-    given_shift: Pair | None = None
-    given_distance: float | None = None
-    given_first_shift: float | None = None
+    tip: TipRule | None = None
+    given_tip_radius: Pair | None = None
+    tools: tuple[RackTool | None, RackTool | None] = (None, None)
+    given_spans: tuple[int | None, int | None] = (None, None)
+    shaped_root: float | None = None
 
     def __post_init__(self) -> None:
-        if not 0.0 < self.module < math.inf:
-            raise NoSolution(f"module {self.module:g} mm: it must be positive")
-        for z in self.teeth:
-            if isinstance(z, bool) or not isinstance(z, int) or z < 1:
-                raise NoSolution(f"teeth {z!r}: a gear has a whole number of teeth, at least 1")
-        if not 0.0 < self.pressure_angle < math.pi / 2:
-            degrees = math.degrees(self.pressure_angle)
-            raise NoSolution(f"pressure angle {degrees:g} deg: it must lie between 0 and 90 deg, usually 20 deg")
-        if not (0.0 < self.addendum < math.inf and 0.0 <= self.clearance < math.inf):
-            raise NoSolution(
-                f"addendum {self.addendum:g} and clearance {self.clearance:g}: "
-                "the addendum must be positive (usually 1), the clearance not negative (usually 0.25)"
-            )
-        if (self.given_shift is None) == (self.given_distance is None):
+        pair_limits.require_profile(self)
+        if self.given_shift is None and self.given_distance is None:
             raise NoSolution("give either both profile shifts or the centre distance of a gear pair")
-        if self.given_shift is None:
-            self._check_distance()
+        if self.given_distance is not None:
+            pair_limits.require_distance(self, self.given_distance)
         else:
-            self._check_shift()
-
-    def _check_distance(self) -> None:
-        least = self.base_radius[0] + self.base_radius[1]
-        if self.given_distance is not None and not least <= self.given_distance < math.inf:
-            raise NoSolution(
-                f"centre distance {self.given_distance:.6g} mm does not suit gears of {self.teeth[0]} and "
-                f"{self.teeth[1]} teeth of module {self.module:g} mm: the least is the sum of the base radii, "
-                f"{safely_above(least, 9)} mm; change it or the teeth"
-            )
-
-    def _check_shift(self) -> None:
-        least = -self._teeth_sum * involute(self.pressure_angle) / (2.0 * math.tan(self.pressure_angle))
-        if not least <= self.shift_sum < math.inf:
-            raise NoSolution(
-                f"profile shifts with the sum {self.shift_sum:.6g} leave no pressure angle to {self.teeth[0]} and "
-                f"{self.teeth[1]} teeth: the sum must be at least {safely_above(least, 6)}; raise a shift or "
-                "take more teeth"
-            )
+            pair_limits.require_shift(self)
+        for tool in self.tools:
+            if tool is not None:
+                tool.require_tip(self.pressure_angle)
 
     @classmethod
     def from_shift(
@@ -154,128 +136,91 @@ class GearPair:
         )
 
     @cached_property
-    def _teeth_sum(self) -> int:
-        return self.teeth[0] + self.teeth[1]
+    def _full_shortening(self) -> float:
+        """dy = x_1 + x_2 - y [module]; with it the tip clearance is c* m.
 
-    @cached_property
-    def _rise(self) -> float:
-        """alpha' - alpha [rad]."""
-        if self.given_distance is None:
-            tangent = math.tan(self.pressure_angle)
-            return rise_of_involute(self.pressure_angle, 2.0 * self.shift_sum * tangent / self._teeth_sum)
-        a = self.reference_center_distance
-        return teeth.pressure_angle_rise(a, self.given_distance - a, self.pressure_angle, what="centre distance")
-
-    @cached_property
-    def working_pressure_angle(self) -> float:
-        """Pressure angle alpha' of the mesh [rad]: cos(alpha') = a cos(alpha)/a'."""
-        return self.pressure_angle + self._rise
-
-    @cached_property
-    def reference_center_distance(self) -> float:
-        """a = m (z_1 + z_2)/2 [mm]."""
-        return self.module * self._teeth_sum / 2.0
-
-    @cached_property
-    def center_distance(self) -> float:
-        """a' [mm]: the given one, or a + y m."""
-        if self.given_distance is not None:
-            return self.given_distance
-        return self.reference_center_distance + self.module * self.center_distance_modification
-
-    @cached_property
-    def center_distance_modification(self) -> float:
-        """y = (a' - a)/m = (z_1 + z_2) sin((alpha' + alpha)/2) sin((alpha' - alpha)/2)/cos(alpha') [module]."""
-        if self.given_distance is not None:
-            return (self.given_distance - self.reference_center_distance) / self.module
-        half = self._rise / 2.0
-        product = math.sin(self.pressure_angle + half) * math.sin(half)
-        return self._teeth_sum * product / math.cos(self.working_pressure_angle)
-
-    @cached_property
-    def shift_sum(self) -> float:
-        """x_1 + x_2 = (z_1 + z_2)(inv(alpha') - inv(alpha))/(2 tan(alpha)) [module]."""
-        if self.given_shift is not None:
-            return self.given_shift[0] + self.given_shift[1]
-        difference = involute_rise(self.pressure_angle, self._rise)
-        return self._teeth_sum * difference / (2.0 * math.tan(self.pressure_angle))
-
-    @cached_property
-    def profile_shift(self) -> Pair:
-        """x_1, x_2 [module]."""
-        if self.given_shift is not None:
-            return self.given_shift
-        first = self.shift_sum / 2.0 if self.given_first_shift is None else self.given_first_shift
-        return first, self.shift_sum - first
-
-    @cached_property
-    def tip_shortening(self) -> float:
-        """dy = x_1 + x_2 - y [module], never negative; with it the tip clearance is c* m.
-
-        dy = (z_1 + z_2)/2 (inv(d)/tan(alpha) + 2 sin^2(d/2) cos(alpha)/(cos(alpha') cos(d))), d = alpha' - alpha
+        dy = (z_1 + z_2)/(2 cos(beta)) (inv(d)/tan(alpha_t) + 2 sin^2(d/2) cos(alpha_t)/(cos(alpha_wt) cos(d))),
+        d = alpha_wt - alpha_t
         """
-        d, alpha = self._rise, self.pressure_angle
+        if self.given_shift is not None and self.given_distance is not None:
+            return max(0.0, self.given_shift[0] + self.given_shift[1] - self.center_distance_modification)
+        d, alpha = self._rise, self.transverse_pressure_angle
         bend = 2.0 * math.sin(d / 2.0) ** 2 * math.cos(alpha)
         bend /= math.cos(self.working_pressure_angle) * math.cos(d)
-        return self._teeth_sum / 2.0 * (involute(d) / math.tan(alpha) + bend)
+        return self._teeth_sum / 2.0 / self._cos_helix * (involute(d) / math.tan(alpha) + bend)
 
     @cached_property
-    def reference_radius(self) -> Pair:
-        """r = m z/2 [mm]."""
-        return self.module * self.teeth[0] / 2.0, self.module * self.teeth[1] / 2.0
+    def tip_alteration(self) -> Pair:
+        """k_1, k_2 [module]; negative where tips are shortened."""
+        if self.given_tip_radius is not None:
+            h, x = self._tip_height, self.profile_shift
+            return h[0] - self.addendum - x[0], h[1] - self.addendum - x[1]
+        rule = self.tip or ("none" if self.internal else "full")
+        if not isinstance(rule, str):
+            return rule
+        lost = self._full_shortening if rule == "full" else 0.0
+        return 0.0 - lost, 0.0 - lost
 
     @cached_property
-    def base_radius(self) -> Pair:
-        """r_b = r cos(alpha) [mm]."""
-        cosine = math.cos(self.pressure_angle)
-        return self.reference_radius[0] * cosine, self.reference_radius[1] * cosine
+    def tip_shortening(self) -> float | Pair:
+        """dy = -k [module], one number where both gears share it; x_1 + x_2 - y where the clearance is kept."""
+        one, other = self.tip_alteration
+        return 0.0 - one if one == other else (0.0 - one, 0.0 - other)
 
-    @cached_property
-    def working_radius(self) -> Pair:
-        """r' = a' z/(z_1 + z_2) = r_b/cos(alpha') [mm], the pitch circles that roll on each other."""
-        a = self.center_distance
-        return a * self.teeth[0] / self._teeth_sum, a * self.teeth[1] / self._teeth_sum
+    @property
+    def keeps_clearance(self) -> bool:
+        """Whether full tip shortening leaves exactly the clearance of the profile between tips and roots."""
+        full = (self.tip or ("none" if self.internal else "full")) == "full"
+        placed_once = self.given_shift is None or self.given_distance is None
+        return full and placed_once and self.given_tip_radius is None and self.tools == (None, None)
 
     @cached_property
     def _tip_height(self) -> Pair:
-        """h_a* + x - dy [module], tip circle above reference circle."""
-        x, lost = self.profile_shift, self.tip_shortening
-        return self.addendum + x[0] - lost, self.addendum + x[1] - lost
+        """h_a* + x + k [module], tip circle above reference circle."""
+        if self.given_tip_radius is not None:
+            r, given = self.reference_radius, self.given_tip_radius
+            return (given[0] - r[0]) / self.module, (self.signs[1] * given[1] - r[1]) / self.module
+        x, k = self.profile_shift, self.tip_alteration
+        return self.addendum + x[0] + k[0], self.addendum + x[1] + k[1]
 
     @cached_property
     def tip_radius(self) -> Pair:
-        """r_a = r + (h_a* + x - dy) m [mm]."""
+        """r_a = r + (h_a* + x + k) m [mm]."""
         r, h = self.reference_radius, self._tip_height
         return r[0] + self.module * h[0], r[1] + self.module * h[1]
 
+    def tool(self, gear: int) -> RackTool:
+        """The rack tool of a gear: the given one, or that of the profile."""
+        return self.tools[gear] or standard_tool(self.pressure_angle, self.addendum, self.clearance)
+
+    def root_depth(self, gear: int) -> float:
+        """h_fP* of a gear's tool [module]."""
+        tool = self.tools[gear]
+        return self.addendum + self.clearance if tool is None else tool.addendum
+
     @cached_property
     def root_radius(self) -> Pair:
-        """r_f = r - (h_a* + c* - x) m [mm]."""
-        r, x, depth = self.reference_radius, self.profile_shift, self.addendum + self.clearance
-        return r[0] - self.module * (depth - x[0]), r[1] - self.module * (depth - x[1])
+        """r_f = r - (h_fP* - x) m [mm]; of a ring that a pinion cutter shapes what it leaves."""
+        r, x = self.reference_radius, self.profile_shift
+        first = r[0] - self.module * (self.root_depth(0) - x[0])
+        if self.shaped_root is not None:
+            return first, -self.shaped_root
+        return first, r[1] - self.module * (self.root_depth(1) - x[1])
 
     @cached_property
-    def tooth_thickness(self) -> Pair:
-        """s = m (pi/2 + 2 x tan(alpha)) [mm], on the reference circle."""
-        tangent, x = math.tan(self.pressure_angle), self.profile_shift
-        return (
-            self.module * (math.pi / 2.0 + 2.0 * x[0] * tangent),
-            self.module * (math.pi / 2.0 + 2.0 * x[1] * tangent),
-        )
+    def tip_clearance(self) -> Pair:
+        """c_1 = a_w - r_a1 - r_f2 and c_2 = a_w - r_f1 - r_a2 [mm], between a gear's tip and the mate's root."""
+        a, tip, root = self.center_distance, self.tip_radius, self.root_radius
+        return a - tip[0] - root[1], a - root[0] - tip[1]
 
     def _tip_rise_of(self, gear: int) -> float:
-        """alpha_a - alpha [rad] of one gear (0 or 1)."""
-        height = self.module * self._tip_height[gear]
+        """alpha_a - alpha_t [rad] of one gear (0 or 1)."""
+        height = self.signs[gear] * self.module * self._tip_height[gear]
+        radius = abs(self.reference_radius[gear])
         try:
-            return teeth.pressure_angle_rise(self.reference_radius[gear], height, self.pressure_angle)
+            return teeth.pressure_angle_rise(radius, height, self.transverse_pressure_angle)
         except NoSolution:
-            base = self.base_radius[gear]
-            missing = (base - self.tip_radius[gear]) / self.module
-            raise NoSolution(
-                f"tip radius {self.tip_radius[gear]:.6g} mm of gear {gear + 1} lies below its base radius "
-                f"{base:.6g} mm: no involute is left; raise its profile shift or the addendum by at least "
-                f"{missing:.3g} modules"
-            ) from None
+            raise pair_limits.no_involute_at_tip(self, gear) from None
 
     @cached_property
     def _tip_rise(self) -> Pair:
@@ -283,24 +228,31 @@ class GearPair:
 
     @cached_property
     def tip_pressure_angle(self) -> Pair:
-        """Pressure angle alpha_a on the tip circle [rad]: cos(alpha_a) = r_b/r_a."""
-        return self.pressure_angle + self._tip_rise[0], self.pressure_angle + self._tip_rise[1]
+        """Transverse pressure angle alpha_a on the tip circle [rad]: cos(alpha_a) = r_b/r_a."""
+        alpha = self.transverse_pressure_angle
+        return alpha + self._tip_rise[0], alpha + self._tip_rise[1]
 
     @cached_property
     def tip_thickness(self) -> Pair:
-        """s_a = r_a (s/r - 2 (inv(alpha_a) - inv(alpha))) [mm]; negative where the flanks meet below the tip."""
+        """s_an = r_a (s_t/r - 2 (inv(alpha_a) - inv(alpha_t))) cos(beta_a) [mm]; negative where the flanks meet
+        below the tip.
+        """
         return self._tip_thickness_of(0), self._tip_thickness_of(1)
 
     def _tip_thickness_of(self, gear: int) -> float:
         angle = (math.pi + 4.0 * self.profile_shift[gear] * math.tan(self.pressure_angle)) / self.teeth[gear]
-        lost = involute_rise(self.pressure_angle, self._tip_rise[gear])
-        return self.tip_radius[gear] * (angle - 2.0 * lost)
+        lost = involute_rise(self.transverse_pressure_angle, self._tip_rise[gear])
+        return self.tip_radius[gear] * (angle - 2.0 * lost) * self.cos_helix_at(self.tip_radius[gear], gear)
+
+    def cos_helix_at(self, radius: float, gear: int) -> float:
+        """cos(beta_y) on a circle: tan(beta_y) = r_y/r tan(beta); exactly 1 for spur gears."""
+        return 1.0 / math.hypot(1.0, radius / self.reference_radius[gear] * math.tan(self.helix_angle))
 
     @cached_property
     def _action(self) -> Pair:
-        """z (tan(alpha_a) - tan(alpha')), the way of contact from pitch point to tip in base circle angle z.
+        """z (tan(alpha_a) - tan(alpha_wt)), the way of contact from pitch point to tip in base circle angle z.
 
-        tan(alpha_a) - tan(alpha') = (r_a^2 - r'^2)/(r_b^2 (tan(alpha_a) + tan(alpha')))
+        tan(alpha_a) - tan(alpha_wt) = (r_a^2 - r_w^2)/(r_b^2 (tan(alpha_a) + tan(alpha_wt)))
         """
         return self._action_of(0), self._action_of(1)
 
@@ -312,21 +264,22 @@ class GearPair:
 
     @cached_property
     def contact_ratio(self) -> float:
-        """eps = (z_1 (tan(alpha_a1) - tan(alpha')) + z_2 (tan(alpha_a2) - tan(alpha')))/(2 pi), the nominal one."""
+        """eps = (z_1 (tan(alpha_a1) - tan(alpha_wt)) + z_2 (tan(alpha_a2) - tan(alpha_wt)))/(2 pi), the nominal one."""
         return (self._action[0] + self._action[1]) / (2.0 * math.pi)
 
     def _left_at_root(self, gear: int) -> float:
-        """z tan(alpha') - z_mate (tan(alpha_a,mate) - tan(alpha')): what the mate's tip leaves of the line."""
+        """z tan(alpha_wt) - z_mate (tan(alpha_a,mate) - tan(alpha_wt)): what the mate's tip leaves of the line."""
         return self.teeth[gear] * math.tan(self.working_pressure_angle) - self._action[1 - gear]
 
     @cached_property
     def interference_margin(self) -> Pair:
-        """a' sin(alpha') - sqrt(r_a^2 - r_b^2) [mm]: how far the tip stays short of the mate's base tangent point.
+        """How far the tip of a gear stays short of the mate's base tangent point on the line of action [mm].
 
-        Negative where the tip meets the mate beyond its involute.
+        a_w sin(alpha_wt) - sqrt(r_a^2 - r_b^2) for external pairs; negative where the tip meets the mate beyond its
+        involute.
         """
-        scale = self.module * math.cos(self.pressure_angle) / 2.0
-        return scale * self._left_at_root(1), scale * self._left_at_root(0)
+        scale = self.transverse_module * math.cos(self.transverse_pressure_angle) / 2.0
+        return self.signs[1] * scale * self._left_at_root(1), scale * self._left_at_root(0)
 
     @cached_property
     def specific_sliding(self) -> Pair:
@@ -335,7 +288,7 @@ class GearPair:
 
     def _specific_sliding_of(self, gear: int) -> float:
         left = self._left_at_root(gear)
-        if not left > 0.0:
+        if not left * self.signs[gear] > 0.0:
             beyond = -self.interference_margin[1 - gear]
             raise NoSolution(
                 f"tip of gear {2 - gear} reaches {beyond:.6g} mm beyond the base tangent point of gear {gear + 1}, "
@@ -344,22 +297,84 @@ class GearPair:
         mate = self.teeth[1 - gear]
         return -self._action[1 - gear] * self._teeth_sum / (mate * left)
 
-    @cached_property
-    def min_shift_no_undercut(self) -> Pair:
-        """x_min = h_a* - z sin^2(alpha)/2 [module], for a rack cutter."""
-        x_min = teeth.min_shift_no_undercut
-        alpha, h = self.pressure_angle, self.addendum
-        return x_min(self.teeth[0], alpha, h), x_min(self.teeth[1], alpha, h)
+    @property
+    def slides(self) -> bool:
+        """Whether both root ends of the flanks in contact lie on their involutes, where sliding has a bound."""
+        return min(self.interference_margin) > 0.0
+
+    def min_shift_of(self, gear: int) -> float:
+        """x_min of an external gear [module]: to the profile's addendum, or to where its tool's straight flank ends."""
+        tool = self.tools[gear]
+        height = self.addendum if tool is None else tool.straight_end(self.pressure_angle)
+        return teeth.min_shift_no_undercut(self.teeth[gear], self.pressure_angle, height, self.helix_angle)
 
     @cached_property
-    def span_teeth(self) -> tuple[int, int]:
-        """Numbers k of teeth whose span measurement touches nearest to the circle r + x m."""
-        (z1, z2), (x1, x2), alpha = self.teeth, self.profile_shift, self.pressure_angle
-        return teeth.span_teeth(z1, x1, alpha), teeth.span_teeth(z2, x2, alpha)
+    def min_shift_no_undercut(self) -> tuple[float, float | None]:
+        """x_min = h - z sin^2(alpha_t)/(2 cos(beta)) [module], for a rack tool; a ring has none."""
+        return self.min_shift_of(0), None if self.internal else self.min_shift_of(1)
+
+    def cut_root(self, gear: int, shift: float | None = None) -> RackCutRoot:
+        """The root of an external gear as its tool leaves it, in modules; `shift` is a generating one."""
+        x = self.profile_shift[gear] if shift is None else shift
+        tool = self.tool(gear)
+        return RackCutRoot(
+            teeth=self.teeth[gear],
+            shift=x,
+            tool=tool,
+            pressure_angle=self.pressure_angle,
+            helix_angle=self.helix_angle,
+        )
 
     @cached_property
-    def span_measurement(self) -> Pair:
-        """W_k over span_teeth = m cos(alpha) (pi (k - 1/2) + z inv(alpha)) + 2 x m sin(alpha) [mm]."""
-        m, (z1, z2), (x1, x2), (k1, k2) = self.module, self.teeth, self.profile_shift, self.span_teeth
-        width = teeth.span_measurement
-        return width(m, z1, x1, self.pressure_angle, k1), width(m, z2, x2, self.pressure_angle, k2)
+    def form_radius(self) -> tuple[float | None, float | None]:
+        """r_Ff [mm], where the flank ends towards the root; None for a ring, and for a tool that is pointed."""
+        return self._form_radius_of(0), self._form_radius_of(1)
+
+    def _form_radius_of(self, gear: int) -> float | None:
+        if self.teeth[gear] < 0 or self.tool(gear).rounding_center(self.pressure_angle) < 0.0:
+            return None
+        return self.module * self.cut_root(gear).form_radius
+
+    @cached_property
+    def span_teeth(self) -> tuple[int, int | None]:
+        """Numbers k of teeth (of a ring: spaces) whose span measurement touches nearest to the circle r + x m.
+
+        Where a tool is given the planes must touch between form and tip circle, if any k lets them; a helical ring
+        has no span.
+        """
+        return self._span_teeth_of(0) or 1, self._span_teeth_of(1)
+
+    def _span_teeth_of(self, gear: int) -> int | None:
+        if self.teeth[gear] < 0 and self.helix_angle != 0.0:
+            return None
+        given, (z, x) = self.given_spans[gear], self._spanned(gear)
+        if given is not None:
+            return given
+        k = teeth.span_teeth(z, x, self.pressure_angle, self.helix_angle)
+        form = self.form_radius[gear] if self.tools[gear] is not None else None
+        if form is None:
+            return k
+        inside = [n for n in range(1, z + 1) if form < self.span_contact(gear, n) < self.tip_radius[gear]]
+        return min(inside, key=lambda n: abs(n - k), default=k)
+
+    def span_contact(self, gear: int, count: int) -> float:
+        """Radius on which the planes of a span measurement over so many teeth touch [mm]."""
+        return teeth.span_contact_radius(self.base_radius[gear], self.span_over(gear, count), self.base_helix_angle)
+
+    def _spanned(self, gear: int) -> tuple[int, float]:
+        """Teeth and shift of the external gear that a span measurement sees: the spaces of a ring are its teeth."""
+        z, x = self.teeth[gear], self.profile_shift[gear]
+        return (z, x) if z > 0 else (-z, -x)
+
+    @cached_property
+    def span_measurement(self) -> tuple[float, float | None]:
+        """W_k over span_teeth = m cos(alpha_n) (pi (k - 1/2) + z inv(alpha_t)) + 2 x m sin(alpha_n) [mm]."""
+        k1, k2 = self.span_teeth
+        return self.span_over(0, k1), None if k2 is None else self.span_over(1, k2)
+
+    def span_over(self, gear: int, count: int, shift: float | None = None) -> float:
+        """W_k of a gear over so many teeth [mm], of a ring over so many spaces; `shift` is a generating one."""
+        z, x = self._spanned(gear)
+        if shift is not None:
+            x = math.copysign(1.0, self.teeth[gear]) * shift
+        return teeth.span_measurement(self.module, z, x, self.pressure_angle, count, self.helix_angle)

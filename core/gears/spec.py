@@ -7,26 +7,57 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.spec import Coefficient, DesignSpec, GearLimits, Length, PressureAngle, Teeth
-
-Shift = Annotated[float, Field(ge=-5, le=5, json_schema_extra={"unit": "1"})]
+from gearlink.core.gears.spec_parts import (
+    Hand,
+    HelixAngle,
+    Shift,
+    SignedTeeth,
+    SpanTeeth,
+    TipShortening,
+    ToolSpec,
+    TwoLengths,
+    TwoShifts,
+    TwoTools,
+    exclude_each_other,
+    require_teeth,
+)
+from gearlink.core.spec import Coefficient, DesignSpec, GearLimits, Length, PressureAngle
 
 
 class GearPairSpec(DesignSpec):
-    """External spur gears with profile shift, given by centre distance or by shifts."""
+    """Cylindrical gears with profile shift, spur or helical, external or internal, by centre distance or shifts."""
 
     kind: Literal["gear-pair"]
     module: Length = Field(description="normal module")
-    teeth: Annotated[list[Teeth], Field(min_length=2, max_length=2)] = Field(description="teeth of gear 1 and 2")
-    center_distance: Length | None = Field(None, description="working centre distance")
-    profile_shift: Annotated[list[Shift], Field(min_length=2, max_length=2)] | None = Field(
-        None, description="profile shift coefficients of gear 1 and 2"
+    teeth: Annotated[list[SignedTeeth], Field(min_length=2, max_length=2)] = Field(
+        description="teeth of gear 1 and 2; a negative number is a ring"
     )
+    center_distance: Length | None = Field(
+        None, description="working centre distance; with profile_shift the difference is backlash"
+    )
+    profile_shift: TwoShifts | None = Field(None, description="profile shift coefficients of gear 1 and 2 (ISO signs)")
     pressure_angle: PressureAngle = Field(20.0, description="pressure angle of the reference profile")
+    helix_angle: HelixAngle = Field(0.0, description="helix angle on the reference circle, its magnitude")
+    helix_hand: Annotated[list[Hand], Field(min_length=2, max_length=2)] | None = Field(
+        None, description="hands of helix of gear 1 and 2, for the drawing"
+    )
     addendum: Coefficient = Field(1.0, description="addendum coefficient")
     clearance: Annotated[float, Field(ge=0, le=1, json_schema_extra={"unit": "1"})] = Field(
         0.25, description="clearance coefficient"
     )
+    tip_shortening: TipShortening | None = Field(
+        None,
+        description="full (default of external pairs), none (of internal ones), or tip alterations k of both gears",
+    )
+    tip_diameter: TwoLengths | None = Field(None, description="tip diameters, in place of tip_shortening")
+    face_width: Length | TwoLengths | None = Field(None, description="face width of both gears, or of each")
+    tool: ToolSpec | TwoTools | None = Field(
+        None, description="rack tool of both gears, or of each; left out: straight to the addendum"
+    )
+    span_teeth: Annotated[list[SpanTeeth], Field(min_length=2, max_length=2)] | None = Field(
+        None, description="teeth that the span measurement of each gear goes over; left out: chosen"
+    )
+    assembly: Literal["axial", "radial"] = Field("axial", description="how pinion and ring are put together")
     shift_split: Literal["equal"] | Shift = Field(
         "equal", description="how the shift sum is shared when center_distance is given: equal, or x1"
     )
@@ -34,10 +65,30 @@ class GearPairSpec(DesignSpec):
 
     @model_validator(mode="after")
     def _placed(self) -> GearPairSpec:
+        require_teeth(self.teeth)
         if self.center_distance is None and self.profile_shift is None:
             raise PydanticCustomError(
                 "GL106", "either center_distance or profile_shift is needed", {"key": "center_distance"}
             )
+        exclude_each_other(self, "tip_shortening", "tip_diameter")
+        for place, spanned in enumerate(self.span_teeth or ()):
+            if spanned > abs(self.teeth[place]):
+                message = "a gear of {z} teeth has no span over {k}"
+                key = f"span_teeth[{place}]"
+                raise PydanticCustomError("GL111", message, {"key": key, "z": abs(self.teeth[place]), "k": spanned})
+        return self
+
+    @model_validator(mode="after")
+    def _fits_its_kind(self) -> GearPairSpec:
+        internal = self.teeth[1] < 0
+        if self.helix_hand is None:
+            return self
+        if self.helix_angle == 0.0:
+            message = "spur gears have no hand of helix: leave it out, or give helix_angle"
+            raise PydanticCustomError("GL111", message, {"key": "helix_hand"})
+        if (self.helix_hand[0] == self.helix_hand[1]) != internal:
+            message = "helix_hand: a pinion and its ring have the same hand, two external gears opposite ones"
+            raise PydanticCustomError("GL111", message, {"key": "helix_hand"})
         return self
 
     def commands(self) -> tuple[str, ...]:

@@ -6,18 +6,20 @@ import math
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.gears.involute import involute
+from gearlink.core.gears.pair_limits import transverse
 from gearlink.core.report import safely_above
 
 
-def min_shift_no_undercut(teeth: int, pressure_angle: float, addendum: float = 1.0) -> float:
+def min_shift_no_undercut(teeth: int, pressure_angle: float, addendum: float = 1.0, helix_angle: float = 0.0) -> float:
     """Least profile shift at which a rack cutter does not undercut the tooth root.
 
-    x_min = h_a* - z sin^2(alpha)/2
+    x_min = h - z sin^2(alpha_t)/(2 cos(beta))
 
     Parameters
         teeth : int - number of teeth z
-        pressure_angle : float [rad] - of the reference profile, alpha
-        addendum : float [module] - h_a* of the reference profile
+        pressure_angle : float [rad] - of the reference profile, alpha_n
+        addendum : float [module] - h, how far the cutter's straight flank reaches below its datum line; usually h_a*
+        helix_angle : float [rad] - beta
     Returns
         x_min : float [module] - negative where the gear tolerates a negative shift
     Example
@@ -27,7 +29,8 @@ def min_shift_no_undercut(teeth: int, pressure_angle: float, addendum: float = 1
     Source
         own derivation: the cutter's tip line passes the point where the line of action touches the base circle
     """
-    return addendum - teeth * math.sin(pressure_angle) ** 2 / 2.0
+    alpha = transverse(pressure_angle, helix_angle)
+    return addendum - teeth * math.sin(alpha) ** 2 / 2.0 / math.cos(helix_angle)
 
 
 def pressure_angle_rise(radius: float, increase: float, pressure_angle: float, *, what: str = "radius") -> float:
@@ -66,39 +69,59 @@ def pressure_angle_rise(radius: float, increase: float, pressure_angle: float, *
     return math.atan2(sine, base * math.cos(pressure_angle) + u * math.sin(pressure_angle))
 
 
-def span_measurement(module: float, teeth: int, shift: float, pressure_angle: float, span_teeth: int) -> float:
+def span_measurement(
+    module: float, teeth: int, shift: float, pressure_angle: float, span_teeth: int, helix_angle: float = 0.0
+) -> float:
     """Distance of two parallel planes that touch opposite flanks over a number of teeth (base tangent length).
 
-    W_k = m cos(alpha) (pi (k - 1/2) + z inv(alpha)) + 2 x m sin(alpha)
+    W_k = m cos(alpha_n) (pi (k - 1/2) + z inv(alpha_t)) + 2 x m sin(alpha_n)
 
     Parameters
-        module : float [mm] - m
+        module : float [mm] - normal module m
         teeth : int - number of teeth z
         shift : float [module] - profile shift x
-        pressure_angle : float [rad] - alpha
+        pressure_angle : float [rad] - alpha_n
         span_teeth : int - teeth between the planes, k >= 1
+        helix_angle : float [rad] - beta
     Returns
         W_k : float [mm] - for no backlash
+    Notes
+        Of a ring with straight teeth: over k spaces, that of an external gear with |z| teeth and -x.
     Example
         >>> round(span_measurement(2.0, 40, 0.0, math.radians(20.0), 5), 4)
         27.6896
+        >>> round(span_measurement(2.0, 25, 0.0, math.radians(20.0), 3, math.radians(20.0)), 4)
+        15.5967
 
     Source
         own derivation: k - 1 base pitches and the tooth thickness on the base circle
     """
-    arc = math.pi * (span_teeth - 0.5) + teeth * involute(pressure_angle)
+    arc = math.pi * (span_teeth - 0.5) + teeth * involute(transverse(pressure_angle, helix_angle))
     return module * (math.cos(pressure_angle) * arc + 2.0 * shift * math.sin(pressure_angle))
 
 
-def span_teeth(teeth: int, shift: float, pressure_angle: float) -> int:
+def span_contact_radius(base_radius: float, span: float, base_helix_angle: float = 0.0) -> float:
+    """Radius on which the planes of a span measurement touch the flanks.
+
+    R = sqrt(r_b^2 + (W_k cos(beta_b)/2)^2)
+
+    Example
+        >>> span_contact_radius(3.0, 8.0)
+        5.0
+    """
+    return math.hypot(base_radius, span * math.cos(base_helix_angle) / 2.0)
+
+
+def span_teeth(teeth: int, shift: float, pressure_angle: float, helix_angle: float = 0.0) -> int:
     """Number of teeth whose span measurement touches the flanks nearest to the circle r + x m.
 
-    R_k = sqrt(r_b^2 + (W_k/2)^2), |R_k - (r + x m)| least
+    R_k = sqrt(r_b^2 + (W_k cos(beta_b)/2)^2), |R_k - (r + x m)| least
 
     Parameters
         teeth : int - number of teeth z
         shift : float [module] - profile shift x
-        pressure_angle : float [rad] - alpha
+        pressure_angle : float [rad] - alpha_n
+        helix_angle : float [rad] - beta
     Returns
         k : int - 1 <= k <= z; the smaller of two that are equally near
     Notes
@@ -107,15 +130,18 @@ def span_teeth(teeth: int, shift: float, pressure_angle: float) -> int:
         >>> span_teeth(40, 0.0, math.radians(20.0)), span_teeth(72, 0.29, math.radians(20.0))
         (5, 9)
     """
-    base = teeth / 2.0 * math.cos(pressure_angle)
-    wanted = teeth / 2.0 + shift
+    base_helix = math.asin(math.sin(helix_angle) * math.cos(pressure_angle))
+    radius = teeth / 2.0 / math.cos(helix_angle)
+    base = radius * math.cos(transverse(pressure_angle, helix_angle))
+    wanted = radius + shift
     reach = math.sqrt((wanted - base) * (wanted + base)) if wanted > base else 0.0
     pitch = math.pi * math.cos(pressure_angle)
-    exact = 1.0 + (2.0 * reach - span_measurement(1.0, teeth, shift, pressure_angle, 1)) / pitch
+    first = span_measurement(1.0, teeth, shift, pressure_angle, 1, helix_angle)
+    exact = 1.0 + (2.0 * reach / math.cos(base_helix) - first) / pitch
 
     def distance(k: int) -> float:
-        half = span_measurement(1.0, teeth, shift, pressure_angle, k) / 2.0
-        return abs(math.hypot(base, half) - wanted)
+        span = span_measurement(1.0, teeth, shift, pressure_angle, k, helix_angle)
+        return abs(span_contact_radius(base, span, base_helix) - wanted)
 
     low = max(1, min(teeth, math.floor(exact)))
     return min((low, min(teeth, low + 1)), key=distance)

@@ -1,18 +1,11 @@
-"""The tooth of an involute spur gear as a rack tool cuts it: involute flanks, trochoidal roots, tip and root circles.
+"""The tooth of an involute gear as a rack tool cuts it, in the transverse section: flanks, roots, tip and root circles.
 
 Frame of the gear: its centre is the origin, the x axis the middle of a tooth space; points are complex numbers x + i y.
-While the gear turns by phi the tool's pitch line shifts by r phi, and the common normal of tool and tooth passes the
-pitch point. The tool's rounded tip, whose centre stands q below the pitch line, so leaves the trochoid
-
-    z(b) = (r - q - rho cos(b) + i (q tan(b) + rho sin(b))) exp(-i phi),   phi = (q tan(b) - u)/r,
-
-b being the direction of the normal (0 at the root circle, 90 deg - alpha where the straight flank begins) and u the
-distance of the rounding's centre from the middle of the tool's tooth.
+The root fillet is that of `root_fillet`, over the direction b of the normal in the normal section.
 """
 
 from __future__ import annotations
 
-import cmath
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -20,10 +13,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.gears.involute import inverse_involute, involute
+from gearlink.core.gears.involute import inverse_involute
 from gearlink.core.gears.pair import GearPair
+from gearlink.core.gears.root_fillet import RackCutRoot
+from gearlink.core.gears.tools import RackTool, full_rounding
 from gearlink.core.numerics.arrays import Points, Reals
-from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.report import safely_below
 from gearlink.core.results import cached_property
 
@@ -44,6 +38,8 @@ class ToothProfile:
         tip_radius : float [mm] - r_a
         tool_addendum : float [module] - h_a* + c*, the tool's tip below its reference line
         tool_rounding : float [module] - rho*, radius of the tool's tip
+        helix_angle : float [rad] - beta
+        residual_undercut : float [module] - s_pr* of the tool
     Returns
         Properties: lengths in mm, angles in rad.
     Raises
@@ -66,16 +62,18 @@ class ToothProfile:
     tip_radius: float
     tool_addendum: float = 1.25
     tool_rounding: float = 0.38
+    helix_angle: float = 0.0
+    residual_undercut: float = 0.0
 
     def __post_init__(self) -> None:
-        sharp = math.pi / 4.0 - self.tool_addendum * math.tan(self.pressure_angle)
+        sharp = full_rounding(self.pressure_angle, self.tool_addendum, self.residual_undercut)
         if sharp < 0.0:
             raise NoSolution(
                 f"a tool with the addendum {self.tool_addendum:.6g} and the pressure angle "
                 f"{math.degrees(self.pressure_angle):.6g} deg is pointed: addendum and clearance together must stay "
                 f"below {safely_below(math.pi / 4.0 / math.tan(self.pressure_angle), 6)} modules"
             )
-        most = _full_rounding(self.pressure_angle, self.tool_addendum)
+        most = sharp
         if not 0.0 <= self.tool_rounding <= most * (1.0 + 1e-12):
             raise NoSolution(
                 f"tool rounding {self.tool_rounding:.6g}: it must lie between 0 and {safely_below(most, 6)} modules, "
@@ -96,14 +94,12 @@ class ToothProfile:
 
     @classmethod
     def of(cls, pair: GearPair, gear: int, tool_rounding: float | None = None) -> ToothProfile:
-        """The profile of gear 0 or 1 of a pair.
-
-        rho* = c*/(1 - sin(alpha)), the rounding that ends where the tool's clearance does
+        """The profile of gear 0 or 1 of a pair, as its tool cuts it; a pair without tools has those of ISO 53.
 
         Parameters
             pair : GearPair
             gear : int - 0 or 1
-            tool_rounding : float or None [module] - rho*; None takes the above, but not more than a full round
+            tool_rounding : float or None [module] - rho*; None takes the tool's
         Raises
             NoSolution - as the class
         Example
@@ -113,30 +109,29 @@ class ToothProfile:
         Source
             ISO 53, profile A
         """
-        alpha, depth = pair.pressure_angle, pair.addendum + pair.clearance
-        if tool_rounding is None:
-            full = max(0.0, _full_rounding(alpha, depth))
-            tool_rounding = min(pair.clearance / (1.0 - math.sin(alpha)), full)
+        tool = pair.tool(gear)
         return cls(
             module=pair.module,
             teeth=pair.teeth[gear],
             shift=pair.profile_shift[gear],
-            pressure_angle=alpha,
+            pressure_angle=pair.pressure_angle,
             tip_radius=pair.tip_radius[gear],
-            tool_addendum=depth,
-            tool_rounding=tool_rounding,
+            tool_addendum=tool.addendum,
+            tool_rounding=tool.rounding if tool_rounding is None else tool_rounding,
+            helix_angle=pair.helix_angle,
+            residual_undercut=tool.residual_undercut,
         )
 
     # Radii and angles; names with an underscore are in modules
 
     @property
     def reference_radius(self) -> float:
-        """r = m z/2 [mm]."""
+        """r = m_t z/2 [mm]."""
         return self.module * self._r
 
     @property
     def base_radius(self) -> float:
-        """r_b = r cos(alpha) [mm]."""
+        """r_b = r cos(alpha_t) [mm]."""
         return self.module * self._base
 
     @property
@@ -157,48 +152,50 @@ class ToothProfile:
         """r_a, or less where both flanks meet in a point below it [mm]."""
         return self.module * self._top
 
-    @cached_property
+    @property
     def undercut(self) -> bool:
-        """Whether the tool cuts into the involute at its foot: q/sin(alpha) + rho > r sin(alpha)."""
-        return self._contact_left < 0.0
+        """Whether the tool cuts into the involute at its foot."""
+        return self._cut.undercut
 
     @property
     def pitch_angle(self) -> float:
         """Angle from one space to the next, 2 pi/z [rad]."""
         return 2.0 * math.pi / self.teeth
 
+    @cached_property
+    def _cut(self) -> RackCutRoot:
+        tool = RackTool(
+            addendum=self.tool_addendum, rounding=self.tool_rounding, residual_undercut=self.residual_undercut
+        )
+        return RackCutRoot(
+            teeth=self.teeth,
+            shift=self.shift,
+            tool=tool,
+            pressure_angle=self.pressure_angle,
+            helix_angle=self.helix_angle,
+        )
+
     @property
     def _r(self) -> float:
-        return self.teeth / 2.0
+        return self.teeth / 2.0 / math.cos(self.helix_angle)
 
-    @cached_property
+    @property
     def _base(self) -> float:
-        return self._r * math.cos(self.pressure_angle)
+        return self._cut.base_radius
 
-    @cached_property
+    @property
     def _root(self) -> float:
         return self._r + self.shift - self.tool_addendum
 
     @cached_property
-    def _q(self) -> float:
-        return self.tool_addendum - self.tool_rounding - self.shift
-
-    @cached_property
     def _u(self) -> float:
-        depth, alpha = self.tool_addendum - self.tool_rounding, self.pressure_angle
-        return max(0.0, math.pi / 4.0 - depth * math.tan(alpha) - self.tool_rounding / math.cos(alpha))
+        """Distance of the rounding's centre from the middle of the tool's tooth, in the transverse section."""
+        return max(0.0, self._cut.tool.rounding_center(self.pressure_angle)) / math.cos(self.helix_angle)
 
-    @cached_property
-    def _contact_left(self) -> float:
-        """Way from the base circle's tangent point to where the straight flank's foot touches; negative: beyond it."""
-        sine = math.sin(self.pressure_angle)
-        return self._r * sine - self._q / sine - self.tool_rounding
-
-    @cached_property
+    @property
     def _at_base(self) -> float:
         """Half the angle of the space on the base circle, where the involute begins; negative where spaces overlap."""
-        half_space = (math.pi / 2.0 - 2.0 * self.shift * math.tan(self.pressure_angle)) / self.teeth
-        return half_space - involute(self.pressure_angle)
+        return self._cut.half_space_at_base
 
     @cached_property
     def _top(self) -> float:
@@ -209,32 +206,9 @@ class ToothProfile:
         pointed = self._base / math.cos(inverse_involute(half_pitch - self._at_base))
         return min(tip, pointed)
 
-    @cached_property
-    def _last_normal(self) -> float:
-        """Direction b of the normal where the trochoid ends: the flank's own, or the cut through the involute."""
-        end = math.pi / 2.0 - self.pressure_angle
-        if not self.undercut:
-            return end
-        at_base = bracketed_root(lambda b: abs(self._trochoid_point(b)) - self._base, 0.0, end)
-        return bracketed_root(self._beside_involute, at_base, end)
-
-    def _beside_involute(self, b: float) -> float:
-        """Polar angle of the trochoid less that of the involute at the same radius."""
-        point = self._trochoid_point(b)
-        ratio = max(abs(point) / self._base, 1.0)  # the bracket's end stands on the base circle within rounding
-        return cmath.phase(point) - self._at_base - _involute_at(ratio)
-
-    @cached_property
+    @property
     def _form(self) -> float:
-        if not self.undercut:
-            return math.hypot(self._base, self._contact_left)
-        return abs(self._trochoid_point(self._last_normal))
-
-    def _trochoid_point(self, b: float) -> complex:
-        q, rho = self._q, self.tool_rounding
-        across = q * math.tan(b)
-        point = complex(self._r - q - rho * math.cos(b), across + rho * math.sin(b))
-        return point * cmath.exp(-1j * (across - self._u) / self._r)
+        return self._cut.form_radius
 
     # Curves [mm], each over an array of its parameter
 
@@ -245,10 +219,12 @@ class ToothProfile:
 
     def trochoid(self, normal: Reals) -> Points:
         """The root's rounding, over the direction b of the normal."""
-        q, rho = self._q, self.tool_rounding
-        across = q * np.tan(normal)
-        points = self._r - q - rho * np.cos(normal) + 1j * (across + rho * np.sin(normal))
-        rounded: Points = self.module * points * np.exp(-1j * (across - self._u) / self._r)
+        q, rho = self.tool_addendum - self.tool_rounding - self.shift, self.tool_rounding
+        below = q + rho * np.cos(normal)
+        across = below * np.tan(normal) * math.cos(self.helix_angle)
+        shifted = self._u + rho * np.sin(normal) / math.cos(self.helix_angle) - across
+        points = self._r - below + 1j * across
+        rounded: Points = self.module * points * np.exp(1j * shifted / self._r)
         return rounded
 
     def flank(self, roll: Reals) -> Points:
@@ -270,7 +246,7 @@ class ToothProfile:
         tooth_edge = self._at_base + high - math.atan(high)
         return [
             (self.root_arc, 0.0, self._u / self._r),
-            (self.trochoid, 0.0, self._last_normal),
+            (self.trochoid, 0.0, self._cut.end_normal),
             (self.flank, low, high),
             (self.tip_arc, tooth_edge, math.pi / self.teeth),
         ]
@@ -358,12 +334,3 @@ def _chords(curve: Curve, low: float, high: float, chord_error: float) -> Points
 def _roll_at(ratio: float) -> float:
     """Roll angle tan(alpha_R) from the radius over the base radius."""
     return math.sqrt(max((ratio - 1.0) * (ratio + 1.0), 0.0))
-
-
-def _involute_at(ratio: float) -> float:
-    return involute(math.atan(_roll_at(ratio)))
-
-
-def _full_rounding(alpha: float, depth: float) -> float:
-    """Rounding that makes the tool's tip one arc: (pi/4 - h tan(alpha)) cos(alpha)/(1 - sin(alpha)) [module]."""
-    return (math.pi / 4.0 - depth * math.tan(alpha)) * math.cos(alpha) / (1.0 - math.sin(alpha))

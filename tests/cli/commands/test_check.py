@@ -37,7 +37,7 @@ def write(folder: Path, **texts: str) -> Path:
 def test_a_design_that_passes_is_quiet(gearlink: Any, tmp_path: Path) -> None:
     ended = gearlink("check", write(tmp_path, pair=PAIR) / "pair.yaml")
     assert ended.status == 0
-    assert ended.out == "1 design: 11 pass\n"
+    assert ended.out == "1 design: 13 pass\n"
     assert ended.err == ""
 
 
@@ -74,9 +74,9 @@ def test_json(gearlink: Any, tmp_path: Path) -> None:
 def test_verbose_shows_passes(gearlink: Any, tmp_path: Path) -> None:
     path = write(tmp_path, pair=PAIR) / "pair.yaml"
     found = gearlink("check", path, "--verbose", "--format", "json").json["findings"]
-    assert len(found) == 11
+    assert len(found) == 13
     assert {finding["status"] for finding in found} == {"pass"}
-    assert gearlink("check", path, "--verbose").out.count(": pass GL2") == 11
+    assert gearlink("check", path, "--verbose").out.count(": pass GL2") == 13
 
 
 def test_strict_makes_a_warning_count(gearlink: Any, tmp_path: Path) -> None:
@@ -118,7 +118,7 @@ def test_worst_of_a_folder(gearlink: Any, tmp_path: Path) -> None:
 
 def test_a_file_named_twice_is_checked_once(gearlink: Any, tmp_path: Path) -> None:
     path = write(tmp_path, pair=PAIR) / "pair.yaml"
-    assert gearlink("check", path, path, tmp_path).out == "1 design: 11 pass\n"
+    assert gearlink("check", path, path, tmp_path).out == "1 design: 13 pass\n"
 
 
 def test_set_overrides_a_key_and_findings_point_there(gearlink: Any, tmp_path: Path) -> None:
@@ -133,7 +133,7 @@ def test_standard_input(gearlink: Any, monkeypatch: pytest.MonkeyPatch) -> None:
         buffer = io.BytesIO(PAIR.encode())
 
     monkeypatch.setattr("sys.stdin", Stdin)
-    assert gearlink("check", "-").out == "1 design: 11 pass\n"
+    assert gearlink("check", "-").out == "1 design: 13 pass\n"
 
 
 def test_csv_has_a_row_for_each_finding(gearlink: Any, tmp_path: Path) -> None:

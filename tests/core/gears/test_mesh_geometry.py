@@ -11,9 +11,11 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from matplotlib.path import Path
 from sweeps import examples
 
 from gearlink.core.gears.mesh_geometry import MeshGeometry
+from gearlink.core.gears.mesh_phase import ring_of
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.gears.tooth_profile import ToothProfile, outline
 
@@ -62,3 +64,27 @@ def test_both_outlines_pass_every_contact_point(teeth, shift):
         flanks = outline(ToothProfile.of(pair, gear), 3e-6, first=mesh.first_space[gear]) + mesh.axes[gear]
         for point in mesh.contacts:
             assert distance(point, flanks) < 6e-6
+
+
+def to_line(point, line):
+    """Distance of a point from a line of chords."""
+    start, way = line[:-1], np.diff(line)
+    keep = np.abs(way) > 0.0
+    start, way = start[keep], way[keep]
+    along = np.clip(((point - start) * way.conj()).real / np.abs(way) ** 2, 0.0, 1.0)
+    return np.min(np.abs(start + along * way - point))
+
+
+def test_flanks_of_a_ring_and_its_pinion_touch_and_do_not_overlap():
+    """Within 2e-3 of the module, twice the chord error of both outlines."""
+    pair = GearPair(module=2.0, teeth=(21, -67), given_shift=(0.3, -0.2))
+    mesh = MeshGeometry(pair)
+    pinion = outline(ToothProfile.of(pair, 0), 1e-3) * np.exp(1j * mesh.first_space[0])
+    ring = ring_of(pair, 60) * np.exp(1j * mesh.first_space[1]) + mesh.axes[1]
+    assert len(mesh.contacts) >= 1
+    for contact in mesh.contacts:
+        assert to_line(contact, pinion) < 4e-3
+        assert to_line(contact, ring) < 4e-3
+    opening = Path(np.column_stack([ring.real, ring.imag]))
+    outside = pinion[~opening.contains_points(np.column_stack([pinion.real, pinion.imag]))]
+    assert max((to_line(point, ring) for point in outside), default=0.0) < 4e-3

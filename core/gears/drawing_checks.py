@@ -1,0 +1,121 @@
+"""Checks of a gear pair that need more than its teeth: helical contact, interferences of rings, root fillets."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Protocol
+
+from gearlink.core.gears.codes import CONTACT_RATIO, FILLET, TIP_FOULING
+from gearlink.core.gears.data import GearData
+from gearlink.core.report import Check, Status
+
+_FILLET_NOISE = 1e-4
+"""So far below the form radius contact may go, in modules: what a rounding of 0.38 for 0.37995 makes."""
+
+
+class DrawingLimits(Protocol):
+    """What the checks read of a spec's `limits`."""
+
+    @property
+    def contact_ratio(self) -> float: ...
+
+
+def drawing_check(name: str, data: GearData, limits: DrawingLimits, *, radial: bool = False) -> Iterator[Check]:
+    """The findings of one of DRAWING_CHECKS on a pair.
+
+    Parameters
+        name : str - one of DRAWING_CHECKS
+        data : GearData
+        limits : the `limits` section of a spec
+        radial : bool - the pinion is to be put into its ring along the line of centres
+    Source
+        ISO 21771 for the quantities
+    """
+    if name == "radial-assembly":
+        yield from _radial_assembly(data, radial)
+        return
+    yield from _OF_PAIR[name](data, limits)
+
+
+def helical_contact(data: GearData, limits: DrawingLimits) -> Check | None:
+    """What GL203 says of a helical pair whose width is known: the total contact ratio counts; else None."""
+    total = data.path.total_contact_ratio
+    if data.pair.helix_angle == 0.0 or total is None:
+        return None
+    least, transverse = limits.contact_ratio, data.pair.contact_ratio
+    found = CONTACT_RATIO.below(
+        total, least, least + 0.1, "1", "the total contact ratio", "take a greater width, helix angle or more teeth"
+    )
+    if found.status != "pass" or transverse >= 1.0:
+        return found
+    text = f"the transverse contact ratio is {transverse:.6g}, below 1: the overlap of the helix alone carries on"
+    return CONTACT_RATIO.check("warn", text, transverse, 1.0)
+
+
+def _tip_fouling(data: GearData, _limits: DrawingLimits) -> Iterator[Check]:
+    internal = data.internal
+    if internal is None:
+        return
+    margin, part = internal.tip_fouling_margin, "tips of pinion and ring"
+    if internal.tip_circles_apart < 0.0:
+        margin, part = internal.tip_circles_apart, "tip circles of pinion and ring"
+    if margin is None:
+        return
+    remedy = "give the ring more teeth, the pinion fewer, or shorten the tips"
+    text = f"the {part} keep {margin:.4g} mm from cutting into each other"
+    if margin < 0.0:
+        text = f"the {part} cut {-margin:.4g} mm into each other: {remedy}"
+    yield TIP_FOULING.check("fail" if margin < 0.0 else "pass", text, margin, 0.0, "mm")
+
+
+def _radial_assembly(data: GearData, radial: bool) -> Iterator[Check]:
+    if data.internal is None:
+        return
+    name, angle, margin = "radial-assembly", data.internal.radial_assembly_angle, data.internal.radial_assembly_margin
+    if angle is None or margin is None:
+        return
+    if angle >= 0.0:
+        text = f"the pinion goes into its ring along the line of centres with {margin:.4g} mm to spare"
+        yield TIP_FOULING.check("pass", text, margin, 0.0, "mm", name=name)
+        return
+    lacking = f"{-margin:.4g} mm are lacking" if angle > -1e9 else "it is larger than the opening"
+    status: Status = "fail" if radial else "warn"
+    text = f"the pinion does not go into its ring along the line of centres, {lacking}: assemble it axially"
+    if radial:
+        text += ", or give the ring more teeth, or shorten the tips"
+    yield TIP_FOULING.check(status, text, margin if angle > -1e9 else None, 0.0, "mm", name=name)
+
+
+def _fillet(data: GearData, _limits: DrawingLimits) -> Iterator[Check]:
+    for gear in (0, 1):
+        yield from _fillet_of(data, gear)
+
+
+def _fillet_of(data: GearData, gear: int) -> Iterator[Check]:
+    pair, form = data.pair, data.form_radius[gear]
+    sign = pair.signs[gear]
+    beyond = pair.interference_margin[1 - gear] <= 0.0
+    if form is None and not beyond:
+        return
+    base, used = abs(pair.base_radius[gear]), abs(data.path.used_root_radius[gear])
+    margin = sign * (used - form) if form is not None else 0.0
+    if beyond:
+        margin = min(margin, pair.interference_margin[1 - gear])
+        text = f"contact at the root of gear {gear + 1} would lie beyond its base circle ({base:.6g} mm)"
+    else:
+        text = f"contact at the root of gear {gear + 1} begins at {used:.7g} mm, its flank at {form:.7g} mm"
+    status: Status = "pass"
+    if beyond or margin < -_FILLET_NOISE * pair.module:
+        judged = beyond or pair.internal or pair.helix_angle != 0.0 or any(pair.tools) or pair.shaped_root is not None
+        status = "fail" if judged else "warn"
+        text += (
+            f": raise its profile shift, shorten the tips of gear {2 - gear}, or take a tool with a smaller rounding"
+        )
+    yield FILLET.check(status, text, margin, -_FILLET_NOISE * pair.module, "mm")
+
+
+_OF_PAIR: dict[str, Callable[[GearData, DrawingLimits], Iterator[Check]]] = {
+    "tip-fouling": _tip_fouling,
+    "fillet-interference": _fillet,
+}
+DRAWING_CHECKS = ("tip-fouling", "radial-assembly", "fillet-interference")

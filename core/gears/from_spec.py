@@ -1,0 +1,102 @@
+"""Gear pairs from their design file."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+from gearlink.core.errors import NoSolution, at_key
+from gearlink.core.gears.data import GearData
+from gearlink.core.gears.pair import GearPair, Pair
+from gearlink.core.gears.tools import RackTool, usual_rounding
+
+if TYPE_CHECKING:
+    from gearlink.core.gears.spec import GearPairSpec
+    from gearlink.core.gears.spec_parts import ToolSpec
+
+_AGREE = 1e-6
+"""Centre distances that differ by less, in modules, count as one."""
+
+
+def pair_of(spec: GearPairSpec) -> GearPair:
+    """The pair of a design file.
+
+    Raises
+        NoSolution - where the teeth cannot mesh
+    """
+    known: dict[str, Any] = {
+        "module": spec.module,
+        "teeth": (spec.teeth[0], spec.teeth[1]),
+        "pressure_angle": math.radians(spec.pressure_angle),
+        "helix_angle": math.radians(spec.helix_angle),
+        "addendum": spec.addendum,
+        "clearance": spec.clearance,
+        "given_spans": as_pair(spec.span_teeth) or (None, None),
+        "tip": as_pair(spec.tip_shortening),
+        "given_tip_radius": None
+        if spec.tip_diameter is None
+        else (0.5 * spec.tip_diameter[0], 0.5 * spec.tip_diameter[1]),
+    }
+    with at_key("tool"):
+        known["tools"] = tools_of(spec)
+    shift, distance = spec.profile_shift, spec.center_distance
+    if shift is None:
+        first = None if isinstance(spec.shift_split, str) else spec.shift_split
+        return GearPair(**known, given_distance=distance, given_first_shift=first)
+    if distance is None:
+        return GearPair(**known, given_shift=(shift[0], shift[1]))
+    with at_key("center_distance"):
+        pair = GearPair(**known, given_shift=(shift[0], shift[1]), given_distance=distance)
+    return _without_difference(pair)
+
+
+def _without_difference(pair: GearPair) -> GearPair:
+    """The pair by its shifts alone, where its centre distance says the same."""
+    try:
+        alone = replace(pair, given_distance=None)
+    except NoSolution:
+        return pair
+    assert pair.given_distance is not None
+    same = abs(abs(alone.center_distance) - pair.given_distance) <= _AGREE * pair.module
+    return alone if same else pair
+
+
+def data_of(spec: GearPairSpec, pair: GearPair) -> GearData:
+    """The pair of a design file with all that its drawing needs."""
+    return GearData(pair=pair, face_width=both(spec.face_width))
+
+
+def tools_of(spec: GearPairSpec) -> tuple[RackTool | None, RackTool | None]:
+    """The rack tools that the file gives, checked that they have a tip.
+
+    Raises
+        NoSolution - for a pointed tool
+    """
+    given = spec.tool
+    one, other = given if isinstance(given, list) else (given, given)
+    return _tool(spec, one), _tool(spec, other)
+
+
+def _tool(spec: GearPairSpec, given: ToolSpec | None) -> RackTool | None:
+    if given is None:
+        return None
+    alpha, rounding = math.radians(spec.pressure_angle), given.rounding
+    if rounding is None:
+        clearance = given.addendum - spec.addendum
+        rounding = max(0.0, usual_rounding(alpha, given.addendum, clearance, given.residual_undercut))
+    tool = RackTool(addendum=given.addendum, rounding=rounding, residual_undercut=given.residual_undercut)
+    tool.require_tip(alpha)
+    return tool
+
+
+def as_pair(value: Any) -> Any:
+    """A list of two as a pair; anything else as it is."""
+    return (value[0], value[1]) if isinstance(value, list) else value
+
+
+def both(value: float | list[float] | None) -> Pair | None:
+    """A number that serves both gears, or one for each."""
+    if value is None:
+        return None
+    return (value[0], value[1]) if isinstance(value, list) else (value, value)

@@ -1,0 +1,134 @@
+"""Gear pairs that were published, or computed in forty digits by a second way: every value at its own tolerance.
+
+Tolerances: half a unit of the last printed digit for published values; 1e-9 relative for those in forty digits,
+of which the doubles keep all but a few ulp (the file states each).
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import pytest
+from factory import design
+
+from gearlink.core.gears.root_fillet import RackCutRoot
+from gearlink.core.gears.tools import RackTool
+
+CASES = json.loads((Path(__file__).parents[2] / "reference" / "gears.json").read_text())["cases"]
+PAIRS = [case for case in CASES if isinstance(case["input"].get("teeth"), list) and "module" in case["input"]]
+SINGLE = [case for case in CASES if case["name"].startswith("gearcore-generation")]
+KEYS = (
+    "module", "teeth", "pressure_angle", "helix_angle", "addendum", "center_distance", "profile_shift", "shift_split",
+    "tip_diameter", "face_width", "tool", "span_teeth",
+)  # fmt: skip
+PLAIN = {
+    "working_pressure_angle", "center_distance", "reference_center_distance", "shift_sum", "contact_ratio",
+    "overlap_ratio", "center_distance_modification", "span_teeth", "span_measurement",
+}  # fmt: skip
+NAMES = {
+    "alpha_wt": "working_pressure_angle",
+    "a_w": "center_distance",
+    "sum_x": "shift_sum",
+    "eps_alpha": "contact_ratio",
+    "eps_beta": "overlap_ratio",
+    "g_alpha": "path_of_contact",
+    "zeta_root": "specific_sliding",
+    "zeta_f": "specific_sliding",
+    "zeta_tip": "specific_sliding_tip",
+    "K_g_A_E": "sliding_factor",
+    "normal_tip_thickness": "tip_thickness",
+    "x_min": "min_shift_no_undercut",
+    "rho_A1": "involute_margin",
+}
+DIAMETERS = {
+    "reference_diameter": "reference_radius",
+    "base_diameter": "base_radius",
+    "tip_diameter": "tip_radius",
+    "root_diameter": "root_radius",
+    "working_diameter": "working_radius",
+    "d_Nf": "used_root_radius",
+    "d_Ff_external": "form_radius",
+}
+WITHOUT_BOUND = {("spur-undercut-9-50", "zeta_root")}  # the mate's tip reaches beyond the base tangent point
+
+
+def spec_of(given: dict[str, Any]) -> dict[str, Any]:
+    """The design file of a case."""
+    spec = {"kind": "gear-pair"} | {key: given[key] for key in KEYS if key in given}
+    if "tip_shortening" in given and "tip_diameter" not in given:
+        spec["tip_shortening"] = "full" if given["tip_shortening"] else "none"
+    return spec
+
+
+def quantities(case: dict[str, Any]) -> list[tuple[str, str, float, Any]]:
+    """What a case expects: its own name, the quantity, a factor, value and tolerance."""
+    found = []
+    for name, expected in case["expected"].items():
+        if (case["name"], name) in WITHOUT_BOUND:
+            continue
+        quantity = name if name in PLAIN else NAMES.get(name) or DIAMETERS.get(name)
+        if quantity:
+            found.append((name, quantity, 2.0 if name in DIAMETERS else 1.0, expected))
+    return found
+
+
+@pytest.mark.parametrize("case", PAIRS, ids=lambda case: case["name"])
+def test_pair(case: dict[str, Any]) -> None:
+    pair = design(spec_of(case["input"]))
+    for name, quantity, factor, expected in quantities(case):
+        value, wanted = pair.quantity(quantity).value, expected["value"]
+        if isinstance(wanted, list):
+            got = [factor * each for each in value if each is not None][: len(wanted)]
+        else:
+            got = factor * value
+        assert got == pytest.approx(wanted, rel=0.0, abs=expected["tolerance"]), name
+
+
+@pytest.mark.parametrize(
+    "case", [case for case in PAIRS if "tip_fouling_angle" in case["expected"]], ids=lambda c: c["name"]
+)
+def test_internal_interference(case: dict[str, Any]) -> None:
+    internal = design(spec_of(case["input"])).data.internal
+    wanted = case["expected"]
+    assert internal.tip_fouling_angle == pytest.approx(wanted["tip_fouling_angle"]["value"], abs=1e-12)
+    assert internal.radial_assembly_angle == pytest.approx(wanted["trimming_angle"]["value"], abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("pinion", "shift", "fouling", "assembly"),
+    [
+        (49, -1.0, 0.0215, -math.inf),
+        (47, -0.4, 0.002985, -math.inf),
+        (46, -0.3, 0.002899, -0.03854),
+        (45, -0.2, 0.001613, -0.02997),
+        (44, -0.11, 0.0002132, -0.02611),
+        (43, -0.06, 0.0004113, -0.02215),
+    ],
+)
+def test_rings_that_are_published_as_free_but_not_to_be_assembled_radially(
+    pinion: int, shift: float, fouling: float, assembly: float
+) -> None:
+    pair = design({"kind": "gear-pair", "module": 1, "teeth": [pinion, -50], "profile_shift": [0, shift]})
+    internal = pair.data.internal
+    assert internal.tip_fouling_angle == pytest.approx(fouling, rel=1e-3)
+    assert internal.radial_assembly_angle == pytest.approx(assembly, rel=1e-3)
+    statuses = {found.name: found.status for found in pair.check("tip-fouling") + pair.check("radial-assembly")}
+    assert statuses == {"tip-fouling": "pass", "radial-assembly": "warn"}
+
+
+@pytest.mark.parametrize("case", SINGLE, ids=lambda case: case["name"])
+def test_gear_as_its_tool_cuts_it(case: dict[str, Any]) -> None:
+    given, wanted = case["input"], case["expected"]
+    root = RackCutRoot(
+        teeth=given["teeth"],
+        shift=given["profile_shift"],
+        tool=RackTool(**given["tool"]),
+        pressure_angle=math.radians(given["pressure_angle"]),
+        helix_angle=math.radians(given["helix_angle"]),
+    )
+    diameter = 2.0 * given["module"] * root.form_radius
+    assert diameter == pytest.approx(wanted["d_Ff"]["value"], abs=wanted["d_Ff"]["tolerance"])
+    assert root.min_shift == pytest.approx(wanted["x_Emin"]["value"], abs=wanted["x_Emin"]["tolerance"])
