@@ -100,7 +100,7 @@ def _opened(loaded: LoadedFile, command: str | None) -> Design:
     spec = named(validate(loaded, kind.spec_model()), "-" if loaded.file == _KEYWORDS else loaded.file)
     wanted = command or spec.commands()[0]
     require_command(loaded, kind, wanted)
-    made: Design = _placed(kind.design_class(wanted))(spec)
+    made: Design = _placed(kind.class_for(wanted, spec))(spec)
     vars(made).update(_loaded=loaded, _command=wanted)
     return made
 

@@ -47,6 +47,9 @@ class Options:
     quiet: bool = False
     profile: bool = False
     suggest: bool = False
+    save: Path | None = None
+    round: float | None = None
+    force: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,6 +90,11 @@ OPTIONS = {
     "quiet": Option(("--quiet", "-q"), "print no notes on standard error"),
     "profile": Option(("--profile",), "list on standard error what was computed and how long it took"),
     "suggest": Option(("--suggest",), "try the recommended changes and show the repaired design"),
+    "save": Option(
+        ("--save",), "write the complete design: what was found, with --suggest what was changed", Path, "FILE"
+    ),
+    "round": Option(("--round",), "of --save: step in mm of the lengths that were found", float, least=1e-6, most=100),
+    "force": Option(("--force",), "let --save overwrite a file"),
 }
 """The options that commands share, by the field of `Options` that keeps their value."""
 

@@ -82,6 +82,10 @@ def _value(option: Option, text: str) -> Any:
         raise ValueError(text)
     if option.least is None or option.most is None:
         return option.type(text)
+    if option.type is float:
+        if not option.least <= float(text) <= option.most:
+            raise ValueError(text)
+        return float(text)
     if not (text.isascii() and text.isdecimal() and option.least <= int(text) <= option.most):
         raise ValueError(text)
     return int(text)

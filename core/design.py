@@ -33,6 +33,18 @@ class Outline:
     tables: tuple[str, ...] = ()
 
 
+@dataclass(frozen=True, slots=True)
+class Found:
+    """What a design adds to its file so that it is complete: a key by its path, its value, and where that is from.
+
+    A value is in the units of design files; a dict is a section, None leaves a key out that is answered.
+    """
+
+    path: str
+    value: Any
+    why: str = ""
+
+
 def placed(path: str) -> Any:
     """A quantity whose value stands elsewhere on the design.
 
@@ -159,6 +171,10 @@ class Design:
         with step(f"{type(self).__name__}.{method}"):
             found: Check | Iterable[Check] = getattr(self, method)()
             return [found] if isinstance(found, Check) else list(found)
+
+    def found(self) -> Iterable[Found]:
+        """What completes the file: the links that a synthesis found in place of its task."""
+        return ()
 
     def suggestions(self) -> Sequence[Any]:
         """Changes of keys that would repair the design, each (path, value, why); a kind that has none gives none."""

@@ -29,8 +29,12 @@ class Kind:
 
     def design(self, command: str, spec: Any) -> Design:
         """The design of a spec, of the class that the command needs."""
-        design: Design = self.design_class(command)(spec)
+        design: Design = self.class_for(command, spec)(spec)
         return design
+
+    def class_for(self, command: str, spec: Any) -> Any:
+        """The class that serves a command on a spec: that of a synthesis where the file leaves its links to it."""
+        return self.design_class(spec.sized_by(command) or command)
 
     def design_class(self, command: str) -> Any:
         """The class that serves a command."""

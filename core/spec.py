@@ -38,6 +38,10 @@ class DesignSpec(Spec):
         json_schema_extra={"maxLength": MOST_NAME},
     )
 
+    def sized_by(self, _command: str) -> str:
+        """The synthesis that sizes the design before a command runs on it; empty where the file is complete for it."""
+        return ""
+
 
 Speed = Annotated[float, Field(ge=1e-6, le=1e6, json_schema_extra={"unit": "1/min"})]
 
@@ -87,7 +91,7 @@ class DrivenSpec(DesignSpec):
     """The keys of a kind whose input turns at an even speed."""
 
     input_speed: Speed | None = Field(
-        None, description="speed of the input; gives real speeds, accelerations and times besides the ratios"
+        None, description="speed of the input: with it real speeds, accelerations and times are given"
     )
 
 

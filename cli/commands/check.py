@@ -62,7 +62,7 @@ def _findings(loaded: LoadedFile, kind: Kind, spec: Any) -> Iterator[Finding]:
     designs: dict[Any, Design] = {}
     done: set[tuple[Any, str]] = set()
     for command in spec.commands():
-        cls = kind.design_class(command)
+        cls = kind.class_for(command, spec)
         try:
             design = designs.setdefault(cls, kind.design(command, spec))
             outline = design.outline(command)

@@ -16,7 +16,9 @@ from gearlink.cli.render.errors import show_errors
 from gearlink.core.errors import NoSolution
 
 if TYPE_CHECKING:
+    from gearlink.cli.reading.loaded_file import LoadedFile
     from gearlink.core.design import Design
+    from gearlink.core.kinds import Kind
     from gearlink.core.report import Report
 
 
@@ -39,23 +41,39 @@ def _untimed(_: str) -> AbstractContextManager[None]:
 
 def _run(command: str, source: str, options: Options, step: Callable[[str], AbstractContextManager[None]]) -> int:
     try:
+        _before(options)
         with step("read"):
             loaded, kind = open_design(source, options)
             require_command(loaded, kind, command)
         with step("validate"):
             spec = read_spec(loaded, kind, source)
         with step("load the formulas"):
-            kind.design_class(command)
+            kind.class_for(command, spec)
         with step("compute"):
             design, report = build(loaded, kind, command, spec, options)
         if options.plot:
             with step("draw"):
                 plot(command, design, options)
+        saved = ExitCode.OK if options.save is None else _save(loaded, kind, command, design, options)
     except (DesignFileError, CannotWrite, NoSolution) as error:
         return show_refusal(error, source, options)
     with step("print"):
         print_report(report, options)
-    return exit_status(report, strict=options.strict)
+    return max(saved, exit_status(report, strict=options.strict))
+
+
+def _before(options: Options) -> None:
+    """Refuse what `--save` cannot do before anything is computed."""
+    if options.save is not None or options.round is not None:
+        from gearlink.cli.commands.save import require_place
+
+        require_place(options)
+
+
+def _save(loaded: LoadedFile, kind: Kind, command: str, design: Design, options: Options) -> int:
+    from gearlink.cli.commands.save import save
+
+    return save(loaded, kind, command, design, options)
 
 
 def show_refusal(error: DesignFileError | CannotWrite | NoSolution, source: str, options: Options) -> int:

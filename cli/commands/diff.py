@@ -113,9 +113,9 @@ def _design_side(file: str, options: Options) -> Side:
     """A design file: its inputs with defaults filled in, and the results of the commands that it asks for."""
     loaded, kind = open_design(file, options)
     spec = validate(loaded, kind.spec_model())
-    designs = {cls: cls(spec) for cls in {kind.design_class(command) for command in spec.commands()}}
+    designs = {cls: cls(spec) for cls in {kind.class_for(command, spec) for command in spec.commands()}}
     try:
-        results = {c: as_plain(_report(designs[kind.design_class(c)], c)) for c in spec.commands()}
+        results = {c: as_plain(_report(designs[kind.class_for(c, spec)], c)) for c in spec.commands()}
     except NoSolution as error:
         raise DesignFileError([diagnose_no_solution(loaded, error)]) from error
     inputs = dict(_flat("", spec.model_dump(mode="json", by_alias=True)))

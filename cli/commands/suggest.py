@@ -12,7 +12,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gearlink.cli.commands.design import plot, print_report, show_refusal
+from gearlink.cli.commands.save import require_place, save
 from gearlink.cli.evaluate import build, exit_status, open_design, read_spec, require_command
+from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite
 from gearlink.cli.options import Format, Options
 from gearlink.cli.reading.diagnostics import DesignFileError
@@ -40,18 +42,22 @@ class Change:
 def run_suggested(command: str, source: str, options: Options) -> int:
     """Repair the design file `source` by its own suggestions, print changes and report, give its exit status."""
     changes: list[Change] = []
+    saved: int = ExitCode.OK
     try:
+        require_place(options)
         loaded, kind = open_design(source, options)
         require_command(loaded, kind, command)
         spec, changes = repair(kind, command, read_spec(loaded, kind, source))
         design, report = build(loaded, kind, command, spec, options)
         if options.plot:
             plot(command, design, options)
+        if options.save is not None:
+            saved = save(loaded, kind, command, design, options, changes)
     except (DesignFileError, CannotWrite, NoSolution) as error:
         _print_refused(changes, options)
         return show_refusal(error, source, options)
     _print(changes, report, options)
-    return exit_status(report, strict=options.strict)
+    return max(saved, exit_status(report, strict=options.strict))
 
 
 def repair(kind: Kind, command: str, spec: Any) -> tuple[Any, list[Change]]:

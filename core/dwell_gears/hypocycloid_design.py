@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.clearance.bodies import Layout
 from gearlink.core.clearance.checks import SHAFT_WAYS, shaft_checks
-from gearlink.core.design import Outline, placed
+from gearlink.core.design import Found, Outline, placed
 from gearlink.core.dwell_gears import hypocycloid, hypocycloid_rod
 from gearlink.core.dwell_gears.bodies import hypocycloid_layout
 from gearlink.core.dwell_gears.codes import DWELL_QUALITY
@@ -167,6 +167,13 @@ class HypocycloidDwell(RealSpeed, SingleMesh):
                 return hypocycloid_rod.widest_dwell(self.point_radius, self.cusps, tolerance)
         with at_key("dwell.angle"):
             return hypocycloid_rod.least_ripple(self.point_radius, self.cusps, self.dwell_carrier_angle)
+
+    def found(self) -> Iterator[Found]:
+        """The rod in place of the target or the rule."""
+        if self.spec.rod is None or self.spec.rod.rule is not None:
+            yield Found("rod.length", self.rod_length, "found for target" if self.spec.target else "found by rod.rule")
+            yield Found("rod.rule", None)
+            yield Found("target", None)
 
     # Motion
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.clearance.bodies import Layout
 from gearlink.core.clearance.checks import SHAFT_WAYS, shaft_checks
-from gearlink.core.design import Outline, placed
+from gearlink.core.design import Found, Outline, placed
 from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, gear_ways
 from gearlink.core.gears.pair import GearPair
@@ -92,6 +92,12 @@ class GearedRocker(RealSpeed, SingleMesh):
     def trials(self) -> int:
         """A crank that is sought for a swing takes nearly a tenth of a second each time."""
         return 150 if self.spec.target is None else 10
+
+    def found(self) -> Iterator[Found]:
+        """The crank in place of the target."""
+        if self.spec.target is not None:
+            yield Found("links.crank", self.crank_length, "found for target.swing")
+            yield Found("target", None)
 
     # Gears and links
 

@@ -112,6 +112,11 @@ class TwoGearFourBarSpec(DrivenSpec):
         }
         return tuple(command for command, wanted in asked.items() if wanted)
 
+    def sized_by(self, command: str) -> str:
+        """The one synthesis of the file, where it leaves the frame to it."""
+        asked = self._syntheses()
+        return asked[0] if command == "analyze" and self.links.frame is None and len(asked) == 1 else ""
+
     def commands(self) -> tuple[str, ...]:
         """What the file asks for."""
         loads = ("loads",) if self.loads is not None and self.links.frame is not None else ()

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
-from gearlink.core.design import Outline
+from gearlink.core.design import Found, Outline
 from gearlink.core.errors import MissingSection, NoSolution, at_key
 from gearlink.core.linkages.band_dwell import ToleranceDwell
 from gearlink.core.linkages.checks import dwell_edge_check, dwell_window_check, target_check
@@ -30,12 +30,23 @@ _DWELL = (
 )
 
 
+def with_analysis(synthesis: str, outline: Outline) -> dict[str, Outline]:
+    """What a synthesis shows: its own outline, the analysis of what it finds, and its gears."""
+    return {synthesis: outline, "analyze": outline, "gear": TwoGearFourBar.outlines["gear"]}
+
+
 class Synthesis(TwoGearFourBar):
     """What the syntheses share: gears, coupler and rocker are given, the frame is sought."""
 
     def sought_frame(self) -> float:
         """The frame [mm] that meets the task."""
         raise NotImplementedError
+
+    def found(self) -> Iterator[Found]:
+        """The frame in place of the task."""
+        synthesis = next(command for command in self.outlines if command.startswith("synth"))
+        yield Found("links.frame", self.frame_length, f"found by {synthesis}")
+        yield from (Found(section, None) for section in ("dwell", "back_step"))
 
     @property
     def trials(self) -> int:
@@ -66,7 +77,7 @@ class Synthesis(TwoGearFourBar):
 class MomentaryDwellSynthesis(Synthesis):
     """`synth momentary-dwell`: nothing else is given; the frame follows in closed form."""
 
-    outlines = {"synth momentary-dwell": Outline(QUANTITIES, CHECKS, ("motion",))}
+    outlines = with_analysis("synth momentary-dwell", Outline(QUANTITIES, CHECKS, ("motion",)))
 
     def sought_frame(self) -> float:
         """The double root of the standstills' equation."""
@@ -76,7 +87,7 @@ class MomentaryDwellSynthesis(Synthesis):
 class BackStepSynthesis(Synthesis):
     """`synth back-step`: the back-step of the output is given."""
 
-    outlines = {"synth back-step": Outline(QUANTITIES, ("target", *CHECKS), ("motion",))}
+    outlines = with_analysis("synth back-step", Outline(QUANTITIES, ("target", *CHECKS), ("motion",)))
 
     @property
     def _wish(self) -> float:
@@ -97,7 +108,9 @@ class BackStepSynthesis(Synthesis):
 class DwellSynthesis(Synthesis):
     """`synth dwell`: a window, a tolerance, or both are given."""
 
-    outlines = {"synth dwell": Outline((*QUANTITIES, *_DWELL), ("dwell-window", "dwell-edge", *CHECKS), ("motion",))}
+    outlines = with_analysis(
+        "synth dwell", Outline((*QUANTITIES, *_DWELL), ("dwell-window", "dwell-edge", *CHECKS), ("motion",))
+    )
 
     # The wish
 

@@ -10,9 +10,9 @@ from gearlink.core.clearance.bodies import Layout
 from gearlink.core.clearance.checks import SHAFT_WAYS, collision_check, shaft_checks
 from gearlink.core.design import Design, Outline, placed
 from gearlink.core.errors import MissingSection, at_key
-from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, gear_check, gear_quantity, gear_ways
+from gearlink.core.gears.checks import GEAR_CHECKS, gear_check, gear_quantity, gear_ways
 from gearlink.core.gears.pair import GearPair
-from gearlink.core.linkages.checks import check_linkage, transmission_check
+from gearlink.core.linkages.checks import check_linkage, dwell_window_check, transmission_check
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.linkages.standstills import BackStep
 from gearlink.core.linkages.swing import rocker_swing
@@ -25,62 +25,12 @@ from gearlink.core.three_gear.codes import ACHIEVED, DWELL_TOLERANCE
 from gearlink.core.three_gear.idler_choice import idler_for_ratio
 from gearlink.core.three_gear.momentary_dwell import crank_with_room
 from gearlink.core.three_gear.motion import Extremes, GearTrain
+from gearlink.core.three_gear.names import CHECKS, MESH_QUANTITIES, MESHES, QUANTITIES
 
 if TYPE_CHECKING:
     from gearlink.core.linkages.band_dwell import ToleranceDwell
     from gearlink.core.three_gear.spec import ThreeGearSpec
 
-QUANTITIES = (
-    "i3",
-    "crank_teeth",
-    "idler_teeth",
-    "output_teeth",
-    "frame_ratio",
-    "crank_length",
-    "coupler_length",
-    "rocker_length",
-    "frame_length",
-    "mean_ratio",
-    "speed_ratio_max",
-    "speed_ratio_min",
-    "motion",
-    "dwell_crank_angles",
-    "back_step_angle",
-    "back_step_crank_angle",
-    "dwell_angle",
-    "dwell_angle_approximate",
-    "min_transmission_angle",
-    "gear_gap",
-    "nonuniformity",
-    "speed_ratio_max_at",
-    "speed_ratio_min_at",
-    "acceleration_ratio_max",
-    "acceleration_ratio_max_at",
-    "acceleration_ratio_min",
-    "acceleration_ratio_min_at",
-    "rocker_swing",
-    "tolerance_dwell_angle",
-    "tolerance_dwell_start",
-    "input_speed",
-    "turn_time",
-    "output_speed_max",
-    "output_speed_min",
-    "output_acceleration_max",
-    "output_acceleration_min",
-    "back_step_time",
-    "dwell_time",
-    "tolerance_dwell_time",
-)
-CHECKS = (
-    "gear-collision",
-    "shaft-clearance",
-    "transmission-angle",
-    "rounded-ratio",
-    "dwell-tolerance",
-    *GEAR_CHECKS,
-)
-MESHES = ("crank_idler", "idler_output")
-_MESH_QUANTITIES = tuple(f"{mesh}.{name}" for mesh in MESHES for name in GEAR_QUANTITIES)
 _TEETH = (
     up("gears.crank", "gears.output", step=1),
     *(up(f"gears.{gear}", step=1) for gear in ("crank", "idler", "output")),
@@ -112,8 +62,8 @@ class ThreeGearFourBar(RealSpeed, Design):
     kind = "three-gear-four-bar"
     spec: ThreeGearSpec
     outlines = {
-        "analyze": Outline(QUANTITIES, CHECKS, ("motion",)),
-        "gear": Outline(_MESH_QUANTITIES, GEAR_CHECKS),
+        "analyze": Outline(QUANTITIES, ("dwell-window", *CHECKS), ("motion",)),
+        "gear": Outline(MESH_QUANTITIES, GEAR_CHECKS),
     }
     extra_tables = ("motion",)
     ways = WAYS
@@ -133,9 +83,15 @@ class ThreeGearFourBar(RealSpeed, Design):
 
     def chosen_idler(self) -> int:
         """Teeth of an idler that the file leaves out; only a synthesis can choose one."""
-        asked = [f"`{command}`" for command in self.spec.commands() if command.startswith("synth")]
-        chooses = f"; {' or '.join(asked)} chooses the idler of this file" if asked else ""
-        raise MissingSection(f"this command needs gears.idler (teeth) or gears.i3{chooses}", key="gears.idler")
+        raise MissingSection(f"this command needs gears.idler (teeth) or gears.i3{self._sought()}", key="gears.idler")
+
+    def _sought(self) -> str:
+        """Who finds what the file leaves out."""
+        asked = [f"`{command}`" for command in self.spec.syntheses()]
+        if not asked:
+            return "; a section dwell, back_step, speed or momentary would have it found"
+        several = ": leave all but one of their sections out" if len(asked) > 1 else ""
+        return f"; {' or '.join(asked)} finds it{several}"
 
     crank_teeth: int = placed("spec.gears.crank")
     output_teeth: int = placed("spec.gears.output")
@@ -162,7 +118,9 @@ class ThreeGearFourBar(RealSpeed, Design):
         """The four-bar; coupler and rocker are the gears' centre distances."""
         links = self.spec.links
         if links is None:
-            raise MissingSection("`analyze` needs the section links: {crank: mm, frame: mm}", key="links")
+            raise MissingSection(
+                f"`analyze` needs the section links: {{crank: mm, frame: mm}}{self._sought()}", key="links"
+            )
         linkage = FourBar(links.crank, self.coupler_length, self.rocker_length, links.frame, self.spec.assembly)
         with at_key("links"):
             check_linkage(linkage)
@@ -371,6 +329,14 @@ class ThreeGearFourBar(RealSpeed, Design):
         """GL303."""
         remedy = "shorten the crank or take a larger idler"
         return transmission_check(self.min_transmission_angle, self.spec.limits.transmission_angle, remedy)
+
+    def check_dwell_window(self) -> Iterator[Check]:
+        """GL313 where the file asks for a window: an output that never leaves the band has one of a whole turn."""
+        asked, tolerance = self.spec.dwell_window, self.output_tolerance
+        if asked is not None and tolerance is not None:
+            dwell = self.tolerance_dwell
+            reached = 2.0 * math.pi if dwell is None else dwell.crank_angle
+            yield dwell_window_check(reached, math.radians(asked), tolerance)
 
     def check_dwell_tolerance(self) -> Iterator[Check]:
         """GL317 where the file gives a tolerance or a play."""

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
-from gearlink.core.design import Outline
+from gearlink.core.design import Found, Outline
 from gearlink.core.errors import MissingSection, NoSolution, at_key
 from gearlink.core.linkages.band_dwell import ToleranceDwell
 from gearlink.core.linkages.checks import dwell_edge_check, dwell_window_check
@@ -16,7 +16,6 @@ from gearlink.core.report import Check, safely_below
 from gearlink.core.results import cached_property
 from gearlink.core.three_gear import symmetric_back_step, window_dwell
 from gearlink.core.three_gear.codes import BACK_STEP
-from gearlink.core.three_gear.design import CHECKS, QUANTITIES
 from gearlink.core.three_gear.families import (
     Family,
     back_step_of,
@@ -29,7 +28,8 @@ from gearlink.core.three_gear.families import (
 from gearlink.core.three_gear.idler_choice import LEAST_IDLER
 from gearlink.core.three_gear.momentary_dwell import wrap
 from gearlink.core.three_gear.motion import GearTrain, output_angle
-from gearlink.core.three_gear.synthesis import BackStepFamily
+from gearlink.core.three_gear.names import CHECKS, QUANTITIES
+from gearlink.core.three_gear.synthesis import BackStepFamily, with_analysis
 from gearlink.core.three_gear.tolerance_dwell import tolerance_dwell
 
 _MARGIN = 0.01
@@ -48,7 +48,9 @@ class DwellSynthesis(BackStepFamily):
     """`synth dwell`: phi13 is given, or a window, a tolerance, or both."""
 
     task = "dwell"
-    outlines = {"synth dwell": Outline((*QUANTITIES, *_DWELL), ("dwell-window", "dwell-edge", "back-step", *CHECKS))}
+    outlines = with_analysis(
+        "synth dwell", Outline((*QUANTITIES, *_DWELL), ("dwell-window", "dwell-edge", "back-step", *CHECKS))
+    )
 
     # The wish
 
@@ -79,6 +81,14 @@ class DwellSynthesis(BackStepFamily):
         gears, wish = self.spec.gears, self.spec.dwell
         unequal = wish is not None and wish.angle is None and gears.crank != gears.output
         return unequal or super().general
+
+    def found(self) -> Iterator[Found]:
+        """The tolerance besides the links, so that an analysis measures the dwell by it."""
+        yield from super().found()
+        if self._wish.tolerance is not None:
+            yield Found("dwell_tolerance", float(self._wish.tolerance), "from dwell.tolerance")
+        if self._wish.window is not None and self._band is not None:
+            yield Found("dwell_window", float(self._wish.window), "from dwell.window")
 
     def _key(self) -> str:
         return "dwell.tolerance" if self._wish.window is None else "dwell.window"

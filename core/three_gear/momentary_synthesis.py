@@ -7,7 +7,6 @@ from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.report import safely_below
 from gearlink.core.results import cached_property
-from gearlink.core.three_gear.design import CHECKS, QUANTITIES
 from gearlink.core.three_gear.idler_choice import LEAST_IDLER
 from gearlink.core.three_gear.momentary_dwell import (
     balanced_eccentricity,
@@ -17,13 +16,14 @@ from gearlink.core.three_gear.momentary_dwell import (
     momentary_crank_angle,
     momentary_linkage,
 )
-from gearlink.core.three_gear.synthesis import Synthesis
+from gearlink.core.three_gear.names import CHECKS, QUANTITIES
+from gearlink.core.three_gear.synthesis import Synthesis, with_analysis
 
 
 class MomentaryDwellSynthesis(Synthesis):
     """`synth momentary-dwell`: any three gears and one length are given, the other is sought."""
 
-    outlines = {"synth momentary-dwell": Outline(QUANTITIES, CHECKS)}
+    outlines = with_analysis("synth momentary-dwell", Outline(QUANTITIES, CHECKS))
 
     def _crank_of(self, idler: int) -> float:
         """Crank length as given, or from the frame, the gap or the balance that is."""

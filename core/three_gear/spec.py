@@ -147,6 +147,9 @@ class ThreeGearSpec(DrivenSpec):
     dwell_tolerance: Annotated[float, Field(gt=0, json_schema_extra={"unit": "deg"})] | None = Field(
         None, description="output tolerance +- for the tolerance dwell"
     )
+    dwell_window: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
+        None, description="crank angle over which the output must stay within that tolerance"
+    )
     dwell_backlash: Length | None = Field(
         None, description="play at the output gear's reference circle, in place of dwell_tolerance"
     )
@@ -165,6 +168,9 @@ class ThreeGearSpec(DrivenSpec):
         if self.dwell is not None and self.dwell.tolerance is not None and self.dwell_tolerance is not None:
             message = "dwell_tolerance and dwell.tolerance are the same wish: give one"
             raise PydanticCustomError("GL111", message, {"key": "dwell_tolerance"})
+        if self.dwell_window is not None and self.dwell_tolerance is None and self.dwell_backlash is None:
+            message = "dwell_window goes with dwell_tolerance or dwell_backlash: give one of them"
+            raise PydanticCustomError("GL111", message, {"key": "dwell_window"})
         return self
 
     @model_validator(mode="after")
@@ -175,14 +181,25 @@ class ThreeGearSpec(DrivenSpec):
             raise PydanticCustomError("GL111", "{wrong}", {"key": "input_speed", "wrong": wrong})
         return self
 
-    def commands(self) -> tuple[str, ...]:
-        """What the file asks for: a synthesis per section, an analysis where the links are given."""
+    def syntheses(self) -> tuple[str, ...]:
+        """The syntheses that the file has a section for."""
         asked = {
             "synth dwell": self.dwell,
             "synth back-step": self.back_step,
             "synth variable-speed": self.speed,
             "synth momentary-dwell": self.momentary,
-            "analyze": self.links,
-            "loads": self.loads if self.links is not None else None,
         }
-        return tuple(command for command, section in asked.items() if section is not None) or ("analyze",)
+        return tuple(command for command, section in asked.items() if section is not None)
+
+    def commands(self) -> tuple[str, ...]:
+        """What the file asks for: a synthesis per section, an analysis where the links are given."""
+        asked = {"analyze": self.links, "loads": self.loads if self.links is not None else None}
+        analysis = [command for command, section in asked.items() if section is not None]
+        return (*self.syntheses(), *analysis) or ("analyze",)
+
+    def sized_by(self, command: str) -> str:
+        """The one synthesis of the file, where it leaves out what an analysis or the gears need."""
+        needs_links = command == "analyze" and self.links is None
+        needs_idler = command == "gear" and self.gears.idler is None and self.gears.i3 is None
+        asked = self.syntheses()
+        return asked[0] if (needs_links or needs_idler) and len(asked) == 1 else ""

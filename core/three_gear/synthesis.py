@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
-from gearlink.core.design import Outline
+from gearlink.core.design import Found, Outline
 from gearlink.core.errors import MissingSection, NoSolution, at_key
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.linkages.standstills import BackStep
@@ -18,7 +19,7 @@ from gearlink.core.three_gear import dwells, symmetric_back_step
 from gearlink.core.three_gear import symmetric_family as family
 from gearlink.core.three_gear.bodies import layout
 from gearlink.core.three_gear.codes import ACHIEVED
-from gearlink.core.three_gear.design import CHECKS, QUANTITIES, ThreeGearFourBar
+from gearlink.core.three_gear.design import ThreeGearFourBar
 from gearlink.core.three_gear.families import (
     Family,
     back_step_crank_angle_of,
@@ -31,9 +32,16 @@ from gearlink.core.three_gear.families import (
 )
 from gearlink.core.three_gear.idler_choice import GREATEST_IDLER, LEAST_IDLER, idler_for_ratio, smallest_idler
 from gearlink.core.three_gear.motion import Extremes, GearTrain, gear_gap
+from gearlink.core.three_gear.names import CHECKS, QUANTITIES
 
+_GEARS = ThreeGearFourBar.outlines["gear"]
 _STANDSTILL = 1.5 * math.pi
 _TURN = 2.0 * math.pi
+
+
+def with_analysis(synthesis: str, outline: Outline) -> dict[str, Outline]:
+    """What a synthesis shows: its own outline, the analysis of what it finds, and its gears."""
+    return {synthesis: outline, "analyze": replace(outline, tables=("motion",)), "gear": _GEARS}
 
 
 class Synthesis(ThreeGearFourBar):
@@ -53,6 +61,19 @@ class Synthesis(ThreeGearFourBar):
     def _radii(self, idler: int) -> tuple[float, float, float]:
         gears = self.spec.gears
         return tuple(gears.module * teeth / 2.0 for teeth in (gears.crank, idler, gears.output))  # type: ignore[return-value]
+
+    def found(self) -> Iterator[Found]:
+        """Idler and links in place of the tasks."""
+        by, gears = f"found by {self._synthesis}", self.spec.gears
+        if gears.idler is None:
+            yield Found("gears.idler", self.idler_teeth, by)
+        yield Found("gears.i3", None)
+        yield Found("links", {"crank": self.crank_length, "frame": self.frame_length}, by)
+        yield from (Found(section, None) for section in ("dwell", "back_step", "speed", "momentary"))
+
+    @property
+    def _synthesis(self) -> str:
+        return next(command for command in self.outlines if command.startswith("synth"))
 
     def chosen_idler(self) -> int:
         """The smallest idler that keeps transmission angle and gear gap."""
@@ -261,7 +282,7 @@ class BackStepSynthesis(BackStepFamily):
     """`synth back-step`: back-step of the output, crank angle phi12, or both are given."""
 
     task = "back_step"
-    outlines = {"synth back-step": Outline(QUANTITIES, ("back-step-target", *CHECKS))}
+    outlines = with_analysis("synth back-step", Outline(QUANTITIES, ("back-step-target", *CHECKS)))
 
     def in_family(self, family: Family, train: GearTrain) -> FourBar:
         """One of back-step and crank angle, met by the root of the one unknown."""
@@ -314,7 +335,7 @@ class VariableSpeedSynthesis(SymmetricSynthesis):
     """`synth variable-speed`: the output speed swings between two values, the input turns at their mean."""
 
     task = "speed"
-    outlines = {"synth variable-speed": Outline(QUANTITIES, CHECKS)}
+    outlines = with_analysis("synth variable-speed", Outline(QUANTITIES, CHECKS))
 
     def in_family(self, family: Family, train: GearTrain) -> FourBar:
         """W_min/W_max = min/max, met by the root of the one unknown."""
@@ -338,6 +359,11 @@ class VariableSpeedSynthesis(SymmetricSynthesis):
         speed = self.section("speed", "min, max (rev/min)")
         with at_key("speed.max" if speed.max <= speed.min else "speed.min"):
             return family.frame_ratio_for_speed_band(i3, speed.min, speed.max)
+
+    def found(self) -> Iterator[Found]:
+        """The input speed besides the links."""
+        yield from super().found()
+        yield Found("input_speed", self.input_speed, "found by synth variable-speed")
 
     def depends_on_idler(self, _refusal: NoSolution) -> bool:
         """A wrong band is wrong with every idler."""

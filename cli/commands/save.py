@@ -1,0 +1,162 @@
+"""`--save FILE`: the design of a command as a complete file, with what was found and where each number is from."""
+
+from __future__ import annotations
+
+import math
+import sys
+from collections.abc import Iterable, Mapping, Sequence
+from typing import IO, TYPE_CHECKING, Any
+
+from gearlink.cli.exit_codes import ExitCode
+from gearlink.cli.files import CannotWrite, stem_of, write_atomically
+from gearlink.cli.reading.design_file import parse, validate
+from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
+from gearlink.cli.texts.spec_keys import spec_keys
+from gearlink.cli.texts.written_design import flow, written
+from gearlink.core.version import VERSION
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from gearlink.cli.commands.suggest import Change
+    from gearlink.cli.options import Options
+    from gearlink.cli.reading.loaded_file import LoadedFile
+    from gearlink.core.design import Design
+    from gearlink.core.kinds import Kind
+    from gearlink.core.report import Check
+
+_KEY_ORDER = ("kind", "name", "input_speed")
+
+
+def require_place(options: Options) -> None:
+    """Refuse before anything is computed a file that is there and may not be overwritten.
+
+    Raises
+        CannotWrite
+        DesignFileError - GL115 for `--round` without `--save`
+    """
+    if options.round is not None and options.save is None:
+        raise DesignFileError(
+            [Diagnostic("GL115", "--round goes with --save FILE", file="<command line>", key="--round")]
+        )
+    if options.save is not None and options.save.exists() and not options.force:
+        raise CannotWrite(f"{options.save} is there already: give another --save, or --force to overwrite it")
+
+
+def save(
+    loaded: LoadedFile, kind: Kind, command: str, design: Design, options: Options, changes: Sequence[Change] = ()
+) -> int:
+    """Write the design to the file of the options, say so, and give the exit status of what was written.
+
+    Raises
+        CannotWrite - where the file is there already, or the disk does not take it
+    """
+    assert options.save is not None
+    text = complete(loaded, kind, command, design, options.save, options.round, changes)
+    spec = validate(parse(text.encode(), str(options.save)), kind.spec_model())
+    write_atomically(options.save, lambda stream: _write(stream, text))
+    again = "analyze" if "analyze" in kind.commands else command
+    if not options.quiet:
+        print(f"wrote {options.save}; try: gearlink {again} {options.save}", file=sys.stderr)
+    if options.round is None:
+        return ExitCode.OK
+    worse = [check for check in _failing(kind, again, spec) if check.code not in _codes(design, command)]
+    for check in worse:
+        print(f"rounded to {options.round:g} mm it fails {check.code} {check.name}: {check.message}", file=sys.stderr)
+    return ExitCode.FINDING if worse else ExitCode.OK
+
+
+def _write(stream: IO[bytes], text: str) -> None:
+    stream.write(text.encode())
+
+
+def _failing(kind: Kind, command: str, spec: Any) -> list[Check]:
+    report = kind.design(command, spec).report(command, findings_only=True)
+    return [check for check in report.checks if check.status == "fail"]
+
+
+def _codes(design: Design, command: str) -> set[str]:
+    return {check.code for check in design.report(command, findings_only=True).checks if check.status == "fail"}
+
+
+def complete(
+    loaded: LoadedFile,
+    kind: Kind,
+    command: str,
+    design: Design,
+    file: Path,
+    step: float | None,
+    changes: Iterable[Change] = (),
+) -> str:
+    """The text of the complete design.
+
+    Parameters
+        command : str - that was run on the file
+        step : float [mm] or None - to which the lengths that were found are rounded
+        changes : that `--suggest` made
+    """
+    data = _ordered(design.spec.model_dump(mode="json", exclude_unset=True, by_alias=True), loaded.data)
+    notes = {".".join(map(str, o.path)): "from --set" for o in loaded.overrides}
+    notes |= {change.path: f"was {_shown(change.old)}: --suggest" for change in changes if change.new is not None}
+    left_out, units = [], {key.path: key.unit for key in spec_keys(kind)}
+    for found in design.found():
+        if found.value is None:
+            left_out += [(found.path, old)] if (old := _at(data, found.path)) is not None else []
+            _put(data, found.path, None)
+            continue
+        value, words = _rounded(found.value, found.path, units, step)
+        notes |= {path: "; ".join(w for w in (found.why, word) if w) for path, word in words.items()}
+        _put(data, found.path, value)
+    data["name"] = stem_of(file) if "name" not in loaded.data else data["name"]
+    head = [f"{data['name']}: `gearlink {command} {loaded.file}` (gearlink {VERSION})"]
+    head += [f"asked for: {path}: {flow(value)}" for path, value in left_out]
+    return written(kind, _ordered(data, dict.fromkeys(_KEY_ORDER) | dict(_with_links(loaded.data))), head, notes)
+
+
+def _with_links(order: Mapping[str, Any]) -> Iterable[tuple[str, Any]]:
+    """The order of a file's keys, with `links` behind `gears` where it has none."""
+    for key, value in order.items():
+        yield key, value
+        if key == "gears" and "links" not in order:
+            yield "links", {}
+
+
+def _rounded(value: Any, path: str, units: Mapping[str, str], step: float | None) -> tuple[Any, dict[str, str]]:
+    """A value, or a section of values, with its lengths rounded; and what is to be said of the rounding, by path."""
+    if isinstance(value, Mapping):
+        parts = {key: _rounded(inner, f"{path}.{key}", units, step) for key, inner in value.items()}
+        return {key: part for key, (part, _) in parts.items()}, {
+            p: w for _, words in parts.values() for p, w in words.items()
+        }
+    if step is None or units.get(path) != "mm" or not isinstance(value, float):
+        return value, {path: ""}
+    digits = max(0, 1 - math.floor(math.log10(step)))
+    return round(round(value / step) * step, digits), {path: f"{value:.10g} rounded to {step:g} mm"}
+
+
+def _ordered(data: Mapping[str, Any], order: Mapping[str, Any]) -> dict[str, Any]:
+    """The data with its keys in the order of another, what that does not have behind."""
+    keys = [key for key in order if key in data] + [key for key in data if key not in order]
+    return {
+        key: _ordered(data[key], order[key])
+        if isinstance(data[key], dict) and isinstance(order.get(key), dict)
+        else data[key]
+        for key in keys
+    }
+
+
+def _at(data: Any, path: str) -> Any:
+    for step in path.split("."):
+        data = data.get(step) if isinstance(data, dict) else None
+    return data
+
+
+def _put(data: dict[str, Any], path: str, value: Any) -> None:
+    *sections, last = path.split(".")
+    for step in sections:
+        data = data.setdefault(step, {})
+    data[last] = value
+
+
+def _shown(value: Any) -> str:
+    return "left out" if value is None else flow(value)

@@ -1,0 +1,57 @@
+"""What an analysis of the three-gear four-bar shows, by name."""
+
+from __future__ import annotations
+
+from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES
+
+QUANTITIES = (
+    "i3",
+    "crank_teeth",
+    "idler_teeth",
+    "output_teeth",
+    "frame_ratio",
+    "crank_length",
+    "coupler_length",
+    "rocker_length",
+    "frame_length",
+    "mean_ratio",
+    "speed_ratio_max",
+    "speed_ratio_min",
+    "motion",
+    "dwell_crank_angles",
+    "back_step_angle",
+    "back_step_crank_angle",
+    "dwell_angle",
+    "dwell_angle_approximate",
+    "min_transmission_angle",
+    "gear_gap",
+    "nonuniformity",
+    "speed_ratio_max_at",
+    "speed_ratio_min_at",
+    "acceleration_ratio_max",
+    "acceleration_ratio_max_at",
+    "acceleration_ratio_min",
+    "acceleration_ratio_min_at",
+    "rocker_swing",
+    "tolerance_dwell_angle",
+    "tolerance_dwell_start",
+    "input_speed",
+    "turn_time",
+    "output_speed_max",
+    "output_speed_min",
+    "output_acceleration_max",
+    "output_acceleration_min",
+    "back_step_time",
+    "dwell_time",
+    "tolerance_dwell_time",
+)
+CHECKS = (
+    "gear-collision",
+    "shaft-clearance",
+    "transmission-angle",
+    "rounded-ratio",
+    "dwell-tolerance",
+    *GEAR_CHECKS,
+)
+MESHES = ("crank_idler", "idler_output")
+MESH_QUANTITIES = tuple(f"{mesh}.{name}" for mesh in MESHES for name in GEAR_QUANTITIES)

@@ -1,0 +1,139 @@
+"""`--save`: the design of a command as a complete file. What is written in full is read back bit for bit."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from factory import DESIGNS
+
+from gearlink.cli.reading.design_file import load, validate
+from gearlink.core.kinds import KINDS
+
+# what is a complete design as it stands, of every kind
+FILES = [DESIGNS / f"{name}.yaml" for name in (
+    "five_bar_path", "mutilated_gear_press", "six_bar_two_trains", "swing_gripper", "thesis_example_3_as_printed",
+    "ty460", "ty460_input_gears", "ty460_slider_crank", "two_gear_drag_link", "wide_swing_oscillating_cam",
+    "wide_swing_slider", "wide_swing_twin_cam", "wide_swing_twin_rocker",
+)]  # fmt: skip
+SYNTHESES = [
+    ("synth dwell", "standing_feed", "frame_length"),
+    ("synth dwell", "candy_feed", "dwell_angle"),
+    ("synth back-step", "thesis_example_1", "back_step_angle"),
+    ("synth variable-speed", "thesis_example_2", "speed_ratio_max"),
+    ("synth momentary-dwell", "thesis_example_3_mended", "frame_length"),
+    ("synth dwell", "two_gear_standing", "back_step_angle"),
+    ("analyze", "wide_lever", "output_swing"),
+    ("analyze", "hypocycloid_slider", "stroke"),
+]
+
+
+def spec_of(path: Path) -> Any:
+    loaded = load(str(path))
+    return validate(loaded, KINDS[loaded.data["kind"]].spec_model())
+
+
+@pytest.mark.parametrize(("command", "name", "quantity"), SYNTHESES)
+def test_what_a_synthesis_found_is_analysed_without_copying(
+    gearlink: Any, tmp_path: Path, command: str, name: str, quantity: str
+) -> None:
+    path = tmp_path / "full.yaml"
+    sized = gearlink(*command.split(), DESIGNS / f"{name}.yaml", "--save", path, "--format", "json")
+    assert sized.status == 0, sized.err
+    assert f"wrote {path}; try: gearlink analyze {path}" in sized.err
+    found = gearlink("analyze", path, "--format", "json")
+    assert found.status == 0, found.out
+    before, after = json.loads(sized.out)["quantities"], json.loads(found.out)["quantities"]
+    assert after["motion"] == before["motion"] if "motion" in before else True
+    assert after[quantity]["value"] == pytest.approx(before[quantity]["value"], rel=1e-9)
+    assert not spec_of(path).sized_by("analyze")
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
+def test_a_design_without_a_task_is_written_as_it_is(gearlink: Any, tmp_path: Path, file: Path) -> None:
+    spec, path = spec_of(file), tmp_path / "copy.yaml"
+    gearlink(*spec.commands()[0].split(), file, "--save", path, "--quiet")
+    assert spec_of(path) == spec
+
+
+def test_comments_name_unit_meaning_source_and_rounding(gearlink: Any, tmp_path: Path) -> None:
+    path = tmp_path / "full.yaml"
+    line = ["synth", "dwell", DESIGNS / "standing_feed.yaml", "--set", "limits.transmission_angle=45", "--save", path]
+    assert gearlink(*line, "--round", "0.01").status == 0
+    text = path.read_text()
+    assert text.startswith("# standing-feed: `gearlink synth dwell ")
+    assert "# asked for: dwell: {window: 70, tolerance: 0.5}" in text
+    assert "frame: 114.85" in text
+    assert "# mm: frame AD; found by synth dwell; 114.8527195 rounded to 0.01 mm" in text
+    assert "# mm: module of all three gears; yours to choose" in text
+    assert "# deg: least transmission angle; from --set" in text
+    assert spec_of(path).links.frame == 114.85
+
+
+def test_a_rounding_that_breaks_a_check_is_said(gearlink: Any, tmp_path: Path) -> None:
+    path = tmp_path / "full.yaml"
+    ended = gearlink("synth", "dwell", DESIGNS / "standing_feed.yaml", "--save", path, "--round", "1")
+    assert ended.status == 1
+    assert "rounded to 1 mm it fails GL313 dwell-window: the output stays within +-0.5 deg over 6" in ended.err
+    assert gearlink("analyze", path).status == 1
+
+
+def test_suggest_saves_the_repaired_design(gearlink: Any, tmp_path: Path) -> None:
+    path = tmp_path / "repaired.yaml"
+    ended = gearlink("analyze", DESIGNS / "thesis_example_3_as_printed.yaml", "--suggest", "--save", path)
+    assert ended.status == 0
+    assert "was 121.4: --suggest" in path.read_text()
+    assert gearlink("analyze", path, "--quiet").status == 0
+
+
+def test_an_existing_file_is_kept_without_force(gearlink: Any, tmp_path: Path) -> None:
+    path = tmp_path / "mine.yaml"
+    path.write_text("my work")
+    line = ["crank", DESIGNS / "ty460_slider_crank.yaml", "--save", path]
+    for extra in ([], ["--suggest"]):
+        ended = gearlink(*line, *extra)
+        assert ended.status == 2
+        assert "--force" in ended.err
+        assert path.read_text() == "my work"
+    assert gearlink(*line, "--force").status == 0
+    assert "stroke: 310" in path.read_text()
+
+
+def test_a_design_without_a_name_is_named_after_the_new_file(gearlink: Any, tmp_path: Path) -> None:
+    source, path = tmp_path / "a.yaml", tmp_path / "b c.yaml"
+    source.write_text("kind: slider-crank\nstroke: 100\nrod: 300\n")
+    gearlink("crank", source, "--save", path)
+    assert spec_of(path).name == "b c"
+
+
+@pytest.mark.parametrize("step", ["0", "-1", "1e9", "x"])
+def test_a_step_that_rounds_nothing_is_refused(gearlink: Any, tmp_path: Path, step: str) -> None:
+    line = ["crank", DESIGNS / "ty460_slider_crank.yaml", "--save", tmp_path / "x.yaml", "--round", step]
+    assert gearlink(*line).status == 2
+
+
+def test_round_without_save_is_refused(gearlink: Any) -> None:
+    ended = gearlink("crank", DESIGNS / "ty460_slider_crank.yaml", "--round", "0.01")
+    assert ended.status == 2
+    assert "--round goes with --save" in ended.err
+
+
+def test_a_refused_design_writes_nothing(gearlink: Any, tmp_path: Path) -> None:
+    path = tmp_path / "x.yaml"
+    ended = gearlink("crank", DESIGNS / "ty460_slider_crank.yaml", "--set", "stroke=5000", "--save", path)
+    assert ended.status == 2
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("line", ["analyze", "gear", "report", "check"])
+def test_a_file_that_asks_for_a_synthesis_serves_every_command(gearlink: Any, tmp_path: Path, line: str) -> None:
+    extra = ["--out", tmp_path] if line == "report" else []
+    assert gearlink(line, DESIGNS / "standing_feed.yaml", *extra, "--quiet").status == 0
+
+
+def test_two_tasks_in_one_file_leave_the_choice_to_the_user(gearlink: Any) -> None:
+    ended = gearlink("analyze", DESIGNS / "candy_feed.yaml", "--set", "back_step.angle=20")
+    assert ended.status == 2
+    assert "`synth dwell` or `synth back-step` finds it: leave all but one of their sections out" in ended.err
