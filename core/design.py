@@ -172,7 +172,7 @@ class Design:
             found: Check | Iterable[Check] = getattr(self, method)()
             return [found] if isinstance(found, Check) else list(found)
 
-    def found(self) -> Iterable[Found]:
+    def completion(self) -> Iterable[Found]:
         """What completes the file: the links that a synthesis found in place of its task."""
         return ()
 

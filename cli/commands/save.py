@@ -99,7 +99,7 @@ def complete(
     notes = {".".join(map(str, o.path)): "from --set" for o in loaded.overrides}
     notes |= {change.path: f"was {_shown(change.old)}: --suggest" for change in changes if change.new is not None}
     left_out, units = [], {key.path: key.unit for key in spec_keys(kind)}
-    for found in design.found():
+    for found in design.completion():
         if found.value is None:
             left_out += [(found.path, old)] if (old := _at(data, found.path)) is not None else []
             _put(data, found.path, None)

@@ -168,7 +168,7 @@ class HypocycloidDwell(RealSpeed, SingleMesh):
         with at_key("dwell.angle"):
             return hypocycloid_rod.least_ripple(self.point_radius, self.cusps, self.dwell_carrier_angle)
 
-    def found(self) -> Iterator[Found]:
+    def completion(self) -> Iterator[Found]:
         """The rod in place of the target or the rule."""
         if self.spec.rod is None or self.spec.rod.rule is not None:
             yield Found("rod.length", self.rod_length, "found for target" if self.spec.target else "found by rod.rule")

@@ -93,7 +93,7 @@ class GearedRocker(RealSpeed, SingleMesh):
         """A crank that is sought for a swing takes nearly a tenth of a second each time."""
         return 150 if self.spec.target is None else 10
 
-    def found(self) -> Iterator[Found]:
+    def completion(self) -> Iterator[Found]:
         """The crank in place of the target."""
         if self.spec.target is not None:
             yield Found("links.crank", self.crank_length, "found for target.swing")

@@ -42,7 +42,7 @@ class Synthesis(TwoGearFourBar):
         """The frame [mm] that meets the task."""
         raise NotImplementedError
 
-    def found(self) -> Iterator[Found]:
+    def completion(self) -> Iterator[Found]:
         """The frame in place of the task."""
         synthesis = next(command for command in self.outlines if command.startswith("synth"))
         yield Found("links.frame", self.frame_length, f"found by {synthesis}")

@@ -82,9 +82,9 @@ class DwellSynthesis(BackStepFamily):
         unequal = wish is not None and wish.angle is None and gears.crank != gears.output
         return unequal or super().general
 
-    def found(self) -> Iterator[Found]:
+    def completion(self) -> Iterator[Found]:
         """The tolerance besides the links, so that an analysis measures the dwell by it."""
-        yield from super().found()
+        yield from super().completion()
         if self._wish.tolerance is not None:
             yield Found("dwell_tolerance", float(self._wish.tolerance), "from dwell.tolerance")
         if self._wish.window is not None and self._band is not None:

@@ -62,7 +62,7 @@ class Synthesis(ThreeGearFourBar):
         gears = self.spec.gears
         return tuple(gears.module * teeth / 2.0 for teeth in (gears.crank, idler, gears.output))  # type: ignore[return-value]
 
-    def found(self) -> Iterator[Found]:
+    def completion(self) -> Iterator[Found]:
         """Idler and links in place of the tasks."""
         by, gears = f"found by {self._synthesis}", self.spec.gears
         if gears.idler is None:
@@ -360,9 +360,9 @@ class VariableSpeedSynthesis(SymmetricSynthesis):
         with at_key("speed.max" if speed.max <= speed.min else "speed.min"):
             return family.frame_ratio_for_speed_band(i3, speed.min, speed.max)
 
-    def found(self) -> Iterator[Found]:
+    def completion(self) -> Iterator[Found]:
         """The input speed besides the links."""
-        yield from super().found()
+        yield from super().completion()
         yield Found("input_speed", self.input_speed, "found by synth variable-speed")
 
     def depends_on_idler(self, _refusal: NoSolution) -> bool:
