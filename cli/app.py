@@ -70,8 +70,29 @@ def _report(spec: Spec, options: Options) -> None:
     raise typer.Exit(run_report(spec, options))
 
 
+@app.command("watch")
+@takes("overrides", "strict", "quiet")
+def _watch(
+    spec: Spec,
+    options: Options,
+    port: Annotated[int, typer.Option(min=0, max=65535, help="port of the page; 0: a free one")] = 0,
+    show: Annotated[bool, typer.Option("--open", help="open the page in the browser")] = False,
+) -> None:
+    """Show the report of a design in the browser, live while the file is edited; Ctrl-C ends it.
+
+    The page is served on the loopback address of this machine alone.
+
+    Example: gearlink watch press.yaml --open
+    """
+    from gearlink.cli.commands.watch import run_watch
+
+    raise typer.Exit(run_watch(spec, options, port=port, show=show))
+
+
 @app.command("batch")
-@takes("plot", "plot_format", "overrides", "strict", "color", "quiet", plot="with --out: draw each design as well")
+@takes(
+    "plot", "plot_format", "dpi", "overrides", "strict", "color", "quiet", plot="with --out: draw each design as well"
+)
 def _batch(
     places: Annotated[list[str], typer.Argument(metavar="DIR", help="folders, design files or patterns")],
     options: Options,

@@ -30,6 +30,10 @@ class PlotFormat(StrEnum):
     PDF = "pdf"
 
 
+DPI = 130
+"""Pixels per inch of a picture: 1075 across a page."""
+
+
 @dataclass(frozen=True, slots=True)
 class Options:
     """What the user asked for besides the command and the design file."""
@@ -37,6 +41,7 @@ class Options:
     format: Format = Format.TABLE
     plot: bool = False
     plot_format: PlotFormat = PlotFormat.PNG
+    dpi: int = DPI
     out: Path = field(default_factory=Path)
     overrides: tuple[str, ...] = ()
     quantities: tuple[str, ...] = ()
@@ -80,6 +85,7 @@ OPTIONS = {
     "format": Option(("--format", "-f"), "how results are printed", Format),
     "plot": Option(("--plot",), "write the picture NAME-COMMAND.png"),
     "plot_format": Option(("--plot-format",), "file format of the picture", PlotFormat),
+    "dpi": Option(("--dpi",), "pixels per inch of a png", int, least=20, most=1200),
     "out": Option(("--out",), "folder for files that are written", Path, "DIR"),
     "overrides": Option(("--set",), "override a key (repeatable)", str, "PATH=VALUE", repeatable=True),
     "quantities": Option(("--quantity",), "print only this quantity (repeatable)", str, "NAME", repeatable=True),

@@ -42,7 +42,7 @@ def write_results(source: Path, design: Design, report: Report, options: BatchOp
     if options.design.plot:
         from gearlink.cli.figures.write import write_plot
 
-        write_plot(report.command, design, replace(options.design, out=folder), stem=stem)
+        write_plot(report.command, design, replace(options.design, out=folder), stem=stem, checks=report.checks)
 
 
 def place_of(source: Path) -> tuple[str, ...]:

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import math
 import re
 import sys
 from collections.abc import Iterable
 from dataclasses import dataclass
-from importlib import import_module
-from importlib.util import find_spec
 from typing import IO, TYPE_CHECKING, Any
 
 from gearlink.cli.commands.design import show_refusal
@@ -19,20 +16,18 @@ from gearlink.cli.options import Options
 from gearlink.cli.reading.design_file import diagnose_no_solution
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import LoadedFile
+from gearlink.cli.scenes.loops import build, moves, moving_kinds, pictures_for
 from gearlink.core.errors import NoSolution
-from gearlink.core.kinds import KINDS, Kind
+from gearlink.core.kinds import Kind
 
 if TYPE_CHECKING:
     from gearlink.cli.moving.stage import Stage
-    from gearlink.cli.scenes.scene import Reals, Scene
+    from gearlink.cli.scenes.scene import Scene
     from gearlink.core.design import Design
 
 _SIZE = re.compile(r"(\d{3,4})x(\d{3,4})")
 _LEAST_SIZE, _MOST_SIZE = 160, 3840
 _PROBES = 96
-_USUAL_SECONDS, _MOST_SECONDS = 4.0, 12.0
-# A pitch that moves on by more than half of itself from one picture to the next seems to run backwards.
-_PITCH_A_PICTURE = 0.35
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,33 +59,6 @@ def run_animate(source: str, asked: Asked, options: Options) -> int:
     return ExitCode.OK
 
 
-def moving_kinds() -> tuple[str, ...]:
-    """The kinds that have a scene."""
-    return tuple(name for name in KINDS if find_spec(_module(name)) is not None)
-
-
-def build(design: Design, fraction: Reals) -> Scene:
-    """The scene of a design over fractions of its loop; 0 and 1 look the same."""
-    scene: Scene = import_module(_module(design.kind)).build(design, fraction)
-    return scene
-
-
-def pictures_for(scene: Scene, fps: int) -> int:
-    """How many pictures let the teeth be seen to turn the right way, from a scene of evenly spread probes."""
-    import numpy as np
-
-    from gearlink.cli.scenes.scene import TURN, Body
-
-    bodies = [part for part in scene.parts if isinstance(part, Body) and part.repeats > 1]
-    steps = [float(np.abs(np.diff(body.turn)).max()) * body.repeats / TURN * len(body.turn) for body in bodies]
-    needed = max(steps, default=0.0) / _PITCH_A_PICTURE
-    return math.ceil(min(max(_USUAL_SECONDS * fps, needed), _MOST_SECONDS * fps))
-
-
-def _module(kind: str) -> str:
-    return "gearlink.cli.scenes." + kind.replace("-", "_")
-
-
 def _scene(source: str, asked: Asked, options: Options) -> tuple[Design, Scene]:
     """The design of a file and its scene; whatever the mechanism refuses becomes a located error."""
     import numpy as np
@@ -110,7 +78,7 @@ def _scene(source: str, asked: Asked, options: Options) -> tuple[Design, Scene]:
 
 
 def _require_motion(loaded: LoadedFile, kind: Kind) -> None:
-    if find_spec(_module(kind.name)) is not None:
+    if moves(kind.name):
         return
     line, column, file = loaded.locate(("kind",))
     message = f"a {kind.name} does not move; kinds that do: {', '.join(moving_kinds())}"

@@ -53,7 +53,7 @@ def _run(command: str, source: str, options: Options, step: Callable[[str], Abst
             design, report = build(loaded, kind, command, spec, options)
         if options.plot:
             with step("draw"):
-                plot(command, design, options)
+                plot(command, design, options, report)
         saved = ExitCode.OK if options.save is None else _save(loaded, kind, command, design, options)
     except (DesignFileError, CannotWrite, NoSolution) as error:
         return show_refusal(error, source, options)
@@ -90,11 +90,11 @@ def show_refusal(error: DesignFileError | CannotWrite | NoSolution, source: str,
     return ExitCode.WRONG_INPUT
 
 
-def plot(command: str, design: Design, options: Options) -> None:
-    """Write the design's figure and say where."""
+def plot(command: str, design: Design, options: Options, report: Report) -> None:
+    """Write the design's figure, with what its report finds wrong, and say where."""
     from gearlink.cli.figures.write import write_plot
 
-    path = write_plot(command, design, options)
+    path = write_plot(command, design, options, checks=report.checks)
     if not options.quiet:
         print(f"wrote {path}", file=sys.stderr)
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 _WHERE = "<--law>"
 
 
-@takes("format", "plot", "plot_format", "out", "color", "quiet", plot="write the picture motion-laws.png")
+@takes("format", "plot", "plot_format", "dpi", "out", "color", "quiet", plot="write the picture motion-laws.png")
 def laws(
     options: Options,
     law: Annotated[list[str], typer.Option("--law", metavar="NAME", help="s, v, a, j of this law (repeatable)")] = [],  # noqa: B006 - Typer copies it
@@ -57,12 +57,13 @@ def run_laws(names: Sequence[str], options: Options) -> int:
         show_errors(wrong, options)
         return ExitCode.WRONG_INPUT
     design = MotionLaws(LawChoice(tuple(dict.fromkeys(chosen))))
+    report = design.report("laws", samples=options.samples)
     try:
         if options.plot:
-            draw("laws", design, options)
+            draw("laws", design, options, report)
     except CannotWrite as error:
         return show_refusal(error, "<--out>", options)
-    print_report(design.report("laws", samples=options.samples), options)
+    print_report(report, options)
     return ExitCode.OK
 
 

@@ -26,7 +26,8 @@ def register(app: typer.Typer) -> None:
 
 
 @takes(
-    *("format", "plot", "plot_format", "out", "overrides", "color", "quiet"), plot="write the picture NAME-chart.png"
+    *("format", "plot", "plot_format", "dpi", "out", "overrides", "color", "quiet"),
+    plot="write the picture NAME-chart.png",
 )
 def _chart(
     options: Options,

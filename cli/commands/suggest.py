@@ -50,7 +50,7 @@ def run_suggested(command: str, source: str, options: Options) -> int:
         spec, changes = repair(kind, command, read_spec(loaded, kind, source))
         design, report = build(loaded, kind, command, spec, options)
         if options.plot:
-            plot(command, design, options)
+            plot(command, design, options, report)
         if options.save is not None:
             saved = save(loaded, kind, command, design, options, changes)
     except (DesignFileError, CannotWrite, NoSolution) as error:

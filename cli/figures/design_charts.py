@@ -62,7 +62,7 @@ def write_chart(
     def make() -> Figure:
         return settled(draw(chart, table, curves, marked))
 
-    write_atomically(path, lambda stream: save(make, name, stream, ending))
+    write_atomically(path, lambda stream: save(make, name, stream, ending, options.dpi))
     return path
 
 

@@ -75,7 +75,10 @@ def _cams(axes: Axes, design: FlatbedPress) -> None:
     """Both cams on their shaft at cam angle 0, with the line of the rollers."""
     panels.drawing(axes, "Main and return cam at cam angle 0, to scale")
     cams = (design.main_cam, design.return_cam)
-    rollers = [panels.cam_outline(axes, cam, color) for cam, color in zip(cams, panels.CAM_COLORS, strict=True)]
+    rollers = [
+        panels.cam_outline(axes, cam, color, line=line)
+        for cam, color, line in zip(cams, panels.CAM_COLORS, panels.CAM_LINES, strict=True)
+    ]
     panels.base_circles(axes, cams)
     spec = design.cams.section
     panels.cam_shaft(axes, 0j, spec.shaft_radius)

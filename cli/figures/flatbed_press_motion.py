@@ -182,9 +182,9 @@ def _curves(axes: list[Axes], design: FlatbedPress) -> None:
     start, end = math.degrees(design.sync_start), math.degrees(design.sync_end)
     for each, what, ylabel in zip(axes, ("displacement", "velocity"), ("travel [mm]", "speed [mm/s]"), strict=True):
         panels.turn_panel(each, ylabel, "input angle [deg]" if what == "velocity" else "")
-        for part, color in (("cylinder", CYLINDER), ("bed", BED)):
+        for part, color, line in (("cylinder", CYLINDER, style.LONG), ("bed", BED, "-")):
             index = dense.columns.index(f"{part}_{what}")
-            each.plot(dense.data[0], dense.data[index], color=color, linewidth=1.6, label=part)
+            each.plot(dense.data[0], dense.data[index], color=color, linewidth=1.6, linestyle=line, label=part)
             each.plot(twelve.data[0], twelve.data[index], "o", color=color, markersize=3.0)
         each.axhline(0.0, color=style.GREY, linewidth=0.6)
     panels.heading(axes[0], "Travel of bed and cylinder")

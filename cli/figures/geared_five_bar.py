@@ -50,7 +50,7 @@ def draw(command: str, design: GearedFiveBar) -> Figure:
 def path_mechanism(axes: Axes, design: GearedFiveBar) -> None:
     """Links and gears at input angle 0, the path of M, and the points that it shall meet."""
     panels.heading(axes, "Mechanism at input angle 0° and the path of M")
-    scene_axes.draw(axes, build(design, np.zeros(1)))
+    scene_axes.draw(axes, build(design, np.zeros(1)), ahead=build(design, np.array([scene_axes.AHEAD])))
     target = design.spec.target
     if target is not None and target.points is not None:
         look: Any = {"color": style.RED, "markersize": 7, "zorder": 6}
@@ -62,7 +62,7 @@ def function_mechanism(axes: Axes, design: GearedFiveBar) -> None:
     scene = build(design, np.array([0.0, 0.5]))
     first, other = scene.readouts[0].values
     panels.heading(axes, f"Mechanism at input angle {first:.5g}°")
-    scene_axes.draw(axes, scene)
+    scene_axes.draw(axes, scene, ahead=build(design, np.array([scene_axes.AHEAD])))
     scene_axes.lightly(axes, scene, 1, name=f"input angle {other:.5g}°")
 
 

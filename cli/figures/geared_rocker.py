@@ -43,7 +43,7 @@ def mechanism(axes: Axes, design: GearedRocker) -> None:
     panels.heading(axes, "Mechanism at both ends of the output's swing")
     low, high = sorted(design.extreme_crank_angles, key=design.drive.angle)
     scene = build(design, np.array([high, low]) / (2.0 * math.pi))
-    scene_axes.draw(axes, scene)
+    scene_axes.draw(axes, scene, ahead=build(design, np.array([high / (2.0 * math.pi) + scene_axes.AHEAD])))
     scene_axes.lightly(axes, scene, 1, name=f"other end, crank angle {math.degrees(low):.5g}°")
 
 

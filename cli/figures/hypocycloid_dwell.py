@@ -37,7 +37,7 @@ def mechanism(axes: Axes, design: HypocycloidDwell) -> None:
     slider, half = design.slider, 0.5 * design.dwell_carrier_angle
     panels.heading(axes, f"Mechanism at the end of the dwell, carrier angle {math.degrees(half):.5g}°")
     scene = build(design, np.array([half, 0.0, -half]) / (2.0 * math.pi))
-    scene_axes.draw(axes, scene)
+    scene_axes.draw(axes, scene, ahead=build(design, np.array([half / (2.0 * math.pi) + scene_axes.AHEAD])))
     scene_axes.lightly(axes, scene, 1, name="mid-dwell and start of the dwell")
     scene_axes.lightly(axes, scene, 2)
     arc = np.array([slider.point(t) for t in np.linspace(-half, half, 121)])

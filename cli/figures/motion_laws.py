@@ -21,7 +21,7 @@ _HEADINGS = {
 }
 _AXES = ("rise s", "velocity v", "acceleration a", "jerk j")
 _COLORS = (style.BLUE, style.ORANGE, style.GREEN, style.RED, style.PURPLE, style.SKY, style.BLACK)
-_DASHES = ("-", "--", ":")
+_DASHES: Any = ("-", style.LONG, style.DASHED, style.CHAIN, style.DOTTED, "-", style.LONG, style.DASHED)
 # Of all rest-to-speed laws these are drawn where none is named: the others hardly differ from one of them.
 _SHOWN = (
     "half-cycloidal",
@@ -59,10 +59,13 @@ def _column(axes: Sequence[Axes], heading: str, laws: Sequence[Law]) -> None:
         style.curves(each, "", label)
         each.set_xlim(0.0, 1.0)
         each.axhline(0.0, color=style.GREY, linewidth=0.6)
+    axes[-1].set_xlabel("x, fraction of the time")
     panels.legend_below(axes[-1], 2)
 
 
 def _looks(count: int) -> list[dict[str, Any]]:
     """Colours and dashes that tell the curves apart."""
     colors = islice(cycle(_COLORS), count)
-    return [{"color": color, "linestyle": _DASHES[i // len(_COLORS) % 3]} for i, color in enumerate(colors)]
+    return [
+        {"color": color, "linestyle": _DASHES[(i + i // len(_COLORS)) % len(_DASHES)]} for i, color in enumerate(colors)
+    ]

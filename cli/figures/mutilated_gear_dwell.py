@@ -39,7 +39,7 @@ def mechanism(axes: Axes, design: MutilatedGearDwell) -> None:
     panels.heading(axes, "At the start of a motion")
     cycles, share = design.mutilated.cycles_to_repeat, 0.5 * design.motion_turns / design.cycle_turns
     scene = build(design, np.array([0.0, share / cycles]))
-    scene_axes.draw(axes, scene)
+    scene_axes.draw(axes, scene, ahead=build(design, np.array([scene_axes.AHEAD])))
     if design.linkage is not None:
         scene_axes.lightly(axes, scene, 1, name="four-bar in the middle of the motion")
 

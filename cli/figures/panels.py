@@ -9,6 +9,7 @@ from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.figures import style
+from gearlink.cli.scenes.colors import PHASE_TINTS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -19,19 +20,9 @@ if TYPE_CHECKING:
 _A4 = (8.27, 11.69)
 
 CAM_COLORS = (style.BLUE, style.RED)
+CAM_LINES: tuple[Any, Any] = ("-", style.LONG)
+"""Main and return cam differ in their lines as well, for grey print."""
 
-_TINTS = {
-    "lead-in": "#FBE3C8",
-    "accelerate": "#FBE3C8",
-    "sync": "#CFE8F7",
-    "constant": "#CFE8F7",
-    "transition": "#FDF3C0",
-    "decelerate": "#FDF3C0",
-    "return": "#E6D9EE",
-    "far-dwell": "#E4E4E4",
-    "dwell": "#F2F2F2",
-    "near-dwell": "#F2F2F2",
-}
 _LEGEND: dict[str, Any] = {
     "frameon": False,
     "fontsize": 7.5,
@@ -65,7 +56,8 @@ def page(title: str, share: float = 1.0) -> Figure:
     width, height = _A4
     made = style.figure(width, share * height, fill(title.replace("$", r"\$"), 70))
     engine: Any = made.get_layout_engine()
-    engine.set(rect=(0.01, 0.005, 0.97, 0.99), w_pad=0.05, h_pad=0.05)
+    across, up = style.MARGIN / width, style.MARGIN / (share * height)
+    engine.set(rect=(across, up, 1.0 - 2.0 * across, 1.0 - 2.0 * up), w_pad=0.03, h_pad=0.05)
     return made
 
 
@@ -77,7 +69,7 @@ def shade(axes: Sequence[Axes], phases: Sequence[Phase]) -> None:
         parts = phase.within_turn()
         for start, end in parts:
             for each in axes:
-                each.axvspan(start, end, color=_TINTS[phase.name], linewidth=0, zorder=0)
+                each.axvspan(start, end, color=PHASE_TINTS[phase.name], linewidth=0, zorder=0)
         start, end = max(parts, key=lambda part: part[1] - part[0])
         names.append((0.5 * (start + end), phase.name))
         crowded |= _width_in_degrees(phase.name) > end - start
@@ -208,13 +200,13 @@ def pressure_angles(axes: Axes, cams: Sequence[DiscCam], limit: float, xlabel: s
     degrees = _turn_angles()
     turn_panel(axes, "pressure\nangle [deg]", xlabel)
     heading(axes, "Pressure angle")
-    for cam, color in zip(cams, CAM_COLORS, strict=False):
+    for cam, color, line in zip(cams, CAM_COLORS, CAM_LINES, strict=False):
         values = np.degrees(cam.pressure_angle(np.radians(degrees)))
         worst = cam.max_pressure_angle
         place = math.degrees(worst.place)
         sign = math.copysign(1.0, float(np.interp(place, degrees, values)))
         label = f"{cam.name}, ≤ {math.degrees(worst.value):.4g}° at {place:.4g}°"
-        axes.plot(degrees, values, color=color, linewidth=1.5, label=label)
+        axes.plot(degrees, values, color=color, linewidth=1.5, linestyle=line, label=label)
         axes.plot([place], [sign * math.degrees(worst.value)], "o", color=color, markersize=4.5)
     for sign in (1.0, -1.0):
         named = f"limit ±{limit:g}°" if sign > 0.0 else None
@@ -229,11 +221,11 @@ def curvatures(axes: Axes, cams: Sequence[DiscCam], xlabel: str) -> None:
     degrees = _turn_angles()
     turn_panel(axes, "curvature of the\npitch curve [1/mm]", xlabel)
     heading(axes, "Curvature")
-    for cam, color in zip(cams, CAM_COLORS, strict=False):
+    for cam, color, line in zip(cams, CAM_COLORS, CAM_LINES, strict=False):
         least = cam.min_curvature_radius
         values = cam.curvature(np.radians(degrees))
         label = f"{cam.name}, ρ ≥ {least.value:.5g} mm"
-        axes.plot(degrees, values, color=color, linewidth=1.5, label=label)
+        axes.plot(degrees, values, color=color, linewidth=1.5, linestyle=line, label=label)
         if math.isfinite(least.value):
             axes.plot([math.degrees(least.place)], [1.0 / least.value], "o", color=color, markersize=4.5)
     for radius in sorted({cam.roller_radius for cam in cams}):
@@ -247,7 +239,7 @@ def curvatures(axes: Axes, cams: Sequence[DiscCam], xlabel: str) -> None:
     legend_above(axes)
 
 
-def cam_outline(axes: Axes, cam: DiscCam, color: str, axis: complex = 0j) -> complex:
+def cam_outline(axes: Axes, cam: DiscCam, color: str, axis: complex = 0j, line: Any = "-") -> complex:
     """A cam at cam angle 0, to scale: profile, pitch curve dashed, roller; the roller's centre is returned."""
     import numpy as np
 
@@ -255,12 +247,25 @@ def cam_outline(axes: Axes, cam: DiscCam, color: str, axis: complex = 0j) -> com
     pitch, profile = pitch + axis, profile + axis
     roller = complex(cam.path(np.array([0.0]), 1).position.flat[0]) + axis
     axes.fill(profile.real, profile.imag, color=color, alpha=0.08, linewidth=0)
-    axes.plot(profile.real, profile.imag, color=color, linewidth=1.7, label=f"{cam.name}, profile", zorder=3)
+    words = f"{cam.name}, profile"
+    axes.plot(profile.real, profile.imag, color=color, linewidth=1.7, linestyle=line, label=words, zorder=3)
+    _cut(axes, cam, profile)
     dashes: Any = (0, (5, 3))
     axes.plot(pitch.real, pitch.imag, color=color, linewidth=0.9, linestyle=dashes, label="pitch curve", zorder=3)
     style.circle(axes, roller, cam.roller_radius, color=color, linewidth=1.4, zorder=4)
     axes.plot([roller.real], [roller.imag], "+", color=color, markersize=7, zorder=5)
     return roller
+
+
+def _cut(axes: Axes, cam: DiscCam, profile: Any) -> None:
+    """In red, where the roller cuts into the profile: the pitch curve is more sharply convex than the roller."""
+    import numpy as np
+
+    lost = cam.curvature(np.radians(_turn_angles())) * cam.roller_radius >= 1.0
+    if lost.any():
+        where = np.where(lost | np.roll(lost, 1) | np.roll(lost, -1), profile, np.nan)
+        look: Any = {"color": style.WRONG, "linewidth": 3.5, "zorder": 7, "gid": "undercut"}
+        axes.plot(where.real, where.imag, **look, label=f"{cam.name}, undercut")
 
 
 def base_circles(axes: Axes, cams: Sequence[DiscCam], axis: complex = 0j) -> None:

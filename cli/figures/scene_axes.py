@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -20,8 +21,16 @@ _REACH, _REACH_POINTS = 0.042, 11.5
 """Distance of letters from their points, in sizes of the drawing and in points."""
 
 
-def draw(axes: Axes, scene: Scene, i: int = 0) -> None:
-    """A position of a scene with its letters; what only a film needs is left out."""
+AHEAD = 1e-5
+"""So far ahead in the loop is the position that tells in which sense a gear turns."""
+
+
+def draw(axes: Axes, scene: Scene, i: int = 0, ahead: Scene | None = None) -> None:
+    """A position of a scene with its letters; what only a film needs is left out.
+
+    Parameters
+        ahead : Scene or None - the same a moment later: then arrows show in which sense gears and input turn
+    """
     shown = _position(scene, i)
     for k, part in enumerate(shown.parts):
         if isinstance(part, Chain):
@@ -31,15 +40,56 @@ def draw(axes: Axes, scene: Scene, i: int = 0) -> None:
     for mark in shown.marks:
         if mark.pivot:
             style.pivot(axes, complex(mark.point[0]))
+    if ahead is not None:
+        for center, radius, sense, color in turning(shown, _position(ahead, 0)):
+            _sense(axes, shown, center, radius, sense, color)
     _words(axes, shown)
 
 
-def lightly(axes: Axes, scene: Scene, i: int, color: str = style.GREY, name: str = "_", shown: int = 0) -> None:
+def turning(shown: Scene, ahead: Scene) -> list[tuple[complex, float, int, str]]:
+    """Axis, radius [mm], sense and colour of what turns in a scene: its gears, and the first link on a fixed pivot."""
+    found = []
+    for body, later in zip(shown.parts, ahead.parts, strict=True):
+        if isinstance(body, Body) and isinstance(later, Body) and body.pitch:
+            # A ring is two bodies: the rim that has its pitch circle, and after it the line of its teeth.
+            step = float(later.turn[0] - body.turn[0])
+            if abs(step) > 1e-3 * AHEAD:
+                ring = body.repeats == 0 and bool(np.abs(body.outline).max() > 1.15 * body.pitch)
+                found.append((complex(body.place[0]), (1.0 if ring else 0.78) * body.pitch, step, body.color))
+    chains = [(a, b) for a, b in zip(shown.parts, ahead.parts, strict=True) if isinstance(a, Chain) and a.marked]
+    for chain, later_chain in chains[:1]:
+        assert isinstance(later_chain, Chain), "the same parts a moment later"
+        (start, end), (fixed, moved) = chain.joints[:2], later_chain.joints[:2]
+        arm = complex(end[0] - start[0])
+        if abs(complex(fixed[0] - start[0])) < 1e-9 * abs(arm):
+            step = float(np.angle(complex(moved[0] - fixed[0]) / arm))
+            found.append((complex(start[0]), 0.5 * abs(arm), step, chain.color))
+    return [(center, radius, 1 if step > 0.0 else -1, color) for center, radius, step, color in found if step]
+
+
+def _sense(axes: Axes, shown: Scene, center: complex, radius: float, sense: int, color: str) -> None:
+    """An arc with an arrow about an axis, where it keeps clear of links and pivots."""
+    half = min(0.5, 0.09 * _size(shown) / radius)
+    arc = radius * np.exp(1j * sense * np.linspace(-half, half, 25))
+    ways = np.exp(2j * np.pi * np.arange(24) / 24)
+    joints = [np.array([joint[0] for joint in part.joints]) for part in shown.parts if isinstance(part, Chain)]
+    links = [a + (b - a) * np.linspace(0.0, 1.0, 41) for chain in joints for a, b in pairwise(chain)]
+    marks = [np.array([mark.point[0] for mark in shown.marks])]
+    taken = np.concatenate([*links, *marks]) if links or shown.marks else np.array([center])
+    room = [float(np.abs((center + arc * way)[:, None] - taken[None, :]).min()) for way in ways]
+    points = center + arc * ways[int(np.argmax(room))]
+    axes.plot(points.real, points.imag, color=color, linewidth=1.1, zorder=3.9, gid="sense")
+    style.arrow(axes, complex(points[-2]), complex(points[-1] - points[-2]), color)
+
+
+def lightly(
+    axes: Axes, scene: Scene, i: int, color: str = style.GREY, name: str = "_", shown: int = 0, line: Any = "-"
+) -> None:
     """Another position of a scene: its links, its sliders, and the pitch circles of gears whose axes have moved."""
     for part in _position(scene, i).parts:
         if isinstance(part, Chain) and part.marked:
             joints = [complex(joint[0]) for joint in part.joints]
-            style.link(axes, joints, color, 0.5 * _POINTS * part.width, label=name, zorder=3.6)
+            style.link(axes, joints, color, 0.5 * _POINTS * part.width, label=name, zorder=3.6, linestyle=line)
             name = "_"
     for body in scene.parts:
         if not isinstance(body, Body) or body.shows_turn or np.array_equal(placed(body, i), placed(body, shown)):

@@ -41,7 +41,8 @@ def mechanism(axes: Axes, design: SliderCrankDesign) -> None:
     part, (folded, extended) = design.slider_crank, dead_centers(design)
     panels.drawing(axes, f"Crank {part.crank_length:.6g}, rod {design.spec.rod:.6g}")
     scene = build(design, np.array([0.5 * (folded + extended), folded, extended]) / _TURN)
-    scene_axes.draw(axes, scene)
+    ahead = build(design, np.array([0.5 * (folded + extended) / _TURN + scene_axes.AHEAD]))
+    scene_axes.draw(axes, scene, ahead=ahead)
     angles = part.dead_center_folded, part.dead_center_extended
     for i, (name, color, angle) in enumerate(
         zip(("folded", "stretched"), (style.ORANGE, style.BLUE), angles, strict=True), 1

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import cache
+from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
+from gearlink.cli.options import DPI
 from gearlink.cli.scenes import colors
 
 if TYPE_CHECKING:
@@ -14,8 +17,15 @@ if TYPE_CHECKING:
 
 BLUE, ORANGE, GREEN, RED = colors.BLUE, colors.ORANGE, colors.GREEN, colors.RED
 PURPLE, SKY, BLACK, GREY, LIGHT = colors.PURPLE, colors.SKY, colors.BLACK, colors.GREY, colors.LIGHT
+MARGIN = 8.0 / 25.4
+"""White edge of a page [in], which printers need."""
+_TITLE = 12
 DASHED: Any = (0, (5, 3))
 DOTTED: Any = (0, (1, 2))
+LONG: Any = (0, (9, 2))
+"""Long dashes, of the second of two curves that are not limits."""
+WRONG = "#D00000"
+"""What fails: no curve has this colour."""
 CHAIN: Any = (0, (9, 2.5, 1.5, 2.5))
 """A dash-dotted line, as of axes and pitch circles."""
 
@@ -24,9 +34,31 @@ def figure(width: float, height: float, title: str) -> Figure:
     """An empty figure in inches with a title; needs no display and no pyplot."""
     from matplotlib.figure import Figure
 
-    made = Figure(figsize=(width, height), dpi=130, layout="constrained")
-    made.suptitle(title, fontsize=12, fontweight="bold")
+    made = Figure(figsize=(width, height), dpi=DPI, layout="constrained")
+    made.suptitle(title, fontsize=_TITLE, fontweight="bold")
     return made
+
+
+def stamp(made: Figure, words: str) -> None:
+    """A line in red below the title, before the layout."""
+    lines = fill(words, 105)
+    title = made._suptitle  # type: ignore[attr-defined]  # matplotlib 3.8 has get_suptitle for its words alone
+    title.set_text(title.get_text() + "\n" * (1 + lines.count("\n")))
+    made.text(0.5, 1.0, lines, fontsize=9, fontweight="bold", color=RED, ha="center", va="top", gid="fails")
+
+
+def place_title(made: Figure) -> None:
+    """Title and stamp within the margin of the page, after the layout, which puts the title at the edge."""
+    title = made._suptitle  # type: ignore[attr-defined]
+    if title is None:
+        return
+    height = made.get_figheight()
+    top = 1.0 - MARGIN / height
+    title.set(y=top, va="top")
+    rows = title.get_text().rstrip("\n").count("\n") + 1
+    for text in made.texts:
+        if text.get_gid() == "fails":
+            text.set_y(top - rows * 1.25 * _TITLE / 72.0 / height)
 
 
 def curves(axes: Axes, xlabel: str, ylabel: str) -> None:
@@ -79,11 +111,23 @@ def link(
     axes.plot(x, y, "o", **dots, zorder=zorder + 0.5)  # type: ignore[arg-type]
 
 
-def pivot(axes: Axes, point: complex, size: float = 13.0) -> None:
-    """A fixed pivot: a pin on its ground."""
-    x, y, ground = [point.real], [point.imag], [(0.0, 0.0), (-1.0, -1.6), (1.0, -1.6), (0.0, 0.0)]
-    axes.plot(x, y, marker=ground, color=BLACK, markersize=size, linestyle="", zorder=5.5)
-    axes.plot(x, y, "o", color="white", markeredgecolor=BLACK, markersize=0.35 * size, zorder=5.6)
+def pivot(axes: Axes, point: complex, size: float = 19.0) -> None:
+    """A fixed pivot: a pin on its hatched ground."""
+    x, y = [point.real], [point.imag]
+    look: Any = {"color": BLACK, "markersize": size, "linestyle": "", "zorder": 5.5, "markeredgewidth": 0.9}
+    axes.plot(x, y, marker=_ground(), markerfacecolor="white", **look)
+    axes.plot(x, y, "o", color="white", markeredgecolor=BLACK, markersize=0.25 * size, zorder=5.6)
+
+
+@cache
+def _ground() -> Any:
+    """A triangle below the pin, the line it stands on, and the strokes below that."""
+    from matplotlib.path import Path
+
+    strokes = [((x, -1.6), (x - 0.45, -2.2)) for x in (-0.9, -0.3, 0.3, 0.9, 1.5)]
+    lines = [((0.0, 0.0), (-0.9, -1.6), (0.9, -1.6), (0.0, 0.0)), ((-1.5, -1.6), (1.5, -1.6)), *strokes]
+    codes = [Path.MOVETO if i == 0 else Path.LINETO for line in lines for i in range(len(line))]
+    return Path([point for line in lines for point in line], codes)
 
 
 def letter(axes: Axes, point: complex, name: str, shift: tuple[float, float]) -> None:

@@ -55,8 +55,8 @@ def _cams(axes: Axes, design: SwingGripper) -> None:
     assert spec is not None, "the cams have asked for it"
     panels.drawing(axes, "Cams at cam angle 0, to scale")
     axis, pivot = design.cam_center, np.array([linkage.input_pivot])
-    for cam, color in zip(design.cams.discs, panels.CAM_COLORS, strict=False):
-        panels.cam_outline(axes, cam, color, axis)
+    for cam, color, line in zip(design.cams.discs, panels.CAM_COLORS, panels.CAM_LINES, strict=False):
+        panels.cam_outline(axes, cam, color, axis, line)
     scene = build(design, np.zeros(1))
     rocker = [part for part in scene.parts if isinstance(part, Chain) and not part.marked]
     c = next(mark.point for mark in scene.marks if mark.text == "C")

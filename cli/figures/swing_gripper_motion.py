@@ -90,17 +90,18 @@ def _torques(axes: Axes, design: SwingGripper) -> None:
     column = dict(zip(table.columns, table.data, strict=True))
     panels.turn_panel(axes, "torque [N m]")
     axes.plot(column["theta"], column["inertia_torque"], color=style.GREEN, linewidth=1.2, label="inertia")
-    for name, color in zip(("main", "return"), panels.CAM_COLORS, strict=True):
+    for name, color, line in zip(("main", "return"), panels.CAM_COLORS, panels.CAM_LINES, strict=True):
         if f"contact_torque_{name}" not in column:
             continue
         values = np.asarray(column[f"contact_torque_{name}"])
         least = int(values.argmin())
-        axes.plot(column["theta"], values, color=color, linewidth=1.6, label=f"{name} roller, ≥ {values[least]:.4g}")
+        words = f"{name} roller, ≥ {values[least]:.4g} N m"
+        axes.plot(column["theta"], values, color=color, linewidth=1.6, linestyle=line, label=words)
         axes.plot([column["theta"][least]], [values[least]], "o", color=color, markersize=4.5)
     spring = design.spec.spring
     assert spring is not None, "drawn only where the file has a spring"
     closing = design.closing_torque
-    axes.axhline(closing, color=style.BLACK, linewidth=0.9, linestyle="--", label=f"spring {closing:.5g}")
+    axes.axhline(closing, color=style.BLACK, linewidth=0.9, linestyle="--", label=f"spring {closing:.5g} N m")
     least_label = f"least wanted {spring.reserve:g}"
     axes.axhline(spring.reserve, color=_HANDOVER, linewidth=1.0, linestyle=":", label=least_label)
     axes.axhspan(min(0.0, axes.get_ylim()[0]), spring.reserve, color=_HANDOVER, alpha=0.07, linewidth=0)
@@ -114,12 +115,16 @@ def mechanism(axes: Axes, design: SwingGripper) -> None:
     """The machine at the bite; its linkage and gripper lightly at handover and far dwell, the line of centres."""
     panels.drawing(axes, "Mechanism at the bite, to scale")
     far = design.law.starts[3]
-    stations = ("bite", 0.0, style.BLUE), ("handover", design.spec.handover, _HANDOVER), ("far dwell", far, style.GREEN)
-    scene = build(design, np.array([degrees for _, degrees, _ in stations]) / 360.0)
+    stations = (
+        ("bite", 0.0, style.BLUE, "-"),
+        ("handover", design.spec.handover, _HANDOVER, style.DASHED),
+        ("far dwell", far, style.GREEN, style.DOTTED),
+    )
+    scene = build(design, np.array([degrees for _, degrees, _, _ in stations]) / 360.0)
     scene_axes.draw(axes, scene)
     linkage = replace(scene, parts=tuple(part for part in scene.parts if isinstance(part, Chain)))
-    for i, (name, degrees, color) in enumerate(stations):
-        scene_axes.lightly(axes, linkage, i, color, f"{name}, {degrees:g}°")
+    for i, (name, degrees, color, line) in enumerate(stations):
+        scene_axes.lightly(axes, linkage, i, color, f"{name}, {degrees:g}°", line=line)
     e, drum = complex(design.linkage.output_pivot), drum_center(design)
     axes.plot([e.real, drum.real], [e.imag, drum.imag], color=style.GREY, linewidth=0.7, linestyle="-.", zorder=3)
     if design.spec.cam is not None and design.cams.stand:

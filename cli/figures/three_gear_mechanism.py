@@ -46,7 +46,7 @@ def mechanism(axes: Axes, design: ThreeGearFourBar) -> None:
     angle, words = dwell_position(design)
     panels.heading(axes, f"Mechanism at the {words}, crank angle {math.degrees(angle) % 360.0:.5g}°")
     scene = build(design, np.array([angle / (2.0 * math.pi), 0.0]))
-    scene_axes.draw(axes, scene)
+    scene_axes.draw(axes, scene, ahead=build(design, np.array([angle / (2.0 * math.pi) + scene_axes.AHEAD])))
     if abs(math.remainder(angle, 2.0 * math.pi)) > math.radians(1.0):
         scene_axes.lightly(axes, scene, 1, name="gears 1 and 5 closest")
     if design.gear_gap < 0.0:

@@ -55,7 +55,7 @@ def mechanism(axes: Axes, design: TwoGearFourBar) -> None:
     words = "standstill" if places else "least output speed"
     panels.heading(axes, f"Mechanism at the {words}, crank angle {math.degrees(phi):.5g}°")
     scene = build(design, np.array([phi / (2.0 * math.pi)]))
-    scene_axes.draw(axes, scene)
+    scene_axes.draw(axes, scene, ahead=build(design, np.array([phi / (2.0 * math.pi) + scene_axes.AHEAD])))
     pole, d = cmath.rect(design.mesh.reference_radius[1], phi), complex(design.frame_length)
     axes.plot([pole.real], [pole.imag], "D", color=style.RED, markersize=5, zorder=7, label="pitch point of the gears")
     joint, far = complex(scene.marks[2].point[0]), d + 1.15 * (pole - d)

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from importlib import import_module
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any, cast
 
 from gearlink.cli.files import safe_stem, write_atomically
-from gearlink.cli.options import Options
+from gearlink.cli.options import DPI, Options
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from gearlink.core.design import Design
     from gearlink.core.loads.design import LoadsDesign
+    from gearlink.core.report import Check
 
 _FIXED_METADATA: dict[str, dict[str, Any]] = {
     "png": {"Software": "gearlink"},
@@ -26,13 +27,19 @@ _FIXED_METADATA: dict[str, dict[str, Any]] = {
 
 # One part in a hundred longer than at the usual 6, in two thirds of the time.
 _PACKING: dict[str, Any] = {"png": {"pil_kwargs": {"compress_level": 3}}}
-_FIXED_STYLE = {"svg.hashsalt": "gearlink", "svg.fonttype": "path", "pdf.fonttype": 42}
+_FIXED_STYLE = {"svg.hashsalt": "gearlink", "svg.fonttype": "none", "pdf.fonttype": 42}
 _ASIAN_FONTS = ("Noto Sans CJK SC", "Source Han Sans SC", "WenQuanYi Zen Hei", "Microsoft YaHei", "PingFang SC")
 
 
-def draw(command: str, design: Design) -> Figure:
-    """The figure of a command on a design, its panels placed."""
-    return settled(panels(command, design))
+def draw(command: str, design: Design, checks: Sequence[Check] = ()) -> Figure:
+    """The figure of a command on a design, its panels placed; failed checks stand under its title."""
+    from gearlink.cli.figures import style
+
+    made = panels(command, design)
+    failed = dict.fromkeys(f"{check.code} {check.name}" for check in checks if check.status == "fail")
+    if failed:
+        style.stamp(made, "fails: " + ", ".join(failed))
+    return settled(made)
 
 
 def panels(command: str, design: Design) -> Figure:
@@ -52,10 +59,13 @@ def settled(made: Figure) -> Figure:
     The solver of the constrained layout leaves last digits to chance; an SVG names its clips after them, and a
     drawing to scale widens its limits by them. So the limits are those from before the layout.
     """
+    from gearlink.cli.figures import style
+
     limits = [(axes.get_xlim(), axes.get_ylim()) for axes in made.axes]
     if layout := made.get_layout_engine():
         layout.execute(made)
     made.set_layout_engine(None)  # "none" would have savefig draw the panels a time more, for a layout
+    style.place_title(made)
     for axes, (x, y) in zip(made.axes, limits, strict=True):
         box = axes.get_position(original=True).bounds
         axes.set_position(tuple(round(side, 5) for side in box))
@@ -64,7 +74,7 @@ def settled(made: Figure) -> Figure:
     return made
 
 
-def write_plot(command: str, design: Design, options: Options, *, stem: str = "") -> Path:
+def write_plot(command: str, design: Design, options: Options, *, stem: str = "", checks: Sequence[Check] = ()) -> Path:
     """Draw a design and write STEM-COMMAND.FORMAT into the folder of the options; the stem is its name by default.
 
     Raises
@@ -73,24 +83,27 @@ def write_plot(command: str, design: Design, options: Options, *, stem: str = ""
     """
     ending = options.plot_format.value
     path = options.out / f"{stem or safe_stem(design.spec.name)}-{command.replace(' ', '-')}.{ending}"
-    write_atomically(path, lambda stream: picture(command, design, stream, ending))
+    name = design.spec.name
+    write_atomically(
+        path, lambda stream: save(lambda: draw(command, design, checks), name, stream, ending, options.dpi)
+    )
     return path
 
 
-def picture(command: str, design: Design, stream: IO[bytes], ending: str) -> None:
-    """Draw a design into a stream as png, svg or pdf; the same design gives the same bytes."""
-    save(lambda: draw(command, design), design.spec.name, stream, ending)
+def save(make: Callable[[], Figure], name: str, stream: IO[bytes], ending: str, dpi: int = DPI) -> None:
+    """Write the figure that `make` draws, in fonts that have the letters of `name`, as png, svg or pdf.
 
-
-def save(make: Callable[[], Figure], name: str, stream: IO[bytes], ending: str) -> None:
-    """Write the figure that `make` draws, in fonts that have the letters of `name`, as png, svg or pdf."""
+    The same figure gives the same bytes; `dpi` counts for png alone.
+    """
     import matplotlib
 
     style: Any = {**_FIXED_STYLE, "font.family": families(name)}
     with matplotlib.rc_context(style), warnings.catch_warnings():
         # A script that no installed font has is drawn as boxes; the picture is still worth having.
         warnings.filterwarnings("ignore", message="Glyph .* missing from font")
-        make().savefig(stream, format=ending, metadata=_FIXED_METADATA[ending], **_PACKING.get(ending, {}))
+        made = make()
+        made.set_dpi(dpi if ending == "png" else DPI)
+        made.savefig(stream, format=ending, metadata=_FIXED_METADATA[ending], **_PACKING.get(ending, {}))
 
 
 def families(name: str) -> list[str]:

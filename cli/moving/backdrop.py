@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
 from PIL import Image, ImageDraw
 
 from gearlink.cli.moving.brush import FINER, dashes, flat, font
@@ -40,6 +41,10 @@ def _line(draw: ImageDraw.ImageDraw, line: Line, stage: Stage) -> None:
 
 def _chart(draw: ImageDraw.ImageDraw, scale: ChartScale) -> None:
     room = scale.room
+    for band in scale.chart.bands:
+        at = scale.points(np.array([band.start, band.end]), np.zeros(2)).real
+        box = [FINER * at[0], FINER * room.top, FINER * at[1], FINER * room.bottom]
+        draw.rectangle([float(side) for side in box], fill=band.color)
     for x, _ in scale.x_ticks():
         draw.line([FINER * x, FINER * room.top, FINER * x, FINER * room.bottom], fill=LIGHT, width=FINER)
     for y, _ in scale.y_ticks():
@@ -59,6 +64,11 @@ def _chart_words(draw: ImageDraw.ImageDraw, scale: ChartScale, size: float) -> N
         draw.text((FINER * x, bottom + 0.3 * size), words, font=small, fill=GREY, anchor="ma")
     for y, words in scale.y_ticks():
         draw.text((left - 0.4 * size, FINER * y), words, font=small, fill=GREY, anchor="rm")
+    for k, band in enumerate(scale.chart.bands):
+        row = sum(other.start < band.end and band.start < other.end for other in scale.chart.bands[:k] if other.name)
+        start, end = (FINER * float(x) for x in scale.points(np.array([band.start, band.end]), np.zeros(2)).real)
+        if small.getlength(band.name) < end - start:
+            draw.text((0.5 * (start + end), top + (0.2 + row) * size), band.name, font=small, fill=GREY, anchor="ma")
     draw.text((0.5 * (left + right), bottom + 1.5 * size), scale.chart.xlabel, font=small, fill=BLACK, anchor="ma")
     draw.text((left, top - 0.35 * size), scale.chart.ylabel, font=small, fill=BLACK, anchor="ls")
     for curve in reversed(scale.chart.curves if len(scale.chart.curves) > 1 else ()):

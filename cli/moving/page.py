@@ -4,34 +4,51 @@ from __future__ import annotations
 
 import html
 import json
+import re
 from collections.abc import Iterator
+from dataclasses import replace
 from importlib import resources
 from typing import Any
 
 import numpy as np
 
-from gearlink.cli.moving.stage import ChartScale, Stage
-from gearlink.cli.scenes.scene import Body, Chain, Line, Points, Reals
+from gearlink.cli.moving.stage import Box, ChartScale, Stage
+from gearlink.cli.scenes.scene import Body, Chain, Chart, Line, Points, Reals, Scene
 
 
 def page(stage: Stage, fps: float) -> str:
     """The page; the same scene gives the same text."""
-    template = (resources.files("gearlink.cli.moving") / "player.html").read_text(encoding="utf-8")
+    shown = player_data(stage.scene, stage.title, fps, (stage.width, stage.height))
     # A closing tag in a name must not end the script.
-    data = json.dumps(_data(stage, fps), ensure_ascii=False, separators=(",", ":"), allow_nan=False)
+    data = json.dumps(shown, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
     data = data.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
-    return template.replace("@TITLE@", html.escape(stage.title)).replace("@DATA@", data)
+    parts = {"TITLE": html.escape(stage.title), "STYLE": part("player.css"), "SCRIPT": part("player.js"), "DATA": data}
+    return re.sub("@([A-Z]+)@", lambda found: parts[found[1]], part("player.html"))
 
 
-def _data(stage: Stage, fps: float) -> dict[str, Any]:
-    scene, (letters, labels) = stage.scene, stage.shifts
+def part(name: str) -> str:
+    """A file of the player."""
+    return (resources.files("gearlink.cli.moving") / name).read_text(encoding="utf-8")
+
+
+def player_stage(scene: Scene, title: str, size: tuple[int, int] = (960, 720)) -> Stage:
+    """The mechanism alone on a picture no higher than it needs: the page shows title, values and chart beside it."""
+    width, height = size
+    bare = Stage(replace(scene, chart=None), title, width, height, bare=True)
+    return replace(bare, height=min(height, bare.needed_height))
+
+
+def player_data(scene: Scene, title: str, fps: float, size: tuple[int, int] = (960, 720)) -> dict[str, Any]:
+    """What the player is given: parts and marks in pixels of its picture, values, the chart in its own units."""
+    stage = player_stage(scene, title, size)
+    letters, labels = stage.shifts
     on_body = iter(labels)
     return {
         "width": stage.width,
         "height": stage.height,
         "fps": fps,
         "count": stage.count,
-        "title": stage.title,
+        "title": title,
         "text": stage.text_size,
         "parts": [_part(stage, part, on_body) for part in scene.parts],
         "marks": [
@@ -44,7 +61,7 @@ def _data(stage: Stage, fps: float) -> dict[str, Any]:
             for mark, shift in zip(scene.marks, letters, strict=True)
         ],
         "readouts": stage.texts(),
-        "chart": _chart(stage),
+        "chart": None if scene.chart is None else _chart(scene.chart),
     }
 
 
@@ -67,27 +84,32 @@ def _part(stage: Stage, part: Body | Chain | Line, on_body: Iterator[complex]) -
     }
 
 
-def _chart(stage: Stage) -> dict[str, Any] | None:
-    chart = stage.scene.chart
-    if chart is None:
-        return None
-    scale, room = ChartScale(chart, stage.chart_room), stage.chart_room
+def _chart(chart: Chart) -> dict[str, Any]:
+    scale = ChartScale(chart, Box(0.0, 0.0, 1.0, 1.0))
     return {
-        "room": [round(side, 2) for side in (room.left, room.top, room.right, room.bottom)],
-        "x": [[round(x, 2), words] for x, words in scale.x_ticks()],
-        "y": [[round(y, 2), words] for y, words in scale.y_ticks()],
+        "x": [float(chart.x[0]), float(chart.x[-1])],
+        "y": list(scale.y_range),
+        "xticks": list(scale.x_values()),
+        "yticks": list(scale.y_values()),
         "xlabel": chart.xlabel,
         "ylabel": chart.ylabel,
+        "now": _rounded(chart.now, 4),
+        "bands": [{"name": b.name, "start": b.start, "end": b.end, "color": b.color} for b in chart.bands],
         "curves": [
             {
                 "label": curve.label,
                 "color": curve.color,
-                "p": _xy(scale.points(chart.x, curve.y)),
-                "now": _xy(scale.points(chart.now, curve.now)),
+                "x": _figures(chart.x),
+                "y": _figures(curve.y),
+                "now": _figures(curve.now),
             }
             for curve in chart.curves
         ],
     }
+
+
+def _figures(values: Reals) -> list[float]:
+    return [float(f"{value:.6g}") for value in values.tolist()]
 
 
 def _xy(points: Points) -> list[float]:

@@ -46,6 +46,8 @@ class Stage:
     title: str
     width: int
     height: int
+    bare: bool = False
+    """Without room for a title and values."""
 
     @property
     def count(self) -> int:
@@ -60,7 +62,7 @@ class Stage:
     @property
     def head(self) -> float:
         """Height of title and values."""
-        return 3.9 * self.text_size
+        return 0.0 if self.bare else 3.9 * self.text_size
 
     @property
     def room(self) -> Box:
@@ -83,6 +85,13 @@ class Stage:
         x = [(float(p.real.min()) - r, float(p.real.max()) + r) for p, r in reaches]
         y = [(float(p.imag.min()) - r, float(p.imag.max()) + r) for p, r in reaches]
         return min(a for a, _ in x), max(b for _, b in x), min(a for a, _ in y), max(b for _, b in y)
+
+    @property
+    def needed_height(self) -> int:
+        """Height of a picture of this width that the mechanism fills, from a third of the width on [pixels]."""
+        left, right, low, high = self._extent
+        edge = 1.8 * self.text_size
+        return round(max((high - low) * (self.width - edge) / (right - left) + edge + self.head, self.width / 3.0))
 
     @cached_property
     def scale(self) -> float:
@@ -166,7 +175,8 @@ class ChartScale:
     room: Box
 
     @cached_property
-    def _y(self) -> tuple[float, float]:
+    def y_range(self) -> tuple[float, float]:
+        """What the y axis shows."""
         low = min(float(curve.y.min()) for curve in self.chart.curves)
         high = max(float(curve.y.max()) for curve in self.chart.curves)
         pad = 0.06 * (high - low) or 1.0
@@ -174,18 +184,29 @@ class ChartScale:
 
     def points(self, x: Reals, y: Reals) -> Points:
         """Points of the chart in pixels."""
-        (left, right), (low, high) = (float(self.chart.x[0]), float(self.chart.x[-1])), self._y
+        (left, right), (low, high) = (float(self.chart.x[0]), float(self.chart.x[-1])), self.y_range
         across = self.room.left + self.room.width * (x - left) / (right - left)
         return np.asarray(across + 1j * (self.room.bottom - self.room.height * (y - low) / (high - low)))
 
+    def x_values(self) -> Sequence[float]:
+        """Round numbers along the x axis."""
+        return ticks(float(self.chart.x[0]), float(self.chart.x[-1]), 8)
+
+    def y_values(self) -> Sequence[float]:
+        """Round numbers along the y axis."""
+        return ticks(*self.y_range, 5)
+
     def x_ticks(self) -> list[tuple[float, str]]:
         """Places in pixels and numbers of the x axis."""
-        values = ticks(float(self.chart.x[0]), float(self.chart.x[-1]), 8)
-        return [(float(self.points(np.array(v), np.array(0.0)).real), f"{v:g}") for v in values]
+        return [(float(self.points(np.array(v), np.array(0.0)).real), _signed(v)) for v in self.x_values()]
 
     def y_ticks(self) -> list[tuple[float, str]]:
         """Places in pixels and numbers of the y axis."""
-        return [(float(self.points(np.array(0.0), np.array(v)).imag), f"{v:g}") for v in ticks(*self._y, 5)]
+        return [(float(self.points(np.array(0.0), np.array(v)).imag), _signed(v)) for v in self.y_values()]
+
+
+def _signed(value: float) -> str:
+    return f"{value:g}".replace("-", "−")
 
 
 def ticks(low: float, high: float, most: int) -> Sequence[float]:

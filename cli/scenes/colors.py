@@ -2,6 +2,21 @@
 
 BLUE, ORANGE, GREEN, RED = "#0072B2", "#E69F00", "#009E73", "#D55E00"
 PURPLE, SKY, BLACK = "#CC79A7", "#56B4E9", "#222222"
+DWELL, STEP = "#CFE8F7", "#F9D9A8"
+"""Bands of a dwell and of a back-step."""
+PHASE_TINTS = {
+    "lead-in": "#FBE3C8",
+    "accelerate": "#FBE3C8",
+    "sync": "#CFE8F7",
+    "constant": "#CFE8F7",
+    "transition": "#FDF3C0",
+    "decelerate": "#FDF3C0",
+    "return": "#E6D9EE",
+    "far-dwell": "#E4E4E4",
+    "dwell": "#F2F2F2",
+    "near-dwell": "#F2F2F2",
+}
+"""Phases of a motion."""
 GREY, LIGHT, WHITE = "#777777", "#DDDDDD", "#ffffff"
 
 

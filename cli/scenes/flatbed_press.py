@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gearlink.cli.scenes.cams import disc_cam
-from gearlink.cli.scenes.colors import BLACK, BLUE, GREEN, GREY, RED, pale
+from gearlink.cli.scenes.colors import BLACK, BLUE, DWELL, GREEN, GREY, RED, pale
 from gearlink.cli.scenes.gears import gear
 from gearlink.cli.scenes.scene import (
     TURN,
@@ -25,6 +25,7 @@ from gearlink.cli.scenes.scene import (
     Readout,
     Reals,
     Scene,
+    bands,
     block,
     circle,
     letters,
@@ -289,4 +290,5 @@ def _chart(machine: Machine) -> Chart:
             Curve("bed", BLUE, whole.bed_travel, machine.bed_travel),
             Curve("cylinder", GREEN, whole.cylinder_travel, machine.cylinder_travel),
         ),
+        bands([("synchronous zone", *np.degrees([machine.design.sync_start, machine.design.sync_end]), DWELL)]),
     )

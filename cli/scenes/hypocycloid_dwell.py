@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.cli.scenes.colors import BLACK, BLUE, GREEN, ORANGE
+from gearlink.cli.scenes.colors import BLACK, BLUE, DWELL, GREEN, ORANGE
 from gearlink.cli.scenes.gears import gear
 from gearlink.cli.scenes.scene import (
     TURN,
@@ -18,6 +18,7 @@ from gearlink.cli.scenes.scene import (
     Readout,
     Reals,
     Scene,
+    bands,
     block,
     letters,
     loop,
@@ -41,6 +42,7 @@ def build(design: HypocycloidDwell, fraction: Reals) -> Scene:
     turn = ring_turn((ring, planet), t, np.zeros_like(t))
     whole = _inwards(design, TURN * loop())
     size = 0.5 * design.point_radius
+    half = np.degrees(0.5 * design.dwell_carrier_angle)
     way = rest - np.array([whole.min() - size, whole.max() + size]) + 0j
     return Scene(
         parts=(
@@ -59,6 +61,7 @@ def build(design: HypocycloidDwell, fraction: Reals) -> Scene:
             360.0 * loop(),
             np.degrees(t),
             (Curve("slider", BLUE, whole, inwards),),
+            bands([("dwell wanted", -half, half, DWELL)]),
         ),
         readouts=(Readout("carrier", "°", np.degrees(t)), Readout("slider", " mm", inwards)),
     )

@@ -6,7 +6,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gearlink.cli.scenes.scene import TURN, Chain, Chart, Curve, Mark, Points, Readout, Reals, letters, loop, track
+from gearlink.cli.scenes.scene import (
+    TURN,
+    Band,
+    Chain,
+    Chart,
+    Curve,
+    Mark,
+    Points,
+    Readout,
+    Reals,
+    letters,
+    loop,
+    track,
+)
 from gearlink.core.linkages import fourbar_sweep
 from gearlink.core.linkages.fourbar import FourBar
 
@@ -50,9 +63,9 @@ def coupler_windings(linkage: FourBar) -> float:
     return float(round((coupler[1] - coupler[0]) / TURN))
 
 
-def over_crank(phi: Reals, curves: tuple[Curve, ...], ylabel: str) -> Chart:
+def over_crank(phi: Reals, curves: tuple[Curve, ...], ylabel: str, marked: tuple[Band, ...] = ()) -> Chart:
     """A chart over one turn of the crank; its curves have as many points as `loop()`."""
-    return Chart("crank angle [deg]", ylabel, 360.0 * loop(), np.degrees(phi), curves)
+    return Chart("crank angle [deg]", ylabel, 360.0 * loop(), np.degrees(phi), curves, marked)
 
 
 def crank_readout(phi: Reals) -> Readout:

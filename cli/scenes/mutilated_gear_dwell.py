@@ -11,7 +11,7 @@ import numpy as np
 from gearlink.cli.scenes.colors import BLUE, ORANGE, pale
 from gearlink.cli.scenes.gears import gear
 from gearlink.cli.scenes.linkages import Joints
-from gearlink.cli.scenes.scene import TURN, Body, Chart, Curve, Mark, Points, Readout, Reals, Scene, loop, track
+from gearlink.cli.scenes.scene import TURN, Band, Body, Chart, Curve, Mark, Points, Readout, Reals, Scene, loop, track
 from gearlink.core.errors import NoSolution
 
 if TYPE_CHECKING:
@@ -60,7 +60,9 @@ def _driven(design: MutilatedGearDwell, turns: Reals) -> Reals:
 def _chart(design: MutilatedGearDwell, whole: float, turns: Reals, driven: Reals) -> Chart:
     x = whole * loop(361)
     curve = Curve("driven", ORANGE, np.degrees(_driven(design, x)), np.degrees(driven))
-    return Chart("input turns", "driven gear [deg]", x, turns, (curve,))
+    cycle, count = design.cycle_turns, design.mutilated.cycles_to_repeat
+    dwells = tuple(Band("dwell", k * cycle + design.motion_turns, (k + 1) * cycle) for k in range(count))
+    return Chart("input turns", "driven gear [deg]", x, turns, (curve,), dwells)
 
 
 def _wheel(design: MutilatedGearDwell, center: Points, turn: Reals) -> Body:

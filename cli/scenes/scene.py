@@ -6,6 +6,7 @@ numbers in mm.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
@@ -87,6 +88,16 @@ class Curve:
 
 
 @dataclass(frozen=True, slots=True)
+class Band:
+    """A stretch of the chart that has a name: a dwell, a phase."""
+
+    name: str
+    start: float
+    end: float
+    color: str = "#CFE8F7"
+
+
+@dataclass(frozen=True, slots=True)
 class Chart:
     """A chart below the mechanism with a point that runs along."""
 
@@ -95,6 +106,7 @@ class Chart:
     x: Reals
     now: Reals
     curves: tuple[Curve, ...]
+    bands: tuple[Band, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -148,6 +160,23 @@ def standing(points: Points, fraction: Reals, color: str, name: str = "") -> Bod
     """A line that stands still in front of what is drawn before it."""
     level = np.zeros_like(fraction)
     return Body(outline=points, place=track(0.0, fraction), turn=level, color=color, width=1.5, name=name)
+
+
+def bands(stretches: Iterable[tuple[str, float, float, str]], whole: float = 360.0) -> tuple[Band, ...]:
+    """Stretches of a loop, name, start, end and colour each; one that passes the end of the loop is two bands.
+
+    Example
+        >>> [(band.name, band.start, band.end) for band in bands([("dwell", 300.0, 400.0, "#cccccc")])]
+        [('dwell', 300.0, 360.0), ('', 0.0, 40.0)]
+    """
+    found = []
+    for name, start, end, color in stretches:
+        first = start % whole
+        last = first + end - start
+        found.append(Band(name, first, min(last, whole), color))
+        if last > whole:
+            found.append(Band("", 0.0, last - whole, color))
+    return tuple(found)
 
 
 def wheel(place: Any, radius: float, fraction: Reals, *, color: str, fill: str, label: str = "") -> Body:

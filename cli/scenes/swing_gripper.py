@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gearlink.cli.scenes.cams import disc_cam
-from gearlink.cli.scenes.colors import BLACK, BLUE, GREY, ORANGE, RED, pale
+from gearlink.cli.scenes.colors import BLACK, BLUE, GREY, ORANGE, PHASE_TINTS, RED, pale
 from gearlink.cli.scenes.scene import (
     TURN,
+    Band,
     Body,
     Chain,
     Chart,
@@ -21,6 +22,7 @@ from gearlink.cli.scenes.scene import (
     Readout,
     Reals,
     Scene,
+    bands,
     circle,
     letters,
     loop,
@@ -32,7 +34,7 @@ from gearlink.core.swing_gripper.positions import GripperPositions, positions
 if TYPE_CHECKING:
     from gearlink.core.swing_gripper.design import SwingGripper
 
-_CAM_COLORS = ("#666666", "#A08060")
+_CAM_COLORS = (BLUE, RED)
 
 
 def build(design: SwingGripper, fraction: Reals) -> Scene:
@@ -123,7 +125,17 @@ def _swing(design: SwingGripper, degrees: Reals) -> Reals:
 
 def _chart(design: SwingGripper, degrees: Reals) -> Chart:
     curve = Curve("gripper", BLUE, _swing(design, 360.0 * loop()), _swing(design, degrees))
-    return Chart("cylinder angle [deg]", "swing of the gripper [deg]", 360.0 * loop(), degrees, (curve,))
+    return Chart(
+        "cylinder angle [deg]", "swing of the gripper [deg]", 360.0 * loop(), degrees, (curve,), _phases(design)
+    )
+
+
+def _phases(design: SwingGripper) -> tuple[Band, ...]:
+    from gearlink.core.swing_gripper.law import PHASES
+
+    starts = design.law.starts
+    named = zip(PHASES, starts, starts[1:], strict=False)
+    return bands((name, start, end, PHASE_TINTS[name]) for name, start, end in named)
 
 
 def _readouts(design: SwingGripper, degrees: Reals) -> tuple[Readout, ...]:

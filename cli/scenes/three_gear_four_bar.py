@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.cli.scenes.colors import BLUE, GREEN, ORANGE
+from gearlink.cli.scenes.colors import BLUE, DWELL, GREEN, ORANGE, STEP
 from gearlink.cli.scenes.gears import gear
 from gearlink.cli.scenes.linkages import Joints, coupler_windings, crank_readout, over_crank, whole_turn
-from gearlink.cli.scenes.scene import TURN, Curve, Readout, Reals, Scene, fixed_circle
+from gearlink.cli.scenes.scene import TURN, Band, Curve, Readout, Reals, Scene, bands, fixed_circle
 from gearlink.core.gears.mesh_phase import driven_turn
 from gearlink.core.three_gear.sweep import output_motion
 
@@ -38,6 +38,23 @@ def build(design: ThreeGearFourBar, fraction: Reals) -> Scene:
             at.chain(),
         ),
         marks=at.marks(),
-        chart=over_crank(phi, (Curve("output", ORANGE, np.degrees(whole.output_angle), swept),), "output angle [deg]"),
+        chart=over_crank(
+            phi, (Curve("output", ORANGE, np.degrees(whole.output_angle), swept),), "output angle [deg]", _bands(design)
+        ),
         readouts=(crank_readout(phi), Readout("output", "°", swept), Readout("speed ratio", "", now.speed_ratio)),
     )
+
+
+def _bands(design: ThreeGearFourBar) -> tuple[Band, ...]:
+    """The dwell within a tolerance where there is one, else the dwell phi13, and the back-step."""
+    found = []
+    if design.tolerance_dwell is not None:
+        start, width = design.tolerance_dwell.start, design.tolerance_dwell.crank_angle
+        found.append(("dwell", math.degrees(start), math.degrees(start + width), DWELL))
+    elif design.back_step is not None and design.dwell_angle is not None:
+        start = design.back_step.start
+        found.append(("dwell", math.degrees(start), math.degrees(start + design.dwell_angle), DWELL))
+    if design.back_step is not None:
+        step = design.back_step
+        found.append(("back-step", math.degrees(step.start), math.degrees(step.start + step.crank_angle), STEP))
+    return bands(found)

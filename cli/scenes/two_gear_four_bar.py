@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.cli.scenes.colors import BLUE, ORANGE
+from gearlink.cli.scenes.colors import BLUE, ORANGE, STEP
 from gearlink.cli.scenes.gears import gear
 from gearlink.cli.scenes.linkages import Joints, coupler_windings, crank_readout, over_crank, whole_turn
-from gearlink.cli.scenes.scene import TURN, Curve, Readout, Reals, Scene, fixed_circle
+from gearlink.cli.scenes.scene import TURN, Band, Curve, Readout, Reals, Scene, bands, fixed_circle
 from gearlink.core.gears.mesh_phase import driven_turn, ring_turn
 
 if TYPE_CHECKING:
@@ -29,7 +29,7 @@ def build(design: TwoGearFourBar, fraction: Reals) -> Scene:
     return Scene(
         parts=(*output, *planet, fixed_circle(0j, design.crank_length), at.chain()),
         marks=at.marks(),
-        chart=over_crank(phi, (curve,), "output angle [deg]"),
+        chart=over_crank(phi, (curve,), "output angle [deg]", _bands(design)),
         readouts=(crank_readout(phi), Readout("output", "°", swept)),
     )
 
@@ -45,3 +45,7 @@ def output_turn(design: TwoGearFourBar, phi: Reals) -> Reals:
 
 def _output(design: TwoGearFourBar, phi: Reals) -> Reals:
     return np.asarray(output_turn(design, phi) - output_turn(design, np.zeros(1))[0])
+
+
+def _bands(design: TwoGearFourBar) -> tuple[Band, ...]:
+    return bands(("back-step", math.degrees(step.start), math.degrees(step.end), STEP) for step in design.back_steps)

@@ -106,7 +106,7 @@ def test_anything_else_is_left_to_typer(arguments: list[str]) -> None:
 
 
 def test_every_shared_option_is_plain(monkeypatch: pytest.MonkeyPatch) -> None:
-    texts = {"format": "md", "plot_format": "svg", "out": "pictures", "samples": "12", "round": "0.01"}
+    texts = {"format": "md", "plot_format": "svg", "out": "pictures", "samples": "12", "round": "0.01", "dpi": "300"}
     for name, option in OPTIONS.items():
         for flag in option.flags:
             arguments = ["press", "x.yaml", flag, *([] if option.type is bool else [texts.get(name, "a=1")])]

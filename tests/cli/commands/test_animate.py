@@ -22,12 +22,13 @@ import yaml
 from matplotlib.path import Path as Outline
 from PIL import Image
 
-from gearlink.cli.commands.animate import _command, build, moving_kinds, pictures_for
+from gearlink.cli.commands.animate import _command
 from gearlink.cli.evaluate import open_design, read_spec
-from gearlink.cli.moving.page import page
+from gearlink.cli.moving.page import page, player_stage
 from gearlink.cli.moving.raster import Raster
 from gearlink.cli.moving.stage import Stage
 from gearlink.cli.options import Options
+from gearlink.cli.scenes.loops import build, moving_kinds, pictures_for
 from gearlink.cli.scenes.scene import TURN, Body, Chain, Scene
 from gearlink.core.three_gear.sweep import output_motion
 
@@ -336,8 +337,8 @@ def test_a_page_needs_nothing_else(gearlink: Any, designs: Path, tmp_path: Path)
 
 def test_page_and_picture_place_parts_alike(designs: Path) -> None:
     scene = build(design_of(designs / "thesis_example_1.yaml"), np.arange(4) / 4.0)
-    stage = Stage(scene, "one", 400, 300)
-    data = json.loads(re.search(r"const DATA = (.*);\n", page(stage, 4))[1])  # type: ignore[index]
+    stage = player_stage(scene, "one", (400, 300))
+    data = json.loads(re.search(r"const DATA = (.*);\n", page(Stage(scene, "one", 400, 300), 4))[1])  # type: ignore[index]
     drawn = [part for part in data["parts"] if part["is"] == "body"]
     for body, part in zip(bodies(scene), drawn, strict=True):
         outline = np.array(part["o"][0::2]) + 1j * np.array(part["o"][1::2])

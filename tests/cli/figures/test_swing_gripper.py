@@ -118,7 +118,7 @@ def test_torques_are_the_table_of_forces(gripper: Sheet) -> None:
         ("return roller", "contact_torque_return"),
     ):
         np.testing.assert_allclose(drawn_lines[label].get_ydata()[::4], column[name], rtol=1e-12, atol=1e-9)
-    assert drawn_lines["spring 400"].get_ydata()[0] == 400.0
+    assert drawn_lines["spring 400 N m"].get_ydata()[0] == 400.0
 
 
 # cam

@@ -1,0 +1,137 @@
+"""`gearlink watch`: the report of a design file on a page of this machine, made anew whenever the file is saved."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable
+from functools import partial
+from html import escape
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from gearlink.cli.commands.design import show_refusal
+from gearlink.cli.evaluate import build, exit_status, open_design, read_spec
+from gearlink.cli.exit_codes import ExitCode
+from gearlink.cli.files import CannotWrite
+from gearlink.cli.options import Options
+from gearlink.cli.printable import visible
+from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
+from gearlink.core.errors import NoSolution
+
+if TYPE_CHECKING:
+    from gearlink.cli.page.server import Board
+    from gearlink.core.design import Design
+    from gearlink.core.report import Report
+
+    Stamp = tuple[int, int, int] | None
+
+_EVERY = 0.05
+"""Between two looks at the file [s]."""
+_FIRST_PICTURES = 60
+"""A film of so few pictures comes at once; the whole one follows the sheets."""
+
+
+def run_watch(source: str, options: Options, *, port: int = 0, show: bool = False) -> int:
+    """Serve the page of a design file until Ctrl-C ends it.
+
+    Parameters
+        port : int - 0 takes a free one
+        show : bool - open the page in the browser
+    """
+    from gearlink.cli.page.sections import watch_script, whole_page
+    from gearlink.cli.page.server import Board, served
+
+    if source == "-":
+        error = DesignFileError([Diagnostic("GL115", "watch needs a file, not standard input", "<command line>")])
+        return show_refusal(error, source, options)
+    board, path = Board(), Path(source)
+    if _stamp(path) is None:
+        wrong = Diagnostic("GL101", "no such file; watch begins with one that is there", source)
+        return show_refusal(DesignFileError([wrong]), source, options)
+    page = whole_page(path.name, ['<div id="problem" role="status"></div>'], watch_script())
+    try:
+        with served(board, lambda: page, port) as address:
+            print(f"{visible(source)}: {address} (Ctrl-C ends)", file=sys.stderr, flush=True)
+            if show:
+                import webbrowser
+
+                webbrowser.open(address)
+            _follow(path, lambda unchanged: _make(source, options, board, unchanged), options)
+    except CannotWrite as error:
+        return show_refusal(error, source, options)
+    return ExitCode.OK
+
+
+def _follow(path: Path, make: Callable[[Callable[[], bool]], str], options: Options) -> None:
+    """Make the page whenever the file is another; a page in the making is given up for a newer one."""
+    seen: Stamp = None
+    while True:
+        now = _stamp(path)
+        if now is None or now == seen:  # an editor may take the file away for a moment
+            time.sleep(_EVERY)
+            continue
+        seen, start = now, time.monotonic()
+        words = make(partial(_is_still, path, seen))
+        if words and not options.quiet:
+            print(f"{words} ({time.monotonic() - start:.2f} s)", file=sys.stderr, flush=True)
+
+
+def _is_still(path: Path, stamp: Stamp) -> bool:
+    return _stamp(path) in (stamp, None)
+
+
+def _stamp(path: Path) -> Stamp:
+    try:
+        found = path.stat()
+    except OSError:
+        return None
+    return found.st_mtime_ns, found.st_size, found.st_ino
+
+
+def _make(source: str, options: Options, board: Board, unchanged: Callable[[], bool]) -> str:
+    """Put all pieces on the board; gives a word of how it went, none where the file changed meanwhile."""
+    try:
+        loaded, kind = open_design(source, options)
+        spec = read_spec(loaded, kind, source)
+        parts = [build(loaded, kind, command, spec, options) for command in spec.commands()]
+        for put in _pieces(board, loaded.text, spec, parts):
+            if not unchanged():
+                return ""
+            put()
+    except (DesignFileError, NoSolution) as error:
+        words = error.as_text() if isinstance(error, DesignFileError) else visible(f"{error.code}: {error}")
+        board.fail(f"<pre>{escape(words)}</pre>")
+        return words
+    except Exception as fault:  # the page says so, and the next save is another try
+        words = visible(f"fault of the program: {type(fault).__name__}: {fault}")
+        board.fail(f"<pre>{escape(words)}</pre>")
+        return words
+    failed = any(exit_status(report, strict=options.strict) for _, report in parts)
+    return visible(f"{spec.name}: a check fails" if failed else f"{spec.name}: pass")
+
+
+def _pieces(board: Board, text: str, spec: Any, parts: list[tuple[Design, Report]]) -> list[Callable[[], None]]:
+    """The steps of making the page, the first picture first."""
+    from gearlink.cli.page import sections
+    from gearlink.cli.page.sheets import sheet
+
+    names = [f"piece-{i}" for i in range(len(parts))]
+    order = ["head", "film", *(name + kind for name in names for kind in ("-sheet", "-results")), "input"]
+
+    def results(i: int) -> str:
+        return sections.results(parts[i][1])
+
+    def drawing(i: int) -> str:
+        design, report = parts[i]
+        return f"<h2>{escape(report.command)}</h2>" + sheet(report.command, design, report.checks)
+
+    every = range(len(parts))
+    return [
+        lambda: board.begin(spec.name, order),
+        lambda: board.put("head", sections.head(spec, parts)),
+        lambda: board.put("film", sections.film(parts, _FIRST_PICTURES)),
+        *(lambda i=i: board.put(f"{names[i]}-sheet", drawing(i)) for i in every),
+        *(lambda i=i: board.put(f"{names[i]}-results", results(i)) for i in every),
+        lambda: board.put("input", sections.given(text, spec)),
+    ]

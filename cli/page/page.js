@@ -1,0 +1,64 @@
+// Cursors on the sheets: a line over every panel of the same axis, with the values of its curves.
+function drawn(name, looks) {
+  const made = document.createElementNS("http://www.w3.org/2000/svg", name);
+  for (const look in looks) made.setAttribute(look, looks[look]);
+  return made;
+}
+function withUnit(value, unit) { return shortNumber(value) + (unit && unit !== "\u00b0" ? " " : "") + unit; }
+function words(over, value) {
+  const [name, unit] = over.replace("]", "").split(" [");
+  return name + " " + withUnit(value, (unit || "").replace("deg", "\u00b0"));
+}
+function linkSheet(sheet) {
+  const svg = sheet.querySelector("svg"), charts = JSON.parse(sheet.querySelector("script.charts").textContent);
+  const layer = svg.appendChild(drawn("g", { class: "cursor", "pointer-events": "none" }));
+  function place(chart, x) { return chart.box[0] + (x - chart.x[0]) / (chart.x[1] - chart.x[0]) * (chart.box[2] - chart.box[0]); }
+  function level(chart, y) {
+    const [low, high] = chart.log ? chart.y.map(Math.log) : chart.y, at = chart.log ? Math.log(y) : y;
+    return chart.box[3] - (at - low) / (high - low) * (chart.box[3] - chart.box[1]);
+  }
+  function show(over, value) {
+    layer.replaceChildren();
+    for (const chart of charts) {
+      if (chart.over !== over) continue;
+      let x = value;
+      if (/\[deg\]/.test(over) && (x < chart.x[0] || x > chart.x[1]))
+        x = [x - 360, x + 360].find(other => other >= chart.x[0] && other <= chart.x[1]) ?? x;
+      if (x < chart.x[0] || x > chart.x[1]) continue;
+      const at = place(chart, x);
+      layer.append(drawn("line", { x1: at, x2: at, y1: chart.box[1], y2: chart.box[3], stroke: "#444", "stroke-width": .8 }));
+      const right = at > (chart.box[0] + chart.box[2]) / 2, lines = [[words(over, value), "#222"]];
+      for (const curve of chart.curves) {
+        const y = valueAt(curve, x);
+        if (y === null) continue;
+        const up = level(chart, y);
+        if (up > chart.box[1] - 1 && up < chart.box[3] + 1)
+          layer.append(drawn("circle", { cx: at, cy: up, r: 2.4, fill: curve.color, stroke: "#fff", "stroke-width": .6 }));
+        lines.push([curve.label + " " + withUnit(y, chart.unit), curve.color]);
+      }
+      lines.forEach(([words, color], k) => {
+        const text = drawn("text", { x: at + (right ? -4 : 4), y: chart.box[1] + 8 + 9 * k, fill: color, stroke: "#fff",
+          "stroke-width": 2.5, "paint-order": "stroke", "font-size": 7.5, "text-anchor": right ? "end" : "start" });
+        text.textContent = words; layer.append(text);
+      });
+    }
+  }
+  function follow(event) {
+    const box = svg.getBoundingClientRect(), [, , wide, high] = svg.getAttribute("viewBox").split(" ").map(Number);
+    const x = (event.clientX - box.left) / box.width * wide, y = (event.clientY - box.top) / box.height * high;
+    const chart = charts.find(c => x >= c.box[0] && x <= c.box[2] && y >= c.box[1] && y <= c.box[3]);
+    if (chart) cursors.say(chart.over, chart.x[0] + (x - chart.box[0]) / (chart.box[2] - chart.box[0]) * (chart.x[1] - chart.x[0]), sheet);
+  }
+  svg.addEventListener("pointermove", follow);
+  svg.addEventListener("pointerdown", follow);
+  const hear = (over, value) => { if (sheet.isConnected) show(over, value); };
+  cursors.heard.push(hear);
+}
+function startPage(root) {
+  for (const film of root.querySelectorAll(".film")) {
+    const data = film.querySelector("script.data");
+    if (data) filmPlayer(film, JSON.parse(data.textContent));
+  }
+  for (const sheet of root.querySelectorAll(".sheet")) linkSheet(sheet);
+}
+startPage(document);

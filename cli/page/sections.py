@@ -1,0 +1,148 @@
+"""The sections of a page as HTML: verdict, film, input, and for each command its sheet, results, findings, tables."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from html import escape
+from importlib import resources
+from typing import TYPE_CHECKING, Any
+
+from gearlink.cli.page.film import film_data
+from gearlink.cli.page.sheets import as_data
+from gearlink.cli.render.numbers import number, quiet, readable_rows, scales, thinning
+from gearlink.core.nomenclature import term
+from gearlink.core.version import VERSION
+
+if TYPE_CHECKING:
+    from gearlink.core.design import Design
+    from gearlink.core.report import Report, Table
+
+    Part = tuple[Design, Report]
+
+_MOST_ROWS = 37
+
+
+def whole_page(title: str, body: Iterable[str], more: str = "") -> str:
+    """A page that needs nothing else: sections with style and scripts, and `more` script after them."""
+    from gearlink.cli.moving.page import part
+
+    head = '<meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">'
+    style = part("player.css") + _file("page.css")
+    script = "\n".join([part("player.js"), _file("page.js"), more])
+    return "\n".join(
+        [
+            '<!DOCTYPE html>\n<html lang="en"><head>',
+            f"{head}<title>{escape(title)}</title><style>{style}</style></head>\n<body>",
+            *body,
+            f"<script>\n{script}</script>\n</body></html>\n",
+        ]
+    )
+
+
+def watch_script() -> str:
+    """What lets a page take new pieces."""
+    return _file("watch.js")
+
+
+def _file(name: str) -> str:
+    return (resources.files("gearlink.cli.page") / name).read_text(encoding="utf-8")
+
+
+def head(spec: Any, parts: Sequence[Part]) -> str:
+    """Name, kind and verdict."""
+    kind = f"{escape(spec.kind)}, computed with gearlink {VERSION}"
+    return f'<h1>{escape(spec.name)}</h1>\n<p class="kind">{kind}</p>\n{_verdict(parts)}'
+
+
+def film(parts: Sequence[Part], pictures: int = 0) -> str:
+    """The film of the first design; empty where it has none."""
+    data = film_data(parts[0][0], pictures)
+    return "" if data is None else f'<h2 class="first">Film</h2>\n<div class="film">{as_data(data, "data")}</div>'
+
+
+def given(text: str, spec: Any) -> str:
+    """The text of the file, and the keys in force."""
+    keys = table(("key", "value"), _keys(spec.model_dump(by_alias=True)), numeric=())
+    return (
+        f'<h2 class="first">Input</h2>\n<pre>{escape(text.rstrip())}</pre>\n'
+        f'<h3>Keys in force, defaults included</h3>\n<div class="keys">{keys}</div>'
+    )
+
+
+def results(report: Report) -> str:
+    """Quantities, findings and tables of a command."""
+    return "\n".join(_results(report))
+
+
+def _verdict(parts: Sequence[Part]) -> str:
+    checks = [check for _, report in parts for check in report.checks]
+    words = []
+    for status, word in (("fail", "failed"), ("warn", "warning"), ("pass", "passed")):
+        count = sum(check.status == status for check in checks)
+        if count:
+            many = "s" if status == "warn" and count > 1 else ""
+            words.append(f'<span class="{status}">{count} {word}{many}</span>')
+    return f"<p>Checks: {', '.join(words) or 'none'}</p>"
+
+
+def _keys(node: Any, path: str = "") -> Iterator[tuple[str, str]]:
+    """Dotted keys and values of a spec, those left out without a default not shown."""
+    if isinstance(node, dict):
+        for key, value in node.items():
+            yield from _keys(value, f"{path}.{key}" if path else str(key))
+    elif node is not None:
+        yield path, str(node)
+
+
+def _results(report: Report) -> Iterator[str]:
+    if report.quantities:
+        scale = scales(report)
+        rows = (
+            (
+                q.name.replace("_", " "),
+                q.symbol,
+                number(quiet(q.value, scale.get(q.unit, 0.0)), 9),
+                "" if q.unit == "1" else q.unit,
+                q.words,
+                term(q.name).source,
+            )
+            for q in report.quantities
+        )
+        yield "<h3>Results</h3>" + table(
+            ("quantity", "symbol", "value", "unit", "meaning", "source"), rows, numeric=(2,)
+        )
+    if report.checks:
+        order = ("fail", "warn", "pass")
+        found = sorted(report.checks, key=lambda check: order.index(check.status))
+        findings = ((c.status, f"{c.code} {c.name}", c.message) for c in found)
+        yield "<h3>Checks</h3>" + table(("status", "check", "finding"), findings, numeric=(), marked=True)
+    for each in report.tables:
+        yield _data(each)
+
+
+def _data(given: Table) -> str:
+    count = len(given.data[0])
+    step = max(1, math.ceil(count / _MOST_ROWS))
+    step = next((s for s in (1, 2, 5, 10, 20, 30) if s >= step), step)
+    heads = [
+        f"{c.replace('_', ' ')} [{u}]" if u != "1" else c.replace("_", " ")
+        for c, u in zip(given.columns, given.units, strict=True)
+    ]
+    note = f'<p class="note">{thinning(step, given)}</p>' if step > 1 else ""
+    title = escape(given.name.replace("_", " "))
+    return f"<h3>{title}</h3>{note}" + table(heads, readable_rows(given, step), numeric=range(len(heads)))
+
+
+def table(heads: Sequence[str], rows: Iterable[Sequence[str]], *, numeric: Iterable[int], marked: bool = False) -> str:
+    """An HTML table that scrolls within itself; with `marked` the first cell of a row is its style."""
+    right = set(numeric)
+
+    def cells(tag: str, row: Sequence[str]) -> str:
+        return "".join(f"<{tag}{' class=n' if i in right else ''}>{escape(cell)}</{tag}>" for i, cell in enumerate(row))
+
+    lines = [f"<tr{f' class={row[0]}' if marked else ''}>{cells('td', row)}</tr>" for row in rows]
+    body = "\n".join(lines)
+    return (
+        f'<div class="scroll"><table><thead><tr>{cells("th", heads)}</tr></thead><tbody>\n{body}</tbody></table></div>'
+    )

@@ -1,0 +1,149 @@
+"""A page on the loopback address whose pieces are replaced while it is open (server-sent events)."""
+
+from __future__ import annotations
+
+import json
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from http import HTTPStatus
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from typing import Any
+
+from gearlink.cli.files import CannotWrite
+
+LOOPBACK = "127.0.0.1"
+_HEARTBEAT = 10.0
+"""After so many seconds without news a comment tells whether the reader is still there."""
+
+
+class Board:
+    """What the page shows: its pieces by name with the version they are of, and what is wrong."""
+
+    def __init__(self) -> None:
+        self._changed = threading.Condition()
+        self._version = 0
+        self._pieces: dict[str, tuple[int, str]] = {}
+        self._order: list[str] = []
+        self._title = self._problem = ""
+        self._stale: list[str] = []
+        self.closed = False
+
+    def begin(self, title: str, order: list[str]) -> None:
+        """A new state of the file: these pieces in this order; those that are there are of the state before."""
+        with self._changed:
+            self._title, self._order, self._problem = title, order, ""
+            self._pieces = {name: piece for name, piece in self._pieces.items() if name in order}
+            self._stale = list(self._pieces)
+            self._announce()
+
+    def put(self, name: str, html: str) -> None:
+        """A piece."""
+        with self._changed:
+            self._stale = [other for other in self._stale if other != name]
+            self._pieces[name] = (self._version + 1, html)
+            self._announce()
+
+    def fail(self, html: str) -> None:
+        """What is wrong with the file; the pieces stay."""
+        with self._changed:
+            self._problem, self._stale = html, list(self._pieces)
+            self._announce()
+
+    def close(self) -> None:
+        """End all who wait."""
+        with self._changed:
+            self.closed = True
+            self._changed.notify_all()
+
+    def _announce(self) -> None:
+        self._version += 1
+        self._changed.notify_all()
+
+    def news(self, since: int, seconds: float) -> tuple[int, dict[str, Any]] | None:
+        """The version now and what has changed since one; None where nothing has within some seconds."""
+        with self._changed:
+            self._changed.wait_for(lambda: self._version > since or self.closed, seconds)
+            if self._version <= since or self.closed:
+                return None
+            fresh = {name: html for name, (version, html) in self._pieces.items() if version > since}
+            said = {"title": self._title, "order": self._order, "stale": self._stale, "problem": self._problem}
+            return self._version, {**said, "pieces": fresh}
+
+
+@contextmanager
+def served(board: Board, shell: Callable[[], str], port: int) -> Iterator[str]:
+    """Serve a board in the background; gives the address of the page.
+
+    Parameters
+        shell : the page without its pieces
+        port : int - 0 takes one that is free
+    Raises
+        CannotWrite - where the port is taken
+    """
+    try:
+        server = ThreadingHTTPServer((LOOPBACK, port), _handler(board, shell))
+    except OSError as error:
+        raise CannotWrite(
+            f"cannot serve on {LOOPBACK}:{port}: {error.strerror or error}; choose another --port"
+        ) from error
+    server.daemon_threads = True
+    thread = threading.Thread(target=server.serve_forever, kwargs={"poll_interval": 0.1}, daemon=True)
+    thread.start()
+    try:
+        yield f"http://{LOOPBACK}:{server.server_address[1]}/"
+    finally:
+        board.close()
+        server.shutdown()
+        server.server_close()
+
+
+def _handler(board: Board, shell: Callable[[], str]) -> type[BaseHTTPRequestHandler]:
+    class Handler(BaseHTTPRequestHandler):
+        def do_GET(self) -> None:
+            """The page, or its events; nothing else, and to nobody who came by another name of this machine."""
+            with suppress(ConnectionError):
+                if not self._local():
+                    self.send_error(HTTPStatus.FORBIDDEN)
+                elif self.path == "/":
+                    self._answer(shell().encode(), "text/html; charset=utf-8")
+                elif self.path == "/events":
+                    self._events()
+                elif self.path == "/favicon.ico":  # every browser asks for one
+                    self.send_response(HTTPStatus.NO_CONTENT)
+                    self.end_headers()
+                else:
+                    self.send_error(HTTPStatus.NOT_FOUND)
+
+        def _local(self) -> bool:
+            port = self.server.server_address[1]  # type: ignore[index]
+            return self.headers.get("Host", "") in (f"{LOOPBACK}:{port}", f"localhost:{port}")
+
+        def _answer(self, data: bytes, kind: str) -> None:
+            self.send_response(HTTPStatus.OK)
+            self.send_header("Content-Type", kind)
+            self.send_header("Content-Length", str(len(data)))
+            self.send_header("Cache-Control", "no-store")
+            self.end_headers()
+            self.wfile.write(data)
+
+        def _events(self) -> None:
+            self.send_response(HTTPStatus.OK)
+            self.send_header("Content-Type", "text/event-stream; charset=utf-8")
+            self.send_header("Cache-Control", "no-store")
+            self.end_headers()
+            version = 0
+            while not board.closed:
+                found = board.news(version, _HEARTBEAT)
+                if found is None:
+                    self.wfile.write(b":\n\n")
+                else:
+                    version, said = found
+                    data = json.dumps(said, ensure_ascii=False, separators=(",", ":"))
+                    self.wfile.write(f"id: {version}\ndata: {data}\n\n".encode())
+                self.wfile.flush()
+
+        def log_message(self, *_: Any) -> None:
+            """Requests are no news."""
+
+    return Handler

@@ -1,0 +1,50 @@
+"""Which kinds move, the scene of a design over its loop, and how many pictures a film of it wants."""
+
+from __future__ import annotations
+
+import math
+from importlib import import_module
+from importlib.util import find_spec
+from typing import TYPE_CHECKING
+
+from gearlink.core.kinds import KINDS
+
+if TYPE_CHECKING:
+    from gearlink.cli.scenes.scene import Reals, Scene
+    from gearlink.core.design import Design
+
+_USUAL_SECONDS, _MOST_SECONDS = 4.0, 12.0
+# A pitch that moves on by more than half of itself from one picture to the next seems to run backwards.
+_PITCH_A_PICTURE = 0.35
+
+
+def moving_kinds() -> tuple[str, ...]:
+    """The kinds that have a scene."""
+    return tuple(name for name in KINDS if moves(name))
+
+
+def moves(kind: str) -> bool:
+    """Whether a kind has a scene."""
+    return find_spec(_module(kind)) is not None
+
+
+def build(design: Design, fraction: Reals) -> Scene:
+    """The scene of a design over fractions of its loop; 0 and 1 look the same."""
+    scene: Scene = import_module(_module(design.kind)).build(design, fraction)
+    return scene
+
+
+def pictures_for(scene: Scene, fps: int) -> int:
+    """How many pictures let the teeth be seen to turn the right way, from a scene of evenly spread probes."""
+    import numpy as np
+
+    from gearlink.cli.scenes.scene import TURN, Body
+
+    bodies = [part for part in scene.parts if isinstance(part, Body) and part.repeats > 1]
+    steps = [float(np.abs(np.diff(body.turn)).max()) * body.repeats / TURN * len(body.turn) for body in bodies]
+    needed = max(steps, default=0.0) / _PITCH_A_PICTURE
+    return math.ceil(min(max(_USUAL_SECONDS * fps, needed), _MOST_SECONDS * fps))
+
+
+def _module(kind: str) -> str:
+    return "gearlink.cli.scenes." + kind.replace("-", "_")

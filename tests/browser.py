@@ -1,0 +1,124 @@
+"""A headless browser for tests: Chromium by its WebDriver, spoken to over plain HTTP."""
+
+from __future__ import annotations
+
+import base64
+import json
+import shutil
+import socket
+import subprocess
+import tempfile
+import time
+import urllib.error
+import urllib.request
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+MISSING = "no chromium and chromedriver on this machine (Debian: apt-get install chromium chromium-driver)"
+_FLAGS = ("--headless=new", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--disable-dev-shm-usage")
+_ELEMENT = "element-6066-11e4-a52e-4f735466cecf"
+KEYS = {"ArrowLeft": "\ue012", "ArrowRight": "\ue014", "Home": "\ue011", "End": "\ue010", "Space": " "}
+
+
+def installed() -> bool:
+    """Whether there is a browser with its driver."""
+    return bool(shutil.which("chromedriver") and (shutil.which("chromium") or shutil.which("google-chrome")))
+
+
+@dataclass
+class Browser:
+    """One session; `problems` are errors that the pages put on their console."""
+
+    session: str
+
+    def _ask(self, method: str, path: str, **data: Any) -> Any:
+        body = json.dumps(data).encode() if method == "POST" else None
+        request = urllib.request.Request(self.session + path, body, {"Content-Type": "application/json"}, method=method)
+        try:
+            with urllib.request.urlopen(request, timeout=60) as answer:
+                return json.load(answer)["value"]
+        except urllib.error.HTTPError as error:
+            raise AssertionError(json.load(error)["value"]["message"]) from error
+
+    def open(self, address: str | Path) -> None:
+        """Go to a page."""
+        self._ask("POST", "/url", url=address.as_uri() if isinstance(address, Path) else address)
+
+    def run(self, script: str, *arguments: Any) -> Any:
+        """What a script returns."""
+        return self._ask("POST", "/execute/sync", script=script, args=list(arguments))
+
+    def size(self, width: int, height: int) -> None:
+        """Show pages on a screen of so many CSS pixels."""
+        metrics = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}
+        self._ask("POST", "/goog/cdp/execute", cmd="Emulation.setDeviceMetricsOverride", params=metrics)
+
+    def press(self, *keys: str) -> None:
+        """Keys, one after the other, to whatever has the focus."""
+        strokes = [{"type": way, "value": KEYS.get(key, key)} for key in keys for way in ("keyDown", "keyUp")]
+        self._ask("POST", "/actions", actions=[{"type": "key", "id": "keyboard", "actions": strokes}])
+
+    def point(self, x: float, y: float) -> None:
+        """Move the mouse to a place of the window."""
+        move = {"type": "pointerMove", "duration": 0, "x": round(x), "y": round(y), "origin": "viewport"}
+        mouse = {"type": "pointer", "id": "mouse", "parameters": {"pointerType": "mouse"}, "actions": [move]}
+        self._ask("POST", "/actions", actions=[mouse])
+
+    def wait(self, script: str, seconds: float = 10.0) -> float:
+        """Until a script gives something true; how long that took [s]."""
+        start = time.monotonic()
+        while not self.run(script):
+            assert time.monotonic() - start < seconds, f"not within {seconds} s: {script}"
+            time.sleep(0.02)
+        return time.monotonic() - start
+
+    def picture(self, path: Path) -> None:
+        """A PNG of the window."""
+        path.write_bytes(base64.b64decode(self._ask("GET", "/screenshot")))
+
+    def problems(self) -> list[str]:
+        """Errors on the console since the last call."""
+        return [
+            entry["message"] for entry in self._ask("POST", "/se/log", type="browser") if entry["level"] == "SEVERE"
+        ]
+
+
+@contextmanager
+def browser() -> Iterator[Browser]:
+    """A browser of its own, ended with the block."""
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    with tempfile.TemporaryDirectory() as home:
+        driver = subprocess.Popen(
+            ["chromedriver", f"--port={port}"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+        )
+        try:
+            yield Browser(_session(port, home))
+        finally:
+            with_session = f"http://127.0.0.1:{port}/shutdown"
+            try:
+                urllib.request.urlopen(with_session, timeout=5).read()
+                driver.wait(5)
+            except (OSError, subprocess.TimeoutExpired):
+                driver.kill()
+                driver.wait()
+
+
+def _session(port: int, home: str) -> str:
+    options = {"args": [*_FLAGS, f"--user-data-dir={home}/profile"], "binary": shutil.which("chromium") or ""}
+    wanted = {"browserName": "chrome", "goog:chromeOptions": options, "goog:loggingPrefs": {"browser": "ALL"}}
+    body = json.dumps({"capabilities": {"alwaysMatch": wanted}}).encode()
+    request = urllib.request.Request(f"http://127.0.0.1:{port}/session", body, {"Content-Type": "application/json"})
+    for _ in range(200):
+        try:
+            with urllib.request.urlopen(request, timeout=60) as answer:
+                return f"http://127.0.0.1:{port}/session/{json.load(answer)['value']['sessionId']}"
+        except urllib.error.HTTPError as error:
+            raise AssertionError(json.load(error)["value"]["message"]) from error
+        except OSError:
+            time.sleep(0.05)
+    raise AssertionError("chromedriver does not answer")

@@ -1,0 +1,148 @@
+"""Report, player and watch in a real browser: no errors, keys, cursors, narrow screens, pictures soon after a save."""
+
+from __future__ import annotations
+
+import re
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from browser import MISSING, Browser, browser, installed
+
+pytestmark = pytest.mark.skipif(not installed(), reason=MISSING)
+NUMBER = "return Number(document.querySelector('#number').value.split(' ')[0])"
+
+
+@pytest.fixture(scope="module")
+def window() -> Iterator[Browser]:
+    with browser() as made:
+        yield made
+
+
+@pytest.fixture(scope="module")
+def pages(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A report and a film of one design."""
+    from gearlink.cli.commands.animate import Asked, run_animate
+    from gearlink.cli.commands.report import run_report
+    from gearlink.cli.options import Options
+
+    folder = tmp_path_factory.mktemp("pages")
+    spec = str(Path(__file__).parents[3] / "designs/candy_feed.yaml")
+    assert run_report(spec, Options(out=folder, quiet=True)) == 0
+    assert run_animate(spec, Asked("html", seconds=1.0), Options(out=folder, quiet=True)) == 0
+    return folder
+
+
+@pytest.mark.parametrize(("width", "height"), [(1280, 900), (390, 800)])
+def test_report_fits_and_its_film_is_in_view(window: Browser, pages: Path, width: int, height: int) -> None:
+    window.size(width, height)
+    window.open(pages / "candy-feed.html")
+    assert window.run("return document.documentElement.scrollWidth") == width
+    assert window.run("return document.querySelector('.controls').getBoundingClientRect().bottom") < height
+    # Words of the sheet are at least 8 pixels high where the screen is narrow.
+    assert window.run("return document.querySelector('.sheet text').getBoundingClientRect().height") > 8
+    inked = (
+        "const c = document.querySelector('.{0}'), d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;"
+    )
+    for canvas in ("stage", "strip"):
+        assert window.run(inked.format(canvas) + "return d.some(value => value < 200)")
+    assert window.problems() == []
+
+
+@pytest.mark.parametrize(("width", "height"), [(1280, 900), (390, 700), (800, 420)])
+def test_player_needs_no_scrolling(window: Browser, pages: Path, width: int, height: int) -> None:
+    window.size(width, height)
+    window.open(pages / "candy-feed-motion.html")
+    size = window.run("const e = document.documentElement; return [e.scrollWidth, e.scrollHeight]")
+    assert size == [width, height]
+    for control in ("#play", "#place", "#speed"):
+        box = window.run(
+            "const b = document.querySelector(arguments[0]).getBoundingClientRect(); return [b.right, b.bottom]",
+            control,
+        )
+        assert box[0] <= width
+        assert box[1] <= height
+    assert window.problems() == []
+
+
+def test_keys_play_and_step(window: Browser, pages: Path) -> None:
+    window.size(1280, 900)
+    window.open(pages / "candy-feed-motion.html")
+    window.press("Home")
+    assert window.run(NUMBER) == 1
+    window.press("ArrowRight", "ArrowRight", "ArrowRight", "ArrowLeft")
+    assert window.run(NUMBER) == 3
+    window.press("End")
+    assert window.run(NUMBER) == 25
+    window.press("Space")
+    window.wait(f"{NUMBER} < 20")
+    window.press("Space")
+    still = window.run(NUMBER)
+    time.sleep(0.15)
+    assert window.run(NUMBER) == still
+
+
+def test_cursors_are_linked_and_tell_values(window: Browser, pages: Path) -> None:
+    window.size(1280, 900)
+    window.open(pages / "candy-feed.html")
+    window.press("Home")
+    place = """
+    const sheet = document.querySelector('.sheet'), svg = sheet.querySelector('svg');
+    svg.scrollIntoView({block: 'end', behavior: 'instant'});
+    const charts = JSON.parse(sheet.querySelector('script.charts').textContent), chart = charts[charts.length - 1];
+    const box = svg.getBoundingClientRect(), unit = box.width / Number(svg.getAttribute('viewBox').split(' ')[2]);
+    return [box.left + unit * (chart.box[0] + 0.75 * (chart.box[2] - chart.box[0])),
+            box.top + unit * 0.5 * (chart.box[1] + chart.box[3])];
+    """
+    x, y = window.run(place)
+    window.point(x, y)
+    window.wait(f"{NUMBER} > 100")
+    words = window.run("return [...document.querySelectorAll('.cursor text')].map(text => text.textContent)")
+    shown = [float(re.sub("[^0-9.]", "", text)) for text in words if text.startswith("crank angle")]
+    assert len(shown) == 3  # output angle, the dwell magnified, speed ratio
+    assert shown == pytest.approx([270.0] * 3, abs=0.5)
+    speed = next(text for text in words if text.startswith("output speed"))
+    assert float(speed.split()[-1].replace("−", "-")) == pytest.approx(-0.3345, abs=1e-3)
+    assert window.run(NUMBER) == pytest.approx(1 + 150 * 0.75, abs=1)
+    assert window.problems() == []
+
+
+@pytest.fixture
+def edited(tmp_path: Path) -> Iterator[tuple[Path, str, subprocess.Popen[str]]]:
+    path = tmp_path / "pair.yaml"
+    path.write_text("kind: gear-pair\nmodule: 4\nteeth: [20, 40]\nprofile_shift: [0, 0]\n")
+    command = [sys.executable, "-m", "gearlink.cli.main", "watch", str(path)]
+    watching = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+    assert watching.stderr is not None
+    line = watching.stderr.readline()
+    yield path, line.split(": ")[1].split(" ")[0], watching
+    watching.kill()
+    watching.wait()
+    watching.stderr.close()
+
+
+def test_watch_shows_what_is_saved(window: Browser, edited: tuple[Path, str, Any]) -> None:
+    path, address, watching = edited
+    window.size(1280, 900)
+    window.open(address)
+    window.wait("return document.querySelector('.sheet svg') && document.querySelector('.film canvas')", 30)
+    path.write_text("kind: gear-pair\nmodule: 4\nteeth: [20, 41]\nprofile_shift: [0, 0]\n")
+    # Half a second on a machine of its own; the tests share theirs.
+    window.wait("return document.querySelector('.sheet')?.textContent.includes('z = 41')", 15)
+    path.write_text("kind: gear-pair\nmodul: 4\nteeth: [20, 41]\nprofile_shift: [0, 0]\n")
+    window.wait("return document.querySelector('#problem').textContent.includes('GL105')")
+    words = window.run("return document.querySelector('#problem').textContent")
+    assert "pair.yaml:2:1: error GL105" in words
+    assert "\n  modul: 4\n  ^" in words
+    assert window.run("return document.querySelector('.sheet') !== null")  # the last picture stays
+    path.write_text("kind: gear-pair\nmodule: 4\nteeth: [20, 42]\nprofile_shift: [0, 0]\n")
+    window.wait("return document.querySelector('.sheet').textContent.includes('z = 42')", 15)
+    assert window.run("return document.querySelector('#problem').textContent") == ""
+    assert window.problems() == []
+    watching.send_signal(signal.SIGINT)
+    assert watching.wait(10) == 130

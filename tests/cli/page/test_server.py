@@ -1,0 +1,99 @@
+"""The board and the server of `watch`: pieces since a version, the loopback address alone, an end."""
+
+from __future__ import annotations
+
+import json
+import threading
+import urllib.error
+import urllib.request
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from gearlink.cli.commands.watch import _make, run_watch
+from gearlink.cli.files import CannotWrite
+from gearlink.cli.options import Options
+from gearlink.cli.page.server import Board, served
+
+
+def test_news_are_what_has_changed() -> None:
+    board = Board()
+    assert board.news(0, 0.01) is None
+    board.begin("a", ["one", "two"])
+    board.put("one", "1")
+    version, said = board.news(0, 1.0) or (0, {})
+    assert (said["order"], said["pieces"], said["problem"]) == (["one", "two"], {"one": "1"}, "")
+    board.put("two", "2")
+    assert (board.news(version, 1.0) or (0, {}))[1]["pieces"] == {"two": "2"}
+    board.fail("wrong")
+    version, said = board.news(version, 1.0) or (0, {})
+    assert (said["problem"], said["stale"]) == ("wrong", ["one", "two"])
+    board.begin("b", ["two"])
+    version, said = board.news(version, 1.0) or (0, {})
+    assert (said["title"], said["problem"], said["stale"]) == ("b", "", ["two"])
+
+
+def test_a_close_ends_those_who_wait() -> None:
+    board, ended = Board(), threading.Event()
+    waiting = threading.Thread(target=lambda: (board.news(0, 30.0), ended.set()))
+    waiting.start()
+    board.close()
+    assert ended.wait(5.0)
+
+
+def test_page_and_events_for_this_machine_alone() -> None:
+    board = Board()
+    board.begin("a", ["one"])
+    board.put("one", "<p>é</p>")
+    with served(board, lambda: "shell", 0) as address:
+        assert address.startswith("http://127.0.0.1:")
+        with urllib.request.urlopen(address, timeout=5) as answer:
+            assert answer.read() == b"shell"
+        with urllib.request.urlopen(address + "events", timeout=5) as answer:
+            assert answer.readline().startswith(b"id: ")
+            assert json.loads(answer.readline().removeprefix(b"data: "))["pieces"] == {"one": "<p>é</p>"}
+        for path, host, status in (("other", None, 404), ("", "evil.example", 403), ("events", "evil.example:80", 403)):
+            request = urllib.request.Request(address + path, headers={"Host": host} if host else {})
+            with pytest.raises(urllib.error.HTTPError) as refused:
+                urllib.request.urlopen(request, timeout=5)
+            assert refused.value.code == status
+            refused.value.close()
+        port = int(address.rsplit(":", 1)[1].strip("/"))
+        with pytest.raises(CannotWrite, match="another --port"), served(Board(), lambda: "", port):
+            pass
+    with pytest.raises(OSError, match=r".+"):
+        urllib.request.urlopen(address, timeout=1)
+
+
+def _pieces(board: Board) -> dict[str, Any]:
+    found = board.news(0, 0.1)
+    assert found is not None
+    return found[1]
+
+
+def test_a_file_becomes_pieces_and_a_wrong_one_a_caret(tmp_path: Path) -> None:
+    path, board = tmp_path / "crank.yaml", Board()
+    path.write_text("kind: slider-crank\nstroke: 310\nrod: 520\n")
+    assert _make(str(path), Options(), board, lambda: True) == "crank: pass"
+    said = _pieces(board)
+    assert list(said["pieces"]) == said["order"] == ["head", "film", "piece-0-sheet", "piece-0-results", "input"]
+    assert "<svg" in said["pieces"]["piece-0-sheet"]
+    path.write_text("kind: slider-crank\nstroke: 310\nrot: 520\n")
+    assert "GL105" in _make(str(path), Options(), board, lambda: True)
+    said = _pieces(board)
+    assert "  rot: 520\n  ^" in said["problem"]
+    assert said["stale"] == said["order"]
+
+
+def test_a_newer_file_ends_the_making_of_an_older_page(tmp_path: Path) -> None:
+    path, board = tmp_path / "crank.yaml", Board()
+    path.write_text("kind: slider-crank\nstroke: 310\nrod: 520\n")
+    assert _make(str(path), Options(), board, lambda: False) == ""
+    assert board.news(0, 0.01) is None
+
+
+@pytest.mark.parametrize(("source", "words"), [("-", "not standard input"), ("none.yaml", "no such file")])
+def test_watch_wants_a_file(source: str, words: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run_watch(source, Options()) == 2
+    assert words in capsys.readouterr().err
