@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import io
 import json
 import os
 from dataclasses import dataclass
@@ -65,6 +66,12 @@ class Ended:
 @pytest.fixture
 def designs() -> Path:
     return ROOT / "designs"
+
+
+@pytest.fixture
+def standard_input(monkeypatch: pytest.MonkeyPatch) -> Any:
+    """Put bytes where `-` reads: `standard_input(b"kind: ...")`."""
+    return lambda given: monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(given)))
 
 
 @pytest.fixture

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import factory
 import pytest
+from sweeps import mostly_slow
 
 ROOT = Path(__file__).resolve().parents[2]
 _PROBE = """
@@ -41,59 +42,57 @@ def packages(modules: set[str]) -> set[str]:
     return {name.partition(".")[0] for name in modules}
 
 
-_WITHOUT_ARRAYS = [
-    "synth dwell designs/candy_feed.yaml --format json",
-    "synth momentary-dwell designs/thesis_example_3_mended.yaml --format json",
-    "synth back-step designs/thesis_example_1.yaml --format json",
-    "synth variable-speed designs/thesis_example_2.yaml --format json",
-    "gear designs/ty460_input_gears.yaml --format json",
-    "gear designs/ty460.yaml --format json",
-    "crank designs/ty460_slider_crank.yaml --format json",
-    "crank designs/ty460.yaml --format json",
+# A process for many lines: what one of them imported would still be there.
+
+READING = {"annotated_types", "gearlink", "pydantic", "pydantic_core", "typing_extensions", "typing_inspection", "yaml"}
+SCALAR_LINES = [
+    "synth dwell designs/candy_feed.yaml",
+    "synth momentary-dwell designs/thesis_example_3_mended.yaml",
+    "synth back-step designs/thesis_example_1.yaml",
+    "synth variable-speed designs/thesis_example_2.yaml",
+    "gear designs/ty460_input_gears.yaml",
+    "gear designs/ty460.yaml",
+    "crank designs/ty460_slider_crank.yaml",
+    "crank designs/ty460.yaml",
     "press designs/ty460.yaml --quantity crank_length",
-    "press designs/ty460.yaml --quantity sync_start",
-    "check designs/wide_lever.yaml",
-    "check designs/two_gear_ring.yaml",
+    "analyze designs/six_bar_two_trains.yaml",
+]
+CHECKS = ["check designs/wide_lever.yaml", "check designs/two_gear_ring.yaml"]
+SWEEP_LINES = [
+    "analyze designs/thesis_example_3_as_printed.yaml",
+    "press designs/ty460.yaml",
+    "cam designs/ty460.yaml",
+    "gripper designs/swing_gripper.yaml",
+    "swing designs/wide_swing_twin_cam.yaml",
 ]
 
 
-def test_scalar_commands_import_no_numpy() -> None:
-    """All in one process: what one of them imported would still be there."""
-    assert not packages(modules_of(*" + ".join(_WITHOUT_ARRAYS).split())) & {"numpy", "scipy", "matplotlib"}
+def installed(modules: set[str]) -> set[str]:
+    """The packages among the modules that do not come with Python."""
+    return (packages(modules) & set(packages_distributions())) - {"_distutils_hack"}
 
 
-def test_json_needs_no_rich() -> None:
-    assert "rich.table" not in modules_of("synth", "dwell", "designs/candy_feed.yaml", "--format", "json")
+@pytest.mark.parametrize(("lines", "besides"), [(SCALAR_LINES, set()), (SWEEP_LINES, {"numpy"})])
+def test_results_as_json_import_what_reading_needs_and_no_more(lines: list[str], besides: set[str]) -> None:
+    """Scalar commands no numpy, sweeps no scipy and no matplotlib, neither rich nor Typer."""
+    modules = modules_of(*" --format json + ".join([*lines, ""]).removesuffix(" + ").split())
+    assert installed(modules) <= READING | {"_yaml"} | besides
+    assert not {name for name in modules if name.startswith(("gearlink.cli.figures", "gearlink.cli.app"))}
 
 
-@pytest.mark.parametrize("arguments", [("--help",), ("--version",), ("synth", "--help")])
-def test_help_and_version_import_no_models(arguments: tuple[str, ...]) -> None:
-    modules = modules_of(*arguments)
+def test_checks_of_scalar_designs_import_no_numpy() -> None:
+    assert not packages(modules_of(*" + ".join(CHECKS).split())) & {"numpy", "scipy", "matplotlib"}
+
+
+def test_help_imports_no_models() -> None:
+    modules = modules_of(*["--help", "+", "synth", "--help"])
     assert "numpy" not in modules
     assert not {m for m in modules if m.startswith("gearlink.core.") and "spec" in m.rpartition(".")[2]}
     assert not {m for m in modules if m in ("yaml", "scipy", "matplotlib", "gearlink.cli.commands.design")}
 
 
 def test_version_imports_no_typer() -> None:
-    probe = (
-        "import sys; from gearlink.cli.main import run; run(['--version'])\n"
-        "print(sorted(m for m in sys.modules if m.partition('.')[0] in ('typer', 'pydantic', 'rich', 'yaml')))"
-    )
-    done = subprocess.run([sys.executable, "-c", probe], capture_output=True, text=True, check=True)
-    assert done.stdout.splitlines()[1] == "[]"
-
-
-@pytest.mark.parametrize(
-    "arguments",
-    [
-        ("press", "designs/ty460.yaml", "--format", "json"),
-        ("cam", "designs/ty460.yaml", "--format", "json"),
-        ("analyze", "designs/thesis_example_3_as_printed.yaml", "--format", "json"),
-    ],
-    ids=["press", "cam", "analyze"],
-)
-def test_sweeps_import_no_scipy_and_no_matplotlib(arguments: tuple[str, ...]) -> None:
-    assert not packages(modules_of(*arguments)) & {"scipy", "matplotlib"}
+    assert installed(modules_of("--version")) <= {"gearlink"}
 
 
 def test_core_imports_no_interface() -> None:
@@ -110,48 +109,15 @@ def test_core_imports_no_interface() -> None:
     assert not found & {"typer", "rich", "yaml", "matplotlib", "scipy", "gearlink.cli"}
 
 
-READING = {"annotated_types", "gearlink", "pydantic", "pydantic_core", "typing_extensions", "typing_inspection", "yaml"}
-_SCALAR_LINES = [
-    "synth dwell designs/candy_feed.yaml",
-    "synth back-step designs/thesis_example_1.yaml",
-    "synth variable-speed designs/thesis_example_2.yaml",
-    "synth momentary-dwell designs/thesis_example_3_mended.yaml",
-    "gear designs/ty460_input_gears.yaml",
-    "crank designs/ty460_slider_crank.yaml",
-    "analyze designs/six_bar_two_trains.yaml",
-]
-_SWEEP_LINES = [
-    "analyze designs/thesis_example_3_as_printed.yaml",
-    "press designs/ty460.yaml",
-    "cam designs/ty460.yaml",
-    "gripper designs/swing_gripper.yaml",
-    "swing designs/wide_swing_twin_cam.yaml",
-]
+LINES = ["crank designs/ty460_slider_crank.yaml", "press designs/ty460.yaml"]
 
 
-def installed(modules: set[str]) -> set[str]:
-    """The packages among the modules that do not come with Python."""
-    return (packages(modules) & set(packages_distributions())) - {"_distutils_hack"}
+def test_results_in_a_terminal_import_no_matplotlib() -> None:
+    assert "matplotlib" not in packages(modules_of(*" + ".join(LINES).split()))
 
 
-@pytest.mark.parametrize("line", _SCALAR_LINES)
-def test_scalar_commands_import_what_reading_needs_and_no_more(line: str) -> None:
-    modules = modules_of(*line.split(), "--format", "json")
-    assert installed(modules) <= READING | {"_yaml"}
-    assert not {name for name in modules if name.startswith(("gearlink.cli.figures", "gearlink.cli.app"))}
-
-
-@pytest.mark.parametrize("line", _SWEEP_LINES)
-def test_sweeps_import_numpy_besides_and_no_more(line: str) -> None:
-    modules = modules_of(*line.split(), "--format", "json")
-    assert installed(modules) <= READING | {"_yaml", "numpy"}
-    assert not {name for name in modules if name.startswith(("gearlink.cli.figures", "gearlink.cli.app"))}
-
-
-@pytest.mark.parametrize("line", ["press designs/ty460.yaml", "crank designs/ty460_slider_crank.yaml"])
-def test_a_picture_is_drawn_only_where_asked_for(line: str, tmp_path: Path) -> None:
-    plain = modules_of(*line.split())
-    assert "matplotlib" not in packages(plain)
+@pytest.mark.parametrize("line", mostly_slow(LINES, 1))
+def test_a_picture_imports_neither_pyplot_nor_scipy(line: str, tmp_path: Path) -> None:
     drawn = modules_of(*line.split(), "--plot", "--out", str(tmp_path), "--quiet")
     assert "matplotlib.figure" in drawn
     assert not drawn & {"matplotlib.pyplot", "scipy"}

@@ -21,6 +21,7 @@ import pytest
 import yaml
 from matplotlib.path import Path as Outline
 from PIL import Image
+from sweeps import mostly_slow
 
 from gearlink.cli.commands.animate import _command
 from gearlink.cli.evaluate import open_design, read_spec
@@ -300,7 +301,7 @@ def test_a_gif_has_the_pictures_and_the_time_asked_for(gearlink: Any, designs: P
     assert sum(times) == 2000
 
 
-@each_design
+@pytest.mark.parametrize("path", mostly_slow(MOVING[::5] + MOVING, len(MOVING[::5])), ids=lambda path: path.stem)
 def test_every_design_becomes_a_gif(gearlink: Any, tmp_path: Path, path: Path) -> None:
     ended = gearlink("animate", path, "--out", tmp_path, "--quiet", "--fps", 2, "--seconds", 1, "--size", "240x180")
     assert (ended.status, ended.out, ended.err) == (0, "", "")

@@ -128,11 +128,8 @@ def test_set_overrides_a_key_and_findings_point_there(gearlink: Any, tmp_path: P
     assert {f["code"] for f in ended.json["findings"]} == {"GL203"}
 
 
-def test_standard_input(gearlink: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    class Stdin:
-        buffer = io.BytesIO(PAIR.encode())
-
-    monkeypatch.setattr("sys.stdin", Stdin)
+def test_standard_input(gearlink: Any, standard_input: Any) -> None:
+    standard_input(PAIR.encode())
     assert gearlink("check", "-").out == "1 design: 13 pass\n"
 
 

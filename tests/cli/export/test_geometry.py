@@ -19,6 +19,7 @@ import factory
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from sweeps import mostly_slow
 
 from gearlink.cli.export import parts
 from gearlink.cli.export.contour import Contour, contour
@@ -72,7 +73,7 @@ def drawn(exported: Contour, layer: str) -> list[Points]:
 
 def flattened(chain: Points) -> Points:
     """A chain of Bezier cubics in chords."""
-    count = min(max(60_000 // (chain.size // 3), 32), 300)
+    count = min(max(20_000 // (chain.size // 3), 32), 300)
     t = np.arange(count) / count
     corners = [chain[i : len(chain) - 3 + i : 3, None] for i in range(4)]
     shares = [(1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t**2 * (1 - t), t**3]
@@ -121,8 +122,7 @@ def test_disc_cams_follow_the_kernel(build: Any, name: str, form: CurveForm) -> 
     turn = np.linspace(0.0, 2.0 * math.pi, 30_011)
     for layer, points in zip(("PITCH_CURVE", "PROFILE"), cam.points(turn), strict=True):
         (line,) = drawn(exported, layer)
-        off = distance(points, line)
-        assert off.max() <= exported.error + AGAIN
+        assert distance(points[::4], line).max() <= exported.error + AGAIN
         (nodes,) = (found.nodes for found in exported.lines if found.layer == layer)
         assert distance(nodes, points).max() <= 2e-6  # chord error of 30,011 points on a cam of 220 mm
 
@@ -132,7 +132,7 @@ def test_the_reached_error_is_the_error(build: Any, name: str) -> None:
     """Not only a bound: resampling finds nearly all of it."""
     design = build()
     exported = made(design, name)
-    turn = np.linspace(0.0, 2.0 * math.pi, 100_003)
+    turn = np.linspace(0.0, 2.0 * math.pi, 30_011)
     found = max(
         distance(points, drawn(exported, layer)[0]).max()
         for layer, points in zip(("PITCH_CURVE", "PROFILE"), getattr(design, name).points(turn), strict=True)
@@ -275,7 +275,7 @@ def test_swing_cams_are_open_and_follow_the_table(build: Any, name: str, form: C
     assert distance(column["pitch_x"] + 1j * column["pitch_y"], pitch).max() <= exported.error + AGAIN
 
 
-@pytest.mark.parametrize("form", FORMS)
+@pytest.mark.parametrize("form", mostly_slow(FORMS, 1))
 @pytest.mark.parametrize(("build", "name"), SWING_CAMS)
 def test_the_roller_nowhere_enters_a_swing_profile(build: Any, name: str, form: CurveForm) -> None:
     exported = made(build(), name, form)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import re
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -34,8 +35,17 @@ def nodes(schema: Any) -> Iterator[dict[str, Any]]:
             yield from nodes(part)
 
 
+@cache
+def schema_of(kind: str) -> dict[str, Any]:
+    return kind_schema(KINDS[kind])
+
+
 def errors(data: Any, schema: dict[str, Any]) -> list[str]:
-    return [error.message for error in Draft7Validator(schema).iter_errors(data)]
+    validator = _VALIDATORS.setdefault(id(schema), Draft7Validator(schema))
+    return [error.message for error in validator.iter_errors(data)]
+
+
+_VALIDATORS: dict[int, Draft7Validator] = {}  # each keeps its schema, so that no other one gets its id
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -65,7 +75,7 @@ def test_nothing_stands_beside_a_reference() -> None:
 def test_every_design_is_valid(path: Path) -> None:
     data = load(str(path)).data
     assert errors(data, ALL) == []
-    assert errors(data, kind_schema(KINDS[data["kind"]])) == []
+    assert errors(data, schema_of(data["kind"])) == []
 
 
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda path: path.stem)
@@ -98,7 +108,7 @@ def test_schema_and_program_agree_on_wrong_values(path: Path) -> None:
     """
     data = load(str(path)).data
     model = KINDS[data["kind"]].spec_model()
-    schema = kind_schema(KINDS[data["kind"]])
+    schema = schema_of(data["kind"])
     for place in list(leaves(data)):
         if "law" in str(place):
             continue
@@ -163,7 +173,7 @@ def test_an_unknown_kind_is_found() -> None:
 def test_every_key_has_words_and_every_number_a_unit(kind: str) -> None:
     for key in spec_keys(KINDS[kind]):
         assert key.words, key.path
-    properties = [node for node in nodes(kind_schema(KINDS[kind])) if "type" in node]
+    properties = [node for node in nodes(schema_of(kind)) if "type" in node]
     numbers = [node for node in properties if node["type"] in ("number", "integer") and "enum" not in node]
     law_numbers = {"scca", "half-scca", "velocity-scca", "quintic", "septic"}
     in_laws = [id(part) for n in properties if set(n.get("properties", ())) & law_numbers for part in nodes(n)]
@@ -171,14 +181,14 @@ def test_every_key_has_words_and_every_number_a_unit(kind: str) -> None:
 
 
 def test_unit_ends_the_description() -> None:
-    key = kind_schema(KINDS["slider-crank"])["properties"]["rod"]
+    key = schema_of("slider-crank")["properties"]["rod"]
     assert key["unit"] == "mm"
     assert key["description"] == "connecting rod [mm]"
 
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_defaults_obey_the_schema(kind: str) -> None:
-    schema = kind_schema(KINDS[kind])
+    schema = schema_of(kind)
     for node in nodes(schema):
         if "default" in node:
             assert node["default"] is not None

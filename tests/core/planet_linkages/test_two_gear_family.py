@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import math
 import random
+from bisect import bisect_left
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -17,6 +18,7 @@ from typing import Any
 import factory
 import numpy as np
 import pytest
+from scipy.ndimage import maximum_filter1d, minimum_filter1d
 
 from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.linkages import fourbar_sweep
@@ -71,14 +73,18 @@ def outputs(drive: PlanetLinkage) -> np.ndarray[Any, Any]:
 
 
 def scanned_window(drive: PlanetLinkage, tolerance: float) -> float:
-    """Longest window [deg] within +- a tolerance [deg], by sliding one over the samples of two turns."""
-    angles, best, left = outputs(drive), 0, 0
-    turn = len(angles) // 2
-    for right in range(len(angles)):
-        while angles[left : right + 1].max() - angles[left : right + 1].min() > 2.0 * tolerance:
-            left += 1
-        best = max(best, min(right - left, turn))
-    return best * GRID
+    """Longest window [deg] within +- a tolerance [deg] among the samples of two turns."""
+    angles = outputs(drive)
+
+    def too_long(steps: int) -> bool:
+        samples = steps + 1
+        half = samples // 2
+        inside = slice(half, len(angles) - half)
+        spread = maximum_filter1d(angles, samples)[inside] - minimum_filter1d(angles, samples)[inside]
+        return bool(spread.min() > 2.0 * tolerance)
+
+    turn = range(len(angles) // 2 + 1)
+    return (bisect_left(turn, True, key=too_long) - 1) * GRID
 
 
 @pytest.mark.parametrize("case", [pytest.param(c, id=c["name"]) for c in CASES if c["name"].startswith("B6.")])
