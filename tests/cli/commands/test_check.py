@@ -163,7 +163,7 @@ def test_no_table_is_computed_and_every_place_is_in_its_file(
     monkeypatch.setattr(Design, "table", refuse)
     ended = gearlink("check", designs, "--verbose", "--format", "json")
     assert ended.status == 1
-    lines = {str(path): path.read_text().splitlines() for path in designs.glob("*.yaml")}
+    lines = {str(path): path.read_text().splitlines() for path in designs.rglob("*.yaml")}
     findings = ended.json["findings"]
     assert {found["file"] for found in findings} <= set(lines)
     for found in findings:
