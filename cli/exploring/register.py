@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from pathlib import Path
 from typing import Annotated
 
 import typer
 
+from gearlink.cli.exploring.options import Exploring
 from gearlink.cli.options import Options
 from gearlink.cli.typer_options import takes
 
@@ -15,10 +18,21 @@ def register(app: typer.Typer) -> None:
     app.command("explore")(_explore)
 
 
-@takes("format", "overrides", "strict", "color", "quiet")
+@takes("format", "plot", "plot_format", "out", "overrides", "strict", "color", "quiet")
 def _explore(
-    study: Annotated[str, typer.Argument(metavar="STUDY", help="study file, or - for standard input")],
+    sources: Annotated[list[str], typer.Argument(metavar="STUDY", help="study file, - for standard input, or a store")],
     options: Options,
+    store: Annotated[Path | None, typer.Option(metavar="FILE", help="keep what is finished in this file")] = None,
+    resume: Annotated[bool, typer.Option("--resume", help="continue what the store has")] = False,
+    budget: Annotated[float | None, typer.Option(min=1.0, metavar="N", help="most designs")] = None,
+    seed: Annotated[int | None, typer.Option(min=0, metavar="N", help="seed of a sampled study")] = None,
+    jobs: Annotated[int, typer.Option("--jobs", "-j", min=0, help="number of processes; 0: chosen automatically")] = 0,
+    executor: Annotated[str, typer.Option(metavar="MODULE:FACTORY", help="what makes an executor to compute by")] = "",
+    dask: Annotated[str, typer.Option(metavar="ADDRESS", help="compute on the Dask cluster of this scheduler")] = "",
+    shard: Annotated[str, typer.Option(metavar="I/N", help="compute only the I-th of N shares")] = "1/1",
+    merge: Annotated[bool, typer.Option("--merge", help="put the named stores together in --store")] = False,
+    show: Annotated[str, typer.Option(metavar="N", help="print design N (mK: nearest miss of row K of why)")] = "",
+    write: Annotated[Path | None, typer.Option(metavar="DIR", help="write the kept designs as files")] = None,
 ) -> None:
     """Find the best of many designs: the exact front of a grid, or a sampled one.
 
@@ -28,4 +42,15 @@ def _explore(
     """
     from gearlink.cli.exploring.run import run_explore
 
-    raise typer.Exit(run_explore(study, options))
+    given = [f"sampling.budget={budget!r}"] if budget is not None else []
+    given += [f"sampling.seed={seed}"] if seed is not None else []
+    options = replace(options, overrides=(*options.overrides, *given))
+    asked = Exploring(options, store, resume, merge, jobs, executor, dask, show, write, _share(shard), tuple(sources))
+    raise typer.Exit(run_explore(asked))
+
+
+def _share(text: str) -> tuple[int, int]:
+    index, _, count = text.partition("/")
+    if text.isascii() and index.isdecimal() and count.isdecimal() and 1 <= int(index) <= int(count):
+        return int(index), int(count)
+    raise typer.BadParameter(f"{text!r} is not I/N with 1 <= I <= N", param_hint="--shard")

@@ -1,23 +1,196 @@
-"""`gearlink explore` from the study file to the page."""
+"""`gearlink explore` from the study file, or from a store, to the page."""
 
 from __future__ import annotations
 
-from gearlink.cli.commands.design import print_report
-from gearlink.cli.evaluate import build, exit_status, open_design, read_spec, require_command
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from gearlink.cli.evaluate import exit_status, open_design, read_spec, require_command
 from gearlink.cli.exit_codes import ExitCode
-from gearlink.cli.options import Options
-from gearlink.cli.reading.diagnostics import DesignFileError
+from gearlink.cli.exploring.computing import Means, Opened, compute, kept_in, progress, shared
+from gearlink.cli.exploring.options import Exploring
+from gearlink.cli.exploring.store import (
+    CannotStore,
+    Kept,
+    Memory,
+    chunks_of,
+    is_store,
+    opened,
+    problem_in,
+    ready,
+    same_study,
+)
+from gearlink.cli.files import CannotWrite
+from gearlink.cli.options import Format
+from gearlink.cli.reading.base_design import located
+from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.errors import show_errors
+from gearlink.core.explore.chunks import together
+from gearlink.core.explore.exploration import Exploration
+from gearlink.core.explore.front import Found
+from gearlink.core.explore.problem import Problem, problem
+from gearlink.core.study.faults import WrongStudy
 
 
-def run_explore(source: str, options: Options) -> int:
-    """Compute a study, print it, and give the exit status."""
+def run_explore(asked: Exploring) -> int:
+    """Do what the command line asks for, and give the exit status."""
     try:
-        loaded, kind = open_design(source, options)
-        require_command(loaded, kind, "explore")
-        _, report = build(loaded, kind, "explore", read_spec(loaded, kind, source), options)
+        return _run(asked)
     except DesignFileError as error:
-        show_errors(error.diagnostics, options)
-        return ExitCode.WRONG_INPUT
-    print_report(report, options)
-    return exit_status(report, strict=options.strict)
+        show_errors(error.diagnostics, asked.options)
+    except CannotStore as error:
+        place = str(asked.store or asked.sources[0])
+        show_errors([Diagnostic(error.code, str(error), file=place, help=error.help)], asked.options)
+    except CannotWrite as error:
+        show_errors([Diagnostic("GL116", str(error), file=asked.sources[0])], asked.options)
+    return ExitCode.WRONG_INPUT
+
+
+def _run(asked: Exploring) -> int:
+    if asked.merge:
+        return _merge(asked)
+    if len(asked.sources) > 1:
+        raise _usage(f"one study, not {len(asked.sources)}; several stores go with --merge", asked.sources[1])
+    source = asked.sources[0]
+    if is_store(source):
+        with opened(Path(source)) as store:
+            made = problem_in(store)
+            return _answer(made, store, asked)
+    made = _read(source, asked)
+    if asked.show and not asked.show.startswith("m"):
+        from gearlink.cli.exploring.designs import show
+
+        return show(made, None, asked.show)
+    return _computed(made, asked)
+
+
+def _read(source: str, asked: Exploring) -> Problem:
+    """The study of a file, ready to be computed."""
+    loaded, kind = open_design(source, asked.options)
+    require_command(loaded, kind, "explore")
+    spec = read_spec(loaded, kind, source)
+    try:
+        made = problem(spec)
+        made.order  # noqa: B018 - refused here, where its places in the file are known
+    except WrongStudy as error:
+        raise DesignFileError(located(loaded, error.faults)) from None
+    return made
+
+
+def _computed(made: Problem, asked: Exploring) -> int:
+    keep = _keep(made, asked)
+    with keep() as kept:
+        done = kept.finished()
+    mine = shared(range(made.chunks), asked.shard)
+    todo = [number for number in mine if number not in done]
+    with _means(asked) as means, progress(len(todo), made.chunk_size, quiet=asked.options.quiet) as advance:
+        whole = compute(made, todo, keep, means, advance)
+    with keep() as kept:
+        if not whole:
+            return _interrupted(made, kept, asked)
+        if asked.shard != (1, 1) and len(kept.finished()) < made.chunks:
+            _tell(f"share {asked.shard[0]} of {asked.shard[1]} is computed; put all shares together by --merge", asked)
+            return ExitCode.OK
+        return _answer(made, kept, asked)
+
+
+def _keep(made: Problem, asked: Exploring) -> Opened:
+    """Where chunks are kept: in the store, which is made ready, or in memory."""
+    if asked.store is None:
+        if asked.resume or asked.shard != (1, 1):
+            raise _usage(f"{'--resume' if asked.resume else '--shard'} needs --store FILE", "--store")
+        return kept_in(Memory())
+    path = asked.store
+    with opened(path) as store:
+        ready(store, made, resume=asked.resume)
+        store.log("begun" if not store.finished() else "continued")
+    return lambda: opened(path)
+
+
+@contextmanager
+def _means(asked: Exploring) -> Iterator[Means]:
+    if asked.dask or asked.executor:
+        from gearlink.cli.exploring.executors import means_of
+
+        with means_of(asked.executor, asked.dask) as means:
+            yield means
+    else:
+        yield Means(asked.jobs)
+
+
+def _interrupted(made: Problem, kept: Kept, asked: Exploring) -> int:
+    done = len(kept.finished())
+    text = f"interrupted: {done} of {made.chunks} chunks are finished"
+    if asked.store is not None:
+        text += f"; continue by: gearlink explore {asked.sources[0]} --store {asked.store} --resume"
+    print(text, file=sys.stderr)
+    return ExitCode.INTERRUPTED
+
+
+def _merge(asked: Exploring) -> int:
+    """Put the chunks of several stores of one study into one."""
+    if asked.store is None:
+        raise _usage("--merge needs --store FILE", "--store")
+    for source in asked.sources:
+        if not is_store(source):
+            raise CannotStore("GL159", f"{source} is no store", "--merge takes stores")
+    with opened(Path(asked.sources[0])) as first:
+        made = problem_in(first)
+    with opened(asked.store) as store:
+        ready(store, made, resume=asked.resume)
+        for source in asked.sources:
+            if Path(source).resolve() == asked.store.resolve():
+                continue
+            with opened(Path(source)) as other:
+                same_study(Path(source), other.meta(), made)
+                store.add(list(other.results()))
+        return _answer(made, store, asked)
+
+
+def _answer(made: Problem, kept: Kept, asked: Exploring) -> int:
+    """Print what was found, or that something is missing."""
+    missing = made.chunks - len(kept.finished())
+    if missing:
+        text = f"{missing} of {made.chunks} chunks are missing: continue with the study file, --store and --resume"
+        if not asked.merge:
+            raise CannotStore("GL159", text)
+        _tell(text, asked)
+        return ExitCode.OK
+    found = Found.of(made, together(made, chunks_of(kept, made)))
+    if asked.show:
+        from gearlink.cli.exploring.designs import show
+
+        return show(made, found, asked.show)
+    return _print(Exploration(made.spec, found), asked)
+
+
+def _print(study: Exploration, asked: Exploring) -> int:
+    report = study.report("explore")
+    if asked.write is not None:
+        from gearlink.cli.exploring.designs import write
+
+        _tell(f"wrote {write(study.found, asked.write)} designs to {asked.write}", asked)
+    if asked.options.plot:
+        from gearlink.cli.commands.design import plot
+
+        plot("explore", study, asked.options)
+    if asked.options.format is Format.TABLE:
+        from gearlink.cli.exploring.page import show as show_page
+
+        show_page(study, report, asked.options)
+    else:
+        from gearlink.cli.commands.design import print_report
+
+        print_report(report, asked.options)
+    return exit_status(report, strict=asked.options.strict)
+
+
+def _tell(text: str, asked: Exploring) -> None:
+    if not asked.options.quiet:
+        print(text, file=sys.stderr)
+
+
+def _usage(message: str, key: str) -> DesignFileError:
+    return DesignFileError([Diagnostic("GL115", message, file="<command line>", key=key)])

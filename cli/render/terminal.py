@@ -31,7 +31,12 @@ def show(report: Report, options: Options) -> None:
     if report.quantities:
         console.print(_quantities(report, console))
     for table in report.tables:
-        _show_table(table, console)
+        show_table(table, console)
+    show_findings(report, console)
+
+
+def show_findings(report: Report, console: Console) -> None:
+    """What the checks found, and the verdict."""
     findings = [c for c in report.checks if c.status != "pass"]
     if findings:
         console.print()
@@ -129,8 +134,9 @@ def _room(check: Check) -> float:
     return abs(check.value - check.limit)
 
 
-def _show_table(table: Table, console: Console) -> None:
-    step = max(1, math.ceil(table.length / _MOST_ROWS))
+def show_table(table: Table, console: Console, most: int = _MOST_ROWS) -> None:
+    """Print a table, thinned to so many rows and folded to the width."""
+    step = max(1, math.ceil(table.length / most))
     if step > 1:
         step = next((s for s in (2, 5, 10, 15, 30) if s >= step), step)
     cells = readable_rows(table, step)

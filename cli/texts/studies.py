@@ -59,6 +59,27 @@ STUDIES: tuple[Rule, ...] = (
         "Repair the base, or narrow the variable's range to what its key takes.",
     ),
     Rule(
+        "GL157",
+        "store of another study",
+        "The store was made for a study that differs from this one in the key of the message.",
+        "Its results belong to other designs.",
+        "Give another --store, or put the study back as it was.",
+    ),
+    Rule(
+        "GL158",
+        "store or worker of another program",
+        "The store was made, or a worker runs, with another gearlink or numpy, or on another type of processor.",
+        "Last bits of numbers would differ within one result.",
+        "Continue where it was begun, or begin a new store.",
+    ),
+    Rule(
+        "GL159",
+        "store exists",
+        "The store is there already, and --resume was not given; or it is no store, or cannot be written.",
+        "Results are never overwritten.",
+        "Add --resume to continue it, or give another --store.",
+    ),
+    Rule(
         "GL160",
         "two ways, two results",
         "A design of the front has other figures by its own class than in the search.",

@@ -87,6 +87,12 @@ def computed(canonical: str, number: int) -> tuple[str, bytes]:
     return chunk.counts(), chunk.data()
 
 
+def designs_of(canonical: str, first: int, last: int) -> None:
+    """Compute some designs of a study and keep nothing: where one of them ends its process, this tells."""
+    made = _problem(canonical)
+    evaluated(made, made.order.columns(np.arange(first, last)))
+
+
 @lru_cache(maxsize=2)
 def _problem(canonical: str) -> Problem:
     return problem_of(canonical)
@@ -118,24 +124,46 @@ def one_by_one(problem: Problem, columns: Reals) -> Evaluated:
     return as_arrays(singles, problem.names, problem.must_pass)
 
 
-def kept(problem: Problem, index: Any, found: Evaluated) -> Chunk:
-    """What is kept of evaluated designs."""
-    count = len(index)
-    shown = {name: _column(expression, found, count) for name, expression, _ in problem.shown}
-    objectives = np.array([wish.sign * _numbers(shown[wish.name]) for wish in problem.objectives]).T
+@dataclass(frozen=True)
+class Judged:
+    """Evaluated designs against what is sought.
+
+    Fields
+        columns : (C, N) array - of `Problem.shown`; words have no number
+        objectives : (N, k) array - to be minimised
+        failing : by row of the table why, which designs fail it, and (value, limit, unit) where it has them
+        total : (N,) array - how many rows each design fails
+    """
+
+    columns: Reals
+    objectives: Reals
+    failing: dict[str, tuple[Mask, Any]]
+    total: Any
+
+
+def judged(problem: Problem, found: Evaluated, count: int) -> Judged:
+    """Judge evaluated designs."""
+    columns = np.array([_numbers(_column(expression, found, count)) for _, expression, _ in problem.shown])
+    signs = np.array([wish.sign for wish in problem.objectives])
+    objectives = (columns[: len(signs)] * signs[:, None]).T
     failing = _failing(problem, found, objectives, count)
     total = np.zeros(count, dtype=np.intp)
     for fails, _ in failing.values():
         total += fails
-    misses = {name: _miss(fails, total, values, index) for name, (fails, values) in failing.items()}
-    places = np.flatnonzero(total == 0)
-    multiples = counted(objectives[places], _resolution(problem))
+    return Judged(columns, objectives, failing, total)
+
+
+def kept(problem: Problem, index: Any, found: Evaluated) -> Chunk:
+    """What is kept of evaluated designs."""
+    what = judged(problem, found, len(index))
+    misses = {name: _miss(fails, what.total, values, index) for name, (fails, values) in what.failing.items()}
+    places = np.flatnonzero(what.total == 0)
+    multiples = counted(what.objectives[places], _resolution(problem))
     best = front(multiples)
     if len(problem.objectives) == 1:
         best = np.union1d(best, best_boxes(multiples, RANKED))
-    places = places[best]
-    numbers = [_numbers(values)[places] for values in shown.values()]
-    return Chunk(count, int((total == 0).sum()), misses, np.array([index[places], *numbers], dtype=float).T)
+    rows = np.column_stack([index[places[best]].astype(float), what.columns[:, places[best]].T])
+    return Chunk(len(index), len(places), misses, rows)
 
 
 def _resolution(problem: Problem) -> Reals:
@@ -224,9 +252,9 @@ def together(problem: Problem, chunks: Iterable[Chunk]) -> Chunk:
         waiting.append(chunk.rows)
         size += len(chunk.rows)
         if size > 50_000:
-            waiting = [_fold(problem, waiting)]
+            waiting = [fold(problem, waiting)]
             size = -len(waiting[0])
-    total.rows = _fold(problem, waiting)
+    total.rows = fold(problem, waiting)
     return total
 
 
@@ -235,7 +263,8 @@ def rows_of_why(problem: Problem) -> Sequence[str]:
     return (*problem.must_pass, *(wish.text for wish in problem.conditions))
 
 
-def _fold(problem: Problem, parts: Sequence[Reals]) -> Reals:
+def fold(problem: Problem, parts: Sequence[Reals]) -> Reals:
+    """The rows of some parts that no row of the others dominates, in the order of their indices."""
     width = 1 + len(problem.shown)
     rows = np.concatenate([np.empty((0, width)), *(part for part in parts if len(part))])
     rows = rows[np.argsort(rows[:, 0], kind="stable")]

@@ -50,7 +50,7 @@ class Exploration(Design):
     def found(self) -> Found:
         """What was found."""
         made = self.problem
-        return Found(made, together(made, (chunk_of(made, number) for number in range(made.chunks))))
+        return Found.of(made, together(made, (chunk_of(made, number) for number in range(made.chunks))))
 
     @property
     def designs(self) -> int:
@@ -106,7 +106,7 @@ class Exploration(Design):
 
     def table_why(self, _samples: int | None = None) -> Table:
         """Of each check, condition and refusal: designs that fail it, that fail it alone, and the nearest miss."""
-        rows = list(self.why())
+        rows = self.found.why
         columns: dict[str, Sequence[Any]] = {
             "name": [name for name, _, _ in rows],
             "code": [code for _, code, _ in rows],
@@ -119,23 +119,13 @@ class Exploration(Design):
         }
         return Table("why", tuple(columns), ("1",) * len(columns), tuple(columns.values()))
 
-    def why(self) -> Iterator[tuple[str, str | None, Miss]]:
-        """Name, code and misses of each row of the table."""
-        made, misses = self.problem, self.found.total.misses
-        for code in made.must_pass:
-            yield " ".join(made.base.codes[code]), code, misses[code]
-        for wish in made.conditions:
-            yield wish.text, None, misses[wish.text]
-        for name in sorted(name for name in misses if name.startswith("refused ")):
-            yield name, None, misses[name]
-
     def check_feasible_designs(self) -> Check:
         """GL161."""
         share = self.feasible / self.designs
         text = f"{self.feasible} of {self.designs} designs satisfy everything"
         if share >= _FEW:
             return FEASIBLE.check("pass", text, share, _FEW)
-        name, _, worst = max(self.why(), key=lambda row: row[2].alone, default=("", None, Miss()))
+        name, _, worst = max(self.found.why, key=lambda row: row[2].alone, default=("", None, Miss()))
         if worst.alone:
             text += f"; {name} alone removes {worst.alone}"
         return FEASIBLE.check("fail" if not self.feasible else "warn", f"{text}: see the table why", share, _FEW)

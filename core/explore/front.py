@@ -9,10 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from gearlink.core.explore.chunks import RANKED, Chunk, multiples_of
+from gearlink.core.explore.chunks import RANKED, Chunk, Miss, fold, multiples_of
 from gearlink.core.explore.one_by_one import Single, single
 from gearlink.core.explore.pareto import best_boxes, boxes, front, knee, spread
 from gearlink.core.explore.problem import Problem
+from gearlink.core.explore.refining import Extra, no_extra, refined
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.study.faults import BrokenPromise
 
@@ -36,20 +37,32 @@ class Found:
     Parameters
         problem : Problem
         total : Chunk - of all designs together
+        extra : Extra - what local refinement found
     """
 
     problem: Problem
     total: Chunk
+    extra: Extra
+
+    @classmethod
+    def of(cls, problem: Problem, total: Chunk) -> Found:
+        """The result of all chunks together; a sample is refined."""
+        sampled = cls(problem, total, no_extra(problem))
+        return sampled if problem.exhaustive else cls(problem, total, refined(problem, sampled.kept_rows))
+
+    @cached_property
+    def _front(self) -> Reals:
+        return fold(self.problem, [self.total.rows, self.extra.rows])
 
     @cached_property
     def front_size(self) -> int:
-        """Designs of the exact front, equal points all counted."""
-        return len(front(multiples_of(self.problem, self.total.rows)))
+        """Designs of the front, equal points all counted."""
+        return len(front(multiples_of(self.problem, self._front)))
 
     @cached_property
     def kept_rows(self) -> Reals:
         """Index and columns of one design of each box, sorted by the objectives, the best of the first one first."""
-        rows = self.total.rows
+        rows = self._front
         multiples = multiples_of(self.problem, rows)
         if multiples.shape[1] == 1:
             places = best_boxes(multiples, RANKED)
@@ -79,7 +92,19 @@ class Found:
 
     def changes(self, index: int) -> list[tuple[str, Any]]:
         """Paths and values of a design by its index."""
-        return self.problem.changes(self.problem.order.columns(np.array([index]))[:, 0])
+        beside = index - self.problem.order.count
+        return self.problem.changes_of(index) if beside < 0 else self.problem.changes(self.extra.values[beside])
+
+    @cached_property
+    def why(self) -> tuple[tuple[str, str | None, Miss], ...]:
+        """Name, code and misses of each row of the table why."""
+        made, misses = self.problem, self.total.misses
+        refusals = sorted(name for name in misses if name.startswith("refused "))
+        return (
+            *((" ".join(made.base.codes[code]), code, misses[code]) for code in made.must_pass),
+            *((wish.text, None, misses[wish.text]) for wish in made.conditions),
+            *((name, None, misses[name]) for name in refusals),
+        )
 
     def _agree(self, index: int, kept: Reals, figures: tuple[Any, ...], again: Single) -> None:
         for (name, _, _), had, has in zip(self.problem.shown, kept, figures, strict=True):

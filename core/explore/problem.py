@@ -6,9 +6,11 @@ import hashlib
 import json
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
+
+import numpy as np
 
 from gearlink.core.explore.base import Base, Refused
 from gearlink.core.explore.order import Grid, Sample, TooManyDesigns, Variable
@@ -24,6 +26,7 @@ GRID_BUDGET, SAMPLE_BUDGET = 1e8, 2.0**17
 SCALAR_GRID_BUDGET, SCALAR_SAMPLE_BUDGET = 2e4, 2.0**12
 _TRIED_VALUES = 100
 _EDGE = 1e-9
+_ORDERED = ("variables", "minimize", "maximize")
 
 
 @dataclass(frozen=True)
@@ -133,13 +136,22 @@ class Problem:
 
     @cached_property
     def canonical_text(self) -> str:
-        """The canonical data as JSON with sorted keys and shortest doubles, from which `problem_of` makes it again."""
-        return json.dumps(self.canonical, sort_keys=True, ensure_ascii=False, separators=(",", ":"))
+        """The canonical data as JSON with shortest doubles, from which `problem_of` makes the problem again."""
+        return json.dumps(self.canonical, ensure_ascii=False, separators=(",", ":"))
+
+    def named(self, name: str) -> Problem:
+        """The same under a name, which no result depends on."""
+        return replace(self, spec=self.spec.model_copy(update={"name": name}))
 
     @property
     def hash(self) -> str:
-        """SHA-256 of the canonical text."""
-        return hashlib.sha256(self.canonical_text.encode()).hexdigest()
+        """SHA-256 of the canonical data with sorted keys, but for sections whose order decides the result."""
+        plain = {key: list(value.items()) if key in _ORDERED else value for key, value in self.canonical.items()}
+        return hashlib.sha256(json.dumps(plain, sort_keys=True, ensure_ascii=False).encode()).hexdigest()
+
+    def changes_of(self, index: int) -> list[tuple[str, Any]]:
+        """Paths and values of a design by its index."""
+        return self.changes(self.order.columns(np.array([index]))[:, 0])
 
     def changes(self, values: Any) -> list[tuple[str, Any]]:
         """Paths and values of a design as its file has them, from a column of `order.columns`."""

@@ -1,0 +1,241 @@
+"""Computing the chunks of a study: here, in processes, or by any executor; what is finished is kept at once."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+import threading
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
+from contextlib import AbstractContextManager, contextmanager, nullcontext
+from dataclasses import dataclass
+from time import perf_counter
+from typing import Any
+
+from gearlink.cli.exploring.store import Kept, Result
+from gearlink.cli.workers import workers
+from gearlink.core.explore.chunks import computed, designs_of
+from gearlink.core.explore.problem import Problem
+from gearlink.core.study.faults import BrokenPromise
+
+_IN_FLIGHT = 4
+_WORTH_SECONDS = 1.0
+_LOST_TWICE = 2
+
+Opened = Callable[[], AbstractContextManager[Kept]]
+"""Opens where chunks are kept; opened anew for each set of workers, which must not inherit it."""
+Advance = Callable[[int], None]
+
+
+@dataclass(frozen=True)
+class Means:
+    """By what chunks are computed.
+
+    Parameters
+        jobs : int - processes; 0: as many as pay
+        executor : makes an executor and names it, in place of processes; None: none
+        workers : int - of that executor
+    """
+
+    jobs: int = 0
+    executor: Callable[[], Executor] | None = None
+    workers: int = 8
+
+
+def compute(problem: Problem, todo: Sequence[int], keep: Opened, means: Means, advance: Advance) -> bool:
+    """Compute some chunks and keep them; False where the user interrupted, and then what was begun is kept too.
+
+    Raises
+        BrokenPromise - where a design ends the process that computes it
+    """
+    left = list(todo)
+    with _calm() as asked:
+        if means.executor is None and means.jobs != 1:
+            left, seconds = _first(problem, left, keep, advance)
+            jobs = means.jobs or (_processors() if seconds * len(left) > _WORTH_SECONDS else 1)
+        else:
+            jobs = 1
+        jobs = min(jobs, max(1, len(left)))
+        if means.executor is None and jobs == 1:
+            _here(problem, left, keep, advance, asked)
+        else:
+            _elsewhere(problem, left, keep, means, jobs, advance, asked)
+    return not asked()
+
+
+@contextmanager
+def _calm() -> Iterator[Callable[[], bool]]:
+    """Ctrl-C only asks for the end: what is being computed is finished and kept."""
+    heard: list[int] = []
+    if threading.current_thread() is not threading.main_thread():
+        yield lambda: False
+        return
+    before = signal.signal(signal.SIGINT, lambda number, _: heard.append(number))
+    try:
+        yield lambda: bool(heard)
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def _processors() -> int:
+    affinity = getattr(os, "sched_getaffinity", None)
+    return len(affinity(0)) if affinity else os.cpu_count() or 1
+
+
+def _first(problem: Problem, left: list[int], keep: Opened, advance: Advance) -> tuple[list[int], float]:
+    """Compute the first chunk here; what is left, and how long one takes."""
+    if not left:
+        return left, 0.0
+    start = perf_counter()
+    _here(problem, left[:1], keep, advance, lambda: False)
+    return left[1:], perf_counter() - start
+
+
+def _here(problem: Problem, todo: Sequence[int], keep: Opened, advance: Advance, asked: Callable[[], bool]) -> None:
+    with keep() as kept:
+        for number in todo:
+            if asked():
+                return
+            kept.add([(number, *computed(problem.canonical_text, number))])
+            advance(1)
+
+
+def _elsewhere(
+    problem: Problem,
+    left: list[int],
+    keep: Opened,
+    means: Means,
+    jobs: int,
+    advance: Advance,
+    asked: Callable[[], bool],
+) -> None:
+    """Chunks by an executor. One whose workers die is replaced; a chunk that was lost twice is computed alone."""
+    lost: dict[int, int] = {}
+    count = jobs if means.executor is None else means.workers
+    while left and not asked():
+        suspects = [number for number in left if lost.get(number, 0) >= _LOST_TWICE]
+        for number in suspects:
+            with keep() as kept:
+                kept.add([_alone(problem, number)])
+            advance(1)
+        left = [number for number in left if number not in suspects]
+        with _executor(means, jobs) as pool, keep() as kept:
+            done, begun = _given(problem, left, pool, kept, count * _IN_FLIGHT, advance, asked)
+        left = [number for number in left if number not in done]
+        for number in begun:
+            lost[number] = lost.get(number, 0) + 1
+
+
+@contextmanager
+def _executor(means: Means, jobs: int) -> Iterator[Executor]:
+    """An executor whose processes have started."""
+    with workers(jobs) if means.executor is None else means.executor() as pool:
+        pool.submit(int).result()
+        yield pool
+
+
+def _given(
+    problem: Problem,
+    todo: Sequence[int],
+    pool: Executor,
+    kept: Kept,
+    most: int,
+    advance: Advance,
+    asked: Callable[[], bool],
+) -> tuple[set[int], list[int]]:
+    """Give chunks to an executor, in order, a few at a time: which were finished, and which were lost with it."""
+    waiting: dict[Future[tuple[str, bytes]], int] = {}
+    done: set[int] = set()
+    rest = iter(todo)
+    broken = False
+    while True:
+        try:
+            while len(waiting) < most and not broken and not asked() and (number := next(rest, None)) is not None:
+                waiting[pool.submit(computed, problem.canonical_text, number)] = number
+        except BrokenExecutor:
+            return done, [number for number in (*waiting.values(), number) if number is not None]
+        if not waiting:
+            return done, []
+        finished, _ = wait(waiting, return_when=FIRST_COMPLETED, timeout=0.5)
+        good = [future for future in finished if not _lost(future)]
+        results: list[Result] = [(waiting[future], *future.result()) for future in good]
+        if results:
+            kept.add(results)
+            done |= {number for number, _, _ in results}
+            advance(len(results))
+        broken = broken or len(good) < len(finished)
+        for future in good:
+            del waiting[future]
+        if broken:
+            return done, list(waiting.values())
+
+
+def _lost(future: Future[Any]) -> bool:
+    """Whether a worker died over a chunk; what the chunk itself raised is no loss, and is raised by its result."""
+    error = future.exception()
+    return isinstance(error, BrokenExecutor) or type(error).__name__ == "KilledWorker"
+
+
+def _alone(problem: Problem, number: int) -> Result:
+    """A chunk in a process of its own.
+
+    Raises
+        BrokenPromise - naming the design that ends it
+    """
+    try:
+        with workers(1) as pool:
+            return (number, *pool.submit(computed, problem.canonical_text, number).result())
+    except BrokenExecutor:
+        index = _culprit(problem, number)
+    raise BrokenPromise(f"design {index} ends the process that computes it: {dict(problem.changes_of(index))}")
+
+
+def _culprit(problem: Problem, number: int) -> int:
+    """The design of a chunk that ends its process, by halves."""
+    first = number * problem.chunk_size
+    last = min(first + problem.chunk_size, problem.order.count)
+    while last - first > 1:
+        middle = (first + last) // 2
+        first, last = (middle, last) if _survives(problem, first, middle) else (first, middle)
+    return first
+
+
+def _survives(problem: Problem, first: int, last: int) -> bool:
+    try:
+        with workers(1) as pool:
+            pool.submit(designs_of, problem.canonical_text, first, last).result()
+    except BrokenExecutor:
+        return False
+    return True
+
+
+@contextmanager
+def progress(total: int, size: int, *, quiet: bool) -> Iterator[Advance]:
+    """A bar on standard error with rate and remaining time, where that is a terminal and the user wants talk."""
+    if quiet or total < 2 or not sys.stderr.isatty():
+        yield lambda _: None
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+
+    class Rate(TextColumn):
+        def render(self, task: Any) -> Any:
+            speed = task.finished_speed or task.speed or 0.0
+            return type(super().render(task))(f"{speed * size:,.0f} designs/s")
+
+    columns = (TextColumn("{task.percentage:>3.0f} %"), BarColumn(), Rate(""), TimeRemainingColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("", total=total)
+        yield lambda count: bar.advance(task, count)
+
+
+def shared(todo: Iterable[int], shard: tuple[int, int]) -> list[int]:
+    """The chunks of a share: I of N, counted from 1."""
+    index, count = shard
+    return [number for number in todo if number % count == index - 1]
+
+
+def kept_in(memory: Kept) -> Opened:
+    """Chunks kept in memory, "opened" as a store is."""
+    return lambda: nullcontext(memory)

@@ -1,0 +1,77 @@
+"""What a study found, on a terminal: a line of counts, the rows to be shown, and why there are no more."""
+
+from __future__ import annotations
+
+from gearlink.cli.options import Options
+from gearlink.cli.printable import visible
+from gearlink.cli.render.numbers import number
+from gearlink.cli.render.terminal import console_for, grid_for, show_findings, show_table
+from gearlink.core.explore.exploration import Exploration
+from gearlink.core.explore.front import SHOWN
+from gearlink.core.report import Report, Table
+
+
+def show(study: Exploration, report: Report, options: Options) -> None:
+    """Print a study."""
+    from rich.text import Text
+
+    console = console_for(options)
+    console.print(
+        Text(f"{visible(' '.join(report.name.split()))}: explore {study.problem.base.kind.name}", style="bold")
+    )
+    console.print(Text(_counts(study)))
+    front = next(table for table in report.tables if table.name == "front")
+    if study.kept:
+        show_table(_shown(study, front), console, most=SHOWN)
+        for line in _below(study):
+            console.print(Text(line))
+    _why(study, console)
+    show_findings(report, console)
+
+
+def _counts(study: Exploration) -> str:
+    how = "all evaluated" if study.exhaustive else "sampled, not exhaustive"
+    wishes = study.problem.objectives
+    resolution = ", ".join(f"{w.resolution:g}{'' if w.unit == '1' else ' ' + w.unit}" for w in wishes)
+    front = f"front {study.front_size:,}, kept {study.kept:,} (resolution {resolution})"
+    if len(wishes) == 1:
+        front = f"best {study.kept:,} (resolution {resolution})"
+    return (
+        f"{study.designs:,} designs, {how}; {study.refused:,} without a mechanism; "
+        f"{study.feasible:,} satisfy everything; {front}"
+    )
+
+
+def _shown(study: Exploration, front: Table) -> Table:
+    """The rows that are shown, the knee marked."""
+    places = study.found.chosen
+    data = [[column[i] for i in places] for column in front.data]
+    data[0] = [f"{index} *" if index == study.knee else f"{index}" for index in data[0]]
+    heads = tuple(name.replace(".", "_") for name in front.columns)  # a heading is folded there
+    return Table(front.name, heads, front.units, tuple(data))
+
+
+def _below(study: Exploration) -> list[str]:
+    lines = []
+    if study.kept > study.shown:
+        lines.append(f"{study.shown} of {study.kept} rows, far from each other; coarsen the resolutions, or use csv")
+    if study.knee is not None:
+        lines.append("* knee: the least sum of objectives scaled to the front; a mark, no verdict")
+    lines.append("--show INDEX prints a design's file, --write DIR writes all kept ones")
+    return lines
+
+
+def _why(study: Exploration, console: object) -> None:
+    """Rows that fail some design; the others have removed nothing."""
+    rows = [(i, *row) for i, row in enumerate(study.found.why, 1) if row[2].fails]
+    if not rows:
+        return
+    grid = grid_for(console)  # type: ignore[arg-type]
+    for head in ("fails", "code", "designs", "alone", "nearest miss", "file of it"):
+        grid.add_column(head, justify="right" if head in ("designs", "alone") else "left", overflow="fold")
+    for place, name, code, miss in rows:
+        unit = "" if miss.unit == "1" else f" {miss.unit}"
+        near = "" if miss.value is None else f"{number(miss.value, 5)} (limit {number(miss.limit, 5)}){unit}"
+        grid.add_row(name, code or "", f"{miss.fails:,}", f"{miss.alone:,}", near, f"--show m{place}")
+    console.print()  # type: ignore[attr-defined]
+    console.print(grid)  # type: ignore[attr-defined]
