@@ -80,7 +80,11 @@ KINDS: dict[str, Kind] = {
         Kind(
             "gear-pair",
             "gears.spec:GearPairSpec",
-            {"gear": "gears.design:GearPairDesign", "analyze": "gears.design:GearPairDesign"},
+            {
+                "gear": "gears.design:GearPairDesign",
+                "analyze": "gears.design:GearPairDesign",
+                "loads": "gears.loads:GearPairLoads",
+            },
         ),
         Kind(
             "slider-crank",
@@ -94,7 +98,7 @@ KINDS: dict[str, Kind] = {
         Kind(
             "flatbed-press",
             "flatbed_press.spec:FlatbedPressSpec",
-            {"press": _PRESS, "cam": _PRESS, "gear": _PRESS, "crank": _PRESS, "analyze": _PRESS},
+            {"press": _PRESS, "cam": _PRESS, "gear": _PRESS, "crank": _PRESS, "analyze": _PRESS, "loads": "flatbed_press.loads:PressLoads"},
         ),
         Kind(
             "swing-gripper",
@@ -110,7 +114,7 @@ KINDS: dict[str, Kind] = {
         Kind(
             "mutilated-gear-dwell",
             "dwell_gears.mutilated_spec:MutilatedGearDwellSpec",
-            {"analyze": _MUTILATED, "gear": _MUTILATED},
+            {"analyze": _MUTILATED, "gear": _MUTILATED, "loads": "dwell_gears.mutilated_loads:MutilatedGearLoads"},
         ),
         Kind(
             "two-gear-four-bar",

@@ -343,6 +343,7 @@ _LOADS = {
     "travel": Term("", "1", "relative turns of a pin per input turn, both senses counted"),
     "tooth_force_max": Term("F_t", "N", "greatest tangential force of a mesh"),
     "reversals": Term("", "1", "changes of flank of a mesh over the period"),
+    "engagement_energy": Term("E", "J", "energy that the hardest start of a mutilated gear's motion costs"),
     "power_identity": Term("", "1", "difference of the input torques by virtual power and by the joint forces"),
 }
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
 from pydantic import Field
 
 from gearlink.core.loads.spec import Body, Loads
@@ -23,6 +25,9 @@ class HypocycloidLoads(Loads):
     links: HypocycloidMasses = Field(HypocycloidMasses(), description="masses of the links; what is left out has none")
 
 
+Direction = Annotated[float, Field(ge=-360, le=360, json_schema_extra={"unit": "deg"})]
+
+
 class MutilatedMasses(Spec):
     """Masses of the links."""
 
@@ -35,4 +40,7 @@ class MutilatedMasses(Spec):
 class MutilatedLoads(Loads):
     """Masses, forces and drive of a mutilated-gear dwell."""
 
+    wheel_direction: Direction | None = Field(
+        None, description="direction from A to the wheel's axis W; left out: no bearing force at A"
+    )
     links: MutilatedMasses = Field(MutilatedMasses(), description="masses of the links; what is left out has none")

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.linkages.spec_parts import FourLinks, LinkageLimits, PivotShafts
-from gearlink.core.spec import Angle, Assembly, DrivenSpec, Length, PressureAngle, Spec, Teeth
+from gearlink.core.spec import Angle, Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth
 
 
 class MutilatedGears(Spec):
@@ -45,6 +45,9 @@ class MutilatedGearDwellSpec(DrivenSpec):
     )
     limits: LinkageLimits = LinkageLimits()
     shafts: MutilatedShafts | None = None
+    loads: Annotated[Any, Deferred("dwell_gears.loads_spec:MutilatedLoads")] | None = Field(
+        None, description="masses, forces and drive, for the command loads"
+    )
 
     @model_validator(mode="after")
     def _shaft_of_the_rocker(self) -> MutilatedGearDwellSpec:
@@ -56,4 +59,4 @@ class MutilatedGearDwellSpec(DrivenSpec):
 
     def commands(self) -> tuple[str, ...]:
         """What the file asks for."""
-        return ("analyze", "gear")
+        return ("analyze", "gear", *(("loads",) if self.loads is not None and self.links is not None else ()))

@@ -120,6 +120,11 @@ class BedChain:
         rocker = fourbar.solve(self.linkage, self.initial_crank_angle).rocker_angle
         return rocker, self._slider(rocker, 0)[0]
 
+    @property
+    def cam_angle_start(self) -> float:
+        """Direction of DC [rad] at the start, from which the cam angle counts."""
+        return self._start[0]
+
     def _slider(self, rocker: Any, order: int) -> Any:
         psi = rocker - self.crank_offset_angle
         return _slider(psi)(psi, self.slider_crank_length, self.rod, self.offset, order)

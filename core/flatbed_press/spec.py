@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
@@ -11,6 +11,7 @@ from gearlink.core.spec import (
     AcuteAngle,
     Angle,
     Assembly,
+    Deferred,
     DesignSpec,
     Distance,
     GearLimits,
@@ -138,8 +139,12 @@ class FlatbedPressSpec(DesignSpec):
     cam: PressCam | None = None
     size: PressSize | None = None
     limits: PressLimits = PressLimits()
+    loads: Annotated[Any, Deferred("flatbed_press.loads_spec:PressLoads")] | None = Field(
+        None, description="masses, forces and drive, for the command loads"
+    )
 
     def commands(self) -> tuple[str, ...]:
         """What the file asks for."""
         gears = ("gear",) if self.input_gears is not None else ()
+        gears += ("loads",) if self.loads is not None else ()
         return ("press", "cam", *gears) if self.cam is not None else ("press", *gears)

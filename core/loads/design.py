@@ -88,9 +88,19 @@ class LoadsDesign(Design):
         return float(given) * RPM
 
     @property
+    def own_joints(self) -> list[float]:
+        """Input angles [rad] at which the machine's own motion has a jump in its accelerations."""
+        return []
+
+    @property
     def turns(self) -> int:
         """Input turns after which everything repeats."""
         return 1
+
+    @property
+    def shaft_inertia(self) -> float:
+        """Inertia of what turns evenly with the input, reduced to it [kg m^2]."""
+        return 0.0
 
     @property
     def own_links(self) -> tuple[str, ...]:
@@ -113,7 +123,7 @@ class LoadsDesign(Design):
         from gearlink.core.loads.sources import Sources, vector
 
         sources = Sources(self.section, self.own_links, self.sliding)
-        if not self.masses and not sources.any:
+        if not self.masses and not sources.any and not self.shaft_inertia:
             raise MissingSection(
                 "without a mass, an inertia or a force there is no load: give loads.links or loads.forces",
                 key="loads.links" if "links" in self.section.model_fields_set else "loads",
@@ -126,6 +136,8 @@ class LoadsDesign(Design):
             self.speed,
             self.turns,
             self.friction,
+            tuple(self.own_joints),
+            self.shaft_inertia,
         )
 
     @cached_property

@@ -74,7 +74,9 @@ class Reduced:
         return np.asarray(-(self.weight + self.applied))
 
 
-def reduced(mechanism: Mechanism, masses: Masses, applied: Applied, gravity: complex) -> Reduced:
+def reduced(
+    mechanism: Mechanism, masses: Masses, applied: Applied, gravity: complex, shaft_inertia: float = 0.0
+) -> Reduced:
     """Inertia and load as the input feels them.
 
     J = sum(m |G'|^2 + J t'^2),  J' = 2 sum(m G'.G'' + J t' t''),  Q = sum m g.G' + sum F.P' + sum T t'
@@ -84,6 +86,7 @@ def reduced(mechanism: Mechanism, masses: Masses, applied: Applied, gravity: com
         masses : by link; a link that is left out has none
         applied : forces and torques, springs among them
         gravity : complex [m/s^2]
+        shaft_inertia : float [kg m^2] - of what turns evenly with the input, reduced to it
     Source
         virtual power; no differences are taken
     """
@@ -99,7 +102,7 @@ def reduced(mechanism: Mechanism, masses: Masses, applied: Applied, gravity: com
             load += dot(each.force, each.at.first)
         else:
             load += each.torque * mechanism.links[each.on].turn.first
-    return Reduced(inertia, slope, weight, load)
+    return Reduced(inertia + shaft_inertia, slope, weight, load)
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,9 +141,10 @@ class System:
         self.index = {name: i for i, name in enumerate(mechanism.links)}
         self.centers = {name: link.at(masses.get(name, Mass()).center) for name, link in mechanism.links.items()}
         self.masses = masses
-        drive = Column(FRAME, mechanism.drive, 0j, np.zeros(mechanism.rows, dtype=np.complex128), mechanism.sense)
         self.columns = [(each.name, column) for each in mechanism.connections for column in each.columns()]
-        self.columns.append(("drive", drive))
+        if mechanism.gain is None:
+            place = np.zeros(mechanism.rows, dtype=np.complex128)
+            self.columns.append(("drive", Column(FRAME, mechanism.drive, 0j, place, mechanism.sense)))
         size = 3 * len(self.index)
         if len(self.columns) != size:
             raise AssertionError(f"{len(self.columns)} unknowns for {size} equations")
@@ -206,7 +210,8 @@ class System:
         rows: dict[str, list[Reals]] = {}
         for k, (name, _) in enumerate(self.columns):
             rows.setdefault(name, []).append(solution[:, k])
-        torque = rows.pop("drive")[0]
+        gain = self.mechanism.gain
+        torque = rows.pop("drive")[0] if gain is None else gain * rows[self.mechanism.drive][0]
         return Reactions({name: np.array(values) for name, values in rows.items()}, torque, self.mechanism)
 
 

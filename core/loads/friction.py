@@ -8,14 +8,14 @@ opposite.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.loads.dynamics import Applied, Force, Masses, Reactions, System, Torque
 from gearlink.core.loads.kinematics import dot
-from gearlink.core.loads.mechanism import FRAME, Connection, Contact, Guide, Mechanism, Mesh, Pin, Rack, rates
+from gearlink.core.loads.mechanism import FRAME, Connection, Contact, Guide, Mechanism, Mesh, Pin, Rack, ToothDrive, rates
 from gearlink.core.numerics.arrays import Reals
 
 _PASSES = 60
@@ -90,6 +90,9 @@ def with_friction(
     system = System(mechanism, masses)
     side = system.right_side(applied, gravity, speed, 0.0)
     found = system.reactions(system.solve(side))
+    if (sided := _sided(mechanism, found)) is not None:
+        mechanism, system = sided, System(sided, masses)
+        found = system.reactions(system.solve(side))
     if friction is None:
         return found
     before = np.inf
@@ -108,6 +111,18 @@ def with_friction(
     )
 
 
+def _sided(mechanism: Mechanism, found: Reactions) -> Mechanism | None:
+    """The mechanism with the rollers that carry, where a second one does anywhere."""
+    backs = [each.name for each in mechanism.connections if isinstance(each, Contact) and each.back is not None]
+    if not any(np.any(found.unknowns[name][0] < 0.0) for name in backs):
+        return None
+    connections = [
+        each.sided(found.unknowns[each.name][0]) if isinstance(each, Contact) else each
+        for each in mechanism.connections
+    ]
+    return replace(mechanism, connections=connections)
+
+
 def _with(system: System, side: Reals, losses: Applied) -> Reals:
     added: Reals = side + system.right_side(losses, 0j, 0.0, 0.0)
     return added
@@ -124,7 +139,7 @@ def resistances(found: Reactions, friction: Coefficients, speed: float) -> Itera
     mechanism, sense = found.mechanism, np.sign(speed)
     for each in mechanism.connections:
         share = friction.of(each)
-        if not share or isinstance(each, Contact):
+        if not share or isinstance(each, (Contact, ToothDrive)):
             continue
         direction = np.sign(sense * relative(mechanism, each))
         if isinstance(each, Guide):

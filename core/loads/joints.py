@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gearlink.core.loads.machine import zeros
-from gearlink.core.loads.mechanism import Pin, rates
+from gearlink.core.loads.mechanism import Pin, ToothDrive, rates
 from gearlink.core.loads.reversals import places
 from gearlink.core.results import cached_property
 
@@ -109,7 +109,10 @@ class MeshLoad:
 
     def force(self, phi: Reals) -> Reals:
         """F_t on the second gear [N]."""
-        return np.asarray(self.design.machine.reactions(phi).unknowns[self.name][0])
+        found = self.design.machine.reactions(phi)
+        mesh = next(each for each in found.mechanism.meshes if each.name == self.name)
+        share = mesh.moves if isinstance(mesh, ToothDrive) else 1.0
+        return np.asarray(found.unknowns[self.name][0] * share)
 
     @cached_property
     def tooth_force_max(self) -> float:

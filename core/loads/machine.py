@@ -41,6 +41,8 @@ class Machine:
         speed : float [rad/s] - of the input, signed, not 0
         turns : int - input turns after which everything repeats
         friction : Coefficients or None
+        joints : input angles of a turn where the machine's own accelerations jump [rad]
+        shaft_inertia : float [kg m^2] - of what turns evenly with the input
     """
 
     kinematics: Kinematics
@@ -50,6 +52,8 @@ class Machine:
     speed: float
     turns: int = 1
     friction: Coefficients | None = None
+    joints: tuple[float, ...] = ()
+    shaft_inertia: float = 0.0
     kept: dict[tuple[str, bytes], Any] = field(default_factory=dict, repr=False)
 
     @property
@@ -80,7 +84,9 @@ class Machine:
     def reduced(self, phi: Reals) -> Reduced:
         """Inertia and load as the input feels them."""
         found: Reduced = self._keep(
-            "reduced", phi, lambda: reduced(self.at(phi), self.masses, self.applied(phi), self.gravity)
+            "reduced",
+            phi,
+            lambda: reduced(self.at(phi), self.masses, self.applied(phi), self.gravity, self.shaft_inertia),
         )
         return found
 
@@ -107,7 +113,7 @@ class Machine:
     @cached_property
     def breaks(self) -> list[float]:
         """Input angles within the period where a force jumps or bends [rad], ascending."""
-        found = [turn * TURN + angle for angle in self.sources.breaks() for turn in range(self.turns)]
+        found = [turn * TURN + angle for angle in (*self.sources.breaks(), *_in_turn(self.joints)) for turn in range(self.turns)]
         found += self._turning_back()
         return sorted({angle for angle in found if 0.0 < angle < self.period})
 
@@ -190,6 +196,10 @@ class Panels:
     def running(self, values: Reals) -> Reals:
         """Integral from the start to each edge."""
         return np.concatenate(([0.0], np.cumsum(self.each(values))))
+
+
+def _in_turn(angles: Sequence[float]) -> list[float]:
+    return [angle % TURN for angle in angles]
 
 
 def zeros(f: Callable[[Reals], Reals], period: float, turns: int = 1) -> list[float]:

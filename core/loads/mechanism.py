@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from gearlink.core.loads.kinematics import Point, Turn, carried
-from gearlink.core.numerics.arrays import Points, Reals
+from gearlink.core.numerics.arrays import Mask, Points, Reals
 
 FRAME = "frame"
 
@@ -43,7 +43,7 @@ class Column(NamedTuple):
     second: str
     force: Points | complex
     at: Points
-    couple: float
+    couple: Reals | float
 
 
 class Radial(NamedTuple):
@@ -161,22 +161,75 @@ class Rack:
 
 
 @dataclass(frozen=True)
+class ToothDrive:
+    """A drive by teeth that are there for a part of the turn only; then a lock holds the link.
+
+    Fields
+        center : (N,) array [m] - of the driven gear
+        toward : complex - from there to the wheel
+        mate_radius : float [m] - working radius of the driven gear
+        moves : (N,) array of bool - where teeth are in mesh
+    """
+
+    name: str
+    second: str
+    center: Points
+    toward: complex
+    mate_radius: float
+    tangent: float
+    moves: Mask
+    first: str = FRAME
+
+    @property
+    def pitch_point(self) -> Points:
+        """Where the pitch circles touch."""
+        return np.asarray(self.center + self.mate_radius * self.toward)
+
+    def columns(self) -> list[Column]:
+        """F_t along i e on the driven gear; a couple where it is locked."""
+        along = np.where(self.moves, 1j * self.toward, 0j)
+        return [Column(self.first, self.second, along, self.pitch_point, np.where(self.moves, 0.0, 1.0))]
+
+    def radial(self) -> Radial:
+        """Away from the wheel."""
+        return Radial(np.where(self.moves, -self.tangent * self.toward, 0j), self.pitch_point)
+
+
+@dataclass(frozen=True)
 class Contact:
-    """A roller on a cam: one force along the normal at the roller's centre."""
+    """A roller on a cam: one force along the normal at the roller's centre.
+
+    Where it is negative a second roller carries it, if `back` gives that one's place and normal; the normal counts
+    against its own force, so that the sign tells which roller carries.
+    """
 
     name: str
     first: str
     second: str
     at: Points
     normal: Points
+    back: tuple[Points, Points] | None = None
+
+    def sided(self, force: Reals) -> Contact:
+        """The contact of the roller that carries at each row."""
+        if self.back is None:
+            return self
+        at, normal = self.back
+        return Contact(
+            self.name,
+            self.first,
+            self.second,
+            np.where(force < 0.0, at, self.at),
+            np.where(force < 0.0, normal, self.normal),
+        )
 
     def columns(self) -> list[Column]:
         """N n_out."""
         return [Column(self.first, self.second, self.normal, self.at, 0.0)]
 
 
-Connection = Pin | Guide | Mesh | Rack | Contact
-Toothed = (Mesh, Rack)
+Connection = Pin | Guide | Mesh | Rack | ToothDrive | Contact
+Toothed = (Mesh, Rack, ToothDrive)
 
 
 @dataclass(frozen=True)
@@ -186,11 +239,11 @@ class Mechanism:
     Fields
         links : by name, in the order of the machine
         connections : what joins them
-        drive : str - link that the input torque acts on
+        drive : str - link that the input torque acts on, or the connection that drives (`gain` then says how)
         sense : float - +1 where that link turns with the input, -1 where against it
         pivot : complex [m] - about which the frame's moment is taken
         travel : direction in which a link slides, for a force given as a number
-        sense_of_output : links whose applied torque counts against their angle here (none, as a rule)
+        gain : (N,) array [N m per unit] - input torque by the force of the connection `drive`; None for a couple
     """
 
     links: Mapping[str, Link]
@@ -199,9 +252,10 @@ class Mechanism:
     sense: float = 1.0
     pivot: complex = 0j
     travel: Mapping[str, complex] = field(default_factory=dict)
+    gain: Reals | None = None
 
     @property
-    def meshes(self) -> list[Mesh | Rack]:
+    def meshes(self) -> list[Mesh | Rack | ToothDrive]:
         """The connections that have teeth."""
         return [each for each in self.connections if isinstance(each, Toothed)]
 

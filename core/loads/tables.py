@@ -63,10 +63,14 @@ def joints(design: LoadsDesign, samples: int | None = None) -> Table:
 
 def teeth(design: LoadsDesign, samples: int | None = None) -> Table:
     """Tangential and radial tooth force of every mesh."""
+    from gearlink.core.loads.mechanism import ToothDrive
+
     phi, _, columns = _rows(design, samples)
     found = design.machine.reactions(phi)
     for mesh in found.mechanism.meshes:
         tangential = found.unknowns[mesh.name][0]
+        if isinstance(mesh, ToothDrive):
+            tangential = tangential * mesh.moves
         columns[mesh.name] = (tangential, "N")
         columns[f"{mesh.name}_radial"] = (abs(tangential) * mesh.tangent, "N")
     return Table.of("teeth", columns)

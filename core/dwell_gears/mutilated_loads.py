@@ -1,0 +1,140 @@
+"""The loads of a mutilated-gear dwell: a four-bar that teeth drive for a part of the cycle and a lock holds else.
+
+The speed of the driven gear jumps at both ends of the motion; the forces are those in between, the blows are given by
+their energy.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from gearlink.core.design import Outline
+from gearlink.core.dwell_gears.mutilated_design import MutilatedGearDwell
+from gearlink.core.errors import MissingSection, NoSolution
+from gearlink.core.linkages.fourbar_loads import MM, four_bar, four_bar_pins
+from gearlink.core.loads.design import LoadsDesign, loads_outline
+from gearlink.core.loads.sources import mass_of
+from gearlink.core.loads.spec import of_body
+from gearlink.core.results import cached_property
+
+if TYPE_CHECKING:
+    from gearlink.core.dwell_gears.loads_spec import MutilatedLoads as Section
+    from gearlink.core.dwell_gears.mutilated_spec import MutilatedGearDwellSpec
+    from gearlink.core.linkages.fourbar import FourBar
+    from gearlink.core.loads.mechanism import Mechanism
+    from gearlink.core.numerics.arrays import Reals
+
+_TURN = 2.0 * math.pi
+_MOST_TURNS = 1000
+
+
+class MutilatedGearLoads(LoadsDesign):
+    """Crank with the driven gear, coupler, rocker; the wheel turns evenly with the input."""
+
+    kind = "mutilated-gear-dwell"
+    spec: MutilatedGearDwellSpec
+    section: Section
+    links = ("crank", "coupler", "rocker")
+    pins, meshes = ("A", "B", "C", "D"), ("mesh_wheel",)
+    outlines: dict[str, Outline] = loads_outline(pins, meshes, ("engagement_energy",))
+
+    @cached_property
+    def design(self) -> MutilatedGearDwell:
+        """The geometry."""
+        return MutilatedGearDwell(self.spec)
+
+    @cached_property
+    def linkage(self) -> FourBar:
+        """The four-bar on the driven shaft."""
+        if self.design.linkage is None:
+            raise MissingSection("`loads` needs the four-bar on the driven shaft: give links", key="links")
+        return self.design.linkage
+
+    @cached_property
+    def turns(self) -> int:
+        """Input turns until input and linkage are both back at their place."""
+        cycles = Fraction(self.spec.reduction).limit_denominator(10_000) / self.spec.gears.groups
+        turns = (cycles * self.design.cycles_to_repeat).numerator
+        if turns > _MOST_TURNS:
+            raise NoSolution(
+                f"input and linkage come home together only after {turns} input turns: at most {_MOST_TURNS} are "
+                "computed; round the reduction",
+                key="reduction",
+            )
+        return turns
+
+    @property
+    def unknown_joints(self) -> tuple[str, ...]:
+        """The bearing of the driven gear, where the file does not say on which side the wheel stands."""
+        return () if self.section.wheel_direction is not None else ("A",)
+
+    @property
+    def shaft_inertia(self) -> float:
+        """The wheel's, which turns once in `reduction` input turns."""
+        return mass_of(of_body(self.section.links, "wheel")).inertia / self.spec.reduction**2
+
+    @cached_property
+    def own_joints(self) -> list[float]:
+        """Input angles of all turns at which a motion begins or ends [rad]."""
+        cycle, motion = _TURN * self.design.cycle_turns, _TURN * self.design.motion_turns
+        count = round(self.turns / self.design.cycle_turns)
+        return [start for k in range(count) for start in (k * cycle, k * cycle + motion)]
+
+    def _driven(self, phi: Reals) -> tuple[Reals, Reals]:
+        """Angle of the driven gear [rad], and whether it moves, as 1 or 0."""
+        import numpy as np
+
+        gear = self.design.mutilated
+        cycle, step = _TURN * gear.cycle_turns, _TURN * gear.driven_turn
+        rest = np.mod(phi, cycle)
+        # A place that is the start of a motion but for rounding is the start.
+        rest = np.where(cycle - rest <= 8.0 * np.spacing(np.maximum(np.abs(phi), cycle)), 0.0, rest)
+        whole = np.round((phi - rest) / cycle)
+        return whole * step + np.minimum(gear.speed_ratio * rest, step), (rest < _TURN * gear.motion_turns) * 1.0
+
+    def kinematics(self, phi: Reals) -> Mechanism:
+        """The three links at input angles."""
+        from gearlink.core.loads.kinematics import Turn
+        from gearlink.core.loads.mechanism import Link, Mechanism, ToothDrive
+
+        angle, moves = self._driven(phi)
+        crank = (self.design.start_crank_angle or 0.0) + angle
+        rate = moves * self.design.mutilated.speed_ratio
+        links = {
+            name: Link(
+                type(link.origin)(link.origin.value, link.origin.first * rate, link.origin.second * rate**2),
+                Turn(link.turn.value, link.turn.first * rate, link.turn.second * rate**2),
+            )
+            for name, link in four_bar(self.linkage, crank).items()
+        }
+        direction = math.radians(self.section.wheel_direction or 0.0)
+        radius = self.design.mesh.working_radius[1] * MM
+        tangent = math.tan(self.design.mesh.working_pressure_angle)
+        teeth = ToothDrive("mesh_wheel", "crank", links["crank"].origin.value, cmath.exp(1j * direction), radius,
+                           tangent, moves > 0.0)  # fmt: skip
+        connections = [*four_bar_pins(links, self.linkage), teeth]
+        return Mechanism(links, connections, "mesh_wheel", gain=radius * rate)
+
+    # Jumps of speed
+
+    @cached_property
+    def engagement_energy(self) -> float:
+        """Energy that a start of the motion costs, the hardest one [J]; its end leaves as much in the lock.
+
+        E = J_red w_F^2/2,  J_red of all links at the driven shaft
+        """
+        import numpy as np
+
+        from gearlink.core.loads.dynamics import reduced
+
+        count = self.design.cycles_to_repeat
+        starts = np.arange(count) * (_TURN * self.design.driven_turn) + (self.design.start_crank_angle or 0.0)
+        links = four_bar(self.linkage, starts)
+        from gearlink.core.loads.mechanism import Mechanism
+
+        found = reduced(Mechanism(links, [], "crank"), self.masses, [], 0j)
+        driven = self.speed * self.design.mutilated.speed_ratio
+        return float(np.max(found.inertia)) * driven**2 / 2.0

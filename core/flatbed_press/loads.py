@@ -1,0 +1,215 @@
+"""The loads of a flatbed press: both chains from gears 1 and 2 to bed and cylinder, the racks and the cam's follower.
+
+Frame: A at 0, D on +x (which is the machine's vertical), the bed travels along +y. The lower rack and the follower of
+the cams move by the lift along +y.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from typing import TYPE_CHECKING, Any
+
+from gearlink.core.errors import MissingSection
+from gearlink.core.flatbed_press.design import FlatbedPress
+from gearlink.core.loads.design import LoadsDesign, loads_outline
+from gearlink.core.results import cached_property
+
+if TYPE_CHECKING:
+    from gearlink.core.flatbed_press.chains import Travel
+    from gearlink.core.flatbed_press.loads_spec import PressLoads as Section
+    from gearlink.core.flatbed_press.spec import FlatbedPressSpec
+    from gearlink.core.loads.kinematics import Turn
+    from gearlink.core.loads.mechanism import Connection, Link, Mechanism
+    from gearlink.core.numerics.arrays import Reals
+
+_MM = 1e-3
+_TURN = 2.0 * math.pi
+_PINION = 5.0 / 31.0
+_GEAR_4 = 34.0 / 35.0
+_RACK_ANGLE = math.radians(20.0)
+
+
+class PressLoads(LoadsDesign):
+    """The twelve links of the machine; input angle and senses are the press's own."""
+
+    kind = "flatbed-press"
+    spec: FlatbedPressSpec
+    section: Section
+    links = ("gear2", "BC", "CDE", "EF", "carriage", "pinion", "rack", "bed", "gear1", "HM", "MN", "cylinder")
+    sliding = ("carriage", "rack", "bed")
+    pins = ("A", "B", "C", "D", "E", "F", "F_pinion", "G", "H", "M", "N", "cylinder")
+    meshes = ("mesh_12", "mesh_34", "rack_lower", "rack_upper")
+    outlines = loads_outline(pins, meshes)
+
+    @cached_property
+    def design(self) -> FlatbedPress:
+        """The geometry."""
+        return FlatbedPress(self.spec)
+
+    @cached_property
+    def speed(self) -> float:
+        """One turn of the input a sheet [rad/s]."""
+        return self.design.input_speed
+
+    @property
+    def unknown_joints(self) -> tuple[str, ...]:
+        """Bearings whose forces depend on where the gears' axes stand."""
+        gears = () if self.section.gear_1_direction is not None else ("A", "G")
+        return gears if self.section.cylinder_direction is not None else (*gears, "N", "cylinder")
+
+    @cached_property
+    def _pitch_radii(self) -> tuple[float, float]:
+        """Of gears 3 and 4 [m]."""
+        given = self.section.cylinder_gear_radius
+        gear_4 = (self.spec.cylinder.radius * _GEAR_4 if given is None else given) * _MM
+        return gear_4 * self.spec.cylinder.gear_ratio, gear_4
+
+    @cached_property
+    def pinion_radius(self) -> float:
+        """Pitch radius of the pinion [m]."""
+        given = self.section.pinion_radius
+        return (self.spec.bed.stroke * _PINION if given is None else given) * _MM
+
+    @cached_property
+    def own_joints(self) -> list[float]:
+        """Input angles at which the follower's law changes [rad]."""
+        bed = self.design.bed
+        return [float(bed.input_angle(segment.start)) for segment in self.design.cams.follower.segments]
+
+    def lift(self, cam_angle: Reals) -> Travel:
+        """Lift of the cam's follower [mm]."""
+        return self.design.cams.follower.lift(cam_angle, 2)
+
+    def kinematics(self, phi: Reals) -> Mechanism:
+        """The twelve links at input angles."""
+        from gearlink.core.loads.mechanism import Mechanism
+
+        if self.spec.cam is None:
+            raise MissingSection("`loads` of a press needs the section cam: its follower moves the lower rack", key="cam")
+        links = self._bed_chain(phi)
+        connections = [*self._bed_joints(links), *self._follower(links)]
+        connections += self._cylinder_chain(links, phi)
+        drive, sense = ("gear2", 1.0) if self.section.drive_gear == 2 else ("gear1", -1.0)
+        return Mechanism(links, connections, drive, sense, travel=dict.fromkeys(self.sliding, 1j))
+
+    # Bed
+
+    def _bed_chain(self, phi: Reals) -> dict[str, Link]:
+        from gearlink.core.linkages import fourbar_sweep
+        from gearlink.core.loads.kinematics import Point, Turn, carried, fixed, slider, standing, steady
+        from gearlink.core.loads.mechanism import Link
+
+        bed = self.design.bed
+        four = bed.linkage
+        state = fourbar_sweep.solve(four, bed.initial_crank_angle + phi, 2)
+        gear2 = Link(fixed(0j, phi), steady(phi, 1.0, bed.initial_crank_angle))
+        coupler = Turn(state.coupler_angle, state.coupler_velocity, state.coupler_acceleration)
+        rocker = Turn(state.rocker_angle, state.rocker_velocity, state.rocker_acceleration)
+        pivot = fixed(four.frame * _MM, phi)
+        psi = Turn(rocker.value - bed.crank_offset_angle, rocker.first, rocker.second)
+        e = carried(pivot, psi, bed.slider_crank_length * _MM)
+        rod, f = slider(e, bed.rod * _MM, (four.frame - bed.offset) * _MM + 0j, -1j)
+        cam = self.lift(rocker.value - bed.cam_angle_start)
+        slope, bend = cam.first * _MM, cam.second * _MM
+        lift = (cam.value * _MM, slope * rocker.first, bend * rocker.first**2 + slope * rocker.second)
+        r8 = self.pinion_radius
+        still = standing(0.0, phi)
+        place = (f.value - r8, 0.0, 0.0)
+        rack = Point(*(np_real(part) + 1j * value for part, value in zip(place, lift, strict=True)))
+        travel = [2.0 * part.imag - value for part, value in zip(f, lift, strict=True)]
+        bed_at = Point(*(np_real(part) + 1j * t for part, t in zip((f.value + r8, 0.0, 0.0), travel, strict=True)))
+        pinion = Turn(*((part.imag - value) / r8 for part, value in zip(f, lift, strict=True)))
+        return {
+            "gear2": gear2,
+            "BC": Link(gear2.at(four.crank * _MM), coupler),
+            "CDE": Link(pivot, rocker),
+            "EF": Link(e, rod),
+            "carriage": Link(f, still),
+            "pinion": Link(f, pinion),
+            "rack": Link(rack, still),
+            "bed": Link(bed_at, still),
+        }
+
+    def _bed_joints(self, links: dict[str, Link]) -> list[Connection]:
+        from gearlink.core.loads.mechanism import FRAME, Guide, Pin, Rack
+
+        four = self.design.bed.linkage
+        f, tangent, r8 = links["carriage"].origin.value, math.tan(_RACK_ANGLE), self.pinion_radius
+        return [
+            Pin("A", FRAME, "gear2", links["gear2"].origin.value),
+            Pin("B", "gear2", "BC", links["BC"].origin.value),
+            Pin("C", "BC", "CDE", links["CDE"].at(four.rocker * _MM).value),
+            Pin("D", FRAME, "CDE", links["CDE"].origin.value),
+            Pin("E", "CDE", "EF", links["EF"].origin.value),
+            Pin("F", "EF", "carriage", f),
+            Pin("F_pinion", "carriage", "pinion", f),
+            *(Guide(f"guide_{name}", FRAME, name, links[name].origin.value, -1j) for name in self.sliding),
+            Rack("rack_lower", "rack", "pinion", f, -1j, 1.0 + 0j, r8, tangent),
+            Rack("rack_upper", "bed", "pinion", f, -1j, -1.0 + 0j, r8, tangent),
+        ]
+
+    def _follower(self, links: dict[str, Link]) -> list[Connection]:
+        """The roller of the rack's follower on the cams, one force: positive on the main cam, negative on the other."""
+        import numpy as np
+
+        from gearlink.core.loads.mechanism import Contact
+
+        turn = links["CDE"].turn
+        cam = self.lift(turn.value - self.design.bed.cam_angle_start)
+        rho = (self.design.cams.base_radius + cam.value) * _MM
+        normal = (rho + 1j * cam.first * _MM) * 1j / np.hypot(rho, cam.first * _MM)
+        axis = links["CDE"].origin.value
+        # Against its own force, so that a negative one is carried by the return cam's roller.
+        rho_2 = self.design.cams.roller_center_distance * _MM - rho
+        other = (rho_2 - 1j * cam.first * _MM) * 1j / np.hypot(rho_2, cam.first * _MM)
+        return [Contact("cam", "CDE", "rack", axis + 1j * rho, normal, (axis - 1j * rho_2, other))]
+
+    # Cylinder
+
+    def _cylinder_chain(self, links: dict[str, Link], phi: Reals) -> list[Connection]:
+        from gearlink.core.linkages import fourbar_sweep
+        from gearlink.core.loads.kinematics import Turn, fixed, from_start, mixed, steady
+        from gearlink.core.loads.mechanism import FRAME, Link, Mesh, Pin
+
+        chain, pair = self.design.cylinder, self.design.gear_pair
+        four = chain.linkage
+        state = fourbar_sweep.solve(four, chain.initial_angle - phi, 2, velocity=-1.0)
+        toward = _unit(self.section.gear_1_direction, 90.0)
+        g = fixed(pair.center_distance * _MM * toward, phi)
+        links["gear1"] = Link(g, steady(phi, -1.0, chain.initial_angle))
+        links["HM"] = Link(links["gear1"].at(four.crank * _MM), Turn(state.coupler_angle, state.coupler_velocity,
+                                                                     state.coupler_acceleration))  # fmt: skip
+        rocker = Turn(state.rocker_angle, state.rocker_velocity, state.rocker_acceleration)
+        links["MN"] = Link(fixed(complex(g.value[0]) + four.frame * _MM, phi), rocker)
+        r3, r4 = self._pitch_radii
+        side = _unit(self.section.cylinder_direction, 0.0)
+        axis = fixed(complex(links["MN"].origin.value[0]) + (r3 + r4) * side, phi)
+        start = _start(chain)
+        links["cylinder"] = Link(axis, mixed((-chain.gear_ratio, from_start(rocker, start))))
+        r1, r2 = pair.working_radius
+        tangent = math.tan(pair.working_pressure_angle)
+        return [
+            Pin("G", FRAME, "gear1", g.value),
+            Pin("H", "gear1", "HM", links["HM"].origin.value),
+            Pin("M", "HM", "MN", links["MN"].at(four.rocker * _MM).value),
+            Pin("N", FRAME, "MN", links["MN"].origin.value),
+            Pin("cylinder", FRAME, "cylinder", axis.value),
+            Mesh("mesh_12", "gear2", "gear1", links["gear2"].origin.value, toward, r2 * _MM, r1 * _MM, tangent),
+            Mesh("mesh_34", "MN", "cylinder", links["MN"].origin.value, side, r3, r4, math.tan(_RACK_ANGLE)),
+        ]
+
+
+def _unit(direction: float | None, default: float) -> complex:
+    return cmath.exp(1j * math.radians(default if direction is None else direction))
+
+
+def _start(chain: Any) -> float:
+    from gearlink.core.linkages import fourbar
+
+    return fourbar.solve(chain.linkage, chain.initial_angle).rocker_angle
+
+
+def np_real(value: Any) -> Any:
+    """The real part of an array or a number."""
+    return value.real

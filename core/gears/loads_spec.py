@@ -1,0 +1,21 @@
+"""The section `loads` of a gear pair."""
+
+from __future__ import annotations
+
+from pydantic import Field
+
+from gearlink.core.loads.spec import Body, Loads
+from gearlink.core.spec import Spec
+
+
+class PairMasses(Spec):
+    """Masses of the gears with their shafts."""
+
+    gear1: Body | None = Field(None, description="gear 1 with its shaft, the input")
+    gear2: Body | None = Field(None, description="gear 2 with its shaft")
+
+
+class PairLoads(Loads):
+    """Masses, forces and drive of a gear pair."""
+
+    links: PairMasses = Field(PairMasses(), description="masses of the gears; what is left out has none")
