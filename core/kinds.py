@@ -98,7 +98,14 @@ KINDS: dict[str, Kind] = {
         Kind(
             "flatbed-press",
             "flatbed_press.spec:FlatbedPressSpec",
-            {"press": _PRESS, "cam": _PRESS, "gear": _PRESS, "crank": _PRESS, "analyze": _PRESS, "loads": "flatbed_press.loads:PressLoads"},
+            {
+                "press": _PRESS,
+                "cam": _PRESS,
+                "gear": _PRESS,
+                "crank": _PRESS,
+                "analyze": _PRESS,
+                "loads": "flatbed_press.loads:PressLoads",
+            },
         ),
         Kind(
             "swing-gripper",

@@ -11,7 +11,6 @@ import math
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from gearlink.core.design import Outline
 from gearlink.core.dwell_gears.mutilated_design import MutilatedGearDwell
 from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.linkages.fourbar_loads import MM, four_bar, four_bar_pins
@@ -24,7 +23,7 @@ if TYPE_CHECKING:
     from gearlink.core.dwell_gears.loads_spec import MutilatedLoads as Section
     from gearlink.core.dwell_gears.mutilated_spec import MutilatedGearDwellSpec
     from gearlink.core.linkages.fourbar import FourBar
-    from gearlink.core.loads.mechanism import Mechanism
+    from gearlink.core.loads.mechanism import Connection, Mechanism
     from gearlink.core.numerics.arrays import Reals
 
 _TURN = 2.0 * math.pi
@@ -39,7 +38,8 @@ class MutilatedGearLoads(LoadsDesign):
     section: Section
     links = ("crank", "coupler", "rocker")
     pins, meshes = ("A", "B", "C", "D"), ("mesh_wheel",)
-    outlines: dict[str, Outline] = loads_outline(pins, meshes, ("engagement_energy",))
+    joints_of_period = True
+    outlines = loads_outline(pins, meshes, ("engagement_energy",))
 
     @cached_property
     def design(self) -> MutilatedGearDwell:
@@ -93,7 +93,8 @@ class MutilatedGearLoads(LoadsDesign):
         # A place that is the start of a motion but for rounding is the start.
         rest = np.where(cycle - rest <= 8.0 * np.spacing(np.maximum(np.abs(phi), cycle)), 0.0, rest)
         whole = np.round((phi - rest) / cycle)
-        return whole * step + np.minimum(gear.speed_ratio * rest, step), (rest < _TURN * gear.motion_turns) * 1.0
+        moves = np.where(rest < _TURN * gear.motion_turns, 1.0, 0.0)
+        return np.asarray(whole * step + np.minimum(gear.speed_ratio * rest, step)), moves
 
     def kinematics(self, phi: Reals) -> Mechanism:
         """The three links at input angles."""
@@ -115,7 +116,7 @@ class MutilatedGearLoads(LoadsDesign):
         tangent = math.tan(self.design.mesh.working_pressure_angle)
         teeth = ToothDrive("mesh_wheel", "crank", links["crank"].origin.value, cmath.exp(1j * direction), radius,
                            tangent, moves > 0.0)  # fmt: skip
-        connections = [*four_bar_pins(links, self.linkage), teeth]
+        connections: list[Connection] = [*four_bar_pins(links, self.linkage), teeth]
         return Mechanism(links, connections, "mesh_wheel", gain=radius * rate)
 
     # Jumps of speed
@@ -129,11 +130,13 @@ class MutilatedGearLoads(LoadsDesign):
         import numpy as np
 
         from gearlink.core.loads.dynamics import reduced
+        from gearlink.core.loads.mechanism import Mechanism
 
         count = self.design.cycles_to_repeat
-        starts = np.arange(count) * (_TURN * self.design.driven_turn) + (self.design.start_crank_angle or 0.0)
+        starts = np.arange(count, dtype=np.float64) * (_TURN * self.design.driven_turn) + (
+            self.design.start_crank_angle or 0.0
+        )
         links = four_bar(self.linkage, starts)
-        from gearlink.core.loads.mechanism import Mechanism
 
         found = reduced(Mechanism(links, [], "crank"), self.masses, [], 0j)
         driven = self.speed * self.design.mutilated.speed_ratio

@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from gearlink.core.flatbed_press.chains import Travel
     from gearlink.core.flatbed_press.loads_spec import PressLoads as Section
     from gearlink.core.flatbed_press.spec import FlatbedPressSpec
-    from gearlink.core.loads.kinematics import Turn
     from gearlink.core.loads.mechanism import Connection, Link, Mechanism
     from gearlink.core.numerics.arrays import Reals
 
@@ -86,7 +85,9 @@ class PressLoads(LoadsDesign):
         from gearlink.core.loads.mechanism import Mechanism
 
         if self.spec.cam is None:
-            raise MissingSection("`loads` of a press needs the section cam: its follower moves the lower rack", key="cam")
+            raise MissingSection(
+                "`loads` of a press needs the section cam: its follower moves the lower rack", key="cam"
+            )
         links = self._bed_chain(phi)
         connections = [*self._bed_joints(links), *self._follower(links)]
         connections += self._cylinder_chain(links, phi)

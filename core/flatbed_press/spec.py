@@ -145,6 +145,6 @@ class FlatbedPressSpec(DesignSpec):
 
     def commands(self) -> tuple[str, ...]:
         """What the file asks for."""
-        gears = ("gear",) if self.input_gears is not None else ()
+        gears: tuple[str, ...] = ("gear",) if self.input_gears is not None else ()
         gears += ("loads",) if self.loads is not None else ()
         return ("press", "cam", *gears) if self.cam is not None else ("press", *gears)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
@@ -21,7 +21,7 @@ from gearlink.core.gears.spec_parts import (
     exclude_each_other,
     require_teeth,
 )
-from gearlink.core.spec import Coefficient, DesignSpec, GearLimits, Length, PressureAngle
+from gearlink.core.spec import Coefficient, Deferred, DesignSpec, GearLimits, Length, PressureAngle
 
 
 class GearPairSpec(DesignSpec):
@@ -62,6 +62,9 @@ class GearPairSpec(DesignSpec):
         "equal", description="how the shift sum is shared when center_distance is given: equal, or x1"
     )
     limits: GearLimits = GearLimits()
+    loads: Annotated[Any, Deferred("gears.loads_spec:PairLoads")] | None = Field(
+        None, description="masses, forces and drive, for the command loads"
+    )
 
     @model_validator(mode="after")
     def _placed(self) -> GearPairSpec:
@@ -93,4 +96,4 @@ class GearPairSpec(DesignSpec):
 
     def commands(self) -> tuple[str, ...]:
         """What the file asks for."""
-        return ("gear",)
+        return ("gear", *(("loads",) if self.loads is not None else ()))

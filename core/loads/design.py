@@ -57,6 +57,7 @@ class LoadsDesign(Design):
 
     command = "loads"
     extra_tables = TABLES[1:]
+    joints_of_period: ClassVar[bool] = False
     links: ClassVar[tuple[str, ...]]
     sliding: ClassVar[tuple[str, ...]] = ()
     pins: ClassVar[tuple[str, ...]]
@@ -138,6 +139,7 @@ class LoadsDesign(Design):
             self.friction,
             tuple(self.own_joints),
             self.shaft_inertia,
+            self.joints_of_period,
         )
 
     @cached_property

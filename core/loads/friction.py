@@ -15,7 +15,18 @@ import numpy as np
 from gearlink.core.errors import NoSolution
 from gearlink.core.loads.dynamics import Applied, Force, Masses, Reactions, System, Torque
 from gearlink.core.loads.kinematics import dot
-from gearlink.core.loads.mechanism import FRAME, Connection, Contact, Guide, Mechanism, Mesh, Pin, Rack, ToothDrive, rates
+from gearlink.core.loads.mechanism import (
+    FRAME,
+    Connection,
+    Contact,
+    Guide,
+    Mechanism,
+    Mesh,
+    Pin,
+    Rack,
+    ToothDrive,
+    rates,
+)
 from gearlink.core.numerics.arrays import Reals
 
 _PASSES = 60

@@ -43,6 +43,7 @@ class Machine:
         friction : Coefficients or None
         joints : input angles of a turn where the machine's own accelerations jump [rad]
         shaft_inertia : float [kg m^2] - of what turns evenly with the input
+        joints_of_period : bool - the joints are those of the whole period
     """
 
     kinematics: Kinematics
@@ -54,6 +55,7 @@ class Machine:
     friction: Coefficients | None = None
     joints: tuple[float, ...] = ()
     shaft_inertia: float = 0.0
+    joints_of_period: bool = False
     kept: dict[tuple[str, bytes], Any] = field(default_factory=dict, repr=False)
 
     @property
@@ -113,7 +115,9 @@ class Machine:
     @cached_property
     def breaks(self) -> list[float]:
         """Input angles within the period where a force jumps or bends [rad], ascending."""
-        found = [turn * TURN + angle for angle in (*self.sources.breaks(), *_in_turn(self.joints)) for turn in range(self.turns)]
+        of_a_turn = self.sources.breaks() if self.joints_of_period else [*self.sources.breaks(), *self.joints]
+        found = [turn * TURN + angle % TURN for angle in of_a_turn for turn in range(self.turns)]
+        found += self.joints if self.joints_of_period else ()
         found += self._turning_back()
         return sorted({angle for angle in found if 0.0 < angle < self.period})
 
@@ -196,10 +200,6 @@ class Panels:
     def running(self, values: Reals) -> Reals:
         """Integral from the start to each edge."""
         return np.concatenate(([0.0], np.cumsum(self.each(values))))
-
-
-def _in_turn(angles: Sequence[float]) -> list[float]:
-    return [angle % TURN for angle in angles]
 
 
 def zeros(f: Callable[[Reals], Reals], period: float, turns: int = 1) -> list[float]:

@@ -1,0 +1,122 @@
+"""Loads of the larger machines: the press against its reference, the mutilated gear and the gear pair by hand."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import factory
+import numpy as np
+import pytest
+
+from gearlink.core.flatbed_press.chains import Travel
+from gearlink.core.flatbed_press.loads import PressLoads
+from gearlink.core.loads.mechanism import Contact
+
+PRESS = json.loads((Path(__file__).parents[2] / "reference" / "loads.json").read_text())["press"]
+
+
+@pytest.fixture
+def press(monkeypatch: pytest.MonkeyPatch) -> Any:
+    """The press with the reference's follower, whose roller stays on the main cam."""
+    lift = PRESS["lift"]
+    monkeypatch.setattr(
+        PressLoads,
+        "lift",
+        lambda _, t: Travel(lift * (1 - np.cos(t)) / 2, lift * np.sin(t) / 2, lift * np.cos(t) / 2),
+    )
+    monkeypatch.setattr(PressLoads, "own_joints", [])
+    monkeypatch.setattr(Contact, "sided", lambda self, _: self)
+    return factory.design("ty460", command="loads", loads=PRESS["loads"])
+
+
+def test_press_against_the_reference(press: Any) -> None:
+    """36 unknowns; 1e-9 of the largest value of each list."""
+    expected, phi = PRESS["expected"], np.radians(np.array(PRESS["at"], dtype=float))
+    reduced, found = press.machine.reduced(phi), press.machine.reactions(phi)
+    assert found.torque == pytest.approx(expected["input_torque"], rel=1e-9)
+    assert reduced.inertia == pytest.approx(expected["reflected_inertia"], rel=1e-9)
+    assert reduced.slope == pytest.approx(expected["reflected_inertia_slope"], rel=1e-9)
+    seen = 0
+    for name, values in expected.items():
+        if name in found.unknowns:
+            wanted = np.array(values).reshape(len(phi), -1).T
+            if name.startswith("guide"):
+                wanted = wanted[:2]
+            assert found.unknowns[name] == pytest.approx(wanted, abs=1e-9 * np.abs(wanted).max())
+            seen += 1
+    assert seen == 20
+    force, moment = press.shaking(phi)
+    assert moment == pytest.approx(expected["shaking_moment"], rel=1e-9)
+    assert np.column_stack((force.real, force.imag)) == pytest.approx(np.array(expected["shaking_force"]), abs=1e-6)
+    assert press.input_torque_rms == pytest.approx(expected["input_torque_rms"], rel=1e-9)
+    assert press.input_torque_max == pytest.approx(expected["input_torque_max"], rel=1e-9)
+    assert press.torque_reversals == expected["torque_reversals"]
+    assert press.power_identity <= 1e-12
+
+
+def test_press_without_directions_leaves_out_the_bearings_that_need_them() -> None:
+    loads = {key: value for key, value in PRESS["loads"].items() if not key.endswith("direction")}
+    design = factory.design("ty460", command="loads", loads=loads)
+    assert design.raw("pin_A.peak") is None
+    assert "N_x" not in design.table("joints").columns
+    given = factory.design("ty460", command="loads", loads=PRESS["loads"])
+    assert design.raw("pin_D.peak") == pytest.approx(given.raw("pin_D.peak"), rel=1e-12)
+
+
+def test_the_gear_that_is_driven_changes_the_mesh_not_the_torque() -> None:
+    two, one = (factory.design("ty460", command="loads", loads={**PRESS["loads"], "drive_gear": k}) for k in (2, 1))
+    assert one.input_torque_rms == pytest.approx(two.input_torque_rms, rel=1e-12)
+    assert one.power_identity <= 1e-12
+    assert one.raw("mesh_12.tooth_force_max") != pytest.approx(two.raw("mesh_12.tooth_force_max"), rel=1e-2)
+
+
+def test_return_cam_carries_what_pulls() -> None:
+    """The torque does not depend on which roller carries; the guide's couple does."""
+    design = factory.design("ty460", command="loads", loads=PRESS["loads"])
+    found = design.machine.reactions(np.radians(np.arange(360.0)))
+    assert (found.unknowns["cam"][0] < 0.0).any()
+    assert (found.unknowns["cam"][0] > 0.0).any()
+    assert design.power_identity <= 1e-12
+
+
+MUTILATED = {
+    "speed": 60,
+    "links": {"wheel": {"inertia": 0.2}, "crank": {"inertia": 0.01}},
+    "forces": [{"on": "crank", "torque": -12}],
+    "wheel_direction": 90,
+}
+
+
+def test_mutilated_gear_carries_the_load_only_while_it_moves() -> None:
+    """Ratio 2/3 in 1.5 turns of 6: tooth force 12 N m/30 mm, input torque 12 * 2/3, else nothing."""
+    design = factory.design("mutilated_gear_press", command="loads", loads=MUTILATED)
+    torque, teeth = design.table("torque"), design.table("teeth")
+    moving = torque["input_angle"] < 540.0
+    assert torque["input_torque"][moving] == pytest.approx(8.0, rel=1e-12)
+    assert torque["input_torque"][~moving] == pytest.approx(0.0, abs=1e-12)
+    assert teeth["mesh_wheel"][moving] == pytest.approx(400.0, rel=1e-12)
+    assert teeth["mesh_wheel"][~moving] == pytest.approx(0.0, abs=1e-9)
+    assert design.input_torque_mean == pytest.approx(2.0, rel=1e-12)
+    assert torque["reflected_inertia"][0] == pytest.approx(0.2 / 36.0 + 0.01 * 4.0 / 9.0, rel=1e-12)
+    assert design.engagement_energy == pytest.approx(0.005 * (2.0 * math.pi * 2.0 / 3.0) ** 2, rel=1e-12)
+    joints = design.table("joints")
+    assert joints["A_x"][moving] == pytest.approx(400.0, rel=1e-9)
+    assert joints["A_y"][moving] == pytest.approx(400.0 * math.tan(math.radians(20.0)), rel=1e-9)
+
+
+@pytest.mark.parametrize(("teeth", "sign"), [([21, 67], -1.0), ([21, -67], 1.0)])
+def test_gear_pair_carries_torque_over_radius(teeth: list[int], sign: float) -> None:
+    data = {
+        "kind": "gear-pair",
+        "module": 2,
+        "teeth": teeth,
+        "profile_shift": [0.0, 0.0],
+        "loads": {"speed": 100, "forces": [{"on": "gear2", "torque": -40}]},
+    }
+    design = factory.design(data, command="loads")
+    assert design.input_torque_mean == pytest.approx(sign * 40.0 * 21 / 67, rel=1e-12)
+    assert design.raw("mesh_12.tooth_force_max") == pytest.approx(40.0 / 0.067, rel=1e-12)
+    assert design.raw("pin_gear1.peak") == pytest.approx(40.0 / 0.067 / math.cos(math.radians(20.0)), rel=1e-12)
