@@ -23,7 +23,7 @@ from gearlink.cli.main import run
 
 SECONDS = 2.0  # of processor time, so that other work on the machine does not count
 MEGABYTES = 200.0
-FEW, MANY = 60, int(os.environ.get("GEARLINK_MUTATIONS", "6000"))
+FEW, MANY = 20, int(os.environ.get("GEARLINK_MUTATIONS", "6000"))
 FORMATS = ("json", "json", "json", "table", "csv", "md")
 
 

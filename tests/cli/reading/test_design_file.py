@@ -661,7 +661,7 @@ def test_a_name_that_cannot_head_a_picture(gearlink: Any, tmp_path: Path, name: 
 
 
 @pytest.mark.parametrize(
-    "name", mostly_slow(["中" * 200, "e\u0301" * 100, "x" * 200, "a\u200bb\u202ec", r'"a\nb\tc"'], 2)
+    "name", mostly_slow(["中" * 200, "e\u0301" * 100, "x" * 200, "a\u200bb\u202ec", r'"a\nb\tc"'], 1)
 )
 def test_any_name_of_letters_heads_every_page(gearlink: Any, tmp_path: Path, name: str) -> None:
     path = tmp_path / "design.yaml"
@@ -676,5 +676,5 @@ def test_any_name_of_letters_heads_every_page(gearlink: Any, tmp_path: Path, nam
 def test_a_file_name_that_is_no_text_heads_pages_too(gearlink: Any, tmp_path: Path) -> None:
     path = tmp_path / "bad\udcff.yaml"
     path.write_text(SLIDER_CRANK.removesuffix("name: "))
-    for line in (("report", path), ("crank", path, "--plot"), ("animate", path, "--format", "html"), ("batch", path)):
+    for line in (("report", path), ("animate", path, "--format", "html"), ("batch", path)):
         assert gearlink(*line, "--out", tmp_path).status == 0

@@ -308,7 +308,7 @@ def test_cams_keep_the_limit_and_touch_it(limit):
 
 
 @pytest.mark.parametrize("cam", [{}, {"lead_in": 12.0}, {"transition": "arc"}, {"roller_radius": 40.0}])
-@pytest.mark.parametrize("limit", [5.0, 15.0, 20.0, 40.0])
+@pytest.mark.parametrize("limit", mostly_slow([15.0, 40.0, 5.0, 20.0], 2))
 def test_sized_cams_pass_their_own_checks(limit, cam):
     design = sized(limit, **cam)
     for name in ("pressure-angle", "cam-undercut", "constant-sum"):
@@ -322,16 +322,18 @@ def test_base_radius_by_curvature_against_the_roots_of_its_own_equation(cam):
     """(R^2 + s'^2)^3 = q^2 (R^2 + 2 s'^2 - R s'')^2 of every row, q = r_g/0.8: the largest root is R needed there."""
     design = sized(40.0, **cam)
     follower, q = design.follower, design.spec.cam.roller_radius / 0.8
-    theta = np.concatenate([np.linspace(s.start, s.end, 301)[1:-1] for s in follower.segments])
+    theta = np.concatenate([np.linspace(s.start, s.end, 101)[1:-1] for s in follower.segments])
     lift = follower.lift(theta, 2)
     both, needed = sum(follower.lift_range), []
     for s, k, a in zip(lift.value, lift.first, lift.second, strict=True):
         for shift, bend in ((s, a), (both - s, -a)):  # main cam, return cam: R = r_b + shift
-            flat = np.poly1d([1.0, -bend, 2.0 * k * k])
-            whole = np.poly1d([1.0, 0.0, k * k]) ** 3 - q * q * flat**2
-            real = [z.real for z in whole.roots if abs(z.imag) < 1e-9 * abs(z) and z.real > 0.0 and flat(z.real) > 0.0]
+            flat = [1.0, -bend, 2.0 * k * k]
+            cube = np.polymul([1.0, 0.0, k * k], np.polymul([1.0, 0.0, k * k], [1.0, 0.0, k * k]))
+            roots = np.roots(np.polysub(cube, q * q * np.polymul(flat, flat)))
+            real = [z.real for z in roots if abs(z.imag) < 1e-9 * abs(z) and z.real > 0.0]
+            real = [z for z in real if np.polyval(flat, z) > 0.0]
             needed += [z - shift for z in real]
-    # rows miss the place of the extreme by half a step of some 2e-3 rad, beside a joint by a whole one
+    # rows miss the place of the extreme by half a step of some 6e-3 rad, beside a joint by a whole one
     assert design.cam_base_radius == pytest.approx(max(needed), rel=1e-2)
     assert design.cam_base_radius >= max(needed) * (1.0 - 1e-12)
 
