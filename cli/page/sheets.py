@@ -31,13 +31,19 @@ def sheet(command: str, design: Design, checks: Sequence[Check] = ()) -> str:
     Raises
         NoSolution - where the sheet shows something that the design does not have
     """
-    made = write.draw(command, design, checks)
+    drawn: list[Figure] = []
+
+    def make() -> Figure:
+        """Drawn where the fonts of the name are set, and kept for its curves."""
+        drawn.append(write.draw(command, design, checks))
+        return drawn[0]
+
     stream = io.BytesIO()
-    write.save(lambda: made, design.spec.name, stream, "svg")
+    write.save(make, design.spec.name, stream, "svg")
     svg = _HEAD.sub("", stream.getvalue().decode(), count=1)
     words = escape(f"{command} of {design.spec.name}", quote=True)
     svg = svg.replace("<svg ", f'<svg role="img" aria-label="{words}" ', 1)
-    return f'<div class="sheet"><div class="wide">{svg}</div>{as_data(charts(made), "charts")}</div>'
+    return f'<div class="sheet"><div class="wide">{svg}</div>{as_data(charts(drawn[0]), "charts")}</div>'
 
 
 def as_data(value: Any, name: str) -> str:
