@@ -17,9 +17,9 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from gearlink.core.errors import GearlinkError
 from gearlink.core.nomenclature import term
 from gearlink.core.numerics.rows import Rows
-from gearlink.core.remedies import Way, with_remedies
+from gearlink.core.remedies import Bench, Way, with_remedies
 from gearlink.core.report import Check, Quantity, Remedy, Report, Table, TableInParts
-from gearlink.core.results import step
+from gearlink.core.results import cached_property, step
 
 _PART_SIZES = (65_521, 65_537)
 
@@ -176,16 +176,25 @@ class Design:
         """What completes the file: the links that a synthesis found in place of its task."""
         return ()
 
-    def suggestions(self) -> Sequence[Any]:
-        """Changes of keys that would repair the design, each (path, value, why); a kind that has none gives none."""
-        return ()
+    @cached_property
+    def benches(self) -> dict[str, Bench]:
+        """Where changes of this design are tried, for each command."""
+        return {}
+
+    def varied(self, spec: Any) -> Design:
+        """The design of another file, with the results of this one that the change leaves as they are."""
+        return type(self)(spec)
 
     def findings(self, command: str, check: str) -> tuple[Check, ...]:
         """The findings of a check by name; those that fail have a remedy, where one was found that the files of
         `command` and of every other command that the design asks for can take."""
         return with_remedies(self, command, tuple(self.check(check)))
 
-    def candidates(self, _check: str) -> Iterable[Remedy]:
+    def ways_of(self, check: str) -> Iterable[Way]:
+        """How the file may be changed where a check does not hold."""
+        return self.ways.get(check, ())
+
+    def candidates(self, _check: str, /) -> Iterable[Remedy]:
         """Remedies of a check from closed forms; they are tried before the `ways`."""
         return ()
 

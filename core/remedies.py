@@ -2,27 +2,34 @@
 
 A kind of design names, for each of its checks, the ways in which a file may be changed: keys, and the step in which
 their values can be built (whole teeth, 0.1 mm, 0.01 of profile shift). Values of that grid are tried from the file's
-own onwards. A remedy is one with which the check passes, no check that held fails, and nothing that the file asks
-for is refused: whoever follows it gets what it says.
+own onwards. A remedy is one with which the check passes, no other finding becomes worse, and nothing that the file
+asks for is refused: whoever follows it gets what it says.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.report import Check, Remedy, remedy_words
 from gearlink.core.results import cached_property
-from gearlink.core.spec_paths import changed, number_at
+from gearlink.core.spec_paths import changed, number_at, numbers_at, step_of
 
 if TYPE_CHECKING:
     from gearlink.core.design import Design
 
 _GROWTH = 1.35
 _FARTHEST, _LEAST_STEPS = 3.0, 30
+_OF_WARNING = 6
+"""A warning is worth so small a share of the trials of a failing check."""
+_RANK = {"pass": 0, "warn": 1, "fail": 2}
+_PASSES, _HOLDS = 2, 1
+REFUSAL = "refusal"
+"""Name under which a design gives candidates where it is refused."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,31 +96,67 @@ def shared(*keys: str, step: float) -> tuple[Way, ...]:
     return Way(keys, step, "sum"), Way(keys, -step, "sum")
 
 
+def at_most(value: float, step: float = 0.1) -> float:
+    """The greatest value that can be built up to a bound; of one below the step to two digits.
+
+    Example
+        >>> at_most(7.3421), at_most(0.0562), at_most(43.2, 0.5)
+        (7.3, 0.056, 43.0)
+    """
+    return _built(value, step, math.floor)
+
+
+def at_least(value: float, step: float = 0.1) -> float:
+    """The least value that can be built from a bound on; of one below the step to two digits.
+
+    Example
+        >>> at_least(7.3421), at_least(0.0562), at_least(2.52431, 0.01)
+        (7.4, 0.057, 2.53)
+    """
+    return _built(value, step, math.ceil)
+
+
+def _built(value: float, step: float, way: Callable[[float], int]) -> float:
+    if value == 0.0 or not math.isfinite(value):
+        return value
+    if abs(value) < 2.0 * step:
+        step = float(10.0 ** (math.floor(math.log10(abs(value))) - 1))
+    return round(way(round(value / step, 9)) * step, max(0, 2 - math.floor(math.log10(step))))
+
+
 def left_out(key: str) -> Way:
     """The way to the default."""
     return Way((key,), 0.0)
 
 
 def with_remedies(design: Design, command: str, findings: tuple[Check, ...]) -> tuple[Check, ...]:
-    """The findings of a check; those that fail have the first remedy that holds, in data and words."""
-    bench = _Bench(design, command)
-    return tuple(
-        _with(bench.remedy(found.name, index), found) if found.status == "fail" else found
-        for index, found in enumerate(findings)
-    )
+    """The findings of a check; those that fail or warn have the best remedy that was found, in data and words."""
+    if all(found.status == "pass" for found in findings):
+        return findings
+    bench = design.benches.setdefault(command, Bench(design, command))
+    return tuple(_with(bench.remedy(found, index), found) for index, found in enumerate(findings))
 
 
 def _with(remedy: Remedy, found: Check) -> Check:
     return replace(found, message=f"{found.message}; {remedy_words(remedy)}", remedy=remedy) if remedy else found
 
 
-class _Bench:
-    """A design on which changes are tried."""
+class Bench:
+    """A design on which changes are tried; what was tried once is kept.
 
-    def __init__(self, design: Design, command: str) -> None:
+    Parameters
+        design, command : the design, and the command whose findings are to be repaired
+        patient : bool - a warning is worth as many trials as what fails
+    """
+
+    def __init__(self, design: Design, command: str, *, patient: bool = False) -> None:
         self._design = design
         self._command = command
+        self._patient = patient
         self._left = 0
+        self._trials: dict[Remedy, Design | None] = {}
+        self._candidates: dict[str, tuple[list[Remedy], Iterator[Remedy]]] = {}
+        self._grades: dict[tuple[Remedy, str, int], int] = {}
 
     @cached_property
     def _commands(self) -> tuple[str, ...]:
@@ -121,20 +164,59 @@ class _Bench:
         asked = (name for name in self._design.spec.commands() if name in self._design.outlines)
         return tuple(dict.fromkeys((self._command, *asked)))
 
-    def remedy(self, name: str, index: int) -> Remedy:
-        """The first remedy of a finding, the `index`-th of its check; empty where no way leads to one."""
+    def remedy(self, found: Check, index: int) -> Remedy:
+        """The best remedy of a finding, the `index`-th of its check; empty where no way leads to one.
+
+        Notes
+            A failing check is to pass and no other finding to become worse; where no way leads there, it may warn and
+            so may others. A check that warns is to pass.
+        """
+        if found.status == "pass":
+            return ()
+        trials = self._design.trials
+        self._left = trials if self._patient or found.status == "fail" else trials // _OF_WARNING
+        for wanted in (_PASSES, _HOLDS) if found.status == "fail" else (_PASSES,):
+            remedy = self._first(found.name, lambda tried, wanted=wanted: self._grade(tried, found, index) >= wanted)  # type: ignore[misc]
+            if remedy:
+                return remedy
+        return ()
+
+    def detour(self, found: Check, index: int) -> Remedy:
+        """What repairs a finding at the price of others, from where a design may be repaired further."""
         self._left = self._design.trials
 
-        def good(trial: Design) -> bool:
-            return self._repairs(trial, name, index)
+        def good(remedy: Remedy) -> bool:
+            trial = self._trial(remedy)
+            with suppress(NoSolution):
+                return trial is not None and self._own_grade(trial, found, index) > 0 and self._exists(trial)
+            return False
 
-        for remedy in self._design.candidates(name):
-            if self._holds(remedy, good):
+        return self._first(found.name, good)
+
+    def of_refusal(self, error: NoSolution) -> Iterator[Remedy]:
+        """Remedies of a design that is refused: nothing of what its file asks for is refused then."""
+        self._left = self._design.trials
+        ways = refusal_ways(self._design.spec, error.key)
+        yield from (remedy for remedy in self._closed(REFUSAL) if self._stands(remedy))
+        yield from (remedy for remedy in (self._along(way, self._stands) for way in ways) if remedy)
+
+    def _first(self, name: str, good: Callable[[Remedy], bool]) -> Remedy:
+        for remedy in self._closed(name):
+            if good(remedy):
                 return remedy
-        found = (self._along(way, good) for way in self._design.ways.get(name, ()))
+        found = (self._along(way, good) for way in self._design.ways_of(name))
         return next((remedy for remedy in found if remedy), ())
 
-    def _along(self, way: Way, good: Callable[[Design], bool]) -> Remedy:
+    def _closed(self, name: str) -> Iterator[Remedy]:
+        """The remedies from closed forms, computed one after the other; none more where the next is refused."""
+        kept, more = self._candidates.setdefault(name, ([], iter(self._design.candidates(name))))
+        yield from tuple(kept)
+        with suppress(NoSolution):
+            for remedy in more:
+                kept.append(remedy)
+                yield remedy
+
+    def _along(self, way: Way, good: Callable[[Remedy], bool]) -> Remedy:
         """The nearest remedy on a way: steps that grow until one is good, then halving back."""
         values = [number_at(self._design.spec, key) for key in way.keys]
         old = [value for value in values if value is not None]
@@ -144,48 +226,74 @@ class _Bench:
         for count in _counts(way.most(old)):
             if self._left <= 0:
                 return ()
-            if self._holds(way.remedy(old, count), good):
+            if good(way.remedy(old, count)):
                 break
             bad = count
         else:
             return ()
         while count - bad > 1:
             middle = (bad + count) // 2
-            bad, count = (bad, middle) if self._holds(way.remedy(old, middle), good) else (middle, count)
+            bad, count = (bad, middle) if good(way.remedy(old, middle)) else (middle, count)
         return way.remedy(old, count)
 
-    def _holds(self, remedy: Remedy, good: Callable[[Design], bool]) -> bool:
-        if not remedy:
-            return False
-        spec = changed(self._design.spec, remedy)
+    # Trials
+
+    def _trial(self, remedy: Remedy) -> Design | None:
+        """The design after a remedy; None where the file cannot say so."""
+        if remedy not in self._trials:
+            spec = changed(self._design.spec, remedy) if remedy else None
+            trial = None if spec is None else self._design.varied(spec)
+            if trial is not None:
+                self._left -= 1
+                trial.advises = False
+            self._trials[remedy] = trial
+        return self._trials[remedy]
+
+    def _stands(self, remedy: Remedy) -> bool:
+        trial = self._trial(remedy)
         try:
-            return spec is not None and good(self._trial(spec))
+            return trial is not None and self._exists(trial)
         except NoSolution:
             return False
 
-    def _trial(self, spec: Any) -> Design:
-        self._left -= 1
-        trial = type(self._design)(spec)
-        trial.advises = False
-        return trial
+    def _grade(self, remedy: Remedy, found: Check, index: int) -> int:
+        """What a remedy makes of a finding."""
+        key = (remedy, found.name, index)
+        if key not in self._grades:
+            trial = self._trial(remedy)
+            try:
+                self._grades[key] = 0 if trial is None else self._graded(trial, found, index)
+            except NoSolution:
+                self._grades[key] = 0
+        return self._grades[key]
 
-    def _repairs(self, trial: Design, name: str, index: int) -> bool:
-        found = _failing(trial, name)
-        if index < len(found) and found[index]:
-            return False
-        return all(self._no_worse(trial, other) for other in self._before) and self._exists(trial)
+    def _graded(self, trial: Design, found: Check, index: int) -> int:
+        grade = self._own_grade(trial, found, index)
+        for name in self._before:
+            if grade <= 0:
+                return 0
+            grade = min(grade, self._against(trial, name))
+        return grade if grade > 0 and self._exists(trial) else 0
 
-    def _no_worse(self, trial: Design, name: str) -> bool:
-        before, now = self._before[name], _failing(trial, name)
+    def _own_grade(self, trial: Design, found: Check, index: int) -> int:
+        """What becomes of the finding itself; where findings are gone the worst of its check counts."""
+        now = _ranks(trial, found.name)
+        return _PASSES - (now[index] if index < len(now) else max(now, default=0))
+
+    def _against(self, trial: Design, name: str) -> int:
+        """Whether a check is no worse than before; findings that are new or gone are counted by their status."""
+        before, now = self._before[name], _ranks(trial, name)
         if len(before) != len(now):
-            return not any(now) or sum(now) < sum(before)
-        return all(was or not fails for was, fails in zip(before, now, strict=True))
+            before, now = tuple(sorted(before, reverse=True)), tuple(sorted(now, reverse=True))
+            before += (0,) * (len(now) - len(before))
+        worse = [rank for was, rank in zip(before, now, strict=False) if rank > was]
+        return _PASSES - max(worse, default=0)
 
     @cached_property
-    def _before(self) -> dict[str, tuple[bool, ...]]:
-        """Which findings of each check fail in the design as it stands."""
+    def _before(self) -> dict[str, tuple[int, ...]]:
+        """How bad the findings of each check are in the design as it stands."""
         names = dict.fromkeys(name for command in self._commands for name in self._design.outline(command).checks)
-        return {name: _failing(self._design, name) for name in names}
+        return {name: _ranks(self._design, name) for name in names}
 
     def _exists(self, trial: Design) -> bool:
         for command in self._commands:
@@ -193,8 +301,18 @@ class _Bench:
         return True
 
 
-def _failing(design: Design, name: str) -> tuple[bool, ...]:
-    return tuple(check.status == "fail" for check in design.check(name))
+def refusal_ways(spec: Any, key: str) -> Iterator[Way]:
+    """Ways to change what a refusal names: its number, or each number of its section; a key that may be left out."""
+    if not key:
+        return
+    if number_at(spec, key) is not None:
+        yield left_out(key)
+    for path in numbers_at(spec, key):
+        yield from either(path, step=step_of(spec, path))
+
+
+def _ranks(design: Design, name: str) -> tuple[int, ...]:
+    return tuple(_RANK[check.status] for check in design.check(name))
 
 
 def _counts(most: int) -> Iterator[int]:

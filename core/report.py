@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 Value = float | int | str | list[float] | list[int]
 Status = Literal["pass", "warn", "fail"]
-Remedy: TypeAlias = tuple[tuple[str, float | None], ...]
+Remedy: TypeAlias = tuple[tuple[str, float | str | None], ...]
 """Keys of the design file with the values that repair a finding, to be put in together; None leaves a key out."""
 _BLOCK = 4096
 
@@ -213,9 +213,13 @@ def remedy_words(remedy: Remedy) -> str:
         'set gears.crank to 42 and gears.output to 42'
     """
     return " and ".join(
-        f"leave {key} out" if value is None else f"{'' if i else 'set '}{key} to {value:.12g}"
+        f"leave {key} out" if value is None else f"{'' if i else 'set '}{key} to {_shown(value)}"
         for i, (key, value) in enumerate(remedy)
     )
+
+
+def _shown(value: float | str) -> str:
+    return value if isinstance(value, str) else f"{value:.12g}"
 
 
 def without_noise(value: float, scale: float) -> float:

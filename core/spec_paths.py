@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 _STEP = re.compile(r"[^.\[\]]+")
@@ -52,6 +52,41 @@ def number_at(spec: Any, path: str) -> float | None:
     except (AttributeError, TypeError, IndexError):
         return None
     return value if isinstance(value, (int, float)) and not isinstance(value, bool) else None
+
+
+def numbers_at(spec: Any, path: str) -> Iterator[str]:
+    """The paths of the number, or of every number of the section or list, that a path leads to.
+
+    Parameters
+        spec : pydantic model
+        path : str - such as `links`, or `links.frame`
+    """
+    try:
+        value = value_at(spec, path)
+    except (AttributeError, TypeError, IndexError):
+        return
+    if number_at(spec, path) is not None:
+        yield path
+    elif isinstance(value, (list, tuple)):
+        for i in range(len(value)):
+            yield from numbers_at(spec, f"{path}[{i}]")
+    else:
+        for name in getattr(type(value), "model_fields", ()):
+            yield from numbers_at(spec, f"{path}.{name}")
+
+
+_STEPS_BY_UNIT = {"1": 0.01, "deg": 0.5}
+
+
+def step_of(spec: Any, path: str) -> float:
+    """The step in which a number of a spec can be built: whole teeth, 0.1 mm, half a degree, 0.01 of a ratio."""
+    head, _, last = path.rpartition(".")
+    if isinstance(number_at(spec, path), int):
+        return 1.0
+    section = value_at(spec, head) if head else spec
+    field = getattr(type(section), "model_fields", {}).get(last.partition("[")[0])
+    extra = getattr(field, "json_schema_extra", None)
+    return _STEPS_BY_UNIT.get(extra.get("unit", ""), 0.1) if isinstance(extra, dict) else 0.1
 
 
 def changed(spec: Any, values: Iterable[tuple[str, Any]]) -> Any:

@@ -9,7 +9,7 @@ import shlex
 import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.commands.design import plot, print_report, show_refusal
 from gearlink.cli.commands.save import require_place, save
@@ -19,7 +19,8 @@ from gearlink.cli.files import CannotWrite
 from gearlink.cli.options import Format, Options
 from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.core.errors import NoSolution
-from gearlink.core.report import Check, Remedy, Report, remedy_words
+from gearlink.core.remedies import Bench
+from gearlink.core.report import Check, Remedy, Report
 from gearlink.core.spec_paths import changed, value_at
 
 if TYPE_CHECKING:
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
     from gearlink.core.kinds import Kind
 
 _ROUNDS = 8
+_NONE_FOUND = "none found with which every check passes"
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,82 +42,91 @@ class Change:
 
 
 def run_suggested(command: str, source: str, options: Options) -> int:
-    """Repair the design file `source` by its own suggestions, print changes and report, give its exit status."""
-    changes: list[Change] = []
+    """Repair the design file `source` by its own remedies, print changes and report, give its exit status.
+
+    Notes
+        Where no changes were found with which the design holds, the report is that of the file as it stands.
+    """
+    changes: list[Change] | None = []
     saved: int = ExitCode.OK
     try:
         require_place(options)
         loaded, kind = open_design(source, options)
         require_command(loaded, kind, command)
-        spec, changes = repair(kind, command, read_spec(loaded, kind, source))
-        design, report = build(loaded, kind, command, spec, options)
+        spec = read_spec(loaded, kind, source)
+        repaired, changes = repair(kind, command, spec, strict=options.strict)
+        design, report = build(loaded, kind, command, repaired, options)
         if options.plot:
             plot(command, design, options, report)
         if options.save is not None:
-            saved = save(loaded, kind, command, design, options, changes)
+            saved = save(loaded, kind, command, design, options, changes or ())
     except (DesignFileError, CannotWrite, NoSolution) as error:
-        _print_refused(changes, options)
+        if changes is None and options.format is not Format.JSON:
+            print(_as_text(changes, options), file=sys.stderr)
         return show_refusal(error, source, options)
     _print(changes, report, options)
     return max(saved, exit_status(report, strict=options.strict))
 
 
-def repair(kind: Kind, command: str, spec: Any) -> tuple[Any, list[Change]]:
-    """The spec after up to eight rounds, each the first suggestion of the design as it then stands.
+def repair(kind: Kind, command: str, spec: Any, *, strict: bool = False) -> tuple[Any, list[Change] | None]:
+    """The spec with which a design holds, and the changes that lead there.
 
+    Parameters
+        strict : bool - warnings are repaired as well
+    Returns
+        spec, changes - the spec as it was and None where no such changes were found
     Notes
-        Rounds end where nothing fails, where a design has nothing more to suggest, and where a value returns.
+        Up to eight rounds, each the first remedy of the design as it then stands.
     """
     changes: list[Change] = []
-    seen = {spec.model_dump_json()}
+    given, seen = spec, {spec.model_dump_json()}
     for _ in range(_ROUNDS):
-        tried = ((step, changed(spec, step.remedy)) for step in _steps(kind.design(command, spec), command))
-        fresh = next(((step, new) for step, new in tried if new and new.model_dump_json() not in seen), None)
+        bad = {"fail", "warn"} if strict else {"fail"}
+        design = kind.design(command, spec)
+        remedies = _remedies(design, command, bad)
+        if remedies is None:
+            return spec, changes
+        tried = ((remedy, why, changed(spec, remedy)) for remedy, why in remedies)
+        fresh = next((each for each in tried if each[2] and each[2].model_dump_json() not in seen), None)
         if fresh is None:
             break
-        step, repaired = fresh
-        changes += [Change(path, value_at(spec, path), value, step.why) for path, value in step.remedy]
+        remedy, why, repaired = fresh
+        changes += [Change(path, value_at(spec, path), value, why) for path, value in remedy]
         seen.add(repaired.model_dump_json())
         spec = repaired
-    return spec, changes
+    return given, None
 
 
-class _Step(NamedTuple):
-    """What may be changed in one round, and why."""
-
-    remedy: Remedy
-    why: str
-
-
-def _steps(design: Any, command: str) -> Iterator[_Step]:
-    """What would repair a design, none where it holds: its own suggestions, then the remedies of what fails."""
-    failing = _failing(design, command)
-    if failing is not None and not failing:
-        return
-    for path, value, why in design.suggestions():
-        yield _Step(((path, value),), why)
-    for check in failing or ():
-        if check.remedy:
-            yield _Step(check.remedy, check.message.removesuffix(f"; {remedy_words(check.remedy)}"))
-
-
-def _failing(design: Design, command: str) -> list[Check] | None:
-    """The checks that fail; None where the design is refused."""
+def _remedies(design: Design, command: str, bad: set[str]) -> Iterator[tuple[Remedy, str]] | None:
+    """What would repair a design, each with the reason, sought when it is asked for; None where the design holds."""
+    bench = Bench(design, command, patient=True)
     try:
-        return [check for check in design.report(command, findings_only=True).checks if check.status == "fail"]
-    except NoSolution:
-        return None
+        design.require(command)
+        found = [each for name in design.outline(command).checks for each in enumerate(design.check(name))]
+    except NoSolution as error:
+        why = error.message
+        return ((remedy, why) for remedy in bench.of_refusal(error))
+    wrong = [(index, check) for index, check in found if check.status in bad]
+    return _steps(bench, wrong) if wrong else None
+
+
+def _steps(bench: Bench, wrong: Sequence[tuple[int, Check]]) -> Iterator[tuple[Remedy, str]]:
+    """Remedies of what is wrong; where there are none, what repairs one finding at the price of others."""
+    for way in (bench.remedy, bench.detour):
+        for index, check in wrong:
+            if remedy := way(check, index):
+                yield remedy, check.message
 
 
 def _as_plain(changes: Sequence[Change]) -> list[dict[str, Any]]:
     return [{"path": c.path, "old": c.old, "new": c.new, "why": c.why} for c in changes]
 
 
-def _print(changes: Sequence[Change], report: Report, options: Options) -> None:
+def _print(changes: Sequence[Change] | None, report: Report, options: Options) -> None:
     if options.format is Format.JSON:
         from gearlink.cli.render.json_report import as_plain
 
-        whole = as_plain(report) | {"suggestions": _as_plain(changes)}
+        whole = as_plain(report) | {"suggestions": _as_plain(changes or ())}
         print(json.dumps(whole, ensure_ascii=False, allow_nan=False))
         return
     text = _as_text(changes, options)
@@ -127,13 +138,9 @@ def _print(changes: Sequence[Change], report: Report, options: Options) -> None:
     print_report(report, options)
 
 
-def _print_refused(changes: Sequence[Change], options: Options) -> None:
-    """The changes that were tried in vain, apart from the error."""
-    if changes and options.format is not Format.JSON:
-        print(_as_text(changes, options), file=sys.stderr)
-
-
-def _as_text(changes: Sequence[Change], options: Options) -> str:
+def _as_text(changes: Sequence[Change] | None, options: Options) -> str:
+    nothing = "none" if changes is not None else _NONE_FOUND
+    changes = changes or ()
     if options.format is Format.CSV:
         stream = io.StringIO()
         rows = [("change", "old", "new", "why"), *((c.path, c.old, c.new, c.why) for c in changes)]
@@ -146,10 +153,10 @@ def _as_text(changes: Sequence[Change], options: Options) -> str:
         return (
             f"## Suggestions\n\n{markdown_table(('change', 'old', 'new', 'why'), rows)}\n\n`{overrides(changes)}`\n"
             if changes
-            else "## Suggestions\n\nnone\n"
+            else f"## Suggestions\n\n{nothing}\n"
         )
     if not changes:
-        return "suggestions: none\n"
+        return f"suggestions: {nothing}\n"
     lines = [f"  {c.path}: {_shown(c.old)} -> {_shown(c.new)}    {c.why}" for c in changes]
     return "\n".join(["suggestions, tried in this order:", *lines, f"  as options: {overrides(changes)}", ""])
 
@@ -166,4 +173,6 @@ def overrides(changes: Sequence[Change]) -> str:
 
 
 def _shown(value: Any) -> str:
-    return "left out" if value is None else f"{value:.12g}"
+    if isinstance(value, (int, float)):
+        return f"{value:.12g}"
+    return "left out" if value is None else str(value)

@@ -24,7 +24,7 @@ _HANDOVER = style.RED
 
 def draw(command: str, design: SwingGripper) -> Figure:
     """Swing, its derivatives and the mechanism; torques where there are cams, inertia and spring."""
-    forces = design.cams.stand and None not in (design.spec.inertia, design.spec.spring)
+    forces = design.closure.stands
     heights = [1.3, 1.1, 1.1, 1.7, 5.3] if forces else [1.3, 1.1, 1.1, 5.3]
     made = panels.page(f"{design.spec.name}: {command}", (sum(heights) + 1.6) / 12.1)
     rows: Any = made.add_gridspec(len(heights), 1, height_ratios=heights)

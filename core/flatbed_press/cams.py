@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from gearlink.core.cams.disc_cams import DiscCams
 from gearlink.core.errors import MissingSection, NoSolution, at_key
 from gearlink.core.flatbed_press.compensation import Compensation
 from gearlink.core.results import cached_property
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 _HAIR = 1e-9
 
 
-class PressCams:
+class PressCams(DiscCams):
     """The follower of the rack and the two cams that drive it both ways."""
 
     def __init__(self, spec: FlatbedPressSpec, motion: PressMotion) -> None:
@@ -177,15 +178,15 @@ class PressCams:
     @property
     def main_cam(self) -> DiscCam:
         """The cam of roller 1: pitch radius r_b + s."""
-        return self.both[0]
+        return self.discs[0]
 
     @property
     def return_cam(self) -> DiscCam:
         """The cam of roller 2: its centre stands at r_b + s - L on the same line."""
-        return self.both[1]
+        return self.discs[1]
 
     @cached_property
-    def both(self) -> tuple[DiscCam, DiscCam]:
+    def discs(self) -> tuple[DiscCam, DiscCam]:
         """Main and return cam."""
         return self._pair(self.base_radius)
 
@@ -204,26 +205,9 @@ class PressCams:
         joints = tuple(segment.start for segment in self.follower.segments)
         return DiscCam(name, path, 1, self.section.roller_radius, joints)
 
-    @cached_property
-    def refusal(self) -> NoSolution | None:
-        """Why there is no such pair of cams; None where there is one. The motion itself is refused before."""
+    def require_motion(self) -> None:
+        """Compute chains and zone."""
         _ = self.motion.cam_sync_end
-        try:
-            for cam in self.both:
-                _ = cam.max_pressure_angle, cam.min_curvature_radius
-        except MissingSection:
-            raise
-        except NoSolution as error:
-            return error
-        return None
-
-    @property
-    def is_refused(self) -> bool:
-        """Whether the cams alone are impossible; a motion that is refused says so itself."""
-        try:
-            return self.refusal is not None
-        except NoSolution:
-            return False
 
     @property
     def follows(self) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.cams.codes import ACCELERATION_STEP, VELOCITY_STEP
@@ -100,9 +101,9 @@ def pressure_angle(design: FlatbedPress) -> Iterator[Check]:
     if design.cams.refusal is not None:
         yield impossible("no cam pair can bear this compensation", design.cams.refusal, limit)
         return
-    over = max(cam.max_pressure_angle.value for cam in design.cams.both) > math.radians(limit) > 0.0
+    over = design.advises and max(cam.max_pressure_angle.value for cam in design.cams.discs) > math.radians(limit) > 0.0
     remedy = f"{_larger(design, limit)}, or raise cam.return_angle" if over else ""
-    yield from pressure_angle_checks(design.cams.both, limit, remedy)
+    yield from pressure_angle_checks(design.cams.discs, limit, remedy)
 
 
 def _larger(design: FlatbedPress, limit: float) -> str:
@@ -119,8 +120,9 @@ def cam_undercut(design: FlatbedPress) -> Iterator[Check]:
     """GL402 for both cams."""
     from gearlink.core.cams.checks import undercut_checks
 
+    larger = partial(_base_radius_for_roller, design) if design.advises else str
     if design.cams.refusal is None:
-        yield from undercut_checks(design.cams.both, lambda: _base_radius_for_roller(design))
+        yield from undercut_checks(design.cams.discs, larger)
 
 
 def _base_radius_for_roller(design: FlatbedPress) -> str:
@@ -138,7 +140,7 @@ def shaft_clearance(design: FlatbedPress) -> Iterator[Check]:
     base = design.cams.base_radius
     yield from hub_checks(
         SHAFT_CLEARANCE,
-        design.cams.both,
+        design.cams.discs,
         design.cams.section.shaft_radius,
         lambda missing: f"set cam.base_radius to at least {safely_above(base + missing)} mm",
     )
@@ -178,7 +180,7 @@ def constant_sum(design: FlatbedPress) -> Check:
     import numpy as np
 
     theta, distance = np.radians(np.arange(0.0, 360.0, 1.0)), design.cams.roller_center_distance
-    radii = [np.abs(cam.points(theta)[0]) for cam in design.cams.both]
+    radii = [np.abs(cam.points(theta)[0]) for cam in design.cams.discs]
     off = float(np.abs(radii[0] + radii[1] - distance).max())
     limit = 1e-9 * distance
     text = f"the two pitch radii in contact add up to {distance:.6g} mm within {off:.2g} mm"

@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.design import Design, Outline, placed
 from gearlink.core.errors import MissingSection, NoSolution, at_key
-from gearlink.core.flatbed_press import checks, tables
+from gearlink.core.flatbed_press import checks, remedies, tables
 from gearlink.core.flatbed_press.cams import PressCams
 from gearlink.core.flatbed_press.motion import PressMotion
 from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantities, gear_check, gear_quantity
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.linkages.slider_crank_design import SLIDER_QUANTITIES, SliderCrankQuantities
-from gearlink.core.remedies import either, left_out
-from gearlink.core.report import Check, Remedy
+from gearlink.core.report import Check
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
@@ -57,14 +55,6 @@ _CAM_TABLES = ("follower", "main_cam", "return_cam")
 _PRESS_QUANTITIES = ("crank_length", "initial_crank_angle", *_SYNC, *_CHAINS)
 
 
-_WAYS = {
-    "sync-speed": (left_out("sync.start"),),
-    "sync-length": (left_out("sync.end"),),
-    "register": either("cylinder.gear_ratio", step=1.0),
-    "velocity-step": (left_out("sync.start"),),
-}
-
-
 class FlatbedPress(SliderCrankQuantities, GearQuantities, Design):
     """A flatbed cylinder press, from its design file to every quantity that is asked for."""
 
@@ -78,16 +68,8 @@ class FlatbedPress(SliderCrankQuantities, GearQuantities, Design):
         "analyze": Outline(_PRESS_QUANTITIES, _PRESS_CHECKS, ("positions",)),
     }
 
-    ways = _WAYS
-    trials = 6
-
-    def candidates(self, check: str) -> Iterator[Remedy]:
-        """The print's length for a zone that is too short, a roller well below the least curvature radius."""
-        if check == "sync-length":
-            yield (("sync.length", self.spec.sync.print_length),)
-        if check == "cam-undercut" and self.spec.cam is not None:
-            least = min(cam.min_curvature_radius.value for cam in self.cams.both)
-            yield (("cam.roller_radius", math.floor(8.0 * least) / 10.0),)
+    trials = 30
+    candidates, ways_of = remedies.candidates, remedies.ways_of
 
     # Parts
 

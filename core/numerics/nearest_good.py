@@ -2,32 +2,38 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
-from gearlink.core.report import safely_above, safely_below
-
-_STEPS, _HALVINGS = 16, 12
+_STEPS = 16
 
 
-def nearest_good(bad: float, limit: float, good: Callable[[float], bool]) -> float | None:
-    """The value nearest to `bad` on the way to `limit` that is good, to four digits; None where none is found.
+def nearest_good(bad: float, limit: float, good: Callable[[float], bool], step: float) -> float | None:
+    """The multiple of `step` nearest to `bad` on the way to `limit` that is good; None where none is found.
 
     Notes
-        Equal steps to the first good value, then halving; rounded away from `bad` and tried again.
+        Sixteen wide steps to the first good value, then halving back.
     Example
-        >>> nearest_good(100.0, 20.0, lambda x: x * x < 3000.0), nearest_good(1.0, 2.0, lambda x: x > 5.0)
-        (54.77, None)
+        >>> nearest_good(100.0, 20.0, lambda x: x * x < 3000.0, 0.1), nearest_good(1.0, 2.0, lambda x: x > 5.0, 0.1)
+        (54.7, None)
     """
-    last, found = bad, None
+    sense = math.copysign(1.0, limit - bad)
+
+    def value(count: int) -> float:
+        nearest = math.floor(sense * bad / step + 1e-9)
+        return round(sense * (nearest + count) * step, 9)
+
+    most = int(sense * (limit - bad) / step)
+    last, found = 0, None
     for i in range(1, _STEPS + 1):
-        found = bad + (limit - bad) * i / _STEPS
-        if good(found):
+        count = max(last + 1, most * i // _STEPS)
+        if count <= most and good(value(count)):
+            found = count
             break
-        last = found
-    else:
+        last = count
+    if found is None:
         return None
-    for _ in range(_HALVINGS):
-        middle = 0.5 * (last + found)
-        last, found = (last, middle) if good(middle) else (middle, found)
-    rounded = float((safely_above if limit > bad else safely_below)(found, 4))
-    return rounded if good(rounded) else found
+    while found - last > 1:
+        middle = (last + found) // 2
+        last, found = (last, middle) if good(value(middle)) else (middle, found)
+    return value(found)

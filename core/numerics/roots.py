@@ -57,7 +57,7 @@ def bracketed_root(f: Callable[[float], float], low: float, high: float, *, tole
         reach = 2.0 * math.ulp(best) + tolerance
         if f_best == 0.0 or abs(b - a) <= reach:
             return best
-        share = reach / abs(b - a)
+        share = min(0.5, reach / abs(b - a))  # a bracket just wider than that is halved, or the steps would vanish
         xi, phi = (a - b) / (c - b), (fa - fb) / (fc - fb)
         if phi * phi < xi and (1.0 - phi) * (1.0 - phi) < 1.0 - xi:
             t = fa / (fb - fa) * fc / (fb - fc) + (c - a) / (b - a) * fa / (fc - fa) * fb / (fc - fb)

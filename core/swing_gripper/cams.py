@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from gearlink.core.cams.disc_cams import DiscCams
 from gearlink.core.errors import MissingSection, NoSolution, at_key
 from gearlink.core.results import cached_property
 from gearlink.core.swing_gripper.motion import require
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
     from gearlink.core.swing_gripper.spec import GripperCam, Roller, SwingGripperSpec
 
 
-class GripperCams:
+class GripperCams(DiscCams):
     """The cams that drive the gripper and bring it back."""
 
     def __init__(self, spec: SwingGripperSpec, motion: Motion) -> None:
@@ -157,25 +158,9 @@ class GripperCams:
                 high = middle
         return high
 
-    @cached_property
-    def refusal(self) -> NoSolution | None:
-        """Why there are no such cams; None where there are. Law and linkage themselves are refused before."""
+    def require_motion(self) -> None:
+        """Compute law and linkage."""
         _ = self.motion.linkage
-        try:
-            _ = self.max_pressure_angle, self.min_curvature_radius
-        except MissingSection:
-            raise
-        except NoSolution as error:
-            return self.explained(error)
-        return None
-
-    @property
-    def is_refused(self) -> bool:
-        """Whether the cams alone are impossible; a motion that is refused says so itself."""
-        try:
-            return self.refusal is not None
-        except NoSolution:
-            return False
 
     @property
     def stand(self) -> bool:

@@ -31,34 +31,20 @@ def transmission_angle(design: SwingGripper) -> Iterator[Check]:
         ("D (coupler, output)", "C (input, coupler)"), design.motion.min_transmission_angle, strict=True
     ):
         aim = limit if math.degrees(angle) < limit else limit + 5.0
-        remedy = turn_remedy(design.motion.linkage, math.radians(aim)) if math.degrees(angle) < limit + 5.0 else ""
+        near = design.advises and math.degrees(angle) < limit + 5.0
+        remedy = turn_remedy(design.motion.linkage, math.radians(aim)) if near else ""
         subject = f"the least transmission angle at {place}"
         yield transmission_check(angle, limit, remedy, subject)
 
 
 def conditioning(design: SwingGripper) -> Check:
     """GL312: digits that the loop keeps near a dead point, and the agreement of the two ways."""
-    from gearlink.core.swing_gripper.swing import turn_remedy
-
-    number, limit, agreement = (
-        design.motion.condition_number,
-        design.spec.limits.condition_number,
-        design.motion.newton_agreement,
-    )
-    at_d, at_c = design.motion.min_transmission_angle
-    loss = 8.0 * 2.0**-52 / math.sin(at_c)
+    number, limit = design.motion.condition_number, design.spec.limits.condition_number
+    agreement = design.motion.newton_agreement
     status: Status = "warn" if number > limit else "pass"
     text = f"closed form and Newton-Raphson agree within {agreement:.2g} rad at condition number {number:.4g}"
     if status == "warn":
-        loose, length = (
-            ("cam rocker", design.motion.linkage.input) if at_c < at_d else ("gripper", design.motion.linkage.output)
-        )
-        text += (
-            f", above the limit {limit:g}: computed angles keep {loss:.1g} rad, accelerations "
-            f"{4.0 * loss / math.sin(at_c):.1g} of their size, and 0.01 mm of play turns the {loose} by "
-            f"{math.degrees(0.01 * number / length):.2g} deg; "
-            f"{turn_remedy(design.motion.linkage, math.radians(design.spec.limits.transmission_angle))}"
-        )
+        text += f", above the limit {limit:g}" + (_loss_near_dead_point(design) if design.advises else "")
     elif design.motion.linkage.four_bar.kind() == "change-point":
         status = "warn"
         text += (
@@ -69,6 +55,21 @@ def conditioning(design: SwingGripper) -> Check:
         status = "fail"
         text += ": they should agree better; report the design file"
     return codes.CONDITIONING.check(status, text, number, limit)
+
+
+def _loss_near_dead_point(design: SwingGripper) -> str:
+    """Words for what the linkage loses, and how it would keep it."""
+    from gearlink.core.swing_gripper.swing import turn_remedy
+
+    linkage, (at_d, at_c) = design.motion.linkage, design.motion.min_transmission_angle
+    loss = 8.0 * 2.0**-52 / math.sin(at_c)
+    loose, length = ("cam rocker", linkage.input) if at_c < at_d else ("gripper", linkage.output)
+    play = math.degrees(0.01 * design.motion.condition_number / length)
+    return (
+        f": computed angles keep {loss:.1g} rad, accelerations {4.0 * loss / math.sin(at_c):.1g} of their size, and "
+        f"0.01 mm of play turns the {loose} by {play:.2g} deg; "
+        f"{turn_remedy(linkage, math.radians(design.spec.limits.transmission_angle))}"
+    )
 
 
 def velocity_step(design: SwingGripper) -> Check:
@@ -198,7 +199,7 @@ def pressure_angle(design: SwingGripper) -> Iterator[Check]:
     if design.cams.refusal is not None:
         yield impossible("no cam can make this motion", design.cams.refusal, limit)
         return
-    over = max(design.cams.max_pressure_angle) > math.radians(limit) > 0.0
+    over = design.advises and max(design.cams.max_pressure_angle) > math.radians(limit) > 0.0
     yield from pressure_angle_checks(design.cams.discs, limit, design.cams.center_remedy(limit) if over else "")
     yield from _accelerating(design, design.spec.limits.accelerate_pressure_angle)
 
@@ -216,7 +217,8 @@ def _accelerating(design: SwingGripper, limit: float) -> Iterator[Check]:
             f"cam angle {math.degrees(worst.place):.5g} deg"
         )
         if status == "warn":
-            text += f", above {limit:g} deg: {design.cams.center_remedy(limit)}"
+            text += f", above {limit:g} deg"
+            text += f": {design.cams.center_remedy(limit)}" if design.advises else ""
         yield cam_codes.PRESSURE_ANGLE.check(status, text, value, limit, "deg")
 
 
@@ -240,7 +242,10 @@ def shaft_clearance(design: SwingGripper) -> Iterator[Check]:
 
 
 def lift_off(design: SwingGripper) -> Check:
-    """GL406: contact at the design speed, with a tenth of speed in reserve."""
+    """GL406: contact at the design speed, with a tenth of speed in reserve; it fails where nothing closes both."""
+    if design.closure.refusal is not None:
+        text = design.closure.refusal.message
+        return codes.LIFT_OFF.check("fail", text, None, design.spec.speed, "sheets/h")
     torque, speed, reserve = design.closure.closing_torque, design.closure.lift_off_speed, design.closure.spring.reserve
     names = [cam.name.removesuffix(" cam") for cam in design.cams.discs]
     roller, worst = max(zip(names, design.closure.worst_unloading, strict=True), key=lambda item: item[1].value)

@@ -28,6 +28,23 @@ class Closure:
         self.spec, self.motion, self.cams = spec, motion, cams
 
     @cached_property
+    def refusal(self) -> NoSolution | None:
+        """Why nothing keeps both rollers on their cams at any speed; None where something may. The cams must stand."""
+        try:
+            _ = self.lift_sense
+            if self.spec.spring is not None:
+                _ = self.closing_torque
+        except NoSolution as error:
+            return error
+        return None
+
+    @property
+    def stands(self) -> bool:
+        """Whether the file tells masses and spring of cams that can be, and the spring presses both rollers."""
+        told = None not in (self.spec.inertia, self.spec.spring)
+        return told and self.cams.stand and self.refusal is None
+
+    @cached_property
     def spring(self) -> ClosingSpring:
         """The section `spring` of the design file."""
         spring: ClosingSpring = require(self.spec, "spring", _SPRING)
@@ -50,12 +67,15 @@ class Closure:
         (p, q), angle = spring.arms or (0.0, 0.0), math.radians(spring.angle or 0.0)
         return LeverSpring(p, q, angle, spring.preload or 0.0, spring.rate or 0.0, spring.length or 0.0)
 
+    def preload_for(self, torque: float) -> float:
+        """Preload that gives the spring a torque [N]."""
+        return (self.spring.preload or 0.0) + (torque - self.closing_torque) / self._levers.lever
+
     def spring_remedy(self, torque: float) -> str:
         """What gives the spring a torque [N m], rounded up."""
         if self.spring.torque is not None:
             return f"raise spring.torque to {safely_above(torque, 4)} N m"
-        pull = (torque - self.closing_torque) / self._levers.lever
-        return f"raise spring.preload to {safely_above((self.spring.preload or 0.0) + pull, 4)} N"
+        return f"raise spring.preload to {safely_above(self.preload_for(torque), 4)} N"
 
     @cached_property
     def lift_sense(self) -> int:

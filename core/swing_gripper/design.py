@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.design import Design, Outline, placed
 from gearlink.core.errors import NoSolution
-from gearlink.core.report import Remedy, Report
+from gearlink.core.report import Report
 from gearlink.core.results import cached_property
-from gearlink.core.swing_gripper import checks, tables
+from gearlink.core.swing_gripper import checks, remedies, tables
 from gearlink.core.swing_gripper.cams import GripperCams
 from gearlink.core.swing_gripper.closure import Closure
 from gearlink.core.swing_gripper.handover import Handover
@@ -42,11 +40,8 @@ class SwingGripper(Design):
     }
     extra_tables = ("forces", "newton", "handover_window")
 
-    def candidates(self, check: str) -> Iterator[Remedy]:
-        """The torque that leaves a tenth of speed in reserve: it grows with the square of the speed."""
-        spring, speed = self.spec.spring, self.raw("lift_off_speed") if check == "lift-off" else None
-        if spring is not None and spring.torque is not None and speed:
-            yield (("spring.torque", float(math.ceil(spring.torque * (1.1 * self.spec.speed / speed) ** 2))),)
+    trials = 20
+    candidates, ways_of = remedies.candidates, remedies.ways_of
 
     # Parts
 
@@ -120,26 +115,41 @@ class SwingGripper(Design):
     def outline(self, command: str) -> Outline:
         """`gripper` and `analyze` add what the optional sections of the file make possible."""
         outline, spec = self.outlines[command], self.spec
-        chosen = ("cam_center",) if spec.cam is not None and spec.cam.center is None else ()
         if command == "cam":
-            shown = outline.tables if spec.cam is None or spec.cam.return_roller else ("main_cam",)
-            return Outline((*chosen, *_CAM), _CAM_CHECKS, shown)
+            return self._of_cams(outline)
         if spec.cam is None:
             return outline
         if self.cams.is_refused:
             return Outline(outline.quantities, (*outline.checks, "pressure-angle"), outline.tables)
-        quantities, checks, tables = list(outline.quantities), [*outline.checks, *_CAM_CHECKS], list(outline.tables)
-        quantities += [*chosen, "max_pressure_angle", "min_curvature_radius"]
+        cams = self._of_cams(self.outlines["cam"])
+        quantities, tables = [*outline.quantities, *cams.quantities[:-2]], outline.tables
         if command == "analyze":
-            quantities += ["max_radius", "min_radius"]
-            tables += self.outline("cam").tables
-        if spec.inertia is not None and spec.spring is not None:
-            quantities += _CLOSURE if spec.spring.torque is None else ("lift_off_speed",)
-            checks.append("lift-off")
-        return Outline(tuple(quantities), tuple(checks), tuple(tables))
+            quantities, tables = [*outline.quantities, *cams.quantities], (*outline.tables, *cams.tables)
+        checks = dict.fromkeys((*outline.checks, *cams.checks))
+        if self.closure.stands:
+            quantities += _CLOSURE if spec.spring is not None and spec.spring.torque is None else ("lift_off_speed",)
+            checks |= {"lift-off": None}
+        return Outline(tuple(quantities), tuple(checks), tables)
+
+    def _of_cams(self, outline: Outline) -> Outline:
+        """`cam`, with the centre where it is chosen, and what is wrong where nothing keeps the rollers on the cams."""
+        cam = self.spec.cam
+        if cam is None or self.cams.is_refused:
+            return outline
+        chosen = ("cam_center",) if cam.center is None else ()
+        closing = () if self.closure.refusal is None else ("lift-off",)
+        tables = outline.tables if cam.return_roller is not None else outline.tables[:1]
+        return Outline((*chosen, *outline.quantities), (*outline.checks, *closing), tables)
+
+    def require(self, command: str) -> None:
+        """Compute every quantity of a command; where a cam cannot be, the refusal says where it can."""
+        try:
+            super().require(command)
+        except NoSolution as error:
+            raise self.cams.explained(error) from error
 
     def report(self, command: str, **asked: Any) -> Report:
-        """The report of a command; where a cam cannot be, the refusal says where it can."""
+        """The report of a command, with the same refusal."""
         try:
             return super().report(command, **asked)
         except NoSolution as error:

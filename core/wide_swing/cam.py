@@ -240,7 +240,7 @@ class WideSwingCam:
 
     def largest_roller(self, zone: float) -> float:
         """Radius of the roller whose transition zone is a given share of the stroke [mm]."""
-        return fitting_roller(*middle_step(self, zone))
+        return fitting_roller(*(float(part[0]) for part in middle_step(self, np.array([zone]))))
 
     @cached_property
     def loop_margin(self) -> float:

@@ -80,8 +80,8 @@ def force_reserve(design: WideSwingDesign) -> Check:
         status = "fail" if speed > lift_off * (1.0 + 1e-9) else "warn"
     text = f"above {lift_off:.6g} rev/min the roller leaves its cam; the design speed is {speed:g} rev/min"
     if status != "pass":
-        just, safe = (remedies.reserve(unloader.residual, margin) for margin in (0.0, 0.1))
-        text += f": make unloader.reserve {safe:.12g} or more for a tenth of speed to spare, {just:.12g} just holds it"
+        just, safe = (safely_above(remedies.reserve(unloader.residual, margin)) for margin in (0.0, 0.1))
+        text += f": make unloader.reserve {safe} or more for a tenth of speed to spare, {just} just holds it"
     return codes.FORCE_RESERVE.check(status, text, lift_off, speed, "1/min")
 
 
@@ -94,14 +94,16 @@ def _judged(design: WideSwingDesign) -> list[tuple[str, AnyCam]]:
 
 
 def profile_exists(design: WideSwingDesign) -> Check:
-    """GL505: no loop, and a phase angle above zero."""
+    """GL505: a cam for this stroke, no loop, and a phase angle above zero."""
+    if design.refusal is not None:
+        return codes.PROFILE_EXISTS.check("fail", design.refusal.message, None, 0.0)
     margin = design.cam.loop_margin
     shown = margin if math.isfinite(margin) else None
     try:
         design.cam.require_profile()
     except NoSolution as error:
-        repair = remedies.profile(design) if design.spec.drive is not None else None
-        text = error.message + (f": make {repair.path} at most {repair.value:.12g} mm" if repair else "")
+        crank = remedies.drive_crank(design) if design.spec.drive is not None else None
+        text = error.message + (f": make drive.crank at most {crank:.12g} mm" if crank else "")
         return codes.PROFILE_EXISTS.check("fail", text, shown, 0.0)
     text = "the pitch curve has no loop"
     if design.spec.drive is None:
@@ -127,15 +129,10 @@ def pressure_angle(design: WideSwingDesign) -> Iterator[Check]:
 
 
 def _pressure_remedy(design: WideSwingDesign) -> str:
-    repair = design.pressure_repair
-    if repair is None:
-        if design.spec.cycle is not None:
-            return "no swing alone was found that keeps it; give that stroke another angle in cycle"
-        keys = "cycle_angle and no swing" if design.spec.drive is None else "drive.crank and no swing"
-        return f"no {keys} alone was found that keeps it; a twin-cam wants a swing near 2 acos(r/a)"
-    if repair.value is None:
-        return f"leave out {repair.path}"
-    return f"make {repair.path} {repair.value:.12g}"
+    if design.spec.cycle is not None:
+        return "change swing, or give that stroke another angle in cycle"
+    keys = "cycle_angle" if design.spec.drive is None else "drive.crank"
+    return f"change {keys} or swing; a twin-cam wants a swing near 2 acos(r/a)"
 
 
 def cam_undercut(design: WideSwingDesign) -> Iterator[Check]:
@@ -144,8 +141,8 @@ def cam_undercut(design: WideSwingDesign) -> Iterator[Check]:
     for words, cam in _judged(design):
         status, text, share = _undercut(cam, words) if design.has_zone(cam) else _covered(cam, words)
         if status != "pass":
-            most = remedies.roller_for_curvature(design)
-            text += f": take a roller of at most {most:.12g} mm or a larger cam.center_distance"
+            most = safely_below(remedies.roller_for_curvature(design))
+            text += f": take a roller of at most {most} mm or a larger cam.center_distance"
         yield cams.CAM_UNDERCUT.check(status, text, share, 1.0)
     if design.spec.layout == "twin-rocker" and design.has_profile:
         yield from _against_estimate(design, roller)
@@ -203,7 +200,7 @@ def transition_zone(design: WideSwingDesign) -> Iterator[Check]:
         if zone > limit:
             text += (
                 f", above the limit {limit:g}: take a roller of at most "
-                f"{remedies.roller_for_zone(design):.12g} mm or a larger cam.center_distance"
+                f"{safely_below(remedies.roller_for_zone(design))} mm or a larger cam.center_distance"
             )
         yield codes.TRANSITION_ZONE.check("fail" if zone > limit else "pass", text, zone, limit)
 
@@ -222,7 +219,7 @@ def shaft_clearance(design: WideSwingDesign) -> Iterator[Check]:
             text = (
                 f"the roller of the {words} comes {-room:.4g} mm into the cam shaft (radius "
                 f"{section.shaft_radius:g} mm): make cam.center_distance at least "
-                f"{remedies.center_distance(design):.12g} mm, or the roller smaller"
+                f"{safely_above(remedies.center_distance(design))} mm, or the roller smaller"
             )
         yield linkages.SHAFT_CLEARANCE.check("fail" if room <= 0.0 else "pass", text, room, 0.0, "mm")
 

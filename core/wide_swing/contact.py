@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
@@ -13,25 +14,30 @@ from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.report import safely_below
 
 if TYPE_CHECKING:
+    from gearlink.core.numerics.arrays import Reals
     from gearlink.core.wide_swing.cam import WideSwingCam
 
-Step: TypeAlias = Callable[[float], tuple[float, float]]
+Step: TypeAlias = Callable[["Reals"], tuple["Reals", "Reals"]]
 
 _SMALLEST = 1e-4
 """Below this share of the stroke the leading order, good to the square of the zone, is nearer than the solution."""
+_SHRINK = 0.7
+_KNOWN = 1e-16
+"""Fractions of the stroke are known no better."""
 
 
-def covered(step: Step, roller_radius: float, far: float, estimate: float | None) -> float:
+def covered(step: Step, roller_radius: float, far: float, estimate: float | None, noise: float = 0.0) -> float:
     """Part of the stroke beside a stop of the pitch curve over which the roller, standing there, covers the profile.
 
     |z + r_p n - z(stop)| = r_p
 
     Parameters
-        step : function of the part t of the stroke from the stop - length of the pitch point's way from the stop,
-            and its component against the profile's normal [mm]
+        step : function of parts t of the stroke from the stop, an array - lengths of the pitch point's way from the
+            stop, and their components against the profile's normal [mm]
         roller_radius : float [mm]
         far : float - t at which the profile must be free
         estimate : float or None - leading order at a cusp; None where the pitch curve runs smoothly
+        noise : float - rounding of t times t, where steps are differences of places
     Returns
         t : float - 0 where nothing is covered
     Raises
@@ -42,21 +48,26 @@ def covered(step: Step, roller_radius: float, far: float, estimate: float | None
     if estimate is not None and estimate < _SMALLEST:
         return estimate
 
-    def clearance(t: float) -> float:
+    def clearance(t: Reals) -> Reals:
         length, depth = step(t)
-        return length * length - 2.0 * roller_radius * depth
+        room: Reals = length * length - 2.0 * roller_radius * depth
+        return room
 
-    if clearance(far) <= 0.0:
+    nearest = 0.01 * (_SMALLEST if estimate is None else estimate)
+    t: Reals = np.float64(far) * np.power(_SHRINK, np.arange(math.ceil(math.log(nearest / far, _SHRINK)) + 1))
+    room = clearance(t)
+    if room[0] <= 0.0:
+        most = fitting_roller(*(float(part[0]) for part in step(t[:1])))
         raise NoSolution(
             f"roller radius {roller_radius:.6g} mm: where the roller stands still it covers the whole profile; make it "
-            f"less than {safely_below(fitting_roller(*step(far)))} mm, or the centre distance larger"
+            f"less than {safely_below(most)} mm, or the centre distance larger"
         )
-    last, t, nearest = far, 0.7 * far, 0.01 * (_SMALLEST if estimate is None else estimate)
-    while t > nearest:
-        if clearance(t) < 0.0:
-            return bracketed_root(clearance, t, last)
-        last, t = t, 0.7 * t
-    return 0.0
+    within = np.flatnonzero(room < 0.0)
+    if not within.size:
+        return 0.0
+    low, high = (float(t[i]) for i in (within[0], within[0] - 1))
+    known = _KNOWN + noise / low
+    return bracketed_root(lambda part: float(clearance(np.array([part]))[0]), low, high, tolerance=known)
 
 
 def fitting_roller(length: float, depth: float) -> float:
@@ -91,20 +102,19 @@ def contact_end(cam: WideSwingCam) -> float:
     """
     smooth = cam.rocker_radius < cam.nominal_rocker_radius
     estimate = None if smooth else cam.transition_zone_estimate
-    return 0.5 - covered(lambda t: middle_step(cam, t), cam.roller_radius, 0.5, estimate)
+    return 0.5 - covered(partial(middle_step, cam), cam.roller_radius, 0.5, estimate)
 
 
-def middle_step(cam: WideSwingCam, t: float) -> tuple[float, float]:
-    """Length of the pitch point's step to mid-swing from t before it, and its part along the profile's normal [mm]."""
-    state = cam.curve.state(np.array([0.5 - t]))
-    theta, psi, versed = (float(x[0]) for x in (state.theta, state.psi, state.s))
+def middle_step(cam: WideSwingCam, t: Reals) -> tuple[Reals, Reals]:
+    """Lengths of the pitch point's steps to mid-swing from t before it, and their parts along the profile's normal
+    [mm]."""
+    state = cam.curve.state(0.5 - t)
     # z(k) - z(1/2) in terms that vanish at mid-swing, each of them exact
-    half = complex(math.cos(0.5 * theta), math.sin(0.5 * theta))
-    turned = -2j * math.sin(0.5 * theta) * half * (1.0 - cam.ratio)
-    step = turned + cam.ratio * half * half * complex(-versed, math.sin(psi))
-    normal = complex(cam.curve.normal(state)[0])
+    half = np.exp(0.5j * state.theta)
+    turned = -2j * np.sin(0.5 * state.theta) * half * (1.0 - cam.ratio)
+    step = turned + cam.ratio * half * half * (1j * np.sin(state.psi) - state.s)
     size = cam.center_distance
-    return size * abs(step), -size * cam.sense * (step * normal.conjugate()).real
+    return size * np.abs(step), -size * cam.sense * (step * np.conj(cam.curve.normal(state))).real
 
 
 def start_radius_estimate(cam: WideSwingCam, k: float = 0.1) -> float:

@@ -169,6 +169,20 @@ class WideSwingDesign(Design):
             return {"cam": self.cam, "return cam": self.return_cam}
         return {"internal profile": self.cam, "external profile": self.return_cam}
 
+    @cached_property
+    def refusal(self) -> NoSolution | None:
+        """Why there is no such cam of the working stroke, not even one with a loop; None where there is.
+
+        Raises
+            NoSolution - where the stroke itself is refused
+        """
+        _ = self.section, self.motion.plain_law, self.motion.cycle_angle
+        try:
+            _ = self.cam
+        except NoSolution as error:
+            return error
+        return None
+
     # Where a profile stands
 
     @cached_property
@@ -280,8 +294,9 @@ class WideSwingDesign(Design):
     check_acceleration_step, check_closed_contour = cycle_checks.acceleration_step, cycle_checks.closed_contour
     check_profile_planes = cycle_checks.profile_planes
 
-    pressure_repair = cached_property(remedies.pressure)
-    suggestions = remedies.suggestions
+    ways = remedies.WAYS
+    trials = 40
+    candidates, varied = remedies.candidates, remedies.varied
 
     # Outlines
 
@@ -302,31 +317,42 @@ class WideSwingDesign(Design):
             tables.append("slider")
         if spec.cam is not None:
             quantities += self._profile_quantities(command)
-            checks += (*_CAM_CHECKS, "force-reserve", *of_turn)
+            checks += (*(("profile-exists",) if self._is_refused else (*_CAM_CHECKS, *of_turn)), "force-reserve")
         if spec.method == "iteration":
             quantities += _ITERATION
             tables.append("iteration")
-        if command == "analyze" and spec.cam is not None and self._profile_exists():
+        if command == "analyze" and spec.cam is not None and self._profile_exists:
             tables += (*cams, *turn)
         return Outline(tuple(quantities), tuple(checks), tuple(tables))
 
     def _profile_quantities(self, command: str) -> list[str]:
         names = [*_PROFILE, *(_CURVATURE if command == "analyze" else ())]
+        if self._is_refused:
+            return ["lift_off_speed"]
         if self.spec.drive is not None:
             names = [*_DRIVE, *(name for name in names if name not in (*_OF_EVEN_CAM, *_OF_REST, *_NEED_PROFILE))]
-        if self.spec.cycle is not None and self._profile_exists():
+        if self.spec.cycle is not None and self._profile_exists:
             names += _CYCLE
-        if not self._profile_exists():
+        if not self._profile_exists:
             names = [name for name in names if name not in (*_NEED_PROFILE, *_NEED_ZONE)]
         elif not self.has_zone(self.cam):
             names = [name for name in names if name == "transition_zone" or name not in _NEED_ZONE]
         return names
 
-    def _profile_exists(self) -> bool:
+    @property
+    def _is_refused(self) -> bool:
+        """Whether the cam alone is impossible; a stroke that is refused says so itself."""
         try:
-            return self.has_profile
+            return self.refusal is not None
         except NoSolution:
-            # refused altogether: the quantities say so, each with its key
+            return False
+
+    @property
+    def _profile_exists(self) -> bool:
+        """Whether the cam has a profile; where the stroke is refused the quantities say so, each with its key."""
+        try:
+            return self.refusal is None and self.has_profile
+        except NoSolution:
             return True
 
     @classmethod

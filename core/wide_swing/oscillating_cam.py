@@ -25,6 +25,7 @@ from gearlink.core.wide_swing.curve import StrokeLaw
 _STOP = 1e-4
 """Nearer to a stop, in strokes, the curve bends as it does at the stop, and its curvature has few digits."""
 _FAR = 0.49
+_NOISE = 1e-15
 """How far from a stop, in strokes, the roller must have left its circle there for a profile to be left."""
 
 
@@ -233,15 +234,15 @@ class OscillatingCam:
         if shape[0] <= 0.0:
             return stop
         return stop + side * covered(
-            lambda t: self._step(stop + side * t, stop), self.roller_radius, _FAR, self._left(shape)
+            lambda t: self._step(stop + side * t, stop), self.roller_radius, _FAR, self._left(shape), _NOISE
         )
 
-    def _step(self, k: float, stop: float) -> tuple[float, float]:
-        """Length of the pitch point's step from a stop, and its part against the profile's normal [mm]."""
-        points = self.points(np.array([k, stop]))
-        step = complex(points.pitch[0] - points.pitch[1])
-        normal = complex(points.profile[0] - points.pitch[0]) / self.roller_radius
-        return abs(step), -(step * normal.conjugate()).real
+    def _step(self, k: Reals, stop: float) -> tuple[Reals, Reals]:
+        """Lengths of the pitch point's steps from a stop, and their parts against the profile's normal [mm]."""
+        points = self.points(np.append(k, stop))
+        step = points.pitch[:-1] - points.pitch[-1]
+        normal = (points.profile - points.pitch)[:-1] / self.roller_radius
+        return np.abs(step), -(step * np.conj(normal)).real
 
     @cached_property
     def transition_zone(self) -> float:
@@ -261,7 +262,8 @@ class OscillatingCam:
 
     def largest_roller(self, zone: float) -> float:
         """Radius of the roller whose transition zone is a given share of the stroke [mm]."""
-        return min(fitting_roller(*self._step(0.5 + side * zone, 0.5)) for side in (-1.0, 1.0))
+        lengths, depths = self._step(np.array([0.5 - zone, 0.5 + zone]), 0.5)
+        return min(map(fitting_roller, lengths.tolist(), depths.tolist()))
 
     @property
     def middle_radius(self) -> float:

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
+
+import factory
 
 Data = dict[str, Any]
 Drawn = tuple[Data, str]
 """The data of a design file and a command for it."""
+Change = tuple[str, Callable[[], Any]]
+"""A key and what draws its value."""
 
 
 def gear_pair(rng: random.Random) -> Drawn:
@@ -105,9 +109,80 @@ def mutilated(rng: random.Random) -> Drawn:
     return {"kind": "mutilated-gear-dwell", "reduction": rng.randint(1, 6), "gears": gears, "links": links}, "analyze"
 
 
+def press(rng: random.Random) -> Drawn:
+    """The worked press with a few numbers changed."""
+    changes: list[Change] = [
+        ("cam.base_radius", lambda: _within(rng, 10, 120)),
+        ("cam.roller_radius", lambda: _within(rng, 5, 90)),
+        ("cam.return_angle", lambda: _within(rng, 40, 200)),
+        ("cam.transition_end", lambda: _within(rng, 105, 160)),
+        ("cam.lead_in", lambda: float(rng.choice([0, 5, 30]))),
+        ("cam.transition", lambda: rng.choice(["arc", "parabola"])),
+        ("cam.return_law", lambda: rng.choice(["cycloidal", "parabolic", "simple-harmonic"])),
+        ("cam.shaft_radius", lambda: _within(rng, 10, 80)),
+        ("sync.start", lambda: _within(rng, 5, 60)),
+        ("sync.length", lambda: _within(rng, 300, 600)),
+        ("sync.print_length", lambda: _within(rng, 300, 600)),
+        ("bed.double_crank.frame", lambda: _within(rng, 10, 60)),
+        ("cylinder.double_crank.coupler", lambda: _within(rng, 100, 250)),
+        ("cylinder.gear_ratio", lambda: _within(rng, 0.5, 3.5)),
+    ]
+    return _varied(rng, "ty460", changes), rng.choice(["press", "cam"])
+
+
+def gripper(rng: random.Random) -> Drawn:
+    """The worked gripper with a few numbers changed."""
+    changes: list[Change] = [
+        ("cam.center", lambda: [_within(rng, -40, 40), _within(rng, -40, 40)]),
+        ("cam.roller.radius", lambda: _within(rng, 10, 120)),
+        ("cam.return_roller.radius", lambda: _within(rng, 10, 120)),
+        ("cam.return_roller.angle", lambda: _within(rng, 10, 140)),
+        ("cam.shaft_radius", lambda: _within(rng, 20, 90)),
+        ("spring.torque", lambda: _within(rng, 100, 500)),
+        ("output_direction", lambda: _within(rng, 60, 160)),
+        ("links.coupler", lambda: _within(rng, 220, 320)),
+        ("links.input", lambda: _within(rng, 120, 180)),
+        ("laws.accelerate", lambda: rng.choice(["velocity-345", "half-cycloidal", "half-parabolic"])),
+        ("laws.return", lambda: rng.choice(["modified-sine", "parabolic", "simple-harmonic"])),
+        ("limits.jerk_step", lambda: _within(rng, 0.1, 6)),
+        ("release.window", lambda: _within(rng, 0.5, 5)),
+        ("cylinder.center", lambda: [_within(rng, 423, 425), _within(rng, 483, 485)]),
+    ]
+    return _varied(rng, "swing_gripper", changes), rng.choice(["gripper", "cam"])
+
+
+def wide_swing(rng: random.Random) -> Drawn:
+    """The worked mechanisms with a few numbers changed."""
+    changes: list[Change] = [
+        ("swing", lambda: _within(rng, 40, 200)),
+        ("cam.roller_radius", lambda: _within(rng, 2, 40)),
+        ("cam.center_distance", lambda: _within(rng, 80, 300)),
+        ("cam.shaft_radius", lambda: _within(rng, 5, 120)),
+        ("unloader.pivot_ratio", lambda: _within(rng, 0.8, 4)),
+        ("unloader.reserve", lambda: _within(rng, 0, 0.5)),
+        ("unloader.residual", lambda: _within(rng, 0, 0.5)),
+        ("limits.pressure_angle", lambda: _within(rng, 15, 60)),
+    ]
+    name = rng.choice(["twin_cam", "twin_cam", "twin_rocker", "twin_rocker", "oscillating_cam"])
+    if name == "twin_cam":
+        changes.append(("cam.rocker_radius", lambda: _within(rng, 40, 90)))
+    if name != "oscillating_cam":
+        changes.append(("cycle_angle", lambda: _within(rng, 40, 190)))
+    return _varied(rng, f"wide_swing_{name}", changes), "swing"
+
+
+def _varied(rng: random.Random, name: str, changes: Sequence[Change]) -> Data:
+    """A worked design with one to three of the changes."""
+    drawn = rng.sample(changes, rng.choice([1, 1, 2, 3]))
+    return factory.changed(factory.worked(name), **{key.replace(".", "__"): draw() for key, draw in drawn})
+
+
 KINDS: dict[str, Callable[[random.Random], Drawn]] = {
     make.__name__: make
-    for make in (gear_pair, three_gear, synthesis, two_gear, geared_rocker, five_bar, hypocycloid, mutilated)
+    for make in (
+        *(gear_pair, three_gear, synthesis, two_gear, geared_rocker, five_bar, hypocycloid, mutilated),
+        *(press, gripper, wide_swing),
+    )
 }
 
 

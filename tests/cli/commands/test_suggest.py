@@ -36,10 +36,10 @@ _repair, _repaired = suggest.repair, {}
 def searched_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """The same design is repaired once: the tests differ in what they do with what was found."""
 
-    def repair(kind: Any, command: str, spec: Any) -> Any:
-        key = command, spec.model_dump_json()
+    def repair(kind: Any, command: str, spec: Any, *, strict: bool) -> Any:
+        key = command, spec.model_dump_json(), strict
         if key not in _repaired:
-            _repaired[key] = _repair(kind, command, spec)
+            _repaired[key] = _repair(kind, command, spec, strict=strict)
         return _repaired[key]
 
     monkeypatch.setattr(suggest, "repair", repair)
@@ -57,7 +57,7 @@ def test_loop_is_repaired_step_by_step(gearlink: Any, loop: Path) -> None:
     ended = gearlink("swing", loop, "--suggest", "--format", "json")
     assert ended.status == ExitCode.OK
     first, *others = ended.json["suggestions"]
-    assert (first["path"], first["old"], first["new"]) == ("cycle_angle", 150.0, 113.19)
+    assert (first["path"], first["old"], first["new"]) == ("cycle_angle", 150.0, 101.0)
     assert "loop" in first["why"]
     assert all(change["path"] == "cycle_angle" for change in others)
     assert ended.json["ok"] is True
@@ -100,9 +100,9 @@ def test_good_design_needs_no_change(gearlink: Any, designs: Path) -> None:
 
 def test_formats(gearlink: Any, loop: Path) -> None:
     table = gearlink("swing", loop, "--suggest").out
-    assert table.startswith("suggestions, tried in this order:\n  cycle_angle: 150 -> 113.19")
+    assert table.startswith("suggestions, tried in this order:\n  cycle_angle: 150 -> 101")
     csv = gearlink("swing", loop, "--suggest", "--format", "csv").out
-    assert csv.startswith("change,old,new,why\ncycle_angle,150.0,113.19,")
+    assert csv.startswith("change,old,new,why\ncycle_angle,150.0,101.0,")
     assert "\n\nquantity,symbol,unit,value\n" in csv
     markdown = gearlink("swing", loop, "--suggest", "--format", "md").out
     assert markdown.startswith("## Suggestions\n\n| change | old | new | why |")
@@ -113,7 +113,7 @@ def test_quantity_stays_alone_on_standard_output(gearlink: Any, loop: Path) -> N
     ended = gearlink("swing", loop, "--suggest", "--quantity", "velocity_peak")
     assert ended.out.count("\n") == 1
     assert float(ended.out) == pytest.approx(1.4149, abs=1e-4)
-    assert "cycle_angle: 150 -> 113.19" in ended.err
+    assert "cycle_angle: 150 -> 101" in ended.err
 
 
 def test_what_cannot_be_repaired_keeps_its_status(gearlink: Any, designs: Path, tmp_path: Path) -> None:
@@ -202,6 +202,56 @@ def test_the_printed_options_repair_the_design(gearlink: Any, tmp_path: Path, co
     again = gearlink(command, path, *options)
     assert again.status == ExitCode.OK
     assert ended.out.endswith(again.out)
+
+
+def test_where_nothing_was_found_it_says_so(gearlink: Any, tmp_path: Path) -> None:
+    """No tooth of one with so large a shift can be cut: no options that would still fail, the design as it stands."""
+    path = tmp_path / "ones.yaml"
+    path.write_text("kind: gear-pair\nmodule: 2\nteeth: [1, 1]\nprofile_shift: [3, 3]\n")
+    ended, plain = gearlink("gear", path, "--suggest"), gearlink("gear", path)
+    assert ended.status == ExitCode.FINDING
+    assert ended.out == "suggestions: none found with which every check passes\n\n" + plain.out
+    assert gearlink("gear", path, "--suggest", "--format", "json").json["suggestions"] == []
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "press ty460 cam.base_radius=30",
+        "gripper swing_gripper cam.return_roller.angle=20",
+        "swing wide_swing_twin_rocker swing=60",
+        "swing wide_swing_twin_cam unloader.pivot_ratio=0.9",
+    ],
+)
+def test_options_of_every_cam_kind_repair_the_design(gearlink: Any, designs: Path, line: str) -> None:
+    command, name, change = line.split()
+    given = (command, designs / f"{name}.yaml", "--set", change)
+    assert gearlink(*given).status != ExitCode.OK
+    ended = gearlink(*given, "--suggest")
+    assert ended.status == ExitCode.OK
+    (options,) = (each for each in ended.out.splitlines() if each.startswith("  as options: "))
+    assert gearlink(*given, *shlex.split(options.removeprefix("  as options: "))).status == ExitCode.OK
+
+
+def test_a_refusal_is_repaired_at_its_key(gearlink: Any, tmp_path: Path) -> None:
+    path = tmp_path / "rocker.yaml"
+    path.write_text(COLLIDING.replace("crank: 18", "crank: 60"))
+    assert gearlink("analyze", path).status == ExitCode.WRONG_INPUT
+    ended = gearlink("analyze", path, "--suggest", "--format", "json")
+    assert ended.status == ExitCode.OK
+    assert [(change["path"], change["new"]) for change in ended.json["suggestions"]] == [
+        ("links.crank", 28.5),
+        ("links.crank", 16.4),
+    ]
+
+
+def test_strict_repairs_warnings_as_well(gearlink: Any, tmp_path: Path) -> None:
+    path = tmp_path / "small.yaml"
+    path.write_text("kind: gear-pair\nmodule: 4\nteeth: [17, 17]\nprofile_shift: [0, 0]\n")
+    assert gearlink("gear", path, "--suggest", "--format", "json").json["suggestions"] == []
+    ended = gearlink("gear", path, "--suggest", "--strict", "--format", "json")
+    assert ended.status == ExitCode.OK
+    assert ended.json["suggestions"]
 
 
 def test_of_a_key_that_changes_twice_the_last_value_counts() -> None:

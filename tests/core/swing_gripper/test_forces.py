@@ -181,6 +181,30 @@ def test_rollers_on_one_side_are_refused() -> None:
     assert refused.value.key == "cam.return_roller.angle"
 
 
+@pytest.mark.parametrize("command", ["gripper", "analyze", "cam"])
+def test_rollers_on_one_side_leave_the_kinematics(command: str) -> None:
+    """A failed check beside what stands: law, linkage and cams, with an angle of the roller that closes both."""
+    made = machine(cam__return_roller__angle=20.0)
+    report = made.report(command)
+    (found,) = [check for check in report.checks if check.name == "lift-off"]
+    assert (found.code, found.status, found.value) == ("GL406", "fail", None)
+    assert "same side of the cam" in found.message
+    names = [quantity.name for quantity in report.quantities]
+    assert ("total_swing" in names) == (command != "cam")
+    assert "max_pressure_angle" in names
+    assert "lift_off_speed" not in names
+    ((key, angle),) = found.remedy
+    assert key == "cam.return_roller.angle"
+    assert machine(cam__return_roller__angle=angle).check("lift-off")[0].status != "fail"
+
+
+def test_a_spring_that_pushes_leaves_the_kinematics() -> None:
+    levers = {"arms": [120.0, 110.0], "angle": 88.0, "preload": 300.0, "rate": 25.0, "length": 290.0}
+    report = machine(spring=levers).report("gripper")
+    (found,) = [check for check in report.checks if check.name == "lift-off"]
+    assert (found.status, "pulls with -2951.67 N" in found.message) == ("fail", True)
+
+
 def test_missing_sections_are_named() -> None:
     bare = machine(inertia=None, spring=None)
     for name, key in (("closing_torque", "spring"), ("spring_torque", "inertia")):

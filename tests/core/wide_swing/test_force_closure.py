@@ -170,8 +170,9 @@ def test_reserve_is_judged(reserve: float, residual: float, status: str) -> None
 
 def test_reserve_is_suggested() -> None:
     made = design(residual=0.22)
-    (change,) = [each for each in made.suggestions() if each.path == "unloader.reserve"]
-    assert WideSwingDesign(replaced(made.spec, *change[:2])).check("force-reserve")[0].status == "pass"
+    (found,) = made.findings("swing", "force-reserve")
+    assert found.remedy == (("unloader.reserve", 0.44),)
+    assert WideSwingDesign(replaced(made.spec, *found.remedy[0])).check("force-reserve")[0].status == "pass"
 
 
 def test_reserve_of_another_speed() -> None:

@@ -1,0 +1,97 @@
+"""What to change in a flatbed press that fails: ways to go, and numbers from closed forms."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING
+
+from gearlink.core.cams.checks import HUB, ROLLER_SHARE
+from gearlink.core.errors import NoSolution
+from gearlink.core.remedies import Way, at_least, at_most, either, left_out, refusal_ways, up
+
+if TYPE_CHECKING:
+    from gearlink.core.flatbed_press.design import FlatbedPress
+    from gearlink.core.report import Remedy
+
+_LEAD_IN = 10.0
+_LINKS = tuple(f"{chain}.double_crank.{link}" for chain in ("bed", "cylinder") for link in ("frame", "coupler"))
+_LARGER = (up("cam.base_radius"), up("cam.return_angle", step=0.5))
+_ZONE = (left_out("sync.start"), up("cam.lead_in", step=1.0))
+_WAYS = {
+    "transmission-angle": either(*_LINKS),
+    "sync-speed": _ZONE,
+    "sync-length": (left_out("sync.end"),),
+    "register": either("cylinder.gear_ratio", step=1.0),
+    "pressure-angle": _LARGER,
+    "cam-undercut": _LARGER,
+    "shaft-clearance": (up("cam.base_radius"),),
+    "velocity-step": _ZONE,
+    "constant-sum": (up("cam.base_radius"),),
+}
+
+
+def ways_of(design: FlatbedPress, check: str) -> tuple[Way, ...]:
+    """Ways in which a check that fails may be repaired; for cams that cannot be, those of their refusal."""
+    if check == "pressure-angle" and design.cams.refusal is not None:
+        return (*refusal_ways(design.spec, design.cams.refusal.key), *_WAYS[check])
+    return _WAYS.get(check, ())
+
+
+def candidates(design: FlatbedPress, check: str) -> Iterator[Remedy]:
+    """Remedies of a check from closed forms, the first to be tried first."""
+    return _CLOSED[check](design) if check in _CLOSED else iter(())
+
+
+def _length(design: FlatbedPress) -> Iterator[Remedy]:
+    yield (("sync.length", design.spec.sync.print_length),)
+
+
+def _pressure(design: FlatbedPress) -> Iterator[Remedy]:
+    """The base radius that keeps the limit with room for roller and shaft, or the angle that it is chosen for."""
+    cams, limit = design.cams, design.spec.limits.pressure_angle
+    if design.spec.size is not None and design.cams.section.base_radius is None:
+        yield (("size.pressure_angle", at_most(limit, 0.5)),)
+    elif cams.follows:
+        try:
+            radius = cams.base_radius_for(math.radians(limit))
+        except NoSolution:
+            radius = cams.base_radius_for_pressure(math.radians(limit))
+        yield (("cam.base_radius", at_least(radius)),)
+
+
+def _roller(design: FlatbedPress) -> Iterator[Remedy]:
+    """A roller well below the least curvature radius, or a cam large enough for the roller."""
+    least = min(cam.min_curvature_radius.value for cam in design.cams.discs)
+    yield (("cam.roller_radius", at_most(ROLLER_SHARE * least)),)
+    yield (("cam.base_radius", at_least(design.cams.base_radius_for_roller(design.cams.base_radius))),)
+
+
+def _shaft(design: FlatbedPress) -> Iterator[Remedy]:
+    """A cam large enough for its hub, or a thinner shaft."""
+    cams = design.cams
+    missing = HUB * cams.section.shaft_radius - cams.min_radius
+    yield (("cam.base_radius", at_least(cams.base_radius + missing)),)
+    if cams.min_radius > 0.0:
+        yield (("cam.shaft_radius", at_most(cams.min_radius / HUB)),)
+
+
+def _smooth(design: FlatbedPress) -> Iterator[Remedy]:
+    """The laws that end without acceleration, and a lead-in where there is none."""
+    cam = design.cams.section
+    wanted: Remedy = (("cam.transition", "quartic"), ("cam.return_law", "cycloidal"))
+    given = {"cam.transition": cam.transition, "cam.return_law": cam.return_law}
+    better = tuple((key, value) for key, value in wanted if given[key] != value)
+    if better:
+        yield better
+    if cam.lead_in == 0.0:
+        yield (*better, ("cam.lead_in", _LEAD_IN))
+
+
+_CLOSED: dict[str, Callable[[FlatbedPress], Iterator[Remedy]]] = {
+    "sync-length": _length,
+    "pressure-angle": _pressure,
+    "cam-undercut": _roller,
+    "shaft-clearance": _shaft,
+    "acceleration-step": _smooth,
+}

@@ -1,0 +1,126 @@
+"""What to change in a swing gripper that fails: ways to go, and numbers from closed forms."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING
+
+from gearlink.core.cams.checks import HUB, ROLLER_SHARE
+from gearlink.core.errors import NoSolution
+from gearlink.core.remedies import Way, at_least, at_most, down, either, refusal_ways, up
+
+if TYPE_CHECKING:
+    from gearlink.core.report import Remedy
+    from gearlink.core.swing_gripper.design import SwingGripper
+
+_RESERVE = 1.1
+"""Speed at which a roller may lift off, over the speed of the machine."""
+_FINE = 3
+"""Digits behind the point of what places the handover."""
+_LINKAGE = (*either("output_direction", step=0.5), *either("links.coupler", "links.output", "links.input"))
+_WAYS = {
+    "transmission-angle": _LINKAGE,
+    "conditioning": _LINKAGE,
+    "handover": (down("release.window"),),
+    "pressure-angle": (up("phases.accelerate", step=0.5),),
+    "lift-off": either("cam.return_roller.angle", step=1.0),
+}
+_QUIET = {"accelerate": "velocity-345", "decelerate": "velocity-345", "return": "modified-sine"}
+_QUIETER = {"accelerate": "velocity-4567", "decelerate": "velocity-4567", "return": "polynomial-4567"}
+
+
+def ways_of(design: SwingGripper, check: str) -> tuple[Way, ...]:
+    """Ways in which a check that fails may be repaired; for cams that cannot be, those of their refusal."""
+    if check == "pressure-angle" and design.cams.refusal is not None:
+        return tuple(refusal_ways(design.spec, design.cams.refusal.key))
+    return _WAYS.get(check, ())
+
+
+def candidates(design: SwingGripper, check: str) -> Iterator[Remedy]:
+    """Remedies of a check from closed forms, the first to be tried first."""
+    return _CLOSED[check](design) if check in _CLOSED else iter(())
+
+
+def _handover(design: SwingGripper) -> Iterator[Remedy]:
+    """The middle of the constant phase; the arm or the cylinder's axis where the tip meets the line of centres."""
+    from gearlink.core.swing_gripper.handover_geometry import misplacement, widest_window
+
+    spec, (start, end) = design.spec, design.motion.law.starts[1:3]
+    if spec.cylinder.center is not None:
+        center = complex(*spec.cylinder.center)
+        off = misplacement(complex(*spec.pivots.output), design.handover.tip, center, spec.cylinder.radius)
+        fits = design.handover.center
+        yield (("arm.direction", round(spec.arm.direction + math.degrees(off.turn), _FINE)),)
+        yield _point("cylinder.center", fits, _FINE)
+    yield (("handover", 0.5 * (start + end)),)
+    if spec.release is not None:
+        widest = math.degrees(widest_window(spec.arm.length, spec.cylinder.radius, spec.release.gap))
+        room = min(spec.handover - start, end - spec.handover)
+        yield (("release.window", at_most(min(widest, room) if room > 0.0 else widest)),)
+
+
+def _point(path: str, place: complex, digits: int) -> Remedy:
+    return (f"{path}[0]", round(place.real, digits)), (f"{path}[1]", round(place.imag, digits))
+
+
+def _pressure(design: SwingGripper) -> Iterator[Remedy]:
+    """The centre of the smallest cams that keep the limits, or the angle that the centre is chosen for."""
+    limits, cam = design.spec.limits, design.cams.section
+    for limit in (limits.pressure_angle, min(limits.pressure_angle, limits.accelerate_pressure_angle)):
+        if cam.center is None:
+            yield (("size.pressure_angle", at_most(0.99 * limit, 0.5)),)
+            continue
+        try:
+            yield _point("cam.center", design.cams.center_for(0.99 * limit, refined=False), 1)
+        except NoSolution:
+            continue
+
+
+def _rollers(design: SwingGripper) -> Iterator[Remedy]:
+    """Rollers well below the least curvature radius of their cams."""
+    most = [at_most(ROLLER_SHARE * cam.min_curvature_radius.value) for cam in design.cams.discs]
+    for key, radius in zip(("cam.roller.radius", "cam.return_roller.radius"), most, strict=False):
+        yield ((key, radius),)
+
+
+def _shaft(design: SwingGripper) -> Iterator[Remedy]:
+    """A shaft that leaves its cams a hub."""
+    least = min(design.cams.min_radius)
+    if least > 0.0:
+        yield (("cam.shaft_radius", at_most(least / HUB)),)
+
+
+def _laws(design: SwingGripper, quiet: dict[str, str]) -> Iterator[Remedy]:
+    """Laws without the step, one after the other and all of them."""
+    given = design.spec.laws
+    better = [
+        (f"laws.{key}", law) for key, law in quiet.items() if getattr(given, key.replace("return", "return_")) != law
+    ]
+    yield from ((change,) for change in better)
+    if len(better) > 1:
+        yield tuple(better)
+
+
+def _closing(design: SwingGripper) -> Iterator[Remedy]:
+    """The spring that leaves a tenth of speed in reserve: what the inertia takes grows with the square of the speed."""
+    spring, closure = design.spec.spring, design.closure
+    if spring is None or not closure.stands:
+        return
+    worst = max(extreme.value for extreme in closure.worst_unloading)
+    if spring.torque is not None:
+        yield (("spring.torque", at_least(_RESERVE**2 * worst + spring.reserve, 1.0)),)
+        return
+    yield (("spring.preload", at_least(closure.preload_for(_RESERVE**2 * worst + spring.reserve), 1.0)),)
+
+
+_CLOSED: dict[str, Callable[[SwingGripper], Iterator[Remedy]]] = {
+    "handover": _handover,
+    "pressure-angle": _pressure,
+    "cam-undercut": _rollers,
+    "shaft-clearance": _shaft,
+    "acceleration-step": lambda design: _laws(design, _QUIET),
+    "velocity-step": lambda design: _laws(design, _QUIET),
+    "jerk-step": lambda design: _laws(design, _QUIETER),
+    "lift-off": _closing,
+}
