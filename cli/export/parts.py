@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from gearlink.cli.export.contour import Part
     from gearlink.core.gears.pair import GearPair
 
+_NO_RING = "the ring gear is not exported: its roots depend on its cutter"
 Makers = dict[str, Callable[[], "Part"]]
 
 
@@ -92,12 +93,21 @@ def _three_gears(design: Any) -> Makers:
 
     def gear(name: str) -> Part:
         from gearlink.cli.export.gear_parts import gear_of
+        from gearlink.core.gears.pair import GearPair
 
         mesh, number, title = places[name]
+        pair = design.meshes[mesh]
         with at_key("gears"):
-            return gear_of(design.meshes[mesh], number, name, title)
+            if isinstance(pair, GearPair):
+                return gear_of(pair, number, name, title)
+            part = gear_of(_planet(pair), 0, name, title)
+        return replace(part, notes=(*part.notes, _NO_RING))
 
-    return {name: partial(gear, name) for name in places}
+    # the idler by its internal mesh, where it has one, tells that the ring is left out
+    if design.output_teeth < 0:
+        places["gear3"] = ("idler_output", 0, places["gear3"][2])
+    rings = {name for name, teeth in (("gear1", design.crank_teeth), ("gear5", design.output_teeth)) if teeth < 0}
+    return {name: partial(gear, name) for name in places if name not in rings}
 
 
 def _single_mesh(design: Any) -> Makers:
@@ -112,7 +122,7 @@ def _single_mesh(design: Any) -> Makers:
             if isinstance(mesh, GearPair):
                 return gear_of(mesh, number, name, title)
             part = gear_of(_planet(mesh), number, name, title)
-        return replace(part, notes=(*part.notes, "the ring gear is not exported: its roots depend on its cutter"))
+        return replace(part, notes=(*part.notes, _NO_RING))
 
     found: Makers = {"gear2": partial(gear, 0, "gear2", "gear 2, on the coupler")}
     if isinstance(design.mesh, GearPair):

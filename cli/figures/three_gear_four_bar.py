@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from gearlink.cli.figures import linkage, panels, style
 from gearlink.cli.figures.three_gear_mechanism import mechanism, words
+from gearlink.core.gears.pair import GearPair
 from gearlink.core.three_gear.design import ThreeGearFourBar
 
 if TYPE_CHECKING:
@@ -18,12 +19,13 @@ if TYPE_CHECKING:
 def draw(command: str, design: ThreeGearFourBar) -> Figure:
     """The figure of a command on a three-gear four-bar."""
     title = f"{design.spec.name}: {command}"
-    if command == "gear":
+    external = any(isinstance(pair, GearPair) for pair in design.meshes.values())
+    if command == "gear" and external:
         from gearlink.cli.figures.gear_mesh import Mesh, mesh_figure
 
         names = (("crank-idler", ("1", "3")), ("idler-output", ("3", "5")))
-        pairs = design.meshes.values()
-        return mesh_figure(title, [Mesh(pair, *name) for pair, name in zip(pairs, names, strict=True)])
+        pairs = zip(design.meshes.values(), names, strict=True)
+        return mesh_figure(title, [Mesh(pair, *name) for pair, name in pairs if isinstance(pair, GearPair)])
     charts = [_output, *([_magnified] if design.dwell_crank_angles else []), _speed]
     if command == "analyze":
         charts += [_acceleration, _transmission]
@@ -127,10 +129,11 @@ def _back_step_marks(axes: Axes, design: ThreeGearFourBar, dwell: Stretch) -> No
     """phi12 and phi13 shaded, the places 1, 2 and 3, and how far the output steps back."""
     step = design.back_step
     assert step is not None, "a dwell of some width comes from a back-step"
-    width, back = math.degrees(step.crank_angle), math.degrees(step.angle)
+    width, back = math.degrees(step.crank_angle), math.copysign(math.degrees(step.angle), design.mean_ratio)
     axes.axvspan(dwell.start, dwell.start + dwell.width, **linkage.DWELL)
     axes.axvspan(dwell.start, dwell.start + width, **linkage.BACKWARD)
-    marks = ((1, 0.0, 0.0, "center", 6), (2, width, -back, "center", -6), (3, dwell.width, 0.0, "right", 6))
+    lift = math.copysign(6.0, back)
+    marks = ((1, 0.0, 0.0, "center", lift), (2, width, -back, "center", -lift), (3, dwell.width, 0.0, "right", lift))
     for number, after, level, side, lift in marks:
         axes.plot([dwell.start + after], [level], "o", color=style.RED, markersize=4.5, zorder=5)
         axes.annotate(
@@ -143,7 +146,7 @@ def _back_step_marks(axes: Axes, design: ThreeGearFourBar, dwell: Stretch) -> No
             fontsize=7.5,
         )
     low, high = axes.get_ylim()
-    axes.set_ylim(min(low, -2.2 * back), max(high, 0.9 * back))
+    axes.set_ylim(min(low, -2.2 * back, 0.9 * back), max(high, -2.2 * back, 0.9 * back))
 
 
 def _tolerance(axes: Axes, design: ThreeGearFourBar, at_start: float, near: float) -> None:

@@ -48,15 +48,18 @@ def mechanism(axes: Axes, design: ThreeGearFourBar) -> None:
     scene = build(design, np.array([angle / (2.0 * math.pi), 0.0]))
     scene_axes.draw(axes, scene, ahead=build(design, np.array([angle / (2.0 * math.pi) + scene_axes.AHEAD])))
     if abs(math.remainder(angle, 2.0 * math.pi)) > math.radians(1.0):
-        scene_axes.lightly(axes, scene, 1, name="gears 1 and 5 closest")
-    if design.gear_gap < 0.0:
+        scene_axes.lightly(
+            axes, scene, 1, name="crank along the frame" if design.gear_gap is None else "gears 1 and 5 closest"
+        )
+    if design.gear_gap is not None and design.gear_gap < 0.0:
         _collision(axes, design)
     _shafts(axes, design)
 
 
 def _collision(axes: Axes, design: ThreeGearFourBar) -> None:
     """What the tip circles of gears 1 and 5 share where the crank lies on the frame line."""
-    (first, second), frame = design.meshes.values(), design.frame_length
+    (first, second), frame, gap = design.meshes.values(), design.frame_length, design.gear_gap
+    assert gap is not None, "external gears have a gap"
     r1, r5 = first.tip_radius[0], second.tip_radius[1]
     both = _overlap(complex(design.crank_length), r1, complex(frame), r5)
     axes.fill(both.real, both.imag, color=style.RED, linewidth=0, zorder=6, gid="collision")
@@ -64,7 +67,7 @@ def _collision(axes: Axes, design: ThreeGearFourBar) -> None:
     shape = {"arrowstyle": "-|>", "color": style.RED, "linewidth": 0.9}
     look: dict[str, Any] = {"color": style.RED, "fontsize": 8, "ha": "center", "arrowprops": shape, "zorder": 8}
     axes.annotate("collision", where, (0, -62), textcoords="offset points", path_effects=style.outlined(), **look)
-    axes.fill([], [], color=style.RED, label=f"gears 1 and 5 collide by {-design.gear_gap:.4g} mm")
+    axes.fill([], [], color=style.RED, label=f"gears 1 and 5 collide by {-gap:.4g} mm")
 
 
 def _overlap(center_1: complex, radius_1: float, center_2: complex, radius_2: float) -> Any:
@@ -91,4 +94,5 @@ def _shafts(axes: Axes, design: ThreeGearFourBar) -> None:
 
 def words(design: ThreeGearFourBar) -> dict[str, str]:
     """The quantities beside the drawing, in short words."""
-    return {**_LINKS, **(_STEADY if design.back_step is None else _BACK_STEP)}
+    links = {name: text for name, text in _LINKS.items() if name != "gear_gap" or design.gear_gap is not None}
+    return {**links, **(_STEADY if design.back_step is None else _BACK_STEP)}

@@ -11,7 +11,7 @@ from gearlink.cli.scenes.colors import BLUE, DWELL, GREEN, ORANGE, STEP
 from gearlink.cli.scenes.gears import gear
 from gearlink.cli.scenes.linkages import Joints, coupler_windings, crank_readout, over_crank, whole_turn
 from gearlink.cli.scenes.scene import TURN, Band, Curve, Readout, Reals, Scene, bands, fixed_circle
-from gearlink.core.gears.mesh_phase import driven_turn
+from gearlink.core.gears.mesh_phase import driven_turn, ring_turn
 from gearlink.core.three_gear.sweep import output_motion
 
 if TYPE_CHECKING:
@@ -23,17 +23,22 @@ def build(design: ThreeGearFourBar, fraction: Reals) -> Scene:
     linkage, phi = design.linkage, TURN * fraction
     at = Joints.of(linkage, phi)
     first, second = design.meshes.values()
-    idler = driven_turn(first.teeth, at.coupler, phi)
-    output = driven_turn(second.teeth, at.rocker + math.pi, idler)
-    share = first.teeth[0] / first.teeth[1]
+    idler = _idler_turn(design, at.coupler, phi)
+    output = _output_turn(design, at.rocker, idler)
+    share = design.crank_teeth / design.idler_teeth
     idler_turns = coupler_windings(linkage) * (1.0 + share) - share
     now, whole = (output_motion(linkage, design.train, angles) for angles in (phi, whole_turn()))
     swept = np.degrees(now.output_angle)
+    ring = design.crank_teeth < 0
+    crank_gear = gear(first, int(ring), at.b, phi, 1.0, BLUE, "1", f"gear 1, crank {_kind(design.crank_teeth)}")
     return Scene(
         parts=(
-            *gear(second, 1, at.d, output, design.mean_ratio, ORANGE, "5", "gear 5, output gear"),
-            *gear(first, 1, at.c, idler, idler_turns, GREEN, "3", "gear 3, idler"),
-            *gear(first, 0, at.b, phi, 1.0, BLUE, "1", "gear 1, crank gear"),
+            *gear(
+                second, 1, at.d, output, design.mean_ratio, ORANGE, "5", f"gear 5, output {_kind(design.output_teeth)}"
+            ),
+            *(crank_gear if ring else ()),
+            *gear(first, 0 if ring else 1, at.c, idler, idler_turns, GREEN, "3", "gear 3, idler"),
+            *(() if ring else crank_gear),
             fixed_circle(0j, linkage.crank, "path of the crank pin B"),
             at.chain(),
         ),
@@ -58,3 +63,21 @@ def _bands(design: ThreeGearFourBar) -> tuple[Band, ...]:
         step = design.back_step
         found.append(("back-step", math.degrees(step.start), math.degrees(step.start + step.crank_angle), STEP))
     return bands(found)
+
+
+def _kind(teeth: int) -> str:
+    return "ring gear" if teeth < 0 else "gear"
+
+
+def _idler_turn(design: ThreeGearFourBar, coupler: Reals, phi: Reals) -> Reals:
+    """Direction of the idler's first tooth space [rad]; a ring on the crank has a tooth where a gear has a space."""
+    first = design.meshes["crank_idler"].teeth
+    if design.crank_teeth < 0:
+        return coupler + first[1] / first[0] * (phi - coupler)
+    return driven_turn(first, coupler, phi)
+
+
+def _output_turn(design: ThreeGearFourBar, rocker: Reals, idler: Reals) -> Reals:
+    """Direction of the output gear's first tooth space, or of a tooth of the ring [rad]."""
+    second = design.meshes["idler_output"].teeth
+    return ring_turn(second, rocker, idler) if design.output_teeth < 0 else driven_turn(second, rocker + math.pi, idler)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 from gearlink.core.design import Design
@@ -70,7 +71,11 @@ def mesh_checks(name: str, mesh: GearPair | InternalMesh, limits: Any, label: st
         ISO 21771 for the quantities
     """
     if isinstance(mesh, InternalMesh):
-        return list(_internal_check(name, mesh, limits))
+        found = _internal_check(name, mesh, limits)
+        return [
+            replace(check, message=f"{label.replace('_', '-')} mesh: {check.message}") if label else check
+            for check in found
+        ]
     return [] if name == "tip-fouling" else list(gear_check(name, mesh, limits, label))
 
 

@@ -16,13 +16,10 @@ TURN = 2.0 * math.pi
 # Every 2 deg, and halving steps towards 0 and 180 deg: near a change point the rates peak there, as narrowly as the
 # coupler and the rocker come near to one line.
 _HALVINGS = [math.radians(2.0) * 0.5**j for j in range(1, 15)]
+# It starts and ends where no linkage has its dead centres: a zero just at an end would be missed.
 _GRID = sorted(
-    {math.radians(2.0 * i) for i in range(181)}
-    | {
-        math.radians(place) + side * step
-        for place, side in ((0, 1), (180, -1), (180, 1), (360, -1))
-        for step in _HALVINGS
-    }
+    {math.radians(2.0 * i) for i in range(-54, 127)}
+    | {math.radians(place) + side * step for place in (0, 180) for side in (1, -1) for step in _HALVINGS}
 )
 
 
@@ -64,7 +61,8 @@ def zeros_over_turn(f: Function) -> list[float]:
         >>> [round(x, 12) for x in zeros_over_turn(math.cos)]
         [1.570796326795, 4.712388980385]
     """
-    return sorted(dict.fromkeys(root % TURN for root in roots_on(f, _GRID)))
+    # twice: a tiny negative angle is rounded up to a whole turn by the first
+    return sorted(dict.fromkeys(root % TURN % TURN for root in roots_on(f, _GRID)))
 
 
 def turnings(speed: Function, acceleration: Function) -> list[Turning]:

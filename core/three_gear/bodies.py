@@ -6,10 +6,13 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.clearance.bodies import Gear, Layout, Shaft, least_shaft
 from gearlink.core.clearance.reach import constant, coupler_joint, crank_pin
+from gearlink.core.gears.internal_mesh import InternalMesh
+from gearlink.core.linkages.codes import GEAR_COLLISION
 from gearlink.core.three_gear.motion import tip_radius
 
 if TYPE_CHECKING:
     from gearlink.core.linkages.fourbar import FourBar
+    from gearlink.core.report import Check
     from gearlink.core.three_gear.motion import GearTrain
     from gearlink.core.three_gear.spec import ThreeGearSpec
 
@@ -17,13 +20,13 @@ if TYPE_CHECKING:
 def layout(links: FourBar, train: GearTrain, spec: ThreeGearSpec) -> Layout:
     """Gears, shafts and distances; the crank gear is one body with crank and input shaft."""
     module, shafts = spec.gears.module, spec.shafts
-    crank, idler, output = (tip_radius(teeth, module) for teeth in (train.crank, train.idler, train.output))
+    gears = (
+        _gear("the crank gear", "B", train.crank, train, module, None, "CD" if train.internal else "C"),
+        Gear("the idler", "C", tip_radius(train.idler, module), mates="BD"),
+        _gear("the output gear", "D", train.output, train, module, spec.gears.rim, "C"),
+    )
     return Layout(
-        gears=(
-            Gear("the crank gear", "B", crank, mates="C"),
-            Gear("the idler", "C", idler, mates="BD"),
-            Gear("the output gear", "D", output, mates="C"),
-        ),
+        gears=gears,
         shafts=(
             Shaft("input shaft", "A", shafts.input_radius if shafts else None, "shafts.input_radius"),
             Shaft("output shaft", "D", shafts.output_radius if shafts else None, "shafts.output_radius"),
@@ -36,3 +39,18 @@ def layout(links: FourBar, train: GearTrain, spec: ThreeGearSpec) -> Layout:
         },
         least_shaft=least_shaft(spec.limits, module),
     )
+
+
+def _gear(name: str, axis: str, teeth: float, train: GearTrain, module: float, rim: float | None, mates: str) -> Gear:
+    """A gear by its teeth; a ring for negative ones. Rings stand in a plane of their own, apart from the other gear."""
+    if teeth > 0:
+        return Gear(name, axis, tip_radius(teeth, module), mates=mates)
+    mesh = InternalMesh(module, (int(train.idler), int(-teeth)), rim=rim)
+    return Gear(f"{name}, a ring,", axis, mesh.rim_radius, mesh.tip_radius[1], mates)
+
+
+def ring_planes(train: GearTrain) -> Check:
+    """GL301 of a train with a ring: what must stand in another plane."""
+    ring, other = ("the output ring", "the crank gear") if train.output < 0 else ("the crank ring", "the output gear")
+    text = f"{other} sweeps through {ring}: put them side by side on a wide idler, in planes of their own"
+    return GEAR_COLLISION.check("warn", text)

@@ -10,8 +10,10 @@ from gearlink.core.clearance.bodies import Layout
 from gearlink.core.clearance.checks import SHAFT_WAYS, collision_check, shaft_checks
 from gearlink.core.design import Design, Outline, placed
 from gearlink.core.errors import MissingSection, at_key
-from gearlink.core.gears.checks import GEAR_CHECKS, gear_check, gear_quantity, gear_ways
+from gearlink.core.gears.checks import gear_ways
+from gearlink.core.gears.internal_mesh import InternalMesh
 from gearlink.core.gears.pair import GearPair
+from gearlink.core.gears.single_mesh import MESH_CHECKS, mesh_checks, mesh_quantity
 from gearlink.core.linkages.checks import check_linkage, dwell_window_check, transmission_check
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.linkages.standstills import BackStep
@@ -63,7 +65,7 @@ class ThreeGearFourBar(RealSpeed, Design):
     spec: ThreeGearSpec
     outlines = {
         "analyze": Outline(QUANTITIES, ("dwell-window", *CHECKS), ("motion",)),
-        "gear": Outline(MESH_QUANTITIES, GEAR_CHECKS),
+        "gear": Outline(MESH_QUANTITIES, MESH_CHECKS),
     }
     extra_tables = ("motion",)
     ways = WAYS
@@ -106,12 +108,12 @@ class ThreeGearFourBar(RealSpeed, Design):
     @property
     def coupler_length(self) -> float:
         """Centre distance of crank gear and idler [mm]."""
-        return self.spec.gears.module * (self.crank_teeth + self.idler_teeth) / 2.0
+        return self.spec.gears.module * abs(self.crank_teeth + self.idler_teeth) / 2.0
 
     @property
     def rocker_length(self) -> float:
         """Centre distance of idler and output gear [mm]."""
-        return self.spec.gears.module * (self.idler_teeth + self.output_teeth) / 2.0
+        return self.spec.gears.module * abs(self.idler_teeth + self.output_teeth) / 2.0
 
     @cached_property
     def linkage(self) -> FourBar:
@@ -205,7 +207,7 @@ class ThreeGearFourBar(RealSpeed, Design):
     @property
     def nonuniformity(self) -> float:
         """(max - min)/mean of the speed ratio."""
-        return (self.speed_ratio_max - self.speed_ratio_min) / self.mean_ratio
+        return (self.speed_ratio_max - self.speed_ratio_min) / abs(self.mean_ratio)
 
     @cached_property
     def tolerance_dwell(self) -> ToleranceDwell | None:
@@ -221,7 +223,7 @@ class ThreeGearFourBar(RealSpeed, Design):
     @property
     def _endless_tolerance(self) -> float:
         """Half of what the output gains in a turn of the crank [rad]: within it, the output never leaves its place."""
-        return math.pi * self.mean_ratio
+        return math.pi * abs(self.mean_ratio)
 
     @property
     def output_tolerance(self) -> float | None:
@@ -229,7 +231,9 @@ class ThreeGearFourBar(RealSpeed, Design):
         if self.spec.dwell_backlash is not None:
             from gearlink.core.three_gear.tolerance_dwell import tolerance_from_backlash
 
-            return tolerance_from_backlash(self.spec.dwell_backlash, self.spec.gears.module * self.output_teeth / 2.0)
+            return tolerance_from_backlash(
+                self.spec.dwell_backlash, self.spec.gears.module * abs(self.output_teeth) / 2.0
+            )
         return None if self.spec.dwell_tolerance is None else math.radians(self.spec.dwell_tolerance)
 
     tolerance_dwell_angle: float | None = placed("tolerance_dwell.crank_angle")
@@ -246,25 +250,36 @@ class ThreeGearFourBar(RealSpeed, Design):
         return bodies.layout(self.linkage, self.train, self.spec)
 
     @cached_property
-    def gear_gap(self) -> float:
-        """Gap of the tips of gears 1 and 5 at the closest [mm]."""
+    def gear_gap(self) -> float | None:
+        """Gap of the tips of gears 1 and 5 at the closest [mm]; None where one is a ring, in another plane."""
+        if self.train.internal:
+            return None
         return motion.gear_gap(self.linkage, self.train, self.spec.gears.module)
 
     @cached_property
-    def meshes(self) -> dict[str, GearPair]:
-        """The two meshes as gear pairs without profile shift."""
+    def meshes(self) -> dict[str, GearPair | InternalMesh]:
+        """The two meshes without profile shift; an internal one is a pair of idler and ring."""
+        teeth = ((self.crank_teeth, self.idler_teeth), (self.idler_teeth, self.output_teeth))
+        return {mesh: self._mesh(*pair) for mesh, pair in zip(MESHES, teeth, strict=True)}
+
+    def _mesh(self, one: int, other: int) -> GearPair | InternalMesh:
         gears = self.spec.gears
         alpha = math.radians(gears.pressure_angle)
-        teeth = ((self.crank_teeth, self.idler_teeth), (self.idler_teeth, self.output_teeth))
-        return {
-            mesh: GearPair.from_shift(gears.module, pair, (0.0, 0.0), pressure_angle=alpha)
-            for mesh, pair in zip(MESHES, teeth, strict=True)
-        }
+        if min(one, other) > 0:
+            return GearPair.from_shift(gears.module, (one, other), (0.0, 0.0), pressure_angle=alpha)
+        rim = gears.rim if other < 0 else None
+        with at_key("gears"):
+            return InternalMesh(gears.module, (max(one, other), -min(one, other)), alpha, rim=rim)
 
     def raw(self, name: str) -> Any:
         """Names that carry their mesh are the gear pair's, all others the design's own."""
         mesh, _, quantity = name.rpartition(".")
-        return gear_quantity(self.meshes[mesh], quantity) if mesh else super().raw(name)
+        if not mesh:
+            return super().raw(name)
+        with at_key("gears"):
+            found = mesh_quantity(self.meshes[mesh], quantity)
+        # a ring on the crank is the first of its mesh, the second of its pair of gears
+        return found[::-1] if mesh == "crank_idler" and self.crank_teeth < 0 and isinstance(found, tuple) else found
 
     def table_motion(self, samples: int | None = None) -> Table:
         """Output angle, speed and acceleration, transmission angle over a turn of the crank."""
@@ -289,13 +304,16 @@ class ThreeGearFourBar(RealSpeed, Design):
 
     def check(self, name: str) -> list[Check]:
         """Gear checks run over both meshes."""
-        if name not in GEAR_CHECKS:
+        if name not in MESH_CHECKS:
             return super().check(name)
         limits = self.spec.limits
-        return [c for mesh, pair in self.meshes.items() for c in gear_check(name, pair, limits, mesh)]
+        return [c for mesh, pair in self.meshes.items() for c in mesh_checks(name, pair, limits, mesh)]
 
     def check_gear_collision(self) -> Iterator[Check]:
         """GL301: gears 1 and 5, over the whole turn."""
+        if self.train.internal:
+            yield bodies.ring_planes(self.train)
+            return
         limit, apart = self.spec.limits.gear_gap, abs(self.frame_length - self.crank_length)
         why = f"the crank gear travels with the crank pin, so AD - AB = {apart:.6g} mm counts, not AD"
         for pair in self.layout.gear_pairs:

@@ -14,7 +14,7 @@ from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.report import Check, safely_below
 from gearlink.core.results import cached_property
-from gearlink.core.three_gear import symmetric_back_step, window_dwell
+from gearlink.core.three_gear import families, internal_families, symmetric_back_step, window_dwell
 from gearlink.core.three_gear.codes import BACK_STEP
 from gearlink.core.three_gear.families import (
     Family,
@@ -23,9 +23,9 @@ from gearlink.core.three_gear.families import (
     ripple,
     solved,
     window_of,
-    with_crank,
 )
 from gearlink.core.three_gear.idler_choice import LEAST_IDLER
+from gearlink.core.three_gear.internal_dwell import is_internal
 from gearlink.core.three_gear.momentary_dwell import wrap
 from gearlink.core.three_gear.motion import GearTrain, output_angle
 from gearlink.core.three_gear.names import CHECKS, QUANTITIES
@@ -119,7 +119,7 @@ class DwellSynthesis(BackStepFamily):
             if self.window is None:
                 words = f"a back-step of twice the tolerance, {math.degrees(2.0 * self._aimed_at()):.6g} deg,"
                 return solved(family, back_step_of(train), 2.0 * self._aimed_at(), words)
-            self._refuse_even_motion(train.ratio)
+            self._refuse_even_motion(abs(train.ratio))
             words = f"a window of {wish.window:g} deg"
             linkage = solved(family, window_of(train), self.window, words)
             self._refuse_narrow_band(family, train, ripple(linkage, train).tolerance)
@@ -246,21 +246,24 @@ class DwellSynthesis(BackStepFamily):
     def frame_length_interval(self) -> list[float] | None:
         """Frames [mm] between which this crank meets window and tolerance.
 
-        At the longer one the back-step fills the band, at the shorter one the window is just as long as asked.
+        At the one the back-step fills the band (the longer one, but with a ring gear round the train), at the other the
+        window is just as long as asked.
         """
         window, band = self.window, self._band
         if window is None or band is None:
             return None
         links, train = self.linkage, self.train
-        family = with_crank(*self._radii(self.idler_teeth), links.crank, self.spec.assembly)
+        radii = self._radii(self.idler_teeth)
+        forms = internal_families if is_internal(*radii) else families
+        family = forms.with_crank(*radii, links.crank, self.spec.assembly)
 
         def spare(frame: float) -> float:
             return tolerance_dwell(family.linkage(frame), train, band).crank_angle - window
 
-        longest = solved(family, back_step_of(train), 2.0 * band, "this tolerance").frame
-        low = family.ends()[0]
-        shortest = low if spare(low) >= 0.0 else bracketed_root(spare, low, links.frame)
-        return [shortest, longest]
+        filled = solved(family, back_step_of(train), 2.0 * band, "this tolerance").frame
+        end = family.ends()[0]
+        just = end if spare(end) >= 0.0 else bracketed_root(spare, end, links.frame)
+        return sorted((just, filled))
 
     # Checks
 

@@ -15,6 +15,7 @@ from gearlink.core.linkages.fourbar import FourBar, solve
 from gearlink.core.linkages.standstills import BackStep
 from gearlink.core.numerics.gauss import integral
 from gearlink.core.numerics.roots import bracketed_root
+from gearlink.core.three_gear import internal_dwell
 from gearlink.core.three_gear.momentary_dwell import (
     Tangency,
     crank_angle,
@@ -22,7 +23,14 @@ from gearlink.core.three_gear.momentary_dwell import (
     tangency_range,
     wrap,
 )
-from gearlink.core.three_gear.motion import GearTrain, output_acceleration, output_angle, output_jerk, output_speed
+from gearlink.core.three_gear.motion import (
+    GearTrain,
+    forward,
+    output_acceleration,
+    output_angle,
+    output_jerk,
+    output_speed,
+)
 
 UNIDIRECTIONAL = "unidirectional"
 MOMENTARY_DWELL = "momentary-dwell"
@@ -63,6 +71,10 @@ def dwell_positions(linkage: FourBar, train: GearTrain) -> list[float]:
     """
     check_linkage(linkage)
     r1, r3, r5 = _radii(linkage, train)
+    if train.internal:
+        touching = internal_dwell.tangency(r1, r3, r5, linkage.crank)
+        once = [] if touching is None else _momentary(linkage, train, touching, r1, r3, r5)
+        return once or internal_dwell.standstills(linkage, train, (r1, r3, r5))
     low, high = tangency_range(r1, r3, r5)
     if not low < linkage.crank < high:
         return []
@@ -112,6 +124,7 @@ def back_step(linkage: FourBar, train: GearTrain) -> BackStep:
     Source
         thesis (4-15), (4-16) for I = 1; own derivation otherwise
     """
+    train = forward(linkage, train)
     positions = dwell_positions(linkage, train)
     if len(positions) < 2:
         raise NoSolution(
@@ -144,6 +157,7 @@ def dwell_angle(linkage: FourBar, train: GearTrain, step: BackStep) -> float:
     Source
         own derivation; thesis (4-17) takes 1.5 phi12
     """
+    train = forward(linkage, train)
     return bracketed_root(lambda x: gain(linkage, train, step.start, x), step.crank_angle, 2.0 * math.pi)
 
 
@@ -162,14 +176,15 @@ def gain(linkage: FourBar, train: GearTrain, start: float, length: float) -> flo
 def _radii(linkage: FourBar, train: GearTrain) -> tuple[float, float, float]:
     """Reference radii of the gears whose centre distances the coupler and the rocker are."""
     z1, z3, z5 = train.crank, train.idler, train.output
-    r1, r3 = linkage.coupler * z1 / (z1 + z3), linkage.coupler * z3 / (z1 + z3)
-    rocker = linkage.coupler * (z3 + z5) / (z1 + z3)
+    scale = linkage.coupler / abs(z1 + z3)
+    r1, r3 = z1 * scale, z3 * scale
+    rocker = scale * abs(z3 + z5)
     if abs(rocker - linkage.rocker) > _LINK_TOLERANCE * rocker:
         raise NoSolution(
             f"the rocker {linkage.rocker:.9g} mm does not fit the gears: with the coupler {linkage.coupler:.9g} mm and "
             f"{z1:g}, {z3:g}, {z5:g} teeth it must be {rocker:.9g} mm"
         )
-    return r1, r3, linkage.rocker * z5 / (z3 + z5)
+    return r1, r3, linkage.rocker * z5 / abs(z3 + z5)
 
 
 def _momentary(linkage: FourBar, train: GearTrain, limit: Tangency, r1: float, r3: float, r5: float) -> list[float]:
@@ -215,6 +230,12 @@ def _two_standstills(linkage: FourBar, limit: Tangency, r1: float, r3: float, r5
 def _frame_for_back_step(linkage: FourBar, train: GearTrain) -> str:
     """Which frame, if any, would make the output turn back."""
     r1, r3, r5 = _radii(linkage, train)
+    if train.internal:
+        touching = internal_dwell.tangency(r1, r3, r5, linkage.crank)
+        if touching is None:
+            return "no frame does that; take another crank or other teeth"
+        side = "longer" if r1 + r3 + r5 > 0.0 else "shorter"
+        return f"it does so with a frame {side} than {touching.frame:.9g} mm"
     low, high = tangency_range(r1, r3, r5)
     if not low < linkage.crank < high:
         return f"no frame does that; take a crank between {low:.9g} and {high:.9g} mm"

@@ -30,7 +30,7 @@ from gearlink.core.three_gear.momentary_dwell import (
     momentary_frame_length,
     wrap,
 )
-from gearlink.core.three_gear.motion import GearTrain, output_angle, speed_extremes
+from gearlink.core.three_gear.motion import GearTrain, forward, output_angle, speed_extremes
 
 _AFTER_LOW, _BEFORE_HIGH = 1e-12, 1e-6  # shares of a range left out: at its high end stands a change-point linkage
 
@@ -177,7 +177,8 @@ def with_speed_quotient(family: Family, train: GearTrain, quotient: float) -> Fo
     """
 
     def over(x: float) -> float:
-        found = speed_extremes(family.linkage(x), train)
+        linkage = family.linkage(x)
+        found = speed_extremes(linkage, forward(linkage, train))
         return found.least / found.greatest - quotient
 
     low, high = family.ends()
@@ -201,13 +202,14 @@ def ripple(linkage: FourBar, train: GearTrain) -> Ripple:
         >>> round(math.degrees(found.crank_angle), 6), round(math.degrees(found.tolerance), 6)
         (108.824649, 0.5)
     """
+    given, train = train, forward(linkage, train)
     step = back_step(linkage, train)
     end = step.start + step.crank_angle
     before = bracketed_root(lambda x: gain(linkage, train, end - x, x), step.crank_angle, 2.0 * math.pi)
     after = dwell_angle(linkage, train, step)
     start = wrap(end - before)
     middle = output_angle(linkage, train, start) + 0.5 * step.angle
-    return Ripple(start, before + after - step.crank_angle, 0.5 * step.angle, middle)
+    return Ripple(start, before + after - step.crank_angle, 0.5 * step.angle, given.sense * train.sense * middle)
 
 
 def back_step_of(train: GearTrain) -> Callable[[FourBar], float]:

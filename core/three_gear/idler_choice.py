@@ -11,6 +11,7 @@ from gearlink.core.three_gear.motion import GearTrain, gear_gap
 
 LEAST_IDLER = 17
 GREATEST_IDLER = 400
+_RING_DIFFERENCE = 8
 
 
 def idler_for_ratio(i3: float, output_teeth: int) -> int:
@@ -84,14 +85,16 @@ def smallest_idler(
     reached: list[tuple[int, float, float]] = []
     refusal: NoSolution | None = None
     beside = 0
-    for idler in range(LEAST_IDLER, GREATEST_IDLER + 1):
+    for idler in range(LEAST_IDLER, _greatest_idler(crank_teeth, output_teeth) + 1):
         try:
             linkage = design(idler)
         except NoSolution as error:
             refusal = error
             continue
         angle = linkage.min_transmission_angle()
-        gap = gear_gap(linkage, GearTrain(crank_teeth, idler, output_teeth), module, addendum)
+        train = GearTrain(crank_teeth, idler, output_teeth)
+        # a ring stands in a plane of its own
+        gap = math.inf if train.internal else gear_gap(linkage, train, module, addendum)
         if angle >= min_transmission_angle and gap >= min_gear_gap:
             if clear is None or clear(linkage, idler):
                 return idler
@@ -102,6 +105,12 @@ def smallest_idler(
     if refusal is not None and not reached:
         raise refusal
     raise NoSolution(_obstacle(reached, min_transmission_angle, min_gear_gap), key="gears.idler")
+
+
+def _greatest_idler(crank_teeth: int, output_teeth: int) -> int:
+    """400 teeth, or so many that the tips of a ring of 20 deg pressure angle do not foul them: 8 less than its own."""
+    rings = [-teeth for teeth in (crank_teeth, output_teeth) if teeth < 0]
+    return min([GREATEST_IDLER, *(ring - _RING_DIFFERENCE for ring in rings)])
 
 
 def _obstacle(reached: list[tuple[int, float, float]], angle_limit: float, gap_limit: float) -> str:

@@ -7,15 +7,10 @@ from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.report import safely_below
 from gearlink.core.results import cached_property
+from gearlink.core.three_gear import internal_families, momentary_dwell
 from gearlink.core.three_gear.idler_choice import LEAST_IDLER
-from gearlink.core.three_gear.momentary_dwell import (
-    balanced_eccentricity,
-    crank_with_room,
-    eccentricity_for_frame,
-    least_eccentricity,
-    momentary_crank_angle,
-    momentary_linkage,
-)
+from gearlink.core.three_gear.internal_dwell import is_internal
+from gearlink.core.three_gear.momentary_dwell import crank_with_room, least_eccentricity
 from gearlink.core.three_gear.names import CHECKS, QUANTITIES
 from gearlink.core.three_gear.synthesis import Synthesis, with_analysis
 
@@ -28,14 +23,21 @@ class MomentaryDwellSynthesis(Synthesis):
     def _crank_of(self, idler: int) -> float:
         """Crank length as given, or from the frame, the gap or the balance that is."""
         wish, radii = self.section("momentary", "eccentricity, frame or gap (mm), or balanced"), self._radii(idler)
+        forms = internal_families if is_internal(*radii) else momentary_dwell
         if wish.eccentricity is not None:
             return float(wish.eccentricity)
         if wish.frame is not None:
             with at_key("momentary.frame"):
-                return eccentricity_for_frame(*radii, wish.frame)
+                return float(forms.eccentricity_for_frame(*radii, wish.frame))
         if wish.gap is None:
             with at_key("momentary.balanced"):
-                return balanced_eccentricity(*radii)
+                return float(forms.balanced_eccentricity(*radii))
+        if is_internal(*radii):
+            raise NoSolution(
+                "a ring gear stands in another plane than gear 1, with no gap between them: give eccentricity, frame "
+                "or balanced",
+                key="momentary.gap",
+            )
         distance = radii[0] + radii[2] + 2.0 * self.spec.gears.module + wish.gap
         crank = crank_with_room(*radii, distance)
         if crank is None:
@@ -48,9 +50,11 @@ class MomentaryDwellSynthesis(Synthesis):
 
     def linkage_of(self, idler: int) -> FourBar:
         """Frame length in closed form, in place of thesis (4-26)..(4-33)."""
-        crank = self._crank_of(idler)
+        crank, radii = self._crank_of(idler), self._radii(idler)
         with at_key("momentary.eccentricity"):
-            return momentary_linkage(*self._radii(idler), crank, self.spec.assembly)
+            forms = internal_families if is_internal(*radii) else momentary_dwell
+            linkage: FourBar = forms.momentary_linkage(*radii, crank, self.spec.assembly)
+        return linkage
 
     def _widest_gap(self, radii: tuple[float, float, float]) -> float:
         """The gap of the shortest crank with a momentary dwell [mm]."""
@@ -65,7 +69,10 @@ class MomentaryDwellSynthesis(Synthesis):
     @cached_property
     def dwell_crank_angles(self) -> list[float]:
         """The one standstill, at full precision."""
-        return [momentary_crank_angle(*self._radii(self.idler_teeth), self.linkage.crank, self.spec.assembly)]
+        radii = self._radii(self.idler_teeth)
+        if is_internal(*radii):
+            return super().dwell_crank_angles
+        return [momentary_dwell.momentary_crank_angle(*radii, self.linkage.crank, self.spec.assembly)]
 
     def _gap_remedy(self, missing: float) -> str:
         words = super()._gap_remedy(missing)

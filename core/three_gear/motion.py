@@ -3,15 +3,15 @@
     phi5 = I phi + (1 - i2) i3 t2 + (1 - i3) t3,   W = I + (1 - i2) i3 w2 + (1 - i3) w3
 
 with the coupler and rocker angles t2, t3 of `gearlink.core.linkages.fourbar`, their rates w2, w3 per crank speed, and
-external meshes i2 = -z1/z3, i3 = -z3/z5, I = i2 i3 = z1/z5. Standstills and back-step stand in
-`gearlink.core.three_gear.dwells`.
+i2 = -z1/z3, i3 = -z3/z5, I = i2 i3 = z1/z5, teeth negative for a gear in internal mesh with the idler. Standstills
+and back-step stand in `gearlink.core.three_gear.dwells`.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.checks import check_linkage
@@ -21,12 +21,14 @@ from gearlink.core.linkages.standstills import zeros_over_turn
 
 @dataclass(frozen=True, slots=True)
 class GearTrain:
-    """The three gears: crank gear 1, idler 3 and output gear 5, in external mesh.
+    """The three gears: crank gear 1, idler 3 and output gear 5.
 
     Parameters
-        crank, idler, output : float - teeth, or anything in proportion to them (charts need fractions)
+        crank, idler, output : float - teeth, or anything in proportion to them (charts need fractions); crank and
+            output negative for an internal mesh with the idler
+        sense : +1 or -1 - in which the output is counted: -1 against the crank
     Raises
-        NoSolution - for a number that is not positive and finite
+        NoSolution - for a number that is zero or not finite, and gears in internal mesh that are as large as the idler
     Example
         >>> train = GearTrain(40, 72, 40)
         >>> train.i3, train.ratio
@@ -36,11 +38,19 @@ class GearTrain:
     crank: float
     idler: float
     output: float
+    sense: int = 1
 
     def __post_init__(self) -> None:
         for name, teeth in (("crank gear", self.crank), ("idler", self.idler), ("output gear", self.output)):
-            if not (math.isfinite(teeth) and teeth > 0):
+            if not math.isfinite(teeth) or teeth == 0 or (name == "idler" and teeth < 0):
                 raise NoSolution(f"the {name} has {teeth:g} teeth; the number must be positive and finite")
+            if teeth == -self.idler:
+                raise NoSolution(f"the {name}, a ring, is no larger than the idler of {self.idler:g} teeth")
+
+    @property
+    def internal(self) -> bool:
+        """Whether a mesh is internal."""
+        return self.crank < 0 or self.output < 0
 
     @property
     def i2(self) -> float:
@@ -55,17 +65,17 @@ class GearTrain:
     @property
     def ratio(self) -> float:
         """Ratio of the train, I = i2 i3 = z1/z5."""
-        return self.crank / self.output
+        return self.sense * self.crank / self.output
 
     @property
     def coupler_share(self) -> float:
         """What a turn of the coupler adds to the output, (1 - i2) i3 = -(z1 + z3)/z5."""
-        return -(self.crank + self.idler) / self.output
+        return -self.sense * (self.crank + self.idler) / self.output
 
     @property
     def rocker_share(self) -> float:
         """What a turn of the rocker adds to the output, 1 - i3 = (z3 + z5)/z5."""
-        return (self.idler + self.output) / self.output
+        return self.sense * (self.idler + self.output) / self.output
 
 
 @dataclass(frozen=True, slots=True)
@@ -183,7 +193,17 @@ def mean_ratio(linkage: FourBar, train: GearTrain) -> float:
     Source
         thesis (4-1) for the crank-rocker; own derivation for the drag link
     """
-    return train.ratio if check_linkage(linkage) == "crank-rocker" else 1.0
+    return train.ratio if check_linkage(linkage) == "crank-rocker" else float(train.sense)
+
+
+def forward(linkage: FourBar, train: GearTrain) -> GearTrain:
+    """The train with its output counted in the direction of its mean motion, in which backward has its meaning.
+
+    Example
+        >>> forward(FourBar(22.0, 41.0, 37.0, 46.0), GearTrain(24, 17, -54)).sense
+        -1
+    """
+    return train if mean_ratio(linkage, train) > 0.0 else replace(train, sense=-train.sense)
 
 
 def speed_extremes(linkage: FourBar, train: GearTrain) -> Extremes:
@@ -249,7 +269,7 @@ def nonuniformity(linkage: FourBar, train: GearTrain, extremes: Extremes) -> flo
     Source
         thesis (4-20)
     """
-    return (extremes.greatest - extremes.least) / mean_ratio(linkage, train)
+    return (extremes.greatest - extremes.least) / abs(mean_ratio(linkage, train))
 
 
 def gear_gap(linkage: FourBar, train: GearTrain, module: float, addendum: float = 1.0) -> float:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES
+from gearlink.core.gears.single_mesh import MESH_CHECKS
+from gearlink.core.gears.single_mesh import MESH_QUANTITIES as OF_A_MESH
 
 QUANTITIES = (
     "i3",
@@ -51,7 +52,7 @@ CHECKS = (
     "transmission-angle",
     "rounded-ratio",
     "dwell-tolerance",
-    *GEAR_CHECKS,
+    *MESH_CHECKS,
 )
 MESHES = ("crank_idler", "idler_output")
-MESH_QUANTITIES = tuple(f"{mesh}.{name}" for mesh in MESHES for name in GEAR_QUANTITIES)
+MESH_QUANTITIES = tuple(f"{mesh}.{name}" for mesh in MESHES for name in OF_A_MESH)

@@ -2,27 +2,54 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, TypeAlias
 
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.linkages.spec_parts import DwellBand, LinkageLimits
+from gearlink.core.linkages.spec_parts import DwellBand, LinkageLimits, require_rim
 from gearlink.core.real_speed import other_speed
 from gearlink.core.spec import Assembly, Deferred, DrivenSpec, Length, PressureAngle, SignedLength, Spec, Teeth
+
+
+def _some_teeth(teeth: int) -> int:
+    if teeth == 0:
+        raise PydanticCustomError("GL108", "teeth must be 1 or more, or -1 or less for a ring gear, not 0")
+    return teeth
+
+
+SignedTeeth: TypeAlias = Annotated[
+    int, Field(ge=-10_000, le=10_000, json_schema_extra={"unit": "teeth"}), AfterValidator(_some_teeth)
+]
 
 
 class Gears(Spec):
     """The three gears in mesh; the idler stands on the pin of coupler and rocker."""
 
     module: Length = Field(description="module of all three gears")
-    crank: Teeth = Field(description="teeth of the gear fixed to the crank")
+    crank: SignedTeeth = Field(description="teeth of the gear fixed to the crank; negative: a ring round the idler")
     idler: Teeth | None = Field(None, description="teeth of the idler; chosen by a synthesis when left out")
-    output: Teeth = Field(description="teeth of the output gear on the rocker's axis")
+    output: SignedTeeth = Field(description="teeth of the output gear on the rocker's axis; negative: a ring gear")
     i3: Annotated[float, Field(lt=0, json_schema_extra={"unit": "1"})] | None = Field(
         None, description="-idler/output, in place of idler"
     )
+    rim: Length | None = Field(
+        None, description="outer radius of the output ring; left out: 2 modules outside its root circle"
+    )
     pressure_angle: PressureAngle = Field(20.0, description="pressure angle of the reference profile")
+
+    @model_validator(mode="after")
+    def _rings_are_larger(self) -> Gears:
+        for key, teeth in (("crank", self.crank), ("output", self.output)):
+            if teeth < 0 and self.idler is not None and -teeth <= self.idler:
+                message = "a ring gear of {ring} teeth does not take an idler of {idler}: give it more teeth"
+                words = {"key": key, "ring": str(-teeth), "idler": str(self.idler)}
+                raise PydanticCustomError("GL111", message, words)
+        if self.i3 is not None and min(self.crank, self.output) < 0:
+            message = "i3 goes with external gears: give idler in place of i3"
+            raise PydanticCustomError("GL111", message, {"key": "i3"})
+        require_rim(self.rim, -self.output if self.output < 0 else None, self.module)
+        return self
 
     @model_validator(mode="after")
     def _one_ratio(self) -> Gears:

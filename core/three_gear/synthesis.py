@@ -15,7 +15,7 @@ from gearlink.core.linkages.standstills import BackStep
 from gearlink.core.real_speed import other_speed
 from gearlink.core.report import Check
 from gearlink.core.results import cached_property
-from gearlink.core.three_gear import dwells, symmetric_back_step
+from gearlink.core.three_gear import dwells, families, internal_families, symmetric_back_step
 from gearlink.core.three_gear import symmetric_family as family
 from gearlink.core.three_gear.bodies import layout
 from gearlink.core.three_gear.codes import ACHIEVED
@@ -24,13 +24,11 @@ from gearlink.core.three_gear.families import (
     Family,
     back_step_crank_angle_of,
     back_step_of,
-    balanced,
     solved,
-    with_crank,
-    with_frame,
     with_speed_quotient,
 )
 from gearlink.core.three_gear.idler_choice import GREATEST_IDLER, LEAST_IDLER, idler_for_ratio, smallest_idler
+from gearlink.core.three_gear.internal_dwell import is_internal, shape
 from gearlink.core.three_gear.motion import Extremes, GearTrain, gear_gap
 from gearlink.core.three_gear.names import CHECKS, QUANTITIES
 
@@ -114,7 +112,7 @@ class Synthesis(ThreeGearFourBar):
         return self.linkage_of(self.idler_teeth)
 
     def _gap_remedy(self, missing: float) -> str:
-        larger = self._idler_with_room()
+        larger = None if self.train.internal else self._idler_with_room()
         if larger is not None:
             return f"take an idler of {larger} teeth or more"
         return super()._gap_remedy(missing)
@@ -155,14 +153,21 @@ class SymmetricSynthesis(Synthesis):
         return bool(section.crank or section.frame or section.balanced)
 
     def _family(self, idler: int) -> Family:
-        section, (r1, r3, r5) = getattr(self.spec, self.task), self._radii(idler)
+        section, radii = getattr(self.spec, self.task), self._radii(idler)
+        forms = internal_families if is_internal(*radii) else families
+        if is_internal(*radii):
+            with at_key("gears.output" if radii[0] > 0.0 else "gears.crank"):
+                shape(*radii)  # a train that never just stops is refused whatever the links
+        found: Family
         if section.crank is not None:
             with at_key(f"{self.task}.crank"):
-                return with_crank(r1, r3, r5, section.crank, self.spec.assembly)
-        if section.frame is not None:
+                found = forms.with_crank(*radii, section.crank, self.spec.assembly)
+        elif section.frame is not None:
             with at_key(f"{self.task}.frame"):
-                return with_frame(r1, r3, r5, section.frame, self.spec.assembly)
-        return balanced(r1, r3, r5, self.spec.assembly)
+                found = forms.with_frame(*radii, section.frame, self.spec.assembly)
+        else:
+            found = forms.balanced(*radii, self.spec.assembly)
+        return found
 
     def frame_ratio_for(self, i3: float) -> float:
         """Frame over crank that meets the task with a ratio i3."""
@@ -349,7 +354,8 @@ class VariableSpeedSynthesis(SymmetricSynthesis):
     def input_speed(self) -> float:
         """Input speed [1/min] at which the output swings between the two: their mean where I = 1."""
         speed = self.section("speed", "min, max (rev/min)")
-        found = float(speed.max) / self.speed_ratio_max if self.general else 0.5 * (speed.min + speed.max)
+        greatest = self.speed_ratio_max if self.mean_ratio > 0.0 else -self.speed_ratio_min
+        found = float(speed.max) / greatest if self.general else 0.5 * (speed.min + speed.max)
         if wrong := other_speed(self.spec.input_speed, found):
             raise NoSolution(wrong, key="input_speed")
         return found

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.band_dwell import ToleranceDwell, Valley, longest_in_band
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.three_gear.dwells import back_step, dwell_positions
-from gearlink.core.three_gear.motion import GearTrain, mean_ratio, output_angle, output_speed, speed_extremes
+from gearlink.core.three_gear.motion import GearTrain, forward, mean_ratio, output_angle, output_speed, speed_extremes
 
 _TURN = 2.0 * math.pi
 
@@ -42,7 +43,7 @@ def tolerance_dwell(linkage: FourBar, train: GearTrain, tolerance: float) -> Tol
     Parameters
         linkage : FourBar - crank-rocker or drag link
         train : GearTrain
-        tolerance : float [rad] - 0 < tol < pi times the mean ratio
+        tolerance : float [rad] - 0 < tol < pi times the magnitude of the mean ratio
     Returns
         dwell : ToleranceDwell [rad]
     Raises
@@ -57,7 +58,9 @@ def tolerance_dwell(linkage: FourBar, train: GearTrain, tolerance: float) -> Tol
     Source
         own derivation; thesis 4.2.1 speaks of a dwell "within usual deviations"
     """
-    return longest_in_band(_valley(linkage, train), tolerance)
+    ahead = forward(linkage, train)
+    found = longest_in_band(_valley(linkage, ahead), tolerance)
+    return replace(found, output_angle=train.sense * ahead.sense * found.output_angle)
 
 
 def _valley(linkage: FourBar, train: GearTrain) -> Valley:
