@@ -62,10 +62,10 @@ class ThreeGearLoads(LoadsDesign):
         r1, r3, r5 = (0.5 * module * teeth for teeth in (train.crank, train.idler, train.output))
         tangent = math.tan(math.radians(self.spec.gears.pressure_angle))
         meshes = [
-            Mesh("mesh_13", "crank", "idler", links["coupler"].origin.value, links["coupler"].unit, r1, r3, tangent,
-                 carrier="coupler"),
-            Mesh("mesh_35", "output", "idler", links["output"].origin.value, links["rocker"].unit, r5, r3, tangent,
-                 carrier="rocker"),
+            Mesh("mesh_13", "crank", "idler", links["coupler"].origin.value, links["coupler"].unit, abs(r1), r3, tangent,
+                 r1 < 0.0, carrier="coupler"),
+            Mesh("mesh_35", "output", "idler", links["output"].origin.value, links["rocker"].unit, abs(r5), r3, tangent,
+                 r5 < 0.0, carrier="rocker"),
         ]  # fmt: skip
         pins += [
             Pin("C_idler", self.section.idler_pin, "idler", center_c.value),

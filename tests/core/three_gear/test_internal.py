@@ -345,3 +345,21 @@ def test_drawn_teeth_roll_in_mesh() -> None:
     off = ring_turn(teeth, line, parts["3"].turn) - parts["1"].turn
     pitch = math.tau / teeth[1]
     np.testing.assert_allclose(np.abs(np.exp(1j * math.tau * off / pitch) - 1.0), 0.0, atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("gears", "links", "radius"),
+    [((48, 36, -118), (22.0, 53.0), 0.059), ((-60, 20, 40), (8.0, 24.0), 0.02)],
+)
+def test_tooth_force_accelerates_the_output(gears: Any, links: Any, radius: float) -> None:
+    teeth = dict(zip(("gears__crank", "gears__idler", "gears__output"), gears, strict=True))
+    masses = {"output": {"mass": 2, "inertia": 0.01}, "crank": {"mass": 1}}
+    found = made(
+        "loads", **teeth, links={"crank": links[0], "frame": links[1]}, input_speed=100, loads={"links": masses}
+    )
+    force = found.table("teeth", samples=72)["mesh_35"]
+    speed = 100.0 * math.tau / 60.0
+    motion = made("analyze", **teeth, links={"crank": links[0], "frame": links[1]}).table("motion", samples=72)
+    want = 0.01 * motion["acceleration_ratio"] * speed**2 / radius
+    np.testing.assert_allclose(np.abs(force), np.abs(want), atol=1e-9 * np.abs(want).max())
+    assert [check.status for check in found.check("power-identity")] == ["pass"]
