@@ -112,3 +112,39 @@ FILLET = Rule(
     ("fillet-interference",),
     ("tool", "cutter", *_TEETH),
 )
+BACKLASH = Rule(
+    "GL208",
+    "backlash too small",
+    "The least backlash that thickness allowances and centre distance leave is negative (or below limits.backlash).",
+    "Without backlash the teeth jam, heat up and wear.",
+    "Thin the teeth by larger allowances, or change the centre distance; of a ring and its pinion a larger distance "
+    "takes backlash away.",
+    "j_bn at the upper allowances and the tighter centre distance >= 0; fails below -1e-6 m, warns below "
+    "limits.backlash (0). Theoretical: temperature, bearings and deviations of the teeth are not in it",
+    "DIN 3967; the form exact in the centre distance: own derivation",
+    ("backlash",),
+    ("allowances", "center_distance_allowance", "center_distance", *_TEETH),
+)
+PITTING = Rule(
+    "GL210",
+    "safety against pitting too small",
+    "The contact stress is too near to what the material bears. K factors and life factors are inputs.",
+    "Flanks break out in small pits and wear away.",
+    "Widen the gears, take a larger module or centre distance, or a better material.",
+    "S_H = sigma_Hlim Z_N (Z_L Z_v Z_R Z_W Z_X)/(Z_B,D sigma_H0 sqrt(K_A K_v K_Hb K_Ha)) >= limits.safety_pitting (1)",
+    "ISO 6336-2:2006, method B; K_Hb is given, not computed",
+    ("pitting",),
+    ("load", "material", "face_width"),
+)
+BENDING = Rule(
+    "GL211",
+    "safety against breaking at the root too small",
+    "The root stress is too near to what the material bears, or a formula of the root leaves its range (a warning).",
+    "Teeth break at the root.",
+    "Take a larger module, wider gears, a larger rounding of the tool, or a better material.",
+    "S_F = sigma_Flim Y_ST Y_N (Y_drelT Y_RrelT Y_X)/(F_t/(b m) Y_F Y_S Y_beta K_A K_v K_Fb K_Fa) >= "
+    "limits.safety_bending (1.4), Y_ST = 2",
+    "ISO 6336-3:2006, method B; K_Fb is given, not computed; rings: no published example",
+    ("bending",),
+    ("load", "material", "tool", "face_width"),
+)

@@ -6,11 +6,19 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
+from gearlink.core.errors import NoSolution
+from gearlink.core.gears.backlash import Backlash
 from gearlink.core.gears.contact import PathOfContact
+from gearlink.core.gears.flank_strength import FlankStrength
+from gearlink.core.gears.inspection import Ball, chord, preferred_pin
 from gearlink.core.gears.internal import InternalInterference
+from gearlink.core.gears.load import Load, Material
 from gearlink.core.gears.pair import GearPair, Pair
+from gearlink.core.gears.root_stress import RootStress
+from gearlink.core.gears.tools import RackTool
 from gearlink.core.results import cached_property
 
+Both = tuple[float | None, float | None]
 PLACES = {
     "transverse_pressure_angle": "pair.transverse_pressure_angle",
     "base_helix_angle": "pair.base_helix_angle",
@@ -18,7 +26,7 @@ PLACES = {
     "total_contact_ratio": "path.total_contact_ratio",
     "usable_contact_ratio": "path.usable_contact_ratio",
     "path_of_contact": "path.length",
-    "form_radius": "form_radius",
+    "form_radius": "pair.form_radius",
     "used_root_radius": "path.used_root_radius",
     "tip_clearance": "pair.tip_clearance",
     "specific_sliding_tip": "path.sliding_at_tip",
@@ -26,6 +34,35 @@ PLACES = {
     "involute_margin": "internal.involute_margin",
     "tip_fouling_margin": "internal.tip_fouling_margin",
     "radial_assembly_margin": "internal.radial_assembly_margin",
+    "pin_diameter": "pin_diameter",
+    "measure_over_balls": "measure_over_balls",
+    "measure_over_pins": "measure_over_pins",
+    "chordal_thickness": "chordal_thickness",
+    "chordal_height": "chordal_height",
+    "generating_shift": "generating_shift",
+    "span_measurement_limits": "span_measurement_limits",
+    "measure_limits": "measure_limits",
+    "backlash_circumferential": "backlash.circumferential",
+    "backlash_normal": "backlash.normal",
+    "backlash_angle": "backlash.angle",
+    "tangential_force": "flank.tangential_force",
+    "zone_factor": "flank.zone_factor",
+    "elasticity_factor": "flank.elasticity_factor",
+    "contact_ratio_factor": "flank.contact_ratio_factor",
+    "helix_angle_factor_contact": "flank.helix_angle_factor",
+    "single_contact_factor": "flank.single_contact_factor",
+    "nominal_contact_stress": "flank.nominal_stress",
+    "contact_stress": "flank.stress",
+    "safety_pitting": "flank.safety",
+    "root_chord": "root.chord",
+    "bending_moment_arm": "root.moment_arm",
+    "root_fillet_radius": "root.fillet_radius",
+    "form_factor": "root.form_factor",
+    "stress_correction_factor": "root.stress_correction_factor",
+    "helix_angle_factor_bending": "root.helix_angle_factor",
+    "nominal_root_stress": "root.nominal_stress",
+    "root_stress": "root.stress",
+    "safety_bending": "root.safety",
 }
 """Where each quantity of a drawing stands in a GearData."""
 DRAWING_QUANTITIES = tuple(PLACES)
@@ -45,35 +82,171 @@ _MAGNITUDES = frozenset(
 
 @dataclass(frozen=True, kw_only=True)
 class GearData:
-    """A gear pair with its widths; parts are computed when they are asked for.
+    """A gear pair with its widths, allowances, load and materials; parts are computed when they are asked for.
 
     Parameters
         pair : GearPair
         face_width : (float, float) or None [mm] - of gear 1 and 2
+        pins : (float or None, float or None) [mm] - diameters of measuring balls; None: a preferred one
+        allowances : ((upper, lower), (upper, lower)) or None [mm] - E_sns, E_sni of gear 1 and 2
+        distance_allowance : float or None [mm] - plus and minus of the centre distance
+        load : Load or None
+        materials : (Material, Material)
+        edition : int - of ISO 6336
+        load_share : str - "third" or "half", what a pair of flanks carries beside another
     """
 
     pair: GearPair
     face_width: Pair | None = None
-
-    @property
-    def common_width(self) -> float | None:
-        """b [mm], the lesser width."""
-        return None if self.face_width is None else min(self.face_width)
+    pins: Both = (None, None)
+    allowances: tuple[Pair, Pair] | None = None
+    distance_allowance: float | None = None
+    load: Load | None = None
+    materials: tuple[Material, Material] = (Material(), Material())
+    edition: int = 2006
+    load_share: str = "third"
 
     @cached_property
     def path(self) -> PathOfContact:
-        """The path of contact."""
-        return PathOfContact(self.pair, self.common_width)
+        """The path of contact, with the lesser width."""
+        return PathOfContact(self.pair, None if self.face_width is None else min(self.face_width))
 
     @cached_property
     def internal(self) -> InternalInterference | None:
         """The interferences of a pinion in a ring; None for an external pair."""
         return InternalInterference(self.pair) if self.pair.internal else None
 
+    @cached_property
+    def pin_diameter(self) -> Both:
+        """D of the balls that measure each gear [mm]."""
+        return self._pin(0), self._pin(1)
+
+    def _pin(self, gear: int) -> float | None:
+        given = self.pins[gear]
+        return preferred_pin(self.pair, gear) if given is None else given
+
+    def ball(self, gear: int, shift: float | None = None) -> Ball | None:
+        """The ball in a space of a gear; None where it falls through."""
+        diameter = self.pin_diameter[gear]
+        if diameter is None:
+            return None
+        ball = Ball(pair=self.pair, gear=gear, diameter=diameter, shift=shift)
+        try:
+            return ball if ball.pressure_angle > 0.0 else None
+        except NoSolution:
+            return None
+
+    def _over_balls(self, gear: int, shift: float | None = None) -> float | None:
+        ball = self.ball(gear, shift)
+        return None if ball is None else ball.over_balls
+
     @property
-    def form_radius(self) -> tuple[float | None, float | None]:
-        """r_Ff [mm]."""
-        return self.pair.form_radius
+    def measure_over_balls(self) -> Both:
+        """M over (in a ring between) two balls [mm]."""
+        return self._over_balls(0), self._over_balls(1)
+
+    @property
+    def measure_over_pins(self) -> Both:
+        """M over two pins [mm]; a helical ring takes none."""
+        one, other = self.ball(0), self.ball(1)
+        return None if one is None else one.over_pins, None if other is None else other.over_pins
+
+    @cached_property
+    def _chords(self) -> tuple[Pair, Pair]:
+        return chord(self.pair, 0), chord(self.pair, 1)
+
+    @property
+    def chordal_thickness(self) -> Pair:
+        """s_c on the reference circle [mm]."""
+        return self._chords[0][0], self._chords[1][0]
+
+    @property
+    def chordal_height(self) -> Pair:
+        """h_c of that chord below the tip [mm]."""
+        return self._chords[0][1], self._chords[1][1]
+
+    @cached_property
+    def generating_shift(self) -> tuple[Pair, Pair] | None:
+        """x_E of each gear, least and greatest [module]: x + E_sn/(2 m tan(alpha_n))."""
+        return None if self.allowances is None else (self._generated(0), self._generated(1))
+
+    def _generated(self, gear: int) -> Pair:
+        assert self.allowances is not None
+        upper, lower = self.allowances[gear]
+        x, over = self.pair.profile_shift[gear], 2.0 * self.pair.module * math.tan(self.pair.pressure_angle)
+        return x + lower / over, x + upper / over
+
+    @property
+    def cut_shift(self) -> Pair:
+        """x_E of the upper allowances, nominal without allowances [module]."""
+        found = self.generating_shift
+        return self.pair.profile_shift if found is None else (found[0][1], found[1][1])
+
+    @cached_property
+    def span_measurement_limits(self) -> tuple[Pair | None, Pair | None] | None:
+        """W_k of each gear with its least and greatest thickness [mm]; of a ring the other way round."""
+        shifts, spans = self.generating_shift, self.pair.span_teeth
+        if shifts is None:
+            return None
+
+        def ends(gear: int) -> Pair | None:
+            count = spans[gear]
+            if count is None:
+                return None
+            low, high = sorted(self.pair.span_over(gear, count, shift) for shift in shifts[gear])
+            return low, high
+
+        return ends(0), ends(1)
+
+    @cached_property
+    def measure_limits(self) -> tuple[Both | None, Both | None] | None:
+        """M over balls of each gear, least and greatest [mm]."""
+        shifts = self.generating_shift
+        if shifts is None:
+            return None
+
+        def ends(gear: int) -> Both | None:
+            found = [self._over_balls(gear, shift) for shift in shifts[gear]]
+            known = sorted(each for each in found if each is not None)
+            return (known[0], known[1]) if len(known) == 2 else None
+
+        return ends(0), ends(1)
+
+    @cached_property
+    def backlash(self) -> Backlash | None:
+        """Least and greatest backlash; None where the file leaves none open."""
+        both_given = self.pair.given_shift is not None and self.pair.given_distance is not None
+        if self.allowances is None and self.distance_allowance is None and not both_given:
+            return None
+        one, other = self.allowances or ((0.0, 0.0), (0.0, 0.0))
+        return Backlash(
+            pair=self.pair,
+            upper=(one[0], other[0]),
+            lower=(one[1], other[1]),
+            distance_allowance=self.distance_allowance or 0.0,
+        )
+
+    @cached_property
+    def flank(self) -> FlankStrength:
+        """Surface durability."""
+        return FlankStrength(path=self.path, load=self.load, materials=self.materials)
+
+    def cutting_tool(self, gear: int) -> RackTool:
+        """The rack tool whose fillet the root of a gear has, or what stands for it in a ring."""
+        return self.pair.tool(gear)
+
+    @cached_property
+    def root(self) -> RootStress:
+        """Root strength, at the upper allowances."""
+        return RootStress(
+            path=self.path,
+            tools=(self.cutting_tool(0), self.cutting_tool(1)),
+            shifts=self.cut_shift,
+            widths=self.face_width,
+            load=self.load,
+            materials=self.materials,
+            edition=self.edition,
+        )
 
     def quantity(self, name: str) -> Any:
         """A quantity by name, its radii and distances as magnitudes; None where it does not apply."""

@@ -5,12 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import Protocol
 
-from gearlink.core.gears.codes import CONTACT_RATIO, FILLET, TIP_FOULING
+from gearlink.core.gears.codes import BACKLASH, BENDING, CONTACT_RATIO, FILLET, PITTING, TIP_FOULING
 from gearlink.core.gears.data import GearData
-from gearlink.core.report import Check, Status
+from gearlink.core.gears.load import Factors
+from gearlink.core.report import Check, Rule, Status
 
 _FILLET_NOISE = 1e-4
 """So far below the form radius contact may go, in modules: what a rounding of 0.38 for 0.37995 makes."""
+
+_NEGATIVE = -1e-6
+"""Backlash below it, in modules, is none."""
 
 
 class DrawingLimits(Protocol):
@@ -18,6 +22,12 @@ class DrawingLimits(Protocol):
 
     @property
     def contact_ratio(self) -> float: ...
+    @property
+    def backlash(self) -> float: ...
+    @property
+    def safety_pitting(self) -> float: ...
+    @property
+    def safety_bending(self) -> float: ...
 
 
 def drawing_check(name: str, data: GearData, limits: DrawingLimits, *, radial: bool = False) -> Iterator[Check]:
@@ -92,7 +102,7 @@ def _fillet(data: GearData, _limits: DrawingLimits) -> Iterator[Check]:
 
 
 def _fillet_of(data: GearData, gear: int) -> Iterator[Check]:
-    pair, form = data.pair, data.form_radius[gear]
+    pair, form = data.pair, data.pair.form_radius[gear]
     sign = pair.signs[gear]
     beyond = pair.interference_margin[1 - gear] <= 0.0
     if form is None and not beyond:
@@ -114,8 +124,83 @@ def _fillet_of(data: GearData, gear: int) -> Iterator[Check]:
     yield FILLET.check(status, text, margin, -_FILLET_NOISE * pair.module, "mm")
 
 
+def _backlash(data: GearData, limits: DrawingLimits) -> Iterator[Check]:
+    if data.backlash is None:
+        return
+    least, greatest = data.backlash.normal
+    text = f"the theoretical normal backlash is {least:.4g} to {greatest:.4g} mm"
+    status: Status = "pass"
+    if least < _NEGATIVE * data.pair.module:
+        status = "fail"
+        text += ": the gears do not assemble; thin the teeth (allowances, profile_shift) or change the centre distance"
+    elif least < limits.backlash:
+        status = "warn"
+        text += f", below {limits.backlash:g} mm: thin the teeth (allowances)"
+    yield BACKLASH.check(status, text, least, limits.backlash, "mm")
+
+
+def _pitting(data: GearData, limits: DrawingLimits) -> Iterator[Check]:
+    yield from _safety(PITTING, data.flank.safety, limits.safety_pitting, "pitting", _contact_inputs(data))
+
+
+def _bending(data: GearData, limits: DrawingLimits) -> Iterator[Check]:
+    if data.load is not None:
+        yield from _out_of_range(data)
+    yield from _safety(BENDING, data.root.safety, limits.safety_bending, "breaking at the root", _bending_inputs(data))
+
+
+def _safety(
+    rule: Rule, found: tuple[float | None, float | None] | None, least: float, against: str, inputs: str
+) -> Iterator[Check]:
+    for gear, safety in enumerate(found or ()):
+        if safety is None:
+            continue
+        text = f"the safety of gear {gear + 1} against {against} is {safety:.4g}, nominal: {inputs}"
+        if safety < least:
+            text += f"; below the limit {least:g}: widen the gears, take a larger module or a better material"
+        yield rule.check("fail" if safety < least else "pass", text, safety, least)
+
+
+def _contact_inputs(data: GearData) -> str:
+    factors = data.load.factors if data.load else Factors()
+    return (
+        f"K_A {factors.application:g}, K_v {factors.dynamic:g}, K_Hb {factors.face_contact:g}, "
+        f"K_Ha {factors.transverse_contact:g} and the life factors are given, not computed"
+    )
+
+
+def _bending_inputs(data: GearData) -> str:
+    factors = data.load.factors if data.load else Factors()
+    edition = "" if data.edition == 2006 else f"; edition {data.edition} is not verified"
+    return (
+        f"K_A {factors.application:g}, K_v {factors.dynamic:g}, K_Fb {factors.face_bending:g}, "
+        f"K_Fa {factors.transverse_bending:g} and the life factors are given, not computed{edition}"
+    )
+
+
+def _out_of_range(data: GearData) -> Iterator[Check]:
+    """Where the formulas of the root leave the range of their standard."""
+    eps = data.pair.contact_ratio
+    if data.pair.helix_angle == 0.0 and not 1.0 <= eps <= 2.0:
+        text = f"contact ratio {eps:.4g}: method B of ISO 6336 covers 1 to 2, stresses are out of its range"
+        yield BENDING.check("warn", text, eps)
+    for gear, section in enumerate(data.root.sections):
+        if section is None:
+            text = f"gear {gear + 1} has no root section that ISO 6336-3 could judge: no root stress is given"
+            yield BENDING.check("warn", text + "; take more teeth, a smaller rounding, or name the cutter of a ring")
+        elif not 1.0 <= section.notch < 8.0:
+            text = f"notch parameter q_s = {section.notch:.4g} of gear {gear + 1} is outside 1 to 8, where Y_S holds"
+            yield BENDING.check("warn", text, section.notch)
+        elif data.pair.teeth[gear] < 0 and data.pair.shaped_root is None:
+            text = "without its cutter the root of the ring is judged with the rounding of a rack tool"
+            yield BENDING.check("warn", text)
+
+
 _OF_PAIR: dict[str, Callable[[GearData, DrawingLimits], Iterator[Check]]] = {
     "tip-fouling": _tip_fouling,
     "fillet-interference": _fillet,
+    "backlash": _backlash,
+    "pitting": _pitting,
+    "bending": _bending,
 }
-DRAWING_CHECKS = ("tip-fouling", "radial-assembly", "fillet-interference")
+DRAWING_CHECKS = ("tip-fouling", "radial-assembly", "fillet-interference", "backlash", "pitting", "bending")

@@ -7,13 +7,15 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.errors import NoSolution, at_key
+from gearlink.core.gears.allowances import js7, thickness_allowances
 from gearlink.core.gears.data import GearData
+from gearlink.core.gears.load import Factors, Load, Material, torque_of
 from gearlink.core.gears.pair import GearPair, Pair
 from gearlink.core.gears.tools import RackTool, usual_rounding
 
 if TYPE_CHECKING:
     from gearlink.core.gears.spec import GearPairSpec
-    from gearlink.core.gears.spec_parts import ToolSpec
+    from gearlink.core.gears.spec_parts import AllowanceSpec, LoadSpec, MaterialSpec, ToolSpec
 
 _AGREE = 1e-6
 """Centre distances that differ by less, in modules, count as one."""
@@ -63,8 +65,62 @@ def _without_difference(pair: GearPair) -> GearPair:
 
 
 def data_of(spec: GearPairSpec, pair: GearPair) -> GearData:
-    """The pair of a design file with all that its drawing needs."""
-    return GearData(pair=pair, face_width=both(spec.face_width))
+    """The pair of a design file with all that its drawing needs.
+
+    Raises
+        NoSolution - for allowances beyond the tables of their standards
+    """
+    return GearData(
+        pair=pair,
+        face_width=both(spec.face_width),
+        pins=both(spec.pin_diameter) or (None, None),
+        allowances=allowances_of(spec.allowances, pair),
+        distance_allowance=_distance_allowance(spec, pair),
+        load=load_of(spec.load),
+        materials=(material_of(spec.material, 0), material_of(spec.material, 1)),
+        edition=spec.edition,
+        load_share=spec.load_share,
+    )
+
+
+def allowances_of(given: AllowanceSpec | None, pair: GearPair) -> tuple[Pair, Pair] | None:
+    """Upper and lower thickness allowance of both gears [mm]."""
+    if given is None:
+        return None
+    if given.upper is not None and given.lower is not None:
+        return (given.upper[0], given.lower[0]), (given.upper[1], given.lower[1])
+    series = given.series if isinstance(given.series, list) else [given.series, given.series]
+    with at_key("allowances.series"):
+        first, second = (
+            thickness_allowances(str(one), 2.0 * abs(radius))
+            for one, radius in zip(series, pair.reference_radius, strict=True)
+        )
+    return first, second
+
+
+def _distance_allowance(spec: GearPairSpec, pair: GearPair) -> float | None:
+    given = spec.center_distance_allowance
+    if not isinstance(given, str):
+        return given
+    with at_key("center_distance_allowance"):
+        return js7(abs(pair.center_distance))
+
+
+def load_of(given: LoadSpec | None) -> Load | None:
+    """The load of a file."""
+    if given is None:
+        return None
+    torque = given.torque
+    if given.power is not None and given.speed is not None:
+        torque = torque_of(given.power, given.speed)
+    factors = Factors(**given.factors.model_dump())
+    return Load(torque=torque, force=given.tangential_force, speed=given.speed, factors=factors)
+
+
+def material_of(given: MaterialSpec, gear: int) -> Material:
+    """The material of gear 0 or 1."""
+    values = {name: value[gear] if isinstance(value, list) else value for name, value in given}
+    return Material(**values)
 
 
 def tools_of(spec: GearPairSpec) -> tuple[RackTool | None, RackTool | None]:

@@ -8,8 +8,11 @@ from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.gears.spec_parts import (
+    AllowanceSpec,
     Hand,
     HelixAngle,
+    LoadSpec,
+    MaterialSpec,
     Shift,
     SignedTeeth,
     SpanTeeth,
@@ -21,7 +24,15 @@ from gearlink.core.gears.spec_parts import (
     exclude_each_other,
     require_teeth,
 )
-from gearlink.core.spec import Coefficient, Deferred, DesignSpec, GearLimits, Length, PressureAngle
+from gearlink.core.spec import Coefficient, Deferred, DesignSpec, GearLimits, Length, PressureAngle, Ratio, SignedLength
+
+
+class PairLimits(GearLimits):
+    """Limits of the checks of a gear pair."""
+
+    backlash: SignedLength = Field(0.0, description="least normal backlash; below it a warning")
+    safety_pitting: Ratio = Field(1.0, description="least safety against pitting")
+    safety_bending: Ratio = Field(1.4, description="least safety against breaking at the root")
 
 
 class GearPairSpec(DesignSpec):
@@ -57,11 +68,24 @@ class GearPairSpec(DesignSpec):
     span_teeth: Annotated[list[SpanTeeth], Field(min_length=2, max_length=2)] | None = Field(
         None, description="teeth that the span measurement of each gear goes over; left out: chosen"
     )
+    pin_diameter: Length | TwoLengths | None = Field(
+        None, description="measuring balls or pins of both gears, or of each; left out: a preferred size"
+    )
+    allowances: AllowanceSpec | None = None
+    center_distance_allowance: Literal["js7"] | Length | None = Field(
+        None, description="plus and minus of the centre distance: js7, or a number in mm"
+    )
+    load: LoadSpec | None = Field(None, description="load of the rating by ISO 6336 (loads is for forces of a drive)")
+    load_share: Literal["third", "half"] = Field(
+        "third", description="share of a flank pair beside another: third (1/3 to 2/3) or half"
+    )
+    material: MaterialSpec = MaterialSpec()
+    edition: Literal[2006, 2019] = Field(2006, description="of ISO 6336; 2019 is not verified")
     assembly: Literal["axial", "radial"] = Field("axial", description="how pinion and ring are put together")
     shift_split: Literal["equal"] | Shift = Field(
         "equal", description="how the shift sum is shared when center_distance is given: equal, or x1"
     )
-    limits: GearLimits = GearLimits()
+    limits: PairLimits = PairLimits()
     loads: Annotated[Any, Deferred("gears.loads_spec:PairLoads")] | None = Field(
         None, description="masses, forces and drive, for the command loads"
     )

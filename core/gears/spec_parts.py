@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from pydantic import Field
+from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.spec import Coefficient, Length, Spec
@@ -68,3 +68,102 @@ def require_teeth(teeth: list[Any]) -> None:
     if second != "rack" and second < 0 and -second <= first:
         message = "a ring of {ring} teeth does not take a gear of {first}: it needs more teeth"
         raise PydanticCustomError("GL111", message, {"key": "teeth[1]", "ring": -second, "first": first})
+
+
+Factor = Annotated[float, Field(gt=0, le=100, json_schema_extra={"unit": "1"})]
+Allowance = Annotated[float, Field(ge=-100, le=100, json_schema_extra={"unit": "mm"})]
+TwoAllowances = Annotated[list[Allowance], Field(min_length=2, max_length=2)]
+Stress = Annotated[float, Field(gt=0, le=1e7, json_schema_extra={"unit": "N/mm^2"})]
+Poisson = Annotated[float, Field(ge=0, le=0.5, json_schema_extra={"unit": "1"})]
+Series = Annotated[str, Field(pattern=r"^(2[1-9]|30)(ab|a|bc|b|cd|c|d|e|f|g|h)$")]
+
+
+class AllowanceSpec(Spec):
+    """Allowances of the tooth thickness in the normal section: a series of DIN 3967, or limits in mm."""
+
+    series: Series | Annotated[list[Series], Field(min_length=2, max_length=2)] | None = Field(
+        None, description="of DIN 3967, such as 25cd; one, or one for each gear"
+    )
+    upper: TwoAllowances | None = Field(
+        None, description="upper allowances E_sns of gear 1 and 2, usually negative [mm]"
+    )
+    lower: TwoAllowances | None = Field(None, description="lower allowances E_sni of gear 1 and 2 [mm]")
+
+    @model_validator(mode="after")
+    def _one_way(self) -> AllowanceSpec:
+        limits = self.upper is not None or self.lower is not None
+        if self.series is not None and limits:
+            message = "series excludes upper and lower: give one"
+            raise PydanticCustomError("GL111", message, {"key": "upper" if self.upper is not None else "lower"})
+        if self.series is None and (self.upper is None or self.lower is None):
+            missing = "series" if not limits else "upper" if self.upper is None else "lower"
+            raise PydanticCustomError("GL106", "give series, or both upper and lower", {"key": missing})
+        for place in (0, 1):
+            if self.upper is not None and self.lower is not None and self.upper[place] < self.lower[place]:
+                message = "the lower allowance of gear {gear} is above its upper one: exchange them"
+                raise PydanticCustomError("GL111", message, {"key": f"lower[{place}]", "gear": place + 1})
+        return self
+
+
+class FactorSpec(Spec):
+    """The K factors of ISO 6336: given, not computed."""
+
+    application: Factor = Field(1.0, description="K_A")
+    dynamic: Factor = Field(1.0, description="K_v")
+    face_contact: Factor = Field(1.0, description="K_Hbeta")
+    transverse_contact: Factor = Field(1.0, description="K_Halpha")
+    face_bending: Factor = Field(1.0, description="K_Fbeta")
+    transverse_bending: Factor = Field(1.0, description="K_Falpha")
+
+
+class LoadSpec(Spec):
+    """What the pair carries: torque, power with speed, or tangential force."""
+
+    torque: Annotated[float, Field(gt=0, le=1e9, json_schema_extra={"unit": "N m"})] | None = Field(
+        None, description="torque of gear 1"
+    )
+    power: Annotated[float, Field(gt=0, le=1e6, json_schema_extra={"unit": "kW"})] | None = Field(
+        None, description="power, with speed, in place of torque"
+    )
+    speed: Annotated[float, Field(gt=0, le=1e6, json_schema_extra={"unit": "1/min"})] | None = Field(
+        None, description="speed of gear 1; with torque or force for the sliding speeds alone"
+    )
+    tangential_force: Annotated[float, Field(gt=0, le=1e12, json_schema_extra={"unit": "N"})] | None = Field(
+        None, description="force on the reference circle, in place of torque"
+    )
+    factors: FactorSpec = FactorSpec()
+
+    @model_validator(mode="after")
+    def _one_load(self) -> LoadSpec:
+        given = [name for name in ("torque", "power", "tangential_force") if getattr(self, name) is not None]
+        if not given:
+            raise PydanticCustomError("GL106", "give torque, power with speed, or tangential_force", {"key": "torque"})
+        if len(given) > 1:
+            message = "torque, power and tangential_force exclude each other: give one"
+            raise PydanticCustomError("GL111", message, {"key": given[1]})
+        if self.power is not None and self.speed is None:
+            raise PydanticCustomError("GL106", "power needs speed", {"key": "speed"})
+        return self
+
+
+class MaterialSpec(Spec):
+    """The materials; each key one number, or one for each gear."""
+
+    elastic_modulus: Stress | Annotated[list[Stress], Field(min_length=2, max_length=2)] = Field(
+        206000.0, description="modulus of elasticity"
+    )
+    poisson: Poisson | Annotated[list[Poisson], Field(min_length=2, max_length=2)] = Field(
+        0.3, description="Poisson's ratio"
+    )
+    contact_limit: Stress | Annotated[list[Stress], Field(min_length=2, max_length=2)] | None = Field(
+        None, description="sigma_Hlim; left out: no safety against pitting"
+    )
+    bending_limit: Stress | Annotated[list[Stress], Field(min_length=2, max_length=2)] | None = Field(
+        None, description="sigma_Flim; left out: no safety against breaking"
+    )
+    contact_factors: Factor | Annotated[list[Factor], Field(min_length=2, max_length=2)] = Field(
+        1.0, description="Z_N Z_L Z_v Z_R Z_W Z_X as one product, given"
+    )
+    bending_factors: Factor | Annotated[list[Factor], Field(min_length=2, max_length=2)] = Field(
+        1.0, description="Y_N Y_drelT Y_RrelT Y_X as one product, given"
+    )
