@@ -123,7 +123,7 @@ def test_every_term_names_a_result_of_the_engine():
     used = {
         word
         for path in engine.rglob("*.py")
-        if path.name != "nomenclature.py"
+        if path.name not in ("nomenclature.py", "gear_terms.py")
         for word in re.findall(r"\w+", path.read_text())
     }
     assert set(TERMS) - used == set()

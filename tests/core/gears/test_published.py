@@ -14,6 +14,7 @@ from typing import Any
 import pytest
 from factory import design
 
+from gearlink.core.gears.allowances import thickness_allowances
 from gearlink.core.gears.root_fillet import RackCutRoot
 from gearlink.core.gears.tools import RackTool
 
@@ -22,11 +23,12 @@ PAIRS = [case for case in CASES if isinstance(case["input"].get("teeth"), list) 
 SINGLE = [case for case in CASES if case["name"].startswith("gearcore-generation")]
 KEYS = (
     "module", "teeth", "pressure_angle", "helix_angle", "addendum", "center_distance", "profile_shift", "shift_split",
-    "tip_diameter", "face_width", "tool", "span_teeth",
+    "tip_diameter", "face_width", "tool", "span_teeth", "pin_diameter",
 )  # fmt: skip
 PLAIN = {
     "working_pressure_angle", "center_distance", "reference_center_distance", "shift_sum", "contact_ratio",
-    "overlap_ratio", "center_distance_modification", "span_teeth", "span_measurement",
+    "overlap_ratio", "center_distance_modification", "span_teeth", "span_measurement", "measure_over_balls",
+    "measure_over_pins", "chordal_thickness", "chordal_height",
 }  # fmt: skip
 NAMES = {
     "alpha_wt": "working_pressure_angle",
@@ -42,6 +44,18 @@ NAMES = {
     "normal_tip_thickness": "tip_thickness",
     "x_min": "min_shift_no_undercut",
     "rho_A1": "involute_margin",
+    "Z_H": "zone_factor",
+    "Z_E": "elasticity_factor",
+    "Z_eps": "contact_ratio_factor",
+    "Z_beta": "helix_angle_factor_contact",
+    "sigma_H0": "nominal_contact_stress",
+    "Y_beta": "helix_angle_factor_bending",
+    "Y_F": "form_factor",
+    "Y_S": "stress_correction_factor",
+    "s_Fn": "root_chord",
+    "h_Fe": "bending_moment_arm",
+    "rho_F": "root_fillet_radius",
+    "sigma_F0": "nominal_root_stress",
 }
 DIAMETERS = {
     "reference_diameter": "reference_radius",
@@ -57,7 +71,9 @@ WITHOUT_BOUND = {("spur-undercut-9-50", "zeta_root")}  # the mate's tip reaches 
 
 def spec_of(given: dict[str, Any]) -> dict[str, Any]:
     """The design file of a case."""
-    spec = {"kind": "gear-pair"} | {key: given[key] for key in KEYS if key in given}
+    spec: dict[str, Any] = {"kind": "gear-pair"} | {key: given[key] for key in KEYS if key in given}
+    if "F_t" in given:
+        spec["load"] = {"tangential_force": given["F_t"]}
     if "tip_shortening" in given and "tip_diameter" not in given:
         spec["tip_shortening"] = "full" if given["tip_shortening"] else "none"
     return spec
@@ -132,3 +148,43 @@ def test_gear_as_its_tool_cuts_it(case: dict[str, Any]) -> None:
     diameter = 2.0 * given["module"] * root.form_radius
     assert diameter == pytest.approx(wanted["d_Ff"]["value"], abs=wanted["d_Ff"]["tolerance"])
     assert root.min_shift == pytest.approx(wanted["x_Emin"]["value"], abs=wanted["x_Emin"]["tolerance"])
+
+
+@pytest.mark.parametrize("case", [case for case in PAIRS if "M_1" in case["expected"]], ids=lambda case: case["name"])
+def test_pressures_at_b_and_d_over_that_at_the_pitch_point(case: dict[str, Any]) -> None:
+    found = design(spec_of(case["input"])).data.flank.single_contact_ratios
+    for name, value in zip(("M_1", "M_2"), found, strict=True):
+        assert value == pytest.approx(case["expected"][name]["value"], abs=case["expected"][name]["tolerance"])
+
+
+@pytest.mark.parametrize("case", [case for case in PAIRS if "theta" in case["expected"]], ids=lambda case: case["name"])
+def test_direction_of_the_tool_at_the_root_tangent(case: dict[str, Any]) -> None:
+    sections = design(spec_of(case["input"])).data.root.sections
+    found = [math.degrees(section.theta) for section in sections]
+    assert found == pytest.approx(case["expected"]["theta"]["value"], abs=case["expected"]["theta"]["tolerance"])
+
+
+def test_backlash_limits() -> None:
+    case = next(case for case in CASES if case["name"] == "backlash-limits-24-55")
+    given, wanted = case["input"], case["expected"]
+    spec = spec_of(given) | {
+        "allowances": {"upper": given["thickness_allowance_upper"], "lower": given["thickness_allowance_lower"]},
+        "center_distance_allowance": given["center_distance_allowance"],
+    }
+    pair = design(spec)
+    assert pair.data.distance_allowance == wanted["js7"]["value"]
+    circumferential, normal = pair.quantity("backlash_circumferential").value, pair.quantity("backlash_normal").value
+    first, second = pair.quantity("backlash_angle").value
+    for end, name in enumerate(("least", "greatest")):
+        found = [circumferential[end], normal[end], first[end], second[end]]
+        assert found == pytest.approx(wanted[name]["value"], abs=wanted[name]["tolerance"])
+
+
+def test_series_of_the_standard() -> None:
+    one, two = (next(case for case in CASES if case["name"].startswith(name)) for name in ("din3967-27", "din3967-25"))
+    microns = [1000.0 * each for each in thickness_allowances("27cd", one["input"]["reference_diameter"])]
+    assert microns == pytest.approx(one["expected"]["allowances_um"]["value"], abs=1e-9)
+    pairs = [thickness_allowances("25cd", diameter) for diameter in two["input"]["reference_diameter"]]
+    for place, name in enumerate(("upper_um", "lower_um")):
+        found = [1000.0 * each[place] for each in pairs]
+        assert found == pytest.approx(two["expected"][name]["value"], abs=1e-9)
