@@ -21,6 +21,8 @@ from gearlink.core.report import Check, Report, Table
 _MOST_ROWS = 24
 _STYLE = {"pass": "green", "warn": "yellow", "fail": "bold red"}
 _WIDE = 110
+_NOMINAL = ", nominal: "
+"""What follows it in the message of a passed check is said beside the table of passes, which has no messages."""
 _WIDTH_UNKNOWN = 80  # where COLUMNS says 0
 
 
@@ -45,6 +47,8 @@ def show_findings(report: Report, console: Console) -> None:
     if passes:
         console.print()
         console.print(_passes(passes, scales(report), console))
+        for proviso in dict.fromkeys(c.message.partition(_NOMINAL)[2] for c in passes if _NOMINAL in c.message):
+            console.print(Text(f"safety{_NOMINAL}{proviso}"))
     counts = {status: sum(c.status == status for c in report.checks) for status in ("fail", "warn", "pass")}
     if report.checks:
         verdict = ", ".join(f"{n} {status}" for status, n in counts.items() if n)
