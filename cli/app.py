@@ -15,15 +15,18 @@ import typer.main
 
 from gearlink.cli.batch.options import BatchFormat, BatchOptions, FailOn
 from gearlink.cli.bench.command import register as register_bench
+from gearlink.cli.command_groups import OrderOfWork
 from gearlink.cli.commands.laws import laws
 from gearlink.cli.commands.picture_options import register as register_pictures
 from gearlink.cli.commands.reference_options import register
+from gearlink.cli.completing import better_scripts
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.exploring.register import register as register_exploring
 from gearlink.cli.export.register import register as register_export
 from gearlink.cli.options import COMMANDS, OPTIONS, Options
 from gearlink.cli.quick import run_line
 from gearlink.cli.typer_options import Spec, option, takes
+from gearlink.core.kinds import KINDS
 
 _HELP = """Design calculator for the mechanisms of printing machines.
 
@@ -34,11 +37,15 @@ mechanism does not exist, 3 a fault of the program.
 """
 
 app = typer.Typer(
-    help=_HELP, no_args_is_help=True, pretty_exceptions_enable=False, rich_markup_mode=None, name="gearlink"
+    help=_HELP,
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+    name="gearlink",
+    cls=OrderOfWork,
+    context_settings={"help_option_names": ["--help", "-h"]},
 )
-synth = typer.Typer(
-    help="Size a three-gear four-bar for an output motion.", no_args_is_help=True, rich_markup_mode=None
-)
+synth = typer.Typer(help="Size a geared four-bar for an output motion.", no_args_is_help=True, rich_markup_mode=None)
 app.add_typer(synth, name="synth")
 
 
@@ -49,7 +56,8 @@ def _design_command(command: str, words: str) -> Callable[..., None]:
     def run(spec: Spec, options: Options) -> None:
         raise typer.Exit(run_line(command, spec, options))
 
-    run.__doc__ = f"{words}\n\nExample: gearlink {command} design.yaml --format json"
+    served = ", ".join(kind.name for kind in KINDS.values() if command in kind.commands)
+    run.__doc__ = f"{words}\n\nFor: {served}.\n\nExample: gearlink {command} design.yaml --format json"
     return run
 
 
@@ -128,6 +136,17 @@ register_bench(app)
 register_exploring(app)
 register_pictures(app)
 app.command("laws")(laws)
+
+
+@app.command("help")
+def _help(words: Annotated[list[str] | None, typer.Argument(metavar="COMMAND", help="command")] = None) -> None:
+    """Show the help of a command, as COMMAND --help does.
+
+    Example: gearlink help synth dwell
+    """
+    raise typer.Exit(invoke([*(words or ()), "--help"]))
+
+
 for _command in (*app.registered_commands, *synth.registered_commands):  # whole in the list of commands, not cut short
     _command.short_help = (_command.callback.__doc__ or "").strip().partition("\n")[0] if _command.callback else None
 
@@ -146,6 +165,7 @@ def _root(
 @cache
 def _tree() -> Callable[..., Any]:
     """The commands with their parameters, made once for all lines that a process runs."""
+    better_scripts()
     return typer.main.get_command(app)
 
 

@@ -69,6 +69,7 @@ class Option:
         least, most : bounds of a number
         repeatable : bool - each use adds a value
         stands_for : bool - what an option without a value sets
+        offers : str - function of `gearlink.cli.completing` that a shell asks on Tab
     """
 
     flags: tuple[str, ...]
@@ -79,6 +80,7 @@ class Option:
     most: float | None = None
     repeatable: bool = False
     stands_for: bool = True
+    offers: str = ""
 
 
 OPTIONS = {
@@ -87,9 +89,13 @@ OPTIONS = {
     "plot_format": Option(("--plot-format",), "file format of the picture", PlotFormat),
     "dpi": Option(("--dpi",), "pixels per inch of a png", int, least=20, most=1200),
     "out": Option(("--out",), "folder for files that are written", Path, "DIR"),
-    "overrides": Option(("--set",), "override a key (repeatable)", str, "PATH=VALUE", repeatable=True),
-    "quantities": Option(("--quantity",), "print only this quantity (repeatable)", str, "NAME", repeatable=True),
-    "tables": Option(("--table",), "add a table (repeatable)", str, "NAME", repeatable=True),
+    "overrides": Option(
+        ("--set",), "override a key (repeatable)", str, "PATH=VALUE", repeatable=True, offers="settings"
+    ),
+    "quantities": Option(
+        ("--quantity",), "print only this quantity (repeatable)", str, "NAME", repeatable=True, offers="quantities"
+    ),
+    "tables": Option(("--table",), "add a table (repeatable)", str, "NAME", repeatable=True, offers="tables"),
     "samples": Option(("--samples",), "rows per turn or stroke", int, least=2, most=10_000_000),
     "strict": Option(("--strict",), "treat a warning as a failure"),
     "color": Option(("--no-color",), "no colours, as with NO_COLOR=1", stands_for=False),

@@ -25,9 +25,25 @@ def option(name: str, **changed: Any) -> OptionInfo:
     """
     shared = replace(OPTIONS[name], **changed)
     info: OptionInfo = typer.Option(
-        *shared.flags, help=shared.help, metavar=shared.metavar, min=shared.least, max=shared.most
+        *shared.flags,
+        help=shared.help,
+        metavar=shared.metavar,
+        min=shared.least,
+        max=shared.most,
+        autocompletion=offers(shared.offers) if shared.offers else None,
     )
     return info
+
+
+def offers(name: str) -> Callable[[str], list[tuple[str, str]]]:
+    """What a shell is offered on Tab, by a function of `gearlink.cli.completing`, which is loaded when one asks."""
+
+    def found(incomplete: str) -> list[tuple[str, str]]:
+        from gearlink.cli import completing
+
+        return completing.offered(name, incomplete)
+
+    return found
 
 
 def takes(*names: str, **words: str) -> Callable[[Callable[..., None]], Callable[..., None]]:

@@ -160,3 +160,20 @@ KINDS: dict[str, Kind] = {
 STUDY = Kind("study", "study.spec:StudySpec", {"explore": "explore.exploration:Exploration"})
 FILES: dict[str, Kind] = {**KINDS, STUDY.name: STUDY}
 """Every kind of file: designs, and studies of many designs."""
+
+SUMMARIES = {
+    "three-gear-four-bar": "feed drive that dwells: gear on the crank, idler, output gear on the rocker's axis",
+    "gear-pair": "two gears in mesh",
+    "slider-crank": "offset slider-crank from its stroke",
+    "flatbed-press": "flatbed cylinder press: bed and cylinder chain, synchronous zone, compensation cam",
+    "swing-gripper": "swing gripper of a sheet-fed press: law, linkage, handover, cams",
+    "wide-swing-cam": "cam drive of a wide swing with a device that bears the inertia",
+    "gear-train-mobility": "degrees of freedom of a linkage that carries gear trains",
+    "mutilated-gear-dwell": "long dwell by a wheel with teeth left out",
+    "two-gear-four-bar": "planet on the coupler drives a sun or a ring on the crank's axis",
+    "geared-rocker": "rocker whose swing a gear on the coupler multiplies",
+    "geared-five-bar": "five-bar held by gears: path of a point, or output as a function of the input",
+    "hypocycloid-dwell": "slider that dwells on an arc of a hypocycloid",
+    "study": "search through many designs of one kind, for `gearlink explore`",
+}
+"""Each kind of file in a few words."""

@@ -10,7 +10,7 @@ import typer
 
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import Options
-from gearlink.cli.typer_options import option, takes
+from gearlink.cli.typer_options import offers, option, takes
 
 if TYPE_CHECKING:
     from gearlink.cli.reading.diagnostics import Diagnostic
@@ -22,7 +22,12 @@ _WHERE = "<--law>"
 @takes("format", "plot", "plot_format", "dpi", "out", "color", "quiet", plot="write the picture motion-laws.png")
 def laws(
     options: Options,
-    law: Annotated[list[str], typer.Option("--law", metavar="NAME", help="s, v, a, j of this law (repeatable)")] = [],  # noqa: B006 - Typer copies it
+    law: Annotated[
+        list[str],
+        typer.Option(
+            "--law", metavar="NAME", help="s, v, a, j of this law (repeatable)", autocompletion=offers("laws")
+        ),
+    ] = [],  # noqa: B006 - Typer copies it
     samples: Annotated[int | None, option("samples", help="steps of x; default: 100", least=1)] = None,
 ) -> None:
     """Constants Cv, Ca, Cj, Cm, kappa of every motion law; with --law, s, v, a, j of one law over x.

@@ -10,23 +10,29 @@ from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
 from gearlink.cli.exit_codes import ExitCode
+from gearlink.core.kinds import KINDS, SUMMARIES
 
 if TYPE_CHECKING:
     from gearlink.cli.texts.spec_keys import SpecKey
     from gearlink.core.kinds import Kind
 
+# Where several worked designs show a kind, the one to begin with.
+_PLAINEST = {"three-gear-four-bar": "standing_feed", "wide-swing-cam": "wide_swing_twin_cam"}
 _KIND = re.compile(r"^kind:\s*([\w-]+)", re.MULTILINE)
 
 
 def run_new(kind_name: str, out: Path | None, *, force: bool = False, quiet: bool = False) -> int:
     """Print the template of a kind or write it to a file; give the exit status."""
     from gearlink.cli.commands.kind_names import kind_named
-    from gearlink.cli.files import CannotWrite, write_atomically
+    from gearlink.cli.files import CannotWrite, stem_of, write_atomically
 
+    if not kind_name:
+        print(list_of_kinds())
+        return ExitCode.OK
     kind = kind_named(kind_name)
     if kind is None:
         return ExitCode.WRONG_INPUT
-    text = template(kind)
+    text = template(kind, "" if out is None else stem_of(out))
     if out is None:
         sys.stdout.write(text)
         return ExitCode.OK
@@ -54,13 +60,27 @@ def _refused(message: str, out: Path) -> int:
     return ExitCode.WRONG_INPUT
 
 
-def template(kind: Kind) -> str:
+def list_of_kinds() -> str:
+    """Each kind with a few words, and what to do with them."""
+    width = max(map(len, SUMMARIES))
+    lines = [f"{name:<{width}}  {words}" for name, words in SUMMARIES.items()]
+    return "\n".join(
+        [*lines, "", "`gearlink new KIND --out FILE.yaml` writes a design of that kind, ready to run and to change."]
+    )
+
+
+def template(kind: Kind, name: str = "") -> str:
     """The text of a template: the schema's line, the worked design, and the keys that it leaves out as comments.
 
+    Parameters
+        kind : Kind
+        name : what the design is called; empty: it is named after its file
     Raises
         LookupError - for a kind without a worked design in `gearlink.designs`
     """
     design = worked_design(kind)
+    if kind.name in KINDS:
+        design = _explained(kind, design, name)
     asked = first_command(kind, design)
     head = (
         f"# yaml-language-server: $schema={kind.name}.schema.json\n"
@@ -81,7 +101,17 @@ def worked_design(kind: Kind) -> str:
     own = {stem: text for stem, text in texts.items() if (found := _KIND.search(text)) and found[1] == kind.name}
     if not own:
         raise LookupError(f"no worked design of kind {kind.name} in gearlink.designs")
-    return own.get(kind.name.replace("-", "_"), own[min(own)])
+    return own.get(_PLAINEST.get(kind.name, kind.name.replace("-", "_")), own[min(own)])
+
+
+def _explained(kind: Kind, text: str, name: str) -> str:
+    """A worked design under another name, every key with its unit, its meaning and who chooses it."""
+    from gearlink.cli.texts.written_design import written
+
+    data, _ = _read(kind, text)
+    named = {"name": name} if name else {}
+    rest = {key: value for key, value in data.items() if key not in ("kind", "name")}
+    return written(kind, {"kind": kind.name, **named, **rest})
 
 
 def first_command(kind: Kind, text: str) -> str:
@@ -134,5 +164,5 @@ def _meaning(key: SpecKey) -> str:
     """Unit, meaning and range."""
     if key.section:
         return key.words
-    unit = "" if key.unit in ("", "1") else f"{key.unit}: "
+    unit = "" if key.unit in ("", "1", "teeth") else f"{key.unit}: "
     return unit + key.words + (f" ({key.range})" if key.range else "")

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from gearlink.cli.options import Options
-from gearlink.cli.typer_options import Spec, option, takes
+from gearlink.cli.typer_options import Spec, offers, option, takes
 
 
 class MovingFormat(StrEnum):
@@ -31,7 +31,9 @@ def register(app: typer.Typer) -> None:
 )
 def _chart(
     options: Options,
-    name: Annotated[str, typer.Argument(metavar="NAME", help="chart; default: list the charts")] = "",
+    name: Annotated[
+        str, typer.Argument(metavar="NAME", help="chart; default: list the charts", autocompletion=offers("charts"))
+    ] = "",
     design: Annotated[str, typer.Option("--design", metavar="SPEC", help="mark this design in the chart")] = "",
     range_: Annotated[str, typer.Option("--range", metavar="LOW:HIGH", help="range of the x axis")] = "",
     curves: Annotated[str, typer.Option("--curves", metavar="A,B,...", help="a curve for each parameter")] = "",

@@ -10,7 +10,8 @@ from typing import Annotated
 import typer
 
 from gearlink.cli.options import Format, Options
-from gearlink.cli.typer_options import option, takes
+from gearlink.cli.typer_options import offers, option, takes
+from gearlink.core.kinds import FILES
 
 
 class PageFormat(StrEnum):
@@ -38,22 +39,32 @@ def register(app: typer.Typer) -> None:
 
 @takes("quiet")
 def _new(
-    kind: Annotated[str, typer.Argument(metavar="KIND", help="kind of design, such as gear-pair")],
     options: Options,
+    kind: Annotated[
+        str,
+        typer.Argument(metavar="KIND", help="kind of design; default: list the kinds", autocompletion=offers("kinds")),
+    ] = "",
     out: Annotated[Path | None, option("out", metavar="FILE", help="file to write; default: the screen")] = None,
     force: Annotated[bool, typer.Option("--force", help="overwrite the file")] = False,
 ) -> None:
-    """Write a commented example of a design file, ready to run and to change.
-
-    Example: gearlink new gear-pair --out pair.yaml
-    """
     from gearlink.cli.commands.new import run_new
 
     raise typer.Exit(run_new(kind, out, force=force, quiet=options.quiet))
 
 
+_new.__doc__ = f"""Write a commented example of a design file, ready to run and to change; without KIND, list the kinds.
+
+    Kinds: {", ".join(FILES)}.
+
+    Example: gearlink new gear-pair --out pair.yaml
+    """
+
+
 def _schema(
-    kind: Annotated[str | None, typer.Argument(metavar="KIND", help="kind of design; default: all kinds")] = None,
+    kind: Annotated[
+        str | None,
+        typer.Argument(metavar="KIND", help="kind of design; default: all kinds", autocompletion=offers("kinds")),
+    ] = None,
 ) -> None:
     """JSON Schema (draft-07) of the design files, for editors that check and complete while you type.
 
@@ -67,10 +78,17 @@ def _schema(
 
 
 def _explain(
-    name: Annotated[str | None, typer.Argument(metavar="NAME", help="code, check, quantity, kind or law")] = None,
+    name: Annotated[
+        str | None,
+        typer.Argument(
+            metavar="NAME",
+            help="code, check, quantity, symbol, key, column, kind or law",
+            autocompletion=offers("explained"),
+        ),
+    ] = None,
     format: PageOption = PageFormat.TABLE,
 ) -> None:
-    """Explain a code, a check, a quantity, a kind of design or a motion law; without NAME, list the codes.
+    """Explain a code, check, quantity, symbol, key, column, kind or motion law; without NAME, list the codes.
 
     Example: gearlink explain GL301
     """

@@ -149,7 +149,7 @@ def test_command_that_does_not_fit_the_kind(gearlink: Any, crank: Path) -> None:
 
 
 def test_missing_section(gearlink: Any, designs: Path) -> None:
-    ended = gearlink("analyze", designs / "candy_feed.yaml", "--format", "json")
+    ended = gearlink("analyze", designs / "candy_feed.yaml", "--set", "dwell=null", "--format", "json")
     assert ended.status == ExitCode.WRONG_INPUT
     assert ended.json["errors"][0]["code"] == "GL113"
     assert ended.json["errors"][0]["key"] == "links"
@@ -161,12 +161,25 @@ def test_wrong_option_in_json(gearlink: Any, crank: Path) -> None:
     assert ended.json["errors"][0]["file"] == "<command line>"
 
 
+def test_every_command_stands_under_a_heading(gearlink: Any) -> None:
+    assert "More:" not in gearlink("--help").out
+
+
+@pytest.mark.parametrize("words", [(), ("synth",), ("synth", "dwell"), ("explain",)])
+def test_help_by_every_name(gearlink: Any, words: tuple[str, ...]) -> None:
+    wanted = gearlink(*words, "--help").out
+    assert wanted.startswith("Usage:")
+    assert gearlink(*words, "-h").out == wanted
+    assert gearlink("help", *words).out == wanted
+
+
 @pytest.mark.parametrize("arguments", [(), ("synth",)])
 def test_no_command_is_answered_with_help(gearlink: Any, arguments: tuple[str, ...]) -> None:
     ended = gearlink(*arguments)
     assert ended.status == ExitCode.WRONG_INPUT
-    assert "Commands:" in ended.err
-    assert "..." not in ended.err.partition("Commands:")[2]
+    heading = "Commands:" if arguments else "Find the way:"
+    assert heading in ended.err
+    assert "..." not in ended.err.partition(heading)[2]
 
 
 @pytest.mark.parametrize("value", ["1e300", "-1e300", "1e-300", "5e-324"])

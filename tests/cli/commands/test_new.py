@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import yaml
 from jsonschema import Draft7Validator
 
 from gearlink.cli.reading.design_file import load, validate
@@ -50,7 +51,9 @@ def test_printed_and_written_are_the_same(gearlink: Any, tmp_path: Path) -> None
     path = tmp_path / "folder" / "pair.yaml"
     printed = gearlink("new", "gear-pair").out
     ended = gearlink("new", "gear-pair", "--out", path)
-    assert path.read_text() == printed
+    assert [line for line in path.read_text().splitlines() if line.strip() != "name: pair"] == [
+        line for line in printed.splitlines() if not line.startswith("# name: ")
+    ]
     assert f"wrote {path}" in ended.err
     assert gearlink("new", "gear-pair", "--out", tmp_path / "other.yaml", "--quiet").err == ""
 
@@ -96,3 +99,41 @@ def test_unknown_kind_names_all_kinds(gearlink: Any) -> None:
 
 def test_help_has_an_example(gearlink: Any) -> None:
     assert "Example: gearlink new" in gearlink("new", "--help").out
+
+
+def test_without_a_kind_the_kinds_are_listed(gearlink: Any) -> None:
+    ended = gearlink("new")
+    assert ended.status == 0
+    for kind in KINDS:
+        assert re.search(rf"^{kind} +\S+", ended.out, re.MULTILINE), kind
+        assert kind in gearlink("new", "--help").out.replace("-\n  ", "-"), kind
+
+
+def test_a_design_is_named_after_its_file(gearlink: Any, tmp_path: Path) -> None:
+    for name in ("one", "two"):
+        gearlink("new", "gear-pair", "--out", tmp_path / f"{name}.yaml", "--quiet")
+        assert load(str(tmp_path / f"{name}.yaml")).data["name"] == name
+    assert "name" not in yaml.safe_load(gearlink("new", "gear-pair").out)
+
+
+@pytest.mark.parametrize("kind", sorted(set(KINDS) - {"gear-train-mobility", "study"}))
+def test_every_key_that_is_there_says_unit_meaning_and_whose_choice_it_is(gearlink: Any, kind: str) -> None:
+    keys = {key.path: key for key in spec_keys(KINDS[kind])}
+    text, path = gearlink("new", kind).out, []
+    for line in text.partition("# Keys that this file leaves out")[0].splitlines():
+        if not (found := re.fullmatch(r"( *)(\w+):( [^#]*?)? +# (.+)", line)):
+            assert not line or line.startswith(("#", "  - ")), line
+            continue
+        path = [*path[: len(found[1]) // 2], found[2]]
+        key = keys[".".join(path)]
+        if key.path == "kind":
+            continue
+        unit = "" if key.unit in ("", "1", "teeth") else f"{key.unit}: "
+        assert found[4].startswith(unit), line
+        assert key.words.rstrip(".")[1:] in found[4], line
+        assert key.section or found[4].endswith(("; yours to choose", "; may be left out")) or "; default " in found[4]
+
+
+def test_the_first_wide_swing_is_the_plain_one(gearlink: Any) -> None:
+    data = yaml.safe_load(gearlink("new", "wide-swing-cam").out)
+    assert not {"drive", "slider", "cycle"} & set(data)

@@ -1,0 +1,176 @@
+"""What a shell offers on Tab: kinds, codes and words to explain, quantities and tables of the design, keys for --set.
+
+A shell asks by running gearlink with the line in its environment; a design file among the words of the line decides
+which quantities and keys there are. What cannot be read offers what every kind has.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import shlex
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING, TypeAlias
+
+if TYPE_CHECKING:
+    from gearlink.core.kinds import Kind
+
+Offer: TypeAlias = list[tuple[str, str]]
+_KIND = re.compile(r"^\W*kind\W+([\w-]+)", re.MULTILINE)
+_ENOUGH = 65_536
+_LINES = ("COMP_WORDS", "_TYPER_COMPLETE_ARGS")
+
+
+def kinds(incomplete: str) -> Offer:
+    """Kinds of design files."""
+    from gearlink.core.kinds import SUMMARIES
+
+    return _beginning(incomplete, SUMMARIES.items())
+
+
+def explained(incomplete: str) -> Offer:
+    """Everything that `explain` knows."""
+    from gearlink.cli.commands.explain import names
+
+    return _beginning(incomplete, ((name, "") for name in names()))
+
+
+def laws(incomplete: str) -> Offer:
+    """Names of the motion laws."""
+    from gearlink.core.cams.laws import REST_TO_REST, REST_TO_SPEED
+
+    return _beginning(incomplete, ((name, "") for name in (*REST_TO_REST, *REST_TO_SPEED)))
+
+
+def charts(incomplete: str) -> Offer:
+    """Names of the design charts."""
+    from gearlink.cli.figures.chart_list import CHARTS
+
+    return _beginning(incomplete, ((name, "") for name in CHARTS))
+
+
+def quantities(incomplete: str) -> Offer:
+    """Quantities of the design file on the line, with what they mean."""
+    from gearlink.core.nomenclature import TERMS, term
+
+    names = _of_design("quantity_names") or TERMS
+    return _beginning(incomplete, ((name, term(name).words) for name in names))
+
+
+def tables(incomplete: str) -> Offer:
+    """Tables of the design file on the line."""
+    return _beginning(incomplete, ((name, "") for name in _of_design("table_names")))
+
+
+def settings(incomplete: str) -> Offer:
+    """Keys of the design file on the line, as `--set` takes them."""
+    from gearlink.cli.texts.spec_keys import spec_keys
+    from gearlink.core.kinds import KINDS
+
+    kind, _ = _design()
+    keys = [key for each in ([kind] if kind else KINDS.values()) for key in spec_keys(each)]
+    return _beginning(
+        incomplete, ((f"{key.path}=", key.words) for key in keys if not key.section and key.path != "kind")
+    )
+
+
+def _beginning(incomplete: str, offers: Iterable[tuple[str, str]]) -> Offer:
+    """Those that begin as the word does; letters count alike, large or small."""
+    start = incomplete.casefold()
+    return list({name: words for name, words in offers if name.casefold().startswith(start)}.items())
+
+
+def _of_design(names: str) -> tuple[str, ...]:
+    """Names that the design class of the line gives: of the command on the line, else of all of the kind."""
+    kind, words = _design()
+    if kind is None:
+        return ()
+    asked = [command for command in kind.commands if command.split() == words[1 : 1 + len(command.split())]]
+    found: dict[str, None] = {}
+    for command in asked or kind.commands:
+        found |= dict.fromkeys(getattr(kind.design_class(command), names)())
+    return tuple(found)
+
+
+def _design() -> tuple[Kind | None, list[str]]:
+    """The kind of the first design file on the line, and the words of the line."""
+    from gearlink.core.kinds import KINDS
+
+    words = _words()
+    for text in _texts(words):
+        if (found := _KIND.search(text)) and found[1] in KINDS:
+            return KINDS[found[1]], words
+    return None, words
+
+
+def _words() -> list[str]:
+    line = next((os.environ[name] for name in _LINES if os.environ.get(name)), "")
+    try:
+        return shlex.split(line.replace("\n", " "))
+    except ValueError:  # a quote that is still open
+        return line.split()
+
+
+def _texts(words: list[str]) -> Iterator[str]:
+    for word in words[1:]:
+        path = os.path.expanduser(word)
+        if os.path.isfile(path):
+            try:
+                with open(path, "rb") as stream:
+                    yield stream.read(_ENOUGH).decode(errors="replace")
+            except OSError:
+                continue
+
+
+def offered(name: str, incomplete: str) -> Offer:
+    """What one of the functions above offers; nothing where it fails, since a fault must not spoil the line."""
+    try:
+        found: Offer = globals()[name](incomplete)
+    except Exception:
+        return []
+    return found
+
+
+BASH = """
+%(complete_func)s() {
+    local IFS=$'\\n'
+    COMPREPLY=( $( env COMP_WORDS="${COMP_WORDS[*]}" \\
+                   COMP_CWORD=$COMP_CWORD \\
+                   %(autocomplete_var)s=complete_bash $1 2>/dev/null ) )
+    [[ ${#COMPREPLY[@]} -eq 1 && ${COMPREPLY[0]} == *= ]] && compopt -o nospace
+    return 0
+}
+
+complete -o default -F %(complete_func)s %(prog_name)s
+"""
+"""Typer's script, which after a key for --set leaves the cursor behind the =."""
+
+ZSH = """
+#compdef %(prog_name)s
+
+%(complete_func)s() {
+  local line="${words[1,$CURRENT]}"
+  local offer="$(env _TYPER_COMPLETE_ARGS=$line %(autocomplete_var)s=complete_zsh %(prog_name)s 2>/dev/null)"
+  if [[ "${words[CURRENT-1]}" == --set ]]; then
+    compadd() { builtin compadd -S "" "$@" }
+    eval $offer
+    unfunction compadd
+  else
+    eval $offer
+  fi
+}
+
+if [[ "${funcstack[1]}" == _%(prog_name)s ]]; then
+  %(complete_func)s "$@"
+else
+  compdef %(complete_func)s %(prog_name)s
+fi
+"""
+"""Typer's script, which as an autoloaded function completes from the first Tab on."""
+
+
+def better_scripts() -> None:
+    """Let --install-completion and --show-completion give these scripts."""
+    from typer import _completion_shared
+
+    _completion_shared._completion_scripts |= {"bash": BASH, "zsh": ZSH}

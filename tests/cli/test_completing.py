@@ -1,0 +1,132 @@
+"""What Tab offers: by the functions, and by the script that a real bash, zsh or fish runs. No tolerances: words."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from factory import DESIGNS
+
+from gearlink.cli import completing
+from gearlink.core.kinds import FILES, KINDS, SUMMARIES
+
+BIN = Path(sys.executable).parent
+
+
+@pytest.fixture
+def line(monkeypatch: pytest.MonkeyPatch) -> pytest.MonkeyPatch:
+    monkeypatch.setenv("COMP_WORDS", f"gearlink press {DESIGNS / 'ty460.yaml'} --quantity cr")
+    return monkeypatch
+
+
+def words(offers: list[tuple[str, str]]) -> list[str]:
+    return [name for name, _ in offers]
+
+
+def test_kinds_have_a_summary_each() -> None:
+    assert list(SUMMARIES) == list(FILES)
+    assert words(completing.kinds("wide")) == ["wide-swing-cam"]
+
+
+def test_codes_quantities_and_laws_to_explain() -> None:
+    assert "GL301" in words(completing.explained("gl30"))
+    assert "frame_length" in words(completing.explained("frame_"))
+    assert words(completing.laws("modified-s")) == ["modified-sine"]
+    assert words(completing.charts("back")) == ["back-step"]
+
+
+def test_quantities_and_tables_are_those_of_the_design_and_the_command(line: pytest.MonkeyPatch) -> None:
+    assert words(completing.quantities("crank_")) == ["crank_length"]
+    assert completing.tables("pos") == [("positions", "")]
+    line.setenv("COMP_WORDS", "gearlink press nowhere.yaml")
+    assert "cusps" in words(completing.quantities(""))
+    assert completing.tables("") == []
+
+
+def test_keys_are_those_of_the_design(line: pytest.MonkeyPatch) -> None:
+    assert words(completing.settings("cam.base")) == ["cam.base_radius="]
+    assert "gears.idler=" not in words(completing.settings(""))
+    line.setenv("COMP_WORDS", "gearlink press 'an open quote")
+    assert "gears.idler=" in words(completing.settings("gears."))
+
+
+def test_a_fault_offers_nothing(line: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    assert completing.offered("nonsense", "") == []
+    folder = tmp_path / "x.yaml"
+    folder.write_bytes(b"\xff\xfekind: gear-pair\x00")
+    line.setenv("COMP_WORDS", f"gearlink gear {folder}")
+    assert completing.offered("quantities", "contact_r")
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_every_kind_has_keys_and_quantities_to_offer(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, name: str
+) -> None:
+    path = tmp_path / "x.yaml"
+    path.write_text(f"# a comment\nkind: {name}\n")
+    monkeypatch.setenv("COMP_WORDS", f"gearlink analyze {path} ")
+    assert completing.settings("")
+    assert completing.quantities("")
+
+
+LINES = [
+    ("gearlink sy", "synth"),
+    ("gearlink new wide", "wide-swing-cam"),
+    ("gearlink explain GL30", "GL301"),
+    (f"gearlink analyze {DESIGNS / 'ty460.yaml'} --set cylinder.ra", "cylinder.radius="),
+    ("gearlink laws --law modified-s", "modified-sine"),
+]
+
+
+def asked(shell: str, line: str) -> str:
+    """What the installed script gets for a line: bash runs its function, the others their question."""
+    env = {**os.environ, "PATH": f"{BIN}:{os.environ['PATH']}"}
+    env.pop("_GEARLINK_COMPLETE", None)
+    if shell == "bash":
+        script = subprocess.run(
+            ["bash", "-c", f"source <({_script('bash')}); COMP_WORDS=({line}); COMP_CWORD=$((${{#COMP_WORDS[@]}}-1)); "
+             '_gearlink_completion gearlink; printf "%s\\n" "${COMPREPLY[@]}"'],
+            env=env, capture_output=True, text=True, check=False,
+        )  # fmt: skip
+        return script.stdout
+    env |= {"_TYPER_COMPLETE_ARGS": line, "_GEARLINK_COMPLETE": f"complete_{shell}"}
+    env |= {"_TYPER_COMPLETE_FISH_ACTION": "get-args"}
+    return subprocess.run(["gearlink"], env=env, capture_output=True, text=True, check=False).stdout
+
+
+def _script(shell: str) -> str:
+    code = (
+        "from gearlink.cli.completing import BASH, ZSH; "
+        f"print({shell.upper()} % dict(complete_func='_gearlink_completion', prog_name='gearlink', "
+        "autocomplete_var='_GEARLINK_COMPLETE'))"
+    )
+    return f'{sys.executable} -c "{code}"'
+
+
+@pytest.mark.parametrize(("line", "wanted"), LINES[:1] + LINES[3:4])
+@pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
+def test_a_shell_is_answered(shell: str, line: str, wanted: str) -> None:
+    assert wanted in asked(shell, line)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("line", "wanted"), LINES)
+@pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
+def test_every_sort_of_word_is_completed(shell: str, line: str, wanted: str) -> None:
+    assert wanted in asked(shell, line)
+
+
+@pytest.mark.parametrize("shell", ["bash", "zsh"])
+def test_the_scripts_are_valid_and_those_that_are_installed(shell: str) -> None:
+    import typer._completion_shared as shared
+
+    completing.better_scripts()
+    script = shared.get_completion_script(prog_name="gearlink", complete_var="_GEARLINK_COMPLETE", shell=shell)
+    assert ("nospace" in script) if shell == "bash" else ("funcstack" in script)
+    if shutil.which(shell):
+        checked = subprocess.run([shell, "-n", "-c", script], capture_output=True, text=True, check=False)
+        assert (checked.returncode, checked.stderr) == (0, "")
