@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from functools import wraps
+from importlib import import_module
 from inspect import Parameter, signature
 from typing import Annotated, Any
 
@@ -39,9 +40,9 @@ def offers(name: str) -> Callable[[str], list[tuple[str, str]]]:
     """What a shell is offered on Tab, by a function of `gearlink.cli.completing`, which is loaded when one asks."""
 
     def found(incomplete: str) -> list[tuple[str, str]]:
-        from gearlink.cli import completing
-
-        return completing.offered(name, incomplete)
+        completing = import_module("gearlink.cli.completing")  # which knows the commands that use these options
+        offer: list[tuple[str, str]] = completing.offered(name, incomplete)
+        return offer
 
     return found
 
