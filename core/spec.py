@@ -117,6 +117,13 @@ class _LawNames:
 MotionLaw = Annotated[str | dict[str, Any], _LawNames()]
 
 
+class LoadLimits(Spec):
+    """Limits of the checks of the loads."""
+
+    torque_margin: Ratio = Field(1.0, description="the motor's torque over the one needed, at least")
+    frequency_ratio: Ratio = Field(10.0, description="natural frequency of the output over that of the input, at least")
+
+
 class GearLimits(Spec):
     """Limits of the gear checks."""
 

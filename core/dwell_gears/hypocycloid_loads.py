@@ -31,6 +31,12 @@ class HypocycloidDwellLoads(LoadsDesign):
         """The geometry."""
         return HypocycloidDwell(self.spec)
 
+    @property
+    def quiet_zones(self) -> list[tuple[float, float]]:
+        """The dwell, about the middle of the arc."""
+        angle = self.design.dwell_carrier_angle
+        return [(-0.5 * angle, angle)]
+
     def kinematics(self, phi: Reals) -> Mechanism:
         """The four links at carrier angles, the ring's centre at 0."""
         from gearlink.core.loads.kinematics import fixed, slider, standing, steady

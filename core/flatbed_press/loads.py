@@ -52,6 +52,17 @@ class PressLoads(LoadsDesign):
         return self.design.input_speed
 
     @property
+    def quiet_zones(self) -> list[tuple[float, float]]:
+        """The synchronous zone."""
+        motion = self.design.motion
+        return [(motion.sync_start, motion.sync_end - motion.sync_start)]
+
+    @property
+    def transmission_angle(self) -> float:
+        """The lesser of both chains [rad]."""
+        return min(self.design.min_transmission_angle_bed, self.design.min_transmission_angle_cylinder)
+
+    @property
     def unknown_joints(self) -> tuple[str, ...]:
         """Bearings whose forces depend on where the gears' axes stand."""
         gears = () if self.section.gear_1_direction is not None else ("A", "G")

@@ -16,6 +16,7 @@ from gearlink.core.spec import (
     Distance,
     GearLimits,
     Length,
+    LoadLimits,
     MotionLaw,
     PressureAngle,
     Ratio,
@@ -120,7 +121,7 @@ class PressSize(Spec):
     )
 
 
-class PressLimits(GearLimits):
+class PressLimits(GearLimits, LoadLimits):
     """Limits of the checks."""
 
     transmission_angle: AcuteAngle = Field(30.0, description="least transmission angle of both chains")

@@ -24,10 +24,20 @@ from gearlink.core.gears.spec_parts import (
     exclude_each_other,
     require_teeth,
 )
-from gearlink.core.spec import Coefficient, Deferred, DesignSpec, GearLimits, Length, PressureAngle, Ratio, SignedLength
+from gearlink.core.spec import (
+    Coefficient,
+    Deferred,
+    DesignSpec,
+    GearLimits,
+    Length,
+    LoadLimits,
+    PressureAngle,
+    Ratio,
+    SignedLength,
+)
 
 
-class PairLimits(GearLimits):
+class PairLimits(GearLimits, LoadLimits):
     """Limits of the checks of a gear pair."""
 
     backlash: SignedLength = Field(0.0, description="least normal backlash; below it a warning")

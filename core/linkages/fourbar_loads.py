@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from gearlink.core.linkages import fourbar_sweep
 from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.loads.dynamics import Mass
 from gearlink.core.loads.kinematics import Turn, carried, fixed, steady
 from gearlink.core.loads.mechanism import FRAME, Link, Pin
 from gearlink.core.numerics.arrays import Reals
@@ -45,3 +48,30 @@ def four_bar_pins(links: dict[str, Link], linkage: FourBar) -> list[Pin]:
         Pin("C", "coupler", "rocker", links["rocker"].at(linkage.rocker * MM).value),
         Pin("D", FRAME, "rocker", links["rocker"].origin.value),
     ]
+
+
+def full_balance(linkage: FourBar, masses: Mapping[str, Mass], at_c: float = 0.0) -> dict[str, complex]:
+    """Mass moments of the counterweights that take the whole shaking force of a four-bar away.
+
+    U_1 = -[m1 z1 + m2 a (1 - z2/b)],  U_3 = -[m3 z3 + m2 c z2/b + m_C c]
+
+    Parameters
+        linkage : FourBar [mm]
+        masses : by link - crank, coupler, rocker, in SI units
+        at_c : float [kg] - mass of what turns on C
+    Returns
+        moments : complex [kg m] by link - of crank and rocker, in their coordinates
+    Example
+        >>> full_balance(FourBar(40.0, 120.0, 100.0, 140.0), {"crank": Mass(2.0, 0.0, 0.01)})
+        {'crank': (-0.02+0j), 'rocker': (-0-0j)}
+
+    Source
+        linearly independent vectors (Berkof and Lowen, 1969)
+    """
+    a, b, c = linkage.crank * MM, linkage.coupler * MM, linkage.rocker * MM
+    crank, coupler, rocker = (masses.get(name, Mass()) for name in ("crank", "coupler", "rocker"))
+    share = coupler.center / b
+    return {
+        "crank": -(crank.mass * crank.center + coupler.mass * a * (1.0 - share)),
+        "rocker": -(rocker.mass * rocker.center + coupler.mass * c * share + at_c * c),
+    }

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.errors import at_key
 from gearlink.core.linkages.slider_crank import SliderCrank
-from gearlink.core.loads.design import LoadsDesign, loads_outline
+from gearlink.core.loads.design import BALANCE, LoadsDesign, loads_outline
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
@@ -24,13 +24,34 @@ class SliderCrankLoads(LoadsDesign):
     spec: SliderCrankSpec
     links, sliding = ("crank", "rod", "slider"), ("slider",)
     pins, meshes = ("D", "E", "F"), ()
-    outlines = loads_outline(pins, meshes)
+    outlines = loads_outline(pins, meshes, BALANCE)
 
     @cached_property
     def slider_crank(self) -> SliderCrank:
         """The geometry."""
         with at_key("stroke"):
             return SliderCrank(self.spec.stroke, self.spec.rod, self.spec.offset)
+
+    def counterweights(self) -> dict[str, complex]:
+        """One on the crank, for the rotating masses and a share of the reciprocating ones.
+
+        U = -[m1 z1 + r (m2 (1 - z2/L) + kappa (m3 + m2 z2/L))]
+        """
+        from gearlink.core.numerics.roots import maximum
+
+        share = self.section.balance.reciprocating_share
+        if share == "best":
+            share = maximum(lambda kappa: -self.balanced_force({"crank": self._counterweight(kappa)}), 0.0, 1.0)[0]
+        return {"crank": self._counterweight(float(share))}
+
+    def _counterweight(self, share: float) -> complex:
+        from gearlink.core.loads.dynamics import Mass
+
+        crank, rod, slider = (self.masses.get(name, Mass()) for name in self.links)
+        part = rod.center / (self.spec.rod * _MM)
+        reciprocating = slider.mass + rod.mass * part
+        radius = self.slider_crank.crank_length * _MM
+        return -(crank.mass * crank.center + radius * (rod.mass * (1.0 - part) + share * reciprocating))
 
     def kinematics(self, phi: Reals) -> Mechanism:
         """The three links at crank angles, D at 0."""

@@ -6,10 +6,18 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 
-from gearlink.core.spec import AcuteAngle, Deferred, DrivenSpec, Length, SignedLength, Spec, require_offset_below_rod
+from gearlink.core.spec import (
+    AcuteAngle,
+    Deferred,
+    DrivenSpec,
+    Length,
+    LoadLimits,
+    SignedLength,
+    require_offset_below_rod,
+)
 
 
-class SliderLimits(Spec):
+class SliderLimits(LoadLimits):
     """Limits of the checks."""
 
     transmission_angle: AcuteAngle = Field(40.0, description="least transmission angle, 90 deg less the rod's lean")

@@ -7,10 +7,10 @@ from typing import Annotated
 from pydantic import Field
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.spec import AcuteAngle, Distance, GearLimits, Length, SignedLength, Spec
+from gearlink.core.spec import AcuteAngle, Distance, GearLimits, Length, LoadLimits, SignedLength, Spec
 
 
-class LinkageLimits(GearLimits):
+class LinkageLimits(GearLimits, LoadLimits):
     """Limits of the checks."""
 
     transmission_angle: AcuteAngle = Field(40.0, description="least transmission angle")

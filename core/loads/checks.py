@@ -2,16 +2,33 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from gearlink.core.loads.codes import POWER_IDENTITY
-from gearlink.core.report import Check
+from gearlink.core.loads import codes
+from gearlink.core.report import Check, safely_above
 
 if TYPE_CHECKING:
     from gearlink.core.loads.design import LoadsDesign
 
-CHECKS = ("power-identity",)
+CHECKS = (
+    "power-identity",
+    "load-reversal",
+    "motor-torque",
+    "speed-fluctuation",
+    "bearing-life",
+    "force-amplification",
+    "impact",
+    "self-locking",
+)
 _IDENTITY = 1e-9
+_NEAR = 0.9
+_LEAST_LIFE_MARGIN = 1.2
+_AMPLIFICATION = 5.0
+_SWING_PER_BODY = 2.0 * 360.0
+_SWING_UNKNOWN = 20.0
+_NEAR_LOCKING = 0.5
 
 
 def power_identity(design: LoadsDesign) -> Check:
@@ -19,5 +36,137 @@ def power_identity(design: LoadsDesign) -> Check:
     found = design.power_identity
     text = f"the input torque by virtual power and by the joint forces differ by {found:.1e} of the largest"
     if found <= _IDENTITY:
-        return POWER_IDENTITY.check("pass", text, found, _IDENTITY)
-    return POWER_IDENTITY.check("fail", f"{text}: the links come too near to a dead point", found, _IDENTITY)
+        return codes.POWER_IDENTITY.check("pass", text, found, _IDENTITY)
+    return codes.POWER_IDENTITY.check("fail", f"{text}: the links come too near to a dead point", found, _IDENTITY)
+
+
+def load_reversal(design: LoadsDesign) -> Iterator[Check]:
+    """GL602: each mesh."""
+    backlash = design.section.backlash
+    for name, mesh in design.meshes_found.items():
+        places = [math.degrees(place) for place in mesh.reversal_places]
+        play = backlash.get(name) if isinstance(backlash, dict) else backlash
+        if not places:
+            text = f"{name}: the teeth stay on one flank"
+            yield codes.LOAD_REVERSAL.check("pass", text, 0.0, 0.0)
+            continue
+        listed = ", ".join(f"{place:.5g}" for place in places[:6]) + (", ..." if len(places) > 6 else "")
+        text = f"{name}: the teeth change flanks {len(places)} times over the period, at {listed} deg"
+        inside = [place for place in places if design.is_quiet(math.radians(place))]
+        if inside and play:
+            lag = math.degrees(0.5e-3 * play / mesh.radius)
+            text += (
+                f"; that at {inside[0]:.5g} deg lies where the output must stand or run true: it lags by {lag:.3g} deg"
+            )
+            yield codes.LOAD_REVERSAL.check("fail", f"{text}; load the output one way", float(len(places)), 0.0)
+        else:
+            yield codes.LOAD_REVERSAL.check("warn", f"{text}: it rattles there", float(len(places)), 0.0)
+
+
+def motor_torque(design: LoadsDesign) -> Iterator[Check]:
+    """GL603: peak against the greatest torque, root mean square against the rated one."""
+    motor, running = design.section.motor, design.running
+    if motor is None:
+        return
+    margin = design.limit("torque_margin")
+    pairs = (("peak", running.motor_peak, motor.max_torque), ("rms", running.motor_rms, motor.rated_torque))
+    for words, value, limit in pairs:
+        if value is None or limit is None:
+            continue
+        bound = limit / margin
+        text = f"{words} of the motor's torque is {value:.5g} N m"
+        remedy = f"take a motor of {safely_above(value * margin, 4)} N m or more, or a heavier flywheel"
+        if value > bound:
+            yield codes.MOTOR_TORQUE.check("fail", f"{text}, above {bound:.5g}: {remedy}", value, bound, "N m")
+        elif value > _NEAR * bound:
+            yield codes.MOTOR_TORQUE.check("warn", f"{text}, little below {bound:.5g}: {remedy}", value, bound, "N m")
+        else:
+            yield codes.MOTOR_TORQUE.check("pass", text, value, bound, "N m")
+
+
+def speed_fluctuation(design: LoadsDesign) -> Iterator[Check]:
+    """GL604, where the file has a flywheel."""
+    flywheel, running = design.section.flywheel, design.running
+    if flywheel is None:
+        return
+    if running.stops:
+        text = f"the machine stops: its load takes more than is stored in {running.inertia:.5g} kg m^2 of flywheel"
+        remedy = "give loads.flywheel: {fluctuation: 0.05} alone to have the least one found"
+        yield codes.SPEED_FLUCTUATION.check("fail", f"{text}; {remedy}", running.inertia, None, "kg m^2")
+        return
+    allowed, found = flywheel.fluctuation, running.fluctuation
+    if allowed is None:
+        return
+    text = f"the speed varies by {found:.4g} of its mean"
+    if found > allowed * (1.0 + 1e-9):
+        needed = safely_above(running.needed or 0.0, 4)
+        message = f"{text}, more than {allowed:g}: set loads.flywheel.inertia to {needed}"
+        yield codes.SPEED_FLUCTUATION.check("fail", message, found, allowed)
+    elif found > _NEAR * allowed and flywheel.inertia is not None:
+        yield codes.SPEED_FLUCTUATION.check("warn", f"{text}, little below {allowed:g}", found, allowed)
+    else:
+        yield codes.SPEED_FLUCTUATION.check("pass", text, found, allowed)
+
+
+def bearing_life(design: LoadsDesign) -> Iterator[Check]:
+    """GL606, for the bearings of the file."""
+    for name in design.section.bearings:
+        pin = design.pins_found.get(name)
+        if pin is None:
+            continue
+        bearing, life = pin.bearing, pin.life
+        if bearing.kind != "plain" and pin.swing is not None:
+            bodies = bearing.rolling_bodies
+            least = _SWING_PER_BODY / bodies if bodies else _SWING_UNKNOWN
+            swing = math.degrees(pin.swing)
+            if swing < least:
+                text = f"the bearing of {name} swings only {swing:.4g} deg, below {least:.4g}: its rating life does not"
+                yield codes.BEARING_LIFE.check("warn", f"{text} hold; take a plain bearing", swing, least, "deg")
+        if life is None or bearing.life is None:
+            continue
+        text = f"the bearing of {name} has a rating life of {life:.5g} h"
+        if life < bearing.life:
+            rating = bearing.dynamic_rating * (bearing.life / life) ** (1.0 / pin.exponent)
+            message = f"{text}, below {bearing.life:g}: it needs a dynamic rating of {safely_above(rating, 4)} N"
+            yield codes.BEARING_LIFE.check("fail", message, life, bearing.life, "h")
+        elif life < _LEAST_LIFE_MARGIN * bearing.life:
+            yield codes.BEARING_LIFE.check("warn", f"{text}, little above {bearing.life:g}", life, bearing.life, "h")
+        else:
+            yield codes.BEARING_LIFE.check("pass", text, life, bearing.life, "h")
+
+
+def force_amplification(design: LoadsDesign) -> Iterator[Check]:
+    """GL612, for machines with a transmission angle."""
+    least = design.transmission_angle
+    if least is None:
+        return
+    found = 1.0 / math.sin(least)
+    text = f"the least transmission angle {math.degrees(least):.4g} deg makes pin forces {found:.4g} times as large"
+    if found > _AMPLIFICATION:
+        message = f"{text} as at 90 deg: change the links for a larger one"
+        yield codes.FORCE_AMPLIFICATION.check("warn", message, found, _AMPLIFICATION)
+    else:
+        yield codes.FORCE_AMPLIFICATION.check("pass", f"{text} as at 90 deg", found, _AMPLIFICATION)
+
+
+def impact(design: LoadsDesign) -> Iterator[Check]:
+    """GL614, for machines whose speed jumps."""
+    energy = getattr(design, "engagement_energy", None)
+    if energy is not None:
+        text = f"the driven gear starts and stops at once: {energy:.4g} J each time, the force of it is not finite"
+        yield codes.IMPACT.check(
+            "warn", f"{text}; cut the first and the last tooth, or add entry cams", energy, 0.0, "J"
+        )
+
+
+def self_locking(design: LoadsDesign) -> Iterator[Check]:
+    """GL615, with friction."""
+    if design.machine.friction is None:
+        return
+    ratio = design.machine.locking_ratio
+    text = f"a pass of the friction changes the forces by {ratio:.3g} of the pass before"
+    if ratio > _NEAR_LOCKING:
+        message = f"{text}: near self-locking; take thinner pins or less friction"
+        yield codes.SELF_LOCKING.check("warn", message, ratio, _NEAR_LOCKING)
+    else:
+        yield codes.SELF_LOCKING.check("pass", text, ratio, _NEAR_LOCKING)

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from gearlink.core.design import Design, Outline
+from gearlink.core.design import Design, Outline, placed
 from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.loads import checks, tables
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
     from gearlink.core.loads.dynamics import Mass
+    from gearlink.core.loads.flywheel import Energy
     from gearlink.core.loads.machine import Machine
     from gearlink.core.loads.mechanism import Mechanism
+    from gearlink.core.loads.running import Running
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.numerics.extremes import Extreme
 
@@ -33,10 +36,25 @@ TORQUE = (
     "torque_reversals",
     "energy_fluctuation",
 )
+RUN = (
+    "flywheel_inertia",
+    "speed_min",
+    "speed_max",
+    "speed_fluctuation",
+    "motor_torque_rms",
+    "motor_torque_peak",
+)
 FRAME = ("shaking_force_max", "shaking_moment_max")
-PIN = ("peak", "equivalent", "travel")
+BALANCE = (
+    "counterweight_crank",
+    "counterweight_crank_direction",
+    "counterweight_rocker",
+    "counterweight_rocker_direction",
+    "balanced_force_max",
+)
+PIN = ("peak", "equivalent", "travel", "life", "bearing_pressure")
 MESH = ("tooth_force_max", "reversals")
-TABLES = ("torque", "joints", "teeth", "frame")
+TABLES = ("torque", "joints", "teeth", "frame", "speed")
 RPM = 2.0 * math.pi / 60.0
 
 
@@ -44,7 +62,7 @@ def loads_outline(pins: tuple[str, ...], meshes: tuple[str, ...], more: tuple[st
     """The outline of `loads` for a machine with these joints."""
     own = [f"pin_{pin}.{name}" for pin in pins for name in PIN]
     own += [f"{mesh}.{name}" for mesh in meshes for name in MESH]
-    names = (*TORQUE, *FRAME, *more, *own, "power_identity")
+    names = (*TORQUE, *RUN, *FRAME, *more, *own, "power_identity")
     return {"loads": Outline(names, checks.CHECKS, ("torque",))}
 
 
@@ -266,17 +284,52 @@ class LoadsDesign(Design):
         return self.machine.mean(lambda phi: self.machine.reduced(phi).inertia)
 
     @cached_property
-    def energy(self) -> Any:
+    def energy(self) -> Energy:
         """Energy that flywheel and masses take up at a constant drive torque, the mean of the load."""
         from gearlink.core.loads.flywheel import Energy
 
         return Energy.of(self.machine)
 
-    @cached_property
+    @property
     def energy_fluctuation(self) -> float:
         """Greatest less least energy surplus over the period [J]."""
-        surplus = self.energy.surplus
-        return self.extreme(surplus).value - self.extreme(surplus, False).value
+        return self.energy.fluctuation
+
+    @cached_property
+    def running(self) -> Running:
+        """Flywheel, motor, and the speed over the input angle."""
+        from gearlink.core.loads.running import Running
+
+        return Running(self)
+
+    @property
+    def flywheel_inertia(self) -> float | None:
+        """Flywheel for the fluctuation of the file [kg m^2]."""
+        return self.running.needed
+
+    def _of_run(self, value: Callable[[], float]) -> float | None:
+        """A result of the run, where the file has a flywheel or a motor and the machine does not stop."""
+        if self.section.flywheel is None and self.section.motor is None:
+            return None
+        return None if self.running.stops else value()
+
+    @property
+    def speed_min(self) -> float | None:
+        """Least speed of the input [1/min]."""
+        return self._of_run(lambda: self.running.range[0])
+
+    @property
+    def speed_max(self) -> float | None:
+        """Greatest speed of the input [1/min]."""
+        return self._of_run(lambda: self.running.range[1])
+
+    @property
+    def speed_fluctuation(self) -> float | None:
+        """(greatest - least)/mean speed."""
+        return self._of_run(lambda: self.running.fluctuation)
+
+    motor_torque_rms: float | None = placed("running.motor_rms")
+    motor_torque_peak: float | None = placed("running.motor_peak")
 
     @cached_property
     def power_identity(self) -> float:
@@ -314,6 +367,87 @@ class LoadsDesign(Design):
 
         return shaking(self.machine.at(phi), self.masses, self.speed)
 
+    # What the checks ask
+
+    def limit(self, name: str) -> float:
+        """A limit of the file."""
+        return float(getattr(self.spec.limits, name))
+
+    @property
+    def quiet_zones(self) -> list[tuple[float, float]]:
+        """Where the output must stand or run true: first input angle and width of each [rad]."""
+        return []
+
+    def is_quiet(self, place: float) -> bool:
+        """Whether an input angle lies in one of them."""
+        return any((place - start) % (2.0 * math.pi) <= width for start, width in self.quiet_zones)
+
+    @property
+    def transmission_angle(self) -> float | None:
+        """Least transmission angle over the period [rad], of machines that have one."""
+        found: float | None = getattr(getattr(self, "design", None), "min_transmission_angle", None)
+        return found
+
+    # Counterweights
+
+    def counterweights(self) -> dict[str, complex]:
+        """Mass moments [kg m] by link in its coordinates that balance the machine as the file asks."""
+        return {}
+
+    @cached_property
+    def balance(self) -> dict[str, complex]:
+        """The counterweights that the file asks for."""
+        asked = getattr(self.section, "balance", None)
+        if asked is None:
+            return {}
+        share = getattr(asked, "share", 1.0)
+        return {name: share * moment for name, moment in self.counterweights().items()}
+
+    def balanced_force(self, moments: dict[str, complex]) -> float:
+        """Greatest shaking force with these counterweights [N]."""
+        from gearlink.core.loads.dynamics import Mass, shaking
+
+        # On a link that turns about its origin, 1 kg at U has the mass moment U, and nothing else in the force.
+        weights = {name: Mass(1.0, 0.0, moment) for name, moment in moments.items()}
+
+        def force(phi: Reals) -> Reals:
+            added = shaking(self.machine.at(phi), weights, self.speed)[0]
+            return np_abs(self.shaking(phi)[0] + added)
+
+        return self.extreme(force).value
+
+    def _moment(self, name: str) -> complex | None:
+        return self.balance.get(name)
+
+    @property
+    def counterweight_crank(self) -> float | None:
+        """Mass moment of the crank's counterweight [kg mm]."""
+        return _size(self._moment("crank"))
+
+    @property
+    def counterweight_crank_direction(self) -> float | None:
+        """Its direction in the crank's coordinates [rad]."""
+        return _direction(self._moment("crank"))
+
+    @property
+    def counterweight_rocker(self) -> float | None:
+        """Mass moment of the rocker's counterweight [kg mm]."""
+        return _size(self._moment("rocker"))
+
+    @property
+    def counterweight_rocker_direction(self) -> float | None:
+        """Its direction in the rocker's coordinates [rad]."""
+        return _direction(self._moment("rocker"))
+
+    @cached_property
+    def balanced_force_max(self) -> float | None:
+        """Greatest shaking force with the counterweights [N]."""
+        from gearlink.core.report import without_noise
+
+        if not self.balance:
+            return None
+        return without_noise(self.balanced_force(self.balance), 64.0 * self.shaking_force_max)
+
     def has(self, name: str) -> bool:
         """Whether this design has a joint of the name."""
         return name in self._names
@@ -350,6 +484,23 @@ class LoadsDesign(Design):
         return {name: MeshLoad(self, name) for name in self.meshes if self.has(name)}
 
     table_torque, table_joints = tables.torque, tables.joints
-    table_teeth, table_frame = tables.teeth, tables.frame
+    table_teeth, table_frame, table_speed = tables.teeth, tables.frame, tables.speed
 
-    check_power_identity = checks.power_identity
+    check_power_identity, check_load_reversal = checks.power_identity, checks.load_reversal
+    check_motor_torque, check_speed_fluctuation = checks.motor_torque, checks.speed_fluctuation
+    check_bearing_life, check_force_amplification = checks.bearing_life, checks.force_amplification
+    check_impact, check_self_locking = checks.impact, checks.self_locking
+
+
+def np_abs(values: Any) -> Reals:
+    """Magnitudes of plane vectors."""
+    found: Reals = abs(values)
+    return found
+
+
+def _size(moment: complex | None) -> float | None:
+    return None if moment is None else 1e3 * abs(moment)
+
+
+def _direction(moment: complex | None) -> float | None:
+    return None if moment is None else cmath.phase(moment)

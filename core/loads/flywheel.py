@@ -1,7 +1,11 @@
-"""Energy over the period, and the flywheel that holds the speed within a share of its mean."""
+"""Energy over the period, the flywheel for a fluctuation of the speed, and the speed that a flywheel leaves.
+
+The drive gives a constant torque, the mean of the load; inertia varies with the input angle and is taken exactly.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -9,6 +13,10 @@ import numpy as np
 
 from gearlink.core.loads.machine import NODES, Machine, Panels
 from gearlink.core.numerics.arrays import Reals
+from gearlink.core.numerics.extremes import Extreme, maximum_over, minimum_over
+
+_STEPS = 30
+Function = Callable[[Reals], Reals]
 
 
 @dataclass(frozen=True)
@@ -16,21 +24,43 @@ class Energy:
     """Surplus W(phi) of the drive's constant torque over the load's, W' = M_m - tau.
 
     Fields
-        machine : Machine
+        load, inertia : functions of input angles - tau [N m] and J [kg m^2]
+        panels : Panels - of the period
         mean : float [N m] - M_m, the mean of the load torque
-        running : (n,) array [J] - W at the edges of the machine's panels
+        running : (n,) array [J] - W at the edges of the panels
+        breaks : floats - places where the load jumps
     """
 
-    machine: Machine
+    load: Function
+    inertia: Function
+    panels: Panels
     mean: float
     running: Reals
+    breaks: tuple[float, ...] = ()
 
     @classmethod
     def of(cls, machine: Machine) -> Energy:
-        """From the machine's own load torque."""
-        load = machine.load_torque(machine.panels.nodes)
-        mean = machine.panels.integral(load) / machine.period
-        return cls(machine, mean, machine.panels.running(mean - load))
+        """That of a machine under its own load."""
+        return cls.from_functions(
+            machine.load_torque, lambda phi: machine.reduced(phi).inertia, machine.panels, tuple(machine.breaks)
+        )
+
+    @classmethod
+    def from_functions(
+        cls, load: Function, inertia: Function, panels: Panels, breaks: tuple[float, ...] = ()
+    ) -> Energy:
+        """From load torque and inertia over a period.
+
+        Example
+            >>> turn = Panels.over(2.0 * math.pi, [])
+            >>> wave = Energy.from_functions(lambda x: 18.0 + 5.0 * np.sin(2.0 * x), np.ones_like, turn)
+            >>> wave.mean, round(wave.fluctuation, 12)
+            (18.0, 5.0)
+        """
+        values = load(panels.nodes)
+        mean = panels.integral(values) / float(panels.edges[-1])
+        mean = float(f"{mean:.15g}")  # a sum of thousands of terms: its last bit is chance
+        return cls(load, inertia, panels, mean, panels.running(mean - values), breaks)
 
     @cached_property
     def _gauss(self) -> tuple[Reals, Reals]:
@@ -43,11 +73,109 @@ class Energy:
         Notes
             Gauss from the edge of the panel on: as exact as the load torque is smooth between its breaks.
         """
-        panels: Panels = self.machine.panels
-        row = np.clip(np.searchsorted(panels.edges, phi, side="right") - 1, 0, len(panels.edges) - 2)
-        start = panels.edges[row]
+        edges = self.panels.edges
+        row = np.clip(np.searchsorted(edges, phi, side="right") - 1, 0, len(edges) - 2)
         share, weights = self._gauss
-        width = phi - start
-        nodes = start[:, None] + width[:, None] * share
-        load = self.machine.load_torque(nodes.ravel()).reshape(nodes.shape)
+        width = phi - edges[row]
+        nodes = edges[row][:, None] + width[:, None] * share
+        load = self.load(nodes.ravel()).reshape(nodes.shape)
         return np.asarray(self.running[row] + width * ((self.mean - load) @ weights))
+
+    def extreme(self, f: Function, greatest: bool) -> Extreme:
+        """Greatest or least value of a function over the period, refined."""
+        end = float(self.panels.edges[-1])
+        search = maximum_over if greatest else minimum_over
+        return search(f, 0.0, end, joints=self.breaks, samples=max(180, 2 * (len(self.panels.edges) - 1)))
+
+    @cached_property
+    def fluctuation(self) -> float:
+        """Greatest less least surplus [J]."""
+        return self.extreme(self.surplus, True).value - self.extreme(self.surplus, False).value
+
+    def flywheel_for(self, fluctuation: float, speed: float, more: float = 0.0) -> float:
+        """Least flywheel that keeps the speed within a share of its mean [kg m^2].
+
+        J_F = [max(W - J w_1^2/2) - min(W - J w_2^2/2)]/(delta w_m^2),  w_1,2 = w_m (1 +- delta/2)
+
+        Parameters
+            fluctuation : float - delta = (w_max - w_min)/w_m, w_m the mean of the two
+            speed : float [rad/s] - w_m
+            more : float [kg m^2] - inertia that the shaft has besides, a motor's
+        Returns
+            inertia : float [kg m^2] - 0 where none is needed
+        Notes
+            Exact with J(phi). The usual dW/(delta w^2) leaves J(phi) out.
+        Example
+            >>> turn = Panels.over(2.0 * math.pi, [])
+            >>> wave = Energy.from_functions(lambda x: 5.0 * np.sin(2.0 * x), np.zeros_like, turn)
+            >>> round(wave.flywheel_for(0.05, 10.0), 12)
+            1.0
+
+        Source
+            energy over the period; own derivation of the form with variable inertia
+        """
+        fast, slow = (0.5 * (speed * (1.0 + sign * 0.5 * fluctuation)) ** 2 for sign in (1.0, -1.0))
+        top = self.extreme(lambda phi: self.surplus(phi) - fast * self.inertia(phi), True).value
+        bottom = self.extreme(lambda phi: self.surplus(phi) - slow * self.inertia(phi), False).value
+        return max(0.0, (top - bottom) / (fluctuation * speed * speed) - more)
+
+    def run(self, flywheel: float, speed: float) -> SteadyRun | None:
+        """The periodic run with a given flywheel, its mean of greatest and least speed as asked; None: it stops.
+
+        Parameters
+            flywheel : float [kg m^2] - all constant inertia on the input
+            speed : float [rad/s] - w_m > 0
+        """
+        floor = -self.extreme(self.surplus, False).value
+        energy = 0.5 * (self.extreme(self.inertia, True).value + flywheel) * speed**2 + self.fluctuation
+        least = 1e-12 * energy
+        if energy <= 0.0 or sum(SteadyRun(self, flywheel, floor + least).range) >= 2.0 * speed:
+            return None
+        for _ in range(_STEPS):
+            # w_min + w_max rises with the energy and is concave: Newton, whose slope is 1/(J w) at both places.
+            run = SteadyRun(self, flywheel, floor + energy)
+            ends = run.extremes
+            slope = sum(1.0 / (self._inertia_at(end.place) + flywheel) / end.value for end in ends)
+            step = (2.0 * speed - sum(end.value for end in ends)) / slope
+            energy = energy + step if energy + step > least else 0.25 * energy
+            if abs(step) <= 1e-15 * (floor + energy):
+                break
+        return SteadyRun(self, flywheel, floor + energy)
+
+    def _inertia_at(self, place: float) -> float:
+        return float(self.inertia(np.array([place]))[0])
+
+
+@dataclass(frozen=True)
+class SteadyRun:
+    """Speed over the input angle where the energy is E0 + W(phi).
+
+    Fields
+        energy : Energy
+        flywheel : float [kg m^2]
+        start : float [J] - E0, energy at input angle 0
+    """
+
+    energy: Energy
+    flywheel: float
+    start: float
+
+    def kinetic(self, phi: Reals) -> Reals:
+        """Kinetic energy of all that moves [J]."""
+        return self.start + self.energy.surplus(phi)
+
+    def speed(self, phi: Reals) -> Reals:
+        """Speed of the input [rad/s]."""
+        inertia = self.energy.inertia(phi) + self.flywheel
+        return np.asarray(np.sqrt(2.0 * np.maximum(self.kinetic(phi), 0.0) / inertia))
+
+    @cached_property
+    def extremes(self) -> tuple[Extreme, Extreme]:
+        """Least and greatest speed [rad/s] with their places."""
+        return self.energy.extreme(self.speed, False), self.energy.extreme(self.speed, True)
+
+    @property
+    def range(self) -> tuple[float, float]:
+        """Least and greatest speed [rad/s]."""
+        low, high = self.extremes
+        return low.value, high.value

@@ -122,6 +122,20 @@ def with_friction(
     )
 
 
+def passes_ratio(
+    mechanism: Mechanism, masses: Masses, applied: Applied, gravity: complex, speed: float, friction: Coefficients
+) -> float:
+    """Change of the forces by the second pass over that by the first: how near the mechanism is to locking itself."""
+    system = System(mechanism, masses)
+    side = system.right_side(applied, gravity, speed, 0.0)
+    found = [system.reactions(system.solve(side))]
+    for _ in range(2):
+        losses = list(resistances(found[-1], friction, speed))
+        found.append(system.reactions(system.solve(_with(system, side, losses))))
+    first, second = _change(found[0], found[1]), _change(found[1], found[2])
+    return second / first if first > 0.0 else 0.0
+
+
 def _sided(mechanism: Mechanism, found: Reactions) -> Mechanism | None:
     """The mechanism with the rollers that carry, where a second one does anywhere."""
     backs = [each.name for each in mechanism.connections if isinstance(each, Contact) and each.back is not None]

@@ -95,6 +95,39 @@ class PinLoad:
         panels = Panels.over(machine.period, edges[1:-1])
         return panels.integral(np.abs(self.rate(panels.nodes))) / (2.0 * math.pi * machine.turns)
 
+    @cached_property
+    def life(self) -> float | None:
+        """Basic rating life of the bearing that the file gives [h]; None where it gives none, or a plain one.
+
+        L_10 = (C/P)^p 10^6 relative turns
+        """
+        bearing = self.bearing
+        if bearing is None or bearing.dynamic_rating is None or not self.equivalent:
+            return None
+        turns = (bearing.dynamic_rating / self.equivalent) ** self.exponent * 1e6
+        per_hour = self.travel * abs(self.design.speed) / (2.0 * math.pi) * 3600.0
+        return float(turns / per_hour)
+
+    @property
+    def bearing_pressure(self) -> float | None:
+        """Greatest pressure of a plain bearing, F/(b d) [N/mm^2]."""
+        bearing = self.bearing
+        if bearing is None or bearing.width is None or bearing.diameter is None or self.peak is None:
+            return None
+        return float(self.peak / (bearing.width * bearing.diameter))
+
+    @cached_property
+    def swing(self) -> float | None:
+        """Angle of the oscillation [rad]; None for a pin that goes round."""
+        from gearlink.core.loads.machine import Panels
+
+        if not self.reversals:
+            return None
+        edges = sorted({0.0, self.design.machine.period, *self.reversals})
+        panels = Panels.over(self.design.machine.period, edges[1:-1])
+        running = panels.running(self.rate(panels.nodes))
+        return float(running.max() - running.min())
+
 
 class MeshLoad:
     """A mesh's tangential force over the period.
@@ -113,6 +146,12 @@ class MeshLoad:
         mesh = next(each for each in found.mechanism.meshes if each.name == self.name)
         share = mesh.moves if isinstance(mesh, ToothDrive) else 1.0
         return np.asarray(found.unknowns[self.name][0] * share)
+
+    @cached_property
+    def radius(self) -> float:
+        """Pitch radius of the second gear [m]."""
+        meshes = self.design.machine.at(np.zeros(1)).meshes
+        return next(mesh.mate_radius for mesh in meshes if mesh.name == self.name)
 
     @cached_property
     def tooth_force_max(self) -> float:

@@ -16,7 +16,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from gearlink.core.loads.dynamics import Applied, Mass, Reactions, Reduced, reduced
-from gearlink.core.loads.friction import Coefficients, with_friction
+from gearlink.core.loads.friction import Coefficients, passes_ratio, with_friction
 from gearlink.core.loads.kinematics import dot
 from gearlink.core.loads.mechanism import Mechanism
 from gearlink.core.loads.sources import Sources
@@ -109,6 +109,13 @@ class Machine:
         if self.friction is None:
             return self.reduced(phi).static
         return np.asarray(self.torque(phi) - self.reduced(phi).inertial(self.speed))
+
+    @property
+    def locking_ratio(self) -> float:
+        """Change of the second pass of the friction over that of the first, over a turn."""
+        assert self.friction is not None, "asked for only where there is friction"
+        phi = np.radians(np.arange(0.0, 360.0, 5.0))
+        return passes_ratio(self.at(phi), self.masses, self.applied(phi), self.gravity, self.speed, self.friction)
 
     # Places where something jumps, and integrals
 

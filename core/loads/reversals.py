@@ -45,4 +45,4 @@ def _without_noise(values: Reals, size: float) -> Reals:
 def _changes(f: Callable[[Reals], Reals], place: float, size: float) -> bool:
     """Whether the function has opposite signs on both sides; one that comes from or goes to nothing has not."""
     before, after = f(np.array([place - _STEP, place + _STEP]))
-    return bool(before * after < 0.0 or abs(before) <= NOISE * size or abs(after) <= NOISE * size)
+    return bool(before * after < 0.0 and min(abs(before), abs(after)) > NOISE * size)

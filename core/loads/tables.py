@@ -82,3 +82,19 @@ def frame(design: LoadsDesign, samples: int | None = None) -> Table:
     force, moment = design.shaking(phi)
     columns |= {"force_x": (force.real, "N"), "force_y": (force.imag, "N"), "moment": (moment, "N m")}
     return Table.of("frame", columns)
+
+
+def speed(design: LoadsDesign, samples: int | None = None) -> Table:
+    """Speed of the input, time and kinetic energy over the input angle."""
+    from gearlink.core.loads.running import RPM
+
+    phi, _, columns = _rows(design, samples)
+    running = design.running
+    found = running.speed(phi)
+    kinetic = 0.5 * (design.machine.reduced(phi).inertia + running.inertia) * found**2
+    columns |= {
+        "speed": (found / RPM, "1/min"),
+        "time": (1e3 * running.time(phi), "ms"),
+        "kinetic_energy": (kinetic, "J"),
+    }
+    return Table.of("speed", columns)

@@ -7,8 +7,8 @@ from abc import abstractmethod
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.linkages.fourbar import FourBar, solve
-from gearlink.core.linkages.fourbar_loads import MM, four_bar, four_bar_pins
-from gearlink.core.loads.design import LoadsDesign, loads_outline
+from gearlink.core.linkages.fourbar_loads import MM, four_bar, four_bar_pins, full_balance
+from gearlink.core.loads.design import BALANCE, LoadsDesign, loads_outline
 from gearlink.core.planet_linkages.rocker_design import GearedRocker
 from gearlink.core.planet_linkages.two_gear_design import TwoGearFourBar
 from gearlink.core.results import cached_property
@@ -34,6 +34,10 @@ class PlanetLinkageLoads(LoadsDesign):
         """The four-bar."""
         found: FourBar = self.design.linkage
         return found
+
+    def counterweights(self) -> dict[str, complex]:
+        """Those of the full force balance."""
+        return full_balance(self.linkage, self.masses)
 
     @cached_property
     def _start(self) -> tuple[float, float]:
@@ -79,12 +83,18 @@ class TwoGearLoads(PlanetLinkageLoads):
     kind = "two-gear-four-bar"
     output_pin = "A_output"
     pins = ("A", "B", "C", "D", "A_output")
-    outlines = loads_outline(pins, _MESHES)
+    outlines = loads_outline(pins, _MESHES, BALANCE)
 
     @cached_property
     def design(self) -> TwoGearFourBar:
         """The geometry."""
         return TwoGearFourBar(self.spec)
+
+    @property
+    def quiet_zones(self) -> list[tuple[float, float]]:
+        """The back-step of the output."""
+        step = self.design.back_step
+        return [] if step is None else [(step.start, step.crank_angle)]
 
     def carrier_turn(self, links: dict[str, Link]) -> Turn:
         """The crank's."""
@@ -106,7 +116,7 @@ class GearedRockerLoads(PlanetLinkageLoads):
     kind = "geared-rocker"
     output_pin = "D_output"
     pins = ("A", "B", "C", "D", "D_output")
-    outlines = loads_outline(pins, _MESHES)
+    outlines = loads_outline(pins, _MESHES, BALANCE)
 
     @cached_property
     def design(self) -> GearedRocker:

@@ -6,8 +6,8 @@ import math
 from typing import TYPE_CHECKING
 
 from gearlink.core.linkages.fourbar import solve
-from gearlink.core.linkages.fourbar_loads import MM, four_bar, four_bar_pins
-from gearlink.core.loads.design import LoadsDesign, loads_outline
+from gearlink.core.linkages.fourbar_loads import MM, four_bar, four_bar_pins, full_balance
+from gearlink.core.loads.design import BALANCE, LoadsDesign, loads_outline
 from gearlink.core.results import cached_property
 from gearlink.core.three_gear.design import ThreeGearFourBar
 
@@ -29,12 +29,27 @@ class ThreeGearLoads(LoadsDesign):
     section: Section
     links = ("crank", "coupler", "rocker", "idler", "output")
     pins, meshes = _PINS, _MESHES
-    outlines = loads_outline(_PINS, _MESHES)
+    outlines = loads_outline(_PINS, _MESHES, BALANCE)
 
     @cached_property
     def design(self) -> ThreeGearFourBar:
         """The geometry."""
         return ThreeGearFourBar(self.spec)
+
+    @property
+    def quiet_zones(self) -> list[tuple[float, float]]:
+        """The dwell: within the tolerance where the file gives one, else the back-step and the way back."""
+        dwell, design = self.design.tolerance_dwell, self.design
+        if dwell is not None:
+            return [(dwell.start, dwell.crank_angle)]
+        if design.back_step is not None and design.dwell_angle is not None:
+            return [(design.back_step.start, design.dwell_angle)]
+        return []
+
+    def counterweights(self) -> dict[str, complex]:
+        """Those of the full force balance; the idler counts at C."""
+        idler = self.masses.get("idler")
+        return full_balance(self.design.linkage, self.masses, 0.0 if idler is None else idler.mass)
 
     @cached_property
     def _start(self) -> tuple[float, float]:

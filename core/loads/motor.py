@@ -1,0 +1,177 @@
+"""The periodic run with a motor whose torque falls linearly with its speed, M = k (w_0 - w).
+
+dE/dphi = k (w_0 - w) - tau(phi),  E = (J(phi) + J_F) w^2/2
+
+Over a turn the energy E becomes P(E) with 0 < P' < 1, so that there is one periodic run at most, and Newton on P(E) - E
+finds it. A panel of the period is taken by Gauss collocation, whose Newton step gives P' as well.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+
+import numpy as np
+
+from gearlink.core.errors import NoSolution
+from gearlink.core.loads.flywheel import Function
+from gearlink.core.loads.machine import NODES, Panels
+from gearlink.core.numerics.arrays import Reals
+from gearlink.core.numerics.extremes import maximum_over, minimum_over
+
+_TURNS = 60
+_STEPS = 40
+_SETTLED = 4e-15
+
+
+@lru_cache(maxsize=1)
+def _collocation() -> tuple[Reals, Reals, Reals]:
+    """Matrix of integrals from 0 to each Gauss node of [0, 1], weights of the whole, and to Legendre coefficients."""
+    x, weights = np.polynomial.legendre.leggauss(NODES)
+    to_series = np.linalg.inv(np.polynomial.legendre.legvander(x, NODES - 1))
+    integrals = 0.5 * np.polynomial.legendre.legint(to_series, lbnd=-1.0)
+    return np.polynomial.legendre.legvander(x, NODES) @ integrals, 0.5 * weights, integrals
+
+
+@dataclass(frozen=True)
+class MotorRun:
+    """The periodic run over an angle that rises with time.
+
+    Parameters
+        load, inertia : functions of that angle - tau [N m] and J [kg m^2] with all constant inertia
+        panels : Panels - of the period
+        slope : float [N m s] - k at the input
+        no_load : float [rad/s] - w_0 at the input
+        breaks : floats - places where the load jumps
+    Raises
+        NoSolution - from any result, where the motor stalls
+    """
+
+    load: Function
+    inertia: Function
+    panels: Panels
+    slope: float
+    no_load: float
+    breaks: tuple[float, ...] = ()
+
+    @cached_property
+    def _given(self) -> tuple[Reals, Reals]:
+        """Load and inertia at the nodes, a row a panel."""
+        nodes = self.panels.nodes
+        return self.load(nodes).reshape(-1, NODES), self.inertia(nodes).reshape(-1, NODES)
+
+    def _panel(self, k: int, energy: float) -> tuple[float, float, Reals] | None:
+        """Energy at the end of a panel, its derivative by that at the start, and dE/dphi at the nodes; None: stalls."""
+        matrix, weights, _ = _collocation()
+        load, inertia = self._given[0][k], self._given[1][k]
+        h = float(self.panels.edges[k + 1] - self.panels.edges[k])
+        values = np.full(NODES, energy)
+        for _ in range(_STEPS):
+            speed = np.sqrt(2.0 * values / inertia)
+            rate = self.slope * (self.no_load - speed) - load
+            fall = -self.slope / (inertia * speed)
+            system = np.eye(NODES) - h * matrix * fall
+            step = np.linalg.solve(system, energy + h * (matrix @ rate) - values)
+            share = 1.0
+            while np.any(values + share * step <= 0.0):
+                share *= 0.5
+                if share < 1e-3:
+                    return None
+            values = values + share * step
+            if share == 1.0 and np.max(np.abs(step)) <= _SETTLED * np.max(values):
+                break
+        speed = np.sqrt(2.0 * values / inertia)
+        rate = self.slope * (self.no_load - speed) - load
+        fall = -self.slope / (inertia * speed)
+        gain = np.linalg.solve(np.eye(NODES) - h * matrix * fall, np.ones(NODES))
+        end = energy + h * float(weights @ rate)
+        return (end, 1.0 + h * float(weights @ (fall * gain)), rate) if end > 0.0 else None
+
+    def _turn(self, energy: float) -> tuple[float, float, Reals, Reals] | None:
+        """P(E) - E, P', the energies at the edges and the rates at the nodes; None where the motor stalls."""
+        edges, rates, slope = [energy], [], 1.0
+        for k in range(len(self.panels.edges) - 1):
+            found = self._panel(k, edges[-1])
+            if found is None:
+                return None
+            edges.append(found[0])
+            slope *= found[1]
+            rates.append(found[2])
+        return edges[-1] - energy, slope, np.array(edges), np.array(rates)
+
+    @cached_property
+    def _periodic(self) -> tuple[Reals, Reals, float]:
+        """Energies at the edges, rates at the nodes, and P' of the periodic run."""
+        load, inertia = self._given
+        fastest = self.no_load - float(load.min()) / self.slope
+        if fastest <= 0.0:
+            raise _stalls()
+        energy = high = 0.5 * float(inertia.max()) * fastest**2
+        for _ in range(_TURNS):
+            found = self._turn(energy)
+            if found is None:  # too little to come round: between here and the least that is known to come round
+                if high - energy <= 1e-12 * high:
+                    raise _stalls()
+                energy = 0.5 * (energy + high)
+                continue
+            change, slope, edges, rates = found
+            if abs(change) <= 8.0 * _SETTLED * energy:
+                return edges, rates, slope
+            if change < 0.0:
+                high = min(high, energy)
+            step = energy + change / (1.0 - slope)
+            energy = step if step > 0.0 else 0.25 * energy
+        if abs(change) <= 1e-11 * energy:
+            return edges, rates, slope
+        raise _stalls()
+
+    @property
+    def contraction(self) -> float:
+        """P': share of a disturbance that is left after a period."""
+        return self._periodic[2]
+
+    def kinetic(self, phi: Reals) -> Reals:
+        """Kinetic energy at angles within the period [J]."""
+        edges, rates, _ = self._periodic
+        bounds = self.panels.edges
+        row = np.clip(np.searchsorted(bounds, phi, side="right") - 1, 0, len(bounds) - 2)
+        h = bounds[row + 1] - bounds[row]
+        place = 2.0 * (phi - bounds[row]) / h - 1.0
+        series = rates @ _collocation()[2].T
+        terms = np.polynomial.legendre.legvander(place, NODES)
+        return np.asarray(edges[row] + h * np.sum(terms * series[row], axis=1))
+
+    def speed(self, phi: Reals) -> Reals:
+        """Speed of the input [rad/s]."""
+        return np.asarray(np.sqrt(2.0 * self.kinetic(phi) / self.inertia(phi)))
+
+    def torque(self, phi: Reals) -> Reals:
+        """Torque of the motor at the input [N m]."""
+        return np.asarray(self.slope * (self.no_load - self.speed(phi)))
+
+    @cached_property
+    def range(self) -> tuple[float, float]:
+        """Least and greatest speed [rad/s]."""
+        end, samples = float(self.panels.edges[-1]), max(360, 10 * (len(self.panels.edges) - 1))
+        low, high = (
+            search(self.speed, 0.0, end, joints=self.breaks, samples=samples).value
+            for search in (minimum_over, maximum_over)
+        )
+        return low, high
+
+    @cached_property
+    def rms_torque(self) -> float:
+        """Root mean square over the time of the motor's torque at the input [N m]."""
+        nodes = self.panels.nodes
+        speed = self.speed(nodes)
+        torque = self.slope * (self.no_load - speed)
+        return math.sqrt(self.panels.integral(torque**2 / speed) / self.panels.integral(1.0 / speed))
+
+
+def _stalls() -> NoSolution:
+    return NoSolution(
+        "the motor stalls: over a period the load takes more than it gives; raise its torque (slope, rated_torque) or "
+        "no_load_speed, change ratio, or add a flywheel",
+        key="loads.motor",
+    )
