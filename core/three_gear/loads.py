@@ -76,12 +76,11 @@ class ThreeGearLoads(LoadsDesign):
         links["output"] = Link(links["rocker"].origin, mixed((i3, idler), (1.0 - i3, rocker)))
         r1, r3, r5 = (0.5 * module * teeth for teeth in (train.crank, train.idler, train.output))
         tangent = math.tan(math.radians(self.spec.gears.pressure_angle))
+        b, d = links["coupler"], links["rocker"]
         meshes = [
-            Mesh("mesh_13", "crank", "idler", links["coupler"].origin.value, links["coupler"].unit, abs(r1), r3, tangent,
-                 r1 < 0.0, carrier="coupler"),
-            Mesh("mesh_35", "output", "idler", links["output"].origin.value, links["rocker"].unit, abs(r5), r3, tangent,
-                 r5 < 0.0, carrier="rocker"),
-        ]  # fmt: skip
+            Mesh("mesh_13", "crank", "idler", b.origin.value, b.unit, abs(r1), r3, tangent, r1 < 0.0, "coupler"),
+            Mesh("mesh_35", "output", "idler", d.origin.value, d.unit, abs(r5), r3, tangent, r5 < 0.0, "rocker"),
+        ]
         pins += [
             Pin("C_idler", self.section.idler_pin, "idler", center_c.value),
             Pin("D_output", FRAME, "output", links["output"].origin.value),
