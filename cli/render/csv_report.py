@@ -46,6 +46,7 @@ def _blocks(report: Report) -> Iterator[Iterable[Iterable[object]]]:
 def table_rows(table: Table) -> Iterator[Sequence[object]]:
     """A table's header row, `column [unit]`, and its rows."""
     heads = [
-        f"{column} [{unit}]" if unit != "1" else column for column, unit in zip(table.columns, table.units, strict=True)
+        f"{column} [{unit}]" if unit not in ("", "1") else column
+        for column, unit in zip(table.columns, table.units, strict=True)
     ]
     return chain([heads], table.each_row())

@@ -20,7 +20,9 @@ def as_markdown(report: Report) -> str:
         checks = [(c.status, c.code, c.name, c.message) for c in report.checks]
         parts.append(markdown_table(("status", "code", "check", "finding"), checks))
     for table in report.tables:
-        heads = [f"{column} [{unit}]" for column, unit in zip(table.columns, table.units, strict=True)]
+        heads = [
+            f"{column} [{unit}]" if unit else column for column, unit in zip(table.columns, table.units, strict=True)
+        ]
         parts.append(
             f"## {table.name}\n\n" + markdown_table(heads, ([text_of(item) for item in row] for row in table.rows()))
         )

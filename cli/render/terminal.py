@@ -140,7 +140,8 @@ def _room(check: Check) -> float:
 
 def show_table(table: Table, console: Console, most: int = _MOST_ROWS) -> None:
     """Print a table, thinned to so many rows and folded to the width."""
-    step = max(1, math.ceil(table.length / most))
+    in_words = table.length > 0 and isinstance(table.data[0][0], str)  # every row of such a table says something else
+    step = 1 if in_words else max(1, math.ceil(table.length / most))
     if step > 1:
         step = next((s for s in (2, 5, 10, 15, 30) if s >= step), step)
     cells = readable_rows(table, step)
@@ -149,7 +150,7 @@ def show_table(table: Table, console: Console, most: int = _MOST_ROWS) -> None:
     for columns in _folds(table, cells, console.width):
         grid = grid_for(console)
         for i in columns:
-            unit = "" if table.units[i] == "1" else f"\n{table.units[i]}"
+            unit = "" if table.units[i] in ("", "1") else f"\n{table.units[i]}"
             grid.add_column(
                 table.columns[i].replace("_", "\n") + unit, justify="right", no_wrap=True, vertical="bottom"
             )

@@ -8,11 +8,12 @@ from gearlink.core.design import Design, Outline
 from gearlink.core.errors import at_key
 from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantities, gear_check, gear_quantity
 from gearlink.core.gears.data import DRAWING_QUANTITIES, GearData
+from gearlink.core.gears.drawing import drawing_table
 from gearlink.core.gears.drawing_checks import DRAWING_CHECKS, drawing_check, helical_contact
 from gearlink.core.gears.from_spec import data_of, pair_of
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.remedies import Way, down, either, shared, up
-from gearlink.core.report import Check
+from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
@@ -54,6 +55,8 @@ class GearPairDesign(GearQuantities, Design):
         "analyze": Outline((*GEAR_QUANTITIES, *DRAWING_QUANTITIES), (*GEAR_CHECKS, *DRAWING_CHECKS)),
     }
 
+    extra_tables = ("drawing", "path", "candidates")
+
     @property
     def ways(self) -> dict[str, tuple[Way, ...]]:  # type: ignore[override]
         """More teeth of a ring are a smaller number."""
@@ -88,6 +91,27 @@ class GearPairDesign(GearQuantities, Design):
             if name == "contact-ratio" and (found := helical_contact(self.data, self.spec.limits)):
                 return [found]
             return list(gear_check(name, self.gear_pair, self.spec.limits, shifts=True))
+
+    def table_drawing(self, _samples: int | None = None) -> Table:
+        """The gear table of the drawing."""
+        hands = self.spec.helix_hand
+        with at_key(self._placed_by):
+            return drawing_table(self.data, None if hands is None else (hands[0], hands[1]))
+
+    def table_path(self, samples: int | None = None) -> Table:
+        """Sliding, pressure and root stress along the path of contact."""
+        from gearlink.core.gears.along_path import AlongPath
+
+        with at_key(self._placed_by):
+            along = AlongPath(self.data)
+            return along.table() if samples is None else along.table(samples)
+
+    def table_candidates(self, _samples: int | None = None) -> Table:
+        """The shares of the shift sum side by side."""
+        from gearlink.core.gears.candidates import candidates_table
+
+        with at_key(self._placed_by):
+            return candidates_table(self.data)
 
     @property
     def _placed_by(self) -> str:

@@ -44,13 +44,30 @@ def pair_of(spec: GearPairSpec) -> GearPair:
         known["tools"] = tools_of(spec)
     shift, distance = spec.profile_shift, spec.center_distance
     if shift is None:
-        first = None if isinstance(spec.shift_split, str) else spec.shift_split
-        return GearPair(**known, given_distance=distance, given_first_shift=first)
+        split = spec.shift_split
+        if not isinstance(split, str):
+            return GearPair(**known, given_distance=distance, given_first_shift=split)
+        pair = GearPair(**known, given_distance=distance)
+        return pair if split == "equal" else _shared(spec, pair, split)
     if distance is None:
         return GearPair(**known, given_shift=(shift[0], shift[1]))
     with at_key("center_distance"):
         pair = GearPair(**known, given_shift=(shift[0], shift[1]), given_distance=distance)
     return _without_difference(pair)
+
+
+def _shared(spec: GearPairSpec, pair: GearPair, split: str) -> GearPair:
+    """The pair with its shift sum shared by a criterion.
+
+    Raises
+        NoSolution - where the criterion has no share
+    """
+    from gearlink.core.gears.candidates import strength_of
+    from gearlink.core.gears.shift_split import Diagonal
+
+    diagonal = Diagonal(pair)
+    with at_key("shift_split"):
+        return diagonal.at(diagonal.split(split, strength_of(data_of(spec, pair))).first)
 
 
 def _without_difference(pair: GearPair) -> GearPair:

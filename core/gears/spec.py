@@ -92,8 +92,8 @@ class GearPairSpec(DesignSpec):
     material: MaterialSpec = MaterialSpec()
     edition: Literal[2006, 2019] = Field(2006, description="of ISO 6336; 2019 is not verified")
     assembly: Literal["axial", "radial"] = Field("axial", description="how pinion and ring are put together")
-    shift_split: Literal["equal"] | Shift = Field(
-        "equal", description="how the shift sum is shared when center_distance is given: equal, or x1"
+    shift_split: Literal["equal", "sliding", "tip", "root", "undercut"] | Shift = Field(
+        "equal", description="how the shift sum is shared when center_distance alone is given: by a criterion, or x1"
     )
     limits: PairLimits = PairLimits()
     loads: Annotated[Any, Deferred("gears.loads_spec:PairLoads")] | None = Field(
