@@ -47,12 +47,14 @@ class Evaluated:
         refused : (N,) array - 0 where the mechanism exists, else 1 + the place in `reasons`; what is refused has NaN
             in every quantity and fails no check
         reasons : keys of the design file that refusals belong to
+        unsure : (N,) array - designs that this form leaves to the design class: next to a limit, or badly conditioned
     """
 
     quantities: Mapping[str, NDArray[Any]]
     findings: Sequence[Findings]
     refused: NDArray[np.intp]
     reasons: Sequence[str]
+    unsure: Mask | None = None
 
 
 class Axis(Protocol):

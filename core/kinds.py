@@ -76,6 +76,7 @@ KINDS: dict[str, Kind] = {
                 "gear": _THREE_GEAR,
                 "loads": "three_gear.loads:ThreeGearLoads",
             },
+            "three_gear.axis:axis",
         ),
         Kind(
             "gear-pair",

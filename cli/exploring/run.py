@@ -175,7 +175,7 @@ def _print(study: Exploration, asked: Exploring) -> int:
     if asked.options.plot:
         from gearlink.cli.commands.design import plot
 
-        plot("explore", study, asked.options)
+        plot("explore", study, asked.options, report)
     if asked.options.format is Format.TABLE:
         from gearlink.cli.exploring.page import show as show_page
 

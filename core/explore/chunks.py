@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from gearlink.core.design_axis import Evaluated
-from gearlink.core.explore.one_by_one import as_arrays, single
+from gearlink.core.explore.one_by_one import as_arrays, put_in, single
 from gearlink.core.explore.pareto import best_boxes, counted, front
 from gearlink.core.explore.problem import Problem, problem_of
 from gearlink.core.numerics.arrays import Mask, Reals
@@ -115,7 +115,10 @@ def evaluated(problem: Problem, columns: Reals) -> Evaluated:
         values = np.array(variable.values, dtype=float)[row.astype(int)] if variable.values else row
         by_path |= dict.fromkeys((variable.path, *variable.also), values)
     found: Evaluated = problem.axis.evaluate(by_path)
-    return found
+    if found.unsure is None or not found.unsure.any():
+        return found
+    places = np.flatnonzero(found.unsure)
+    return put_in(found, places, one_by_one(problem, columns[:, places]))
 
 
 def one_by_one(problem: Problem, columns: Reals) -> Evaluated:
@@ -191,7 +194,9 @@ def _failing(problem: Problem, found: Evaluated, objectives: Reals, count: int) 
         numbers = None if isinstance(wish.limit, str) else (_numbers(value), np.full(count, wish.limit), wish.unit)
         rows[wish.text] = (~wish.holds(value) & exists, numbers)
     for place, key in enumerate(found.reasons, 1):
-        rows[f"refused {key}"] = (found.refused == place, None)
+        there = found.refused == place
+        if there.any():
+            rows[f"refused {key}"] = (there, None)
     left = exists.copy()
     for sought, values in zip(problem.objectives, objectives.T, strict=True):
         absent = left & ~np.isfinite(values)
@@ -214,6 +219,8 @@ def _of_code(code: str, found: Evaluated, *, warn_counts: bool, count: int) -> t
             continue
         unit = each.unit
         bad = each.fails | each.warns if warn_counts else each.fails
+        if not bad.any():
+            continue
         with np.errstate(invalid="ignore"):
             nearer = bad & ~(np.abs(value - limit) <= np.abs(each.value - each.limit))
         value, limit = np.where(nearer, each.value, value), np.where(nearer, each.limit, limit)

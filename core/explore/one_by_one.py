@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -60,6 +60,31 @@ def as_arrays(singles: Sequence[Single], names: Sequence[str], codes: Sequence[s
     return Evaluated(
         {name: column([one.values.get(name) for one in singles]) for name in names}, findings, refused, reasons
     )
+
+
+def put_in(many: Evaluated, places: Any, few: Evaluated) -> Evaluated:
+    """Designs with those at some places exchanged for others, computed in another way."""
+    quantities = {}
+    for name, values in many.quantities.items():
+        new = few.quantities[name]
+        quantities[name] = values.astype(new.dtype if new.dtype.kind == "U" else values.dtype)
+        quantities[name][places] = new
+    reasons = list(dict.fromkeys([*many.reasons, *few.reasons]))
+    refused = np.array(many.refused)
+    refused[places] = [reasons.index(few.reasons[i - 1]) + 1 if i else 0 for i in few.refused]
+    kept = np.ones(len(refused), dtype=bool)
+    kept[places] = False
+    findings = [replace(each, fails=each.fails & kept, warns=each.warns & kept) for each in many.findings]
+    findings += [_widened(each, places, len(refused)) for each in few.findings]
+    return Evaluated(quantities, findings, refused, reasons)
+
+
+def _widened(each: Findings, places: Any, count: int) -> Findings:
+    """A finding of some designs as one of all; the others have none."""
+    value, limit = np.full(count, np.nan), np.full(count, np.nan)
+    fails, warns = np.zeros(count, dtype=bool), np.zeros(count, dtype=bool)
+    value[places], limit[places], fails[places], warns[places] = each.value, each.limit, each.fails, each.warns
+    return Findings(each.code, value, limit, fails, warns, each.unit)
 
 
 def column(values: Sequence[Any]) -> Any:

@@ -43,7 +43,7 @@ def front(values: Reals) -> Indices:
     Returns
         places : (M,) array - ascending
     Notes
-        Two objectives by sorting and a running minimum. More: a few good rows sieve the rest; sorted by the sum of
+        A few good rows sieve the rest. Two objectives by sorting and a running minimum. More: sorted by the sum of
         ranks, no row can dominate an earlier one, and blocks are folded into the front.
     Example
         >>> front(np.array([[1, 5], [2, 4], [2, 4], [3, 4], [5, 1]])).tolist()
@@ -53,11 +53,31 @@ def front(values: Reals) -> Indices:
         return np.empty(0, dtype=np.intp)
     if values.shape[1] == 1:
         return np.flatnonzero(values[:, 0] == values[:, 0].min())
-    unique, back = np.unique(values, axis=0, return_inverse=True)
+    places = _sieved(np.asarray(values, dtype=float))
+    unique, back = np.unique(values[places], axis=0, return_inverse=True)
     best = _front_of_two(unique) if values.shape[1] == 2 else _front_of_many(unique)
     stays = np.zeros(len(unique), dtype=bool)
     stays[best] = True
-    return np.flatnonzero(stays[back.reshape(-1)])
+    return places[stays[back.reshape(-1)]]
+
+
+def _sieved(values: Reals) -> Indices:
+    """Places without the rows that the best ones by some weights dominate."""
+    places, k = np.arange(len(values)), values.shape[1]
+    low, high = values.min(axis=0), values.max(axis=0)
+    scaled = (values - low) / np.where(high > low, high - low, 1.0)
+    for i in range(_SIEVES):
+        if len(places) <= _BLOCK:
+            break
+        weights = 0.05 + ((i + 1) * _GOLDEN * np.arange(1, k + 1)) % 1.0
+        best = int(np.argmin(scaled @ weights))
+        above, differs = np.ones(len(places), dtype=bool), np.zeros(len(places), dtype=bool)
+        for column in scaled.T:
+            above &= column >= column[best]
+            differs |= column > column[best]
+        left = np.logical_not(above & differs)
+        places, scaled = places[left], scaled[left]
+    return places
 
 
 def _front_of_two(unique: Reals) -> Indices:
@@ -67,11 +87,8 @@ def _front_of_two(unique: Reals) -> Indices:
 
 
 def _front_of_many(unique: Reals) -> Indices:
-    places = np.arange(len(unique))
-    ranks = np.argsort(np.argsort(unique, axis=0, kind="stable"), axis=0, kind="stable").astype(float)
-    low = np.array([np.searchsorted(np.sort(column), column) for column in unique.T], dtype=float).T
-    places = _sieved(unique, ranks, places)
-    order = places[np.argsort(low[places].sum(axis=1), kind="stable")]
+    ranks = np.array([np.searchsorted(np.sort(column), column) for column in unique.T])
+    order = np.argsort(ranks.sum(axis=0), kind="stable")
     found = np.empty(0, dtype=np.intp)
     for start in range(0, len(order), _BLOCK):
         block = order[start : start + _BLOCK]
@@ -79,18 +96,6 @@ def _front_of_many(unique: Reals) -> Indices:
         block = block[~_dominated(unique[block], unique[block])]
         found = np.concatenate([found, block])
     return found
-
-
-def _sieved(unique: Reals, ranks: Reals, places: Indices) -> Indices:
-    """Places without the rows that the best ones by some weights dominate."""
-    k = unique.shape[1]
-    for i in range(_SIEVES if len(places) > _BLOCK else 0):
-        weights = 0.05 + ((i + 1) * _GOLDEN * np.arange(1, k + 1)) % 1.0
-        best = places[np.argmin(ranks[places] @ weights)]
-        rest, at = unique[places], unique[best]
-        worse = (at <= rest).all(axis=1) & (at < rest).any(axis=1)
-        places = places[np.flatnonzero(np.logical_not(worse))]
-    return places
 
 
 def _dominated(rows: Reals, by: Reals) -> Mask:

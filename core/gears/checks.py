@@ -53,7 +53,7 @@ GEAR_CHECKS = tuple(
 )
 _USUAL_TIP = 0.15
 """So many modules above the least tip thickness a tip is no longer called thin."""
-_UNUSUAL_SLIDING = 8.0
+UNUSUAL_SLIDING = 8.0
 
 
 def gear_ways(*teeth: Way, angle: str = "gears.pressure_angle") -> dict[str, tuple[Way, ...]]:
@@ -221,7 +221,7 @@ def _tooth_form(gear: _Gear, _limits: Limits) -> Iterator[Check]:
 
 def _sliding(gear: _Gear, limits: Limits) -> Iterator[Check]:
     found = gear_quantity(gear.pair, "specific_sliding")
-    limit = _UNUSUAL_SLIDING if limits.sliding is None else limits.sliding
+    limit = UNUSUAL_SLIDING if limits.sliding is None else limits.sliding
     if found is None or (limits.sliding is None and abs(found[gear.place]) <= limit):
         return
     size = abs(found[gear.place])

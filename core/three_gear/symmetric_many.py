@@ -1,0 +1,138 @@
+"""Closed forms and roots of the symmetric family (I = 1, equal gears 1 and 5) for arrays of designs.
+
+With n = 1 - i3 and h = phi12/2, as in `symmetric_back_step`, whose equations stand here for arrays. Roots are Newton's
+inside a bracket; a design that rests is frozen, so that its last bit does not depend on its neighbours.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from gearlink.core.numerics.arrays import Mask, Reals
+
+_RESTS = 1e-9  # of x, the last step; the error that it leaves is its square
+_MOST_STEPS = 60
+_QUARTER = 0.5 * math.pi
+
+
+def newton(function: Callable[..., tuple[Reals, Reals]], low: Reals, high: Reals, start: Reals, *given: Reals) -> Reals:
+    """Roots of rising functions by Newton's method inside brackets; a step that leaves its bracket halves it.
+
+    Parameters
+        function : of x and `given` - value and slope
+        low, high : (N,) arrays - function(low) <= 0 <= function(high)
+        start : (N,) array - inside
+        given : (N,) arrays that the function takes as well
+    Returns
+        x : (N,) array - each as if it stood alone
+    """
+    result = np.array(start)
+    live: Any = np.arange(result.size)
+    x, low, high = result, np.array(low), np.array(high)
+    for _ in range(_MOST_STEPS):
+        value, slope = function(x, *given)
+        low, high = np.where(value < 0.0, x, low), np.where(value < 0.0, high, x)
+        with np.errstate(all="ignore"):
+            new = x - value / slope
+        new = np.where((new >= low) & (new <= high), new, 0.5 * (low + high))
+        new = np.where(value == 0.0, x, new)
+        moves = np.abs(new - x) > _RESTS * np.abs(new)
+        result[live] = new
+        if not moves.any():
+            break
+        if not moves.all():
+            live, x, low, high = live[moves], new[moves], low[moves], high[moves]
+            given = tuple(row[moves] for row in given)
+        else:
+            x = new
+    return result
+
+
+def half_angle_for_dwell(n: Reals, phi13: Reals) -> Reals:
+    """h = phi12/2 [rad] whose dwell angle is phi13.
+
+    n [asin(k sin(y)) + asin(k sin(h))] = phi13,   y = phi13 - h
+
+    Source
+        thesis (4-16), as `symmetric_back_step.crank_angle_for_dwell`
+    """
+    return newton(_missing_dwell, 0.25 * phi13, np.minimum(0.5 * phi13, _QUARTER), phi13 / 3.0, n, phi13)
+
+
+def _missing_dwell(h: Reals, n: Reals, phi13: Reals) -> tuple[Reals, Reals]:
+    """The equation of `half_angle_for_dwell`, and its derivative with respect to h."""
+    y = phi13 - h
+    sin_h, cos_h, sin_y, cos_y = np.sin(h), np.cos(h), np.sin(y), np.cos(y)
+    rest = n * n - 1.0
+    square = rest * cos_h * cos_h + cos_y * cos_y
+    root = np.sqrt(square)
+    value = n * (np.arctan2(sin_y, root) + np.arctan2(sin_h, n * cos_h)) - phi13
+    whole = square + sin_y * sin_y
+    slope = (n * sin_y * rest * cos_h * sin_h / whole - n * cos_y) / root + n * n / whole
+    return value, slope
+
+
+def dwell_angle(n: Reals, h: Reals) -> Reals:
+    """phi13 [rad] of a back-step over 2 h: the same equation solved for y.
+
+    Source
+        as `symmetric_back_step.dwell_angle`
+    """
+    limit = 2.0 * math.pi * n / (n + 1.0)
+    high = np.minimum(3.0 * h, limit - h)
+    # At y = h the value is least: beyond it it rises, and the root lies at about 2 h.
+    return h + newton(_regained, h, high, np.minimum(2.0 * h, high), n, h)
+
+
+def _regained(y: Reals, n: Reals, h: Reals) -> tuple[Reals, Reals]:
+    """How far the output at 270 deg + y stands above its place at 270 deg - h, and its speed there."""
+    sin_h, cos_h, sin_y, cos_y = np.sin(h), np.cos(h), np.sin(y), np.cos(y)
+    root = np.sqrt((n * n - 1.0) * cos_h * cos_h + cos_y * cos_y)
+    value = h + y - n * (np.arctan2(sin_y, root) + np.arctan2(sin_h, n * cos_h))
+    return value, 1.0 - n * cos_y / root
+
+
+def half_angle_for_back_step(n: Reals, angle: Reals) -> Reals:
+    """h [rad] whose back-step is `angle` [rad].
+
+    2 n atan(tan(h)/n) - 2 h = angle
+
+    Source
+        thesis (4-19), as `symmetric_back_step.crank_angle_for_back_step`
+    """
+    start = np.minimum(np.cbrt(1.5 * angle / (1.0 - 1.0 / (n * n))), 0.9 * _QUARTER)
+    return newton(_missing_back_step, np.zeros(n.shape), np.full(n.shape, _QUARTER), start, n, angle)
+
+
+def _missing_back_step(h: Reals, n: Reals, angle: Reals) -> tuple[Reals, Reals]:
+    sin_h, cos_h = np.sin(h), np.cos(h)
+    value = 2.0 * (n * np.arctan2(sin_h, n * cos_h) - h) - angle
+    whole = n * n * cos_h * cos_h + sin_h * sin_h
+    return value, 2.0 * (n * n - 1.0) * sin_h * sin_h / whole
+
+
+def back_step(n: Reals, h: Reals) -> Reals:
+    """The back-step [rad] over 2 h (thesis (4-19))."""
+    return np.asarray(2.0 * (n * np.arctan2(np.sin(h), n * np.cos(h)) - h))
+
+
+def frame_ratio(n: Reals, h: Reals) -> Reals:
+    """d of a back-step over 2 h (thesis (4-18))."""
+    part = np.sqrt(n * n - 1.0) * np.cos(h)
+    return np.asarray(part + np.hypot(part, 1.0))
+
+
+def frame_ratio_for_speeds(n: Reals, low: Reals, high: Reals) -> Reals:
+    """d of an output speed that swings between two values (thesis (4-20))."""
+    with np.errstate(all="ignore"):
+        q = n * ((high + low) / (high - low))
+        return np.asarray(q + np.sqrt((q - 1.0) * (q + 1.0)))
+
+
+def in_range(value: Reals, low: Any, high: Any) -> Mask:
+    """Where low < value < high."""
+    return np.asarray((low < value) & (value < high))

@@ -1,0 +1,200 @@
+"""The array form against the design classes: refusals and statuses equal, values within 1e-9 of their size.
+
+Half of the values agree within 1e-12, all that are conditioned well within 1e-11: a few ulp times the condition number
+of a root, 1/h^2 of a short back-step, and the cotangent of a small transmission angle.
+"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from gearlink.core.explore.chunks import chunk_of, evaluated, one_by_one, together
+from gearlink.core.explore.front import Found
+from gearlink.core.explore.problem import Problem, problem
+from gearlink.core.study.spec import StudySpec
+
+CASES = {c["name"]: c for c in json.loads((Path(__file__).parents[2] / "reference" / "explore.json").read_text())}
+QUANTITIES = [
+    *("i3", "crank_teeth", "idler_teeth", "output_teeth", "frame_ratio", "crank_length", "coupler_length"),
+    *("rocker_length", "frame_length", "mean_ratio", "speed_ratio_max", "speed_ratio_min", "back_step_angle"),
+    *("back_step_crank_angle", "dwell_angle", "dwell_angle_approximate", "min_transmission_angle", "gear_gap"),
+    *("nonuniformity", "dwell_crank_angles[0]", "dwell_crank_angles[1]", "crank_idler.tip_radius[1]"),
+    *("crank_idler.root_radius[0]", "crank_idler.tip_pressure_angle[0]", "idler_output.span_measurement[1]"),
+    *("idler_output.contact_ratio", "idler_output.center_distance", "idler_output.working_pressure_angle"),
+]
+BASE: dict[str, Any] = {"kind": "three-gear-four-bar", "gears": {"module": 2, "crank": 40, "idler": 72, "output": 40}}
+GEARS = {
+    "gears.crank": {"from": 8, "to": 80, "also": ["gears.output"]},
+    "gears.idler": {"from": 8, "to": 300},
+    "gears.module": {"values": [0.5, 1, 2.5, 8]},
+}
+LIMITS = {"limits.gear_gap": {"from": -3, "to": 9}, "limits.transmission_angle": {"from": 20, "to": 70}}
+UNEQUAL = {
+    "gears.crank": {"from": 8, "to": 12},
+    "gears.output": {"from": 8, "to": 12},
+    "gears.idler": {"from": 8, "to": 90},
+}
+TASKS: dict[str, tuple[str, dict[str, Any], dict[str, Any]]] = {
+    "dwell": ("synth dwell", {"dwell": {"angle": 135}}, {**GEARS, "dwell.angle": {"from": 1, "to": 300}}),
+    "dwell, limits": ("synth dwell", {"dwell": {"angle": 150}, "assembly": -1}, {**UNEQUAL, **LIMITS}),
+    "back-step": (
+        "synth back-step",
+        {"back_step": {"angle": 20}},
+        {**GEARS, "back_step.angle": {"from": 0.1, "to": 300}},
+    ),
+    "back-step, crank angle": (
+        "synth back-step",
+        {"back_step": {"crank_angle": 20}},
+        {**GEARS, "back_step.crank_angle": {"from": 0, "to": 179.5}},
+    ),
+    "back-step, both": (
+        "synth back-step",
+        {"back_step": {"crank_angle": 20, "angle": 20}, "limits": {"least_shaft": 7, "undercut": 0.3, "sliding": 2}},
+        {**GEARS, "back_step.crank_angle": {"from": 0, "to": 179.5}, "back_step.angle": {"from": 0.1, "to": 60}},
+    ),
+    "speed": (
+        "synth variable-speed",
+        {"speed": {"min": 0, "max": 200}},
+        {**GEARS, "speed.min": {"from": -20, "to": 220}},
+    ),
+}
+
+
+def study(name: str, count: int) -> Problem:
+    command, section, variables = TASKS[name]
+    data = {
+        "kind": "study",
+        "design": {**BASE, **section},
+        "command": command,
+        "variables": variables,
+        "minimize": {"frame_length": 1},
+        "where": [f"{quantity} > -1e9" for quantity in QUANTITIES],
+        "checks": {"must_pass": "all"},
+        "sampling": {"method": "sobol", "budget": count, "seed": 5},
+    }
+    made = problem(StudySpec.model_validate_json(json.dumps(data)))
+    assert made.axis is not None
+    return made
+
+
+def counted(found: Any, code: str, what: str, count: int) -> Any:
+    return sum((getattr(f, what).astype(int) for f in found.findings if f.code == code), np.zeros(count, dtype=int))
+
+
+def reasons(found: Any) -> list[str]:
+    return [found.reasons[i - 1] if i else "" for i in found.refused]
+
+
+@pytest.mark.parametrize("name", TASKS)
+@pytest.mark.parametrize("count", [128, pytest.param(16384, marks=pytest.mark.slow)])
+def test_refusals_statuses_and_values_are_those_of_the_classes(name: str, count: int) -> None:
+    made = study(name, count)
+    columns = made.order.columns(np.arange(made.order.count))
+    many, single = made.axis.evaluate(by_path(made, columns)), one_by_one(made, columns)
+    assert reasons(evaluated(made, columns)) == reasons(many) == reasons(single)
+    unsure = many.unsure
+    assert unsure.mean() < 0.02
+    for code in made.must_pass:
+        for what in ("fails", "warns"):
+            a, b = (counted(found, code, what, count) for found in (many, single))
+            assert (a[~unsure] == b[~unsure]).all(), (code, what, columns[:, np.flatnonzero(a != b)[:1]])
+    for quantity in made.names:
+        a, b = many.quantities[quantity].astype(float), single.quantities[quantity].astype(float)
+        assert (np.isnan(a) == np.isnan(b))[~unsure].all(), quantity
+        exists = np.isfinite(b) & ~unsure
+        away = np.abs(a - b)[exists] / np.maximum(1.0, np.abs(b[exists]))
+        assert away.max(initial=0.0) < 1e-9, quantity
+        assert not away.size or np.median(away) < 1e-12, quantity
+
+
+def by_path(made: Problem, columns: Any) -> dict[str, Any]:
+    found = {}
+    for variable, row in zip(made.variables, columns, strict=True):
+        values = np.array(variable.values, dtype=float)[row.astype(int)] if variable.values else row
+        found |= dict.fromkeys((variable.path, *variable.also), values)
+    return found
+
+
+@pytest.mark.parametrize("name", ["dwell", "back-step", "speed"])
+def test_no_bit_depends_on_the_neighbours(name: str) -> None:
+    made = study(name, 1024)
+    columns = made.order.columns(np.arange(1024))
+    whole = made.axis.evaluate(by_path(made, columns))
+    for share in (slice(0, 7), slice(300, 301), slice(11, 788)):
+        part = made.axis.evaluate(by_path(made, columns[:, share]))
+        for quantity in made.names:
+            assert np.array_equal(part.quantities[quantity], whole.quantities[quantity][share], equal_nan=True), (
+                quantity
+            )
+
+
+def test_designs_next_to_a_limit_are_left_to_the_class() -> None:
+    made = study("dwell", 64)
+    columns = by_path(made, made.order.columns(np.arange(64)))
+    gap = made.axis.evaluate(columns).quantities["gear_gap"]
+    again = made.axis.evaluate({**columns, "limits.gear_gap": gap * (1.0 + 1e-12)})
+    assert again.unsure[np.isfinite(gap)].all()
+
+
+@pytest.mark.parametrize(
+    ("change", "served"),
+    [
+        ({}, True),
+        ({"dwell": {"window": 70, "tolerance": 0.5}}, False),
+        ({"dwell": {"angle": 135, "crank": 30}}, False),
+        ({"shafts": {"input_radius": 5}}, False),
+        ({"dwell_tolerance": 0.5}, False),
+        ({"input_speed": 100}, False),
+    ],
+)
+def test_what_the_form_has_not_is_left_to_the_classes(change: dict[str, Any], served: bool) -> None:
+    base = {**BASE, "dwell": {"angle": 135}, **change}
+    data = {"kind": "study", "design": base, "command": "synth dwell", "minimize": {"frame_length": 1}}
+    data["variables"] = {"gears.module": {"values": [2, 3]}}
+    made = problem(StudySpec.model_validate_json(json.dumps(data)))
+    assert (made.axis is not None) is served
+
+
+def test_a_quantity_that_the_form_has_not_is_left_to_the_classes() -> None:
+    data = {
+        "kind": "study",
+        "design": {**BASE, "dwell": {"angle": 135}},
+        "minimize": {"acceleration_ratio_max": 0.01},
+        "variables": {"gears.module": {"values": [2, 3]}},
+    }
+    assert problem(StudySpec.model_validate_json(json.dumps(data))).axis is None
+
+
+def test_study_of_record() -> None:
+    """All 396,880 designs of a grid: counts, front and rows as on record."""
+    case = CASES["dwell-study-396880"]
+    given, want = case["input"], case["expected"]
+    resolution = given["resolution"]
+    data = {
+        "kind": "study",
+        "design": {**BASE, "dwell": {"angle": 135}},
+        "variables": {
+            "gears.crank": {"from": given["crank"][0], "to": given["crank"][1], "also": ["gears.output"]},
+            "gears.idler": {"from": given["idler_ratio"][0], "to": given["idler_ratio"][1], "times": "gears.crank"},
+            "gears.module": {"values": given["modules"]},
+            "dwell.angle": {"values": given["angles"]},
+        },
+        "define": {"envelope": "frame_length + crank_length + crank_idler.tip_radius[1]"},
+        "minimize": {"envelope": resolution[0], "back_step_angle": resolution[2], "speed_ratio_max": resolution[3]},
+        "maximize": {"min_transmission_angle": resolution[1]},
+    }
+    made = problem(StudySpec.model_validate_json(json.dumps(data)))
+    total = together(made, (chunk_of(made, number) for number in range(made.chunks)))
+    found = Found.of(made, total)
+    assert (total.designs, total.feasible, found.front_size) == (want["designs"], want["feasible"], want["front"])
+    assert {code: total.misses[code].fails for code in want["failing"]} == want["failing"]
+    assert {code: total.misses[code].alone for code in want["failing"]} == want["failing_alone"]
+    assert [row.index for row in found.rows] == [int(row[0]) for row in want["kept"]]
+    for row, kept in zip(found.rows, want["kept"], strict=True):
+        envelope, back, speed, mu = row.figures
+        assert [envelope, -mu, back, speed] == pytest.approx(kept[1:], rel=case["tolerance"])
