@@ -65,16 +65,21 @@ def _schema(
         str | None,
         typer.Argument(metavar="KIND", help="kind of design; default: all kinds", autocompletion=offers("kinds")),
     ] = None,
+    write: Annotated[
+        Path | None, typer.Option("--write", metavar="DIR", help="write it there, with settings for VS Code")
+    ] = None,
 ) -> None:
     """JSON Schema (draft-07) of the design files, for editors that check and complete while you type.
 
-    Give its name in the first line of the design: `# yaml-language-server: $schema=gear-pair.schema.json`.
+    With --write DIR the editor knows design files by their name: DIR gets gearlink.schema.json, and, where there is
+    none, .vscode/settings.json, which names the schema for designs/**/*.yaml and *.gearlink.yaml. Without it, give the
+    schema's name in the first line of a design: `# yaml-language-server: $schema=gear-pair.schema.json`.
 
-    Example: gearlink schema gear-pair > gear-pair.schema.json
+    Example: gearlink schema --write .
     """
-    from gearlink.cli.commands.schema import run_schema
+    from gearlink.cli.commands.schema import run_schema, write_schema
 
-    raise typer.Exit(run_schema(kind))
+    raise typer.Exit(run_schema(kind) if write is None else write_schema(kind, write))
 
 
 def _explain(

@@ -3,21 +3,59 @@
 from __future__ import annotations
 
 import json
+import sys
+from pathlib import Path
 
 from gearlink.cli.commands.kind_names import kind_named
 from gearlink.cli.exit_codes import ExitCode
+from gearlink.cli.files import CannotWrite, write_atomically
+from gearlink.cli.options import Options
+from gearlink.cli.printable import visible
+from gearlink.cli.reading.diagnostics import Diagnostic
+from gearlink.cli.render.errors import show_errors
 from gearlink.cli.texts.schema import all_kinds_schema, kind_schema
 from gearlink.core.kinds import FILES
+
+PATTERNS = ("designs/**/*.yaml", "*.gearlink.yaml")
+"""Names of files that an editor takes for design files."""
 
 
 def run_schema(kind_name: str | None) -> int:
     """Print the schema of a kind, or the one of all kinds; give the exit status."""
+    text = _text(kind_name)
+    if text is None:
+        return ExitCode.WRONG_INPUT
+    print(text)
+    return ExitCode.OK
 
+
+def write_schema(kind_name: str | None, folder: Path) -> int:
+    """Write the schema into a folder, and there the settings by which an editor knows design files by their name."""
+    text = _text(kind_name)
+    if text is None:
+        return ExitCode.WRONG_INPUT
+    schema, settings = folder / "gearlink.schema.json", folder / ".vscode" / "settings.json"
+    try:
+        write_atomically(schema, lambda stream: stream.write(f"{text}\n".encode()))
+        print(f"wrote {visible(str(schema))}", file=sys.stderr)
+        line = json.dumps({"yaml.schemas": {f"./{schema.name}": list(PATTERNS)}}, indent=2)
+        if settings.exists():
+            print(f"{visible(str(settings))} is left as it is; it wants\n{line}", file=sys.stderr)
+        else:
+            write_atomically(settings, lambda stream: stream.write(f"{line}\n".encode()))
+            print(f"wrote {visible(str(settings))}", file=sys.stderr)
+    except CannotWrite as error:
+        show_errors([Diagnostic("GL116", str(error), file="<--write>")], Options())
+        return ExitCode.WRONG_INPUT
+    return ExitCode.OK
+
+
+def _text(kind_name: str | None) -> str | None:
+    """The schema of a kind or of all; None where no kind is called so, which has been said."""
     if kind_name is None:
         whole = all_kinds_schema(list(FILES.values()))
     elif (kind := kind_named(kind_name)) is not None:
         whole = kind_schema(kind)
     else:
-        return ExitCode.WRONG_INPUT
-    print(json.dumps(whole, indent=2, ensure_ascii=False, allow_nan=False))
-    return ExitCode.OK
+        return None
+    return json.dumps(whole, indent=2, ensure_ascii=False, allow_nan=False)

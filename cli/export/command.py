@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from difflib import get_close_matches
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -11,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from gearlink.cli.evaluate import open_design, read_spec
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.export import parts
-from gearlink.cli.export.options import Export, FileFormat
+from gearlink.cli.export.options import CurveForm, Export, FileFormat
 from gearlink.cli.files import CannotWrite, safe_stem, write_atomically
 from gearlink.cli.reading.design_file import diagnose_no_solution
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
@@ -30,15 +31,17 @@ def run_export(source: str, asked: Export) -> int:
     1 where the files were written but a profile is unfit for use (the roller cuts into it), 2 where nothing was.
     """
     try:
-        spec, contours = _contours(source, asked)
-        files = [
-            (contour, _path(contour, spec, form, asked), _writer(form)(contour, spec))
-            for contour in contours
-            for form in asked.formats
-        ]
-        for contour, path, data in files:
+        loaded, kind = open_design(source, asked.options)
+        _require_profiles(loaded, kind)
+        spec = read_spec(loaded, kind, source)
+        design = kind.design(_command(spec), spec)
+        with _located(loaded):
+            contours = {curve: _contours(design, asked, curve) for curve in _curves(asked)}
+            files = [file for form in asked.formats for file in _files(form, design, contours, asked)]
+        for path, data, words in files:
             write_atomically(path, lambda stream, data=data: stream.write(data))  # type: ignore[misc]
-            _tell(contour, path, asked)
+            if not asked.options.quiet:
+                print(f"{path}: {words}")
     except DesignFileError as error:
         show_errors(error.diagnostics, asked.options)
         return ExitCode.WRONG_INPUT
@@ -48,28 +51,63 @@ def run_export(source: str, asked: Export) -> int:
     except GearlinkError as error:
         show_errors([Diagnostic("GL115", str(error), file="<command line>")], asked.options)
         return ExitCode.WRONG_INPUT
-    findings = [(contour.part.name, text) for contour in contours for text in contour.part.findings]
+    found = {contour.part.name: contour.part.findings for made in contours.values() for contour in made}
+    findings = [(name, text) for name, texts in found.items() for text in texts]
     for name, text in findings:
         print(f"warning: {name}: {text}", file=sys.stderr)
     return ExitCode.FINDING if findings else ExitCode.OK
 
 
-def _contours(source: str, asked: Export) -> tuple[Any, list[Contour]]:
-    """The spec and the sampled parts; whatever the mechanism refuses becomes a located error."""
-    from gearlink.cli.export.contour import contour
+@contextmanager
+def _located(loaded: LoadedFile) -> Iterator[None]:
+    """Whatever the mechanism refuses becomes an error at its place in the file."""
     from gearlink.cli.export.sampling import TooFine
 
-    loaded, kind = open_design(source, asked.options)
-    _require_profiles(loaded, kind)
-    spec = read_spec(loaded, kind, source)
     try:
-        made = parts.makers(kind.design(_command(spec), spec))
-        chosen = [made[name]() for name in _names(asked.parts, tuple(made))]
-        return spec, [contour(part, asked.tolerance, asked.curve) for part in chosen]
+        yield
     except NoSolution as error:
         raise DesignFileError([diagnose_no_solution(loaded, error)]) from error
     except TooFine as error:
         raise DesignFileError([Diagnostic("GL115", str(error), file="<--tolerance>")]) from error
+
+
+def _curves(asked: Export) -> list[CurveForm]:
+    """How the profiles are sampled: a solid is made of splines whatever the drawings are made of."""
+    drawings = [form for form in asked.formats if form not in (FileFormat.STEP, FileFormat.REXS)]
+    solids = [CurveForm.SPLINE] if FileFormat.STEP in asked.formats else []
+    return list(dict.fromkeys([*([asked.curve] if drawings else []), *solids]))
+
+
+def _contours(design: Any, asked: Export, curve: CurveForm) -> list[Contour]:
+    """The sampled parts."""
+    from gearlink.cli.export.contour import contour
+
+    made = parts.makers(design)
+    return [contour(made[name](), asked.tolerance, curve) for name in _names(asked.parts, tuple(made))]
+
+
+def _files(
+    form: FileFormat, design: Any, contours: dict[CurveForm, list[Contour]], asked: Export
+) -> Iterator[tuple[Path, bytes, str]]:
+    """Path, bytes and a word on each file of a format."""
+    spec = design.spec
+    if form is FileFormat.REXS:
+        from gearlink.cli.export.rexs import as_rexs
+
+        yield asked.options.out / f"{safe_stem(spec.name)}.rexs", as_rexs(design), "REXS 1.7"
+        return
+    for contour in _drawn(form, contours, asked):
+        data = _writer(form, asked)(contour, spec)
+        yield asked.options.out / f"{safe_stem(spec.name)}-{contour.part.name}.{form}", data, _words(contour, asked)
+
+
+def _drawn(form: FileFormat, contours: dict[CurveForm, list[Contour]], asked: Export) -> list[Contour]:
+    """The parts that a format takes: of all parts, those that are bodies become solids."""
+    if form is not FileFormat.STEP:
+        return contours[asked.curve]
+    made = contours[CurveForm.SPLINE]
+    closed = [contour for contour in made if contour.part.closed]
+    return made if asked.parts or not closed else closed
 
 
 def _command(spec: Any) -> str:
@@ -97,7 +135,7 @@ def _names(asked: tuple[str, ...], known: tuple[str, ...]) -> tuple[str, ...]:
     raise DesignFileError([Diagnostic("GL115", message, file="<--part>", key=unknown[0], help=remedy)])
 
 
-def _writer(form: FileFormat) -> Callable[[Contour, Any], bytes]:
+def _writer(form: FileFormat, asked: Export) -> Callable[[Contour, Any], bytes]:
     if form is FileFormat.DXF:
         from gearlink.cli.export.dxf import as_dxf
 
@@ -106,18 +144,17 @@ def _writer(form: FileFormat) -> Callable[[Contour, Any], bytes]:
         from gearlink.cli.export.svg import as_svg
 
         return as_svg
+    if form is FileFormat.STEP:
+        from gearlink.cli.export.step import as_step
+
+        return lambda contour, spec: as_step(contour, spec, asked.width)
     from gearlink.cli.export.csv import as_csv
 
     return as_csv
 
 
-def _path(contour: Contour, spec: Any, form: FileFormat, asked: Export) -> Path:
-    return asked.options.out / f"{safe_stem(spec.name)}-{contour.part.name}.{form}"
-
-
-def _tell(contour: Contour, path: Path, asked: Export) -> None:
+def _words(contour: Contour, asked: Export) -> str:
     from gearlink.cli.export.header import error_name, rounded_up
 
-    if not asked.options.quiet:
-        error = f"{error_name(contour)} {rounded_up(contour.error)} mm (tolerance {asked.tolerance:g} mm)"
-        print(f"{path}: {contour.points} points, {error}")
+    error = f"{error_name(contour)} {rounded_up(contour.error)} mm (tolerance {asked.tolerance:g} mm)"
+    return f"{contour.points} points, {error}"

@@ -50,6 +50,9 @@ class Part:
         notes : sentences for whoever uses the file
         findings : what makes the profile unfit for use
         extra_columns : heads of the columns that `Stretch.extra` gives
+        width : float or None [mm] - along the axis
+        spur : bool - the same in every section across the axis
+        rim : float [mm] - above 0: the body lies between the profile and this circle
     """
 
     name: str
@@ -61,6 +64,9 @@ class Part:
     notes: tuple[str, ...] = ()
     findings: tuple[str, ...] = ()
     extra_columns: tuple[str, ...] = ()
+    width: float | None = None
+    spur: bool = True
+    rim: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -254,3 +260,16 @@ def rows_of(pieces: tuple[Sampled, ...]) -> Iterator[tuple[Sampled, slice]]:
                 begin = 1
         yield piece, slice(first, stop)
         first = begin
+
+
+def extents(contour: Contour) -> tuple[float, float, float, float]:
+    """Left, bottom, right, top of all curves, circles and the cross on the axis [mm]."""
+    boxes = [(line.nodes.real, line.nodes.imag) for line in contour.lines]
+    for circle in contour.part.circles:
+        sides = np.array([-circle.radius, circle.radius])
+        boxes.append((circle.center.real + sides, circle.center.imag + sides))
+    arm = 0.16 * max(float(abs(line.nodes).max()) for line in contour.lines)
+    boxes.append((np.array([-arm, arm]), np.array([-arm, arm])))
+    low = [min(float(box[axis].min()) for box in boxes) for axis in (0, 1)]
+    high = [max(float(box[axis].max()) for box in boxes) for axis in (0, 1)]
+    return low[0], low[1], high[0], high[1]

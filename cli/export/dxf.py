@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.cli.export.contour import Contour, Line
+from gearlink.cli.export.contour import Contour, Line, extents
 from gearlink.cli.export.header import describe
 from gearlink.cli.export.options import CurveForm
 from gearlink.cli.export.sampling import Points
@@ -54,6 +54,9 @@ def as_dxf(contour: Contour, spec: Any) -> bytes:
             space.add_circle(center, circle.radius, dxfattribs={"layer": circle.layer})
         _add_center(space, _reach(contour))
         _add_text(space, said, contour)
+        left, bottom, right, top = extents(contour)
+        document.header["$EXTMIN"], document.header["$EXTMAX"] = (left, bottom, 0.0), (right, top, 0.0)
+        space.dxf_layout.dxf.extmin, space.dxf_layout.dxf.extmax = (left, bottom, 0.0), (right, top, 0.0)
         # Registered when written, they would stand in the order of a set, which changes from run to run.
         for used in sorted(document.entitydb.dxf_types_in_use()):
             document.classes.add_class(used)

@@ -58,7 +58,7 @@ def describe(contour: Contour, spec: Any, extra_error: float = 0.0) -> dict[str,
         "curve": str(contour.form),
         "tolerance": f"{contour.tolerance:g} mm",
         error_name(contour).replace(" ", "_"): f"{rounded_up(contour.error + extra_error)} mm",
-        "points": str(contour.points),
+        "points": ", ".join(f"{line.layer} {line.nodes.size}" for line in contour.lines),
     }
     notes = {f"note_{number}": note for number, note in enumerate(part.notes, 1)}
     return named | notes | {f"warning_{number}": text for number, text in enumerate(part.findings, 1)}

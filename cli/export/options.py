@@ -17,6 +17,8 @@ class FileFormat(StrEnum):
     DXF = "dxf"
     SVG = "svg"
     CSV = "csv"
+    STEP = "step"
+    REXS = "rexs"
 
 
 class CurveForm(StrEnum):
@@ -35,3 +37,4 @@ class Export:
     tolerance: float
     curve: CurveForm
     options: Options
+    width: float | None = None

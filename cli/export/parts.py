@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.errors import MissingSection, at_key
+from gearlink.core.gears.internal_mesh import RIM_MODULES, InternalMesh
 
 if TYPE_CHECKING:
     from gearlink.cli.export.contour import Part
     from gearlink.core.gears.pair import GearPair
 
-_NO_RING = "the ring gear is not exported: its roots depend on its cutter"
 Makers = dict[str, Callable[[], "Part"]]
 
 
@@ -71,63 +70,91 @@ def _wide_swing(design: Any) -> Makers:
 
 
 def _pair(design: Any, key: str = "") -> Makers:
-    def gear(number: int) -> Part:
-        from gearlink.cli.export.gear_parts import gear_of
-
-        with at_key(key):
-            part = gear_of(design.gear_pair, number, f"gear{number + 1}", f"gear {number + 1}")
-        if design.gear_pair.internal:
-            part = replace(part, notes=(*part.notes, "the ring gear is not exported: its roots depend on its cutter"))
-        return part
-
-    numbers = (0,) if design.gear_pair.internal else (0, 1)
-    return {f"gear{number + 1}": partial(gear, number) for number in numbers}
+    pair = design.gear_pair
+    widths = design.data.face_width if hasattr(design, "data") else None
+    return _of_mesh(pair, ("gear1", "gear2"), ("gear 1", "gear 2"), key, widths=widths)
 
 
 def _three_gears(design: Any) -> Makers:
-    places = {
-        "gear1": ("crank_idler", 0, "gear 1, on the crank"),
-        "gear3": ("crank_idler", 1, "gear 3, the idler"),
-        "gear5": ("idler_output", 1, "gear 5, the output"),
-    }
+    """Gears 1, 3 and 5; of a mesh with a ring the idler is the pinion."""
+    crank_idler, idler_output = design.meshes.values()
+    gears = design.spec.gears
+    titles = {"gear1": "gear 1, on the crank", "gear3": "gear 3, the idler", "gear5": "gear 5, the output"}
 
-    def gear(name: str) -> Part:
-        from gearlink.cli.export.gear_parts import gear_of
-        from gearlink.core.gears.pair import GearPair
+    def of(mesh: Any, one: str, other: str) -> Makers:
+        return _of_mesh(mesh, (one, other), (titles[one], titles[other]), "gears", gears)
 
-        mesh, number, title = places[name]
-        pair = design.meshes[mesh]
-        with at_key("gears"):
-            if isinstance(pair, GearPair):
-                return gear_of(pair, number, name, title)
-            part = gear_of(_planet(pair), 0, name, title)
-        return replace(part, notes=(*part.notes, _NO_RING))
-
-    # the idler by its internal mesh, where it has one, tells that the ring is left out
-    if design.output_teeth < 0:
-        places["gear3"] = ("idler_output", 0, places["gear3"][2])
-    rings = {name for name, teeth in (("gear1", design.crank_teeth), ("gear5", design.output_teeth)) if teeth < 0}
-    return {name: partial(gear, name) for name in places if name not in rings}
+    first = of(crank_idler, *(("gear3", "gear1") if design.crank_teeth < 0 else ("gear1", "gear3")))
+    second = of(idler_output, "gear3", "gear5")
+    idler = second if design.crank_teeth < 0 else first
+    return {"gear1": first["gear1"], "gear3": idler["gear3"], "gear5": second["gear5"]}
 
 
-def _single_mesh(design: Any) -> Makers:
-    """Gears 2 and 5; of a ring gear the roots depend on its cutter, which no design file names, so it is left out."""
-    from gearlink.core.gears.pair import GearPair
+def _two_gears(design: Any) -> Makers:
+    titles = ("gear 2, on the coupler", "gear 5, the output")
+    return _of_mesh(design.mesh, ("gear2", "gear5"), titles, "gears", design.spec.gears)
 
-    def gear(number: int, name: str, title: str) -> Part:
-        from gearlink.cli.export.gear_parts import gear_of
 
-        mesh = design.mesh
-        with at_key("gears"):
-            if isinstance(mesh, GearPair):
-                return gear_of(mesh, number, name, title)
-            part = gear_of(_planet(mesh), number, name, title)
-        return replace(part, notes=(*part.notes, _NO_RING))
+def _hypocycloid(design: Any) -> Makers:
+    return _of_mesh(design.mesh, ("planet", "ring"), ("planet", "ring gear, fixed"), "gears", design.spec.gears)
 
-    found: Makers = {"gear2": partial(gear, 0, "gear2", "gear 2, on the coupler")}
-    if isinstance(design.mesh, GearPair):
-        found["gear5"] = partial(gear, 1, "gear5", "gear 5, the output")
+
+def _mutilated(design: Any) -> Makers:
+    """The driven gear; the wheel's first and last tooth and its locking arcs are no result of the design."""
+    made = _of_mesh(design.mesh, ("wheel", "gear2"), ("wheel", "gear 2, driven"), "gears")
+    return {"gear2": made["gear2"]}
+
+
+def _five_bar(design: Any) -> Makers:
+    found: Makers = {}
+    for label, mesh in design.meshes.items():
+        names = label.split("_") if label else _five_bar_gears(design, mesh)
+        parts = (f"{names[0]}_gear", f"{names[1]}_gear")
+        found |= _of_mesh(mesh, parts, (f"{names[0]} gear", f"{names[1]} gear"), "gears", design.spec.gears)
     return found
+
+
+def _five_bar_gears(design: Any, mesh: Any) -> list[str]:
+    """Names of the two gears of a five-bar with a single mesh, the ring last."""
+    if not design.is_path:
+        return ["planet", "ring" if is_ring(mesh) else "sun"]
+    gears = design.spec.gears
+    return ["output", "input"] if is_ring(mesh) and gears.input > gears.output else ["input", "output"]
+
+
+def _of_mesh(
+    mesh: Any,
+    names: tuple[str, str],
+    titles: tuple[str, str],
+    key: str,
+    gears: Any = None,
+    widths: tuple[float, float] | None = None,
+) -> Makers:
+    """Both gears of a mesh; `gears` is the section of the file that may name the rim of a ring."""
+
+    def gear(number: int) -> Part:
+        from gearlink.cli.export import gear_parts
+
+        width = widths[number] if widths else None
+        with at_key(key):
+            if number == 1 and is_ring(mesh):
+                rim = _rim(mesh, getattr(gears, "rim", None))
+                return gear_parts.ring_of(mesh, rim, names[1], titles[1], width)
+            pair = _planet(mesh) if isinstance(mesh, InternalMesh) else mesh
+            return gear_parts.gear_of(pair, number, names[number], titles[number], width)
+
+    return {name: partial(gear, number) for number, name in enumerate(names)}
+
+
+def is_ring(mesh: Any) -> bool:
+    """Whether gear 2 of a mesh is a ring."""
+    return isinstance(mesh, InternalMesh) or mesh.teeth[1] < 0
+
+
+def _rim(mesh: Any, given: float | None) -> float:
+    if given is not None:
+        return given
+    return abs(float(mesh.root_radius[1])) + RIM_MODULES * float(mesh.module)
 
 
 def _planet(mesh: Any) -> GearPair:
@@ -145,8 +172,11 @@ _KINDS: dict[str, Callable[[Any], Makers]] = {
     "wide-swing-cam": _wide_swing,
     "gear-pair": _pair,
     "three-gear-four-bar": _three_gears,
-    "two-gear-four-bar": _single_mesh,
-    "geared-rocker": _single_mesh,
+    "two-gear-four-bar": _two_gears,
+    "geared-rocker": _two_gears,
+    "geared-five-bar": _five_bar,
+    "hypocycloid-dwell": _hypocycloid,
+    "mutilated-gear-dwell": _mutilated,
 }
 _NEEDED = {
     "flatbed-press": "the file has neither a section cam nor a section input_gears",

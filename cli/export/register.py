@@ -26,8 +26,14 @@ def _export(
         float, typer.Option(min=LEAST_TOLERANCE, max=MOST_TOLERANCE, metavar="MM", help="greatest chord error")
     ] = 0.001,
     curve: Annotated[CurveForm, typer.Option(help="chords, or cubics through points")] = CurveForm.POLYLINE,
+    width: Annotated[
+        float | None,
+        typer.Option(min=1e-3, max=1e5, metavar="MM", help="width of STEP solids; default: face_width of the file"),
+    ] = None,
 ) -> None:
-    """Write the profiles of cams and gears as DXF, SVG or CSV: NAME-PART.dxf for each part, with its chord error.
+    """Write the profiles of cams and gears as DXF, SVG, CSV or STEP, NAME-PART.dxf for each part; gears as REXS.
+
+    STEP (solids) needs cadquery-ocp: pip install 'gearlink-design[step]'. REXS 1.7 is one file for all gears.
 
     Exit status 1: the files were written, but a roller cuts into its profile.
 
@@ -35,4 +41,4 @@ def _export(
     """
     from gearlink.cli.export.command import run_export
 
-    raise typer.Exit(run_export(spec, Export(tuple(dict.fromkeys(as_)), tuple(part), tolerance, curve, options)))
+    raise typer.Exit(run_export(spec, Export(tuple(dict.fromkeys(as_)), tuple(part), tolerance, curve, options, width)))

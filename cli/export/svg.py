@@ -9,7 +9,7 @@ from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
 
-from gearlink.cli.export.contour import Contour, Line
+from gearlink.cli.export.contour import Contour, Line, extents
 from gearlink.cli.export.header import describe
 from gearlink.cli.export.options import CurveForm
 from gearlink.cli.export.sampling import Points
@@ -34,7 +34,8 @@ def as_svg(contour: Contour, spec: Any) -> bytes:
         "<!--",
         *(_comment(f"{key}: {text}") for key, text in said.items()),
         "-->",
-        f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}mm" height="{height}mm" '
+        '<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" '
+        f'width="{width}mm" height="{height}mm" '
         f'viewBox="{left:.0f} {-top:.0f} {width} {height}">',
         f"<title>{escape(_clean(spec.name))} {escape(contour.part.title)}</title>",
         '<g transform="scale(1 -1)" fill="none" stroke-width="0.2" stroke-linejoin="round">',
@@ -114,17 +115,8 @@ def _reach(contour: Contour) -> float:
 
 def _frame(contour: Contour) -> tuple[float, float, float, float]:
     """Left, bottom, right, top of all curves, circles and the axis with a margin, in whole millimetres."""
-    boxes = [(line.nodes.real, line.nodes.imag) for line in contour.lines]
-    for circle in contour.part.circles:
-        sides = np.array([-circle.radius, circle.radius])
-        boxes.append((circle.center.real + sides, circle.center.imag + sides))
-    arm = 0.16 * _reach(contour)
-    boxes.append((np.array([-arm, arm]), np.array([-arm, arm])))
-    low = [min(float(box[axis].min()) for box in boxes) for axis in (0, 1)]
-    high = [max(float(box[axis].max()) for box in boxes) for axis in (0, 1)]
-    left, bottom = (float(math.floor(value) - 2) for value in low)
-    right, top = (float(math.ceil(value) + 2) for value in high)
-    return left, bottom, right, top
+    left, bottom, right, top = extents(contour)
+    return math.floor(left) - 2.0, math.floor(bottom) - 2.0, math.ceil(right) + 2.0, math.ceil(top) + 2.0
 
 
 def _comment(text: str) -> str:

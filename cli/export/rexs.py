@@ -1,0 +1,219 @@
+"""REXS 1.7: the gears of a design as programs for gear calculation read them (XML, https://www.rexs.info).
+
+Components: a gear unit, a stage for each mesh, each gear on a shaft with its left and right flank, its data in each
+stage, and the rack tool that cuts it where the file names one. The names are those of the REXS 1.7 data model.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Iterator
+from datetime import UTC, datetime
+from typing import Any
+from xml.sax.saxutils import escape, quoteattr
+
+from gearlink.cli.export.parts import is_ring
+from gearlink.core.errors import NoSolution
+from gearlink.core.gears.internal_mesh import InternalMesh
+from gearlink.core.gears.pair import GearPair
+from gearlink.core.version import VERSION
+
+_VERSION = "1.7"
+
+
+class Model:
+    """Components and relations, numbered as they are added."""
+
+    def __init__(self) -> None:
+        self.components: list[str] = []
+        self.relations: list[str] = []
+        self._kinds: dict[int, str] = {}
+
+    def component(self, kind: str, name: str, attributes: Iterator[tuple[str, str, Any]]) -> int:
+        """A component; attributes without a value are left out."""
+        number = len(self.components) + 1
+        rows = [
+            f"      <attribute id={quoteattr(key)} unit={quoteattr(unit)}>{_text(value)}</attribute>"
+            for key, unit, value in attributes
+            if value is not None
+        ]
+        head = f"    <component id={quoteattr(str(number))} name={quoteattr(_clean(name))} type={quoteattr(kind)}>"
+        self.components.append("\n".join([head, *rows, "    </component>"]))
+        self._kinds[number] = kind
+        return number
+
+    def relation(self, kind: str, order: int | None = None, **roles: int) -> None:
+        """A relation between components by their roles."""
+        place = "" if order is None else f' order="{order}"'
+        rows = [
+            f'      <ref hint="{self._kinds[number]}" id="{number}" role="{role}"/>' for role, number in roles.items()
+        ]
+        head = f'    <relation id="{len(self.relations) + 1}"{place} type="{kind}">'
+        self.relations.append("\n".join([head, *rows, "    </relation>"]))
+
+
+def as_rexs(design: Any) -> bytes:
+    """The gears of a design as a REXS file.
+
+    Raises
+        NoSolution - where a gear pair does not exist, or the kind has no external or internal pair
+    Notes
+        Lengths, diameters and numbers of teeth of a ring are positive, as the data model has them; profile shifts keep
+        the signs of ISO 21771. The date is that of SOURCE_DATE_EPOCH, else 1970, so that a design gives one file.
+    """
+    meshes = list(_meshes(design))
+    if not meshes:
+        raise NoSolution(f"a {design.kind} has no gear pair for REXS: kinds that have one: {', '.join(_KINDS)}")
+    model = Model()
+    unit = model.component("gear_unit", design.spec.name, iter(()))
+    known: dict[str, int] = {}
+    given = getattr(design.spec, "helix_hand", None)
+    for names, pair, widths in meshes:
+        # Right-hand helices count positive; a pinion and its ring have the same hand.
+        hands = [1 if hand == "right" else -1 for hand in given or ("right", "right" if is_ring(pair) else "left")]
+        stage = model.component("cylindrical_stage", f"{names[0]} - {names[1]}", _stage(pair, widths))
+        gears = [_gear(model, unit, known, name, pair, i, widths, hands[i]) for i, name in enumerate(names)]
+        model.relation("assembly", assembly=unit, part=stage)
+        model.relation("stage", stage=stage, gear_1=gears[0], gear_2=gears[1])
+        for i, gear in enumerate(gears):
+            data = model.component("cylindrical_stage_gear_data", names[i], _stage_data(pair, i))
+            model.relation("stage_gear_data", stage=stage, gear=gear, stage_gear_data=data)
+    return _document(model).encode()
+
+
+def _document(model: Model) -> str:
+    moment = datetime.fromtimestamp(int(os.environ.get("SOURCE_DATE_EPOCH", "0") or 0), UTC)
+    head = f'applicationId="gearlink" applicationVersion="{VERSION}" date="{moment.isoformat()}" version="{_VERSION}"'
+    rows = ["  <relations>", *model.relations, "  </relations>", "  <components>", *model.components, "  </components>"]
+    return "\n".join(['<?xml version="1.0" encoding="UTF-8"?>', f"<model {head}>", *rows, "</model>", ""])
+
+
+def _gear(
+    model: Model,
+    unit: int,
+    known: dict[str, int],
+    name: str,
+    pair: GearPair,
+    i: int,
+    widths: tuple[float, float] | None,
+    hand: int,
+) -> int:
+    """A gear on its shaft, with both flanks and the tool that cuts them; once, though it may mesh twice."""
+    if name in known:
+        return known[name]
+    shaft = model.component("shaft", f"shaft of {name}", iter(()))
+    model.relation("assembly", assembly=unit, part=shaft)
+    ring = i == 1 and is_ring(pair)
+    gear = model.component("ring_gear" if ring else "cylindrical_gear", name, _gear_data(pair, i, widths, hand))
+    model.relation("assembly", assembly=shaft, part=gear)
+    sides = [model.component("cylindrical_gear_flank", f"{name}, {side} flank", _flank(pair, i)) for side in _SIDES]
+    model.relation("flank", gear=gear, left=sides[0], right=sides[1])
+    if pair.tools[i] is not None and not ring:
+        tool = model.component("rack_shaped_tool", f"tool of {name}", _tool(pair, i))
+        for flank in sides:
+            made = model.component("cylindrical_gear_manufacturing_settings", name, iter(()))
+            model.relation("manufacturing_step", 1, workpiece=flank, tool=tool, manufacturing_settings=made)
+    known[name] = gear
+    return gear
+
+
+_SIDES = ("left", "right")
+
+
+def _stage(pair: GearPair, widths: tuple[float, float] | None) -> Iterator[tuple[str, str, Any]]:
+    z_1, z_2 = (abs(z) for z in pair.teeth)
+    yield "center_distance", "mm", abs(pair.center_distance)
+    yield "gear_ratio", "none", max(z_1, z_2) / min(z_1, z_2)
+    yield "flag_designation_addendum_modification", "none", "entry_of_addendum_modification_coefficient"
+    yield "sum_of_addendum_modification_coefficients", "none", pair.shift_sum
+    if pair.contact_ratio > 0.0:
+        yield "radial_contact_ratio", "none", pair.contact_ratio
+    if widths:
+        yield "common_face_width", "mm", min(widths)
+
+
+def _gear_data(pair: GearPair, i: int, widths: tuple[float, float] | None, hand: int) -> Iterator[tuple[str, str, Any]]:
+    yield "number_of_teeth", "none", abs(pair.teeth[i])
+    yield "normal_module", "mm", pair.module
+    yield "helix_angle_reference_diameter", "deg", hand * math.degrees(pair.helix_angle) + 0.0
+    yield "face_width", "mm", widths[i] if widths else None
+    for key, radii in (
+        ("reference_circle_diameter", pair.reference_radius),
+        ("base_circle_diameter", pair.base_radius),
+        ("tip_diameter", pair.tip_radius),
+        ("root_diameter", pair.root_radius),
+    ):
+        yield key, "mm", 2.0 * abs(radii[i])
+    yield "normal_tooth_thickness_at_reference_diameter", "mm", pair.tooth_thickness[i]
+    span = pair.span_measurement[i]
+    if span is not None:
+        yield "number_of_teeth_for_span_measurement", "none", pair.span_teeth[i]
+        yield "span_measurement", "mm", span
+
+
+def _flank(pair: GearPair, i: int) -> Iterator[tuple[str, str, Any]]:
+    yield "normal_pressure_angle", "deg", math.degrees(pair.pressure_angle)
+    yield "pressure_angle_in_the_transverse_section", "deg", math.degrees(pair.transverse_pressure_angle)
+    yield "addendum_modification_coefficient", "none", pair.profile_shift[i]
+    yield "addendum_modification", "mm", pair.profile_shift[i] * pair.module
+    yield "addendum_coefficient_basic_profile", "none", pair.addendum
+
+
+def _tool(pair: GearPair, i: int) -> Iterator[tuple[str, str, Any]]:
+    tool = pair.tool(i)
+    yield "normal_module", "mm", pair.module
+    yield "normal_pressure_angle", "deg", math.degrees(pair.pressure_angle)
+    yield "addendum_coefficient_reference_profile", "none", tool.addendum
+    yield "tip_radius_factor", "none", tool.rounding
+
+
+def _stage_data(pair: GearPair, i: int) -> Iterator[tuple[str, str, Any]]:
+    yield "pitch_diameter", "mm", 2.0 * abs(pair.working_radius[i])
+    yield "operating_pressure_angle_in_the_transverse_section", "deg", math.degrees(pair.working_pressure_angle)
+    yield "tip_clearance", "mm", pair.tip_clearance[i]
+
+
+def _meshes(design: Any) -> Iterator[tuple[tuple[str, str], GearPair, tuple[float, float] | None]]:
+    """Names of both gears, pair and face widths of every mesh of a design; of a pair with a ring it is gear 2."""
+    if design.kind in ("gear-pair", "flatbed-press"):
+        if design.kind == "flatbed-press" and design.spec.input_gears is None:
+            return
+        widths = design.data.face_width if design.kind == "gear-pair" else None
+        yield ("gear 1", "gear 2"), design.gear_pair, widths
+    elif design.kind == "three-gear-four-bar":
+        first, second = design.meshes.values()
+        yield ("gear 3", "gear 1") if design.crank_teeth < 0 else ("gear 1", "gear 3"), _signed(first), None
+        yield ("gear 3", "gear 5"), _signed(second), None
+    elif design.kind in _KINDS:
+        yield (
+            ("planet", "ring") if design.kind == "hypocycloid-dwell" else ("gear 2", "gear 5"),
+            _signed(design.mesh),
+            None,
+        )
+
+
+def _signed(mesh: GearPair | InternalMesh) -> GearPair:
+    """A mesh with a ring as a pair whose ring has negative teeth."""
+    if isinstance(mesh, GearPair):
+        return mesh
+    shape: Any = {"addendum": mesh.addendum, "clearance": mesh.clearance, "pressure_angle": mesh.pressure_angle}
+    return GearPair(module=mesh.module, teeth=(mesh.teeth[0], -mesh.teeth[1]), given_shift=(0.0, 0.0), **shape)
+
+
+_KINDS = (
+    "gear-pair",
+    "flatbed-press",
+    "three-gear-four-bar",
+    "two-gear-four-bar",
+    "geared-rocker",
+    "hypocycloid-dwell",
+)
+
+
+def _text(value: Any) -> str:
+    return repr(value) if isinstance(value, float) else escape(str(value))
+
+
+def _clean(text: str) -> str:
+    return " ".join("".join(letter if letter.isprintable() else " " for letter in text).split())

@@ -1,0 +1,69 @@
+"""What other programs read of the repository: workflow, action, hooks; each names commands and versions that exist."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+
+from gearlink.cli.commands.schema import PATTERNS
+
+ROOT = Path(__file__).parents[1]
+
+
+def _read(name: str) -> Any:
+    return yaml.safe_load((ROOT / name).read_text())
+
+
+def test_the_workflow_runs_the_checks_on_every_python() -> None:
+    job = _read(".github/workflows/check.yml")["jobs"]["check"]
+    assert job["strategy"]["matrix"]["python"] == ["3.11", "3.12", "3.13"]
+    assert [step["run"] for step in job["steps"] if "run" in step] == ["make check"]
+    least = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["requires-python"]
+    assert least == ">=3.11"
+
+
+def test_the_action_runs_a_batch(tmp_path: Path) -> None:
+    action = _read("action.yml")
+    defaults = {name: given["default"] for name, given in action["inputs"].items()}
+    script = action["runs"]["steps"][-1]["run"]
+    scripts = tmp_path / "gearlink" / "bin"
+    scripts.mkdir(parents=True)
+    (scripts / "gearlink").symlink_to(Path(sys.executable).parent / "gearlink")
+    given = {"PATHS": "designs/thesis_example_2.yaml", "FAIL_ON": defaults["fail-on"], "CACHE": defaults["cache"]}
+    environment = os.environ | {"RUNNER_TEMP": str(tmp_path)} | given
+    ended = subprocess.run(["bash", "-ec", script], cwd=ROOT, env=environment, capture_output=True, text=True)
+    assert (ended.returncode, ended.stderr) == (0, "")
+
+
+def test_the_hook_checks_design_files() -> None:
+    (hook,) = _read(".pre-commit-hooks.yaml")
+    assert (hook["id"], hook["entry"]) == ("gearlink-check", "gearlink check")
+
+
+def test_schema_and_settings_of_an_editor(gearlink: Any, tmp_path: Path) -> None:
+    ended = gearlink("schema", "--write", tmp_path)
+    assert ended.status == 0
+    schema = json.loads((tmp_path / "gearlink.schema.json").read_text())
+    assert schema == json.loads(gearlink("schema").out)
+    settings = tmp_path / ".vscode" / "settings.json"
+    assert json.loads(settings.read_text())["yaml.schemas"] == {"./gearlink.schema.json": list(PATTERNS)}
+    settings.write_text("{}")
+    again = gearlink("schema", "--write", tmp_path)
+    assert "left as it is" in again.err
+    assert settings.read_text() == "{}"
+
+
+@pytest.mark.parametrize("folder", ["none/of/it", ""])
+def test_schema_says_where_it_cannot_write(gearlink: Any, tmp_path: Path, folder: str) -> None:
+    (tmp_path / "file").write_text("")
+    ended = gearlink("schema", "--write", tmp_path / "file" / folder)
+    assert ended.status == 2
+    assert "GL116" in ended.err
