@@ -30,9 +30,10 @@ def kinds(incomplete: str) -> Offer:
 
 def explained(incomplete: str) -> Offer:
     """Everything that `explain` knows."""
-    from gearlink.cli.commands.explain import names
+    from gearlink.cli.commands.explain import names, plain_names
 
-    return _beginning(incomplete, ((name, "") for name in names()))
+    known = names() if "." in incomplete else plain_names()  # paths of keys only where one is begun: they take a second
+    return _beginning(incomplete, ((name, "") for name in known))
 
 
 def laws(incomplete: str) -> Offer:

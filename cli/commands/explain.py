@@ -6,16 +6,20 @@ import textwrap
 from collections.abc import Iterator
 from dataclasses import dataclass
 from difflib import get_close_matches
+from functools import cache
+from shutil import get_terminal_size
 from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import Format, Options
+from gearlink.cli.texts.columns import COLUMNS, CONSTANTS, column_words
 
 if TYPE_CHECKING:
+    from gearlink.cli.texts.spec_keys import SpecKey
     from gearlink.core.kinds import Kind
     from gearlink.core.report import Rule
 
-_WIDTH = 100
+_WIDTH, _NARROWEST = 100, 40
 _JSON_NAMES = {"How to repair": "how_to_mend"}  # scripts depend on the name
 _LABELS = {"what": "What", "why": "Why", "formula": "Formula", "source": "Source", "remedy": "How to repair"}
 
@@ -48,6 +52,8 @@ def run_explain(subject: str | None, format: Format) -> int:
 def find(subject: str) -> list[Topic]:
     """Every topic of a name; a name written with - for _ counts where nothing bears it as it stands."""
     exact = list(_topics(subject))
+    if all(topic.about == "column" for topic in exact):  # all schemas are read for the keys, which takes its time
+        exact = [*_keys(subject), *exact]
     if exact:
         return exact
     spellings = dict.fromkeys((subject.upper(), subject.lower().replace("_", "-"), subject.lower().replace("-", "_")))
@@ -71,17 +77,60 @@ def _topics(name: str) -> Iterator[Topic]:
         yield _quantity(name.rpartition(".")[2])
     if name in _laws():
         yield _law(name)
+    yield from _symbols(name)
+    if name in CONSTANTS:
+        yield Topic("constant", name, CONSTANTS[name], {"See also": "`gearlink laws` gives it for every law"})
+    if name not in TERMS and column_words(name):
+        yield Topic("column", name, f"column of a table: {column_words(name)}", {})
+
+
+def _symbols(name: str) -> Iterator[Topic]:
+    """The quantities that a symbol stands for in tables and formulas."""
+    from gearlink.core.nomenclature import TERMS
+
+    for quantity, entry in TERMS.items():
+        if name and name in (entry.symbol, *entry.symbol.split(", ")) and name != quantity:
+            topic = _quantity(quantity)
+            yield Topic("symbol", name, f"{quantity}: {topic.title}", topic.paragraphs)
+
+
+def _keys(name: str) -> Iterator[Topic]:
+    """Keys of design files by path, `gears.module`, or by their last word; one topic where several kinds agree."""
+    from gearlink.cli.texts.written_design import choice
+
+    found: dict[tuple[str, str], tuple[SpecKey, list[str]]] = {}
+    for kind, key in _all_keys():
+        if name in (key.path, key.path.rpartition(".")[2]):
+            found.setdefault((key.path, key.words), (key, []))[1].append(kind)
+    for (path, words), (key, kinds) in found.items():
+        told = {"Unit": key.unit if key.unit not in ("", "1") else "", "Range": key.range, "Choice": choice(key)}
+        told |= {"Kinds": ", ".join(kinds), "See also": f"`gearlink new {kinds[0]}` shows it in its place"}
+        yield Topic("key", path, f"key of a design file: {words or 'a section'}", {k: v for k, v in told.items() if v})
 
 
 def names() -> tuple[str, ...]:
-    """Everything that can be explained."""
+    """Everything that can be explained, but for the last words of keys and single symbols, which lead there too."""
+    return tuple(dict.fromkeys([*plain_names(), *(key.path for _, key in _all_keys())]))
+
+
+@cache
+def _all_keys() -> list[tuple[str, SpecKey]]:
+    """Every key of every kind of file, with the kind."""
+    from gearlink.cli.texts.spec_keys import spec_keys
+    from gearlink.core.kinds import FILES
+
+    return [(kind.name, key) for kind in FILES.values() for key in spec_keys(kind) if key.path != "kind"]
+
+
+def plain_names() -> tuple[str, ...]:
+    """Codes, checks, kinds, quantities, laws, columns: what is known without reading all schemas."""
     from gearlink.cli.texts.codes import explanations
     from gearlink.core.kinds import FILES
     from gearlink.core.nomenclature import TERMS
 
     texts = explanations()
     checks = [check for text in texts.values() for check in text.checks]
-    return tuple(dict.fromkeys([*texts, *checks, *FILES, *TERMS, *_laws()]))
+    return tuple(dict.fromkeys([*texts, *checks, *FILES, *TERMS, *_laws(), *COLUMNS, *CONSTANTS]))
 
 
 def _laws() -> tuple[str, ...]:
@@ -229,12 +278,14 @@ _LAW_FORMULAS = {
 
 
 def _as_text(topic: Topic) -> str:
-    lines = [f"{topic.name}: {topic.title}"]
-    for label, words in topic.paragraphs.items():
-        lines += textwrap.wrap(
-            f"{label}: {words}", _WIDTH, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False
-        )
-    return "\n".join(lines)
+    width = max(_NARROWEST, min(_WIDTH, get_terminal_size((80, 24)).columns))
+    told = [f"{topic.name}: {topic.title}"]
+    told += [f"{label}: {words}" for label, words in topic.paragraphs.items() if words not in topic.title]
+    lines = [
+        textwrap.wrap(each, width, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False)
+        for each in told
+    ]
+    return "\n".join(line for each in lines for line in each)
 
 
 def _as_markdown(topic: Topic) -> str:
@@ -271,15 +322,17 @@ def _index(format: Format) -> str:
 
         return markdown_table(("code", "meaning", "check"), rows)
     lines = [f"{code}  {title}" + (f" [{checks}]" if checks else "") for code, title, checks in rows]
-    more = "`gearlink explain NAME` takes a code, and the name of a check, quantity, kind of design or law of motion."
+    more = "`gearlink explain NAME` takes a code, and the name of a check, quantity, symbol, key, column, kind or law."
     return "\n".join([*lines, "", more])
 
 
 def _unknown(subject: str, format: Format) -> int:
     from gearlink.cli.reading.diagnostics import Diagnostic
     from gearlink.cli.render.errors import show_errors
+    from gearlink.core.nomenclature import TERMS
 
-    lower = {name.lower(): name for name in names()}
+    everything = [*names(), *(entry.symbol for entry in TERMS.values() if entry.symbol)]
+    lower = {name.lower(): name for name in [*(name.rpartition(".")[2] for name in everything), *everything]}
     near = [lower[name] for name in get_close_matches(subject.lower(), lower, n=3, cutoff=0.5)]
     remedy = f"nearest: {', '.join(near)}" if near else "`gearlink explain` lists the codes"
     wrong = Diagnostic("GL115", f"nothing is named {subject!r}", file="<command line>", key=subject, help=remedy)

@@ -11,6 +11,7 @@ from sweeps import mostly_slow
 
 from gearlink.cli.commands.explain import names
 from gearlink.cli.texts.codes import explanations
+from gearlink.cli.texts.columns import column_words
 from gearlink.cli.texts.formulas import FORMULAS
 from gearlink.core.codes import rules
 from gearlink.core.kinds import FILES as KINDS
@@ -192,3 +193,56 @@ def test_csv_is_refused(gearlink: Any) -> None:
 
 def test_help_has_an_example(gearlink: Any) -> None:
     assert "Example: gearlink explain" in gearlink("explain", "--help").out
+
+
+@pytest.mark.parametrize(("name", "about", "words"), [
+    ("phi13", "symbol", "dwell_angle: crank angle until the output regains its place"),
+    ("mu_min", "symbol", "min_transmission_angle: "),
+    ("cam.lead_in", "key", "cam angle before the zone"),
+    ("lead_in", "key", "cam angle before the zone"),
+    ("gears.module", "key", "module of all three gears"),
+    ("speed_ratio", "column", "output speed per input speed"),
+    ("mesh_13", "column", "tangential force in that mesh"),
+    ("kappa", "constant", "rest-to-speed law"),
+])  # fmt: skip
+def test_symbols_keys_columns_and_constants_are_known(gearlink: Any, name: str, about: str, words: str) -> None:
+    topics = gearlink("explain", name, "--format", "json").json["topics"]
+    assert [topic["title"] for topic in topics if topic["about"] == about and words in topic["title"]]
+
+
+def test_a_key_says_unit_range_choice_and_kinds(gearlink: Any) -> None:
+    topic = gearlink("explain", "cam.lead_in", "--format", "json").json["topics"][0]
+    assert (topic["unit"], topic["range"], topic["choice"]) == ("deg", "from 0, below 360", "default 0")
+    assert topic["kinds"] == "flatbed-press"
+
+
+@pytest.mark.parametrize(
+    ("wrong", "near"), [("cam.leadin", "cam.lead_in"), ("phi_13", "phi13"), ("lead-in_", "lead_in")]
+)
+def test_nearest_of_keys_and_symbols(gearlink: Any, wrong: str, near: str) -> None:
+    ended = gearlink("explain", wrong)
+    assert ended.status == 2
+    assert near in ended.err
+
+
+@pytest.mark.parametrize("width", [60, 80, 100])
+def test_text_fits_the_width(gearlink: Any, monkeypatch: pytest.MonkeyPatch, width: int) -> None:
+    monkeypatch.setenv("COLUMNS", str(width))
+    assert max(map(len, gearlink("explain", "GL301").out.splitlines())) <= width
+
+
+def test_no_paragraph_repeats_the_headline(gearlink: Any) -> None:
+    assert gearlink("explain", "dwell_angle").out.count("crank angle until the output regains its place") == 1
+
+
+@pytest.mark.parametrize("name", sorted({path.stem for path in (ROOT / "designs").glob("*.yaml")}))
+def test_every_column_of_a_worked_design_has_words(name: str) -> None:
+    from factory import design, worked
+
+    for command in ("analyze", "gripper", "press", "swing"):
+        if command not in KINDS[worked(name)["kind"]].commands:
+            continue
+        made = design(name, command=command)
+        for table in made.outline(command).tables:
+            columns = made.table(table, samples=2).columns
+            assert [each for each in columns if not (column_words(each) or each in TERMS)] == [], table
