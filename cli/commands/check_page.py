@@ -10,6 +10,7 @@ from typing import Any
 
 from gearlink.cli.commands.finding import Finding
 from gearlink.cli.options import Format, Options
+from gearlink.cli.render.errors import fitted
 from gearlink.cli.render.json_report import FORMAT, plain_check
 
 _STATUSES = ("pass", "warn", "fail", "error", "fault")
@@ -61,7 +62,8 @@ def _as_text(shown: Sequence[Finding], verdict: str) -> str:
         name = f" {finding.check.name}" if finding.check else ""
         # A pass needs no line of the source: nothing is to be changed there.
         source = "" if finding.status == "pass" else finding.place.source
-        lines.append(replace(finding.place, code=finding.place.code + name, source=source).as_text(encoding))
+        text = replace(finding.place, code=finding.place.code + name, source=source).as_text(encoding)
+        lines.append(fitted(text, sys.stdout))
     return "\n".join([*lines, verdict])
 
 

@@ -3,12 +3,19 @@
 from __future__ import annotations
 
 import json
+import re
 import sys
+import textwrap
 from collections.abc import Sequence
+from shutil import get_terminal_size
+from typing import TextIO
 
 from gearlink.cli.options import Format, Options
 from gearlink.cli.reading.diagnostics import Diagnostic
 from gearlink.cli.render.json_report import FORMAT
+
+_NARROWEST = 40
+_MESSAGE = re.compile(r"\S.*: (error|fail|warn|pass|fault) GL\d|  help: ")  # the source line and its caret stay
 
 
 def errors_as_json(diagnostics: Sequence[Diagnostic]) -> str:
@@ -22,4 +29,26 @@ def show_errors(diagnostics: Sequence[Diagnostic], options: Options) -> None:
         print(errors_as_json(diagnostics))
         return
     for diagnostic in diagnostics:
-        print(diagnostic.as_text(sys.stderr.encoding or "utf-8"), file=sys.stderr)
+        print(fitted(diagnostic.as_text(sys.stderr.encoding or "utf-8"), sys.stderr), file=sys.stderr)
+
+
+def fitted(text: str, stream: TextIO) -> str:
+    """The lines of a message, folded where a terminal shows them; programs that read a stream get them whole.
+
+    Example
+        >>> import io
+        >>> fitted("a.yaml:1:1: error GL112: too long", io.StringIO())
+        'a.yaml:1:1: error GL112: too long'
+    """
+    if not stream.isatty():
+        return text
+    width = max(_NARROWEST, get_terminal_size().columns)
+    lines = text.split("\n")
+    folded = [_folded(line, width) if _MESSAGE.match(line) else line for line in lines]
+    return "\n".join(folded)
+
+
+def _folded(line: str, width: int) -> str:
+    return "\n".join(
+        textwrap.wrap(line, width, subsequent_indent="    ", break_long_words=False, break_on_hyphens=False)
+    )

@@ -16,11 +16,12 @@ from rich.text import Text
 from gearlink.cli.options import Options
 from gearlink.cli.printable import visible
 from gearlink.cli.render.numbers import number, quiet, readable_rows, scales, thinning
-from gearlink.core.report import Check, Report, Table
+from gearlink.core.report import Check, Quantity, Report, Table
 
 _MOST_ROWS = 24
 _STYLE = {"pass": "green", "warn": "yellow", "fail": "bold red"}
 _WIDE = 110
+_COMPARED = ("GL304", "GL306")  # whose limit is what was asked for, or what the kind of motion turns on
 _NOMINAL = ", nominal: "
 """What follows it in the message of a passed check is said beside the table of passes, which has no messages."""
 _WIDTH_UNKNOWN = 80  # where COLUMNS says 0
@@ -32,6 +33,10 @@ def show(report: Report, options: Options) -> None:
     console.print(Text(f"{visible(' '.join(report.name.split()))}: {report.command} ({report.kind})", style="bold"))
     if report.quantities:
         console.print(_quantities(report, console))
+        if any(map(_per_gear, report.quantities)) and report.command == "gear":
+            console.print(_pairs(report, console))
+        if console.width < _WIDE and console.is_terminal and not options.quiet:
+            print(f"(terminals of {_WIDE} columns show what each quantity means; so does `gearlink explain NAME`)")
     for table in report.tables:
         show_table(table, console)
     show_findings(report, console)
@@ -95,12 +100,29 @@ def _quantities(report: Report, console: Console) -> Grid:
             head, justify="right" if head == "value" else "left", overflow="fold", no_wrap=head == "quantity"
         )
     for q in report.quantities:
-        if q.value == []:  # no standstill has no place
+        if q.value == [] or (report.command == "gear" and _per_gear(q)):  # no standstill has no place
             continue
         unit = "" if q.unit == "1" else q.unit
         grid.add_row(
             q.name, q.symbol, number(quiet(q.value, scale.get(q.unit, 0.0))), unit, *([q.words] if wide else [])
         )
+    return grid
+
+
+def _per_gear(quantity: Quantity) -> bool:
+    """Whether a quantity of a gear pair has a value for each gear."""
+    return isinstance(quantity.value, list) and len(quantity.value) == 2
+
+
+def _pairs(report: Report, console: Console) -> Grid:
+    """The quantities of gear 1 and gear 2 side by side."""
+    grid, scale = grid_for(console), scales(report)
+    for head in ("per gear", "symbol", "gear 1", "gear 2", "unit"):
+        grid.add_column(head, justify="right" if head in ("gear 1", "gear 2") else "left", overflow="fold")
+    for q in filter(_per_gear, report.quantities):
+        assert isinstance(q.value, list), "as _per_gear says"
+        one, other = (number(quiet(value, scale.get(q.unit, 0.0))) for value in q.value)
+        grid.add_row(q.name, q.symbol, one, other, "" if q.unit == "1" else q.unit)
     return grid
 
 
@@ -128,8 +150,16 @@ def _passes(checks: Sequence[Check], scale: Mapping[str, float], console: Consol
         times = f" ({len(group)}x)" if len(group) > 1 else ""
         unit = "" if nearest.unit == "1" else nearest.unit
         value = quiet(nearest.value, scale.get(nearest.unit, 0.0))
-        grid.add_row(name + times, code, number(value, 5), number(nearest.limit, 5), unit)
+        grid.add_row(name + times, code, number(value, 5), _bound(nearest), unit)
     return grid
+
+
+def _bound(check: Check) -> str:
+    """The limit of a check that holds, with the side on which it holds; plain where it is what was asked for."""
+    limit = number(check.limit, 5)
+    if check.value is None or check.limit is None or check.code in _COMPARED:
+        return limit
+    return f"{'>=' if check.value >= check.limit else '<='} {limit}"
 
 
 def _room(check: Check) -> float:
