@@ -21,6 +21,7 @@ from gearlink.core.report import Check, Quantity, Report, Table
 _MOST_ROWS = 24
 _STYLE = {"pass": "green", "warn": "yellow", "fail": "bold red"}
 _WIDE = 110
+_NOTHING = 1e-8  # of the limit: rounding, beside what the limit lets pass
 _COMPARED = ("GL304", "GL306")  # whose limit is what was asked for, or what the kind of motion turns on
 _NOMINAL = ", nominal: "
 """What follows it in the message of a passed check is said beside the table of passes, which has no messages."""
@@ -150,6 +151,8 @@ def _passes(checks: Sequence[Check], scale: Mapping[str, float], console: Consol
         times = f" ({len(group)}x)" if len(group) > 1 else ""
         unit = "" if nearest.unit == "1" else nearest.unit
         value = quiet(nearest.value, scale.get(nearest.unit, 0.0))
+        if isinstance(value, float) and nearest.limit is not None and abs(value) < _NOTHING * abs(nearest.limit):
+            value = 0.0
         grid.add_row(name + times, code, number(value, 5), _bound(nearest), unit)
     return grid
 
