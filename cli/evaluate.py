@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.exit_codes import ExitCode
@@ -15,11 +14,11 @@ from gearlink.cli.reading.loaded_file import LoadedFile
 from gearlink.core.design import UnknownName
 from gearlink.core.errors import NoSolution
 from gearlink.core.kinds import FILES, STUDY, Kind
-from gearlink.core.study.faults import WrongStudy
 
 if TYPE_CHECKING:
     from gearlink.core.design import Design
     from gearlink.core.report import Report
+    from gearlink.core.study.faults import WrongStudy
 
 
 def evaluate(command: str, source: str, options: Options) -> tuple[Design, Report]:
@@ -69,11 +68,17 @@ def build(
         raise DesignFileError([diagnose_no_solution(loaded, error)]) from error
     except UnknownName as error:
         raise DesignFileError([_unknown_name(error)]) from error
-    except WrongStudy as error:
+    except _wrong_study() as error:  # its class is looked up where something is raised, not before
         from gearlink.cli.reading.base_design import located
 
         raise DesignFileError(located(loaded, error.faults)) from error
     return design, report
+
+
+def _wrong_study() -> type[WrongStudy]:
+    from gearlink.core.study.faults import WrongStudy
+
+    return WrongStudy
 
 
 def named(spec: Any, source: str) -> Any:
@@ -102,6 +107,8 @@ def exit_status(report: Report, *, strict: bool = False) -> int:
 
 
 def _unknown_name(error: UnknownName) -> Diagnostic:
+    from difflib import get_close_matches
+
     near: Sequence[str] = get_close_matches(error.name, error.known, n=3, cutoff=0.5)
     remedy = f"nearest: {', '.join(near)}" if near else f"known: {', '.join(error.known)}"
     return Diagnostic("GL115", str(error), file=f"<--{error.what}>", line=1, column=1, key=error.name, help=remedy)

@@ -16,7 +16,6 @@ import yaml
 from yaml import events as ev
 
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic, Source
-from gearlink.cli.reading.yaml_remedies import ODD, hidden_culprit, odd_character, odd_remedy, syntax_error
 
 EventParser: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 """Only its events are used; the pure Python one serves where PyYAML was built without libyaml."""
@@ -145,6 +144,8 @@ def compose(source: Source, start: int = 0) -> Tree:
     try:
         return composer.run()
     except yaml.YAMLError as error:
+        from gearlink.cli.reading.yaml_remedies import syntax_error
+
         wrong = syntax_error(source, start, error)
         raise DesignFileError([*composer.duplicates, wrong]) from None
 
@@ -301,14 +302,20 @@ class _Composer:
             path = format_path(self._path())
             remedy = "keep one of the two"
             self.duplicates.append(self.source.report("GL104", message, at, key=path, help=remedy))
-        elif not (key.isascii() and key.isprintable()) and (odd := ODD.search(key) or CONTROL.search(key)):
-            plain = self.source.text.startswith(key, at)
-            message = f"{odd_character(odd[0])} in a key"
-            self._note(message, at + odd.start() if plain else at, odd_remedy(odd[0]))
+        elif not (key.isascii() and key.isprintable()):
+            self._look_for_odd(key, at)
         elif key == "<<" and event.implicit[0]:
             self._note("merge keys ('<<') are no part of YAML 1.2", at, "write the keys out")
         elif not key:
             self._note("a key is missing before the colon", at, "write the key, a colon, a space, the value")
+
+    def _look_for_odd(self, key: str, at: int) -> None:
+        from gearlink.cli.reading.yaml_remedies import ODD, odd_character, odd_remedy
+
+        if odd := ODD.search(key) or CONTROL.search(key):
+            plain = self.source.text.startswith(key, at)
+            message = f"{odd_character(odd[0])} in a key"
+            self._note(message, at + odd.start() if plain else at, odd_remedy(odd[0]))
 
     def _no_tag(self, event: Any, at: int) -> None:
         if event.tag is not None:
@@ -328,8 +335,11 @@ class _Composer:
         rest = blank.end() if blank else end
         if rest == len(text):
             return
-        if self._root and type(self._root[0]) not in (dict, list) and (odd := hidden_culprit(self.source, rest, 0)):
-            raise DesignFileError([odd])
+        if self._root and type(self._root[0]) not in (dict, list):
+            from gearlink.cli.reading.yaml_remedies import hidden_culprit
+
+            if odd := hidden_culprit(self.source, rest, 0):
+                raise DesignFileError([odd])
         second = text.startswith("---", rest) or end != at
         message = "a second document begins: a design file holds one" if second else "text after the end of the data"
         raise _fatal(self.source, "GL103", message, rest, help="delete it, or make it a file of its own")
@@ -350,8 +360,11 @@ def _no_mapping(tree: Tree) -> Diagnostic:
     if data is None:
         remedy = "`gearlink new KIND` prints a template"
         return source.report("GL103", "the file is empty: it holds no design", tree.at, help=remedy)
-    if isinstance(data, str) and (culprit := hidden_culprit(source, len(source.text), tree.at)):
-        return culprit
+    if isinstance(data, str):
+        from gearlink.cli.reading.yaml_remedies import hidden_culprit
+
+        if culprit := hidden_culprit(source, len(source.text), tree.at):
+            return culprit
     what = "a list" if isinstance(data, list) else "a single value"
     message = f"a design file is made of 'key: value' lines, not of {what}"
     return source.report("GL103", message, tree.at, help="begin with a line such as 'kind: gear-pair'")

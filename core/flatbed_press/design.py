@@ -11,7 +11,6 @@ from gearlink.core.flatbed_press import checks, remedies, tables
 from gearlink.core.flatbed_press.cams import PressCams
 from gearlink.core.flatbed_press.motion import PressMotion
 from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantities, gear_check, gear_quantity
-from gearlink.core.gears.pair import GearPair
 from gearlink.core.linkages.slider_crank_design import SLIDER_QUANTITIES, SliderCrankQuantities
 from gearlink.core.report import Check
 from gearlink.core.results import cached_property
@@ -21,6 +20,7 @@ if TYPE_CHECKING:
     from gearlink.core.flatbed_press.chains import BedChain, CylinderChain
     from gearlink.core.flatbed_press.compensation import Compensation
     from gearlink.core.flatbed_press.spec import FlatbedPressSpec
+    from gearlink.core.gears.pair import GearPair
     from gearlink.core.linkages.slider_crank import SliderCrank
 
 _SYNC = ("sync_start", "sync_end", "cam_sync_start", "cam_sync_end", "compensation")
@@ -89,6 +89,8 @@ class FlatbedPress(SliderCrankQuantities, GearQuantities, Design):
         gears = self.spec.input_gears
         if gears is None:
             raise MissingSection("`gear` needs the section input_gears: module, horizontal_distance", key="input_gears")
+        from gearlink.core.gears.pair import GearPair
+
         bed = self.spec.bed
         distance = math.hypot(gears.horizontal_distance, bed.offset - bed.double_crank.frame)
         # A centre distance of whole teeth is not to lose one of them to the rounding of the quotient.

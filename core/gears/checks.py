@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from typing import Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from gearlink.core.gears.codes import (
     CONTACT_RATIO,
@@ -16,10 +16,11 @@ from gearlink.core.gears.codes import (
     TOOTH_FORM,
     UNDERCUT,
 )
-from gearlink.core.gears.data import shown
-from gearlink.core.gears.pair import GearPair
 from gearlink.core.remedies import Way, down, up
 from gearlink.core.report import Check, Status, safely_above
+
+if TYPE_CHECKING:
+    from gearlink.core.gears.pair import GearPair
 
 
 class GearQuantities:
@@ -98,7 +99,11 @@ def gear_quantity(pair: GearPair, name: str) -> Any:
     if name == "specific_sliding" and not pair.slides:
         return None
     value = getattr(pair, name)
-    return shown(name, value) if pair.internal else value
+    if not pair.internal:
+        return value
+    from gearlink.core.gears.data import shown
+
+    return shown(name, value)
 
 
 def gear_check(name: str, pair: GearPair, limits: Limits, mesh: str = "", shifts: bool = False) -> Iterator[Check]:

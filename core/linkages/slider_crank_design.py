@@ -9,7 +9,6 @@ from gearlink.core.design import Design, Outline, placed
 from gearlink.core.errors import at_key
 from gearlink.core.linkages.checks import transmission_check
 from gearlink.core.linkages.slider_crank import SliderCrank, slider
-from gearlink.core.linkages.standstills import Turning, turnings
 from gearlink.core.real_speed import RealSpeed, per_time
 from gearlink.core.remedies import down, either, up
 from gearlink.core.report import Check, Table
@@ -17,6 +16,7 @@ from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
     from gearlink.core.linkages.slider_crank_spec import SliderCrankSpec
+    from gearlink.core.linkages.standstills import Turning
 
 SLIDER_QUANTITIES = ("quick_return_ratio", "dead_center_extended", "dead_center_folded", "max_stroke")
 _MOTION = (
@@ -93,12 +93,18 @@ class SliderCrankDesign(RealSpeed, SliderCrankQuantities, Design):
     @cached_property
     def speed_turnings(self) -> list[Turning]:
         """Extremes of the slider's velocity per input angle, least first."""
-        return _ranked(turnings(lambda x: self.depth(x, 1), lambda x: self.depth(x, 2)))
+        return self._turnings(1)
 
     @cached_property
     def acceleration_turnings(self) -> list[Turning]:
         """Extremes of its acceleration per square of the input angle, least first."""
-        return _ranked(turnings(lambda x: self.depth(x, 2), lambda x: self.depth(x, 3)))
+        return self._turnings(2)
+
+    def _turnings(self, order: int) -> list[Turning]:
+        from gearlink.core.linkages.standstills import turnings
+
+        found = turnings(lambda x: self.depth(x, order), lambda x: self.depth(x, order + 1))
+        return sorted(found, key=lambda turning: turning.speed)
 
     @property
     def velocity_max(self) -> float:
@@ -178,7 +184,3 @@ class SliderCrankDesign(RealSpeed, SliderCrankQuantities, Design):
         """GL303: the rod against the slide line."""
         remedy = "lengthen the rod, or bring the slide line nearer"
         return transmission_check(self.min_transmission_angle, self.spec.limits.transmission_angle, remedy)
-
-
-def _ranked(found: list[Turning]) -> list[Turning]:
-    return sorted(found, key=lambda turning: turning.speed)
