@@ -6,6 +6,7 @@ import gc
 import io
 import json
 import os
+from collections.abc import Generator
 from dataclasses import dataclass
 from functools import wraps
 from pathlib import Path
@@ -48,6 +49,63 @@ def _no_local_constants() -> Constants:
 
 
 providers._get_local_constants = _no_local_constants
+
+
+# What the tests cost
+
+SHARE = 0.08
+"""A test file may take so much of the processor time of `make test`: a share does not depend on the machine."""
+WHOLE = 4000
+"""A run of so many tests is the whole."""
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_protocol(item: pytest.Item) -> Generator[None, object, object]:
+    item.stash[_BEGUN] = _processor_seconds()
+    return (yield)
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(item: pytest.Item, call: pytest.CallInfo[None]) -> Generator[None, Any, Any]:
+    if call.when == "teardown" and not item.get_closest_marker("slow") and not item.get_closest_marker("stress"):
+        item.user_properties.append(("seconds", _processor_seconds() - item.stash[_BEGUN]))
+    return (yield)
+
+
+def pytest_runtest_logreport(report: pytest.TestReport) -> None:
+    """Also of tests that ran in other processes."""
+    if report.when == "teardown":
+        for seconds in (value for name, value in report.user_properties if name == "seconds"):
+            _taken.setdefault(report.location[0], []).append(seconds)
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    if sum(map(len, _taken.values())) < WHOLE:
+        return
+    spent = {path: sum(seconds) for path, seconds in _taken.items()}
+    whole = sum(spent.values())
+    dearest = sorted(spent, key=lambda path: -spent[path])[:5]
+    shown = ", ".join(f"{path} {spent[path]:.1f}" for path in dearest)
+    terminalreporter.write_line(f"processor seconds of the quick tests: {whole:.0f}; {shown}")
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_sessionfinish(session: pytest.Session) -> None:
+    if session.exitstatus != pytest.ExitCode.OK or sum(map(len, _taken.values())) < WHOLE:
+        return
+    whole = sum(map(sum, _taken.values()))
+    if dear := [path for path, seconds in _taken.items() if sum(seconds) > SHARE * whole]:
+        print(f"\nmore than {SHARE:.0%} of all time: {', '.join(dear)}; mark long sweeps slow (tests/sweeps.py)")
+        session.exitstatus = pytest.ExitCode.TESTS_FAILED
+
+
+_BEGUN = pytest.StashKey[float]()
+_taken: dict[str, list[float]] = {}
+
+
+def _processor_seconds() -> float:
+    """Of this process and of those that it has waited for."""
+    return sum(os.times()[:4])
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ def test_a_worked_design_is_the_one_that_the_program_reads(path):
     loaded, kind = open_design(str(path), Options())
     made = design(path.stem)
     assert made.spec == read_spec(loaded, kind, str(path))
-    assert type(made) is kind.design_class("analyze")
+    assert type(made) is type(kind.design("analyze", made.spec))
 
 
 def test_changes_reach_sections_and_take_keys_out():
