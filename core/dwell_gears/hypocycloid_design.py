@@ -18,6 +18,7 @@ from gearlink.core.gears.checks import gear_ways
 from gearlink.core.gears.internal_mesh import InternalMesh
 from gearlink.core.gears.single_mesh import INTERNAL_QUANTITIES, MESH_CHECKS, SingleMesh
 from gearlink.core.linkages.checks import transmission_check
+from gearlink.core.numerics.rows import row_numbers
 from gearlink.core.real_speed import RealSpeed, per_time
 from gearlink.core.remedies import Way, up
 from gearlink.core.report import Check, Remedy, Table
@@ -277,7 +278,7 @@ class HypocycloidDwell(RealSpeed, SingleMesh):
     def table_motion(self, samples: int | None = None) -> Table:
         """Slider and point over a turn of the carrier; the middle of the dwell is at carrier angle 0."""
         count, slider = samples or 360, self.slider
-        degrees = [360.0 * i / count for i in range(count)]
+        degrees = [360.0 * i / count for i in row_numbers(samples, count)]
         angles = [math.remainder(math.radians(x), 2.0 * math.pi) for x in degrees]
         points = [slider.point(t) for t in angles]
         columns = {

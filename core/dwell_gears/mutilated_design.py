@@ -20,6 +20,7 @@ from gearlink.core.linkages.checks import check_linkage, transmission_check
 from gearlink.core.linkages.fourbar import FourBar, solve
 from gearlink.core.linkages.nearest_passes import joint_to_crank_pivot
 from gearlink.core.linkages.swing import rocker_swing
+from gearlink.core.numerics.rows import row_numbers
 from gearlink.core.real_speed import RealSpeed, per_time
 from gearlink.core.remedies import Way, down, either, up
 from gearlink.core.report import Check, Table
@@ -195,7 +196,7 @@ class MutilatedGearDwell(RealSpeed, SingleMesh):
         """Driven gear and rocker until both are back at their place, or over a hundred cycles; a motion begins at 0."""
         count, cycles = samples or 360, min(self.cycles_to_repeat, _SHOWN_CYCLES)
         cycle = _TURN * self.cycle_turns
-        inputs = [cycle * i / count for i in range(cycles * count)]
+        inputs = [cycle * i / count for i in row_numbers(samples, cycles * count)]
         driven = [self.mutilated.driven_angle(angle) for angle in inputs]
         speeds = [self.driven_speed_ratio if self.mutilated.moves(angle) else 0.0 for angle in inputs]
         columns: dict[str, tuple[list[float], str]] = {

@@ -17,6 +17,7 @@ from gearlink.core.five_bar.parts import FiveBarParts
 from gearlink.core.gears.checks import gear_ways
 from gearlink.core.gears.single_mesh import MESH_CHECKS, mesh_checks
 from gearlink.core.linkages.checks import target_check, transmission_check
+from gearlink.core.numerics.rows import row_numbers
 from gearlink.core.real_speed import RealSpeed
 from gearlink.core.remedies import down, either, up
 from gearlink.core.report import Check, Table
@@ -271,10 +272,12 @@ class GearedFiveBar(RealSpeed, FiveBarParts):
         """Output angle and speed over the range of the input, both ends included."""
         start, end = self.input_range
         count, bar = samples or 180, self.function_bar
-        angles = [start + (end - start) * i / count for i in range(count)] + [end]
+        rows = row_numbers(samples, count + 1)
+        angles = [start + (end - start) * i / count if i < count else end for i in rows]
+        followed = bar.output_angles([start, *angles])[1:]
         columns = {
             "input_angle": ([math.degrees(angle) for angle in angles], "deg"),
-            "output_angle": ([math.degrees(angle) for angle in bar.output_angles(angles)], "deg"),
+            "output_angle": ([math.degrees(angle) for angle in followed], "deg"),
             "speed_ratio": ([bar.output_speed(angle) for angle in angles], "1"),
             "acceleration_ratio": ([bar.output_acceleration(angle) for angle in angles], "1"),
         }

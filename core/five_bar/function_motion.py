@@ -185,6 +185,7 @@ class FunctionFiveBar:
             value = result[-1]
             for i in range(1, parts + 1):
                 new = self.output_angle(one + (other - one) * i / parts)
-                value += math.remainder(new - value, 2.0 * math.pi)
+                # whole turns alone are carried on, so that an angle does not depend on those before it
+                value = new + 2.0 * math.pi * round((value - new) / (2.0 * math.pi))
             result.append(value)
         return result

@@ -295,12 +295,14 @@ def _iterate(linkage: FourBar, phi: float, b: float, c: float) -> tuple[float, f
     return b, c, MOST_ITERATIONS
 
 
-def solve(linkage: FourBar, crank_angle: ArrayLike) -> NewtonSweep:
+def solve(linkage: FourBar, crank_angle: ArrayLike, over: tuple[float, float] | None = None) -> NewtonSweep:
     """Positions over an array of crank angles: anchors every five degrees are followed, the rest fan out from them.
 
     Parameters
         linkage : FourBar
         crank_angle : array of any shape [rad] - in any order
+        over : (first, last) [rad] - range of the motion that they are taken from, so that each has the same anchors
+            among any others; None: the range of the angles themselves
     Returns
         sweep : NewtonSweep - angles continuous in the crank angle, starting from the closed form at the first one
     Raises
@@ -320,7 +322,7 @@ def solve(linkage: FourBar, crank_angle: ArrayLike) -> NewtonSweep:
     phi = angle.ravel()
     if phi.size == 0:
         return NewtonSweep(angle.copy(), angle.copy(), np.zeros(angle.shape, dtype=np.int64), angle.copy())
-    anchors = _anchors(linkage, phi)
+    anchors = _anchors(linkage, phi if over is None else np.array(over))
     at = np.array([(p.phi, p.b, p.c) for p in anchors]).T
     nearest = np.abs(np.rint((phi - at[0, 0]) / _ANCHOR_STEP)).astype(np.int64)
     nearest = np.minimum(nearest, len(anchors) - 1)

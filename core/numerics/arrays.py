@@ -7,7 +7,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from gearlink.core.numerics.rows import Rows
+from gearlink.core.numerics.rows import row_numbers
 
 Reals: TypeAlias = NDArray[np.float64]
 Points: TypeAlias = NDArray[np.complex128]
@@ -28,6 +28,6 @@ def turn_degrees(samples: int | None = None, turns: int = 1) -> Reals:
         [0.0, 120.0, 240.0]
     """
     count = (samples or 360) * turns
-    first, last = (samples.first, min(samples.first + samples.size, count)) if isinstance(samples, Rows) else (0, count)
-    angles: Reals = np.arange(first, last, dtype=np.float64) * (360.0 * turns / count)
+    rows = row_numbers(samples, count)
+    angles: Reals = np.arange(rows.start, rows.stop, dtype=np.float64) * (360.0 * turns / count)
     return angles

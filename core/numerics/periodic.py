@@ -72,7 +72,9 @@ class CosineSeries:
         result = np.empty_like(z)
         for start in range(0, len(z), _BLOCK):
             part = z[start : start + _BLOCK]
-            result[start : start + _BLOCK] = self.coefficients[0] * part + np.sin(np.outer(part, wave)) @ weights
+            # einsum, since a product of matrices rounds a row otherwise among other rows
+            waves = np.einsum("ij,j->i", np.sin(np.outer(part, wave)), weights)
+            result[start : start + _BLOCK] = self.coefficients[0] * part + waves
         return result
 
     def from_far_end(self) -> CosineSeries:

@@ -18,3 +18,15 @@ class Rows(int):
         rows = cls(count)
         rows.first, rows.size = first, size
         return rows
+
+
+def row_numbers(samples: int | None, count: int) -> range:
+    """The numbers of the rows that are wanted of a table of so many rows.
+
+    Example
+        >>> row_numbers(7, 8), row_numbers(Rows.part(7, 5, 10), 8)
+        (range(0, 8), range(5, 8))
+    """
+    if isinstance(samples, Rows):
+        return range(min(samples.first, count), min(samples.first + samples.size, count))
+    return range(count)

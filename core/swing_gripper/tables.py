@@ -38,8 +38,7 @@ def newton(design: SwingGripper, samples: int | None = None) -> Table:
     """Both ways side by side: deviation of the angles, steps, opening of the loop, error of the closed form."""
     import numpy as np
 
-    # never in parts: the steps are those of the whole turn
-    degrees, loop = design.motion.loop_at(samples and int(samples))
+    degrees, loop = design.motion.loop_at(samples)
     columns = {
         "theta": (degrees, "deg"),
         "deviation": (np.degrees(loop.deviation), "deg"),

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.errors import at_key
+from gearlink.core.numerics.rows import row_numbers
 from gearlink.core.report import Table
 from gearlink.core.results import cached_property
 from gearlink.core.wide_swing.closed_cam import ClosedCam
@@ -103,7 +104,8 @@ class WholeCycle:
         import numpy as np
 
         count = samples or 360
-        t = 2.0 * math.pi * np.arange(count) / count
+        rows = row_numbers(samples, count)
+        t = 2.0 * math.pi * np.arange(rows.start, rows.stop) / count
         late = np.mod(t - self.angles[0] - self.angles[1], 2.0 * math.pi)
         sector, swing = self.main.sector_at(t), self.design.motion.swing
         law = self.design.motion.law

@@ -352,15 +352,17 @@ class ElasticLaw:
             return k
         scale = self.swing * self._rate
         angle = np.interp(k, self._from_middle if from_middle else self._from_start, _GRID)
+        settled = np.zeros(k.shape, dtype=np.bool_)
         for _ in range(_NEWTON_STEPS):
             sine, cosine = (np.sin(angle), np.cos(angle)) if from_middle else (np.cos(angle), np.sin(angle))
             excess = self._time_of(angle, from_middle=from_middle) - k * scale
             step = excess / self.slowness(sine, cosine)
             # a step past an end of the half stroke stops there; the next one starts from the end
-            angle = np.clip(angle - step, 0.0, 0.5 * math.pi)
+            angle = np.where(settled, angle, np.clip(angle - step, 0.0, 0.5 * math.pi))
             # counted from mid-swing k itself is known to its last bit only
             floor = 4e-16 * scale if from_middle else 0.0
-            if bool(np.all((np.abs(step) <= 1e-13 * angle + _FAINTEST) | (np.abs(excess) <= floor))):
+            settled |= (np.abs(step) <= 1e-13 * angle + _FAINTEST) | (np.abs(excess) <= floor)
+            if settled.all():
                 return angle
         raise NoSolution(f"the law of motion did not settle in {_NEWTON_STEPS} Newton steps; report this design")
 

@@ -294,11 +294,13 @@ class SliderLaw:
         """Angle v = pi/2 - |u| counted from one end of the stroke, by Newton steps."""
         grid = np.linspace(0.0, math.pi, 65)
         v = np.interp(k, self._time_of(grid, clock) / clock.total, grid)
+        settled = np.zeros(k.shape, dtype=np.bool_)
         for _ in range(_NEWTON_STEPS):
             step = (self._time_of(v, clock) - k * clock.total) / self._slowness(side * np.cos(v), np.sin(v))
             # a step past an end of the stroke stops there; the next one starts from the end
-            v = np.clip(v - step, 0.0, math.pi)
-            if bool(np.all(np.abs(step) <= 1e-13 * v + _FAINTEST)):
+            v = np.where(settled, v, np.clip(v - step, 0.0, math.pi))
+            settled |= np.abs(step) <= 1e-13 * v + _FAINTEST
+            if settled.all():
                 return v
         raise NoSolution(f"the law of motion did not settle in {_NEWTON_STEPS} Newton steps; report this design")
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from gearlink.core.numerics.rows import row_numbers
 from gearlink.core.report import Table
 
 if TYPE_CHECKING:
@@ -15,7 +16,8 @@ def _k(samples: int | None) -> Any:
     import numpy as np
 
     count = samples or 100
-    return np.arange(count + 1) / count
+    rows = row_numbers(samples, count + 1)
+    return np.arange(rows.start, rows.stop) / count
 
 
 def law(design: WideSwingDesign, samples: int | None = None) -> Table:
@@ -50,8 +52,10 @@ def contact(design: WideSwingDesign, samples: int | None = None) -> Table:
     """Force of the roller on the cam over the stroke and the speed, empty where it does not touch the profile."""
     import numpy as np
 
-    shares, stroke = _speed_shares(), _k(samples)
-    k, share = np.tile(stroke, shares.size), np.repeat(shares, stroke.size)
+    shares, count = _speed_shares(), samples or 100
+    rows = row_numbers(samples, shares.size * (count + 1))
+    number = np.arange(rows.start, rows.stop)
+    k, share = number % (count + 1) / count, shares[number // (count + 1)]
     columns = {"k": (k, "1"), "force": (_force(design, design.cam, k, share), "N"), "speed_share": (share, "1")}
     if design.return_cam is not None:
         columns["return_force"] = (_force(design, design.return_cam, k, share), "N")

@@ -57,7 +57,20 @@ def test_parts_hold_the_rows_of_the_whole(path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("command", "file"),
-    [("analyze", "two_gear_drag_link"), ("cam", "ty460"), ("gripper", "swing_gripper"), ("analyze", "five_bar_path")],
+    mostly_slow(
+        [
+            ("analyze", "two_gear_drag_link"),
+            ("cam", "ty460"),
+            ("gripper", "swing_gripper"),
+            ("analyze", "five_bar_path"),
+            ("analyze", "five_bar_positions"),
+            ("analyze", "hypocycloid_slider"),
+            ("analyze", "mutilated_gear_press"),
+            ("swing", "wide_swing_slider"),
+            ("cam", "wide_swing_cycle"),
+        ],
+        4,
+    ),
 )
 def test_no_more_than_a_part_is_held(gearlink: Any, asked: list[int], command: str, file: str) -> None:
     path = DESIGNS[0].parent / f"{file}.yaml"
