@@ -72,9 +72,9 @@ class CosineSeries:
         result = np.empty_like(z)
         for start in range(0, len(z), _BLOCK):
             part = z[start : start + _BLOCK]
-            # einsum, since a product of matrices rounds a row otherwise among other rows
-            waves = np.einsum("ij,j->i", np.sin(np.outer(part, wave)), weights)
-            result[start : start + _BLOCK] = self.coefficients[0] * part + waves
+            # no product of matrices, which rounds a row otherwise among other rows
+            waves = np.sin(np.outer(part, wave)) * weights
+            result[start : start + _BLOCK] = self.coefficients[0] * part + waves.sum(axis=1)
         return result
 
     def from_far_end(self) -> CosineSeries:
