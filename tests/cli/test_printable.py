@@ -83,12 +83,14 @@ def test_no_cell_is_a_formula(text: str, shown: str) -> None:
 
 
 @pytest.fixture(params=["pass", "fail", "wrong"])
-def hostile(request: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def hostile(request: Any, tmp_path: Path, designs: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A folder of designs that pass, fail or are wrong, with hostile names and lines."""
     monkeypatch.chdir(tmp_path)
     text = {
         "pass": CRANK,
-        "fail": "kind: gear-pair\nmodule: 4\nteeth: [10, 12]\nprofile_shift: [0, 0]\n",
+        "fail": re.sub(
+            r"\nname:.*", "", (designs / "six_bar_two_trains.yaml").read_text().replace("mobility: 1", "mobility: 2")
+        ),
         "wrong": "kind: slider-crank\n::add-mask::a: 1\n'##[error]b': 2\n\"\\e[31m\": {::x::: 3}\n",
     }[request.param]
     place = Path("files")
