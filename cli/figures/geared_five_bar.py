@@ -30,6 +30,8 @@ _WORDS = {
     "path_width": "path along the frame",
     "path_height": "path across the frame",
     "path_deviation_rms": "distance from the points, rms",
+    "structural_error": "greatest error of the function",
+    "error_extremes": "alternating extremes of that size",
 }
 
 
@@ -44,7 +46,8 @@ def draw(command: str, design: GearedFiveBar) -> Figure:
         return mesh_figure(title, [Mesh(mesh, label.replace("_", "-")) for label, mesh in pairs])
     if design.is_path:
         return linkage.sheet(title, design, path_mechanism, _WORDS, [_coordinates, _span])
-    return linkage.sheet(title, design, function_mechanism, _WORDS, [_function, _span])
+    error = [_structural_error] if design.wanted is not None else []
+    return linkage.sheet(title, design, function_mechanism, _WORDS, [_function, *error, _span])
 
 
 def path_mechanism(axes: Axes, design: GearedFiveBar) -> None:
@@ -86,7 +89,26 @@ def _function(axes: Axes, design: GearedFiveBar) -> None:
         turns = 360.0 * round((output[inside] - asked[0][1]) / 360.0)
         output = [value - turns for value in output]
         axes.plot(*zip(*asked, strict=True), "x", color=style.RED, markersize=7, label="asked for", zorder=5)
+    if design.wanted is not None:
+        table = linkage.columns(design, "structural_error")
+        turns = 360.0 * round((output[0] - table["wanted_angle"][0]) / 360.0)
+        output = [value - turns for value in output]
+        look: Any = {"color": style.RED, "markersize": 4, "markevery": 5, "zorder": 5}
+        axes.plot(table["input_angle"], table["wanted_angle"], "x", **look, label="asked for")
     axes.plot(data["input_angle"], output, color=style.BLUE, linewidth=1.6, label="output")
+    panels.legend_above(axes, 2)
+
+
+def _structural_error(axes: Axes, design: GearedFiveBar) -> None:
+    """Error of the function over its interval, magnified; its greatest values and the tolerance."""
+    table, greatest = design.table("structural_error", samples=240), math.degrees(design.structural_error or 0.0)
+    linkage.chart(axes, "Structural error", "error [deg]", "input angle [deg]", turn=False)
+    axes.plot(table["input_angle"], table["error"], color=style.BLUE, linewidth=1.6, label="error")
+    for side in (1.0, -1.0):
+        words = f"±{greatest:.3g}°" if side > 0.0 else None
+        axes.axhline(side * greatest, color=style.GREY, linewidth=0.9, linestyle=style.DASHED, label=words)
+    for place in design.structural_error_at or ():
+        axes.axvline(math.degrees(place), color=style.GREY, linewidth=0.6, linestyle=style.DOTTED)
     panels.legend_above(axes, 2)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from gearlink.core.clearance.bodies import Layout
 from gearlink.core.clearance.checks import SHAFT_WAYS, collision_check, shaft_checks
@@ -24,6 +24,7 @@ from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
+    from gearlink.core.five_bar.function_fit import Round
     from gearlink.core.five_bar.spec import GearedFiveBarSpec
     from gearlink.core.numerics.extremes import Extreme
 
@@ -72,6 +73,13 @@ class GearedFiveBar(RealSpeed, FiveBarParts):
                 "path_deviation_rms",
                 "path_deviation_max",
                 "position_errors",
+                "structural_error",
+                "structural_error_at",
+                "error_extremes",
+                "function_start",
+                "output_zero",
+                "starts_tried",
+                "first_point_angle",
                 "center_distance",
                 "gear_gap",
                 "contact_ratio",
@@ -79,7 +87,7 @@ class GearedFiveBar(RealSpeed, FiveBarParts):
                 "turn_time",
             ),
             ("closure", "target", "gear-collision", "shaft-clearance", "transmission-angle", *MESH_CHECKS),
-            ("path", "function", "deviations"),
+            ("path", "function", "deviations", "structural_error", "search"),
         ),
         "gear": Outline(("center_distance", "contact_ratio"), MESH_CHECKS),
     }
@@ -203,13 +211,47 @@ class GearedFiveBar(RealSpeed, FiveBarParts):
         """Gap of the tips of input and output gear with an idler between them [mm]."""
         return self.layout.gear_gap
 
+    structural_error: float | None = placed("function_fit.error.greatest")
+    error_extremes: int | None = placed("function_fit.error.alternations")
+    function_start: float | None = placed("function_fit.start")
+    first_point_angle: float | None = placed("timed_fit.first_angle")
+    output_zero: float | None = placed("function_fit.error.zero")
+
+    @property
+    def structural_error_at(self) -> list[float] | None:
+        """Input angles at which the structural error is greatest [rad]."""
+        found, wanted = self.function_fit, self.wanted
+        if found is None or wanted is None:
+            return None
+        error = found.error
+        rows = zip(error.places, error.errors, strict=True)
+        most = error.greatest * (1.0 - 1e-9)
+        return [found.start + wanted.input_swing * place for place, value in rows if abs(value) >= most]
+
+    @property
+    def starts_tried(self) -> int | None:
+        """Starts that the search of a function or of timed points has gone through."""
+        rounds = self.search_rounds
+        return rounds[-1].starts if rounds else None
+
+    @property
+    def search_rounds(self) -> tuple[Round, ...]:
+        """The rounds of that search."""
+        found = self.timed_fit if self.is_path else self.function_fit
+        return () if found is None else found.rounds
+
     # Tables
 
     def table_names_shown(self) -> tuple[str, ...]:
         """The tables of this form."""
         if not self.is_path:
-            return ("function",)
-        return ("path",) if self.fit is None else ("path", "deviations")
+            judged = ("structural_error",) if self.wanted is not None else ()
+            return ("function", *judged, *(("search",) if self.search_rounds else ()))
+        return (
+            "path",
+            *(("deviations",) if self.fit is not None else ()),
+            *(("search",) if self.search_rounds else ()),
+        )
 
     def outline(self, command: str) -> Outline:
         """Each form has its own tables."""
@@ -266,7 +308,11 @@ class GearedFiveBar(RealSpeed, FiveBarParts):
         assert target.points is not None, "shown only with a fit"
         assert fit is not None, "shown only with a fit"
         x, y = zip(*target.points, strict=True)
-        return Table.of("deviations", {"x": (x, "mm"), "y": (y, "mm"), "distance": (fit.distance, "mm")})
+        columns: dict[str, tuple[Any, str]] = {"x": (x, "mm"), "y": (y, "mm"), "distance": (fit.distance, "mm")}
+        if self.timed_fit is not None and target.input_angles is not None:
+            first = math.degrees(self.timed_fit.first_angle)
+            columns = {"input_angle": ([first + angle for angle in target.input_angles], "deg"), **columns}
+        return Table.of("deviations", columns)
 
     def table_function(self, samples: int | None = None) -> Table:
         """Output angle and speed over the range of the input, both ends included."""
@@ -283,6 +329,37 @@ class GearedFiveBar(RealSpeed, FiveBarParts):
         }
         rates = {"output_speed": ("speed_ratio", 1), "output_acceleration": ("acceleration_ratio", 2)}
         return Table.of("function", self.timed(columns, "input_angle", rates))
+
+    def table_structural_error(self, samples: int | None = None) -> Table:
+        """Output angle, what it should be, and the difference, over the interval of the function."""
+        import numpy as np
+
+        from gearlink.core.five_bar.wanted import outputs
+
+        found, wanted = self.function_fit, self.wanted
+        assert found is not None, "shown only with a function"
+        assert wanted is not None, "shown only with a function"
+        s = np.linspace(0.0, 1.0, (samples or 60) + 1)
+        fine = np.linspace(0.0, 1.0, 721)
+        phi = found.start + wanted.input_swing * np.concatenate([fine, s])
+        order = np.argsort(phi, kind="stable")
+        reached = np.empty(phi.size)
+        reached[order] = outputs(found.bar, phi[order])
+        output, asked = reached[fine.size :], found.error.zero + wanted.output(s)
+        turns = 2.0 * math.pi * round(float(output[0] - asked[0]) / (2.0 * math.pi))
+        columns = {
+            "input_angle": (np.degrees(phi[fine.size :]), "deg"),
+            "output_angle": (np.degrees(output - turns), "deg"),
+            "wanted_angle": (np.degrees(asked), "deg"),
+            "error": (np.degrees(output - turns - asked), "deg"),
+        }
+        return Table.of("structural_error", columns)
+
+    def table_search(self, _samples: int | None = None) -> Table:
+        """What the search had reached after each of its rounds."""
+        rounds, unit = self.search_rounds, "mm" if self.is_path else "deg"
+        error = [each.error if self.is_path else math.degrees(each.error) for each in rounds]
+        return Table.of("search", {"starts": ([each.starts for each in rounds], "1"), "error": (error, unit)})
 
     # Checks
 
@@ -311,6 +388,9 @@ class GearedFiveBar(RealSpeed, FiveBarParts):
         if self.position_errors is not None:
             worst = math.degrees(max(self.position_errors, key=abs))
             yield target_check("the output angle of a position", worst, _POSITION_TOLERANCE, "deg")
+        asked = None if self.spec.target is None else self.spec.target.function
+        if asked is not None and asked.tolerance is not None and self.structural_error is not None:
+            yield target_check("the function", math.degrees(self.structural_error), asked.tolerance, "deg")
         target, worst_point = self.spec.target, self.path_deviation_max
         if worst_point is not None and target is not None and target.tolerance is not None:
             yield target_check("a point of the path", worst_point, target.tolerance, "mm")

@@ -84,11 +84,11 @@ def fit_path(start: PathFiveBar, offset: complex, targets: Points, transmission_
     scale = float(np.max(np.abs(targets[:, None] - targets[None, :])))
     if not scale > 0.0:
         raise NoSolution("all points are the same: a path needs at least two different ones")
-    given = [judge(start, offset, targets)] if _closes(start, 0.0) else []
+    given = [judge(start, offset, targets)] if closes(start, 0.0) else []
     with np.errstate(all="ignore"):  # rows that open are NaN and drop out
         rows = _search(start, offset / scale, targets / scale, transmission_angle, scale)
     known = rows[np.all(np.isfinite(rows), axis=1)]
-    closing = (made for row in known if _closes((made := _made(start, row, scale))[0], transmission_angle))
+    closing = (one for row in known if closes((one := row_as_bar(start, row, scale))[0], transmission_angle))
     found = [judge(bar, m, targets) for bar, m in islice(closing, 1)]
     if not given and not found:
         raise NoSolution(
@@ -98,7 +98,8 @@ def fit_path(start: PathFiveBar, offset: complex, targets: Points, transmission_
     return min(found + given, key=lambda fit: fit.rms)
 
 
-def _closes(bar: PathFiveBar, least: float) -> bool:
+def closes(bar: PathFiveBar, least: float) -> bool:
+    """Whether a five-bar closes over its whole period with a transmission angle [rad]."""
     try:
         return bar.min_transmission_angle()[0] >= least
     except NoSolution:
@@ -107,7 +108,7 @@ def _closes(bar: PathFiveBar, least: float) -> bool:
 
 def _search(start: PathFiveBar, offset: complex, targets: Points, least: float, scale: float) -> Reals:
     """Rows of unknowns at the ends of the search, lengths by the scale, the best first."""
-    family = _family(start, scale)
+    family = family_of(start, scale)
     lengths = np.log((start.input, start.coupler, start.follower, start.output)) - math.log(scale)
     first = np.array([*lengths, start.phase, offset.real, offset.imag])
     problem = PathProblem(family, targets, *bounds(first), math.cos(least), 1.0)
@@ -150,13 +151,14 @@ def _between(places: float, fewest: int, most: int) -> int:
     return math.ceil(min(max(places, fewest), most))
 
 
-def _family(bar: PathFiveBar, scale: float) -> FiveBarFamily:
+def family_of(bar: PathFiveBar, scale: float) -> FiveBarFamily:
+    """Five-bars of the same frame, gears and assembly, lengths by a scale, on grids for a search of starts."""
     family = FiveBarFamily(bar.frame / scale, float(bar.ratio), bar.assembly, bar.period, _FEWEST, _FEWEST_SPANS)
     spans = _between(_SPANS * family.waves, _FEWEST_SPANS, _MOST_SPANS)
     return replace(family, count=_between(_PER_WAVE * family.waves, _FEWEST, _MOST), span_count=spans)
 
 
-def _made(bar: PathFiveBar, row: Reals, scale: float) -> tuple[PathFiveBar, complex]:
+def row_as_bar(bar: PathFiveBar, row: Reals, scale: float) -> tuple[PathFiveBar, complex]:
     """Five-bar and coupler point of a row."""
     a, b, c, e = (math.exp(float(x) + math.log(scale)) for x in row[:4])
     phase = math.remainder(float(row[4]), 2.0 * math.pi)

@@ -17,7 +17,10 @@ from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
     from gearlink.core.five_bar.fit import Fit
+    from gearlink.core.five_bar.function_fit import FunctionFit
     from gearlink.core.five_bar.spec import GearedFiveBarSpec
+    from gearlink.core.five_bar.timed_fit import TimedFit
+    from gearlink.core.five_bar.wanted import Wanted
 
 _TURN = 2.0 * math.pi
 _LINK_TOLERANCE = 1e-9
@@ -152,11 +155,29 @@ class FiveBarParts(Design):
 
         from gearlink.core.five_bar.fit import fit_path
 
+        if self.timed_fit is not None:
+            return self.timed_fit.fit
         points = np.array([complex(x, y) for x, y in target.points])
         with at_key("target.points"):
             return fit_path(
                 self.start_path, self._start_offset, points, math.radians(self.spec.limits.transmission_angle)
             )
+
+    @cached_property
+    def timed_fit(self) -> TimedFit | None:
+        """What the synthesis of timed points found, where the file asks for one."""
+        target = self.spec.target
+        if target is None or target.points is None or target.input_angles is None:
+            return None
+        import numpy as np
+
+        from gearlink.core.five_bar.timed_fit import fit_timed
+
+        points = np.array([complex(x, y) for x, y in target.points])
+        least = math.radians(self.spec.limits.transmission_angle)
+        with at_key("target.points"):
+            angles = np.radians(target.input_angles)
+            return fit_timed(self.start_path, self._start_offset, points, angles, least, target.budget)
 
     @property
     def _start_offset(self) -> complex:
@@ -185,13 +206,51 @@ class FiveBarParts(Design):
         return [(math.radians(phi), math.radians(psi)) for phi, psi in target.positions]
 
     @cached_property
+    def wanted(self) -> Wanted | None:
+        """The function that is asked for."""
+        target = self.spec.target
+        if target is None or target.function is None:
+            return None
+        from gearlink.core.five_bar.wanted import Wanted
+
+        asked = target.function
+        circular = asked.name in ("sine", "cosine", "tangent")
+        low, high = (math.radians(x) if circular else x for x in asked.x)
+        with at_key("target.function.x"):
+            swings = math.radians(asked.input_swing), math.radians(asked.output_swing)
+            return Wanted(asked.name, (low, high), *swings, asked.exponent or 1.0)
+
+    @cached_property
+    def function_fit(self) -> FunctionFit | None:
+        """What the synthesis of a function found, or how far given links are from it."""
+        target, wanted = self.spec.target, self.wanted
+        if wanted is None or target is None or target.function is None:
+            return None
+        from gearlink.core.five_bar.function_fit import FunctionFit, fit_function
+        from gearlink.core.five_bar.wanted import structural_error
+
+        if target.function.links == "given":
+            start = math.radians(self.spec.range.start) if self.spec.range is not None else 0.0
+            with at_key("links"):
+                return FunctionFit(self.start_function, start, structural_error(self.start_function, start, wanted), ())
+        least = math.radians(self.spec.limits.transmission_angle)
+        with at_key("target.function"):
+            return fit_function(self.start_function, 0.0, wanted, least, target.budget)
+
+    @cached_property
+    def start_function(self) -> FunctionFiveBar:
+        """The five-bar of the file, function form; with a target it is the start."""
+        links = self.spec.links
+        lengths = (self._fixed_length("input"), links.coupler, links.follower, links.output, links.frame or 0.0)
+        with at_key("links"):
+            return FunctionFiveBar(*lengths, float(self.ratio), math.radians(self.spec.phase), self.spec.assembly)
+
+    @cached_property
     def function_bar(self) -> FunctionFiveBar:
         """The five-bar of the function form, given or found; it closes over the range."""
-        links, positions = self.spec.links, self.positions
-        length = self._fixed_length("input")
-        lengths = (length, links.coupler, links.follower, links.output, links.frame or 0.0)
-        with at_key("links"):
-            bar = FunctionFiveBar(*lengths, float(self.ratio), math.radians(self.spec.phase), self.spec.assembly)
+        if self.function_fit is not None:
+            return self.function_fit.bar
+        bar, positions = self.start_function, self.positions
         if positions is not None:
             from gearlink.core.five_bar.positions import five_bar_for_positions
 
@@ -205,6 +264,8 @@ class FiveBarParts(Design):
     def input_range(self) -> tuple[float, float]:
         """Input angles of the function form [rad]: given, from the first position to the last, or one period."""
         asked = self.spec.range
+        if self.function_fit is not None and self.wanted is not None:
+            return self.function_fit.start, self.function_fit.start + self.wanted.input_swing
         if asked is not None:
             return math.radians(asked.start), math.radians(asked.end)
         if self.positions is not None:

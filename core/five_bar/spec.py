@@ -10,6 +10,7 @@ from pydantic_core import PydanticCustomError
 from gearlink.core.linkages.spec_parts import LinkageLimits, require_rim
 from gearlink.core.spec import Angle, Assembly, Deferred, DrivenSpec, Length, PressureAngle, SignedLength, Spec, Teeth
 
+Plain = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "1"})]
 TurnAngle = Annotated[float, Field(ge=-3600, le=3600, json_schema_extra={"unit": "deg"})]
 
 
@@ -79,6 +80,38 @@ class InputRange(Spec):
     end: TurnAngle = Field(description="last input angle")
 
 
+class WantedFunction(Spec):
+    """A function over an interval: the input's swing stands for x, the output's for y."""
+
+    name: Literal["log", "exp", "power", "sine", "cosine", "tangent"] = Field(description="y of x")
+    exponent: SignedLength | None = Field(None, description="of a power", json_schema_extra={"unit": "1"})
+    x: Annotated[list[Plain], Field(min_length=2, max_length=2)] = Field(
+        description="x at the start and the end of the swing; of sine, cosine and tangent in deg"
+    )
+    input_swing: Annotated[float, Field(gt=0, le=360, json_schema_extra={"unit": "deg"})] = Field(
+        description="turn of the input from the first x to the last"
+    )
+    output_swing: Annotated[float, Field(ge=-360, le=360, json_schema_extra={"unit": "deg"})] = Field(
+        description="turn of the output from the first y to the last, negative clockwise"
+    )
+    tolerance: Annotated[float, Field(gt=0, json_schema_extra={"unit": "deg"})] | None = Field(
+        None, description="greatest structural error that is accepted"
+    )
+    links: Literal["sought", "given"] = Field(
+        "sought", description="given: the links of the file are judged, from range.start on"
+    )
+
+    @model_validator(mode="after")
+    def _whole(self) -> WantedFunction:
+        if (self.name == "power") != (self.exponent is not None):
+            raise PydanticCustomError("GL111", "exponent goes with power, and a power needs one", {"key": "exponent"})
+        if self.x[0] == self.x[1]:
+            raise PydanticCustomError("GL111", "x is the same at both ends: give an interval", {"key": "x[1]"})
+        if self.output_swing == 0.0:
+            raise PydanticCustomError("GL108", "an output that stands still is no function", {"key": "output_swing"})
+        return self
+
+
 class FiveBarTarget(Spec):
     """The links are found for it."""
 
@@ -94,7 +127,34 @@ class FiveBarTarget(Spec):
         ]
         | None
     ) = Field(None, description="function: two to five pairs [input angle, output angle]")
+    function: WantedFunction | None = Field(None, description="function: one over an interval, in place of positions")
+    input_angles: Annotated[list[TurnAngle], Field(min_length=3, max_length=200)] | None = Field(
+        None, description="path: input angle of each point, counted from the first's, so that the points are timed"
+    )
     tolerance: Length | None = Field(None, description="path: greatest distance of a point that is accepted")
+    budget: Annotated[float, Field(gt=0, le=3600, json_schema_extra={"unit": "s"})] | None = Field(
+        None, description="time that the search of a function or of timed points may take; left out: a fixed effort"
+    )
+
+    @model_validator(mode="after")
+    def _one_target(self) -> FiveBarTarget:
+        given = [name for name in ("points", "positions", "function") if getattr(self, name) is not None]
+        if len(given) > 1:
+            message = "{one} and {other} exclude each other: give one"
+            raise PydanticCustomError("GL111", message, {"key": given[1], "one": given[0], "other": given[1]})
+        timed = self.input_angles is not None
+        if timed and len(self.points or ()) != len(self.input_angles or ()):
+            message = "give an input angle for each point: {angles} for {points}"
+            words = {"angles": str(len(self.input_angles or ())), "points": str(len(self.points or ()))}
+            raise PydanticCustomError("GL111", message, {"key": "input_angles", **words})
+        if self.input_angles is not None and self.input_angles[0] != 0.0:
+            raise PydanticCustomError(
+                "GL108", "input angles count from the first point's, 0", {"key": "input_angles[0]"}
+            )
+        if self.budget is not None and not timed and (self.function is None or self.function.links == "given"):
+            message = "budget goes with a function whose links are sought, or with timed points: leave it out"
+            raise PydanticCustomError("GL111", message, {"key": "budget"})
+        return self
 
 
 class GearedFiveBarSpec(DrivenSpec):
@@ -138,6 +198,8 @@ class GearedFiveBarSpec(DrivenSpec):
         gears, links = self.gears, self.links
         _refuse(self.target is not None and self.target.positions is not None, "target.positions",
                 "positions go with form: function; give points")  # fmt: skip
+        _refuse(self.target is not None and self.target.function is not None, "target.function",
+                "a function goes with form: function; give points")  # fmt: skip
         _refuse(self.range is not None, "range", "range goes with form: function; a path has its whole period")
         _refuse(any(z is not None for z in (gears.planet, gears.sun, gears.ring)), "gears",
                 "planet, sun and ring go with form: function; give input and output")  # fmt: skip
@@ -152,6 +214,12 @@ class GearedFiveBarSpec(DrivenSpec):
         gears = self.gears
         _refuse(self.target is not None and self.target.points is not None, "target.points",
                 "points go with form: path; give positions")  # fmt: skip
+        sought = self.target is not None and self.target.function is not None
+        judged = sought and self.target is not None and self.target.function.links == "given"  # type: ignore[union-attr]
+        _refuse(sought and not judged and self.range is not None, "range",
+                "the interval of a function starts where it fits best: leave range out")  # fmt: skip
+        _refuse(judged and self.range is None, "range",
+                "given links are judged from range.start on: give range: {start, end}")  # fmt: skip
         _refuse(any(z is not None for z in (gears.input, gears.output, gears.idler)), "gears",
                 "input, output and idler go with form: path; give planet and sun or ring")  # fmt: skip
         _refuse((gears.sun is None) == (gears.ring is None), "gears.sun", "give either sun or ring")

@@ -28,7 +28,9 @@ def bounds(first: Reals) -> tuple[Reals, Reals]:
     return first - reach, first + reach
 
 
-def scattered_starts(family: FiveBarFamily, first: Reals, targets: Points, transmission_angle: float) -> Reals:
+def scattered_starts(
+    family: FiveBarFamily, first: Reals, targets: Points, transmission_angle: float, number: int = 0
+) -> Reals:
     """Five-bars that close, at fixed places about a given one (no random numbers), the most promising first.
 
     Parameters
@@ -36,12 +38,14 @@ def scattered_starts(family: FiveBarFamily, first: Reals, targets: Points, trans
         first : (7,) array - unknowns of the given one
         targets : (N,) complex array
         transmission_angle : float [rad] - the least that is allowed
+        number : int - of the round; each has places of its own
     Returns
         x : (K, 7) array - up to 600 rows, by the mean square of the targets' distances from their paths
     Notes
         Couplers that do not reach, or not with this transmission angle, are made as long as the spans need.
     """
-    share = np.array([halton(i, UNKNOWNS) for i in range(1, min(_TRIED, _ROUND // (targets.size * family.count)) + 1)])
+    count, begin = min(_TRIED, _ROUND // (targets.size * family.count)), number * _TRIED
+    share = np.array([halton(begin + i, UNKNOWNS) for i in range(1, count + 1)])
     x = np.tile(first, (len(share), 1))
     x[:, :4] += _SCATTER * (2.0 * share[:, :4] - 1.0)
     x[:, 4] += 2.0 * math.pi * share[:, 4]

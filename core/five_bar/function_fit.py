@@ -1,0 +1,269 @@
+"""A geared five-bar that generates a function over an interval with the least greatest error."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from gearlink.core.errors import NoSolution
+from gearlink.core.five_bar.function_motion import FunctionFiveBar
+from gearlink.core.five_bar.wanted import StructuralError, Wanted, outputs, structural_error
+from gearlink.core.numerics.arrays import Mask, Reals
+from gearlink.core.numerics.halton import halton
+
+_NODES, _GRID = 9, 121
+_STARTS, _ROUNDS, _STEPS = 300, 1, 60
+# The best of a round that are levelled, and the most steps of that.
+_LEVELLED, _LEVEL_STEPS = 5, 40
+_SCATTER, _WIDEST = 1.6, math.log(20.0)
+_WEIGHT = 3.0
+_MARGIN = math.radians(0.01)  # of the transmission angle against rounding
+
+
+@dataclass(frozen=True, slots=True)
+class Round:
+    """A round of the search: starts so far, and the least greatest error so far [rad], NaN before one is found."""
+
+    starts: int
+    error: float
+
+
+@dataclass(frozen=True, slots=True)
+class FunctionFit:
+    """A five-bar, the input angle at which the function starts [rad], its error, and how the search came to it."""
+
+    bar: FunctionFiveBar
+    start: float
+    error: StructuralError
+    rounds: tuple[Round, ...]
+
+
+def fit_function(
+    first: FunctionFiveBar, start: float, wanted: Wanted, transmission_angle: float, seconds: float | None = None
+) -> FunctionFit:
+    """Links, phase and start with which the greatest error over the interval is least.
+
+    max |psi(phi0 + dphi s) - psi_wanted(s) - psi0| -> min over b, c, e, d, t20, phi0, psi0
+
+    Parameters
+        first : FunctionFiveBar - a start; input link and coupler ratio are kept
+        start : float [rad] - phi0 of it
+        wanted : Wanted
+        transmission_angle : float [rad] - the least that is allowed over the interval
+        seconds : float or None - budget of time: rounds of starts are begun until it is spent; without one there are
+            one round, and the same file gives the same links
+    Returns
+        fit : FunctionFit
+    Raises
+        NoSolution - where no start came to a five-bar with that transmission angle
+    Notes
+        Each round: 300 scattered starts (no random numbers) by Levenberg's steps for the squares at nine Chebyshev
+        nodes, the transmission angle as a penalty at the nodes; the five best are levelled by linear programs on 121
+        places with a region of trust. Levelled is what has eight alternating extremes of one size, one fewer for each
+        place where the transmission angle is at its limit; that no other start would come lower is not proved.
+    Source
+        own derivation
+    """
+    begun, best, rounds = time.monotonic(), None, []
+    for number in range(_ROUNDS if seconds is None else 1_000_000):
+        for bar, phi0 in _round(first, start, wanted, transmission_angle, number):
+            found = _judged(bar, phi0, wanted, transmission_angle)
+            if found is not None and (best is None or found.error.greatest < best.error.greatest):
+                best = found
+        rounds.append(Round((number + 1) * _STARTS, math.nan if best is None else best.error.greatest))
+        if seconds is not None and time.monotonic() - begun >= seconds:
+            break
+    if best is None:
+        raise NoSolution(
+            "no five-bar was found that generates this function with the transmission angle that is asked for: lower "
+            "limits.transmission_angle, take less input_swing or output_swing, or other gears"
+        )
+    return replace(best, rounds=tuple(rounds))
+
+
+def _judged(bar: FunctionFiveBar, start: float, wanted: Wanted, least: float) -> FunctionFit | None:
+    try:
+        angle, _ = bar.min_transmission_angle(start, start + wanted.input_swing)
+        return FunctionFit(bar, start, structural_error(bar, start, wanted), ()) if angle >= least else None
+    except NoSolution:
+        return None
+
+
+def _round(
+    first: FunctionFiveBar, start: float, wanted: Wanted, least: float, number: int
+) -> Iterator[tuple[FunctionFiveBar, float]]:
+    """The best of a round, levelled; the file's own links are the first start of all."""
+    share = np.array([halton(number * _STARTS + i, 7) for i in range(1, _STARTS + 1)])
+    x = _SCATTER * (2.0 * share - 1.0)
+    x[:, 4:] = 2.0 * math.pi * share[:, 4:]
+    if number == 0:
+        lengths = (first.coupler, first.follower, first.output, first.frame)
+        x[0, :6] = (*(math.log(length / first.input) for length in lengths), first.phase, start)
+    s = 0.5 * (1.0 - np.cos((2.0 * np.arange(1, _NODES + 1) - 1.0) * math.pi / (2.0 * _NODES)))
+    target = wanted.output(s)
+    x, cost = _descended(x, wanted.input_swing * s, target, first.coupler_ratio, math.cos(least + _MARGIN))
+    kept = 0
+    seen: list[Reals] = []
+    for row in x[np.argsort(cost, kind="stable")]:
+        if kept == _LEVELLED or not np.all(np.isfinite(row)):
+            return
+        if np.any(np.abs(row[:4]) > _WIDEST) or any(np.abs(row - other).max() < 1e-4 for other in seen):
+            continue
+        for made in _moving(first, row, wanted):
+            seen.append(row)
+            kept += 1
+            yield _levelled(*made, wanted, least)
+
+
+def _moving(first: FunctionFiveBar, row: Reals, wanted: Wanted) -> Iterator[tuple[FunctionFiveBar, float]]:
+    """The five-bar of a row in the assembly in which it follows the function, if it closes in either."""
+    b, c, e, d = (first.input * math.exp(float(value)) for value in row[:4])
+    phase, start = math.remainder(float(row[4]), 2.0 * math.pi), float(row[5]) % (2.0 * math.pi)
+    # the phase is the coupler's direction at input angle 0: whole turns of the start change it with the ratio
+    phase += first.coupler_ratio * (float(row[5]) - start)
+    s = np.linspace(0.0, 1.0, _GRID)
+    spread = []
+    for assembly in (1, -1):
+        bar = replace(
+            first, coupler=b, follower=c, output=e, frame=d, phase=math.remainder(phase, math.tau), assembly=assembly
+        )
+        miss = outputs(bar, start + wanted.input_swing * s) - wanted.output(s)
+        if np.all(np.isfinite(miss)):
+            spread.append((float(np.ptp(miss)), bar))
+    if spread:
+        least, bar = min(spread, key=lambda found: found[0])
+        if least < 0.5 * abs(wanted.output_swing):
+            yield bar, start
+
+
+# Least squares at the nodes
+
+
+def _descended(x: Reals, phi: Reals, psi: Reals, ratio: float, cosine: float) -> tuple[Reals, Reals]:
+    """Rows of ln(b/a), ln(c/a), ln(e/a), ln(d/a), t20, phi0, psi0 after Levenberg's steps, and their squares."""
+    damping, value = np.full(len(x), 1e-2), _misses(x, phi, psi, ratio, cosine)
+    cost = np.sum(value**2, axis=1)
+    for _ in range(_STEPS):
+        slopes = _slopes(x, value, phi, psi, ratio, cosine)
+        across = np.swapaxes(slopes, 1, 2)
+        square = across @ slopes + damping[:, None, None] * np.eye(7)
+        step = np.linalg.solve(square, across @ value[:, :, None])[:, :, 0]
+        new = x - np.clip(np.nan_to_num(step), -0.4, 0.4)
+        new_value = _misses(new, phi, psi, ratio, cosine)
+        new_cost = np.sum(new_value**2, axis=1)
+        better: Mask = new_cost < cost
+        x, value = np.where(better[:, None], new, x), np.where(better[:, None], new_value, value)
+        cost = np.where(better, new_cost, cost)
+        damping = np.clip(np.where(better, 0.3, 4.0) * damping, 1e-12, 1e6)
+    return x, cost
+
+
+def _misses(x: Reals, phi: Reals, psi: Reals, ratio: float, cosine: float) -> Reals:
+    """(|CD| - c)/e at the nodes, and the excess of |cos mu| over its limit, for every row."""
+    b, c, e, d = (np.exp(np.clip(x[:, i], -6.0, 6.0))[:, None] for i in range(4))
+    turned = phi + x[:, 5:6]
+    joint = np.exp(1j * turned) + b * np.exp(1j * (x[:, 4:5] + ratio * turned))
+    gap = joint - d - e * np.exp(1j * (x[:, 6:7] + psi))
+    mu = (c * c + e * e - np.abs(d - joint) ** 2) / (2.0 * c * e)
+    return np.concatenate(((np.abs(gap) - c) / e, _WEIGHT * np.maximum(0.0, np.abs(mu) - cosine)), axis=1)
+
+
+def _slopes(x: Reals, value: Reals, phi: Reals, psi: Reals, ratio: float, cosine: float) -> Reals:
+    """Derivatives by the unknowns, by differences: the rows are levelled afterwards, where digits count."""
+    step = 1e-7
+    columns = []
+    for i in range(7):
+        moved = x.copy()
+        moved[:, i] += step
+        columns.append((_misses(moved, phi, psi, ratio, cosine) - value) / step)
+    return np.stack(columns, axis=2)
+
+
+# Levelling
+
+
+def _levelled(bar: FunctionFiveBar, start: float, wanted: Wanted, least: float) -> tuple[FunctionFiveBar, float]:
+    """The five-bar after linear programs for the greatest error, each within a region of trust that adapts."""
+    s = np.linspace(0.0, 1.0, _GRID)
+    s = 0.5 * (1.0 - np.cos(math.pi * s))  # as dense towards the ends as the extremes are
+    target, swing = wanted.output(s), wanted.input_swing * s
+    x = np.array([*(math.log(v) for v in (bar.coupler, bar.follower, bar.output, bar.frame)), bar.phase, start])
+    limit = math.cos(least + _MARGIN)
+    miss, mu = _state(bar, x, swing, target)
+    trust, worst = 0.05, _worst(miss, mu, limit)
+    for _ in range(_LEVEL_STEPS):
+        step = _program(bar, x, swing, target, miss, mu, limit, trust)
+        if step is None:
+            break
+        new = x + step
+        new_miss, new_mu = _state(bar, new, swing, target)
+        new_worst = _worst(new_miss, new_mu, limit)
+        if new_worst < worst:
+            gained = worst - new_worst
+            x, miss, mu, worst, trust = new, new_miss, new_mu, new_worst, min(0.5, 2.0 * trust)
+            if gained <= 1e-5 * worst:
+                break
+        else:
+            trust *= 0.25
+            if trust < 1e-10:
+                break
+    return _made(bar, x), float(x[5])
+
+
+def _made(bar: FunctionFiveBar, x: Reals) -> FunctionFiveBar:
+    b, c, e, d = (math.exp(float(value)) for value in x[:4])
+    return replace(bar, coupler=b, follower=c, output=e, frame=d, phase=float(x[4]))
+
+
+def _state(bar: FunctionFiveBar, x: Reals, swing: Reals, target: Reals) -> tuple[Reals, Reals]:
+    """Misses about their middle, and cos mu, at the places."""
+    made = _made(bar, x)
+    phi = x[5] + swing
+    miss = outputs(made, phi) - target
+    joint = made.input * np.exp(1j * phi) + made.coupler * np.exp(1j * (made.phase + made.coupler_ratio * phi))
+    c, e = made.follower, made.output
+    mu = (c * c + e * e - np.abs(made.frame - joint) ** 2) / (2.0 * c * e)
+    return miss - 0.5 * (miss.max() + miss.min()), mu
+
+
+def _worst(miss: Reals, mu: Reals, limit: float) -> float:
+    """The greatest error, with the excess of cos mu as what must go first."""
+    if not np.all(np.isfinite(miss)):
+        return math.inf
+    return float(np.abs(miss).max() + 10.0 * max(0.0, float(np.abs(mu).max()) - limit))
+
+
+def _program(
+    bar: FunctionFiveBar, x: Reals, swing: Reals, target: Reals, miss: Reals, mu: Reals, limit: float, trust: float
+) -> Reals | None:
+    """Step of the unknowns that makes the greatest error least, as far as its slopes tell."""
+    from scipy.optimize import linprog
+
+    h = 1e-6
+    slopes, turns = np.empty((miss.size, 7)), np.empty((miss.size, 6))
+    for i in range(6):
+        ahead, behind = (_state(bar, x + side * h * np.eye(6)[i], swing, target) for side in (1.0, -1.0))
+        slopes[:, i], turns[:, i] = ((one - other) / (2.0 * h) for one, other in zip(ahead, behind, strict=True))
+    slopes[:, 6] = -1.0  # psi0
+    if not (np.all(np.isfinite(slopes)) and np.all(np.isfinite(turns))):
+        return None
+    ones, none = np.ones((miss.size, 1)), np.zeros((miss.size, 2))
+    rows = [np.hstack((side * slopes, -ones)) for side in (1.0, -1.0)]
+    edges = [-miss, miss]
+    over = max(limit, float(np.abs(mu).max()) - 0.1 * trust)
+    for side in (1.0, -1.0):
+        rows.append(np.hstack((side * turns, none)))
+        edges.append(over - side * mu)
+    free = (None, None)
+    found = linprog(
+        [0.0] * 7 + [1.0],
+        A_ub=np.vstack(rows),
+        b_ub=np.concatenate(edges),
+        bounds=[(-trust, trust)] * 6 + [free, (0.0, None)],
+        method="highs",
+    )
+    return None if found.x is None else np.asarray(found.x[:6])
