@@ -110,7 +110,7 @@ FILLET = Rule(
     "r_Nf >= r_Ff - 1e-4 m; fails where the file names a tool or cutter, for rings and helical gears, else warns",
     "ISO 21771; form radius: own derivation, compared with a rolled tool",
     ("fillet-interference",),
-    ("tool", *_TEETH),
+    ("tool", "cutter", *_TEETH),
 )
 BACKLASH = Rule(
     "GL208",

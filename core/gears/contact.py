@@ -104,8 +104,10 @@ class PathOfContact:
 
     def _lost(self, gear: int, root_end: float) -> float:
         form, base = self.pair.form_radius[gear], self.pair.base_radius[gear]
-        least = 0.0 if form is None else math.sqrt(max(0.0, (form - base) * (form + base)))
-        return max(0.0, least - root_end)
+        if form is None:
+            return 0.0
+        flank_end = math.sqrt(max(0.0, (form - base) * (form + base)))
+        return max(0.0, self.pair.signs[gear] * (flank_end - root_end))
 
     @cached_property
     def usable_contact_ratio(self) -> float:

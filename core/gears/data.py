@@ -76,6 +76,7 @@ _MAGNITUDES = frozenset(
         "tip_radius",
         "root_radius",
         "used_root_radius",
+        "form_radius",
     )
 )
 
@@ -233,6 +234,8 @@ class GearData:
 
     def cutting_tool(self, gear: int) -> RackTool:
         """The rack tool whose fillet the root of a gear has, or what stands for it in a ring."""
+        if gear == 1 and self.pair.shaped is not None:
+            return self.pair.shaped.substitute
         return self.pair.tool(gear)
 
     @cached_property

@@ -7,7 +7,9 @@ from typing import Protocol
 
 from gearlink.core.gears.codes import BACKLASH, BENDING, CONTACT_RATIO, FILLET, PITTING, TIP_FOULING
 from gearlink.core.gears.data import GearData
+from gearlink.core.gears.internal import InternalInterference
 from gearlink.core.gears.load import Factors
+from gearlink.core.gears.pair import GearPair
 from gearlink.core.report import Check, Rule, Status
 
 _FILLET_NOISE = 1e-4
@@ -43,6 +45,7 @@ def drawing_check(name: str, data: GearData, limits: DrawingLimits, *, radial: b
     """
     if name == "radial-assembly":
         yield from _radial_assembly(data, radial)
+        yield from _cutter(data)
         return
     yield from _OF_PAIR[name](data, limits)
 
@@ -96,6 +99,26 @@ def _radial_assembly(data: GearData, radial: bool) -> Iterator[Check]:
     yield TIP_FOULING.check(status, text, margin if angle > -1e9 else None, 0.0, "mm", name=name)
 
 
+def _cutter(data: GearData) -> Iterator[Check]:
+    """A pinion cutter feeds in along the line of centres and must not cut off the ring's tips."""
+    pair, shaped = data.pair, data.pair.shaped
+    if shaped is None or pair.cutter is None:
+        return
+    cutting = GearPair(
+        module=pair.module,
+        teeth=(pair.cutter.teeth, pair.teeth[1]),
+        pressure_angle=pair.pressure_angle,
+        helix_angle=pair.helix_angle,
+        given_shift=(pair.cutter.shift, pair.profile_shift[1]),
+        given_tip_radius=(shaped.cutter_tip, -pair.tip_radius[1]),
+    )
+    angle = InternalInterference(cutting).radial_assembly_angle
+    if angle is None or angle >= 0.0:
+        return
+    text = f"the cutter of {pair.cutter.teeth} teeth cuts off tips of the ring while it feeds in: take a smaller one"
+    yield TIP_FOULING.check("fail", text, None, 0.0, "mm", name="radial-assembly")
+
+
 def _fillet(data: GearData, _limits: DrawingLimits) -> Iterator[Check]:
     for gear in (0, 1):
         yield from _fillet_of(data, gear)
@@ -103,7 +126,7 @@ def _fillet(data: GearData, _limits: DrawingLimits) -> Iterator[Check]:
 
 def _fillet_of(data: GearData, gear: int) -> Iterator[Check]:
     pair, form = data.pair, data.pair.form_radius[gear]
-    sign = pair.signs[gear]
+    sign, form = pair.signs[gear], None if form is None else abs(form)
     beyond = pair.interference_margin[1 - gear] <= 0.0
     if form is None and not beyond:
         return
@@ -116,7 +139,7 @@ def _fillet_of(data: GearData, gear: int) -> Iterator[Check]:
         text = f"contact at the root of gear {gear + 1} begins at {used:.7g} mm, its flank at {form:.7g} mm"
     status: Status = "pass"
     if beyond or margin < -_FILLET_NOISE * pair.module:
-        judged = beyond or pair.internal or pair.helix_angle != 0.0 or any(pair.tools) or pair.shaped_root is not None
+        judged = beyond or pair.internal or pair.helix_angle != 0.0 or any(pair.tools) or pair.cutter is not None
         status = "fail" if judged else "warn"
         text += (
             f": raise its profile shift, shorten the tips of gear {2 - gear}, or take a tool with a smaller rounding"
@@ -191,7 +214,7 @@ def _out_of_range(data: GearData) -> Iterator[Check]:
         elif not 1.0 <= section.notch < 8.0:
             text = f"notch parameter q_s = {section.notch:.4g} of gear {gear + 1} is outside 1 to 8, where Y_S holds"
             yield BENDING.check("warn", text, section.notch)
-        elif data.pair.teeth[gear] < 0 and data.pair.shaped_root is None:
+        elif data.pair.teeth[gear] < 0 and data.pair.cutter is None:
             text = "without its cutter the root of the ring is judged with the rounding of a rack tool"
             yield BENDING.check("warn", text)
 

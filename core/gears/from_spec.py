@@ -11,7 +11,7 @@ from gearlink.core.gears.allowances import js7, thickness_allowances
 from gearlink.core.gears.data import GearData
 from gearlink.core.gears.load import Factors, Load, Material, torque_of
 from gearlink.core.gears.pair import GearPair, Pair
-from gearlink.core.gears.tools import RackTool, usual_rounding
+from gearlink.core.gears.tools import PinionCutter, RackTool, usual_rounding
 
 if TYPE_CHECKING:
     from gearlink.core.gears.spec import GearPairSpec
@@ -40,6 +40,8 @@ def pair_of(spec: GearPairSpec) -> GearPair:
         if spec.tip_diameter is None
         else (0.5 * spec.tip_diameter[0], 0.5 * spec.tip_diameter[1]),
     }
+    if spec.cutter is not None:
+        known["cutter"] = PinionCutter(**spec.cutter.model_dump())
     with at_key("tool"):
         known["tools"] = tools_of(spec)
     shift, distance = spec.profile_shift, spec.center_distance

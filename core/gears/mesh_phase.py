@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from gearlink.core.gears.internal_mesh import InternalMesh
 from gearlink.core.gears.involute import involute
 from gearlink.core.gears.pair import GearPair
+from gearlink.core.gears.ring_cutter import ShapedRing
 from gearlink.core.numerics.arrays import Points, Reals
 
 
@@ -95,7 +96,7 @@ def ring_of(pair: GearPair, points_on_flank: int = 12) -> Points:
         pair : GearPair - with a ring as gear 2
         points_on_flank : int - at least 2
     Returns
-        points : (N,) array [mm] - counter-clockwise; root corners are sharp, as no cutter is known
+        points : (N,) array [mm] - counter-clockwise; root corners are sharp where no cutter is known
     Raises
         NoSolution - where the ring's tips lie inside its base circle
     Example
@@ -110,16 +111,30 @@ def ring_of(pair: GearPair, points_on_flank: int = 12) -> Points:
     half_tooth = (math.pi / 2.0 + 2.0 * pair.profile_shift[1] * math.tan(pair.pressure_angle)) / z
     radii = -pair.base_radius[1], -pair.tip_radius[1], -pair.root_radius[1]
     low = math.tan(pair.tip_pressure_angle[1])
-    return _ring_teeth(z, half_tooth - involute(alpha), radii, low, points_on_flank)
+    return _ring_teeth(z, half_tooth - involute(alpha), radii, low, points_on_flank, pair.shaped)
 
 
-def _ring_teeth(z: int, at_base: float, radii: tuple[float, float, float], low: float, points_on_flank: int) -> Points:
+def _ring_teeth(
+    z: int,
+    at_base: float,
+    radii: tuple[float, float, float],
+    low: float,
+    points_on_flank: int,
+    shaped: ShapedRing | None = None,
+) -> Points:
     """Outline of a ring: half a tooth's angle on the base circle, its radii (base, tip, root) and the tip's roll."""
     base, tip, root = radii
-    high = math.sqrt((root / base - 1.0) * (root / base + 1.0))
+    end = root if shaped is None else shaped.form_radius
+    high = math.sqrt((end / base - 1.0) * (end / base + 1.0))
     roll = np.linspace(low, high, points_on_flank)
     flank = base * (1.0 - 1j * roll) * np.exp(1j * (at_base + roll))
-    half = np.concatenate([[tip + 0j], flank, [root * np.exp(1j * math.pi / z)]])
+    fillet: list[complex] = []
+    if shaped is not None:
+        middle = np.exp(1j * math.pi / z)
+        fillet = [
+            middle * shaped.fillet(turn).conjugate() for turn in np.linspace(*shaped.turns[::-1], points_on_flank)
+        ]
+    half = np.concatenate([[tip + 0j], flank, fillet, [root * np.exp(1j * math.pi / z)]])
     tooth = np.concatenate([half[:0:-1].conj(), half[:-1]])
     turns = np.exp(2j * math.pi / z * np.arange(z))
     ring: Points = (turns[:, None] * tooth[None, :]).ravel()

@@ -15,8 +15,9 @@ from gearlink.core.gears import pair_limits, teeth
 from gearlink.core.gears.involute import involute, involute_rise
 from gearlink.core.gears.pitch_pair import Pair as Pair
 from gearlink.core.gears.pitch_pair import PitchPair
+from gearlink.core.gears.ring_cutter import ShapedRing
 from gearlink.core.gears.root_fillet import RackCutRoot
-from gearlink.core.gears.tools import RackTool, standard_tool
+from gearlink.core.gears.tools import PinionCutter, RackTool, standard_tool
 from gearlink.core.results import cached_property
 
 TipRule = Literal["full", "none"] | Pair
@@ -35,7 +36,7 @@ class GearPair(PitchPair):
         given_tip_radius : (float, float) or None [mm] - magnitudes, in place of the tip alteration
         tools : (RackTool or None, ...) - tool of each gear; None: addendum and clearance of the profile
         given_spans : (int or None, ...) - teeth that a span measurement goes over; None: chosen
-        shaped_root : float or None [mm] - root radius of a ring as a pinion cutter leaves it, its magnitude
+        cutter : PinionCutter or None - of a ring; None leaves its fillets unknown
     Returns
         Properties: lengths in mm, angles in rad, coefficients in modules; a pair is (gear 1, gear 2). Radii of a
         ring and the centre distance of its pair are negative.
@@ -65,7 +66,7 @@ class GearPair(PitchPair):
     given_tip_radius: Pair | None = None
     tools: tuple[RackTool | None, RackTool | None] = (None, None)
     given_spans: tuple[int | None, int | None] = (None, None)
-    shaped_root: float | None = None
+    cutter: PinionCutter | None = None
 
     def __post_init__(self) -> None:
         pair_limits.require_profile(self)
@@ -199,12 +200,26 @@ class GearPair(PitchPair):
         return self.addendum + self.clearance if tool is None else tool.addendum
 
     @cached_property
+    def shaped(self) -> ShapedRing | None:
+        """The ring as its pinion cutter leaves it; None without one."""
+        if self.cutter is None or not self.internal:
+            return None
+        return ShapedRing(
+            module=self.module,
+            teeth=self.teeth[1],
+            shift=self.profile_shift[1],
+            cutter=self.cutter,
+            pressure_angle=self.pressure_angle,
+            helix_angle=self.helix_angle,
+        )
+
+    @cached_property
     def root_radius(self) -> Pair:
         """r_f = r - (h_fP* - x) m [mm]; of a ring that a pinion cutter shapes what it leaves."""
         r, x = self.reference_radius, self.profile_shift
         first = r[0] - self.module * (self.root_depth(0) - x[0])
-        if self.shaped_root is not None:
-            return first, -self.shaped_root
+        if self.shaped is not None:
+            return first, -self.shaped.root_radius
         return first, r[1] - self.module * (self.root_depth(1) - x[1])
 
     @cached_property
@@ -327,11 +342,13 @@ class GearPair(PitchPair):
 
     @cached_property
     def form_radius(self) -> tuple[float | None, float | None]:
-        """r_Ff [mm], where the flank ends towards the root; None for a ring, and for a tool that is pointed."""
+        """r_Ff [mm], where the flank ends towards the root; None for a ring without cutter, and for a pointed tool."""
         return self._form_radius_of(0), self._form_radius_of(1)
 
     def _form_radius_of(self, gear: int) -> float | None:
-        if self.teeth[gear] < 0 or self.tool(gear).rounding_center(self.pressure_angle) < 0.0:
+        if self.teeth[gear] < 0:
+            return None if self.shaped is None else -self.shaped.form_radius
+        if self.tool(gear).rounding_center(self.pressure_angle) < 0.0:
             return None
         return self.module * self.cut_root(gear).form_radius
 

@@ -9,6 +9,7 @@ from pydantic_core import PydanticCustomError
 
 from gearlink.core.gears.spec_parts import (
     AllowanceSpec,
+    CutterSpec,
     Hand,
     HelixAngle,
     LoadSpec,
@@ -75,6 +76,7 @@ class GearPairSpec(DesignSpec):
     tool: ToolSpec | TwoTools | None = Field(
         None, description="rack tool of both gears, or of each; left out: straight to the addendum"
     )
+    cutter: CutterSpec | None = Field(None, description="pinion cutter of a ring: only then its fillets are known")
     span_teeth: Annotated[list[SpanTeeth], Field(min_length=2, max_length=2)] | None = Field(
         None, description="teeth that the span measurement of each gear goes over; left out: chosen"
     )
@@ -118,6 +120,14 @@ class GearPairSpec(DesignSpec):
     @model_validator(mode="after")
     def _fits_its_kind(self) -> GearPairSpec:
         internal = self.teeth[1] < 0
+        if self.cutter is not None and not internal:
+            message = "a pinion cutter goes with a ring (negative teeth): leave it out, or give tool"
+            raise PydanticCustomError("GL111", message, {"key": "cutter"})
+        if self.cutter is not None and self.cutter.teeth >= -self.teeth[1]:
+            message = "a cutter of {cutter} teeth does not go into a ring of {ring}: take a smaller one"
+            raise PydanticCustomError(
+                "GL111", message, {"key": "cutter.teeth", "cutter": self.cutter.teeth, "ring": -self.teeth[1]}
+            )
         if self.helix_hand is None:
             return self
         if self.helix_angle == 0.0:

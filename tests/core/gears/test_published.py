@@ -6,6 +6,7 @@ of which the doubles keep all but a few ulp (the file states each).
 
 from __future__ import annotations
 
+import cmath
 import json
 import math
 from pathlib import Path
@@ -15,8 +16,10 @@ import pytest
 from factory import design
 
 from gearlink.core.gears.allowances import thickness_allowances
+from gearlink.core.gears.involute import involute
+from gearlink.core.gears.ring_cutter import ShapedRing
 from gearlink.core.gears.root_fillet import RackCutRoot
-from gearlink.core.gears.tools import RackTool
+from gearlink.core.gears.tools import PinionCutter, RackTool
 
 CASES = json.loads((Path(__file__).parents[2] / "reference" / "gears.json").read_text())["cases"]
 PAIRS = [case for case in CASES if isinstance(case["input"].get("teeth"), list) and "module" in case["input"]]
@@ -188,3 +191,21 @@ def test_series_of_the_standard() -> None:
     for place, name in enumerate(("upper_um", "lower_um")):
         found = [1000.0 * each[place] for each in pairs]
         assert found == pytest.approx(two["expected"][name]["value"], abs=1e-9)
+
+
+@pytest.mark.parametrize(("teeth", "x0", "rounding"), [(25, 0.1, 0.25), (18, -0.1, 0.2), (40, 0.0, 0.3)])
+def test_fillet_of_a_shaped_ring_meets_its_involute_where_the_form_radius_says(
+    teeth: int, x0: float, rounding: float
+) -> None:
+    """Fillet and involute share the form circle to 1e-9 mm: the fillet is an envelope, the radius a closed form."""
+    z, x, alpha = 67, -0.3, math.radians(20.0)
+    cutter = PinionCutter(teeth=teeth, shift=x0, rounding=rounding)
+    ring = ShapedRing(module=2.0, teeth=-z, shift=x, cutter=cutter, pressure_angle=alpha)
+    start, end = ring.turns
+    assert abs(ring.fillet(start)) == pytest.approx(ring.root_radius, abs=1e-9)
+    at_form = math.acos(z * math.cos(alpha) / ring.form_radius)
+    half_tooth = (math.pi / 2 + 2 * x * math.tan(alpha)) / z - involute(alpha) + involute(at_form)
+    assert cmath.phase(ring.fillet(end)) == pytest.approx(math.pi / z - half_tooth, abs=1e-10)
+    before = abs(cmath.phase(ring.fillet(end - 1e-4)) - cmath.phase(ring.fillet(end)))
+    assert before < 1e-4  # it ends along the flank, without a corner
+    assert ring.substitute.rounding > rounding
