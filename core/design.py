@@ -49,7 +49,8 @@ def placed(path: str) -> Any:
     """A quantity whose value stands elsewhere on the design.
 
     Parameters
-        path : str - from the design on, "slider_crank.crank_length"; None on the way makes the quantity None
+        path : str - from the design on, "slider_crank.crank_length", "fastest.0.speed"; None on the way makes the
+            quantity None
     Returns
         quantity : property, to be annotated with the type of the value
     """
@@ -59,7 +60,7 @@ def placed(path: str) -> Any:
         for name in path.split("."):
             if found is None:
                 return None
-            found = getattr(found, name)
+            found = found[int(name)] if name.isdecimal() else getattr(found, name)
         return found
 
     return property(value, doc=f"Stands at `{path}`.")

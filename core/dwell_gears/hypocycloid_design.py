@@ -214,15 +214,8 @@ class HypocycloidDwell(RealSpeed, SingleMesh):
         with at_key("dwell.tolerance"):
             return self.slider.dwell_angle(self.spec.dwell.tolerance)
 
-    @property
-    def velocity_max(self) -> float:
-        """Greatest velocity of the slider outwards [mm/rad]."""
-        return self.slider.fastest[0]
-
-    @property
-    def velocity_max_at(self) -> float:
-        """Carrier angle of it [rad]."""
-        return self.slider.fastest[1]
+    velocity_max: float = placed("slider.fastest.0")
+    velocity_max_at: float = placed("slider.fastest.1")
 
     @property
     def velocity_min(self) -> float:
@@ -234,26 +227,10 @@ class HypocycloidDwell(RealSpeed, SingleMesh):
         """Carrier angle of it [rad]."""
         return 2.0 * math.pi - self.slider.fastest[1]
 
-    @property
-    def acceleration_max(self) -> float:
-        """Greatest acceleration of the slider outwards [mm/rad^2]."""
-        return self.slider.hardest[0]
-
-    @property
-    def acceleration_max_at(self) -> float:
-        """Carrier angle of it, the lesser of two [rad]."""
-        return self.slider.hardest[1]
-
-    @property
-    def acceleration_min(self) -> float:
-        """Greatest acceleration inwards, as a negative number [mm/rad^2]."""
-        return self.slider.hardest_inwards[0]
-
-    @property
-    def acceleration_min_at(self) -> float:
-        """Carrier angle of it, the lesser of two [rad]."""
-        return self.slider.hardest_inwards[1]
-
+    acceleration_max: float = placed("slider.hardest.0")
+    acceleration_max_at: float = placed("slider.hardest.1")
+    acceleration_min: float = placed("slider.hardest_inwards.0")
+    acceleration_min_at: float = placed("slider.hardest_inwards.1")
     slider_velocity_max: float | None = per_time("velocity_max", 1)
     slider_velocity_min: float | None = per_time("velocity_min", 1)
     slider_acceleration_max: float | None = per_time("acceleration_max", 2)

@@ -91,61 +91,30 @@ class SliderCrankDesign(RealSpeed, SliderCrankQuantities, Design):
         return 2.0 * math.pi - self.forward_angle
 
     @cached_property
-    def speed_turnings(self) -> list[Turning]:
-        """Extremes of the slider's velocity per input angle, least first."""
+    def fastest(self) -> list[Turning]:
+        """Extremes of the slider's velocity per input angle away from D, greatest first, then least."""
         return self._turnings(1)
 
     @cached_property
-    def acceleration_turnings(self) -> list[Turning]:
-        """Extremes of its acceleration per square of the input angle, least first."""
+    def hardest(self) -> list[Turning]:
+        """Extremes of its acceleration per square of the input angle."""
         return self._turnings(2)
 
     def _turnings(self, order: int) -> list[Turning]:
         from gearlink.core.linkages.standstills import turnings
 
         found = turnings(lambda x: self.depth(x, order), lambda x: self.depth(x, order + 1))
-        return sorted(found, key=lambda turning: turning.speed)
+        found.sort(key=lambda turning: turning.speed)
+        return [found[-1], found[0]]
 
-    @property
-    def velocity_max(self) -> float:
-        """Greatest velocity of the slider away from D [mm/rad]."""
-        return self.speed_turnings[-1].speed
-
-    @property
-    def velocity_max_at(self) -> float:
-        """Input angle of it [rad]."""
-        return self.speed_turnings[-1].place
-
-    @property
-    def velocity_min(self) -> float:
-        """Greatest velocity towards D, as a negative number [mm/rad]."""
-        return self.speed_turnings[0].speed
-
-    @property
-    def velocity_min_at(self) -> float:
-        """Input angle of it [rad]."""
-        return self.speed_turnings[0].place
-
-    @property
-    def acceleration_max(self) -> float:
-        """Greatest acceleration of the slider away from D [mm/rad^2]."""
-        return self.acceleration_turnings[-1].speed
-
-    @property
-    def acceleration_max_at(self) -> float:
-        """Input angle of it [rad]."""
-        return self.acceleration_turnings[-1].place
-
-    @property
-    def acceleration_min(self) -> float:
-        """Greatest acceleration towards D, as a negative number [mm/rad^2]."""
-        return self.acceleration_turnings[0].speed
-
-    @property
-    def acceleration_min_at(self) -> float:
-        """Input angle of it [rad]."""
-        return self.acceleration_turnings[0].place
-
+    velocity_max: float = placed("fastest.0.speed")
+    velocity_max_at: float = placed("fastest.0.place")
+    velocity_min: float = placed("fastest.1.speed")
+    velocity_min_at: float = placed("fastest.1.place")
+    acceleration_max: float = placed("hardest.0.speed")
+    acceleration_max_at: float = placed("hardest.0.place")
+    acceleration_min: float = placed("hardest.1.speed")
+    acceleration_min_at: float = placed("hardest.1.place")
     slider_velocity_max: float | None = per_time("velocity_max", 1)
     slider_velocity_min: float | None = per_time("velocity_min", 1)
     slider_acceleration_max: float | None = per_time("acceleration_max", 2)

@@ -207,46 +207,14 @@ class GearedRocker(RealSpeed, SingleMesh):
         """Greatest and least acceleration ratio and their places."""
         return _both(turnings(self.drive.acceleration, self.drive.jerk))
 
-    @property
-    def speed_ratio_max(self) -> float:
-        """Greatest output speed per input speed."""
-        return self.fastest[0].speed
-
-    @property
-    def speed_ratio_max_at(self) -> float:
-        """Crank angle of it [rad]."""
-        return self.fastest[0].place
-
-    @property
-    def speed_ratio_min(self) -> float:
-        """Least output speed per input speed, on the way back."""
-        return self.fastest[1].speed
-
-    @property
-    def speed_ratio_min_at(self) -> float:
-        """Crank angle of it [rad]."""
-        return self.fastest[1].place
-
-    @property
-    def acceleration_ratio_max(self) -> float:
-        """Greatest output acceleration per square of the input speed."""
-        return self.hardest[0].speed
-
-    @property
-    def acceleration_ratio_max_at(self) -> float:
-        """Crank angle of it [rad]."""
-        return self.hardest[0].place
-
-    @property
-    def acceleration_ratio_min(self) -> float:
-        """Least output acceleration per square of the input speed."""
-        return self.hardest[1].speed
-
-    @property
-    def acceleration_ratio_min_at(self) -> float:
-        """Crank angle of it [rad]."""
-        return self.hardest[1].place
-
+    speed_ratio_max: float = placed("fastest.0.speed")
+    speed_ratio_max_at: float = placed("fastest.0.place")
+    speed_ratio_min: float = placed("fastest.1.speed")
+    speed_ratio_min_at: float = placed("fastest.1.place")
+    acceleration_ratio_max: float = placed("hardest.0.speed")
+    acceleration_ratio_max_at: float = placed("hardest.0.place")
+    acceleration_ratio_min: float = placed("hardest.1.speed")
+    acceleration_ratio_min_at: float = placed("hardest.1.place")
     output_speed_max: float | None = per_time("speed_ratio_max", 1)
     output_speed_min: float | None = per_time("speed_ratio_min", 1)
     output_acceleration_max: float | None = per_time("acceleration_ratio_max", 2)

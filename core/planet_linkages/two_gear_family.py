@@ -60,14 +60,6 @@ class Family:
         return PlanetLinkage(linkage, self.ratio, "crank")
 
 
-@dataclass(frozen=True, slots=True)
-class Ripple:
-    """A dwell whose band the back-step fills: crank angle of its window and half the band [rad]."""
-
-    crank_angle: float
-    tolerance: float
-
-
 def frame_range(family: Family) -> tuple[float, float]:
     """Frames between which the output may stand still at all, by the class of the linkage.
 
@@ -203,21 +195,6 @@ def back_step(drive: PlanetLinkage) -> BackStep | None:
     return BackStep(step.start, step.end, step.crank_angle, -integral(drive.speed, step.start, step.end))
 
 
-def ripple(drive: PlanetLinkage) -> Ripple | None:
-    """The window over which the output stays within the band that its back-step fills; None without a back-step.
-
-    phi5(L) = phi5(phi(2)),   phi5(R) = phi5(phi(1)),   window = R - L,   band = D = 2 tau
-    """
-    step = back_step(drive)
-    if step is None:
-        return None
-    top = drive.angle(step.start)
-    bottom = top - step.angle
-    left = bracketed_root(lambda phi: drive.angle(phi) - bottom, step.end - _TURN, step.start)
-    right = bracketed_root(lambda phi: drive.angle(phi) - top, step.end, step.start + _TURN)
-    return Ripple(right - left, 0.5 * step.angle)
-
-
 def tolerance_dwell(drive: PlanetLinkage, tolerance: float) -> ToleranceDwell:
     """Longest crank interval over which the output stays within +- a tolerance [rad] of a place that is free.
 
@@ -245,9 +222,17 @@ def back_step_of(drive: PlanetLinkage) -> float:
 
 
 def window_of(drive: PlanetLinkage) -> float:
-    """Measure: the window of equal ripple [rad]."""
-    found = ripple(drive)
-    return 0.0 if found is None else found.crank_angle
+    """Measure: the window over which the output stays within the band that its back-step fills [rad].
+
+    phi5(L) = phi5(phi(2)),   phi5(R) = phi5(phi(1)),   window = R - L,   band = D = 2 tau; 0 without a back-step
+    """
+    step = back_step(drive)
+    if step is None:
+        return 0.0
+    top = drive.angle(step.start)
+    bottom = top - step.angle
+    left = bracketed_root(lambda phi: drive.angle(phi) - bottom, step.end - _TURN, step.start)
+    return bracketed_root(lambda phi: drive.angle(phi) - top, step.end, step.start + _TURN) - left
 
 
 def solved(family: Family, measure: Callable[[PlanetLinkage], float], target: float, what: str) -> float:
