@@ -20,6 +20,7 @@ from gearlink.cli.commands.laws import laws
 from gearlink.cli.commands.picture_options import register as register_pictures
 from gearlink.cli.commands.reference_options import register
 from gearlink.cli.completing import better_scripts
+from gearlink.cli.commands.tolerance_options import register as register_tolerances
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.exploring.register import register as register_exploring
 from gearlink.cli.export.register import register as register_export
@@ -134,6 +135,7 @@ register(app)
 register_export(app)
 register_bench(app)
 register_exploring(app)
+register_tolerances(app)
 register_pictures(app)
 app.command("laws")(laws)
 

@@ -16,6 +16,7 @@ from gearlink.core.report import Rule
 from gearlink.core.study import codes as studies
 from gearlink.core.swing_gripper import codes as swing_gripper
 from gearlink.core.three_gear import codes as three_gear
+from gearlink.core.tolerance import codes as tolerance
 from gearlink.core.wide_swing import codes as wide_swing
 
 _ROOMS = (
@@ -31,6 +32,7 @@ _ROOMS = (
     wide_swing,
     studies,
     loads,
+    tolerance,
 )
 
 

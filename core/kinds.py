@@ -61,6 +61,8 @@ _HYPOCYCLOID = "dwell_gears.hypocycloid_design:HypocycloidDwell"
 _FIVE_BAR = "five_bar.design:GearedFiveBar"
 _MUTILATED = "dwell_gears.mutilated_design:MutilatedGearDwell"
 
+_UNTOLERANCED = ("gear-train-mobility",)
+
 KINDS: dict[str, Kind] = {
     kind.name: kind
     for kind in (
@@ -75,6 +77,7 @@ KINDS: dict[str, Kind] = {
                 "analyze": _THREE_GEAR,
                 "gear": _THREE_GEAR,
                 "loads": "three_gear.loads:ThreeGearLoads",
+                "register": "three_gear.register:ThreeGearRegister",
             },
             "three_gear.axis:axis",
         ),
@@ -157,6 +160,9 @@ KINDS: dict[str, Kind] = {
         ),
     )
 }
+for _kind in KINDS.values():
+    if _kind.name not in _UNTOLERANCED:
+        _kind.commands["tolerance"] = "tolerance_study.design:ToleranceStudy"
 
 STUDY = Kind("study", "study.spec:StudySpec", {"explore": "explore.exploration:Exploration"})
 FILES: dict[str, Kind] = {**KINDS, STUDY.name: STUDY}

@@ -282,6 +282,24 @@ _STUDY = {
     "knee": Term("", "1", "index of the kept design with the least sum of objectives, each scaled from 0 to 1"),
 }
 
+_TOLERANCE = {
+    "yield": Term("Y", "1", "share of the designs as made that pass all checks and requirements"),
+    "yield_low": Term("", "1", "lower end of the yield's 95 % interval"),
+    "yield_high": Term("", "1", "upper end of the yield's 95 % interval"),
+    "samples": Term("N", "1", "designs as made that were computed"),
+    "seed": Term("", "1", "seed of the samples: the same seed gives the same samples"),
+    "no_mechanism": Term("", "1", "share of the designs as made that do not exist"),
+    "dwell_swing": Term("", "deg", "half the range of the output over the nominal dwell, +-"),
+}
+
+_REGISTER = {
+    "worst": Term("", "mm", "register error where all sources add up, for torque sign +1 and -1"),
+    "rss": Term("", "mm", "standard deviation of the register error, for torque sign +1 and -1"),
+    "band": Term("", "mm", "register error to either side that 99.73 % keep, for torque sign +1 and -1"),
+    "dead_band": Term("", "mm", "how far the output jumps where its torque turns: backlash of the meshes"),
+    "flips": Term("", "deg", "input angles at which the torque on the output turns"),
+}
+
 _LOADS = {
     "input_torque_mean": Term("M_m", "N m", "mean input torque over the period"),
     "input_torque_rms": Term("M_rms", "N m", "root mean square of the input torque"),
@@ -336,6 +354,8 @@ TERMS: dict[str, Term] = {
     **_HYPOCYCLOID,
     **_FIVE_BAR,
     **_STUDY,
+    **_TOLERANCE,
+    **_REGISTER,
     **_LOADS,
 }
 

@@ -87,7 +87,15 @@ Share = Annotated[float, Field(ge=0, json_schema_extra={"unit": "1"})]
 Assembly = Literal[1, -1]
 
 
-class DrivenSpec(DesignSpec):
+class TolerancedSpec(DesignSpec):
+    """The keys of a kind whose sizes may scatter."""
+
+    tolerance: Annotated[Any, Deferred("tolerance.spec:Tolerance")] | None = Field(
+        None, description="how sizes scatter, for the commands tolerance and register"
+    )
+
+
+class DrivenSpec(TolerancedSpec):
     """The keys of a kind whose input turns at an even speed."""
 
     input_speed: Speed | None = Field(

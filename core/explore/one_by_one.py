@@ -39,12 +39,17 @@ def single(base: Base, changes: Changes, names: Iterable[str], codes: Sequence[s
     try:
         design = base.design(changes)
         values = base.values(design, names)
-        return Single(values, tuple(_findings(base, design, codes)))
+        return Single(values, tuple(findings_of(base, design, codes)))
     except Refused as error:
         return Single({}, (), error.key or "kind", str(error))
 
 
-def _findings(base: Base, design: Any, codes: Sequence[str]) -> Iterable[Check]:
+def findings_of(base: Base, design: Any, codes: Sequence[str]) -> Iterable[Check]:
+    """The findings of a design under some codes.
+
+    Raises
+        Refused - where a check finds that there is no mechanism
+    """
     names = dict.fromkeys(name for code in codes for name in base.codes[code])
     try:
         return [check for name in names for check in design.check(name)]

@@ -12,7 +12,6 @@ from gearlink.core.spec import (
     Angle,
     Assembly,
     Deferred,
-    DesignSpec,
     Distance,
     GearLimits,
     Length,
@@ -22,6 +21,7 @@ from gearlink.core.spec import (
     Ratio,
     SignedLength,
     Spec,
+    TolerancedSpec,
     require_offset_below_rod,
 )
 
@@ -128,7 +128,7 @@ class PressLimits(GearLimits, LoadLimits):
     pressure_angle: AcuteAngle = Field(30.0, description="greatest pressure angle of the cams")
 
 
-class FlatbedPressSpec(DesignSpec):
+class FlatbedPressSpec(TolerancedSpec):
     """Cylinder chain, bed chain, synchronous zone and compensation cams."""
 
     kind: Literal["flatbed-press"]

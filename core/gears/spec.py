@@ -28,7 +28,7 @@ from gearlink.core.gears.spec_parts import (
 from gearlink.core.spec import (
     Coefficient,
     Deferred,
-    DesignSpec,
+    TolerancedSpec,
     GearLimits,
     Length,
     LoadLimits,
@@ -46,7 +46,7 @@ class PairLimits(GearLimits, LoadLimits):
     safety_bending: Ratio = Field(1.4, description="least safety against breaking at the root")
 
 
-class GearPairSpec(DesignSpec):
+class GearPairSpec(TolerancedSpec):
     """Cylindrical gears with profile shift, spur or helical, external or internal, by centre distance or shifts."""
 
     kind: Literal["gear-pair"]

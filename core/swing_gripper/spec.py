@@ -11,12 +11,12 @@ from gearlink.core.spec import (
     AcuteAngle,
     Angle,
     Assembly,
-    DesignSpec,
     Distance,
     Length,
     MotionLaw,
     SignedLength,
     Spec,
+    TolerancedSpec,
 )
 
 InertiaMoment = Annotated[float, Field(ge=0, json_schema_extra={"unit": "kg m^2"})]
@@ -194,7 +194,7 @@ class GripperLimits(Spec):
     )
 
 
-class SwingGripperSpec(DesignSpec):
+class SwingGripperSpec(TolerancedSpec):
     """Six-phase swing gripper with cam rocker, four-bar and cam pair."""
 
     kind: Literal["swing-gripper"]

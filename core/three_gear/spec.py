@@ -182,6 +182,9 @@ class ThreeGearSpec(DrivenSpec):
     )
     limits: LinkageLimits = LinkageLimits()
     shafts: Shafts | None = None
+    register_: Annotated[Any, Deferred("tolerance.spec:Register")] | None = Field(
+        None, alias="register", description="what the output may lose in its dwell, for the command register"
+    )
     loads: Annotated[Any, Deferred("three_gear.loads_spec:ThreeGearLoads")] | None = Field(
         None, description="masses, forces and drive, for the command loads"
     )

@@ -12,13 +12,13 @@ from gearlink.core.spec import (
     AcuteAngle,
     Angle,
     Assembly,
-    DesignSpec,
     Distance,
     Length,
     Ratio,
     Share,
     SignedLength,
     Spec,
+    TolerancedSpec,
 )
 
 
@@ -164,7 +164,7 @@ class SwingLimits(Spec):
     )
 
 
-class WideSwingSpec(DesignSpec):
+class WideSwingSpec(TolerancedSpec):
     """Twin-cam or twin-rocker mechanism with spring or pneumatic unloading."""
 
     kind: Literal["wide-swing-cam"]

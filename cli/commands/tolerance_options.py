@@ -1,0 +1,90 @@
+"""The commands of tolerances: their own options become keys of the sections `tolerance` and `register`."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from enum import StrEnum
+from typing import Annotated
+
+import typer
+
+from gearlink.cli.options import OPTIONS, Options
+from gearlink.cli.typer_options import Spec, takes
+
+_SHARED = [name for name in OPTIONS if name not in ("samples", "suggest", "save", "round", "force")]
+
+
+class Method(StrEnum):
+    """How a register band is computed."""
+
+    WORST = "worst"
+    RSS = "rss"
+    MC = "mc"
+
+
+Samples = Annotated[
+    int | None, typer.Option("--samples", min=16, max=2**24, help="designs as made; rounded up to 16 x 2^k")
+]
+Seed = Annotated[int | None, typer.Option("--seed", min=0, max=2**32 - 1, help="the same seed gives the same samples")]
+
+
+def register(app: typer.Typer) -> None:
+    """Add the commands of this module to the command tree."""
+    app.command("tolerance")(_tolerance)
+    app.command("register")(_register)
+
+
+def _keyed(options: Options, section: str, keys: dict[str, object]) -> Options:
+    """Options with keys of a section set, those that were given."""
+    given = tuple(f"{section}.{key}={value}" for key, value in keys.items() if value not in (None, False))
+    return replace(options, overrides=(*options.overrides, *(text.replace("=True", "=true") for text in given)))
+
+
+@takes(*_SHARED)
+def _tolerance(
+    spec: Spec,
+    options: Options,
+    samples: Samples = None,
+    seed: Seed = None,
+    worst_case: Annotated[bool, typer.Option("--worst-case", help="add the table corners")] = False,
+    sobol: Annotated[bool, typer.Option("--sobol", help="Sobol' indices of every source")] = False,
+    allocate: Annotated[
+        bool, typer.Option("--allocate", help="add the table allocation: grades at least cost")
+    ] = False,
+) -> None:
+    """Yield of a design as made: spreads, capabilities, and which tolerance contributes what.
+
+    Exit status: 1 a check of the nominal design fails, or the yield may lie below its target.
+
+    Example: gearlink tolerance designs/candy_feed_tolerances.yaml --worst-case
+    """
+    from gearlink.cli.commands.design import run_design
+
+    options = _keyed(options, "tolerance", {"samples": samples, "seed": seed, "sobol": sobol})
+    added = (*(("corners",) if worst_case else ()), *(("allocation",) if allocate else ()))
+    raise typer.Exit(run_design("tolerance", spec, replace(options, tables=(*options.tables, *added))))
+
+
+@takes(*_SHARED)
+def _register(
+    spec: Spec,
+    options: Options,
+    at: Annotated[str | None, typer.Option("--at", metavar="PLACE", help="dwell, zone, handover, or an angle")] = None,
+    method: Annotated[Method | None, typer.Option("--method", help="how the band is computed")] = None,
+    radius: Annotated[
+        float | None, typer.Option("--radius", min=1e-6, help="radius of the output's error in mm")
+    ] = None,
+    samples: Samples = None,
+    seed: Seed = None,
+) -> None:
+    """Register: what play, pitch error and the other errors of the parts cost at the print, by source.
+
+    Exit status: 1 the budget is exceeded.
+
+    Example: gearlink register designs/candy_feed_tolerances.yaml --at dwell
+    """
+    from gearlink.cli.commands.design import run_design
+
+    options = _keyed(options, "register", {"at": at, "method": method and method.value, "radius": radius})
+    options = _keyed(options, "tolerance", {"samples": samples, "seed": seed})
+    raise typer.Exit(run_design("register", spec, options))

@@ -1,0 +1,47 @@
+"""What a kind of design may bring: samples over arrays, and parts that scatter though no key of its file names them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, Protocol
+
+from gearlink.core.design_axis import Evaluated
+from gearlink.core.numerics.arrays import Points, Reals
+from gearlink.core.tolerance.sources import Parts
+
+
+class ToleranceAxis(Protocol):
+    """Samples of one nominal design.
+
+    parts : centre distances, pins and gears that may scatter beside the keys of the file; extra : quantities that only
+    samples have
+    """
+
+    parts: Parts
+    extra: tuple[str, ...]
+
+    def serves(self, keys: Sequence[str], names: Sequence[str]) -> bool:
+        """Whether these sources and quantities can be computed over arrays."""
+        ...
+
+    def design(self, values: Mapping[str, Any]) -> Any:
+        """The design of one sample, of the class that computes it alone."""
+        ...
+
+    def evaluate(self, columns: Mapping[str, Reals | Points], names: Sequence[str]) -> Evaluated:
+        """The designs as made.
+
+        Parameters
+            columns : (N,) arrays by source - sizes and centre distances as made, in the unit of the file; of a pin its
+                offset as a vector x + i y [mm]
+            names : of quantities
+        Returns
+            evaluated : Evaluated - findings of every check of the kind's analysis
+        """
+        ...
+
+
+class ToleranceMaker(Protocol):
+    """Makes the axis of a nominal design, which has its links."""
+
+    def __call__(self, nominal: Any) -> ToleranceAxis: ...

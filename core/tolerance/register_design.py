@@ -1,0 +1,235 @@
+"""What the register budgets of all machines share: the sources, the two torque signs, the tables, the checks."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import Any, ClassVar
+
+import numpy as np
+
+from gearlink.core.design import Design, Outline
+from gearlink.core.errors import MissingSection, NoSolution
+from gearlink.core.numerics.arrays import Reals
+from gearlink.core.report import Check, Status, Table, safely_above
+from gearlink.core.results import cached_property
+from gearlink.core.tolerance.budget import Budget, Contribution, budget
+from gearlink.core.tolerance.codes import BACKLASH_IN_DWELL, REGISTER_BUDGET
+from gearlink.core.tolerance.sources import Parts, Scatter, scatters
+from gearlink.core.tolerance.spec import Register
+
+SIGNS = (1, -1)
+_NORMAL = 3.0  # 99.73 % of a normal error
+_STEP = math.radians(0.5)
+
+
+class RegisterDesign(Design):
+    """The register budget of a machine, over a stretch of its cycle; a machine says its gains.
+
+    A machine gives `parts`, `stretch`, `contributions` and what it knows of torque and backlash.
+    """
+
+    default_at: ClassVar[str]
+    outlines: ClassVar[dict[str, Outline]] = {
+        "register": Outline(
+            ("worst", "rss", "band", "dead_band", "flips"), ("register-budget", "backlash-in-dwell"), ("budget",)
+        )
+    }
+    extra_tables = ("cycle",)
+    advises = False
+
+    # What a machine gives
+
+    @property
+    def parts(self) -> Parts:
+        """What may scatter beside the keys of the file."""
+        raise NotImplementedError
+
+    def stretch(self, at: str) -> tuple[float, float]:
+        """First and last input angle [rad] of a place by name.
+
+        Raises
+            NoSolution - where the machine has no such place
+        """
+        raise NotImplementedError
+
+    def contributions(self, input_angle: Reals, torque_sign: int) -> list[Contribution]:
+        """Every source along input angles."""
+        raise NotImplementedError
+
+    @property
+    def backlash(self) -> dict[str, float]:
+        """Circumferential backlash of each mesh on the way [mm]."""
+        return {}
+
+    @property
+    def dead_band(self) -> float | None:
+        """How far the output jumps where its torque turns [mm]."""
+        return sum(self.backlash.values()) if self.backlash else None
+
+    @property
+    def flips(self) -> list[float] | None:
+        """Input angles at which the output's torque turns [rad]."""
+        return None
+
+    # The budget
+
+    @cached_property
+    def section(self) -> Register:
+        """The section `register`, empty where the file has none."""
+        given = self.spec.register_
+        return Register() if given is None else given
+
+    @cached_property
+    def sources(self) -> tuple[Scatter, ...]:
+        """The sources of the file."""
+        if self.spec.tolerance is None:
+            raise MissingSection("`register` needs tolerance: {sources: {...}}", key="tolerance.sources")
+        return scatters(self.spec.tolerance, self.spec, self.parts)
+
+    @cached_property
+    def place(self) -> str | float:
+        """Where the register is asked for: a name, or an input angle [deg]."""
+        at = self.section.at
+        if at is None:
+            return self.default_at
+        if isinstance(at, str):
+            try:
+                return float(at)
+            except ValueError:
+                return at
+        return float(at)
+
+    @cached_property
+    def input_angles(self) -> Reals:
+        """Input angles of the stretch [rad], every half degree; one alone where an angle is asked for."""
+        if isinstance(self.place, float):
+            return np.array([math.radians(self.place)])
+        start, end = self.stretch(self.place)
+        count = max(2, math.ceil((end - start) / _STEP) + 1)
+        return np.linspace(start, end, count)
+
+    def _budget(self, sign: int) -> Budget:
+        start = None if isinstance(self.place, float) else 0
+        return budget(self.contributions(self.input_angles, sign), start)
+
+    @cached_property
+    def budgets(self) -> tuple[Budget, Budget]:
+        """The budget for either sign of the torque on the output."""
+        return self._budget(1), self._budget(-1)
+
+    @cached_property
+    def worst(self) -> list[float]:
+        """Greatest error where all sources add up [mm]."""
+        return [float(one.worst.max()) for one in self.budgets]
+
+    @cached_property
+    def rss(self) -> list[float]:
+        """Greatest standard deviation of the error [mm]."""
+        return [float(one.rss.max()) for one in self.budgets]
+
+    @cached_property
+    def band(self) -> list[float]:
+        """What 99.73 % of the machines keep, to either side [mm]."""
+        if self.section.method == "worst":
+            return self.worst
+        if self.section.method == "mc":
+            return [self.sampled_band(sign) for sign in SIGNS]
+        return [_NORMAL * one for one in self.rss]
+
+    def sampled_band(self, _sign: int) -> float:
+        """The band by samples of the whole chain [mm].
+
+        Raises
+            NoSolution - for machines whose chain is linear alone
+        """
+        raise NoSolution("this machine's register has no Monte-Carlo: take method rss or worst", key="register.method")
+
+    # Tables
+
+    def table_budget(self, _samples: int | None = None) -> Table:
+        """Every source where the whole is greatest, for either torque sign, the greatest first."""
+        rows = [
+            (sign, row.source, row.gain, row.limit, row.worst, row.sigma, row.share)
+            for sign, one in zip(SIGNS, self.budgets, strict=True)
+            for row in sorted(one.rows, key=lambda row: -row.share)
+        ]
+        units = ("1", "1", "1", "mm", "mm", "mm", "1")
+        columns = ("torque_sign", "source", "gain", "limit", "worst", "sigma", "share")
+        return Table("budget", columns, units, tuple(zip(*rows, strict=True)))
+
+    def table_cycle(self, samples: int | None = None) -> Table:
+        """Absolute error over the whole cycle, for either torque sign."""
+        from gearlink.core.numerics.arrays import turn_degrees
+
+        degrees = turn_degrees(samples)
+        found = [budget(self.contributions(np.radians(degrees), sign), None) for sign in SIGNS]
+        columns = {
+            "torque_sign": (np.repeat(np.array(SIGNS), degrees.size), "1"),
+            "input_angle": (np.tile(degrees, 2), "deg"),
+            "worst": (np.concatenate([one.worst for one in found]), "mm"),
+            "band": (_NORMAL * np.concatenate([one.rss for one in found]), "mm"),
+        }
+        return Table.of("cycle", columns)
+
+    # Checks
+
+    def check_register_budget(self) -> Iterator[Check]:
+        """GL520 where the file names what may be lost."""
+        limit = self.section.tolerance
+        if limit is None:
+            return
+        band, worst = max(self.band), max(self.worst)
+        status: Status = "fail" if band > limit else "warn" if worst > limit else "pass"
+        text = f"99.73 % of the machines keep +-{band:.4g} mm {self._where}, at worst {worst:.4g} mm"
+        if status != "pass":
+            sign = self.band.index(band)
+            first = max(self.budgets[sign].rows, key=lambda row: row.share)
+            text += f"; {limit:g} mm are allowed: mend {first.source} first ({100 * first.share:.3g} % of the variance)"
+            text += f", or allow {safely_above(band if status == 'fail' else worst)} mm"
+        yield REGISTER_BUDGET.check(status, text, band, limit, "mm")
+
+    @property
+    def _where(self) -> str:
+        return f"at {self.place:g} deg" if isinstance(self.place, float) else f"over the {self.place}"
+
+    def check_backlash_in_dwell(self) -> Iterator[Check]:
+        """GL521 where the torque on the output turns within the stretch."""
+        flips = self.flips
+        if flips is None or isinstance(self.place, float):
+            return
+        start, end = float(self.input_angles[0]), float(self.input_angles[-1])
+        inside = [flip for flip in flips if (flip - start) % (2.0 * math.pi) < end - start]
+        if not inside:
+            yield BACKLASH_IN_DWELL.check("pass", f"the torque on the output keeps its sign {self._where}", 0.0, 0.0)
+            return
+        places = ", ".join(f"{math.degrees(flip):.6g}" for flip in inside)
+        text = f"the torque on the output turns at {places} deg {self._where}"
+        if self.dead_band is not None:
+            text += f", where it jumps by {self.dead_band:.4g} mm"
+        yield BACKLASH_IN_DWELL.check("warn", f"{text}: {self.against_flips}", float(len(inside)), 0.0)
+
+    @property
+    def against_flips(self) -> str:
+        """What keeps the torque's sign."""
+        return "brake the output, or preload the gears"
+
+
+def mean_square(source: Scatter) -> float:
+    """Mean square of a deviation along one direction [mm^2]; of a vector of any direction half of its own."""
+    mean, sigma = source.law.moments()
+    if source.kind == "pin":
+        return 0.125 * (mean * mean + sigma * sigma)
+    if source.kind == "gear":
+        return 0.5 * (mean * mean + sigma * sigma)
+    return sigma * sigma
+
+
+def contribution(source: Scatter, gain: Any, name: str = "") -> Contribution:
+    """A source with its gain."""
+    return Contribution(name or source.key, np.asarray(gain), source.limit, math.sqrt(mean_square(source)))
+
+
+def no_such_place(at: str, known: Sequence[str]) -> NoSolution:
+    """A place that the machine does not have."""
+    return NoSolution(f"no place {at!r} here: give {', '.join(known)} or an input angle in degrees", key="register.at")

@@ -1,0 +1,232 @@
+"""The tolerance study of a design file as a design: yields, spreads, contributions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from gearlink.core.design import Design, Outline
+from gearlink.core.errors import MissingSection
+from gearlink.core.report import Check, Table
+from gearlink.core.results import cached_property
+from gearlink.core.tolerance.codes import NO_MECHANISM, NOT_LINEAR, TARGET_YIELD
+from gearlink.core.tolerance.sampling import Estimate
+from gearlink.core.tolerance_study import allocation
+from gearlink.core.tolerance_study.problem import MOST_WITH_INDICES, Problem, no, problem
+from gearlink.core.tolerance_study.samples import all_replications, evaluated
+from gearlink.core.tolerance_study.sensitivity import Indices, Slope, corners, indices, linear_shares, slopes
+from gearlink.core.tolerance_study.statistics import Result, capabilities, result
+
+_EXPLAINED = 0.9
+
+
+class ToleranceStudy(Design):
+    """Samples of a design as made; its nominal design's checks stand beside."""
+
+    outlines = {
+        "tolerance": Outline(
+            ("yield", "yield_low", "yield_high", "samples", "seed", "no_mechanism"),
+            ("nominal", "target-yield", "no-mechanism", "linear-shares"),
+            ("quantities", "requirements", "contributions"),
+        )
+    }
+    extra_tables = ("corners", "allocation")
+    advises = False
+
+    def __init__(self, spec: Any) -> None:
+        super().__init__(spec)
+        vars(self)["kind"] = spec.kind
+
+    @cached_property
+    def problem(self) -> Problem:
+        """The study made ready."""
+        if self.spec.tolerance is None:
+            raise MissingSection("`tolerance` needs the section tolerance: {sources: {...}}", key="tolerance")
+        made = problem(self.spec)
+        _ = made.requirements, made.sources  # what is wrong with them is said before anything is computed
+        if self.spec.tolerance.sobol and made.coordinates > MOST_WITH_INDICES:
+            message = f"Sobol' indices take at most {MOST_WITH_INDICES} coordinates, here are {made.coordinates}"
+            raise no("GL175", message, "sources")
+        return made
+
+    @cached_property
+    def result(self) -> Result:
+        """Everything that came of the samples."""
+        return result(all_replications(self.problem))
+
+    def raw(self, name: str) -> Any:
+        """The six quantities."""
+        if name == "yield":
+            return self.result.good.value
+        return super().raw(name)
+
+    @property
+    def yield_low(self) -> float:
+        """Lower end of the yield's interval."""
+        return self.result.good.low
+
+    @property
+    def yield_high(self) -> float:
+        """Upper end of the yield's interval."""
+        return self.result.good.high
+
+    @property
+    def samples(self) -> int:
+        """Samples that were computed."""
+        return self.result.samples
+
+    @property
+    def seed(self) -> int:
+        """Seed of the samples."""
+        return int(self.problem.section.seed)
+
+    @property
+    def no_mechanism(self) -> float:
+        """Share of samples that do not exist."""
+        return self.result.missing
+
+    # Tables
+
+    @cached_property
+    def varying(self) -> tuple[str, ...]:
+        """Quantities that scatter."""
+        spreads = self.result.spreads
+        return tuple(name for name in self.problem.names if name in spreads and spreads[name].sigma.value > 0.0)
+
+    @cached_property
+    def units(self) -> dict[str, str]:
+        """Units of the quantities."""
+        return {name: self.problem.base.unit(name) for name in self.problem.names}
+
+    @cached_property
+    def nominal(self) -> dict[str, float]:
+        """Quantities of the nominal design."""
+        made = self.problem
+        found = evaluated(made, made.offsets([{}])).quantities
+        return {name: float(found[name][0]) for name in self.varying}
+
+    def limits(self, name: str) -> tuple[float | None, float | None]:
+        """Lower and upper limit of a quantity, from the requirements that name it alone."""
+        lower, upper = None, None
+        for one in self.problem.requirements:
+            if one.expression.tree != name or isinstance(one.limit, str):
+                continue
+            if one.sign in (">=", ">"):
+                lower = max(one.limit, -math.inf if lower is None else lower)
+            elif one.sign in ("<=", "<"):
+                upper = min(one.limit, math.inf if upper is None else upper)
+        return lower, upper
+
+    def table_quantities(self, _samples: int | None = None) -> Table:
+        """Spread and capability of every quantity that scatters."""
+        rows = []
+        for name in self.varying:
+            spread = self.result.spreads[name]
+            estimates = (spread.mean, spread.sigma, *spread.quantiles, *capabilities(spread, *self.limits(name)))
+            rows.append((name, self.units[name], self.nominal[name], *(part for one in estimates for part in _pm(one))))
+        heads = ("mean", "sigma", "q00135", "q50", "q99865", "cp", "cpk")
+        return _table(
+            "quantities", ("quantity", "unit", "nominal", *(h for one in heads for h in (one, f"{one}_pm"))), rows
+        )
+
+    def table_requirements(self, _samples: int | None = None) -> Table:
+        """Yield of each check and of each line of require."""
+        rows = [(name, one.value, one.low, one.high) for name, one in self.result.passes.items()]
+        return _table("requirements", ("name", "yield", "low", "high"), rows)
+
+    @cached_property
+    def slopes(self) -> dict[str, list[Slope]]:
+        """Slopes of the quantities at the nominal design."""
+        return slopes(self.problem, self.varying)
+
+    @cached_property
+    def _indices(self) -> dict[str, list[Indices]] | None:
+        return indices(self.problem, self.varying) if self.problem.section.sobol else None
+
+    def table_contributions(self, _samples: int | None = None) -> Table:
+        """What each source adds to each quantity's variance."""
+        rows = []
+        for name in self.varying:
+            shares = linear_shares(self.slopes[name])
+            for i, source in enumerate(self.problem.sources):
+                found = None if self._indices is None else self._indices[name][i]
+                estimates = (None, None) if found is None else (found.first, found.total)
+                parts = (part for one in estimates for part in _pm(one))
+                rows.append((name, source.key, shares[i], *parts, self.slopes[name][i].kink))
+        columns = ("quantity", "source", "linear", "first", "first_pm", "total", "total_pm", "kink")
+        return _table("contributions", columns, rows)
+
+    def table_corners(self, _samples: int | None = None) -> Table:
+        """Least and greatest value at the corners of the limits; the signs of the sources at the greatest."""
+        found = corners(self.problem, self.varying, self.slopes)
+        rows = [(name, self.units[name], *found[name]) for name in self.varying]
+        return _table("corners", ("quantity", "unit", "least", "greatest", "signs"), rows)
+
+    def table_allocation(self, _samples: int | None = None) -> Table:
+        """The cheapest grades that reach the target yield, and which of them may be loosened for free."""
+        rows = allocation.table_rows(self)
+        return _table("allocation", ("source", "grade", "plus_minus", "cost", "yield_low", "one_coarser_holds"), rows)
+
+    # Checks
+
+    def check_nominal(self) -> Iterator[Check]:
+        """The checks of the nominal design."""
+        base = self.problem.base
+        for name in self.problem.nominal.outlines[base.command].checks:
+            yield from self.problem.nominal.check(name)
+
+    def check_target_yield(self) -> Iterator[Check]:
+        """GL179 where the file names a target."""
+        target = self.problem.section.target_yield
+        if target is None:
+            return
+        good = self.result.good
+        ends = f"{100 * good.low:.5g} to {100 * good.high:.5g} %"
+        text = f"{100 * good.value:.5g} % of the designs as made are good (95 %: {ends})"
+        short = good.low < target
+        if short:
+            text += f", {100 * target:.6g} % are wanted: {self._what_to_tighten()}"
+        yield TARGET_YIELD.check("fail" if short else "pass", text, good.low, target)
+
+    def _what_to_tighten(self) -> str:
+        """The source that adds most to the requirement that fails most."""
+        passes = {one.text: self.result.passes[one.text].value for one in self.problem.requirements}
+        if not passes:
+            return "tighten what contributes most (table contributions)"
+        text = min(passes, key=lambda name: passes[name])
+        worst = next(one for one in self.problem.requirements if one.text == text)
+        name = next(iter(worst.expression.names), "")
+        if name not in self.slopes:
+            return f"the requirement {text} fails most"
+        rows = self.slopes[name]
+        most = max(range(len(rows)), key=lambda i: rows[i].sigma if math.isfinite(rows[i].sigma) else 0.0)
+        return f"tighten {self.problem.sources[most].key}, which adds most to {name}"
+
+    def check_no_mechanism(self) -> Iterator[Check]:
+        """GL177 where samples do not exist."""
+        missing = self.result.missing
+        if missing > 0.0:
+            text = f"{100 * missing:.4g} % of the designs as made do not exist: tighten the links, or change the design"
+            yield NO_MECHANISM.check("warn", text, missing, 0.0)
+
+    def check_linear_shares(self) -> Iterator[Check]:
+        """GL178 for the quantities of requirements whose slopes do not explain their scatter."""
+        asked = {name for one in self.problem.requirements for name in one.expression.names}
+        for name in self.varying:
+            rows = self.slopes[name]
+            if name not in asked or self.problem.section.correlated or any(row.kink for row in rows):
+                continue
+            share = sum(row.sigma**2 for row in rows) / self.result.spreads[name].sigma.value ** 2
+            if share < _EXPLAINED:
+                text = f"the slopes explain {100 * share:.3g} % of the variance of {name}: ask for --sobol"
+                yield NOT_LINEAR.check("warn", text, share, _EXPLAINED)
+
+
+def _pm(one: Estimate | None) -> tuple[float | None, float | None]:
+    return (None, None) if one is None else (one.value, one.half_width)
+
+
+def _table(name: str, columns: Sequence[str], rows: Sequence[Sequence[Any]]) -> Table:
+    data = tuple(zip(*rows, strict=True)) if rows else tuple(() for _ in columns)
+    return Table(name, tuple(columns), ("1",) * len(columns), data)

@@ -1,0 +1,223 @@
+"""A tolerance study made ready: the nominal design with its links, its sources as random numbers, its requirements."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from importlib import import_module
+from typing import Any
+
+import numpy as np
+
+from gearlink.core.design import Design
+from gearlink.core.errors import NoSolution
+from gearlink.core.explore.base import Base, Refused
+from gearlink.core.explore.wishes import Condition, FaultFound, Names, condition
+from gearlink.core.kinds import KINDS
+from gearlink.core.nomenclature import term
+from gearlink.core.numerics.arrays import Points, Reals
+from gearlink.core.study.faults import Fault, WrongStudy
+from gearlink.core.tolerance.axis import ToleranceAxis
+from gearlink.core.tolerance.sources import Parts, Scatter, scatters
+from gearlink.core.tolerance.spec import Tolerance
+
+ARRAY_SAMPLES, SCALAR_SAMPLES = 131_072, 4096
+MOST_WITH_INDICES = 32
+_AXES = {"three-gear-four-bar": "three_gear.tolerance_axis:ThreeGearSamples"}
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A study that can be computed.
+
+    Parameters
+        base : Base - of the nominal design, its links in the file
+        nominal : Design - of that base
+        section : Tolerance
+        axis : ToleranceAxis or None - of kinds that compute many designs at once
+    """
+
+    base: Base
+    nominal: Design
+    section: Tolerance
+    axis: ToleranceAxis | None
+
+    @cached_property
+    def sources(self) -> tuple[Scatter, ...]:
+        """The sources whose scatter changes the design; those of gear teeth count in `register` alone."""
+        parts = Parts({}) if self.axis is None else self.axis.parts
+        found = scatters(self.section, self.base.spec(), parts)
+        return tuple(one for one in found if one.kind != "gear")
+
+    @property
+    def coordinates(self) -> int:
+        """Random numbers of a sample."""
+        return sum(one.coordinates for one in self.sources)
+
+    @cached_property
+    def requirements(self) -> tuple[Condition, ...]:
+        """The lines of `require`.
+
+        Raises
+            WrongStudy - at the line
+        """
+        known = {*self.base.places, *(self.axis.extra if self.axis is not None else ())}
+        names = Names(lambda name: term(name).unit, frozenset(known), {}, self.base.nearest)
+        found = []
+        for i, text in enumerate(self.section.require):
+            try:
+                found.append(condition(text, names, ("tolerance", "require", i)))
+            except FaultFound as error:
+                raise WrongStudy([error.fault]) from error
+        return tuple(found)
+
+    @cached_property
+    def names(self) -> tuple[str, ...]:
+        """Quantities whose scatter is shown: those of the requirements, else the numbers that the command shows."""
+        wanted = dict.fromkeys(name for one in self.requirements for name in one.expression.names)
+        if wanted:
+            return tuple(wanted)
+        outline = self.nominal.outlines[self.base.command].quantities
+        plain = [name for name in outline if isinstance(self._nominal_value(name), float)]
+        return tuple(plain)
+
+    def _nominal_value(self, name: str) -> Any:
+        try:
+            return self.nominal.raw(name)
+        except NoSolution:
+            return None
+
+    @cached_property
+    def is_quick(self) -> bool:
+        """Whether all samples are computed over arrays."""
+        keys = [one.key for one in self.sources]
+        return self.axis is not None and self.axis.serves(keys, self.quick_names)
+
+    @cached_property
+    def quick_names(self) -> tuple[str, ...]:
+        """The quantities, less those that no source of an array form changes."""
+        if self.axis is None:
+            return self.names
+        keys = [one.key for one in self.sources]
+        served = [name for name in self.names if self.axis.serves(keys, [name])]
+        asked = {name for one in self.requirements for name in one.expression.names}
+        return tuple(name for name in self.names if name in served or name in asked)
+
+    @property
+    def samples(self) -> int:
+        """Samples that are asked for."""
+        return self.section.samples or (ARRAY_SAMPLES if self.is_quick else SCALAR_SAMPLES)
+
+    # Random numbers to sizes
+
+    @cached_property
+    def _correlation(self) -> Reals | None:
+        """Lower triangle that makes normal coordinates scatter together; None where all are independent."""
+        if not self.section.correlated:
+            return None
+        place, at = {}, 0
+        for one in self.sources:
+            place[one.key] = range(at, at + one.coordinates)
+            at += one.coordinates
+        matrix = np.eye(at)
+        for group in self.section.correlated:
+            keys = [key for key in group.sources if key in place]
+            for key, other in itertools.permutations(keys, 2):
+                for i, j in zip(place[key], place[other], strict=False):
+                    matrix[i, j] = group.rho
+        least = float(np.linalg.eigvalsh(matrix)[0])
+        if least < -1e-12:
+            message = f"these correlations contradict each other (least eigenvalue {least:.3g}): make them smaller"
+            raise no("GL176", message, "correlated")
+        values, vectors = np.linalg.eigh(matrix)
+        root: Reals = vectors * np.sqrt(np.maximum(values, 0.0))
+        return root
+
+    def sizes(self, points: Reals) -> dict[str, Reals | Points]:
+        """Sizes as made of random numbers.
+
+        Parameters
+            points : (N, coordinates) array - in (0, 1)
+        Returns
+            columns : (N,) arrays by source - as `gearlink.core.tolerance.axis` wants them
+        """
+        if self._correlation is not None:
+            from scipy.special import ndtr, ndtri
+
+            points = ndtr(ndtri(points) @ self._correlation.T)
+        columns: dict[str, Reals | Points] = {}
+        at = 0
+        for one in self.sources:
+            part = points[:, at : at + one.coordinates]
+            at += one.coordinates
+            columns[one.key] = _vector(one, part) if one.kind == "pin" else one.nominal + one.law.deviations(part[:, 0])
+        return columns
+
+    def offsets(self, shifts: Sequence[Mapping[str, complex]]) -> dict[str, Reals | Points]:
+        """Sizes that differ from nominal by given amounts, an element each."""
+        return {
+            one.key: np.array([one.nominal + shift.get(one.key, 0.0) for shift in shifts])
+            if one.kind == "pin"
+            else np.array([one.nominal + np.real(shift.get(one.key, 0.0)) for shift in shifts])
+            for one in self.sources
+        }
+
+
+def _vector(source: Scatter, part: Reals) -> Points:
+    """Offset of a pin in its hole: on the circle of the clearance, or anywhere in it."""
+    if source.entry.play == "floating":
+        radius = 0.5 * source.law.moments()[0] * np.sqrt(part[:, 0])
+    else:
+        radius = 0.5 * np.maximum(source.law.deviations(part[:, 0]), 0.0)
+    offset: Points = radius * np.exp(2j * math.pi * part[:, 1])
+    return offset
+
+
+def problem(spec: Any, command: str | None = None) -> Problem:
+    """Make the study of a design file ready.
+
+    Parameters
+        spec : a spec with the section `tolerance`
+        command : str - in place of that of the section
+    Raises
+        NoSolution - where the nominal design does not exist, or the section asks for what it does not have
+    """
+    section: Tolerance = spec.tolerance
+    data = spec.model_dump(mode="json", exclude_unset=True, by_alias=True)
+    for key in ("tolerance", "register", "loads"):
+        data.pop(key, None)
+    asked = command or section.command or next(one for one in spec.commands() if one not in ("loads", "tolerance"))
+    kind = KINDS[data["kind"]]
+    if asked not in kind.commands:
+        known = ", ".join(one for one in kind.commands if one not in ("tolerance", "register", "loads"))
+        raise NoSolution(f"{kind.name} has no command {asked!r}: it has {known}", key="tolerance.command")
+    base = _with_links(Base(data, asked))
+    try:
+        nominal = base.design()
+    except Refused as error:
+        raise NoSolution(str(error), key=error.key) from error
+    place = _AXES.get(kind.name)
+    axis = None
+    if place is not None:
+        module, _, name = place.partition(":")
+        axis = getattr(import_module(f"gearlink.core.{module}"), name)(nominal)
+    return Problem(base, nominal, section, axis)
+
+
+def _with_links(base: Base) -> Base:
+    """A synthesis is done once: its links become keys of the file, which is analysed."""
+    if not base.command.startswith("synth"):
+        return base
+    try:
+        found = base.design().completion()
+    except Refused as error:
+        raise NoSolution(str(error), key=error.key) from error
+    return Base(base.changed((one.path, one.value) for one in found), "analyze")
+
+
+def no(code: str, message: str, *place: str | int) -> WrongStudy:
+    """What is wrong at a key of the section."""
+    return WrongStudy([Fault(code, message, ("tolerance", *place))])

@@ -1,0 +1,83 @@
+"""Designs as made: computed, judged, and summed up replication by replication."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from gearlink.core.design import in_unit
+from gearlink.core.design_axis import Evaluated
+from gearlink.core.errors import NoSolution
+from gearlink.core.explore.base import Refused
+from gearlink.core.explore.one_by_one import Single, as_arrays, findings_of
+from gearlink.core.nomenclature import term
+from gearlink.core.numerics.arrays import Mask, Points, Reals
+from gearlink.core.tolerance.sampling import replications, rounded_up
+from gearlink.core.tolerance_study.problem import Problem
+
+Columns = Mapping[str, Reals | Points]
+
+
+@dataclass(frozen=True)
+class Judged:
+    """One replication.
+
+    Fields
+        quantities : (N,) arrays by name - in the units of design files, NaN where one does not apply
+        passes : (N,) masks by code and by line of `require`
+        exists, good : (N,) masks - whether the mechanism exists, and passes everything
+    """
+
+    quantities: Mapping[str, Reals]
+    passes: Mapping[str, Mask]
+    exists: Mask
+    good: Mask
+
+
+def judged(made: Problem, points: Reals) -> Judged:
+    """Compute and judge the designs of some random points."""
+    found = evaluated(made, made.sizes(points))
+    exists: Mask = found.refused == 0
+    passes: dict[str, Mask] = {code: exists.copy() for code in made.base.codes}
+    for finding in found.findings:
+        passes.setdefault(finding.code, exists.copy())
+        passes[finding.code] &= ~finding.fails
+    for one in made.requirements:
+        passes[one.text] = exists & one.holds(one.expression.value(found.quantities))
+    good = exists.copy()
+    for mask in passes.values():
+        good &= mask
+    return Judged(found.quantities, passes, exists, good)
+
+
+def evaluated(made: Problem, columns: Columns) -> Evaluated:
+    """Designs of given sizes, over arrays where the kind has them."""
+    if made.is_quick and made.axis is not None:
+        return made.axis.evaluate(columns, made.quick_names)
+    count = len(next(iter(columns.values())))
+    rows = ({key: value[i].item() for key, value in columns.items()} for i in range(count))
+    return as_arrays([_single(made, row) for row in rows], made.names, list(made.base.codes))
+
+
+def _single(made: Problem, row: Mapping[str, Any]) -> Single:
+    try:
+        design = made.axis.design(row) if made.axis is not None else made.base.design(row.items())
+        own = _extra(made)
+        values = made.base.values(design, [name for name in made.names if name not in own])
+        values |= {name: in_unit(design.raw(name), term(name).unit) for name in made.names if name in own}
+        return Single(values, tuple(findings_of(made.base, design, list(made.base.codes))))
+    except Refused as error:
+        return Single({}, (), error.key or "kind", str(error))
+    except NoSolution as error:
+        return Single({}, (), error.key or "kind", error.message)
+
+
+def _extra(made: Problem) -> Sequence[str]:
+    return () if made.axis is None else made.axis.extra
+
+
+def all_replications(made: Problem) -> Iterator[Judged]:
+    """Every replication of the study, one at a time."""
+    for points in replications(made.coordinates, rounded_up(made.samples), made.section.seed):
+        yield judged(made, points)

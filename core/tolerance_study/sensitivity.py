@@ -1,0 +1,238 @@
+"""Which source contributes what: slopes at the nominal design, and Sobol' indices over the whole scatter."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from gearlink.core.numerics.arrays import Reals
+from gearlink.core.tolerance.sampling import Estimate, estimate, replications, rounded_up
+from gearlink.core.tolerance.sources import Scatter
+from gearlink.core.tolerance_study.problem import Problem
+from gearlink.core.tolerance_study.samples import evaluated, judged
+
+_KINK = 0.1  # of the whole scatter: sides that differ by more belong to no line
+
+
+@dataclass(frozen=True)
+class Slope:
+    """Slope of a quantity in one source [unit of the quantity per unit of the source]; of a pin in both directions.
+
+    `sigma` is what the source adds to the quantity's standard deviation by that slope, `bend` what it adds by the
+    difference of the slopes to either side. `kink`: that is so much of the whole that no linear share applies.
+    """
+
+    gain: tuple[float, ...]
+    sigma: float
+    bend: float
+    kink: bool = False
+
+
+def slopes(made: Problem, names: Sequence[str]) -> dict[str, list[Slope]]:
+    """Slopes of quantities in every source, at the nominal design.
+
+    (4 D(h/2) - D(h))/3 with the central differences D over h, half of the tolerance or 1e-5 of the size
+
+    Returns
+        slopes : by quantity, one for each source
+    Notes
+        One-sided slopes that differ tell of a kink, a place where one of several extremes takes over, or of a bend: a
+        drive that is best as it is has slope 0.
+    Source
+        L. F. Richardson, Phil. Trans. R. Soc. A 210 (1911) 307
+    """
+    steps = [(source, axis, _step(source)) for source in made.sources for axis in _axes(source)]
+    shifts: list[Mapping[str, complex]] = [{}]
+    for source, axis, h in steps:
+        shifts += [{source.key: share * h * axis} for share in (1.0, -1.0, 0.5, -0.5)]
+    found = evaluated(made, made.offsets(shifts)).quantities
+    result: dict[str, list[Slope]] = {}
+    for name in names:
+        values = found[name]
+        per_axis = [_slope(values[0], values[1 + 4 * i : 5 + 4 * i], h) for i, (_, _, h) in enumerate(steps)]
+        rows = iter(per_axis)
+        found_slopes = [_of_source(source, [next(rows) for _ in _axes(source)]) for source in made.sources]
+        whole = math.hypot(*(row.sigma for row in found_slopes), *(row.bend for row in found_slopes))
+        result[name] = [replace(row, kink=not row.bend <= _KINK * whole) for row in found_slopes]
+    return result
+
+
+def _axes(source: Scatter) -> tuple[complex, ...]:
+    return (1.0, 1j) if source.kind == "pin" else (1.0,)
+
+
+def _step(source: Scatter) -> float:
+    """Half of the width of the scatter, or a small part of the size."""
+    width = abs(source.law.upper - source.law.lower) if source.kind != "pin" else source.limit
+    return max(0.25 * width, 1e-5 * abs(source.nominal), 1e-9)
+
+
+def _slope(middle: float, values: Reals, h: float) -> tuple[float, float]:
+    """Slope, and by how much those to either side differ."""
+    up, down, half_up, half_down = values.tolist()
+    wide, narrow = (up - down) / (2.0 * h), (half_up - half_down) / h
+    return (4.0 * narrow - wide) / 3.0, abs(half_up - 2.0 * middle + half_down) / (0.5 * h)
+
+
+def _of_source(source: Scatter, rows: list[tuple[float, float]]) -> Slope:
+    gain, sigma = tuple(row[0] for row in rows), component_sigma(source)
+    return Slope(gain, math.hypot(*gain) * sigma, math.hypot(*(row[1] for row in rows)) * sigma)
+
+
+def component_sigma(source: Scatter) -> float:
+    """Standard deviation of a source; of a pin that of one component of its offset."""
+    mean, sigma = source.law.moments()
+    if source.kind != "pin":
+        return sigma
+    if source.entry.play == "floating":
+        return 0.25 * mean
+    return 0.5 * math.sqrt(0.5 * (mean * mean + sigma * sigma))
+
+
+def linear_shares(rows: Sequence[Slope]) -> list[float | None]:
+    """Shares of the variance by the slopes; None for all where one of them has a kink, or nothing scatters."""
+    whole = sum(row.sigma**2 for row in rows)
+    if whole <= 0.0 or not math.isfinite(whole) or any(row.kink for row in rows):
+        return [None] * len(rows)
+    return [row.sigma**2 / whole for row in rows]
+
+
+@dataclass(frozen=True)
+class Indices:
+    """First and total Sobol' index of a source, none negative, the first not above the total."""
+
+    first: Estimate
+    total: Estimate
+
+
+def indices(made: Problem, names: Sequence[str]) -> dict[str, list[Indices]]:
+    """Sobol' indices of quantities in every source.
+
+    S_i = [mean(f_B f_C) - f0^2]/V (Janon),   T_i = mean((f_A - f_C)^2)/(2 V) (Jansen)
+
+    Notes
+        C is A with the source's columns of B. Each replication by itself, with the mean and variance of its own; the
+        interval is that of the replications.
+    Source
+        I. M. Sobol', Math. Comput. Simul. 55 (2001) 271; A. Janon et al., ESAIM P&S 18 (2014) 342; M. J. W. Jansen,
+        Comput. Phys. Comm. 117 (1999) 35
+    """
+    width = made.coordinates
+    groups, at = [], 0
+    for source in made.sources:
+        groups.append(slice(at, at + source.coordinates))
+        at += source.coordinates
+
+    def values(points: Reals) -> Mapping[str, Reals]:
+        return judged(made, points).quantities
+
+    rows: dict[str, list[list[tuple[float, float]]]] = {name: [] for name in names}
+    for points in replications(2 * width, rounded_up(made.samples), made.section.seed):
+        a, b = points[:, :width], points[:, width:]
+        one, other = values(a), values(b)
+        per_source = [values(_swapped(a, b, group)) for group in groups]
+        for name in names:
+            rows[name].append([_indices(one[name], other[name], mixed[name]) for mixed in per_source])
+    return {name: [_estimated(np.array(table)[:, i]) for i in range(len(groups))] for name, table in rows.items()}
+
+
+def _swapped(a: Reals, b: Reals, group: slice) -> Reals:
+    mixed = a.copy()
+    mixed[:, group] = b[:, group]
+    return mixed
+
+
+def _indices(a: Reals, b: Reals, mixed: Reals) -> tuple[float, float]:
+    """First and total index of one replication."""
+    there = ~(np.isnan(a) | np.isnan(b) | np.isnan(mixed))
+    a, b, mixed = a[there], b[there], mixed[there]
+    if a.size < 2:
+        return math.nan, math.nan
+    middle = b[0]
+    a, b, mixed = a - middle, b - middle, mixed - middle
+    mean = 0.5 * float(np.mean(b + mixed))
+    variance = 0.5 * float(np.mean(b * b + mixed * mixed)) - mean * mean
+    if variance <= 0.0:
+        return math.nan, math.nan
+    return (float(np.mean(b * mixed)) - mean * mean) / variance, float(np.mean((a - mixed) ** 2)) / (2.0 * variance)
+
+
+def _estimated(rows: Reals) -> Indices:
+    first, total = (estimate(rows[:, i]) for i in (0, 1))
+    total = Estimate(max(0.0, total.value), total.half_width)
+    return Indices(Estimate(min(max(0.0, first.value), total.value), first.half_width), total)
+
+
+def corners(
+    made: Problem, names: Sequence[str], gains: Mapping[str, list[Slope]]
+) -> dict[str, tuple[float, float, str]]:
+    """Least and greatest value of quantities at the corners of the limits, and the signs at the greatest.
+
+    Notes
+        All corners for up to 12 sources; beyond that the corner of the linear signs, then one source after the other
+        turned about until none helps. What lies inside may be worse where the quantity is not monotone.
+    """
+    sources = [source for source in made.sources if source.kind != "pin"]
+    found: dict[str, tuple[float, float, str]] = {}
+    if len(sources) <= _MOST_CORNERS:
+        bits = (np.arange(2 ** len(sources))[:, None] >> np.arange(len(sources))) & 1
+        signs = np.where(bits, -1.0, 1.0)
+        values = evaluated(made, _at_corners(made, sources, signs)).quantities
+        for name in names:
+            found[name] = _extremes(values[name], signs)
+        return found
+    for name in names:
+        rows = zip(gains[name], made.sources, strict=True)
+        start = np.array([1.0 if row.gain[0] >= 0.0 else -1.0 for row, source in rows if source in sources])
+
+        def value(signs: Reals, name: str = name) -> Reals:
+            return evaluated(made, _at_corners(made, sources, signs)).quantities[name]
+
+        found[name] = _climbed(value, start)
+    return found
+
+
+_MOST_CORNERS = 12
+
+
+def _at_corners(made: Problem, sources: Sequence[Scatter], signs: Reals) -> dict[str, Reals]:
+    shifts = [
+        {
+            source.key: source.law.upper if sign > 0 else source.law.lower
+            for source, sign in zip(sources, row, strict=True)
+        }
+        for row in signs
+    ]
+    return made.offsets(shifts)  # type: ignore[return-value]
+
+
+def _extremes(values: Reals, signs: Reals) -> tuple[float, float, str]:
+    if np.isnan(values).all():
+        return math.nan, math.nan, ""
+    most = int(np.nanargmax(values))
+    return float(np.nanmin(values)), float(values[most]), _shown(signs[most])
+
+
+def _shown(signs: Reals) -> str:
+    return "".join("+" if sign > 0 else "-" for sign in signs)
+
+
+def _climbed(value: Callable[[Reals], Reals], start: Reals) -> tuple[float, float, str]:
+    """Least and greatest corner that turning single sources about finds."""
+    ends = []
+    for sense in (-1.0, 1.0):
+        signs, best = sense * start, -math.inf
+        while True:
+            trials = np.vstack(
+                [signs, *(np.where(np.arange(signs.size) == i, -signs, signs) for i in range(signs.size))]
+            )
+            found = sense * value(trials)
+            at = int(np.nanargmax(found))
+            if found[at] <= best:
+                break
+            best, signs = float(found[at]), trials[at]
+        ends.append((sense * best, _shown(signs)))
+    return ends[0][0], ends[1][0], ends[1][1]

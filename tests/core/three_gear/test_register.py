@@ -1,0 +1,99 @@
+"""Register of the three-gear drive: gains against Richardson differences made elsewhere and against the exact chain.
+
+Tolerances: the reference differences carry 2e-8 of their own; the exact chain over +-h differs by h^2 and eps/h.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.three_gear.motion import GearTrain
+from gearlink.core.three_gear.register_chain import Errors, output_error
+from gearlink.core.three_gear.register_gains import Drive, register_gains
+
+CASES = json.loads((Path(__file__).parents[2] / "reference/tolerance.json").read_text(encoding="utf-8"))
+GAINS = [case for case in CASES if case["input"]["what"] == "drive-gains"]
+NAMES = {
+    "a": "crank",
+    "b": "crank_idler",
+    "c": "idler_output",
+    "d": "frame",
+    "gA": "pin_a",
+    "gD": "pin_d",
+    "phi": "input_angle",
+    "K1": "play",
+    "K2": "play",
+}
+
+
+def _drive(given: list[Any]) -> Drive:
+    crank_teeth, idler, output, module, crank, frame, assembly = given
+    sides = module * (crank_teeth + idler) / 2.0, module * (idler + output) / 2.0
+    linkage = FourBar(crank, *sides, frame, int(assembly))
+    return Drive(linkage, GearTrain(crank_teeth, idler, output), math.radians(20.0), module * output / 2.0)
+
+
+@pytest.mark.parametrize("case", GAINS, ids=lambda case: str(case["name"]))
+def test_gains_are_the_reference(case: dict[str, Any]) -> None:
+    given = case["input"]
+    found = register_gains(_drive(given["drive"]), np.radians([given["phi"]]), given["tau"])
+    for name, wanted in case["expected"].items():
+        if name in NAMES:
+            value = getattr(found, NAMES[name])[0]
+            got = [value.real, value.imag] if isinstance(wanted, list) else value
+            assert got == pytest.approx(wanted, abs=case["tolerance"]), name
+        else:  # a gear's phase is counted from crank angle 0 here, from another zero there
+            value = {"e1": found.crank_gear, "e3": found.idler, "e5": found.output_gear}[name][0]
+            assert abs(value) == pytest.approx(math.hypot(*wanted), abs=case["tolerance"]), name
+
+
+PARTS = {
+    "crank": "crank",
+    "crank_idler": "crank_idler",
+    "idler_output": "idler_output",
+    "frame": "frame",
+    "loop": "pin_a",
+    "crank_gear": "crank_gear",
+    "idler": "idler",
+    "output_gear": "output_gear",
+    "crank_idler_play": "play",
+    "idler_output_play": "play",
+    "input_angle": "input_angle",
+}
+DRIVES = [
+    [40, 72, 40, 2.0, 38.94178567, 153.53024891, 1],
+    [20, 20, 60, 2.5, 18.0, 121.4, -1],
+    [40, 60, 50, 2.0, 160.0, 40.0, 1],
+]
+
+
+@pytest.mark.parametrize("given", DRIVES)
+@pytest.mark.parametrize("sign", [1, -1])
+def test_gains_are_the_slopes_of_the_exact_chain(given: list[Any], sign: int) -> None:
+    drive, angles = _drive(given), np.linspace(0.2, 6.2, 7)
+    gains = register_gains(drive, angles, sign)
+    for part, name in PARTS.items():
+        step = 1e-6 if part == "input_angle" else 1e-4
+        for direction in (1.0, 1j) if np.iscomplexobj(getattr(gains, name)) else (1.0,):
+            ends = [
+                output_error(drive, angles, sign, Errors({part: np.array([side * step * direction])}))
+                for side in (1, -1)
+            ]
+            slope = (getattr(gains, name) * direction).real
+            assert (ends[0] - ends[1]) / (2.0 * step) == pytest.approx(slope, abs=2e-7), part
+
+
+def test_a_pin_in_the_frame_gains_by_the_transmission_angle() -> None:
+    drive = _drive(DRIVES[0])
+    angles = np.linspace(0.0, 6.0, 13)
+    from gearlink.core.linkages import fourbar_sweep
+
+    gamma = fourbar_sweep.solve(drive.linkage, angles).transmission_angle
+    assert np.abs(register_gains(drive, angles, 1).pin_a) == pytest.approx(1.0 / np.cos(0.5 * gamma), rel=1e-13)

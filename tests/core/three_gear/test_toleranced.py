@@ -1,0 +1,122 @@
+"""Drives as made: the general class against the closed forms, and many at once against the class.
+
+Tolerances: places of the turn are roots of well-conditioned functions, met to a few ulp of a turn (1e-12 rad leaves
+room for the condition of the loop); at a standstill that nearly touches the condition is 1/sqrt(distance), 1e-11.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import factory
+import numpy as np
+import pytest
+
+from gearlink.core.design import in_unit
+from gearlink.core.linkages import fourbar
+from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.fourbar_lengths import Lengths, solve
+from gearlink.core.nomenclature import term
+from gearlink.core.three_gear.tolerance_axis import ThreeGearSamples
+from gearlink.core.three_gear.toleranced import TolerancedDrive
+
+NEAR = 1e-11
+NAMES = (
+    "dwell_angle",
+    "back_step_angle",
+    "back_step_crank_angle",
+    "speed_ratio_max",
+    "speed_ratio_min",
+    "acceleration_ratio_max",
+    "acceleration_ratio_min",
+    "min_transmission_angle",
+    "tolerance_dwell_angle",
+    "gear_gap",
+)
+
+
+def drive(crank: float, frame: float, teeth: tuple[int, int, int], module: float = 2.0, **keys: Any) -> Any:
+    gears = {"module": module, "crank": teeth[0], "idler": teeth[1], "output": teeth[2]}
+    links = {"crank": crank, "frame": frame}
+    return factory.design({"kind": "three-gear-four-bar", "name": "as made", "gears": gears, "links": links, **keys})
+
+
+DRIVES = {
+    "candy feed": lambda: drive(38.94178567, 153.53024891, (40, 72, 40), dwell_tolerance=0.5),
+    "back-step as wide as the band": lambda: drive(38.94178567, 153.53024891, (40, 72, 40), dwell_tolerance=10.1477),
+    "wide band": lambda: drive(38.94178567, 153.53024891, (40, 72, 40), dwell_tolerance=10.4),
+    "example 3": lambda: drive(18.0, 121.4, (20, 20, 60), 2.5, dwell_tolerance=0.6),
+    "mirror image": lambda: drive(18.0, 121.4, (20, 20, 60), 2.5, assembly=-1, dwell_tolerance=0.3),
+    "momentary dwell": lambda: drive(18.0, 115.5222156247132, (20, 20, 60), 2.5, dwell_tolerance=0.05),
+    "drag link": lambda: drive(160.0, 40.0, (40, 60, 50), dwell_tolerance=3.0),
+    "one way": lambda: drive(8.0, 110.0, (30, 40, 45), dwell_tolerance=2.0),
+    "end binds": lambda: drive(10.589, 148.763, (24, 50, 36), dwell_tolerance=8.534),
+}
+
+
+@pytest.mark.parametrize("name", DRIVES)
+def test_without_deviations_the_general_class_is_the_ordinary_one(name: str) -> None:
+    nominal = DRIVES[name]()
+    links = nominal.linkage
+    made = TolerancedDrive(nominal.spec, (links.crank, links.coupler, links.rocker, links.frame))
+    assert made.motion == nominal.motion
+    for quantity in NAMES:
+        wanted, got = (math.nan if one.raw(quantity) is None else one.raw(quantity) for one in (nominal, made))
+        assert got == pytest.approx(wanted, rel=1e-12, abs=1e-12, nan_ok=True), quantity
+
+
+@pytest.mark.parametrize("name", DRIVES)
+def test_many_drives_at_once_are_those_computed_alone(name: str) -> None:
+    nominal = DRIVES[name]()
+    axis, columns = ThreeGearSamples(nominal), _columns(nominal, 12)
+    names = [*NAMES, "frame_length", "coupler_length", *(["dwell_swing"] if axis.has_window else [])]
+    found = axis.evaluate(columns, names)
+    for i in range(12):
+        alone = axis.design({key: value[i] for key, value in columns.items()})
+        for quantity in names:
+            raw = alone.raw(quantity)
+            wanted = math.nan if raw is None else in_unit(raw, term(quantity).unit)
+            assert found.quantities[quantity][i] == pytest.approx(wanted, rel=NEAR, abs=NEAR, nan_ok=True), quantity
+        checks = [check for each in alone.outlines["analyze"].checks for check in alone.check(each)]
+        wanted_findings = sorted((check.code, check.status, check.value) for check in checks if check.code[:3] == "GL3")
+        statuses = [("fail" if f.fails[i] else "warn" if f.warns[i] else "pass") for f in found.findings]
+        pairs = zip(found.findings, statuses, strict=True)
+        got = sorted((f.code, status, float(f.value[i])) for f, status in pairs if f.code[:3] == "GL3")
+        assert [row[:2] for row in got] == [row[:2] for row in wanted_findings]
+        assert [row[2] for row in got] == pytest.approx([row[2] for row in wanted_findings], rel=NEAR, abs=NEAR)
+
+
+def _columns(nominal: Any, count: int) -> dict[str, Any]:
+    off = np.random.default_rng(2).normal(size=(5, 2, count)) * 0.02
+    return {
+        "links.crank": nominal.crank_length + off[0, 0],
+        "links.frame": nominal.frame_length + off[0, 1],
+        "centers.crank_idler": nominal.coupler_length + off[1, 0],
+        "centers.idler_output": nominal.rocker_length + off[1, 1],
+        "pins.A": off[2, 0] + 1j * off[2, 1],
+        "pins.C": off[3, 0] + 1j * off[3, 1],
+        "bearings.D": off[4, 0] + 1j * off[4, 1],
+    }
+
+
+def test_a_drive_that_does_not_turn_is_refused_not_computed() -> None:
+    nominal = DRIVES["candy feed"]()
+    found = ThreeGearSamples(nominal).evaluate({"links.crank": np.array([38.9, 500.0, -1.0])}, ["speed_ratio_max"])
+    assert found.refused.tolist() == [0, 1, 1]
+    assert np.isnan(found.quantities["speed_ratio_max"]).tolist() == [False, True, True]
+
+
+@pytest.mark.parametrize("assembly", [1, -1])
+def test_loops_of_many_lengths_are_the_four_bar_of_each(assembly: int) -> None:
+    rng = np.random.default_rng(0)
+    lengths = np.array([[18.0], [50.0], [100.0], [121.0]]) + rng.random((4, 40))
+    angles = rng.random(40) * 2.0 * math.pi
+    found = solve(Lengths(*lengths, assembly), angles, 3)
+    for i, angle in enumerate(angles):
+        one = fourbar.solve(FourBar(*lengths[:, i], assembly), angle, 3)
+        rates = [one.coupler_velocity, one.rocker_velocity, one.coupler_acceleration, one.rocker_acceleration]
+        got = [found.coupler_velocity, found.rocker_velocity, found.coupler_acceleration, found.rocker_acceleration]
+        wanted = [*rates, one.coupler_jerk, one.rocker_jerk]
+        assert [x[i] for x in (*got, found.coupler_jerk, found.rocker_jerk)] == pytest.approx(wanted, abs=2e-14)
+        assert found.coupler[i] == pytest.approx(np.exp(1j * one.coupler_angle), abs=4e-15)

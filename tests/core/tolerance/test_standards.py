@@ -1,0 +1,117 @@
+"""Limits, tooth tolerances and bearings: printed values."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from gearlink.core.errors import NoSolution
+from gearlink.core.tolerance.bearings import radial_clearance
+from gearlink.core.tolerance.iso_286 import fit_clearances, limit_deviations, standard_tolerance
+from gearlink.core.tolerance.iso_1328 import tooth_tolerances
+from gearlink.core.tolerance.laws import Law, normal_between
+
+CASES = json.loads((Path(__file__).parents[2] / "reference/tolerance.json").read_text(encoding="utf-8"))
+
+
+def _cases(what: str) -> list[dict[str, Any]]:
+    return [case for case in CASES if case["input"]["what"] == what]
+
+
+@pytest.mark.parametrize("case", _cases("iso286"), ids=lambda case: str(case["name"]))
+def test_limits_are_the_printed_ones(case: dict[str, Any]) -> None:
+    found = limit_deviations(case["input"]["size"], case["input"]["class"])
+    assert [1000.0 * value for value in found] == pytest.approx(case["expected"], abs=1e-9)
+
+
+def test_grades_are_the_printed_ones() -> None:
+    (case,) = _cases("it")
+    found = [1000.0 * standard_tolerance(case["input"]["size"], grade) for grade in case["input"]["grades"]]
+    assert found == pytest.approx(case["expected"], abs=1e-9)
+
+
+@pytest.mark.parametrize("size", [0.5, 3.0, 3.001, 24.0, 50.0, 120.0, 260.0, 500.0])
+@pytest.mark.parametrize("letter", "defgh")
+def test_a_hole_is_the_shaft_turned_about(size: float, letter: str) -> None:
+    lower, upper = limit_deviations(size, f"{letter}8")
+    assert limit_deviations(size, f"{letter.upper()}8") == pytest.approx((-upper, -lower))
+    assert upper - lower == pytest.approx(standard_tolerance(size, 8))
+
+
+@pytest.mark.parametrize(("size", "letter"), [(40.0, "n"), (40.0, "p"), (100.0, "k"), (10.0, "s")])
+def test_equal_fits_of_hole_basis_and_shaft_basis(size: float, letter: str) -> None:
+    """ISO 286-1: H7/p6 and P7/h6 have the same clearances; that is what the step of the grades is for."""
+    assert fit_clearances(size, f"H7/{letter}6") == pytest.approx(fit_clearances(size, f"{letter.upper()}7/h6"))
+
+
+@pytest.mark.parametrize(
+    ("size", "name"),
+    [(0.0, "H7"), (500.1, "H7"), (40.0, "j4"), (40.0, "J9"), (40.0, "K9"), (40.0, "q6"), (40.0, "H19"), (40.0, "")],
+)
+def test_what_the_standard_does_not_have_is_refused(size: float, name: str) -> None:
+    with pytest.raises(NoSolution):
+        limit_deviations(size, name)
+
+
+def test_tooth_tolerances_are_the_printed_ones() -> None:
+    (case,) = _cases("gear-grade")
+    given = case["input"]
+    found = tooth_tolerances(given["class"], given["module"], given["diameter"], given["width"])
+    got = [1000.0 * value for value in (found.single_pitch, found.cumulative_pitch, found.profile)]
+    assert got == pytest.approx(case["expected"], abs=1e-9)
+
+
+def test_the_profile_slope_grows_with_the_diameter() -> None:
+    """0.001 d in f_HaT, which one public implementation leaves out: at d = 400 it decides the rounding."""
+    k = math.sqrt(2.0)
+    assert tooth_tolerances(6, 3.0, 400.0, 30.0).profile_slope == pytest.approx(
+        round((0.4 * 3 + 0.4 + 4.0) * k * 2) / 2000
+    )
+
+
+@pytest.mark.parametrize(
+    ("grade", "module", "diameter", "width"),
+    [(0, 3, 120, 30), (12, 3, 120, 30), (6, 0.4, 120, 30), (6, 3, 4, 30), (6, 3, 120, 2)],
+)
+def test_tooth_tolerances_are_not_extrapolated(grade: int, module: float, diameter: float, width: float) -> None:
+    with pytest.raises(NoSolution):
+        tooth_tolerances(grade, module, diameter, width)
+
+
+def test_bearing_clearances_are_the_printed_ones() -> None:
+    (case,) = _cases("bearing")
+    found = radial_clearance(case["input"]["bore"], case["input"]["group"])
+    assert [1000.0 * value for value in found] == pytest.approx(case["expected"])
+
+
+LAWS = [
+    normal_between(-0.02, 0.03, 1.33, 1.0),
+    Law("uniform", -0.01, 0.03),
+    Law("triangular", -0.02, 0.05, mode=0.015),
+    Law("triangular", 0.0, 0.01, mode=0.01),
+    Law("truncated", -0.01, 0.02, 0.008, 0.01),
+    Law("fixed", 0.004, 0.004, mean=0.004),
+]
+
+
+@pytest.mark.parametrize("law", LAWS, ids=lambda law: str(law.form))
+def test_moments_are_those_of_the_quantiles(law: Law) -> None:
+    """Midpoint rule in the share: 2e6 points leave the tails' 1e-6 of the width."""
+    values = law.deviations((np.arange(2_000_000) + 0.5) / 2_000_000)
+    mean, sigma = law.moments()
+    width = max(law.upper - law.lower, 1e-9)
+    assert float(values.mean()) == pytest.approx(mean, abs=2e-6 * width)
+    assert float(values.std()) == pytest.approx(sigma, abs=1e-5 * width)
+
+
+def test_the_triangular_case() -> None:
+    (case,) = _cases("law-moments")
+    given = case["input"]
+    law = Law("triangular", given["lower"], given["upper"], mode=0.5 * (given["lower"] + given["upper"]))
+    mean, sigma = law.moments()
+    assert [given["nominal"] + mean, sigma] == pytest.approx(case["expected"], abs=case["tolerance"])

@@ -1,0 +1,171 @@
+"""Tolerance studies of whole designs: closed forms, the study's own numbers at more samples, refusals."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import factory
+import numpy as np
+import pytest
+
+from gearlink.core.study.faults import WrongStudy
+from gearlink.core.tolerance_study.allocation import Graded, Wish, choices
+
+CASES = json.loads((Path(__file__).parents[2] / "reference/tolerance.json").read_text(encoding="utf-8"))
+CANDY = {
+    "kind": "three-gear-four-bar",
+    "name": "candy",
+    "gears": {"module": 2.0, "crank": 40, "idler": 72, "output": 40},
+    "links": {"crank": 38.94178567, "frame": 153.53024891},
+}
+FOUR = {
+    key: {"plus_minus": 0.02} for key in ("links.crank", "links.frame", "centers.crank_idler", "centers.idler_output")
+}
+
+
+def study(data: dict[str, Any], /, **section: Any) -> Any:
+    return factory.design(data | {"tolerance": section}, command="tolerance")
+
+
+def rows(table: Any) -> list[dict[str, Any]]:
+    return [dict(zip(table.columns, row, strict=True)) for row in zip(*table.data, strict=True)]
+
+
+@pytest.fixture(scope="module")
+def candy() -> Any:
+    require = ["back_step_angle <= 20.4 deg", "dwell_swing <= 10.17 deg"]
+    return study(CANDY, sources=FOUR, require=require, samples=2**15)
+
+
+def test_a_linear_quantity_has_the_slopes_spread(candy: Any) -> None:
+    """Slopes of the back-step are Richardson differences of 40 digits; the deviation is the root of their squares."""
+    found = {row["quantity"]: row for row in rows(candy.table_quantities())}["back_step_angle"]
+    assert found["nominal"] == pytest.approx(20.2955181747, abs=1e-7)
+    assert found["sigma"] == pytest.approx(0.022538, abs=3e-5)
+    gains = [slope.gain[0] for slope in candy.slopes["back_step_angle"]]
+    assert [abs(gain) for gain in gains] == pytest.approx(
+        [2.9581448247, 0.7503110467, 1.0285307299, 1.0285307299], rel=1e-6
+    )
+
+
+def test_an_exact_dwell_is_a_kink_and_has_no_linear_shares(candy: Any) -> None:
+    shares = {(row["quantity"], row["source"]): row for row in rows(candy.table_contributions())}
+    assert shares["dwell_swing", "links.crank"]["kink"]
+    assert shares["dwell_swing", "links.crank"]["linear"] is None
+    assert shares["back_step_angle", "links.crank"]["linear"] == pytest.approx(0.7656, abs=2e-4)
+
+
+def test_yield_of_the_swing(candy: Any) -> None:
+    """97.575 % at 2^21 samples elsewhere; here 2^15, whose interval is about 0.15 %."""
+    found = {row["name"]: row for row in rows(candy.table_requirements())}["dwell_swing <= 10.17 deg"]
+    assert found["yield"] == pytest.approx(0.97575, abs=2e-3)
+    assert found["low"] <= 0.97575 <= found["high"]
+
+
+def test_corners_hold_the_worst_swing() -> None:
+    made = study(CANDY, sources=FOUR, require=["dwell_swing <= 10.17 deg"], samples=16)
+    (found,) = rows(made.table_corners())
+    assert found["greatest"] == pytest.approx(10.205467, abs=1e-6)
+    assert found["signs"] == "++--"
+
+
+def test_a_synthesis_is_done_once_and_its_links_scatter() -> None:
+    data = {key: value for key, value in CANDY.items() if key != "links"} | {"dwell": {"angle": 135.0}}
+    made = study(data, sources={"links.crank": {"plus_minus": 0.02}}, require=["dwell_angle >= 134.9 deg"], samples=256)
+    (found,) = rows(made.table_quantities())
+    assert found["nominal"] == pytest.approx(135.0, abs=1e-9)
+    assert found["sigma"] > 0.01
+
+
+def test_yield_of_a_stroke_is_erf() -> None:
+    case = next(case for case in CASES if case["input"]["what"] == "slider-yield")
+    given = case["input"]
+    data = {"kind": "slider-crank", "name": "stroke", "crank": given["crank"], "rod": given["rod"], "offset": 0.0}
+    section = {"sources": {"crank": {"plus_minus": given["tol"]}}, "samples": 512, "seed": given["seed"]}
+    limits = [
+        f"stroke <= {2.0 * given['crank'] + given['limit']} mm",
+        f"stroke >= {2.0 * given['crank'] - given['limit']} mm",
+    ]
+    made = study(data, **section, require=limits)
+    # 512 samples instead of 2^17: 0.6 % of a standard error.
+    assert made.raw("yield") == pytest.approx(case["expected"], abs=0.012)
+    spread = rows(made.table_quantities())[0]
+    assert spread["sigma"] == pytest.approx(2.0 * given["tol"] / 3.0, rel=0.03)
+
+
+def test_cheapest_grades_are_those_of_all_choices() -> None:
+    case = next(case for case in CASES if case["input"]["what"] == "grades")
+    given = case["input"]
+    graded = [Graded(size, given["finest"], given["coarsest"]) for size in given["sizes"]]
+    found = next(choices(graded, [Wish(tuple(given["gains"]), given["limit"], given["limit"])], given["yield"], 1.6))
+    assert list(found.grades) == case["expected"][0]
+    assert found.cost == pytest.approx(case["expected"][1], abs=1e-9)
+
+
+def test_allocation_reaches_its_target() -> None:
+    sources = {key: value | {"grades": [5, 11]} for key, value in FOUR.items()}
+    made = study(CANDY, sources=sources, require=["back_step_angle <= 20.36 deg"], target_yield=0.99, samples=2**15)
+    found = rows(made.table_allocation())
+    assert all(row["yield_low"] >= 0.99 for row in found)
+    assert all(5 <= row["grade"] <= 11 for row in found)
+
+
+def test_correlated_sources_scatter_together() -> None:
+    """Both centre distances from one jig: their slopes add before they are squared."""
+    sources = {"centers.crank_idler": {"plus_minus": 0.02}, "centers.idler_output": {"plus_minus": 0.02}}
+    group = [{"sources": list(sources), "rho": 1.0}]
+    made = study(CANDY, sources=sources, require=["back_step_angle <= 21 deg"], correlated=group, samples=4096)
+    alone = study(CANDY, sources=sources, require=["back_step_angle <= 21 deg"], samples=4096)
+    sigma, of_both = (rows(one.table_quantities())[0]["sigma"] for one in (alone, made))
+    assert of_both == pytest.approx(math.sqrt(2.0) * sigma, rel=5e-3)
+
+
+def test_sobol_indices_of_a_linear_quantity_are_its_shares() -> None:
+    made = study(CANDY, sources=FOUR, require=["back_step_angle <= 20.4 deg"], samples=2**13, sobol=True)
+    found = rows(made.table_contributions())
+    for row in found:
+        assert row["first"] == pytest.approx(row["linear"], abs=0.02)
+        assert row["total"] == pytest.approx(row["linear"], abs=0.02)
+        assert 0.0 <= row["first"] <= row["total"]
+
+
+BAD: dict[str, tuple[dict[str, Any], str]] = {
+    "no such key": ({"sources": {"links.rank": {"plus_minus": 0.1}}}, "GL170"),
+    "whole number": ({"sources": {"gears.crank": {"plus_minus": 0.1}}}, "GL170"),
+    "no such pin": ({"sources": {"pins.Z": {"clearance": [0.0, 0.1]}}}, "GL170"),
+    "interference": ({"sources": {"pins.A": {"fit": "H7/s6", "size": 20.0}}}, "GL171"),
+    "no such class": ({"sources": {"links.crank": {"class": "q6"}}}, "GL173"),
+    "grade": ({"sources": {"gears.crank": {"grade": 13, "width": 20.0}}}, "GL174"),
+    "contradictory": (
+        {
+            "sources": {key: {"plus_minus": 0.1} for key in ("links.crank", "links.frame", "centers.crank_idler")},
+            "correlated": [
+                {"sources": ["links.crank", "links.frame"], "rho": 1.0},
+                {"sources": ["links.frame", "centers.crank_idler"], "rho": 1.0},
+                {"sources": ["links.crank", "centers.crank_idler"], "rho": -1.0},
+            ],
+        },
+        "GL176",
+    ),
+    "unknown quantity": ({"sources": {"links.crank": {"plus_minus": 0.1}}, "require": ["bakc_step <= 3 deg"]}, "GL152"),
+}
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_a_wrong_study_says_where(name: str) -> None:
+    section, code = BAD[name]
+    with pytest.raises(WrongStudy) as found:
+        study(CANDY, **section, samples=16).raw("yield")
+    assert found.value.faults[0].code == code
+    assert found.value.faults[0].place[0] == "tolerance"
+
+
+def test_too_many_sources_are_refused() -> None:
+    data = CANDY | {"limits": {"gear_gap": 0.0}}
+    sources = {"links.crank": {"plus_minus": 0.1}} | {f"pins.{pin}": {"clearance": [0.0, 0.1]} for pin in "ABCD"}
+    made = study(data, sources=sources, sobol=True, samples=16)
+    assert made.problem.coordinates == 9
+    assert np.isfinite(made.raw("yield"))
