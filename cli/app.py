@@ -19,8 +19,8 @@ from gearlink.cli.command_groups import OrderOfWork
 from gearlink.cli.commands.laws import laws
 from gearlink.cli.commands.picture_options import register as register_pictures
 from gearlink.cli.commands.reference_options import register
-from gearlink.cli.completing import better_scripts
 from gearlink.cli.commands.tolerance_options import register as register_tolerances
+from gearlink.cli.completing import better_scripts
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.exploring.register import register as register_exploring
 from gearlink.cli.export.register import register as register_export

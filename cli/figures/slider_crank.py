@@ -62,7 +62,8 @@ def _dimensions(axes: Axes, design: SliderCrankDesign, near: complex, far: compl
     spec, crank = design.spec, design.slider_crank.crank_length
     aside = max(0.2 * spec.rod, crank) if spec.offset >= 0.0 else -max(0.2 * spec.rod, crank)
     start, end = (complex(-spec.offset - 1.1 * aside, point.imag) for point in (near, far))
-    style.dimension(axes, start, end, f"stroke {spec.stroke:.6g} mm", from_points=(near, far), upright=True)
+    stroke = f"stroke {design.slider_crank.stroke:.6g} mm"
+    style.dimension(axes, start, end, stroke, from_points=(near, far), upright=True)
     if spec.offset:
         level = 1.25 * crank
         feet = (complex(-spec.offset, level), complex(0.0, level))
@@ -90,7 +91,7 @@ def motion(travel: Axes, velocity: Axes, design: SliderCrankDesign) -> None:
             axes.axvline(place, color=color, linewidth=0.9, linestyle=style.DASHED)
         axes.set_xticks(range(0, 361, 60))
         axes.margins(y=0.15)
-    _phases(travel, folded, extended, spec.stroke)
+    _phases(travel, folded, extended, design.slider_crank.stroke)
     for pick, above in ((np.argmax, True), (np.argmin, False)):
         i = int(pick(speed))
         panels.extreme(velocity, float(degrees[i]), float(speed[i]), above=above, unit=" mm/rad")

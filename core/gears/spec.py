@@ -28,13 +28,13 @@ from gearlink.core.gears.spec_parts import (
 from gearlink.core.spec import (
     Coefficient,
     Deferred,
-    TolerancedSpec,
     GearLimits,
     Length,
     LoadLimits,
     PressureAngle,
     Ratio,
     SignedLength,
+    TolerancedSpec,
 )
 
 

@@ -182,6 +182,20 @@ class SliderCrank:
     def __post_init__(self) -> None:
         _check_stroke(self.stroke, self.rod, self.offset)
 
+    @classmethod
+    def of_crank(cls, crank: float, rod: float, offset: float = 0.0) -> SliderCrank:
+        """The slider-crank of a given crank.
+
+        Raises
+            NoSolution - as `stroke`
+        Example
+            >>> SliderCrank.of_crank(50.0, 200.0).stroke
+            100.0
+        """
+        made = cls(stroke(crank, rod, offset), rod, offset)
+        vars(made)["crank_length"] = crank  # as it is given, not by way of the stroke
+        return made
+
     @cached_property
     def max_stroke(self) -> float:
         """S_max = 2 sqrt(L (L - |e|)) [mm]."""

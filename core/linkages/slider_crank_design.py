@@ -6,7 +6,6 @@ import math
 from typing import TYPE_CHECKING
 
 from gearlink.core.design import Design, Outline, placed
-from gearlink.core.errors import at_key
 from gearlink.core.linkages.checks import transmission_check
 from gearlink.core.linkages.slider_crank import SliderCrank, slider
 from gearlink.core.real_speed import RealSpeed, per_time
@@ -19,6 +18,7 @@ if TYPE_CHECKING:
     from gearlink.core.linkages.standstills import Turning
 
 SLIDER_QUANTITIES = ("quick_return_ratio", "dead_center_extended", "dead_center_folded", "max_stroke")
+_SIZES = ("crank_length", "stroke", *SLIDER_QUANTITIES)
 _MOTION = (
     "forward_angle",
     "return_angle",
@@ -58,16 +58,20 @@ class SliderCrankDesign(RealSpeed, SliderCrankQuantities, Design):
     kind = "slider-crank"
     spec: SliderCrankSpec
     outlines = {
-        "crank": Outline(("crank_length", *SLIDER_QUANTITIES)),
-        "analyze": Outline(("crank_length", *SLIDER_QUANTITIES, *_MOTION), ("transmission-angle",), ("motion",)),
+        "crank": Outline(_SIZES),
+        "analyze": Outline((*_SIZES, *_MOTION), ("transmission-angle",), ("motion",)),
     }
-    ways = {"transmission-angle": (up("rod"), down("stroke"), *either("offset"))}
+    ways = {"transmission-angle": (up("rod"), down("stroke"), down("crank"), *either("offset"))}
 
     @cached_property
     def slider_crank(self) -> SliderCrank:
         """The kernel's view of the spec."""
-        with at_key("stroke"):
-            return SliderCrank(self.spec.stroke, self.spec.rod, self.spec.offset)
+        return self.spec.slider_crank()
+
+    @property
+    def stroke(self) -> float | None:
+        """Stroke of a given crank [mm]; None where the file gives it."""
+        return None if self.spec.crank is None else self.slider_crank.stroke
 
     def depth(self, angle: float, order: int) -> float:
         """Depth of the slider below D, or its derivative of an order up to 3 [mm/rad^order]."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from gearlink.core.errors import at_key
 from gearlink.core.linkages.slider_crank import SliderCrank
 from gearlink.core.loads.design import BALANCE, LoadsDesign, loads_outline
 from gearlink.core.results import cached_property
@@ -29,8 +28,7 @@ class SliderCrankLoads(LoadsDesign):
     @cached_property
     def slider_crank(self) -> SliderCrank:
         """The geometry."""
-        with at_key("stroke"):
-            return SliderCrank(self.spec.stroke, self.spec.rod, self.spec.offset)
+        return self.spec.slider_crank()
 
     def counterweights(self) -> dict[str, complex]:
         """One on the crank, for the rotating masses and a share of the reciprocating ones.

@@ -5,7 +5,10 @@ from __future__ import annotations
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
 
+from gearlink.core.errors import at_key
+from gearlink.core.linkages.slider_crank import SliderCrank
 from gearlink.core.spec import (
     AcuteAngle,
     Deferred,
@@ -27,7 +30,8 @@ class SliderCrankSpec(DrivenSpec):
     """An offset slider-crank given by its stroke."""
 
     kind: Literal["slider-crank"]
-    stroke: Length = Field(description="stroke of the slider")
+    stroke: Length | None = Field(None, description="stroke of the slider")
+    crank: Length | None = Field(None, description="crank, in place of stroke")
     rod: Length = Field(description="connecting rod")
     offset: SignedLength = Field(0.0, description="offset of the slide line from the crank's axis")
     limits: SliderLimits = SliderLimits()
@@ -35,6 +39,22 @@ class SliderCrankSpec(DrivenSpec):
     loads: Annotated[Any, Deferred("linkages.slider_crank_loads_spec:SliderCrankLoads")] | None = Field(
         None, description="masses, forces and drive, for the command loads"
     )
+
+    @model_validator(mode="after")
+    def _one_size(self) -> SliderCrankSpec:
+        if (self.stroke is None) == (self.crank is None):
+            if self.stroke is None:
+                raise PydanticCustomError("GL106", "give stroke, or crank in its place", {"key": "stroke"})
+            raise PydanticCustomError("GL111", "stroke and crank exclude each other: give one", {"key": "crank"})
+        return self
+
+    def slider_crank(self) -> SliderCrank:
+        """The mechanism."""
+        with at_key("stroke" if self.crank is None else "crank"):
+            if self.crank is not None:
+                return SliderCrank.of_crank(self.crank, self.rod, self.offset)
+            assert self.stroke is not None
+            return SliderCrank(self.stroke, self.rod, self.offset)
 
     @model_validator(mode="after")
     def _reachable(self) -> SliderCrankSpec:
