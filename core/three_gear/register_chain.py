@@ -56,7 +56,7 @@ def output_error(drive: Drive, crank_angle: Reals, torque_sign: int, errors: Err
         >>> drive = Drive(linkage, GearTrain(40, 72, 40), math.radians(20.0), 40.0)
         >>> error = output_error(drive, np.array([math.radians(270.0)]), 1, Errors({"frame": np.array([0.01])}))
         >>> round(float(error[0]), 5)
-        -0.01371
+        0.01371
 
     Source
         own derivation; agrees with `register_gains` to first order

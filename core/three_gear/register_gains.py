@@ -77,12 +77,11 @@ def register_gains(drive: Drive, crank_angle: Reals, torque_sign: int) -> Regist
         transmission angle. Against the exact chain of `register_chain` the error falls a hundredfold for every
         tenfold smaller error of the parts.
     Example
-        >>> from gearlink.core.three_gear.motion import GearTrain
         >>> linkage = FourBar(38.94178567, 112.0, 112.0, 153.53024891)
         >>> drive = Drive(linkage, GearTrain(40, 72, 40), math.radians(20.0), 40.0)
         >>> gains = register_gains(drive, np.array([math.radians(270.0)]), 1)
         >>> round(float(abs(gains.pin_a[0])), 7), round(float(gains.frame[0]), 4)
-        (1.4142136, -1.3708)
+        (1.4142136, 1.3708)
 
     Source
         own derivation: crossed belt over the base circles, differentiated

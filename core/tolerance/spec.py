@@ -23,8 +23,17 @@ _SIZES = (
     "eccentricity",
     "measured",
 )
+_ONE = {"unit": "1"}
+Deviation = Annotated[float, Field(json_schema_extra={"unit": "mm"})]  # of an angle deg
+Width = Annotated[float, Field(gt=0, json_schema_extra={"unit": "mm"})]
+Positive = Annotated[float, Field(gt=0, json_schema_extra=_ONE)]
+Grade = Annotated[int, Field(json_schema_extra=_ONE)]
+Torque = Annotated[float, Field(json_schema_extra={"unit": "N m"})]
+Coefficient = Annotated[float, Field(ge=-1, le=1, json_schema_extra=_ONE)]
+AboveOne = Annotated[float, Field(gt=1, json_schema_extra=_ONE)]
+Seed = Annotated[int, Field(ge=0, le=2**32 - 1, json_schema_extra=_ONE)]
 Share = Annotated[float, Field(gt=0, lt=1, json_schema_extra={"unit": "1"})]
-Pair = Annotated[list[float], Field(min_length=2, max_length=2)]
+Pair = Annotated[list[Deviation], Field(min_length=2, max_length=2)]
 
 
 def _wrong(code: str, text: str) -> PydanticCustomError:
@@ -34,11 +43,11 @@ def _wrong(code: str, text: str) -> PydanticCustomError:
 class ToleranceSource(Spec):
     """How one size scatters: its limits in one of several forms, and its law."""
 
-    plus_minus: float | None = Field(None, gt=0, description="limits at the same distance to either side")
-    lower: float | None = Field(None, description="lower limit of the deviation")
-    upper: float | None = Field(None, description="upper limit of the deviation")
+    plus_minus: Width | None = Field(None, description="limits at the same distance to either side")
+    lower: Deviation | None = Field(None, description="lower limit of the deviation")
+    upper: Deviation | None = Field(None, description="upper limit of the deviation")
     limits: Pair | None = Field(None, description="[lower, upper] limit of the deviation")
-    sigma: float | None = Field(None, gt=0, description="standard deviation of a normal law; limits at 3 sigma")
+    sigma: Width | None = Field(None, description="standard deviation of a normal law; limits at 3 sigma")
     class_: str | None = Field(
         None, alias="class", description="tolerance class of ISO 286 at the nominal size, such as js7"
     )
@@ -48,23 +57,23 @@ class ToleranceSource(Spec):
     bore: Length | None = Field(None, description="bore of the bearing")
     clearance: Pair | None = Field(None, description="[least, greatest] clearance in diameter")
     reduction: Distance = Field(0.0, description="what fits and heat take off the bearing's clearance")
-    grade: int | None = Field(None, description="flank tolerance class of ISO 1328-1:2013, 1 to 11")
+    grade: Grade | None = Field(None, description="flank tolerance class of ISO 1328-1:2013, 1 to 11")
     width: Length | None = Field(None, description="face width of the gear")
     eccentricity: Length | None = Field(None, description="greatest distance of a gear's pitch circle from its axis")
     phase: Angle | None = Field(
         None, description="measured direction of the eccentricity at input angle 0; left out: any"
     )
-    measured: float | None = Field(None, description="absolute size of one part in hand: it does not scatter")
+    measured: Deviation | None = Field(None, description="absolute size of one part in hand: it does not scatter")
     law: Literal["normal", "uniform", "triangular", "truncated"] = Field("normal", description="law of distribution")
-    mode: float | None = Field(None, description="deviation where a triangular law peaks; default the middle")
-    cp: float = Field(1.0, gt=0, description="process capability C_p: limits lie at 3 C_p standard deviations")
-    cpk: float | None = Field(None, gt=0, description="capability C_pk of a process off the middle, at most C_p")
+    mode: Deviation | None = Field(None, description="deviation where a triangular law peaks; default the middle")
+    cp: Positive = Field(1.0, description="process capability C_p: limits lie at 3 C_p standard deviations")
+    cpk: Positive | None = Field(None, description="capability C_pk of a process off the middle, at most C_p")
     shift: Literal["up", "down"] | None = Field(None, description="towards which limit the process lies")
     play: Literal["contact", "floating"] = Field(
         "contact", description="whether the pin touches its hole or lies anywhere in it"
     )
-    cost: float = Field(1.0, gt=0, description="cost of this part at IT9, in any unit")
-    grades: Annotated[list[int], Field(min_length=2, max_length=2)] | None = Field(
+    cost: Positive = Field(1.0, description="cost of this part at IT9, in any unit")
+    grades: Annotated[list[Grade], Field(min_length=2, max_length=2)] | None = Field(
         None, description="[finest, coarsest] IT grade that may be chosen"
     )
 
@@ -122,13 +131,17 @@ class Correlation(Spec):
     """Sources that scatter together."""
 
     sources: Annotated[list[str], Field(min_length=2)] = Field(description="keys of `sources`")
-    rho: float = Field(ge=-1, le=1, description="correlation of each two of them (Gaussian copula)")
+    rho: Annotated[float, Field(ge=-1, le=1, json_schema_extra=_ONE)] = Field(
+        description="correlation of each two of them (Gaussian copula)"
+    )
 
 
 class Cost(Spec):
     """What a finer grade costs."""
 
-    ratio: float = Field(1.6, gt=1, description="cost of one IT grade finer over that of the grade")
+    ratio: Annotated[float, Field(gt=1, json_schema_extra=_ONE)] = Field(
+        1.6, description="cost of one IT grade finer over that of the grade"
+    )
 
 
 class Tolerance(Spec):
@@ -137,12 +150,11 @@ class Tolerance(Spec):
     command: str | None = Field(
         None, description="command whose quantities and checks are judged; default the file's first"
     )
-    seed: int = Field(1, ge=0, le=2**32 - 1, description="the same seed gives the same samples")
-    samples: int | None = Field(
-        None,
-        ge=16,
-        le=2**24,
-        description="rounded up to 16 x 2^k; default 131072, 4096 where each design is computed alone",
+    seed: Annotated[int, Field(ge=0, le=2**32 - 1, json_schema_extra=_ONE)] = Field(
+        1, description="the same seed gives the same samples"
+    )
+    samples: Annotated[int, Field(ge=16, le=2**24, json_schema_extra=_ONE)] | None = Field(
+        None, description="rounded up to 16 x 2^k; default 131072, 4096 where each design is computed alone"
     )
     sources: dict[str, ToleranceSource] = Field(description="how sizes scatter, by the keys of this file")
     correlated: list[Correlation] = Field([], description="sources that scatter together")
@@ -165,7 +177,9 @@ class Register(Spec):
     """What the register of a printing machine may lose, for the command register."""
 
     tolerance: Length | None = Field(None, description="greatest error that is allowed, to either side")
-    at: str | float | None = Field(None, description="dwell, zone, handover, or an input angle in degrees")
+    at: str | Annotated[float, Field(json_schema_extra={"unit": "deg"})] | None = Field(
+        None, description="dwell, zone, handover, or an input angle in degrees"
+    )
     method: Literal["worst", "rss", "mc"] = Field("rss", description="how the band is computed")
     radius: Length | None = Field(
         None, description="radius at which the output's error is measured; default its reference radius"
@@ -173,10 +187,14 @@ class Register(Spec):
     backlash: Distance | dict[str, Distance] | None = Field(
         None, description="circumferential backlash of each mesh by its name, or one for all"
     )
-    output_inertia: float | None = Field(None, gt=0, description="of all that turns with the output [kg m^2]")
-    friction: float = Field(0.0, ge=0, description="friction torque on the output [N m]")
-    load: float = Field(0.0, description="torque that the machine takes from the output [N m]")
-    stiffness: float | None = Field(None, gt=0, description="of the output shaft [N m/rad]; left out: rigid")
+    output_inertia: Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg m^2"})] | None = Field(
+        None, description="moment of inertia of all that turns with the output"
+    )
+    friction: Annotated[Torque, Field(ge=0)] = Field(0.0, description="friction torque on the output")
+    load: Torque = Field(0.0, description="torque that the machine takes from the output")
+    stiffness: Annotated[float, Field(gt=0, json_schema_extra={"unit": "N m/rad"})] | None = Field(
+        None, description="of the output shaft; left out: rigid"
+    )
 
     def backlash_of(self, meshes: tuple[str, ...]) -> dict[str, float]:
         """Backlash of each mesh of a machine; empty where none is given."""

@@ -24,6 +24,7 @@ _EXPLAINED = 0.9
 class ToleranceStudy(Design):
     """Samples of a design as made; its nominal design's checks stand beside."""
 
+    kind = ""  # that of its design file
     outlines = {
         "tolerance": Outline(
             ("yield", "yield_low", "yield_high", "samples", "seed", "no_mechanism"),

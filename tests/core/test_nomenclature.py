@@ -140,7 +140,7 @@ def test_names_are_words_and_not_symbols():
     for name in TERMS:
         assert name == name.lower()
         assert name.isidentifier()
-        assert name == "i3" or len(name) > 3
+        assert name in ("i3", "rss") or len(name) > 3
 
 
 def test_mesh_before_the_name_does_not_matter():
@@ -163,7 +163,7 @@ def test_kind_and_its_models_bear_one_name(name):
     assert kind.spec_model().model_fields["kind"].annotation.__args__ == (name,)
     for command in kind.commands:
         cls = kind.design_class(command)
-        assert cls.kind == name
+        assert cls.kind == (name if command != "tolerance" else "")  # one class serves all kinds
         assert command in cls.outlines
 
 
