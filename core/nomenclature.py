@@ -195,6 +195,11 @@ _MOBILITY = {
 }
 
 _MUTILATED = {
+    "reduction": Term("i_r", "1", "input turns per turn of the mutilated wheel"),
+    "full_teeth": Term("Z_M", "1", "teeth for which the mutilated wheel has room"),
+    "group_teeth": Term("n", "1", "teeth in a group"),
+    "driven_teeth": Term("Z_F", "1", "teeth of the driven gear"),
+    "stops": Term("", "1", "locking arcs round the driven gear"),
     "cycle_turns": Term("i_r/g", "1", "input turns per output cycle", "own derivation"),
     "motion_turns": Term("", "1", "input turns while the driven gear turns", "own derivation"),
     "dwell_turns": Term("", "1", "input turns while it stands", "own derivation"),

@@ -48,7 +48,7 @@ def _gears(design: MutilatedGearDwell, turns: Reals, center: Points, toward: com
     place = line + math.pi - math.pi / design.mesh.teeth[1] + driven
     axis, loop_turns = center + toward * design.mesh.center_distance, design.mutilated.cycles_to_repeat
     return [
-        _wheel(design, center, line - TURN * turns / design.spec.reduction),
+        _wheel(design, center, line - TURN * turns / design.reduction),
         *gear(design.mesh, 1, axis, place, loop_turns * design.driven_turn, ORANGE, "2", "driven gear"),
     ]
 
@@ -75,7 +75,7 @@ def _wheel(design: MutilatedGearDwell, center: Points, turn: Reals) -> Body:
 
     gears, mesh = design.spec.gears, design.mesh
     root = mesh.root_radius[0]
-    step = TURN / gears.full_teeth
+    step = TURN / design.full_teeth
     try:
         space = tooth_space(ToothProfile.of(mesh, 0), 0.012 * mesh.module)
     except NoSolution:
@@ -84,9 +84,9 @@ def _wheel(design: MutilatedGearDwell, center: Points, turn: Reals) -> Body:
     tooth = np.concatenate([half, half[::-1].conj() * np.exp(1j * step)])
     cut = tooth * np.minimum(1.0, max(root, _free_radius(design)) / np.abs(tooth))
     # A wheel with one tooth in a group has a single cut tooth.
-    teeth = [cut if k in (0, gears.group_teeth - 1) else tooth for k in range(gears.group_teeth)]
+    teeth = [cut if k in (0, design.group_teeth - 1) else tooth for k in range(design.group_teeth)]
     group = np.concatenate([each * np.exp(1j * step * k) for k, each in enumerate(teeth)])
-    gap = np.linspace(gears.group_teeth * step, TURN / gears.groups, 180)
+    gap = np.linspace(design.group_teeth * step, TURN / gears.groups, 180)
     part = np.concatenate([group, root * np.exp(1j * gap)])
     whole = np.concatenate([part * np.exp(1j * TURN * k / gears.groups) for k in range(gears.groups)])
     return Body(
@@ -97,7 +97,7 @@ def _wheel(design: MutilatedGearDwell, center: Points, turn: Reals) -> Body:
         color=BLUE,
         fill=pale(BLUE),
         label="1",
-        name=f"wheel, {gears.groups} × {gears.group_teeth} of {gears.full_teeth} teeth",
+        name=f"wheel, {gears.groups} × {design.group_teeth} of {design.full_teeth} teeth",
         pitch=mesh.working_radius[0],
     )
 

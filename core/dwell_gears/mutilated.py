@@ -13,6 +13,55 @@ from dataclasses import dataclass
 from gearlink.core.errors import NoSolution
 from gearlink.core.results import cached_property
 
+LEAST_DRIVEN, MOST_DRIVEN = 17, 120
+
+
+def teeth_for_times(
+    share: float, driven_turn: float, groups: int, driven: int | None, most_teeth: int
+) -> tuple[int, int, int, int]:
+    """Teeth with which the driven gear turns for a wanted share of the cycle.
+
+    n g/Z_M -> M/(M + D),   n = driven_turn Z_F
+
+    Parameters
+        share : float - M/(M + D), input turns of the motion over those of the cycle
+        driven_turn : float - turns of the driven gear in a motion
+        groups : int - g
+        driven : int or None - Z_F; None: from 17 to 120
+        most_teeth : int - most Z_M
+    Returns
+        full_teeth, group_teeth, driven_teeth, stops : int - Z_M, a multiple of g, n, Z_F, and as many locking arcs as
+            lead every group from one to another
+    Raises
+        NoSolution - where no numbers of teeth give this turn, or the wheel would have more teeth than allowed
+    Notes
+        All combinations; of those whose share comes equally near the one with the fewest teeth.
+    Example
+        >>> teeth_for_times(0.25, 1.0, 1, None, 200)
+        (68, 17, 17, 1)
+
+    Source
+        own derivation
+    """
+    found = []
+    for z in range(LEAST_DRIVEN, MOST_DRIVEN + 1) if driven is None else (driven,):
+        n = round(driven_turn * z)
+        if n < 1 or abs(n - driven_turn * z) > 1e-9 * z:
+            continue
+        around = n / share  # full teeth per group
+        for pitches in {math.floor(around), math.ceil(around)}:
+            full = pitches * groups
+            if n < pitches and full <= most_teeth:
+                found.append((round(abs(n / pitches - share), 12), full, n, z))
+    if not found:
+        of = f"{driven} teeth" if driven is not None else f"{LEAST_DRIVEN} to {MOST_DRIVEN} teeth"
+        raise NoSolution(
+            f"no driven gear of {of} makes {driven_turn:.9g} turns in {share:.6g} of a cycle with a wheel of at most "
+            f"{most_teeth} teeth: raise most_teeth, take fewer groups, or another driven_turn"
+        )
+    _, full, n, z = min(found)
+    return full, n, z, z // math.gcd(z, n)
+
 
 @dataclass(frozen=True)
 class MutilatedGear:

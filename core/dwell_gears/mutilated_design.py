@@ -4,19 +4,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gearlink.core.clearance.bodies import Layout
 from gearlink.core.clearance.checks import SHAFT_WAYS, shaft_checks
 from gearlink.core.design import Outline, placed
 from gearlink.core.dwell_gears.bodies import mutilated_layout
 from gearlink.core.dwell_gears.codes import GAP, START_SHOCK
-from gearlink.core.dwell_gears.mutilated import MutilatedGear
+from gearlink.core.dwell_gears.mutilated import MutilatedGear, teeth_for_times
 from gearlink.core.errors import at_key
 from gearlink.core.gears.checks import GEAR_CHECKS, gear_ways
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.gears.single_mesh import MESH_CHECKS, MESH_QUANTITIES, SingleMesh
 from gearlink.core.linkages.checks import check_linkage, transmission_check
+from gearlink.core.linkages.codes import TARGET
 from gearlink.core.linkages.fourbar import FourBar, solve
 from gearlink.core.linkages.nearest_passes import joint_to_crank_pivot
 from gearlink.core.linkages.swing import rocker_swing
@@ -50,6 +51,22 @@ class Start(NamedTuple):
     rocker_speed: float
 
 
+def _with_teeth(spec: MutilatedGearDwellSpec) -> MutilatedGearDwellSpec:
+    """The spec with the teeth and the reduction that wanted times ask for, and a stop where none is named."""
+    gears, target = spec.gears, spec.target
+    if target is None or spec.reduction is not None:
+        return spec.model_copy(update={"gears": gears.model_copy(update={"stops": gears.stops or 1})})
+    motion, dwell = spec.wanted_turns()
+    with at_key("target.driven_turn"):
+        share = motion / (motion + dwell)
+        full, group, driven, stops = teeth_for_times(
+            share, target.driven_turn, gears.groups, gears.driven, target.most_teeth
+        )
+    chosen = {"full_teeth": full, "group_teeth": group, "driven": driven, "stops": gears.stops or stops}
+    reduction = gears.groups * (motion + dwell)
+    return spec.model_copy(update={"reduction": reduction, "gears": gears.model_copy(update=chosen)})
+
+
 class MutilatedGearDwell(RealSpeed, SingleMesh):
     """Reduction, mutilated wheel and driven gear; the crank on its shaft stands while the gap passes."""
 
@@ -58,6 +75,11 @@ class MutilatedGearDwell(RealSpeed, SingleMesh):
     outlines = {
         "analyze": Outline(
             (
+                "reduction",
+                "full_teeth",
+                "group_teeth",
+                "driven_teeth",
+                "stops",
                 "cycle_turns",
                 "motion_turns",
                 "dwell_turns",
@@ -79,7 +101,7 @@ class MutilatedGearDwell(RealSpeed, SingleMesh):
                 "driven_speed",
                 "rocker_speed_at_start",
             ),
-            ("start-shock", "gap", "shaft-clearance", "transmission-angle", *GEAR_CHECKS),
+            ("target", "start-shock", "gap", "shaft-clearance", "transmission-angle", *GEAR_CHECKS),
             ("motion",),
         ),
         "gear": Outline(MESH_QUANTITIES, MESH_CHECKS),
@@ -92,14 +114,15 @@ class MutilatedGearDwell(RealSpeed, SingleMesh):
         **gear_ways(*_TEETH),
     }
 
+    def __init__(self, spec: Any) -> None:
+        super().__init__(_with_teeth(spec))
+
     @cached_property
     def mutilated(self) -> MutilatedGear:
         """The kernel's view of the gears."""
-        gears = self.spec.gears
         with at_key("gears"):
-            return MutilatedGear(
-                self.spec.reduction, gears.full_teeth, gears.group_teeth, gears.groups, gears.driven, gears.stops
-            )
+            teeth = (self.full_teeth, self.group_teeth, self.spec.gears.groups, self.driven_teeth)
+            return MutilatedGear(self.reduction, *teeth, self.stops)
 
     cycle_turns: float = placed("mutilated.cycle_turns")
     motion_turns: float = placed("mutilated.motion_turns")
@@ -116,7 +139,7 @@ class MutilatedGearDwell(RealSpeed, SingleMesh):
         gears = self.spec.gears
         alpha = math.radians(gears.pressure_angle)
         with at_key("gears"):
-            return GearPair.from_shift(gears.module, (gears.full_teeth, gears.driven), pressure_angle=alpha)
+            return GearPair.from_shift(gears.module, (self.full_teeth, self.driven_teeth), pressure_angle=alpha)
 
     # The four-bar
 
@@ -152,7 +175,7 @@ class MutilatedGearDwell(RealSpeed, SingleMesh):
         if linkage is None or first is None:
             return None
         cycles = range(self.cycles_to_repeat)
-        angles = [first + _TURN * (cycle * self.spec.gears.group_teeth / self.spec.gears.driven) for cycle in cycles]
+        angles = [first + _TURN * (cycle * self.group_teeth / self.driven_teeth) for cycle in cycles]
         starts = [Start(angle, self.driven_speed_ratio * solve(linkage, angle, 1).rocker_velocity) for angle in angles]
         return max(starts, key=lambda start: abs(start.rocker_speed))
 
@@ -215,7 +238,27 @@ class MutilatedGearDwell(RealSpeed, SingleMesh):
             rates["rocker_speed"] = ("rocker_speed_ratio", 1)
         return Table.of("motion", self.timed(columns, "input_angle", rates))
 
+    reduction: float = placed("spec.reduction")
+    full_teeth: int = placed("spec.gears.full_teeth")
+    group_teeth: int = placed("spec.gears.group_teeth")
+    driven_teeth: int = placed("spec.gears.driven")
+    stops: int = placed("spec.gears.stops")
+
     # Checks
+
+    def check_target(self) -> Iterator[Check]:
+        """GL307 where times are asked for: whole teeth may miss them."""
+        target = self.spec.target
+        if target is None:
+            return
+        pairs = zip(("motion", "dwell"), self.spec.wanted_turns(), (self.motion_turns, self.dwell_turns), strict=True)
+        for name, asked, got in pairs:
+            off = got / asked - 1.0
+            bad = abs(off) > target.tolerance
+            text = f"the {name} takes {got:.6g} input turns, {asked:.6g} were asked for"
+            if bad:
+                text += f", {100.0 * off:.3g} % off: raise target.most_teeth, or leave gears.driven out"
+            yield TARGET.check("fail" if bad else "pass", text, abs(off), target.tolerance)
 
     def check_start_shock(self) -> Check:
         """GL310: the driven gear starts at once at full speed, and the model ends at the pitch circles."""
@@ -237,7 +280,7 @@ class MutilatedGearDwell(RealSpeed, SingleMesh):
             return f"{text}: leave start_angle out, at a dead centre it would start from rest"
         return (
             f"{text} where the crank stands at {math.degrees(start.crank_angle) % 360.0:.6g} deg: only a group of "
-            f"{self.spec.gears.driven} teeth, a whole turn of the driven gear, starts from a dead centre every time"
+            f"{self.driven_teeth} teeth, a whole turn of the driven gear, starts from a dead centre every time"
         )
 
     def check_gap(self) -> Check:

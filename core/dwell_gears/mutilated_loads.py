@@ -56,7 +56,7 @@ class MutilatedGearLoads(LoadsDesign):
     @cached_property
     def turns(self) -> int:
         """Input turns until input and linkage are both back at their place."""
-        cycles = Fraction(self.spec.reduction).limit_denominator(10_000) / self.spec.gears.groups
+        cycles = Fraction(self.design.reduction).limit_denominator(10_000) / self.spec.gears.groups
         turns = (cycles * self.design.cycles_to_repeat).numerator
         if turns > _MOST_TURNS:
             raise NoSolution(
@@ -74,7 +74,7 @@ class MutilatedGearLoads(LoadsDesign):
     @property
     def shaft_inertia(self) -> float:
         """The wheel's, which turns once in `reduction` input turns."""
-        return mass_of(of_body(self.section.links, "wheel")).inertia / self.spec.reduction**2
+        return mass_of(of_body(self.section.links, "wheel")).inertia / self.design.reduction**2
 
     @cached_property
     def own_joints(self) -> list[float]:

@@ -9,14 +9,16 @@ import math
 from fractions import Fraction
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import factory
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from pydantic import ValidationError
 from sweeps import examples
 
-from gearlink.core.dwell_gears.mutilated import MutilatedGear
+from gearlink.core.dwell_gears.mutilated import MutilatedGear, teeth_for_times
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.fourbar import FourBar, solve
 
@@ -160,3 +162,78 @@ def test_gap_against_the_contact_ratio(group, status):
     (check,) = made.check("gap")
     assert (check.code, check.status) == ("GL316", status)
     assert check.value == pytest.approx(60 - group + 1 - made.mesh.contact_ratio, rel=1e-14)
+
+
+# Wanted times
+
+
+def by_search(share: float, turn: float, groups: int, most: int) -> float:
+    """The least miss of the share over every number of teeth."""
+    misses = [
+        abs(n * groups / full - share)
+        for z in range(17, 121)
+        for n in [round(turn * z)]
+        if n >= 1 and abs(n - turn * z) < 1e-9 * z
+        for full in range(groups, most + 1, groups)
+        if n * groups < full
+    ]
+    return min(misses)
+
+
+@pytest.mark.parametrize(
+    ("share", "turn", "groups"),
+    [(2.0 / 7.0, 1.0, 1), (0.31415, 1.0, 1), (0.2, 0.5, 2), (0.61803, 1.5, 1), (0.9, 0.25, 3)],
+)
+def test_no_teeth_come_nearer_to_the_wanted_share(share: float, turn: float, groups: int) -> None:
+    full, group, driven, stops = teeth_for_times(share, turn, groups, None, 200)
+    assert abs(group * groups / full - share) == pytest.approx(by_search(share, turn, groups, 200), abs=1e-11)
+    assert full % groups == 0
+    assert group == turn * driven
+    assert group * stops % driven == 0
+
+
+def test_wanted_times_are_met() -> None:
+    made = factory.design("mutilated_gear_times")
+    assert made.quantity("motion_time").value == pytest.approx(1200.0, rel=1e-12)
+    assert made.quantity("dwell_time").value == pytest.approx(3000.0, rel=1e-12)
+    assert [check.status for check in made.check("target")] == ["pass", "pass"]
+    same = factory.design("mutilated_gear_times", target={"motion_turns": 1.2, "dwell_turns": 3})
+    assert (same.full_teeth, same.reduction) == (made.full_teeth, made.reduction)
+
+
+def test_few_teeth_miss_the_times_and_say_so() -> None:
+    made = factory.design(
+        "mutilated_gear_times", target={"motion_turns": 1, "dwell_turns": 2.1}, gears={"module": 3, "driven": 17}
+    )
+    cycle = made.motion_turns + made.dwell_turns
+    assert cycle == pytest.approx(3.1, rel=1e-14)
+    near = factory.design(
+        "mutilated_gear_times", gears={"module": 3, "driven": 17},
+        target={"motion_turns": 1, "dwell_turns": 2.1, "tolerance": 1e-6},
+    )  # fmt: skip
+    assert "fail" in [check.status for check in near.check("target")]
+
+
+HALF = {"motion_turns": 1, "dwell_turns": 2, "driven_turn": 0.5}
+
+
+def test_wanted_times_that_cannot_be_had() -> None:
+    with pytest.raises(NoSolution, match="raise most_teeth"):
+        factory.design("mutilated_gear_times", target={"motion_turns": 1, "dwell_turns": 500})
+    with pytest.raises(NoSolution, match="another driven_turn"):
+        factory.design("mutilated_gear_times", gears={"module": 3, "driven": 19}, target=HALF)
+
+
+@pytest.mark.parametrize(
+    ("keys", "words"),
+    [
+        ({"input_speed": None}, "needs the input's speed"),
+        ({"reduction": 6}, "leave it out"),
+        ({"target": {"motion_turns": 1}}, "give dwell_turns"),
+        ({"target": {"motion_turns": 1, "motion_time": 1, "dwell_turns": 1}}, "exclude each other"),
+        ({"target": None}, "the key reduction is missing"),
+    ],
+)
+def test_wrong_wishes(keys: dict[str, Any], words: str) -> None:
+    with pytest.raises(ValidationError, match=words):
+        factory.design("mutilated_gear_times", **keys)
