@@ -114,7 +114,7 @@ KINDS: dict[str, Kind] = {
         Kind(
             "swing-gripper",
             "swing_gripper.spec:SwingGripperSpec",
-            {"gripper": _GRIPPER, "cam": _GRIPPER, "analyze": _GRIPPER},
+            {"gripper": _GRIPPER, "cam": _GRIPPER, "analyze": _GRIPPER, "loads": "swing_gripper.loads:GripperLoads"},
         ),
         Kind("wide-swing-cam", "wide_swing.spec:WideSwingSpec", {"swing": _SWING, "cam": _SWING, "analyze": _SWING}),
         Kind(

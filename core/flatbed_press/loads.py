@@ -12,13 +12,17 @@ from typing import TYPE_CHECKING, Any
 
 from gearlink.core.errors import MissingSection
 from gearlink.core.flatbed_press.design import FlatbedPress
-from gearlink.core.loads.design import LoadsDesign, loads_outline
+from gearlink.core.loads.cam_checks import CAM_CHECKS
+from gearlink.core.loads.cam_design import CONTACT, CamLoadsDesign
+from gearlink.core.loads.design import loads_outline
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
     from gearlink.core.flatbed_press.chains import Travel
     from gearlink.core.flatbed_press.loads_spec import PressLoads as Section
     from gearlink.core.flatbed_press.spec import FlatbedPressSpec
+    from gearlink.core.loads.cam_contact import RollerOnCam
+    from gearlink.core.loads.kinematics import Turn
     from gearlink.core.loads.mechanism import Connection, Link, Mechanism
     from gearlink.core.numerics.arrays import Reals
 
@@ -29,7 +33,7 @@ _GEAR_4 = 34.0 / 35.0
 _RACK_ANGLE = math.radians(20.0)
 
 
-class PressLoads(LoadsDesign):
+class PressLoads(CamLoadsDesign):
     """The twelve links of the machine; input angle and senses are the press's own."""
 
     kind = "flatbed-press"
@@ -39,7 +43,8 @@ class PressLoads(LoadsDesign):
     sliding = ("carriage", "rack", "bed")
     pins = ("A", "B", "C", "D", "E", "F", "F_pinion", "G", "H", "M", "N", "cylinder")
     meshes = ("mesh_12", "mesh_34", "rack_lower", "rack_upper")
-    outlines = loads_outline(pins, meshes)
+    outlines = loads_outline(pins, meshes, CONTACT, CAM_CHECKS)
+    on_two_sides = True
 
     @cached_property
     def design(self) -> FlatbedPress:
@@ -176,6 +181,80 @@ class PressLoads(LoadsDesign):
         rho_2 = self.design.cams.roller_center_distance * _MM - rho
         other = (rho_2 - 1j * cam.first * _MM) * 1j / np.hypot(rho_2, cam.first * _MM)
         return [Contact("cam", "CDE", "rack", axis + 1j * rho, normal, (axis - 1j * rho_2, other))]
+
+    # Rollers
+
+    def roller_on_cam(self, name: str, phi: Reals) -> RollerOnCam:
+        """A roller of the rack's follower from the cam axis, over the angle turned by the cams."""
+        from gearlink.core.loads.cam_contact import RollerOnCam
+
+        cams = self.design.cams
+        cam = self.lift(self._cam_turn(phi).value)
+        at = cams.base_radius if name == "main" else cams.base_radius - cams.roller_center_distance
+        rates = (at + cam.value, cam.first, cam.second)
+        position, first, second = (1j * _MM * part for part in rates)
+        return RollerOnCam(position, first, second, 1, cams.section.roller_radius * _MM)
+
+    def _cam_turn(self, phi: Reals) -> Turn:
+        """Angle turned by the cams."""
+        from gearlink.core.loads.kinematics import from_start
+
+        return from_start(self.machine.at(phi).links["CDE"].turn, self.design.bed.cam_angle_start)
+
+    def contact_force(self, name: str, phi: Reals) -> Reals:
+        """Out of the reactions: the main cam pushes, the return cam pulls back; with a preload both press."""
+        import numpy as np
+
+        from gearlink.core.loads.cam_contact import positive_drive
+
+        net: Reals = self.machine.reactions(phi).unknowns["cam"][0]
+        if not self._preload:
+            return np.asarray(np.maximum(net if name == "main" else -net, 0.0))
+        both = positive_drive(net, self._preload, self._stiffness)
+        return both[0] if name == "main" else both[1]
+
+    @property
+    def _preload(self) -> float:
+        roller = self.section.roller
+        return 0.0 if roller is None else roller.preload
+
+    @property
+    def _stiffness(self) -> tuple[float, float]:
+        roller = self.section.roller
+        if roller is None or roller.stiffness is None:
+            return 1.0, 1.0
+        return roller.stiffness[0], roller.stiffness[1]
+
+    @cached_property
+    def preload_needed(self) -> float | None:
+        """Least preload that keeps both rollers on their cams [N]; equal stiffness where the file gives none."""
+        if self.section.roller is None:
+            return None
+        share = self._stiffness[0] / sum(self._stiffness)
+
+        def needed(phi: Reals) -> Reals:
+            import numpy as np
+
+            net: Reals = self.machine.reactions(phi).unknowns["cam"][0]
+            return np.asarray(np.maximum(net * (1.0 - share), -net * share))
+
+        return self.extreme(needed).value
+
+    def cam_speed(self, phi: Reals) -> Reals:
+        """Speed of CDE [rad/s]."""
+        found: Reals = self._cam_turn(phi).first * self.speed
+        return found
+
+    def cam_acceleration(self, phi: Reals) -> Reals:
+        """Its derivative by time [rad/s^2]."""
+        found: Reals = self._cam_turn(phi).second * self.speed**2
+        return found
+
+    def cam_degrees(self, phi: Reals) -> Reals:
+        """Angle turned by the cams [deg]."""
+        import numpy as np
+
+        return np.degrees(self._cam_turn(phi).value)
 
     # Cylinder
 

@@ -94,3 +94,47 @@ SELF_LOCKING = Rule(
     checks=("self-locking",),
     keys=("loads.friction",),
 )
+CONTACT_PRESSURE = Rule(
+    "GL607",
+    "contact pressure",
+    "The Hertzian pressure of roller and cam is above what their material allows.",
+    "The surface pits; the greatest shear lies below it, where the hardened depth must still reach.",
+    "Widen the roller (loads.roller.width), enlarge roller or cam, or lower speed, mass or spring.",
+    "p_max = sqrt(N E*/(pi b R)),  R = r_g (1 - r_g kappa)",
+    "Hertz, line contact",
+    checks=("contact-pressure",),
+    keys=("loads.material.allowed_pressure", "loads.roller"),
+)
+CONTACT_LOSS = Rule(
+    "GL608",
+    "contact loss",
+    "A roller leaves its cam at the speed of the design, or nearly does.",
+    "What lifts off comes back with a blow, and the follower leaves its law.",
+    "Raise the spring's force, lower the speed, or lighten the follower.",
+    "N > 0",
+    "VDI 2142",
+    checks=("contact-loss",),
+    keys=("loads", "spring"),
+)
+ROLLER_SKID = Rule(
+    "GL609",
+    "roller skid",
+    "The cam cannot drive the roller round: its inertia and bearing need more than friction gives.",
+    "A roller that slides wears itself and the cam.",
+    "Take a lighter roller, a bearing that runs more easily, or more contact force.",
+    "|J_r dw/dt|/r_g + M_b/r_g <= mu N",
+    "own derivation: friction at the contact",
+    checks=("roller-skid",),
+    keys=("loads.roller",),
+)
+PRELOAD = Rule(
+    "GL613",
+    "preload",
+    "The two rollers of a positive drive are not pressed on their cams all the time.",
+    "Where one opens, the drive has play: it strikes at every change of the force.",
+    "Raise loads.roller.preload to what is needed.",
+    "P >= max(F k_2/(k_1 + k_2), -F k_1/(k_1 + k_2))",
+    "own derivation: two springs against each other",
+    checks=("preload",),
+    keys=("loads.roller.preload", "loads.roller"),
+)

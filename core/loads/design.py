@@ -4,22 +4,15 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from gearlink.core.design import Design, Outline, placed
-from gearlink.core.errors import MissingSection, NoSolution
+from gearlink.core.design import Outline
 from gearlink.core.loads import checks, tables
+from gearlink.core.loads.base import LoadsBase
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
-    from gearlink.core.loads.dynamics import Mass
-    from gearlink.core.loads.flywheel import Energy
-    from gearlink.core.loads.machine import Machine
-    from gearlink.core.loads.mechanism import Mechanism
-    from gearlink.core.loads.running import Running
     from gearlink.core.numerics.arrays import Reals
-    from gearlink.core.numerics.extremes import Extreme
 
 TORQUE = (
     "input_torque_mean",
@@ -55,140 +48,25 @@ BALANCE = (
 PIN = ("peak", "equivalent", "travel", "life", "bearing_pressure")
 MESH = ("tooth_force_max", "reversals")
 TABLES = ("torque", "joints", "teeth", "frame", "speed")
-RPM = 2.0 * math.pi / 60.0
 
 
-def loads_outline(pins: tuple[str, ...], meshes: tuple[str, ...], more: tuple[str, ...] = ()) -> dict[str, Outline]:
+def loads_outline(
+    pins: tuple[str, ...],
+    meshes: tuple[str, ...],
+    more: tuple[str, ...] = (),
+    more_checks: tuple[str, ...] = (),
+) -> dict[str, Outline]:
     """The outline of `loads` for a machine with these joints."""
     own = [f"pin_{pin}.{name}" for pin in pins for name in PIN]
     own += [f"{mesh}.{name}" for mesh in meshes for name in MESH]
     names = (*TORQUE, *RUN, *FRAME, *more, *own, "power_identity")
-    return {"loads": Outline(names, checks.CHECKS, ("torque",))}
+    return {"loads": Outline(names, (*checks.CHECKS, *more_checks), ("torque",))}
 
 
-class LoadsDesign(Design):
-    """The loads of a design file that has the section; a subclass per machine says how its links move.
+class LoadsDesign(LoadsBase):
+    """The loads of a design file that has the section; a subclass per machine says how its links move."""
 
-    `links` names what has a mass, `sliding` those of them that slide, `pins` and `meshes` the joints (those that a
-    design does not have are left out where they are asked for).
-    """
-
-    command = "loads"
-    extra_tables = TABLES[1:]
-    joints_of_period: ClassVar[bool] = False
-    links: ClassVar[tuple[str, ...]]
-    sliding: ClassVar[tuple[str, ...]] = ()
-    pins: ClassVar[tuple[str, ...]]
-    meshes: ClassVar[tuple[str, ...]]
-    advises = False
-
-    def kinematics(self, phi: Reals) -> Mechanism:
-        """The links and connections at input angles [rad]."""
-        raise NotImplementedError
-
-    # The section and the machine
-
-    @cached_property
-    def section(self) -> Any:
-        """The section `loads`."""
-        if self.spec.loads is None:
-            raise MissingSection("`loads` needs the section loads: {speed: 1/min, links: ...}", key="loads")
-        return self.spec.loads
-
-    @cached_property
-    def speed(self) -> float:
-        """Speed of the input [rad/s], signed."""
-        given = self.section.speed
-        given = getattr(self.spec, "input_speed", None) if given is None else given
-        if given is None:
-            raise MissingSection("`loads` needs the speed of the input: give loads.speed", key="loads.speed")
-        if given == 0.0:
-            raise NoSolution("a speed of 0 has no loads of motion: give the speed of the input", key="loads.speed")
-        return float(given) * RPM
-
-    @property
-    def own_joints(self) -> list[float]:
-        """Input angles [rad] at which the machine's own motion has a jump in its accelerations."""
-        return []
-
-    @property
-    def turns(self) -> int:
-        """Input turns after which everything repeats."""
-        return 1
-
-    @property
-    def shaft_inertia(self) -> float:
-        """Inertia of what turns evenly with the input, reduced to it [kg m^2]."""
-        return 0.0
-
-    @property
-    def own_links(self) -> tuple[str, ...]:
-        """The links that this design has; of a kind with several forms some of `links`."""
-        return self.links
-
-    @cached_property
-    def masses(self) -> dict[str, Mass]:
-        """Masses by link, those of the file."""
-        from gearlink.core.loads.sources import mass_of
-        from gearlink.core.loads.spec import of_body
-
-        bodies = {name: of_body(self.section.links, name) for name in self.own_links}
-        return {name: mass_of(body) for name, body in bodies.items() if body.mass or body.inertia}
-
-    @cached_property
-    def machine(self) -> Machine:
-        """Everything together."""
-        from gearlink.core.loads.machine import Machine
-        from gearlink.core.loads.sources import Sources, vector
-
-        sources = Sources(self.section, self.own_links, self.sliding)
-        if not self.masses and not sources.any and not self.shaft_inertia:
-            raise MissingSection(
-                "without a mass, an inertia or a force there is no load: give loads.links or loads.forces",
-                key="loads.links" if "links" in self.section.model_fields_set else "loads",
-            )
-        return Machine(
-            self.kinematics,
-            self.masses,
-            sources,
-            vector(self.section.gravity),
-            self.speed,
-            self.turns,
-            self.friction,
-            tuple(self.own_joints),
-            self.shaft_inertia,
-            self.joints_of_period,
-        )
-
-    @cached_property
-    def friction(self) -> Any:
-        """Coefficients of friction, where the file gives any."""
-        given = self.section.friction
-        if given is None:
-            return None
-        from gearlink.core.loads.friction import Coefficients
-
-        for name in given.joints:
-            self._require_joint(name, (*self.pins, *self.guides, *self.meshes), f"loads.friction.joints.{name}")
-        return Coefficients(given.pins, given.guides, given.meshes, given.pin_radius * 1e-3, dict(given.joints))
-
-    @property
-    def guides(self) -> tuple[str, ...]:
-        """Names of the guides."""
-        import numpy as np
-
-        from gearlink.core.loads.mechanism import Guide
-
-        return tuple(c.name for c in self.kinematics(np.zeros(1)).connections if isinstance(c, Guide))
-
-    @property
-    def unknown_joints(self) -> tuple[str, ...]:
-        """Joints whose force depends on something that the file does not say."""
-        return ()
-
-    def _require_joint(self, name: str, known: tuple[str, ...], key: str) -> None:
-        if name not in known:
-            raise NoSolution(f"this machine has no joint {name!r}: it has {', '.join(known)}", key=key)
+    extra_tables: ClassVar[tuple[str, ...]] = TABLES[1:]
 
     def raw(self, name: str) -> Any:
         """Quantities of a joint stand under its name."""
@@ -198,156 +76,6 @@ class LoadsDesign(Design):
         if joint.startswith("pin_"):
             return getattr(self.pin(joint.removeprefix("pin_")), quantity, None)
         return getattr(self.mesh(joint), quantity, None)
-
-    # Torque
-
-    def extreme(self, f: Callable[[Reals], Reals], greatest: bool = True) -> Extreme:
-        """Greatest or least value over the period of a function of the input angle, refined."""
-        from gearlink.core.numerics.extremes import maximum_over, minimum_over
-
-        machine = self.machine
-        search = maximum_over if greatest else minimum_over
-        return search(f, 0.0, machine.period, joints=machine.breaks, samples=360 * self.turns)
-
-    @cached_property
-    def torque_range(self) -> tuple[Extreme, Extreme]:
-        """Least and greatest input torque [N m], with their places."""
-        torque = self.machine.torque
-        return self.extreme(torque, False), self.extreme(torque)
-
-    @property
-    def input_torque_max(self) -> float:
-        """Greatest input torque [N m]."""
-        return self.torque_range[1].value
-
-    @property
-    def input_torque_min(self) -> float:
-        """Least input torque [N m]."""
-        return self.torque_range[0].value
-
-    @property
-    def input_torque_max_at(self) -> float:
-        """Input angle of the greatest [rad]."""
-        return self.torque_range[1].place % self.machine.period
-
-    @property
-    def input_torque_min_at(self) -> float:
-        """Input angle of the least [rad]."""
-        return self.torque_range[0].place % self.machine.period
-
-    @cached_property
-    def input_torque_mean(self) -> float:
-        """Mean input torque [N m]; what is below the rounding of the torque's size is 0."""
-        from gearlink.core.report import without_noise
-
-        size = max(abs(self.input_torque_max), abs(self.input_torque_min))
-        return without_noise(self.machine.mean(self.machine.torque), 16.0 * size)
-
-    @cached_property
-    def input_torque_rms(self) -> float:
-        """Root mean square of the input torque [N m]."""
-        torque = self.machine.torque
-        return math.sqrt(self.machine.mean(lambda phi: torque(phi) ** 2))
-
-    @property
-    def input_power_mean(self) -> float:
-        """Mean input power [W]."""
-        return self.input_torque_mean * self.machine.speed
-
-    @property
-    def input_power_peak(self) -> float:
-        """Greatest input power [W]."""
-        speed = self.machine.speed
-        return max(self.input_torque_max * speed, self.input_torque_min * speed)
-
-    @cached_property
-    def torque_reversals(self) -> int:
-        """Changes of sign of the input torque over the period."""
-        from gearlink.core.loads.reversals import sign_changes
-
-        size = max(abs(self.input_torque_max), abs(self.input_torque_min))
-        return sign_changes(self.machine.torque, self.machine, size)
-
-    @property
-    def reflected_inertia_max(self) -> float:
-        """Greatest reflected inertia [kg m^2]."""
-        return self.extreme(lambda phi: self.machine.reduced(phi).inertia).value
-
-    @property
-    def reflected_inertia_min(self) -> float:
-        """Least reflected inertia [kg m^2]."""
-        return self.extreme(lambda phi: self.machine.reduced(phi).inertia, False).value
-
-    @property
-    def reflected_inertia_mean(self) -> float:
-        """Mean reflected inertia over the input angle [kg m^2]."""
-        return self.machine.mean(lambda phi: self.machine.reduced(phi).inertia)
-
-    @cached_property
-    def energy(self) -> Energy:
-        """Energy that flywheel and masses take up at a constant drive torque, the mean of the load."""
-        from gearlink.core.loads.flywheel import Energy
-
-        return Energy.of(self.machine)
-
-    @property
-    def energy_fluctuation(self) -> float:
-        """Greatest less least energy surplus over the period [J]."""
-        return self.energy.fluctuation
-
-    @cached_property
-    def running(self) -> Running:
-        """Flywheel, motor, and the speed over the input angle."""
-        from gearlink.core.loads.running import Running
-
-        return Running(self)
-
-    @property
-    def flywheel_inertia(self) -> float | None:
-        """Flywheel for the fluctuation of the file [kg m^2]."""
-        return self.running.needed
-
-    def _of_run(self, value: Callable[[], float]) -> float | None:
-        """A result of the run, where the file has a flywheel or a motor and the machine does not stop."""
-        if self.section.flywheel is None and self.section.motor is None:
-            return None
-        return None if self.running.stops else value()
-
-    @property
-    def speed_min(self) -> float | None:
-        """Least speed of the input [1/min]."""
-        return self._of_run(lambda: self.running.range[0])
-
-    @property
-    def speed_max(self) -> float | None:
-        """Greatest speed of the input [1/min]."""
-        return self._of_run(lambda: self.running.range[1])
-
-    @property
-    def speed_fluctuation(self) -> float | None:
-        """(greatest - least)/mean speed."""
-        return self._of_run(lambda: self.running.fluctuation)
-
-    motor_torque_rms: float | None = placed("running.motor_rms")
-    motor_torque_peak: float | None = placed("running.motor_peak")
-
-    @cached_property
-    def power_identity(self) -> float:
-        """Largest difference of the two input torques over the largest of them."""
-        import numpy as np
-
-        machine = self.machine
-        phi = np.radians(np.arange(360.0 * self.turns))
-        found = machine.reactions(phi)
-        if machine.friction is None:
-            power = machine.reduced(phi).torque(machine.speed)
-        else:
-            from gearlink.core.loads.friction import losses
-
-            power = machine.reduced(phi).torque(machine.speed)
-            power = power + losses(found, machine.friction, machine.speed) / machine.speed
-        size = max(float(np.max(np.abs(found.torque))), float(np.max(np.abs(power))))
-        return float(np.max(np.abs(found.torque - power))) / size if size else 0.0
 
     # Frame and joints
 

@@ -15,7 +15,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from gearlink.core.loads.dynamics import Applied, Mass, Reactions, Reduced, reduced
+from gearlink.core.loads.dynamics import Applied, Force, Mass, Reactions, Reduced, Torque, reduced
 from gearlink.core.loads.friction import Coefficients, passes_ratio, with_friction
 from gearlink.core.loads.kinematics import dot
 from gearlink.core.loads.mechanism import Mechanism
@@ -43,6 +43,7 @@ class Machine:
         friction : Coefficients or None
         joints : input angles of a turn where the machine's own accelerations jump [rad]
         shaft_inertia : float [kg m^2] - of what turns evenly with the input
+        more : what acts besides the sources, a spring of the machine's own
         joints_of_period : bool - the joints are those of the whole period
     """
 
@@ -56,6 +57,7 @@ class Machine:
     joints: tuple[float, ...] = ()
     shaft_inertia: float = 0.0
     joints_of_period: bool = False
+    more: Callable[[Mechanism, Reals], Sequence[Force | Torque]] | None = None
     kept: dict[tuple[str, bytes], Any] = field(default_factory=dict, repr=False)
 
     @property
@@ -78,10 +80,13 @@ class Machine:
 
     def applied(self, phi: Reals) -> Applied:
         """What acts from outside there."""
-        found: Applied = self._keep(
-            "applied", phi, lambda: self.sources.at(self.at(phi), phi, math.copysign(1.0, self.speed))
-        )
+        found: Applied = self._keep("applied", phi, lambda: self._applied(phi))
         return found
+
+    def _applied(self, phi: Reals) -> Applied:
+        links = self.at(phi)
+        own = () if self.more is None else self.more(links, phi)
+        return [*self.sources.at(links, phi, math.copysign(1.0, self.speed)), *own]
 
     def reduced(self, phi: Reals) -> Reduced:
         """Inertia and load as the input feels them."""

@@ -12,7 +12,7 @@ from gearlink.core.loads.machine import Panels
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
-    from gearlink.core.loads.design import LoadsDesign
+    from gearlink.core.loads.base import LoadsBase
     from gearlink.core.loads.motor import MotorRun
     from gearlink.core.numerics.arrays import Reals
 
@@ -23,10 +23,10 @@ class Running:
     """Flywheel, motor and the speed over the input angle of one design.
 
     Parameters
-        design : LoadsDesign
+        design : LoadsBase
     """
 
-    def __init__(self, design: LoadsDesign) -> None:
+    def __init__(self, design: LoadsBase) -> None:
         self.design = design
         self.flywheel, self.motor = design.section.flywheel, design.section.motor
 

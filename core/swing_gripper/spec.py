@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, LiteralString, NoReturn
+from typing import Annotated, Any, Literal, LiteralString, NoReturn
 
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
@@ -11,8 +11,10 @@ from gearlink.core.spec import (
     AcuteAngle,
     Angle,
     Assembly,
+    Deferred,
     Distance,
     Length,
+    LoadLimits,
     MotionLaw,
     SignedLength,
     Spec,
@@ -179,7 +181,7 @@ class ClosingSpring(Spec):
         return self
 
 
-class GripperLimits(Spec):
+class GripperLimits(LoadLimits):
     """Limits of the checks."""
 
     transmission_angle: AcuteAngle = Field(40.0, description="least transmission angle, at D and at C")
@@ -216,6 +218,9 @@ class SwingGripperSpec(TolerancedSpec):
     inertia: Inertia | None = None
     spring: ClosingSpring | None = None
     limits: GripperLimits = GripperLimits()
+    loads: Annotated[Any, Deferred("swing_gripper.loads_spec:GripperLoads")] | None = Field(
+        None, description="masses, forces and drive, for the command loads"
+    )
 
     @model_validator(mode="after")
     def _handover_at_speed(self) -> SwingGripperSpec:
@@ -230,4 +235,5 @@ class SwingGripperSpec(TolerancedSpec):
 
     def commands(self) -> tuple[str, ...]:
         """What the file asks for."""
-        return ("gripper", "cam") if self.cam is not None else ("gripper",)
+        cam = ("cam",) if self.cam is not None else ()
+        return ("gripper", *cam, *(("loads",) if self.loads is not None and cam else ()))

@@ -1,0 +1,189 @@
+"""Roller on cam: normals, curvature, force by lever, Hertzian pressure, roller and entrainment speed.
+
+World coordinates with the cam axis at 0, B the roller's centre, ' by the turned angle of the cam, eps its sense.
+Lengths in m, forces in N, pressures in N/mm^2.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from gearlink.core.loads.kinematics import cross, dot
+from gearlink.core.numerics.arrays import Points, Reals
+
+_PHI = 0.5 * (1.0 + math.sqrt(5.0))
+SHEAR_SHARE = _PHI**-2.5
+"""Greatest shear stress of a line contact over its greatest pressure."""
+SHEAR_DEPTH = _PHI**-0.5
+"""Depth of it over the half width of the contact."""
+
+
+@dataclass(frozen=True)
+class RollerOnCam:
+    """A roller over the turned angle of its cam.
+
+    Fields
+        position, first, second : (N,) complex arrays [m] - B, B', B''
+        sense : +1 or -1 - eps
+        radius : float [m] - r_g
+        flank : +1: the flank towards the cam axis; -1: the far one of a groove
+    """
+
+    position: Points
+    first: Points
+    second: Points
+    sense: int
+    radius: float
+    flank: int = 1
+
+    @cached_property
+    def rate(self) -> Points:
+        """D1 = B' - i eps B, the roller's velocity seen from the cam."""
+        return np.asarray(self.first - 1j * self.sense * self.position)
+
+    @cached_property
+    def bend(self) -> Points:
+        """D2 = B'' - 2 i eps B' - B."""
+        return np.asarray(self.second - 2j * self.sense * self.first - self.position)
+
+    @cached_property
+    def normal(self) -> Points:
+        """n_out = i eps D1/|D1|, the direction in which the flank pushes the roller."""
+        return np.asarray(self.flank * 1j * self.sense * self.rate / np.abs(self.rate))
+
+    @cached_property
+    def curvature(self) -> Reals:
+        """kappa of the pitch curve [1/m], positive where the flank that carries is convex."""
+        return np.asarray(-self.flank * self.sense * cross(self.rate, self.bend) / np.abs(self.rate) ** 3)
+
+    @cached_property
+    def relative_radius(self) -> Reals:
+        """R = r_g (1 - r_g kappa) [m], of roller and profile in contact; 0 at a cusp."""
+        return np.asarray(self.radius * (1.0 - self.radius * self.curvature))
+
+    @cached_property
+    def roller_speed(self) -> Reals:
+        """Turning of the roller that rolls, per cam speed: eps (1 - |D1|/r_g) on the near flank."""
+        return np.asarray(self.sense * (1.0 - self.flank * np.abs(self.rate) / self.radius))
+
+    @cached_property
+    def roller_acceleration(self) -> Reals:
+        """Its derivative: -eps (D1 . (B'' - i eps B'))/(|D1| r_g)."""
+        along = dot(self.rate, self.second - 1j * self.sense * self.first) / np.abs(self.rate)
+        return np.asarray(-self.flank * self.sense * along / self.radius)
+
+    @cached_property
+    def entrainment(self) -> Reals:
+        """Speed of both surfaces through the contact per cam speed [m]: |D1| (1 - r_g kappa)."""
+        return np.asarray(np.abs(self.rate) * (1.0 - self.radius * self.curvature))
+
+    def force_by_lever(self, torque: Reals, arm: Points) -> Reals:
+        """Contact force that gives a torque about the pivot of the roller's arm, N = T/((B - A) x n_out).
+
+        Parameters
+            torque : (N,) array [N m] - that the cam must give
+            arm : (N,) array [m] - B - A
+        Notes
+            The lever is l cos(pressure angle): it does not vanish in a dwell, where the power does.
+        """
+        return np.asarray(torque / cross(arm, self.normal))
+
+    def force_along(self, force: Reals, travel: Points | complex) -> Reals:
+        """Contact force that gives a force along the travel of a slide, N = F/(u . n_out)."""
+        return np.asarray(force / dot(travel, self.normal))
+
+    def cam_torque(self, force: Reals) -> Reals:
+        """Torque that drives the cam, counter-clockwise [N m]: B x N n_out."""
+        push: Points = np.asarray(force * self.normal)
+        return cross(self.position, push)
+
+
+def plane_modulus(modulus: float, poisson: float) -> float:
+    """E* of two bodies of one material, E/(2 (1 - nu^2)) [N/mm^2].
+
+    Example
+        >>> round(plane_modulus(206_000.0, 0.3), 3)
+        113186.813
+    """
+    return modulus / (2.0 * (1.0 - poisson * poisson))
+
+
+@dataclass(frozen=True)
+class LineContact:
+    """Hertzian contact of two cylinders.
+
+    Parameters
+        force : array [N] - N; a negative one is taken as none
+        radius : array [mm] - R, relative radius of curvature
+        width : float [mm]
+        modulus : float [N/mm^2] - E*
+    Notes
+        Where R is not positive there is no such contact: the results are not numbers.
+    Example
+        >>> contact = LineContact(np.array([1000.0]), np.array([20.0]), 30.0, plane_modulus(206_000.0, 0.3))
+        >>> round(float(contact.pressure[0]), 3), round(float(contact.half_width[0]), 6)
+        (245.052, 0.086595)
+
+    Source
+        H. Hertz, line contact
+    """
+
+    force: Reals
+    radius: Reals
+    width: float
+    modulus: float
+
+    @cached_property
+    def _load(self) -> Reals:
+        """N/R, not a number where the contact does not exist."""
+        force = np.maximum(self.force, 0.0)
+        ratio: Reals = np.divide(force, self.radius, out=np.full(np.shape(force), math.nan), where=self.radius > 0.0)
+        return ratio
+
+    @cached_property
+    def pressure(self) -> Reals:
+        """p_max = sqrt(N E*/(pi b R)) [N/mm^2]."""
+        return np.asarray(np.sqrt(self._load * self.modulus / (math.pi * self.width)))
+
+    @cached_property
+    def half_width(self) -> Reals:
+        """b = sqrt(4 N R/(pi b_c E*)) [mm]."""
+        force = np.where(np.isnan(self._load), math.nan, np.maximum(self.force, 0.0))
+        return np.asarray(np.sqrt(4.0 * force * np.abs(self.radius) / (math.pi * self.width * self.modulus)))
+
+    @cached_property
+    def shear_depth(self) -> Reals:
+        """Depth of the greatest shear stress, Phi^(-1/2) b [mm]."""
+        return np.asarray(SHEAR_DEPTH * self.half_width)
+
+
+def positive_drive(force: Reals, preload: float, stiffness: tuple[float, float]) -> tuple[Reals, Reals]:
+    """Forces of the two rollers of a positive drive with preload.
+
+    N_1 = P + F k_1/(k_1 + k_2),  N_2 = P - F k_2/(k_1 + k_2)  while both are positive, else the loaded one has |F|
+
+    Parameters
+        force : (N,) array [N] - F, net, positive on the first roller
+        preload : float [N] - P
+        stiffness : k_1, k_2 - of the two contacts, in one unit
+    Example
+        >>> positive_drive(np.array([0.0, 100.0, 900.0]), 300.0, (1.0, 1.0))
+        (array([300., 350., 900.]), array([300., 250.,   0.]))
+    """
+    share = stiffness[0] / (stiffness[0] + stiffness[1])
+    one, other = preload + force * share, preload - force * (1.0 - share)
+    closed = (one > 0.0) & (other > 0.0)
+    return np.where(closed, one, np.maximum(force, 0.0)), np.where(closed, other, np.maximum(-force, 0.0))
+
+
+def preload_needed(force: Reals, stiffness: tuple[float, float], least: float = 0.0) -> float:
+    """Least preload with which both rollers stay on their cams [N].
+
+    P >= max(F k_2/(k_1 + k_2), -F k_1/(k_1 + k_2)) + N_min
+    """
+    share = stiffness[0] / (stiffness[0] + stiffness[1])
+    return float(np.max(np.maximum(force * (1.0 - share), -force * share))) + least

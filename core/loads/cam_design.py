@@ -1,0 +1,227 @@
+"""What `loads` shows besides of a machine with cams: contact forces, pressures, rollers, the torque of the cams."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from gearlink.core.loads import cam_checks, cam_tables
+from gearlink.core.loads.design import LoadsDesign
+from gearlink.core.results import cached_property
+
+if TYPE_CHECKING:
+    from gearlink.core.loads.cam_contact import LineContact, RollerOnCam
+    from gearlink.core.numerics.arrays import Reals
+    from gearlink.core.numerics.extremes import Extreme
+
+CONTACT = (
+    "contact_force_max",
+    "contact_force_min",
+    "hertz_pressure_max",
+    "shear_depth",
+    "roller_speed_max",
+    "roller_acceleration_max",
+    "traction_needed",
+    "entrainment_speed_max",
+    "cam_torque_max",
+    "cam_torque_min",
+    "cam_torque_rms",
+    "preload_needed",
+)
+_RPM = 2.0 * math.pi / 60.0
+
+
+class CamLoadsDesign(LoadsDesign):
+    """Loads of a machine with rollers on cams; a subclass says where they are and how hard they press.
+
+    Quantities of the contact are lists, a value for each of `rollers`.
+    """
+
+    extra_tables: ClassVar[tuple[str, ...]] = (*LoadsDesign.extra_tables, "contact")
+    rollers: ClassVar[tuple[str, ...]] = ("main", "return")
+    on_two_sides: ClassVar[bool] = False
+    """Whether one follower has a roller for each sense of its force."""
+
+    def roller_on_cam(self, name: str, phi: Reals) -> RollerOnCam:
+        """A roller at input angles, with derivatives by the turned angle of its cam."""
+        raise NotImplementedError
+
+    def contact_force(self, name: str, phi: Reals) -> Reals:
+        """Force between a roller and its cam at input angles [N]; a negative one is pulled."""
+        raise NotImplementedError
+
+    def cam_speed(self, phi: Reals) -> Reals:
+        """Magnitude of the speed of the cam [rad/s]."""
+        raise NotImplementedError
+
+    def cam_acceleration(self, phi: Reals) -> Reals:
+        """Its derivative by time [rad/s^2]."""
+        import numpy as np
+
+        return np.zeros_like(phi)
+
+    def cam_degrees(self, phi: Reals) -> Reals:
+        """Cam angle at input angles [deg]."""
+        raise NotImplementedError
+
+    @property
+    def closing_remedy(self) -> str:
+        """What would press the rollers harder to their cams."""
+        return "press it harder, lower the speed, or lighten the follower"
+
+    @cached_property
+    def own_rollers(self) -> tuple[str, ...]:
+        """The rollers that this design has."""
+        return self.rollers
+
+    def contact(self, name: str, phi: Reals) -> LineContact | None:
+        """The Hertzian contact of a roller; None where the file gives no width."""
+        if self.section.roller is None:
+            return None
+        from gearlink.core.loads.cam_contact import LineContact, plane_modulus
+        from gearlink.core.loads.spec import Material
+
+        material = self.section.material or Material()
+        radius = 1e3 * self.roller_on_cam(name, phi).relative_radius
+        modulus = plane_modulus(material.modulus, material.poisson)
+        return LineContact(self.contact_force(name, phi), radius, self.section.roller.width, modulus)
+
+    def _each(self, f: Callable[[str, Reals], Reals], greatest: bool = True) -> list[Extreme]:
+        return [self.extreme(lambda phi, name=name: f(name, phi), greatest) for name in self.own_rollers]  # type: ignore[misc]
+
+    @cached_property
+    def force_extremes(self) -> list[tuple[Extreme, Extreme]]:
+        """Least and greatest force of each roller [N]."""
+        return list(zip(self._each(self.contact_force, False), self._each(self.contact_force), strict=True))
+
+    @property
+    def contact_force_max(self) -> list[float]:
+        """Greatest contact force of each roller [N]."""
+        return [high.value for _, high in self.force_extremes]
+
+    @property
+    def contact_force_min(self) -> list[float]:
+        """Least contact force of each roller [N]."""
+        return [low.value for low, _ in self.force_extremes]
+
+    @cached_property
+    def pressure_extremes(self) -> list[Extreme] | None:
+        """Greatest Hertzian pressure of each roller [N/mm^2]; None without a width."""
+        if self.section.roller is None:
+            return None
+        import numpy as np
+
+        def pressure(name: str, phi: Reals) -> Reals:
+            contact = self.contact(name, phi)
+            assert contact is not None, "asked for only with a width"
+            return np.nan_to_num(contact.pressure, nan=-1.0)
+
+        return self._each(pressure)
+
+    @property
+    def hertz_pressure_max(self) -> list[float] | None:
+        """Greatest pressure of each roller and its cam [N/mm^2]."""
+        found = self.pressure_extremes
+        return None if found is None else [each.value for each in found]
+
+    @cached_property
+    def shear_depth(self) -> list[float] | None:
+        """Greatest depth of the greatest shear stress [mm]."""
+        if self.section.roller is None:
+            return None
+        import numpy as np
+
+        def depth(name: str, phi: Reals) -> Reals:
+            contact = self.contact(name, phi)
+            assert contact is not None, "asked for only with a width"
+            return np.nan_to_num(contact.shear_depth, nan=-1.0)
+
+        return [each.value for each in self._each(depth)]
+
+    def roller_speed(self, name: str, phi: Reals) -> Reals:
+        """Speed of a roller that rolls [rad/s]."""
+        found: Reals = self.roller_on_cam(name, phi).roller_speed * self.cam_speed(phi)
+        return found
+
+    def roller_acceleration(self, name: str, phi: Reals) -> Reals:
+        """Angular acceleration of it [rad/s^2]."""
+        roller, speed = self.roller_on_cam(name, phi), self.cam_speed(phi)
+        found: Reals = roller.roller_acceleration * speed**2 + roller.roller_speed * self.cam_acceleration(phi)
+        return found
+
+    @property
+    def roller_speed_max(self) -> list[float]:
+        """Greatest speed of each roller [1/min]."""
+        return [each.value / _RPM for each in self._each(lambda name, phi: abs(self.roller_speed(name, phi)))]
+
+    @property
+    def roller_acceleration_max(self) -> list[float]:
+        """Greatest angular acceleration of each roller [rad/s^2]."""
+        return [each.value for each in self._each(lambda name, phi: abs(self.roller_acceleration(name, phi)))]
+
+    def entrainment(self, name: str, phi: Reals) -> Reals:
+        """Speed of both surfaces through the contact [mm/s]."""
+        found: Reals = 1e3 * self.roller_on_cam(name, phi).entrainment * self.cam_speed(phi)
+        return found
+
+    @property
+    def entrainment_speed_max(self) -> list[float]:
+        """Greatest entrainment speed of each roller [mm/s]."""
+        return [each.value for each in self._each(lambda name, phi: abs(self.entrainment(name, phi)))]
+
+    def traction(self, name: str, phi: Reals) -> Reals:
+        """Share of the contact force that drives the roller round, |J_r dw/dt| and the bearing's moment."""
+        import numpy as np
+
+        roller = self.section.roller
+        radius = self.roller_on_cam(name, phi).radius
+        need = (roller.inertia * np.abs(self.roller_acceleration(name, phi)) + roller.bearing_moment) / radius
+        force = self.contact_force(name, phi)
+        share = np.divide(need, force, out=np.full_like(force, math.inf), where=force > 0.0)
+        return np.where(need == 0.0, 0.0, share)
+
+    @cached_property
+    def traction_needed(self) -> list[float] | None:
+        """Greatest share of the contact force that drives each roller round; None without a roller."""
+        if self.section.roller is None:
+            return None
+        import numpy as np
+
+        rows = np.linspace(0.0, self.machine.period, 1440 * self.turns, endpoint=False)
+        if self.on_two_sides:  # where the other roller carries, this one is not driven
+            carrying = {name: self.contact_force(name, rows) > 0.0 for name in self.own_rollers}
+            return [float(np.max(self.traction(name, rows)[carrying[name]], initial=0.0)) for name in self.own_rollers]
+        return [float(np.max(self.traction(name, rows))) for name in self.own_rollers]
+
+    def cam_torque(self, phi: Reals) -> Reals:
+        """Torque that drives the cams about their axis, counter-clockwise [N m]."""
+        total = 0.0 * phi
+        for name in self.own_rollers:
+            total = total + self.roller_on_cam(name, phi).cam_torque(self.contact_force(name, phi))
+        return total
+
+    @cached_property
+    def cam_torque_max(self) -> float:
+        """Greatest torque on the cams, counter-clockwise [N m]."""
+        return self.extreme(self.cam_torque).value
+
+    @cached_property
+    def cam_torque_min(self) -> float:
+        """Least torque on the cams, counter-clockwise [N m]."""
+        return self.extreme(self.cam_torque, False).value
+
+    @cached_property
+    def cam_torque_rms(self) -> float:
+        """Root mean square of it over the input angle [N m]."""
+        return math.sqrt(self.machine.mean(lambda phi: self.cam_torque(phi) ** 2))
+
+    @property
+    def preload_needed(self) -> float | None:
+        """Least preload that keeps both rollers of a positive drive on their cams [N]; None elsewhere."""
+        return None
+
+    table_contact: Any = cam_tables.contact
+
+    check_contact_pressure, check_contact_loss = cam_checks.contact_pressure, cam_checks.contact_loss
+    check_roller_skid, check_preload = cam_checks.roller_skid, cam_checks.preload

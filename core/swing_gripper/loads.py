@@ -1,0 +1,209 @@
+"""The loads of a swing gripper: cam rocker with linkage, return rocker, and the cams that drive both.
+
+The input angle is the cylinder's, which the cams turn with. The spring pulls the two rockers together with its torque.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from gearlink.core.errors import MissingSection, NoSolution
+from gearlink.core.loads.cam_checks import CAM_CHECKS
+from gearlink.core.loads.cam_design import CONTACT, CamLoadsDesign
+from gearlink.core.loads.design import loads_outline
+from gearlink.core.results import cached_property
+from gearlink.core.swing_gripper.design import SwingGripper
+from gearlink.core.swing_gripper.motion import require
+
+if TYPE_CHECKING:
+    from gearlink.core.cams.disc_cam import DiscCam
+    from gearlink.core.loads.cam_contact import RollerOnCam
+    from gearlink.core.loads.dynamics import Force, Mass, Torque
+    from gearlink.core.loads.machine import Machine
+    from gearlink.core.loads.mechanism import Connection, Mechanism
+    from gearlink.core.numerics.arrays import Reals
+    from gearlink.core.swing_gripper.loads_spec import GripperLoads as Section
+    from gearlink.core.swing_gripper.spec import SwingGripperSpec
+
+_MM = 1e-3
+
+
+class GripperLoads(CamLoadsDesign):
+    """Input angle: that of the cylinder shaft; A, C, D, E are the pins of the linkage, O the bearing of the cams."""
+
+    kind = "swing-gripper"
+    spec: SwingGripperSpec
+    section: Section
+    links = ("input", "coupler", "output", "return_rocker", "cam")
+    pins, meshes = ("A", "C", "D", "E", "A_return", "O"), ()
+    outlines = loads_outline(pins, meshes, (*CONTACT, "lift_off_speed"), CAM_CHECKS)
+
+    @cached_property
+    def design(self) -> SwingGripper:
+        """The geometry."""
+        return SwingGripper(self.spec)
+
+    @cached_property
+    def speed(self) -> float:
+        """Speed of the cylinder shaft [rad/s], one turn a sheet, in the sense of the cams."""
+        return self.design.shaft_speed
+
+    @cached_property
+    def own_rollers(self) -> tuple[str, ...]:
+        """Main, and return where the file has one."""
+        return self.rollers if self.design.return_cam is not None else self.rollers[:1]
+
+    @cached_property
+    def own_links(self) -> tuple[str, ...]:
+        """Without a return roller there is no return rocker."""
+        has = "return" in self.own_rollers
+        return self.links if has else tuple(name for name in self.links if name != "return_rocker")
+
+    @cached_property
+    def masses(self) -> dict[str, Mass]:
+        """From the section `inertia`."""
+        from gearlink.core.loads.dynamics import Mass
+
+        given = require(self.spec, "inertia", "input, output, coupler, coupler_mass, return_rocker")
+        found = {
+            "input": Mass(0.0, given.input),
+            "coupler": Mass(given.coupler_mass, given.coupler, complex(0.5 * self.spec.links.coupler * _MM)),
+            "output": Mass(0.0, given.output),
+        }
+        if "return" in self.own_rollers:
+            found["return_rocker"] = Mass(0.0, given.return_rocker)
+        return found
+
+    @cached_property
+    def machine(self) -> Machine:
+        """Everything, with the closing spring."""
+        from dataclasses import replace
+
+        return replace(super().machine, more=self._spring)
+
+    def _spring(self, _mechanism: Mechanism, phi: Reals) -> list[Force | Torque]:
+        """The spring presses both rockers to their cams; it turns with them and does no work."""
+        import numpy as np
+
+        from gearlink.core.loads.dynamics import Torque
+
+        if self.spec.spring is None:
+            return []
+        torque = np.full_like(phi, self.design.closure.lift_sense * self.design.closing_torque)
+        found: list[Force | Torque] = [Torque("input", -torque)]
+        if "return" in self.own_rollers:
+            found.append(Torque("return_rocker", torque))
+        return found
+
+    @cached_property
+    def own_joints(self) -> list[float]:
+        """Cylinder angles at which the law changes [rad]."""
+        ends, at = [], 0.0
+        for length in self.spec.phases.lengths():
+            at += length
+            ends.append(math.radians(at))
+        return ends
+
+    @property
+    def quiet_zones(self) -> list[tuple[float, float]]:
+        """Both dwells."""
+        a, b, c, far, back, near = (math.radians(length) for length in self.spec.phases.lengths())
+        return [(a + b + c, far), (a + b + c + far + back, near)]
+
+    @property
+    def transmission_angle(self) -> float:
+        """The lesser of those at D and C [rad]."""
+        return min(self.design.min_transmission_angle)
+
+    def _cam(self, name: str) -> DiscCam:
+        cam = self.design.main_cam if name == "main" else self.design.return_cam
+        assert cam is not None, "asked for only where the file has it"
+        return cam
+
+    def roller_on_cam(self, name: str, phi: Reals) -> RollerOnCam:
+        """A roller from the cam axis; the cam turns as far as the cylinder."""
+        from gearlink.core.loads.cam_contact import RollerOnCam
+
+        cam = self._cam(name)
+        path = cam.path(phi, 2)
+        return RollerOnCam(path.position * _MM, path.first * _MM, path.second * _MM, cam.sense, cam.roller_radius * _MM)
+
+    def contact_force(self, name: str, phi: Reals) -> Reals:
+        """Out of the reactions."""
+        found: Reals = self.machine.reactions(phi).unknowns[name][0]
+        return found
+
+    def cam_speed(self, phi: Reals) -> Reals:
+        """That of the cylinder shaft."""
+        import numpy as np
+
+        return np.full_like(phi, self.speed)
+
+    def cam_degrees(self, phi: Reals) -> Reals:
+        """The cam angle is the cylinder's."""
+        import numpy as np
+
+        return np.degrees(phi)
+
+    @property
+    def lift_off_speed(self) -> float | None:
+        """Speed at which a roller leaves its cam [sheets/h]; None without a spring."""
+        return None if self.spec.spring is None else self.design.lift_off_speed
+
+    @property
+    def closing_remedy(self) -> str:
+        """What presses the rollers harder."""
+        closure = self.design.closure
+        if self.spec.spring is None:
+            return "give spring: {torque: N m}"
+        worst = max(extreme.value for extreme in closure.worst_unloading)
+        return closure.spring_remedy(max(worst * 1.25, closure.closing_torque * 1.01))
+
+    def kinematics(self, phi: Reals) -> Mechanism:
+        """The links at cylinder angles, in the machine's frame."""
+        import numpy as np
+
+        from gearlink.core.loads.kinematics import Turn, fixed, steady
+        from gearlink.core.loads.mechanism import FRAME, Contact, Link, Mechanism, Pin
+
+        if self.spec.cam is None:
+            raise MissingSection("`loads` needs the section cam: its rollers carry the forces", key="cam")
+        motion = self.design.linkage.motion(np.degrees(phi), 2)
+        turns = {
+            name: Turn(*(getattr(motion, f"{name}_{part}") for part in ("angle", "velocity", "acceleration")))
+            for name in ("input", "coupler", "output")
+        }
+        a, e = (fixed(complex(*point) * _MM, phi) for point in (self.spec.pivots.input, self.spec.pivots.output))
+        rocker = Link(a, turns["input"])
+        c = rocker.at(self.spec.links.input * _MM)
+        sense = self.spec.cam.sense
+        axis = fixed(self.design.cam_center * _MM, phi)
+        links = {
+            "input": rocker,
+            "coupler": Link(c, turns["coupler"]),
+            "output": Link(e, turns["output"]),
+            "cam": Link(axis, steady(phi, sense)),
+        }
+        connections: list[Connection] = [
+            Pin("A", FRAME, "input", a.value),
+            Pin("C", "input", "coupler", c.value),
+            Pin("D", "coupler", "output", links["output"].at(self.spec.links.output * _MM).value),
+            Pin("E", FRAME, "output", e.value),
+            Pin("O", FRAME, "cam", axis.value),
+        ]
+        if "return" in self.own_rollers:
+            links["return_rocker"] = Link(a, turns["input"])
+            connections.append(Pin("A_return", FRAME, "return_rocker", a.value))
+        for name in self.own_rollers:
+            roller = self.roller_on_cam(name, phi)
+            arm = "input" if name == "main" else "return_rocker"
+            connections.append(Contact(name, "cam", arm, axis.value + roller.position, roller.normal))
+        return Mechanism(links, connections, "cam", float(sense), pivot=self.design.cam_center * _MM)
+
+    def raw(self, name: str) -> Any:
+        """Lists of one roller are what they are; a refused cam says where it could stand."""
+        try:
+            return super().raw(name)
+        except NoSolution as error:
+            raise self.design.cams.explained(error) from error

@@ -1,0 +1,186 @@
+"""Rollers on cams: reference numbers, Hertz by its integral, springs by scanning, closed forms.
+
+1e-8 against the reference of the gripper, 1e-9 for integrals, 1e-12 for closed forms.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import factory
+import numpy as np
+import pytest
+
+from gearlink.core.cams.laws import law
+from gearlink.core.loads.cam_contact import (
+    SHEAR_DEPTH,
+    SHEAR_SHARE,
+    LineContact,
+    RollerOnCam,
+    plane_modulus,
+    positive_drive,
+    preload_needed,
+)
+from gearlink.core.loads.springs import lift_off_speed, preload, requirement, spring_lines
+
+DATA = json.loads((Path(__file__).parents[2] / "reference" / "loads.json").read_text())
+GRIPPER = DATA["gripper"]
+
+
+@pytest.fixture(scope="module")
+def gripper() -> Any:
+    return factory.design("swing_gripper", command="loads", loads=GRIPPER["spec"])
+
+
+def test_gripper_against_the_reference(gripper: Any) -> None:
+    expected = GRIPPER["expected"]
+    phi = np.radians(np.array(expected["at"], dtype=float))
+    found = gripper.machine.reactions(phi)
+    roller = gripper.roller_on_cam("main", phi)
+    pairs = {
+        "contact_force_main": gripper.contact_force("main", phi),
+        "contact_force_return": gripper.contact_force("return", phi),
+        "cam_torque": gripper.cam_torque(phi),
+        "relative_radius_main": 1e3 * roller.relative_radius,
+        "roller_speed_ratio_main": np.abs(roller.roller_speed),
+        "entrainment_main": roller.entrainment * gripper.speed,
+        **{f"pin_{name}": found.unknowns[name].T for name in "ACDE"},
+    }
+    for name, values in pairs.items():
+        wanted = np.array(expected[name])
+        assert values == pytest.approx(wanted, abs=1e-8 * np.abs(wanted).max()), name
+    assert gripper.contact_force_max == pytest.approx(
+        [expected["contact_force_main_max"], expected["contact_force_return_max"]], rel=1e-9
+    )
+    assert gripper.contact_force_min[0] == pytest.approx(expected["contact_force_main_min"], rel=1e-9)
+    assert gripper.hertz_pressure_max == pytest.approx(
+        [expected["hertz_main_max"], expected["hertz_return_max"]], rel=1e-9
+    )
+    assert gripper.cam_torque_max == pytest.approx(expected["cam_torque_max"], rel=1e-9)
+    assert gripper.cam_torque_min == pytest.approx(expected["cam_torque_min"], rel=1e-9)
+
+
+def test_gripper_lifts_off_where_its_own_check_says(gripper: Any) -> None:
+    """At that speed the least force is nothing: two ways to the same speed."""
+    speed = gripper.lift_off_speed
+    at_it = factory.design("swing_gripper", command="loads", loads=GRIPPER["spec"], speed=speed)
+    assert min(at_it.contact_force_min) == pytest.approx(0.0, abs=1e-6 * max(at_it.contact_force_max))
+    above = factory.design("swing_gripper", command="loads", loads=GRIPPER["spec"], speed=1.01 * speed)
+    assert [check.status for check in above.check("contact-loss")].count("fail") >= 1
+
+
+def test_torque_of_the_gripper_by_power_and_by_the_contacts(gripper: Any) -> None:
+    phi = np.radians(np.arange(0.0, 360.0, 7.0))
+    assert gripper.power_identity <= 1e-12
+    sense = gripper.spec.cam.sense
+    assert sense * gripper.cam_torque(phi) == pytest.approx(gripper.machine.torque(phi), abs=1e-10)
+
+
+# Hertz
+
+
+def test_pressure_adds_up_to_the_force() -> None:
+    """An ellipse over the contact's width, p_max at its middle: its integral is N to 1e-9."""
+    contact = LineContact(np.array([1700.0]), np.array([17.0]), 24.0, plane_modulus(206_000.0, 0.3))
+    b, p = float(contact.half_width[0]), float(contact.pressure[0])
+    t = (np.arange(200) + 0.5) * (math.pi / 200)  # x = b cos t: the integrand becomes sin^2, exact by midpoints
+    assert np.mean(p * np.sin(t) ** 2) * math.pi * b * 24.0 == pytest.approx(1700.0, rel=1e-12)
+
+
+def test_greatest_shear_below_a_line_contact() -> None:
+    """Half the difference of the principal stresses on the axis, scanned: 0.30028 p at 0.78615 b."""
+    depth = np.linspace(0.5, 1.1, 600_001)
+    root = np.sqrt(1.0 + depth**2)
+    shear = 0.5 * ((1.0 + 2.0 * depth**2) / root - 2.0 * depth - 1.0 / root) * -1.0
+    top = int(np.argmax(shear))
+    assert shear[top] == pytest.approx(SHEAR_SHARE, abs=1e-11)
+    assert depth[top] == pytest.approx(SHEAR_DEPTH, abs=1e-5)
+    assert pytest.approx(0.3002831060007776, abs=1e-15) == SHEAR_SHARE
+    assert pytest.approx(0.7861513777574233, abs=1e-15) == SHEAR_DEPTH
+
+
+@pytest.mark.parametrize("flank", [1, -1])
+def test_relative_radius_is_that_of_roller_and_profile(flank: int) -> None:
+    """On an eccentric disc the pitch curve is a circle: 1/R = 1/r_g + kappa_c, convex outside and concave inside."""
+    phi = np.linspace(0.0, 6.0, 30)
+    center, pitch, r = 0.012, 0.055, 0.01
+    # A roller whose centre stays on a circle about a point that turns with the cam, led along +x.
+    turning = center * np.exp(1j * phi)
+    rate, bend = 1j * turning, -turning
+    x = turning.real + np.sqrt(pitch**2 - turning.imag**2)
+    x1 = rate.real - turning.imag * rate.imag / np.sqrt(pitch**2 - turning.imag**2)
+    root = np.sqrt(pitch**2 - turning.imag**2)
+    x2 = bend.real - (rate.imag**2 + turning.imag * bend.imag) / root - (turning.imag * rate.imag) ** 2 / root**3
+    roller = RollerOnCam(x + 0j, x1 + 0j, x2 + 0j, 1, r, flank)
+    own = pitch - flank * r
+    assert roller.relative_radius == pytest.approx(1.0 / (1.0 / r + flank / own), rel=1e-10)
+
+
+def test_roller_speed_is_that_of_rolling() -> None:
+    """A concentric disc: surface speeds agree, (r_c w_c)/(-r_g) with the cam's sense."""
+    phi = np.linspace(0.0, 1.0, 3)
+    at = np.full(3, 0.06 + 0j)
+    roller = RollerOnCam(at, 0.0 * at, 0.0 * at, 1, 0.01)
+    assert roller.roller_speed == pytest.approx(-0.05 / 0.01, rel=1e-13)
+    assert roller.entrainment == pytest.approx(0.05, rel=1e-13)
+    assert roller.roller_acceleration == pytest.approx(0.0, abs=1e-12)
+    assert phi.size == 3
+
+
+def test_acceleration_of_the_roller_is_the_slope_of_its_speed(gripper: Any) -> None:
+    """Central difference of the speed ratio, 1e-6 of the largest; away from the joints of the law."""
+    phi, h = np.radians([30.0, 75.0, 140.0, 230.0, 260.0]), 1e-5
+    before, after = (gripper.roller_on_cam("main", phi + step).roller_speed for step in (-h, h))
+    slope = (after - before) / (2.0 * h)
+    assert gripper.roller_on_cam("main", phi).roller_acceleration == pytest.approx(
+        slope, abs=1e-6 * np.abs(slope).max()
+    )
+
+
+# Springs
+
+
+def _double_dwell() -> tuple[Any, Any]:
+    spring = DATA["spring"]["spec"]
+    rise = law(spring["law"])
+    beta = math.radians(spring["rise_angle"])
+    u = np.linspace(0.0, 1.0, 20001)
+    place, _, second = (part * spring["lift"] * 1e-3 for part in rise.evaluate(u, 2))
+    lift, bend = place, second / beta**2
+    return np.concatenate((lift, lift[::-1])), np.concatenate((bend, bend[::-1]))
+
+
+def test_preload_and_lift_off_against_the_reference() -> None:
+    given, expected = DATA["spring"]["spec"], DATA["spring"]["expected"]
+    lift, bend = _double_dwell()
+    speed = given["speed"] * math.pi / 30.0
+    found = preload(lift, bend, given["mass"], speed * given["speed_margin"], given["rate"] * 1e3, given["least_force"])
+    assert found == pytest.approx(expected["preload"], rel=1e-6)
+    limit = lift_off_speed(lift, bend, given["mass"], 400.0, given["rate"] * 1e3) * 30.0 / math.pi
+    assert limit == pytest.approx(expected["lift_off_speed_at_preload_400"], rel=1e-6)
+
+
+def test_lines_of_the_hull_hold_every_point_and_touch_two() -> None:
+    lift, bend = _double_dwell()
+    force = requirement(lift[::50], bend[::50], 2.0, 37.0, 30.0)
+    pairs = spring_lines(lift[::50], force)
+    assert pairs
+    for start, rate in pairs:
+        room = start + rate * lift[::50] - force
+        assert room.min() >= -1e-9 * force.max()
+        assert np.count_nonzero(room < 1e-7 * force.max()) >= 2
+
+
+def test_positive_drive_opens_where_the_preload_ends() -> None:
+    force = np.linspace(-900.0, 1200.0, 2101)
+    stiffness = (2e5, 3e5)
+    needed = preload_needed(force, stiffness)
+    one, other = positive_drive(force, needed, stiffness)
+    assert min(one.min(), other.min()) == pytest.approx(0.0, abs=1e-9)
+    assert one - other == pytest.approx(force, abs=1e-9)
+    loose = positive_drive(force, 0.9 * needed, stiffness)
+    assert min(loose[0].min(), loose[1].min()) == 0.0
+    assert loose[0] - loose[1] == pytest.approx(force, abs=1e-9)
