@@ -38,6 +38,17 @@ _GEAR_LINKAGE = {
     "frame_ratio_interval": Term("d_min, d_max", "1", "frame over crank between which window and tolerance are met"),
     "frame_length_interval": Term("AD_min, AD_max", "mm", "frame between which this crank meets window and tolerance"),
     "input_speed": Term("n1", "1/min", "speed of the input"),
+    "quartic_k": Term("K", "mm^6", "coefficient of cos^4(beta) for a momentary dwell", "thesis (4-27)"),
+    "quartic_l": Term("L", "mm^6", "coefficient of cos^2(beta) for a momentary dwell", "thesis (4-27)"),
+    "quartic_m": Term("M", "mm^6", "constant term for a momentary dwell", "thesis (4-27)"),
+    "base_angle": Term("beta", "deg", "base angle of the triangle CFE in the standstill", "thesis (4-26)"),
+    "pole_angle": Term(
+        "alpha", "deg", "angle of the crank to the line of poles in the standstill", "thesis (4-28)"
+    ),
+    "segment_af": Term("AF", "mm", "input axis to the pole of crank gear and idler", "thesis (4-29)"),
+    "segment_fe": Term("FE", "mm", "distance of the two poles", "thesis (4-30)"),
+    "segment_eg": Term("EG", "mm", "pole of idler and output gear to the foot of D", "thesis (4-31)"),
+    "segment_gd": Term("GD", "mm", "output axis to the line of the poles", "thesis (4-32)"),
     "tolerance_dwell_start": Term("phi_L", "deg", "crank angle at which that interval starts"),
     "acceleration_ratio_max": Term("(e5/w1^2)max", "1", "greatest output acceleration", "thesis (4-25)"),
     "acceleration_ratio_max_at": Term("", "deg", "crank angle of the greatest output acceleration"),

@@ -5,6 +5,11 @@ from __future__ import annotations
 import re
 
 COLUMNS = {
+    "BC_angle": "direction of the bed chain's coupler BC",
+    "CD_angle": "direction of the bed chain's driven crank DC",
+    "DE_angle": "direction of the slider's crank DE",
+    "HM_angle": "direction of the cylinder chain's coupler HM",
+    "MN_angle": "direction of the cylinder chain's driven crank NM",
     "acceleration": "second derivative of the displacement, per radian squared of the input (a law: without dimension)",
     "acceleration_ratio": "output acceleration per square of the input speed, d(speed_ratio)/d(input angle)",
     "arm_lead": "angle by which the gripper arm is ahead of the line of centres",
@@ -61,6 +66,7 @@ COLUMNS = {
     "normal_force_return": "contact force on the return cam",
     "output_acceleration": "angular acceleration of the output at this input speed",
     "output_angle": "angle of the output, 0 at input angle 0 where it is a gear",
+    "output_jerk": "angular jerk of the output link",
     "output_jerk_ratio": "output jerk per cube of the input speed",
     "output_speed": "angular speed of the output at this input speed",
     "output_velocity": "angular speed of the output link",
@@ -71,8 +77,7 @@ COLUMNS = {
     "point_x_velocity": "velocity of the coupler point along x at this input speed",
     "point_y_acceleration": "acceleration of the coupler point along y at this input speed",
     "point_y_velocity": "velocity of the coupler point along y at this input speed",
-    "pole_x": "x of the instant centre P15 of crank gear and output gear",
-    "pole_y": "y of the instant centre P15 of crank gear and output gear",
+    "pole_x": "distance of the instant centre P15 of crank gear and output gear from A, towards D",
     "pressure_angle": "angle between the contact force and the follower's motion, signed",
     "radius": "radius of the pitch curve at the joint",
     "ratio": "one over the other: torque without over with the device",
@@ -102,6 +107,7 @@ COLUMNS = {
     "tangent_step": "angle between the tangents at the joint",
     "theta": "angle of the drum's shaft from the bite",
     "time": "time since input angle 0",
+    "tip_acceleration": "magnitude of the acceleration of the gripper's tip",
     "tip_speed": "speed of the gripper's tip",
     "tip_x": "x of the gripper's tip",
     "tip_y": "y of the gripper's tip",

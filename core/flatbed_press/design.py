@@ -68,6 +68,7 @@ class FlatbedPress(SliderCrankQuantities, GearQuantities, Design):
         "analyze": Outline(_PRESS_QUANTITIES, _PRESS_CHECKS, ("positions",)),
     }
 
+    extra_tables = ("chains",)
     trials = 30
     candidates, ways_of = remedies.candidates, remedies.ways_of
 
@@ -145,7 +146,7 @@ class FlatbedPress(SliderCrankQuantities, GearQuantities, Design):
 
     # Tables and checks
 
-    table_positions, table_follower = tables.positions, tables.follower
+    table_positions, table_follower, table_chains = tables.positions, tables.follower, tables.chains
     table_main_cam, table_return_cam = tables.main_cam, tables.return_cam
 
     check_transmission_angle, check_register = checks.transmission_angle, checks.register

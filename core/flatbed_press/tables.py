@@ -37,6 +37,39 @@ def positions(design: FlatbedPress, samples: int | None = None) -> Table:
     return Table.of("positions", columns)
 
 
+def chains(design: FlatbedPress, samples: int | None = None) -> Table:
+    """Accelerations of bed and cylinder and the directions of all links over the input angle, with the time."""
+    import numpy as np
+
+    from gearlink.core.linkages import fourbar_sweep, slider_crank_sweep
+    from gearlink.core.numerics.arrays import turn_degrees
+
+    motion, degrees = design.motion, turn_degrees(samples)
+    phi, speed, bed, cylinder = np.radians(degrees), motion.input_speed, motion.bed, motion.cylinder
+    cam = bed.cam_angle(phi, 2)
+    p, q = bed.travel(phi, 2, cam), cylinder.travel(phi, 2)
+    one = fourbar_sweep.solve(bed.linkage, bed.initial_crank_angle + phi, 0)
+    other = fourbar_sweep.solve(cylinder.linkage, cylinder.initial_angle - phi, 0)
+    slider = one.rocker_angle - bed.crank_offset_angle
+    crank, rod, offset = bed.slider_crank_length, bed.rod, bed.offset
+    slider_crank_sweep.slider(slider, crank, rod, offset)  # refuses where the rod does not reach
+    columns = {
+        "input_angle": (degrees, "deg"),
+        "time": (degrees / 360.0 * 3.6e6 / design.spec.speed, "ms"),
+        "bed_velocity": (p.first * speed, "mm/s"),
+        "bed_acceleration": (p.second * speed**2, "mm/s^2"),
+        "cylinder_velocity": (q.first * speed, "mm/s"),
+        "cylinder_acceleration": (q.second * speed**2, "mm/s^2"),
+        "BC_angle": (np.degrees(one.coupler_angle), "deg"),
+        "CD_angle": (np.degrees(one.rocker_angle), "deg"),
+        "DE_angle": (np.degrees(slider), "deg"),
+        "rod_angle": (np.degrees(np.arcsin((crank * np.cos(slider) + offset) / rod)), "deg"),
+        "HM_angle": (np.degrees(other.coupler_angle), "deg"),
+        "MN_angle": (np.degrees(other.rocker_angle), "deg"),
+    }
+    return Table.of("chains", columns)
+
+
 def _transmission(linkage: FourBar, crank_angle: Any) -> Any:
     import numpy as np
 

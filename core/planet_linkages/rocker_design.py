@@ -82,6 +82,7 @@ class GearedRocker(RealSpeed, SingleMesh):
         "gear": Outline(GEAR_QUANTITIES, GEAR_CHECKS),
     }
 
+    extra_tables = ("links",)
     ways = {
         "shaft-clearance": (*SHAFT_WAYS, *_LINKS, *_FEWER, *_TEETH),
         "transmission-angle": (*_LINKS, *_TEETH, *_FEWER),
@@ -255,6 +256,22 @@ class GearedRocker(RealSpeed, SingleMesh):
         }
         rates = {"output_speed": ("speed_ratio", 1), "output_acceleration": ("acceleration_ratio", 2)}
         return Table.of("motion", self.timed(columns, "crank_angle", rates))
+
+    def table_links(self, samples: int | None = None) -> Table:
+        """Angle, speed, acceleration and jerk of every link over a turn of the crank."""
+        import numpy as np
+
+        from gearlink.core.linkages.link_motion import columns, combined, four_bar_motions
+        from gearlink.core.numerics.arrays import turn_degrees
+
+        degrees = turn_degrees(samples)
+        motions = four_bar_motions(self.linkage, np.radians(degrees))
+        start = solve(self.linkage, 0.0)
+        carrier = (motions["rocker"][0] - start.rocker_angle, *motions["rocker"][1:])
+        coupler = (motions["coupler"][0] - start.coupler_angle, *motions["coupler"][1:])
+        motions["output"] = combined((1.0 - self.gear_ratio, carrier), (self.gear_ratio, coupler))
+        whole, rates = columns(motions)
+        return Table.of("links", self.timed({"crank_angle": (degrees, "deg"), **whole}, "crank_angle", rates))
 
     # Checks
 

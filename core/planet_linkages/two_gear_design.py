@@ -92,6 +92,7 @@ class TwoGearFourBar(RealSpeed, SingleMesh):
         "gear": Outline(MESH_QUANTITIES, MESH_CHECKS),
     }
 
+    extra_tables = ("links",)
     ways = {
         "dwell-condition": (*_TEETH, *_FEWER, *_LINKS),
         "shaft-clearance": (*SHAFT_WAYS, *_LINKS, *_FEWER, *_TEETH),
@@ -330,6 +331,22 @@ class TwoGearFourBar(RealSpeed, SingleMesh):
             "coupler_speed": ("coupler_ratio", 1),
         }
         return Table.of("motion", self.timed(columns, "crank_angle", rates))
+
+    def table_links(self, samples: int | None = None) -> Table:
+        """Angle, speed, acceleration and jerk of every link over a turn of the crank."""
+        import numpy as np
+
+        from gearlink.core.linkages.link_motion import columns, combined, four_bar_motions
+        from gearlink.core.numerics.arrays import turn_degrees
+
+        degrees = turn_degrees(samples)
+        motions = four_bar_motions(self.linkage, np.radians(degrees))
+        start, still = solve(self.linkage, 0.0), np.zeros_like(degrees)
+        carrier = (np.radians(degrees), np.ones_like(degrees), still, still)
+        coupler = (motions["coupler"][0] - start.coupler_angle, *motions["coupler"][1:])
+        motions["output"] = combined((1.0 - self.gear_ratio, carrier), (self.gear_ratio, coupler))
+        whole, rates = columns(motions)
+        return Table.of("links", self.timed({"crank_angle": (degrees, "deg"), **whole}, "crank_angle", rates))
 
     # Checks
 

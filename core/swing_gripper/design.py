@@ -38,7 +38,7 @@ class SwingGripper(Design):
         "cam": Outline(_CAM, _CAM_CHECKS, ("main_cam", "return_cam")),
         "analyze": Outline((*_LAW, *_LOOP), _LAW_CHECKS, ("motion",)),
     }
-    extra_tables = ("forces", "newton", "handover_window")
+    extra_tables = ("forces", "newton", "handover_window", "tip")
 
     trials = 20
     candidates, ways_of = remedies.candidates, remedies.ways_of
@@ -104,7 +104,7 @@ class SwingGripper(Design):
 
     table_motion, table_newton, table_forces = tables.motion, tables.newton, tables.forces
     table_main_cam, table_return_cam = tables.main_cam, tables.return_cam
-    table_handover_window = tables.handover_window
+    table_handover_window, table_tip = tables.handover_window, tables.tip
 
     check_transmission_angle, check_conditioning = checks.transmission_angle, checks.conditioning
     check_velocity_step, check_acceleration_step = checks.velocity_step, checks.acceleration_step

@@ -34,6 +34,32 @@ def motion(design: SwingGripper, samples: int | None = None) -> Table:
     return Table.of("motion", columns)
 
 
+def tip(design: SwingGripper, samples: int | None = None) -> Table:
+    """Path of the gripper's tip in the machine's frame, its speed and acceleration, and the jerk of the arm."""
+    import cmath
+    import math
+
+    import numpy as np
+
+    from gearlink.core.numerics.arrays import turn_degrees
+
+    degrees, spec, speed = turn_degrees(samples), design.spec, design.motion.shaft_speed
+    beta = design.motion.law.evaluate(degrees, 3)
+    arm = spec.arm.length * cmath.exp(1j * math.radians(spec.arm.direction)) * np.exp(1j * spec.swing_sense * beta[0])
+    velocity, acceleration = beta[1] * speed, beta[2] * speed**2
+    place = complex(*spec.pivots.output) + arm
+    columns = {
+        "theta": (degrees, "deg"),
+        "time": (degrees / 360.0 * 3.6e6 / spec.speed, "ms"),
+        "tip_x": (place.real, "mm"),
+        "tip_y": (place.imag, "mm"),
+        "tip_speed": (spec.arm.length * np.abs(velocity), "mm/s"),
+        "tip_acceleration": (spec.arm.length * np.hypot(acceleration, velocity**2), "mm/s^2"),
+        "output_jerk": (spec.swing_sense * beta[3] * speed**3 + 0.0, "rad/s^3"),
+    }
+    return Table.of("tip", columns)
+
+
 def newton(design: SwingGripper, samples: int | None = None) -> Table:
     """Both ways side by side: deviation of the angles, steps, opening of the loop, error of the closed form."""
     import numpy as np

@@ -20,9 +20,9 @@ from gearlink.core.linkages.standstills import BackStep
 from gearlink.core.linkages.swing import rocker_swing
 from gearlink.core.real_speed import RealSpeed, per_time
 from gearlink.core.remedies import down, either, up
-from gearlink.core.report import Check, Table, safely_above, safely_below
+from gearlink.core.report import Check, safely_above, safely_below
 from gearlink.core.results import cached_property
-from gearlink.core.three_gear import bodies, dwells, motion
+from gearlink.core.three_gear import bodies, dwells, motion, tables
 from gearlink.core.three_gear.codes import ACHIEVED, DWELL_TOLERANCE
 from gearlink.core.three_gear.idler_choice import idler_for_ratio
 from gearlink.core.three_gear.momentary_dwell import crank_with_room
@@ -67,7 +67,7 @@ class ThreeGearFourBar(RealSpeed, Design):
         "analyze": Outline(QUANTITIES, ("dwell-window", *CHECKS), ("motion",)),
         "gear": Outline(MESH_QUANTITIES, MESH_CHECKS),
     }
-    extra_tables = ("motion",)
+    extra_tables = ("motion", "links")
     ways = WAYS
 
     # Gears and links
@@ -281,24 +281,7 @@ class ThreeGearFourBar(RealSpeed, Design):
         # a ring on the crank is the first of its mesh, the second of its pair of gears
         return found[::-1] if mesh == "crank_idler" and self.crank_teeth < 0 and isinstance(found, tuple) else found
 
-    def table_motion(self, samples: int | None = None) -> Table:
-        """Output angle, speed and acceleration, transmission angle over a turn of the crank."""
-        import numpy as np
-
-        from gearlink.core.numerics.arrays import turn_degrees
-        from gearlink.core.three_gear.sweep import output_motion
-
-        degrees = turn_degrees(samples)
-        sweep = output_motion(self.linkage, self.train, np.radians(degrees))
-        columns = {
-            "crank_angle": (degrees, "deg"),
-            "output_angle": (np.degrees(sweep.output_angle), "deg"),
-            "speed_ratio": (sweep.speed_ratio, "1"),
-            "acceleration_ratio": (sweep.acceleration_ratio, "1"),
-            "transmission_angle": (np.degrees(sweep.transmission_angle), "deg"),
-        }
-        rates = {"output_speed": ("speed_ratio", 1), "output_acceleration": ("acceleration_ratio", 2)}
-        return Table.of("motion", self.timed(columns, "crank_angle", rates))
+    table_motion, table_links = tables.motion, tables.links
 
     # Checks
 

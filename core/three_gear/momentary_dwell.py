@@ -30,6 +30,58 @@ class Tangency:
     pole_offset: float
 
 
+@dataclass(frozen=True, slots=True)
+class Intermediates:
+    """The thesis's steps to the frame of a momentary dwell: K, L, M [mm^6], beta, alpha [rad], AF, FE, EG, GD [mm]."""
+
+    k: float
+    l: float  # noqa: E741 - the thesis's letter
+    m: float
+    beta: float
+    alpha: float
+    af: float
+    fe: float
+    eg: float
+    gd: float
+
+
+def intermediates(r1: float, r3: float, r5: float, eccentricity: float) -> Intermediates:
+    """The steps of thesis (4-26) to (4-33), with its slips put right.
+
+    K cos^4 b + L cos^2 b + M = 0,   sin alpha = r1 sin b/e,   AF = r1 cos b - e cos alpha,
+    FE = 2 r3 cos b,   EG = r5 cos b,   GD = r5 sin b,   AD = sqrt((AF + FE + EG)^2 + GD^2)
+
+    Parameters
+        r1, r3, r5 : float [mm] - reference radii of crank gear, idler and output gear
+        eccentricity : float [mm] - e = AB, crank length
+    Raises
+        NoSolution - as `tangency`
+    Example
+        >>> steps = intermediates(25.0, 25.0, 75.0, 18.0)
+        >>> round(steps.af, 9), round(math.degrees(steps.beta), 9), round(math.degrees(steps.alpha), 9)
+        (13.797431469, 44.5807655, 77.130662947)
+
+    Source
+        thesis (4-26) to (4-33); K with the 2 that its numbers lack, AF with the minus that its formula lacks
+    """
+    found = tangency(r1, r3, r5, eccentricity)
+    s, h = r1 + 2.0 * r3 + r5, (eccentricity - r1) * (eccentricity + r1)
+    k = 16.0 * r1 * r1 * r3 * (r3 + r5) * (r1 + r3) * (r1 + r3 + r5)
+    along = found.pole_offset * found.cos_beta  # e cos(alpha), positive where the pole F lies beyond A
+    sine = r1 * found.sin_beta
+    return Intermediates(
+        k,
+        k * h / (r1 * r1),
+        -((s * h) ** 2),
+        math.atan2(found.sin_beta, found.cos_beta),
+        math.atan2(sine, along),
+        r1 * found.cos_beta - along,
+        2.0 * r3 * found.cos_beta,
+        r5 * found.cos_beta,
+        r5 * found.sin_beta,
+    )
+
+
 def least_eccentricity(r1: float, r3: float, r5: float) -> float:
     """Crank length down to which a momentary dwell exists; there the linkage stretches straight.
 

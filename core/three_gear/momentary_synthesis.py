@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gearlink.core.design import Outline
+from gearlink.core.design import Outline, placed
 from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.report import safely_below
@@ -10,15 +10,27 @@ from gearlink.core.results import cached_property
 from gearlink.core.three_gear import internal_families, momentary_dwell
 from gearlink.core.three_gear.idler_choice import LEAST_IDLER
 from gearlink.core.three_gear.internal_dwell import is_internal
-from gearlink.core.three_gear.momentary_dwell import crank_with_room, least_eccentricity
+from gearlink.core.three_gear.momentary_dwell import Intermediates, crank_with_room, intermediates, least_eccentricity
 from gearlink.core.three_gear.names import CHECKS, QUANTITIES
 from gearlink.core.three_gear.synthesis import Synthesis, with_analysis
+
+_STEPS = (
+    "quartic_k",
+    "quartic_l",
+    "quartic_m",
+    "base_angle",
+    "pole_angle",
+    "segment_af",
+    "segment_fe",
+    "segment_eg",
+    "segment_gd",
+)
 
 
 class MomentaryDwellSynthesis(Synthesis):
     """`synth momentary-dwell`: any three gears and one length are given, the other is sought."""
 
-    outlines = with_analysis("synth momentary-dwell", Outline(QUANTITIES, CHECKS))
+    outlines = with_analysis("synth momentary-dwell", Outline((*QUANTITIES, *_STEPS), CHECKS))
 
     def _crank_of(self, idler: int) -> float:
         """Crank length as given, or from the frame, the gap or the balance that is."""
@@ -55,6 +67,22 @@ class MomentaryDwellSynthesis(Synthesis):
             forms = internal_families if is_internal(*radii) else momentary_dwell
             linkage: FourBar = forms.momentary_linkage(*radii, crank, self.spec.assembly)
         return linkage
+
+    @cached_property
+    def steps(self) -> Intermediates | None:
+        """The thesis's steps to the frame; it knows no rings."""
+        radii = self._radii(self.idler_teeth)
+        return None if is_internal(*radii) else intermediates(*radii, self.linkage.crank)
+
+    quartic_k: float | None = placed("steps.k")
+    quartic_l: float | None = placed("steps.l")
+    quartic_m: float | None = placed("steps.m")
+    base_angle: float | None = placed("steps.beta")
+    pole_angle: float | None = placed("steps.alpha")
+    segment_af: float | None = placed("steps.af")
+    segment_fe: float | None = placed("steps.fe")
+    segment_eg: float | None = placed("steps.eg")
+    segment_gd: float | None = placed("steps.gd")
 
     def _widest_gap(self, radii: tuple[float, float, float]) -> float:
         """The gap of the shortest crank with a momentary dwell [mm]."""

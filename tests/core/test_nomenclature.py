@@ -33,6 +33,7 @@ UNITS = {
     "1",
     "mm/s",
     "mm/s^2",
+    "mm^6",
     "mm/rad",
     "mm/rad^2",
     "rad/s",

@@ -1,0 +1,69 @@
+"""Tables of a three-gear four-bar; each is a function of the design and the number of rows."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from gearlink.core.report import Table
+
+if TYPE_CHECKING:
+    from gearlink.core.linkages.link_motion import Motion
+    from gearlink.core.three_gear.design import ThreeGearFourBar
+
+
+def motion(design: ThreeGearFourBar, samples: int | None = None) -> Table:
+    """Output angle, speed and acceleration, transmission angle over a turn of the crank."""
+    import numpy as np
+
+    from gearlink.core.numerics.arrays import turn_degrees
+    from gearlink.core.three_gear.sweep import output_motion
+
+    degrees = turn_degrees(samples)
+    sweep = output_motion(design.linkage, design.train, np.radians(degrees))
+    columns = {
+        "crank_angle": (degrees, "deg"),
+        "output_angle": (np.degrees(sweep.output_angle), "deg"),
+        "speed_ratio": (sweep.speed_ratio, "1"),
+        "acceleration_ratio": (sweep.acceleration_ratio, "1"),
+        "transmission_angle": (np.degrees(sweep.transmission_angle), "deg"),
+    }
+    rates = {"output_speed": ("speed_ratio", 1), "output_acceleration": ("acceleration_ratio", 2)}
+    return Table.of("motion", design.timed(columns, "crank_angle", rates))
+
+
+def links(design: ThreeGearFourBar, samples: int | None = None) -> Table:
+    """Angle, speed, acceleration and jerk of every link and gear over a turn, and the pole P15 on the line AD.
+
+    AP15 = W AD/(W - 1) from w5/w1 = AP15/DP15; none where both gears turn at one speed
+    """
+    import numpy as np
+
+    from gearlink.core.linkages.link_motion import columns, four_bar_motions
+    from gearlink.core.numerics.arrays import turn_degrees
+
+    degrees = turn_degrees(samples)
+    motions = four_bar_motions(design.linkage, np.radians(degrees))
+    whole, rates = columns({**motions, **_gears(design, np.radians(degrees), motions)})
+    speed = whole["output_speed_ratio"][0]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        pole = design.frame_length * speed / (speed - 1.0)
+    columns_ = {"crank_angle": (degrees, "deg"), **whole, "pole_x": (pole, "mm")}
+    return Table.of("links", design.timed(columns_, "crank_angle", rates))
+
+
+def _gears(design: ThreeGearFourBar, crank: Any, motions: dict[str, Motion]) -> dict[str, Motion]:
+    """Idler and output gear, 0 at crank angle 0: w3 = (1 + r1/r3) w2 - (r1/r3) w1, and thesis (4-24)."""
+    import numpy as np
+
+    from gearlink.core.linkages.fourbar import solve
+    from gearlink.core.linkages.link_motion import combined
+
+    start, still = solve(design.linkage, 0.0), np.zeros_like(crank)
+    steady = (crank, np.ones_like(crank), still, still)
+    coupler = (motions["coupler"][0] - start.coupler_angle, *motions["coupler"][1:])
+    rocker = (motions["rocker"][0] - start.rocker_angle, *motions["rocker"][1:])
+    ratio, train = design.crank_teeth / design.idler_teeth, design.train
+    return {
+        "idler": combined((1.0 + ratio, coupler), (-ratio, steady)),
+        "output": combined((train.ratio, steady), (train.coupler_share, coupler), (train.rocker_share, rocker)),
+    }
