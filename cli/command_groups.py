@@ -11,7 +11,7 @@ GROUPS = {
     "From the task to a design": ("synth", "gears", "explore"),
     "Compute a design": ("analyze", "gear", "crank", "press", "gripper", "swing", "cam", "loads"),
     "Judge it": ("check", "diff", "tolerance", "register"),
-    "Show it, make it": ("report", "watch", "animate", "export"),
+    "Show it, make it": ("report", "watch", "sheet", "animate", "export"),
     "Many designs": ("batch", "bench"),
 }
 """Headings and the commands below them; a command that stands in none comes last."""

@@ -23,6 +23,7 @@ def register(app: typer.Typer) -> None:
     """Add the commands of this module to the command tree."""
     app.command("chart")(_chart)
     app.command("animate")(_animate)
+    app.command("sheet")(_sheet)
 
 
 @takes(
@@ -67,3 +68,20 @@ def _animate(
     from gearlink.cli.commands.animate import Asked, run_animate
 
     raise typer.Exit(run_animate(spec, Asked(format.value, fps, seconds, size), options))
+
+
+@takes("plot_format", "dpi", "out", "overrides", "quiet")
+def _sheet(
+    spec: Spec,
+    options: Options,
+    names: Annotated[
+        list[str] | None, typer.Argument(metavar="[NAME]...", help="motion, timing, pressure, drawing; default: all")
+    ] = None,
+) -> None:
+    """Write further sheets of a design: motion of every output, timing, pressure angles, drawings of cams.
+
+    Example: gearlink sheet press.yaml motion drawing --plot-format pdf
+    """
+    from gearlink.cli.commands.sheet import run_sheet
+
+    raise typer.Exit(run_sheet(spec, names or [], options))

@@ -77,6 +77,13 @@ class CylinderChain:
         first = scale * state.rocker_velocity
         return Travel(value, first) if order == 1 else Travel(value, first, -scale * state.rocker_acceleration)
 
+    def jerk(self, input_angle: Any) -> Any:
+        """Third derivative of the cylinder's travel, over an array of input angles [mm/rad^3]."""
+        from gearlink.core.linkages import fourbar_sweep
+
+        state = fourbar_sweep.solve(self.linkage, self.initial_angle - input_angle, 3)
+        return self.radius * self.gear_ratio * state.rocker_jerk
+
 
 @dataclass(frozen=True)
 class BedChain:
@@ -137,6 +144,22 @@ class BedChain:
             return Travel(value)
         first = state.rocker_velocity
         return Travel(value, first) if order == 1 else Travel(value, first, state.rocker_acceleration)
+
+    def jerk(self, input_angle: Any) -> Any:
+        """Third derivative of the bed's travel before compensation, over an array of input angles [mm/rad^3].
+
+        p''' = -2 (h''' c'^3 + 3 h'' c' c'' + h' c'''),  c the cam angle
+
+        Source
+            own derivation: the chain rule once more
+        """
+        from gearlink.core.linkages import fourbar_sweep, slider_crank_sweep
+
+        state = fourbar_sweep.solve(self.linkage, self.initial_crank_angle + input_angle, 3)
+        psi = state.rocker_angle - self.crank_offset_angle
+        _, h1, h2, h3 = slider_crank_sweep.slider(psi, self.slider_crank_length, self.rod, self.offset, 3)
+        c1, c2, c3 = state.rocker_velocity, state.rocker_acceleration, state.rocker_jerk
+        return -2.0 * (h3 * c1**3 + 3.0 * h2 * c1 * c2 + h1 * c3)
 
     def input_angle(self, cam_angle: Any) -> Any:
         """Input angle [rad] at a cam angle [rad]; a drag link gives exactly one."""

@@ -18,9 +18,9 @@ def slider(psi: ArrayLike, crank: float, rod: float, offset: float = 0.0, order:
     Parameters
         psi : float array of any shape [rad] - directions of the crank from +x, counter-clockwise
         crank, rod, offset : float [mm] - r, L, e (signed)
-        order : 0, 1 or 2 - derivatives wanted
+        order : 0..3 - derivatives wanted
     Returns
-        h, h', h'' up to the order : tuple of arrays of that shape [mm, mm/rad, mm/rad^2]
+        h, h', h'', h''' up to the order : tuple of arrays of that shape [mm, mm/rad ... mm/rad^3]
     Raises
         NoSolution - when the rod does not reach the slide line at one of the positions
     Example
@@ -42,9 +42,9 @@ def slider_at(
     Parameters
         cosine, sine : float arrays of one shape [1] - the unit vector along the crank
         crank, rod, offset : float [mm] - r, L, e (signed)
-        order : 0, 1 or 2 - derivatives wanted
+        order : 0..3 - derivatives wanted
     Returns
-        h, h', h'' up to the order : tuple of arrays [mm, mm/rad, mm/rad^2]
+        h, h', h'', h''' up to the order : tuple of arrays [mm, mm/rad ... mm/rad^3]
     Raises
         NoSolution - when the rod does not reach the slide line at one of the positions
     Example
@@ -69,4 +69,9 @@ def slider_at(
     w1 = u * across / w
     if order == 1:
         return depth, w1 - along
-    return depth, w1 - along, across - (across * across - u * along + w1 * w1) / w
+    w2 = -(across * across - u * along + w1 * w1) / w
+    if order == 2:
+        return depth, w1 - along, across + w2
+    # w w' = -u u' twice more, with u' = -r sin(psi), u'' = -r cos(psi), u''' = r sin(psi)
+    w3 = -(3.0 * across * along + u * across + 3.0 * w1 * w2) / w
+    return depth, w1 - along, across + w2, along + w3

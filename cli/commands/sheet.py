@@ -1,0 +1,65 @@
+"""`gearlink sheet`: further sheets of a design: motion of every output, timing, pressure angles, drawings of cams."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from gearlink.cli.commands.design import show_refusal
+from gearlink.cli.evaluate import open_design, read_spec
+from gearlink.cli.exit_codes import ExitCode
+from gearlink.cli.files import CannotWrite, safe_stem, write_atomically
+from gearlink.cli.options import Options
+from gearlink.cli.reading.design_file import diagnose_no_solution
+from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
+from gearlink.core.errors import NoSolution
+
+if TYPE_CHECKING:
+    from gearlink.cli.figures.sheet_list import Makers
+
+
+def run_sheet(source: str, names: Sequence[str], options: Options) -> int:
+    """Write NAME-SHEET.png for each sheet asked for, or for all that the design has; gives the exit status."""
+    from gearlink.cli.figures.sheet_list import sheets_of
+
+    try:
+        loaded, kind = open_design(source, options)
+        spec = read_spec(loaded, kind, source)
+        commands = spec.commands()
+        command = "analyze" if "analyze" in commands else commands[0]
+        try:
+            made = sheets_of(kind.design(command, spec))
+            paths = [_write(made, name, spec, options) for name in _chosen(made, names, kind.name)]
+        except NoSolution as error:
+            raise DesignFileError([diagnose_no_solution(loaded, error)]) from error
+    except (DesignFileError, CannotWrite) as error:
+        return show_refusal(error, source, options)
+    if not options.quiet:
+        print("\n".join(f"wrote {path}" for path in paths), file=sys.stderr)
+    return ExitCode.OK
+
+
+def _chosen(made: Makers, names: Sequence[str], kind: str) -> list[str]:
+    """The sheets asked for, each once; `drawing` is that of every cam."""
+    chosen: list[str] = []
+    for name in names or tuple(made):
+        found = [sheet for sheet in made if sheet == name or sheet.rpartition("-")[0] == name]
+        if not found:
+            known = f"it has {', '.join(made)}" if made else "it has none"
+            message = f"this {kind} has no sheet named {name!r}; {known}"
+            raise DesignFileError([Diagnostic("GL115", message, "<command line>", key=name)])
+        chosen += found
+    if not chosen:
+        raise DesignFileError([Diagnostic("GL113", f"a {kind} has no further sheets", "<command line>", key="kind")])
+    return list(dict.fromkeys(chosen))
+
+
+def _write(made: Makers, name: str, spec: Any, options: Options) -> Path:
+    from gearlink.cli.figures.write import save, settled
+
+    ending = options.plot_format.value
+    path = options.out / f"{safe_stem(spec.name)}-{name}.{ending}"
+    write_atomically(path, lambda stream: save(lambda: settled(made[name]()), spec.name, stream, ending, options.dpi))
+    return path

@@ -1,0 +1,39 @@
+"""Sheets that a design has besides the picture of its command; what each shows is imported when it is drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+Makers = dict[str, Callable[[], "Figure"]]
+
+SHEETS = {
+    "motion": "place, velocity, acceleration, jerk of every output, per angle and in time",
+    "timing": "circular timing diagram of a press or gripper",
+    "pressure": "pressure angle of the cams of a press or gripper, as polar diagram and on the profiles",
+    "drawing": "drawing of each cam with dimensions, start mark, keyway and a radius for each degree",
+}
+
+
+def sheets_of(design: Any) -> Makers:
+    """The sheets that a design has, by name; a drawing for each cam (`drawing-1`, `drawing-2`).
+
+    Raises
+        NoSolution - where the mechanism cannot make its turn
+    """
+    from gearlink.cli.figures import cam_sheets, motion_sheet, timing_sheet
+
+    found: Makers = {}
+    if motion_sheet.courses(design):
+        found["motion"] = lambda: motion_sheet.draw(design)
+    if design.kind in timing_sheet.kinds():
+        found["timing"] = lambda: timing_sheet.draw(design)
+    cams = cam_sheets.discs(design)
+    if cams:
+        found["pressure"] = lambda: cam_sheets.pressure(design)
+    for i in range(len(cams)):
+        found[f"drawing-{i + 1}"] = lambda i=i: cam_sheets.drawing(design, i)  # type: ignore[misc]
+    return found

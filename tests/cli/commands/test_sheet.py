@@ -1,0 +1,133 @@
+"""`sheet`: curves that are each other's derivatives, timing in angles of the input, drawings with every degree."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from factory import design, worked
+
+from gearlink.cli.figures import cam_sheets, motion_sheet, timing_sheet
+from gearlink.cli.figures.sheet_list import sheets_of
+
+SMOOTH = [
+    ("candy_feed", "synth dwell"),
+    ("two_gear_ring", "analyze"),
+    ("wide_lever", "analyze"),
+    ("ty460_slider_crank", "analyze"),
+    ("ty460", "analyze"),
+    ("hypocycloid_slider", "analyze"),
+    ("five_bar_path", "analyze"),
+]
+
+
+def _turned(values: Any) -> Any:
+    """The derivative of a periodic curve and its winding, by its Fourier series."""
+    gain = values[-1] - values[0]
+    periodic = values[:-1] - gain * np.arange(len(values) - 1) / (len(values) - 1)
+    waves = np.fft.rfft(periodic)
+    slope = np.fft.irfft(1j * np.arange(len(waves)) * waves, len(periodic)) + gain / (2.0 * math.pi)
+    return np.append(slope, slope[0])
+
+
+@pytest.mark.parametrize(("name", "command"), SMOOTH)
+def test_each_curve_is_the_derivative_of_the_one_above(name: str, command: str) -> None:
+    """Fourier's derivative is exact to rounding, which it multiplies by the number of waves, 360."""
+    for course in motion_sheet.courses(design(worked(name), command=command)):
+        assert len(course.rates) >= 3
+        for lower, upper in zip(course.rates, course.rates[1:], strict=False):
+            scale = float(np.abs(upper).max()) + float(np.abs(lower).max())
+            assert np.abs(_turned(lower) - upper).max() < 360 * 1e-13 * scale
+
+
+def test_jerk_of_the_gripper_joins_its_acceleration() -> None:
+    (course,) = motion_sheet.courses(design(worked("swing_gripper")))
+    x = np.radians(course.x)
+    for lower, upper in zip(course.rates, course.rates[1:], strict=False):
+        middle = 0.5 * (upper[1:] + upper[:-1])
+        grown = np.concatenate([[0.0], np.cumsum(middle * np.diff(x))])
+        # The trapezium rule on quarters of a degree: a jump costs it half a step of x.
+        steps = np.abs(np.diff(upper))
+        jumps = 0.5 * float(x[1]) * steps[steps > 0.05 * np.ptp(upper)].sum()
+        assert np.abs(grown - (lower - lower[0])).max() < jumps + 1e-4 * np.abs(lower).max()
+
+
+def test_time_is_on_the_right_in_si() -> None:
+    made = design(worked("ty460"))
+    figure = motion_sheet.draw(made)
+    velocity = next(axes for axes in figure.axes if axes.get_ylabel().startswith("velocity"))
+    (right,) = velocity.child_axes
+    assert right.get_ylabel() == "[m/s]"
+    figure.draw_without_rendering()
+    assert right.get_ylim()[1] == pytest.approx(velocity.get_ylim()[1] * made.input_speed * 1e-3)
+
+
+def test_timing_is_in_angles_of_the_input() -> None:
+    made = design(worked("ty460"))
+    rings, marks, over = timing_sheet._press(made)
+    assert over == "input"
+    names = {ring.name: ring.stretches for ring in rings}
+    cams = {phase.name: phase for phase in names["cams"]}
+    assert cams["sync"].start == pytest.approx(math.degrees(made.sync_start), abs=1e-9)
+    assert cams["sync"].end == pytest.approx(math.degrees(made.sync_end), abs=1e-9)
+    assert [place for _, place in marks] == pytest.approx([cams["sync"].start, cams["sync"].end])
+    turning = names["bed"][0].end
+    assert abs(float(made.bed.travel(math.radians(turning), 1).first)) < 1.0  # mm/rad, of 427
+
+
+def test_radii_of_each_degree_lie_on_the_pitch_curve() -> None:
+    for name in ("ty460", "swing_gripper"):
+        for cam in cam_sheets.discs(design(worked(name))):
+            radii = cam_sheets.pitch_radii(cam)
+            theta = np.linspace(0.0, 2.0 * math.pi, 200001)
+            pitch, _ = cam.points(theta)
+            angle = np.mod(np.angle(pitch / pitch[0]), 2.0 * math.pi)
+            for degree in range(0, 360, 37):
+                nearest = int(np.argmin(np.abs(angle - math.radians(degree))))
+                assert radii[degree] == pytest.approx(abs(pitch[nearest]), abs=5e-3)
+            assert radii[0] == pytest.approx(abs(pitch[0]), rel=1e-12)
+
+
+@pytest.mark.parametrize(("bore", "key"), [(12.0, (4, 1.8)), (12.1, (5, 2.3)), (80.0, (22, 5.4)), (131.0, None)])
+def test_keyways_begin_above_a_bore(bore: float, key: tuple[float, float] | None) -> None:
+    assert cam_sheets.keyway(bore) == key
+
+
+def test_every_sheet_of_a_press(gearlink: Any, designs: Path, tmp_path: Path) -> None:
+    ended = gearlink("sheet", designs / "ty460.yaml", "--plot-format", "svg", "--out", tmp_path)
+    assert (ended.status, ended.out) == (0, "")
+    names = ("drawing-1", "drawing-2", "motion", "pressure", "timing")
+    assert sorted(path.name for path in tmp_path.iterdir()) == [f"TY-460-{name}.svg" for name in names]
+    text = (tmp_path / "TY-460-drawing-1.svg").read_text()
+    assert "359" in text
+    assert "start mark" in text
+
+
+@pytest.mark.parametrize(
+    ("name", "asked", "words"),
+    [
+        ("ty460_slider_crank", ("timing",), "it has motion"),
+        ("six_bar_two_trains", (), "has no further sheets"),
+        ("ty460", ("motions",), "it has motion, timing, pressure, drawing-1, drawing-2"),
+    ],
+)
+def test_what_a_design_has_not_is_refused(
+    gearlink: Any, designs: Path, tmp_path: Path, name: str, asked: tuple[str, ...], words: str
+) -> None:
+    ended = gearlink("sheet", designs / f"{name}.yaml", *asked, "--out", tmp_path / "out")
+    assert ended.status == 2
+    assert words in ended.err
+    assert not (tmp_path / "out").exists()
+
+
+def test_kinds_with_sheets() -> None:
+    assert list(sheets_of(design(worked("swing_gripper")))) == [
+        "motion",
+        "timing",
+        "pressure",
+        "drawing-1",
+        "drawing-2",
+    ]
