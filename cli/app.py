@@ -16,6 +16,7 @@ import typer.main
 from gearlink.cli.batch.options import BatchFormat, BatchOptions, FailOn
 from gearlink.cli.bench.command import register as register_bench
 from gearlink.cli.command_groups import OrderOfWork
+from gearlink.cli.commands.gears import gears
 from gearlink.cli.commands.laws import laws
 from gearlink.cli.commands.picture_options import register as register_pictures
 from gearlink.cli.commands.reference_options import register
@@ -138,6 +139,7 @@ register_exploring(app)
 register_tolerances(app)
 register_pictures(app)
 app.command("laws")(laws)
+app.command("gears")(gears)
 
 
 @app.command("help")

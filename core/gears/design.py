@@ -17,6 +17,7 @@ from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
+    from gearlink.core.gears.contour import BlockingContour
     from gearlink.core.gears.spec import GearPairSpec
 
 _SHIFTS = (
@@ -55,7 +56,7 @@ class GearPairDesign(GearQuantities, Design):
         "analyze": Outline((*GEAR_QUANTITIES, *DRAWING_QUANTITIES), (*GEAR_CHECKS, *DRAWING_CHECKS)),
     }
 
-    extra_tables = ("drawing", "path", "candidates")
+    extra_tables = ("drawing", "path", "candidates", "contour", "margins")
 
     @property
     def ways(self) -> dict[str, tuple[Way, ...]]:  # type: ignore[override]
@@ -112,6 +113,23 @@ class GearPairDesign(GearQuantities, Design):
 
         with at_key(self._placed_by):
             return candidates_table(self.data)
+
+    @cached_property
+    def contour(self) -> BlockingContour:
+        """The blocking contour about the design."""
+        from gearlink.core.gears.contour import BlockingContour
+
+        return BlockingContour(self.data)
+
+    def table_contour(self, _samples: int | None = None) -> Table:
+        """The lines of the blocking contour, point by point."""
+        with at_key(self._placed_by):
+            return self.contour.table()
+
+    def table_margins(self, _samples: int | None = None) -> Table:
+        """How far the design is from each line of the contour, at the same shift sum."""
+        with at_key(self._placed_by):
+            return self.contour.margin_table()
 
     @property
     def _placed_by(self) -> str:

@@ -1,0 +1,226 @@
+"""The blocking contour: which profile shifts a pair of gears may have, and how far a design is from each limit.
+
+Every line is traced along diagonals x_1 + x_2 = const, on which the mesh does not change, by bracketed roots; a line
+may cross a diagonal more than once, and does.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, NamedTuple
+
+from gearlink.core.errors import NoSolution
+from gearlink.core.gears.candidates import strength_of
+from gearlink.core.gears.data import GearData
+from gearlink.core.gears.pair import GearPair, Pair
+from gearlink.core.gears.shift_split import Diagonal
+from gearlink.core.numerics.roots import bracketed_root, sign_changes
+from gearlink.core.report import Table
+from gearlink.core.results import cached_property
+
+if TYPE_CHECKING:
+    from gearlink.core.report import Column
+
+Value = Callable[[GearData], float | None]
+_DIAGONALS, _POINTS = 81, 33
+_TIPS, _RATIOS = (0.0, 0.2, 0.4), (1.0, 1.1, 1.2)
+_ROOM, _LEAST, _MOST = 0.5, -0.8, 1.6
+
+
+class Line(NamedTuple):
+    """A line of the contour: its value is positive where a pair is good, or changes sign where gears are equal."""
+
+    name: str
+    value: Value
+    blocks: bool = True
+
+
+def lines_of(data: GearData) -> tuple[Line, ...]:
+    """The lines that a pair can have: undercut, tips, contact ratio, root fillets, base circles, ring tips."""
+    found: list[Line] = []
+    for gear in (0, 1):
+        if data.pair.teeth[gear] > 0:
+            found.append(Line(f"undercut {gear + 1}", lambda d, g=gear: _undercut(d, g)))  # type: ignore[misc]
+        for level in _TIPS:
+            name = f"tip {gear + 1} {level:g} m" if level else f"pointed tip {gear + 1}"
+            found.append(Line(name, lambda d, g=gear, t=level: d.pair.tip_thickness[g] / d.pair.module - t))  # type: ignore[misc]
+        found.append(Line(f"fillet {gear + 1}", lambda d, g=gear: _fillet(d, g)))  # type: ignore[misc]
+        found.append(Line(f"base circle {gear + 1}", lambda d, g=gear: d.pair.interference_margin[1 - g]))  # type: ignore[misc]
+    found += [Line(f"contact ratio {r:g}", lambda d, r=r: d.pair.contact_ratio - r) for r in _RATIOS]  # type: ignore[misc]
+    found.append(Line("equal sliding", _sliding, blocks=False))
+    found.append(Line("equal root stress", _roots, blocks=False))
+    if data.pair.internal:
+        found.append(Line("tip fouling", lambda d: d.internal.tip_fouling_margin if d.internal else None))
+        found.append(Line("radial assembly", lambda d: d.internal.radial_assembly_margin if d.internal else None))
+    return tuple(found)
+
+
+def _undercut(data: GearData, gear: int) -> float | None:
+    least = data.pair.min_shift_no_undercut[gear]
+    return None if least is None else data.pair.profile_shift[gear] - least
+
+
+def _fillet(data: GearData, gear: int) -> float | None:
+    form, used = data.pair.form_radius[gear], data.path.used_root_radius[gear]
+    if form is None or data.pair.interference_margin[1 - gear] < 0.0:
+        return None
+    return used - form
+
+
+def _sliding(data: GearData) -> float | None:
+    if not data.pair.slides:
+        return None
+    one, other = data.pair.specific_sliding
+    return one - other
+
+
+def _roots(data: GearData) -> float | None:
+    found = strength_of(data)(data.pair)
+    return None if found is None else math.log(found[0] / found[1])
+
+
+@dataclass(frozen=True)
+class BlockingContour:
+    """The lines about a design, and its margins.
+
+    Parameters
+        data : GearData
+    Example
+        >>> contour = BlockingContour(GearData(pair=GearPair.from_shift(1.0, (17, 40), (0.3, 0.2))))
+        >>> contour.crossings(contour.line("undercut 1"), 0.5)[0] == contour.data.pair.min_shift_no_undercut[0]
+        True
+
+    Source
+        own derivation
+    """
+
+    data: GearData
+
+    @cached_property
+    def pair(self) -> GearPair:
+        """The pair by its shifts, without backlash."""
+        x = self.data.pair.profile_shift
+        return replace(self.data.pair, given_shift=x, given_distance=None, given_first_shift=None)
+
+    @cached_property
+    def lines(self) -> tuple[Line, ...]:
+        """Every line."""
+        return lines_of(self.data)
+
+    def line(self, name: str) -> Line:
+        """A line by its name."""
+        return next(line for line in self.lines if line.name == name)
+
+    @cached_property
+    def window(self) -> tuple[Pair, Pair]:
+        """Between which x_1, and x_2, the lines are traced [module]."""
+        one, other = self.data.pair.profile_shift
+        first = min(_LEAST, one - _ROOM), max(_MOST, one + _ROOM)
+        if self.data.pair.internal:
+            return first, (min(-_MOST, other - _ROOM), max(-_LEAST, other + _ROOM))
+        return first, (min(_LEAST, other - _ROOM), max(_MOST, other + _ROOM))
+
+    def reach(self, shift_sum: float) -> Pair:
+        """x_1 between which a diagonal lies in the window."""
+        (low1, high1), (low2, high2) = self.window
+        return max(low1, shift_sum - high2), min(high1, shift_sum - low2)
+
+    def _on(self, shift_sum: float) -> list[float]:
+        """x_1 along a diagonal, inside the window."""
+        low, high = self.reach(shift_sum)
+        return [low + (high - low) * k / (_POINTS - 1) for k in range(_POINTS)] if low < high else []
+
+    def _data_on(self, shift_sum: float) -> Callable[[float], GearData]:
+        diagonal = Diagonal(replace(self.pair, given_shift=(shift_sum / 2.0, shift_sum / 2.0)))
+        return lambda first: replace(self.data, pair=diagonal.at(first))
+
+    def crossings(self, line: Line, shift_sum: float) -> list[float]:
+        """x_1 at which a line crosses a diagonal.
+
+        Raises
+            NoSolution - where the shift sum leaves no mesh
+        """
+        at, grid = self._data_on(shift_sum), self._on(shift_sum)
+        return _roots_of(lambda first: _value(line, at(first)), grid, [_value(line, at(first)) for first in grid])
+
+    @cached_property
+    def points(self) -> dict[str, list[Pair]]:
+        """Points (x_1, x_2) of every line, along rising shift sums."""
+        (low1, high1), (low2, high2) = self.window
+        found: dict[str, list[Pair]] = {line.name: [] for line in self.lines}
+        for k in range(_DIAGONALS):
+            total = low1 + low2 + (high1 + high2 - low1 - low2) * k / (_DIAGONALS - 1)
+            for name, first in self._across(total):
+                found[name].append((first, total - first))
+        return found
+
+    def _across(self, total: float) -> Iterator[tuple[str, float]]:
+        try:
+            at = self._data_on(total)
+        except NoSolution:
+            return
+        grid = self._on(total)
+        designs = [at(first) for first in grid]
+        for line in self.lines:
+            values = [_value(line, each) for each in designs]
+            for root in _roots_of(lambda first, line=line: _value(line, at(first)), grid, values):  # type: ignore[misc]
+                yield line.name, root
+
+    @cached_property
+    def margins(self) -> dict[str, tuple[float | None, float | None]]:
+        """For each line how far x_1 may fall and rise, at the same shift sum, until the line is met [module]."""
+        one, other = self.pair.profile_shift
+        found: dict[str, tuple[float | None, float | None]] = {}
+        for line in self.lines:
+            roots = self.crossings(line, one + other)
+            below, above = [x - one for x in roots if x <= one], [x - one for x in roots if x > one]
+            found[line.name] = max(below, default=None), min(above, default=None)
+        return found
+
+    def table(self) -> Table:
+        """The table `contour`: a row per point of a line."""
+        rows = [(name, x1, x2) for name, points in self.points.items() for x1, x2 in points]
+        columns: dict[str, tuple[Column, str]] = {
+            "line": ([row[0] for row in rows], "1"),
+            "x1": ([row[1] for row in rows], "1"),
+            "x2": ([row[2] for row in rows], "1"),
+        }
+        return Table.of("contour", columns)
+
+    def margin_table(self) -> Table:
+        """The table `margins`: each line with the value of the design and the way to it along the diagonal."""
+        at = replace(self.data, pair=self.pair)
+        values = [_value(line, at) for line in self.lines]
+        states = [_state(line, value) for line, value in zip(self.lines, values, strict=True)]
+        columns: dict[str, tuple[Column, str]] = {
+            "line": ([line.name for line in self.lines], "1"),
+            "state": (states, "1"),
+            "less_x1": ([self.margins[line.name][0] for line in self.lines], "1"),
+            "more_x1": ([self.margins[line.name][1] for line in self.lines], "1"),
+        }
+        return Table.of("margins", columns)
+
+
+def _state(line: Line, value: float) -> str:
+    return "" if not line.blocks or value != value else "good" if value >= 0.0 else "blocked"
+
+
+def _value(line: Line, data: GearData) -> float:
+    """The value of a line, not a number where a pair has none."""
+    try:
+        found = line.value(data)
+    except NoSolution:
+        return math.nan
+    return math.nan if found is None else found
+
+
+def _roots_of(value: Callable[[float], float], grid: list[float], values: list[float]) -> list[float]:
+    found = []
+    for k in sign_changes(values):
+        try:
+            found.append(bracketed_root(value, grid[k], grid[k + 1]))
+        except NoSolution:  # the value ends within the step
+            continue
+    return found

@@ -1,0 +1,90 @@
+"""`gearlink gears`: whole teeth by brute force, the window of shifts, and what a wrong line says.
+
+Tolerances: none; teeth are whole, and a shift sum is compared with its own window.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import pytest
+
+from gearlink.core.errors import NoSolution
+from gearlink.core.gears.pair import GearPair
+from gearlink.core.gears.search import Wish, candidates, teeth_sums
+
+
+@pytest.mark.parametrize(
+    ("internal", "helix", "module"), [(False, 0.0, 3.0), (False, 20.0, 2.5), (True, 0.0, 2.0), (True, 15.0, 1.5)]
+)
+def test_sums_of_teeth_by_brute_force(internal: bool, helix: float, module: float) -> None:
+    window = (-0.4, 0.7)
+    wish = Wish(
+        ratio=3.0,
+        distance=90.0,
+        shift_sum=window,
+        internal=internal,
+        helix_angle=math.radians(helix),
+        modules=(module,),
+    )
+    found = set(teeth_sums(wish, module))
+    for total in range(20, 130):
+        teeth = (20, -20 - total) if internal else (10, total - 10)
+        try:
+            pair = GearPair(module=module, teeth=teeth, given_distance=90.0, helix_angle=math.radians(helix))
+            inside = window[0] <= pair.shift_sum <= window[1]
+        except NoSolution:
+            inside = False
+        assert inside == (total in found), total
+
+
+def test_every_candidate_meets_the_wish() -> None:
+    wish = Wish(ratio=3.2, distance=120.0, modules=(2.0, 2.5, 3.0), tolerance=0.03)
+    found = candidates(wish)
+    assert found
+    for each in found:
+        assert abs(each.ratio / 3.2 - 1.0) <= 0.03
+        assert -0.5 <= each.pair.shift_sum <= 1.0
+        assert each.pair.center_distance == 120.0
+    assert [each.margin < 0.0 for each in found] == sorted(each.margin < 0.0 for each in found)
+
+
+def test_json_of_a_search(gearlink: Any) -> None:
+    ended = gearlink("gears", "--ratio", 3.2, "--center-distance", 120, "--modules", "3", "--format", "json")
+    assert (ended.status, ended.json["kind"]) == (0, "gear-search")
+    columns = ended.json["tables"]["candidates"]["columns"]
+    assert columns[:8] == [
+        "teeth1", "teeth2", "module", "ratio", "ratio_error", "shift_sum", "contact_ratio", "margin",
+    ]  # fmt: skip
+
+
+def test_a_ring_has_negative_teeth(gearlink: Any) -> None:
+    ended = gearlink("gears", "--ratio", 3.2, "--center-distance", 60, "--internal", "--modules", 2, "--format", "json")
+    rows = ended.json["tables"]["candidates"]["rows"]
+    assert ended.status == 0
+    assert all(row[1] < -row[0] for row in rows)
+
+
+def test_nothing_found_is_a_finding(gearlink: Any) -> None:
+    ended = gearlink("gears", "--ratio", 3.2, "--center-distance", 1)
+    assert ended.status == 1
+    assert "widen --shift-sum" in ended.err
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        ("--shift-sum", "a:b"),
+        ("--shift-sum", "1:-1"),
+        ("--modules", "2,x"),
+        ("--modules", "-1"),
+        ("--modules", "nan"),
+        ("--internal", "--ratio", "0.5"),
+        ("--helix", "60"),
+    ],
+)
+def test_wrong_lines(gearlink: Any, wrong: tuple[str, ...]) -> None:
+    ended = gearlink("gears", "--ratio", "3", "--center-distance", "100", *wrong)
+    assert ended.status == 2
+    assert "Traceback" not in ended.err
