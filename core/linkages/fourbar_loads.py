@@ -62,8 +62,9 @@ def full_balance(linkage: FourBar, masses: Mapping[str, Mass], at_c: float = 0.0
     Returns
         moments : complex [kg m] by link - of crank and rocker, in their coordinates
     Example
-        >>> full_balance(FourBar(40.0, 120.0, 100.0, 140.0), {"crank": Mass(2.0, 0.0, 0.01)})
-        {'crank': (-0.02+0j), 'rocker': (-0-0j)}
+        >>> moments = full_balance(FourBar(40.0, 120.0, 100.0, 140.0), {"crank": Mass(2.0, 0.0, 0.01)})
+        >>> moments["crank"].real, abs(moments["rocker"])
+        (-0.02, 0.0)
 
     Source
         linearly independent vectors (Berkof and Lowen, 1969)

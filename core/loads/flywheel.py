@@ -52,7 +52,7 @@ class Energy:
         """From load torque and inertia over a period.
 
         Example
-            >>> turn = Panels.over(2.0 * math.pi, [])
+            >>> turn = Panels.over(2.0 * np.pi, [])
             >>> wave = Energy.from_functions(lambda x: 18.0 + 5.0 * np.sin(2.0 * x), np.ones_like, turn)
             >>> wave.mean, round(wave.fluctuation, 12)
             (18.0, 5.0)
@@ -106,7 +106,7 @@ class Energy:
         Notes
             Exact with J(phi). The usual dW/(delta w^2) leaves J(phi) out.
         Example
-            >>> turn = Panels.over(2.0 * math.pi, [])
+            >>> turn = Panels.over(2.0 * np.pi, [])
             >>> wave = Energy.from_functions(lambda x: 5.0 * np.sin(2.0 * x), np.zeros_like, turn)
             >>> round(wave.flywheel_for(0.05, 10.0), 12)
             1.0
