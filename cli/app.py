@@ -112,6 +112,7 @@ def _batch(
     cache: Annotated[Path | None, typer.Option(metavar="DIR", help="keep results; skip unchanged designs")] = None,
     shard: Annotated[str, typer.Option(metavar="I/N", help="run only the I-th of N shares of the files")] = "1/1",
     jobs: Annotated[int, typer.Option("--jobs", "-j", min=0, help="number of processes; 0: chosen automatically")] = 0,
+    dask: Annotated[str, typer.Option(metavar="ADDRESS", help="compute on the Dask cluster of this scheduler")] = "",
 ) -> None:
     """Run every design file in folders; print one summary and give one exit status.
 
@@ -122,7 +123,7 @@ def _batch(
     if options.plot and out is None:
         raise typer.BadParameter("--plot of a batch needs --out DIR", param_hint="--plot")
     design = replace(options, strict=options.strict or fail_on is FailOn.WARNING)
-    raise typer.Exit(run_batch(places, BatchOptions(design, format, out, cache, _share(shard), jobs)))
+    raise typer.Exit(run_batch(places, BatchOptions(design, format, out, cache, _share(shard), jobs, dask)))
 
 
 def _share(text: str) -> tuple[int, int]:

@@ -37,7 +37,8 @@ class FailOn(StrEnum):
 class BatchOptions:
     """What the user asked for; `design` holds what each design is run with.
 
-    `shard` is (i, n): the i-th of n shares of the files, counted from 1. `jobs` 0 lets the program choose.
+    `shard` is (i, n): the i-th of n shares of the files, counted from 1. `jobs` 0 lets the program choose;
+    `dask` is the address of a scheduler whose workers compute, in place of processes.
     `cache_key` signs what `cache` keeps.
     """
 
@@ -47,6 +48,7 @@ class BatchOptions:
     cache: Path | None = None
     shard: tuple[int, int] = (1, 1)
     jobs: int = 0
+    dask: str = ""
     cache_key: bytes = field(default=b"", repr=False)
 
     @property

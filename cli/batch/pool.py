@@ -7,6 +7,7 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import BrokenExecutor, Future, as_completed
 from contextlib import contextmanager, suppress
+from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
 
@@ -44,6 +45,9 @@ def run_files(files: Sequence[Path], options: BatchOptions) -> tuple[list[Outcom
 
 def _each(files: Sequence[Path], options: BatchOptions) -> Iterator[tuple[int, list[Outcome]]]:
     """How many files are finished, and their outcomes, as they come."""
+    if options.dask:
+        yield from _on_cluster(files, options)
+        return
     start = perf_counter()
     stride = 1 if options.jobs == 1 else max(1, len(files) // _TRIED_FIRST)
     for path in files[::stride]:
@@ -100,6 +104,24 @@ def _in_processes(left: list[Sequence[Path]], options: BatchOptions, jobs: int) 
         for path in (path for files in left[:jobs] for path in files):
             yield 1, _alone(path, options)
         left = left[jobs:]
+
+
+def _on_cluster(files: Sequence[Path], options: BatchOptions) -> Iterator[tuple[int, list[Outcome]]]:
+    """Every file by a worker of a Dask cluster, which must see it under the same path; what it loses, this process
+    computes."""
+    from gearlink.cli.cluster import client
+
+    with client(options.dask) as cluster:
+        pool = cluster.get_executor()
+        there = replace(
+            options, out=options.out and options.out.absolute(), cache=options.cache and options.cache.absolute()
+        )
+        given = {pool.submit(_chunk, [path.absolute()], there): path for path in files}
+        for future in as_completed(given):
+            path = given[future]
+            lost = future.exception() is not None
+            found = _chunk([path], options) if lost else future.result()
+            yield 1, [replace(outcome, file=str(path)) for outcome in found]
 
 
 def _chunk(files: Sequence[Path], options: BatchOptions) -> list[Outcome]:

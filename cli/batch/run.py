@@ -37,7 +37,13 @@ def run_batch(places: Sequence[str], options: BatchOptions) -> int:
         show_errors(error.diagnostics, options.design)
         return ExitCode.WRONG_INPUT
     options = _with_key(options)
-    results, interrupted = run_files(files, options)
+    try:
+        results, interrupted = run_files(files, options)
+    except DesignFileError as error:  # of the cluster; those of files stand among the results
+        from gearlink.cli.render.errors import show_errors
+
+        show_errors(error.diagnostics, options.design)
+        return ExitCode.WRONG_INPUT
     results.sort(key=lambda outcome: outcome.file)
     from gearlink.cli.batch.summary import write_batch
 

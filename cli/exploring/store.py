@@ -12,11 +12,10 @@ import sqlite3
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from datetime import UTC, datetime
-from importlib import import_module
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any, Protocol
 
+from gearlink.cli.cluster import processor
 from gearlink.core.errors import GearlinkError
 from gearlink.core.explore.chunks import Chunk
 from gearlink.core.explore.problem import SCHEMA, Problem, problem_of
@@ -197,14 +196,6 @@ def meta_of(problem: Problem) -> dict[str, str]:
         "seed": str(problem.spec.sampling.seed),
         "columns": json.dumps(["index", *(name for name, _, _ in problem.shown)]),
     }
-
-
-def processor() -> str:
-    """The type of this processor, as far as last bits of numbers depend on it."""
-    core = "_core" if int(version("numpy").partition(".")[0]) > 1 else "core"
-    features = import_module(f"numpy.{core}._multiarray_umath").__cpu_features__
-    wide = next((name for name in ("AVX512_SKX", "AVX512F", "AVX2", "SVE", "ASIMD") if features.get(name)), "")
-    return f"{platform.machine()} {wide}".strip()
 
 
 def ready(store: Store, problem: Problem, *, resume: bool) -> None:

@@ -54,11 +54,22 @@ function linkSheet(sheet) {
   const hear = (over, value) => { if (sheet.isConnected) show(over, value); };
   cursors.heard.push(hear);
 }
+function linkRows(sheet) {
+  // Marks and lines of one design of a study: whichever is pointed at, the others of that design stay and the rest fades.
+  const marks = [...sheet.querySelectorAll('g[id^="row-"]')], design = mark => mark.id.split("-")[1];
+  const light = index => marks.forEach(mark => { mark.style.opacity = index === null || design(mark) === index ? "" : .12; });
+  for (const mark of marks) {
+    const words = document.createElementNS("http://www.w3.org/2000/svg", "title");
+    words.textContent = "design " + design(mark); mark.append(words);
+    mark.addEventListener("pointerenter", () => light(design(mark)));
+    mark.addEventListener("pointerleave", () => light(null));
+  }
+}
 function startPage(root) {
   for (const film of root.querySelectorAll(".film")) {
     const data = film.querySelector("script.data");
     if (data) filmPlayer(film, JSON.parse(data.textContent));
   }
-  for (const sheet of root.querySelectorAll(".sheet")) linkSheet(sheet);
+  for (const sheet of root.querySelectorAll(".sheet")) { linkSheet(sheet); linkRows(sheet); }
 }
 startPage(document);

@@ -9,8 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from gearlink.core.explore.chunks import RANKED, Chunk, Miss, fold, multiples_of
+from gearlink.core.explore.chunks import RANKED, Chunk, Miss, evaluated, fold, judged, multiples_of
 from gearlink.core.explore.one_by_one import Single, single
+from gearlink.core.explore.order import Sample
 from gearlink.core.explore.pareto import best_boxes, boxes, front, knee, spread
 from gearlink.core.explore.problem import Problem
 from gearlink.core.explore.refining import Extra, no_extra, refined
@@ -52,11 +53,13 @@ class Found:
 
     @cached_property
     def _front(self) -> Reals:
-        return fold(self.problem, [self.total.rows, self.extra.rows])
+        return fold(self.problem, [self.total.rows, self.extra.rows]) if len(self.extra.rows) else self.total.rows
 
     @cached_property
     def front_size(self) -> int:
         """Designs of the front, equal points all counted."""
+        if len(self.problem.objectives) > 1:
+            return len(self._front)
         return len(front(multiples_of(self.problem, self._front)))
 
     @cached_property
@@ -64,11 +67,7 @@ class Found:
         """Index and columns of one design of each box, sorted by the objectives, the best of the first one first."""
         rows = self._front
         multiples = multiples_of(self.problem, rows)
-        if multiples.shape[1] == 1:
-            places = best_boxes(multiples, RANKED)
-        else:
-            best = front(multiples)
-            places = best[boxes(multiples[best])]
+        places = best_boxes(multiples, RANKED) if multiples.shape[1] == 1 else boxes(multiples)
         order = np.lexsort((rows[places, 0], *reversed(list(multiples[places].T))))
         return rows[places[order]]
 
@@ -118,6 +117,23 @@ class Found:
         bad = {check.code for check in again.findings if check.status == "fail"} & set(self.problem.must_pass)
         if bad:
             raise BrokenPromise(f"GL160: design {index} fails {', '.join(sorted(bad))} by its own class alone")
+
+    def sample(self, most: int) -> Reals:
+        """Columns of `Problem.shown` of designs that satisfy everything, of at most so many at even steps of the index.
+
+        Returns
+            columns : (M, columns) array
+        """
+        made = self.problem
+        step = max(1, -(-made.order.count // most))
+        if isinstance(made.order, Sample):
+            index = np.arange(min(most, made.order.count))  # a share of the sequence is a sample as well
+        else:
+            index = np.arange(0, made.order.count, step)
+        parts = np.array_split(index, max(1, len(index) // made.chunk_size))
+        rows = [judged(made, evaluated(made, made.order.columns(part)), len(part)) for part in parts]
+        columns: Reals = np.concatenate([row.columns.T[row.total == 0] for row in rows])
+        return columns
 
     @cached_property
     def _objectives(self) -> Reals:

@@ -14,7 +14,7 @@ from gearlink.core.numerics.arrays import Mask, Reals
 Indices = NDArray[np.intp]
 PARTS = 1e6
 """Parts of a resolution that objectives are counted in."""
-_BLOCK = 512
+_BLOCK, _TILE = 512, 1024
 _SIEVES = 24
 _GOLDEN = 0.6180339887498949
 
@@ -93,19 +93,24 @@ def _front_of_many(unique: Reals) -> Indices:
     for start in range(0, len(order), _BLOCK):
         block = order[start : start + _BLOCK]
         block = block[~_dominated(unique[block], unique[found])]
-        block = block[~_dominated(unique[block], unique[block])]
+        block = block[~_dominated(unique[block], unique[block], same=True)]
         found = np.concatenate([found, block])
     return found
 
 
-def _dominated(rows: Reals, by: Reals) -> Mask:
-    """Which rows some other row dominates; rows of both differ from each other or are the same row."""
-    below = np.ones((len(rows), len(by)), dtype=bool)
-    same = np.ones((len(rows), len(by)), dtype=bool)
-    for mine, other in zip(rows.T, by.T, strict=True):
-        below &= other[None, :] <= mine[:, None]
-        same &= other[None, :] == mine[:, None]
-    return np.asarray((below & ~same).any(axis=1), dtype=bool)
+def _dominated(rows: Reals, by: Reals, *, same: bool = False) -> Mask:
+    """Which rows some other row dominates; no two rows are equal, but `by` may be the rows themselves (`same`)."""
+    gone = np.zeros(len(rows), dtype=bool)
+    for start in range(0, len(by), _TILE):
+        left = np.flatnonzero(~gone)
+        tile = by[start : start + _TILE]
+        below = tile[:, 0] <= rows[left, 0, None]
+        for mine, other in zip(rows[left, 1:].T, tile[:, 1:].T, strict=True):
+            below &= other <= mine[:, None]
+        count = below.sum(axis=1)
+        inside = (left >= start) & (left < start + len(tile)) if same else np.zeros(len(left), dtype=bool)
+        gone[left] |= count > inside
+    return gone
 
 
 def boxes(multiples: Reals) -> Indices:

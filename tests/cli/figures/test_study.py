@@ -1,0 +1,61 @@
+"""The sheet of a study: what is drawn is what was found; a page links the marks of one design."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from gearlink.cli.figures.study import draw
+from gearlink.core.explore.exploration import Exploration
+from gearlink.core.study.spec import StudySpec
+
+KEYS: dict[str, Any] = {
+    "kind": "study",
+    "name": "idlers",
+    "design": {
+        "kind": "three-gear-four-bar",
+        "gears": {"module": 2, "crank": 40, "idler": 72, "output": 40},
+        "dwell": {"angle": 135},
+    },
+    "variables": {"gears.idler": {"from": 60, "to": 90}, "gears.module": {"values": [2, 3]}},
+    "minimize": {"frame_length": "20 mm", "back_step_angle": 0.05},
+    "maximize": {"min_transmission_angle": "2 deg"},
+}
+
+
+@pytest.fixture(scope="module")
+def study() -> Exploration:
+    return Exploration(StudySpec.model_validate_json(json.dumps(KEYS)))
+
+
+def test_marks_and_lines_are_the_kept_designs(study: Exploration) -> None:
+    figure = draw("explore", study)
+    *scatter, parallel = [axes for axes in figure.axes if axes.axison]
+    rows = study.found.rows
+    assert len(scatter) == 3
+    marks = {line.get_gid(): line for axes in scatter for line in axes.get_lines()}
+    for row in rows:
+        (x,), (y,) = marks[f"row-{row.index}-0-1"].get_data()
+        assert (x, y) == row.figures[:2]
+    lines = {line.get_gid(): line for line in parallel.get_lines()}
+    assert sum((name or "").startswith("row-") for name in lines) == len(rows)
+    heights = lines[f"row-{rows[0].index}-line"].get_ydata()
+    assert heights[2] == 1.0  # the best of the first objective is up
+    assert scatter[0].get_xlabel() == "frame length [mm]"
+
+
+def test_picture_and_page(gearlink: Any, tmp_path: Path) -> None:
+    path = tmp_path / "study.yaml"
+    path.write_text(json.dumps(KEYS))
+    assert gearlink("explore", path, "--plot", "--plot-format", "svg", "--out", tmp_path, "-q").status == 0
+    first = (tmp_path / "idlers-explore.svg").read_bytes()
+    assert b'id="row-' in first
+    gearlink("explore", path, "--plot", "--plot-format", "svg", "--out", tmp_path, "-q")
+    assert (tmp_path / "idlers-explore.svg").read_bytes() == first
+    assert gearlink("report", path, "--out", tmp_path).status == 0
+    page = (tmp_path / "idlers.html").read_text()
+    assert 'id="row-' in page
+    assert "linkRows" in page
