@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 from factory import DESIGNS
+from sweeps import mostly_slow
 
 from gearlink.cli.reading.design_file import load, validate
 from gearlink.core.kinds import KINDS
@@ -52,7 +53,7 @@ def test_what_a_synthesis_found_is_analysed_without_copying(
     assert not spec_of(path).sized_by("analyze")
 
 
-@pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
+@pytest.mark.parametrize("file", mostly_slow(FILES[::3] + FILES, len(FILES[::3])), ids=lambda file: file.stem)
 def test_a_design_without_a_task_is_written_as_it_is(gearlink: Any, tmp_path: Path, file: Path) -> None:
     spec, path = spec_of(file), tmp_path / "copy.yaml"
     gearlink(*spec.commands()[0].split(), file, "--save", path, "--quiet")

@@ -126,6 +126,7 @@ def edited(tmp_path: Path) -> Iterator[tuple[Path, str, subprocess.Popen[str]]]:
     watching.stderr.close()
 
 
+@pytest.mark.slow
 def test_watch_shows_what_is_saved(window: Browser, edited: tuple[Path, str, Any]) -> None:
     path, address, watching = edited
     window.size(1280, 900)
