@@ -6,7 +6,7 @@ import math
 import sys
 from dataclasses import dataclass
 from difflib import get_close_matches
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.commands.design import print_report, show_refusal
 from gearlink.cli.evaluate import open_design, read_spec
@@ -22,7 +22,6 @@ from gearlink.core.report import Quantity, Report
 if TYPE_CHECKING:
     from gearlink.core.three_gear.design import ThreeGearFourBar
 
-_KIND = "three-gear-four-bar"
 _LINK_TOLERANCE = 1e-3
 
 
@@ -77,7 +76,7 @@ def _list_charts(options: Options) -> int:
         print(json.dumps({chart.name: {"title": chart.title, "source": chart.source} for chart in CHARTS.values()}))
         return ExitCode.OK
     for chart in CHARTS.values():
-        print(f"{chart.name:15}{chart.title} ({chart.source})")
+        print(f"{chart.name:18}{chart.title} ({chart.source})")
     return ExitCode.OK
 
 
@@ -145,17 +144,28 @@ def _marked(chart: DesignChart, source: str, options: Options) -> Marked:
         DesignFileError - for a design that the chart does not hold for
     """
     loaded, kind = open_design(source, options)
-    if kind.name != _KIND:
+    if kind.name != chart.kind:
         line, column, file = loaded.locate(("kind",))
-        message = f"a {kind.name} has no place in a design chart; it is about the kind {_KIND}"
+        message = f"a {kind.name} has no place in the chart {chart.name}; it is about the kind {chart.kind}"
         raise DesignFileError([Diagnostic("GL113", message, file=file, line=line, column=column, key="kind")])
     spec = read_spec(loaded, kind, source)
     asked: tuple[str, ...] = spec.commands()
     try:
-        design: ThreeGearFourBar = kind.design("analyze" if "analyze" in asked else asked[0], spec)  # type: ignore[assignment]
-        return _located(chart, design)
+        design: Any = kind.design("analyze" if "analyze" in asked else asked[0], spec)
+        return _located_swing(chart, design) if chart.kind == "wide-swing-cam" else _located(chart, design)
     except NoSolution as error:
         raise DesignFileError([diagnose_no_solution(loaded, error)]) from error
+
+
+def _located_swing(chart: DesignChart, design: Any) -> Marked:
+    """A wide swing's place in a chart of the unloading law, which is that of a cylinder and a rocker alone."""
+    spec = design.spec
+    if spec.unloader.type != "pneumatic" or spec.slider is not None:
+        key = "unloader.type" if spec.unloader.type != "pneumatic" else "slider"
+        raise NoSolution(f"the chart {chart.name} is about a cylinder that unloads a rocker alone", key=key)
+    place = chart.place(design)
+    assert place is not None, "a law has its peaks"
+    return Marked(spec.name, place, (design.quantity(chart.y.name),), 0.0)
 
 
 def _located(chart: DesignChart, design: ThreeGearFourBar) -> Marked:
@@ -166,6 +176,12 @@ def _located(chart: DesignChart, design: ThreeGearFourBar) -> Marked:
                 f" and {design.output_teeth}; set gears.output to {design.crank_teeth}, or use analyze"
             )
     place = chart.place(design)
+    if place is None and chart.y.name == "tolerance_dwell_angle":
+        raise NoSolution(
+            f"this design names no tolerance of its dwell, so it has no place in the chart {chart.name}: give "
+            "dwell_tolerance",
+            key="dwell_tolerance",
+        )
     if place is None:
         raise NoSolution(
             f"the output of this design never steps back (least speed ratio {design.speed_ratio_min:.6g}), so it has "

@@ -1,0 +1,70 @@
+"""Design charts of the unloading law of a cylinder over the swing: peaks and energy parameter, over arrays."""
+
+from __future__ import annotations
+
+import math
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gearlink.core.errors import NoSolution
+from gearlink.core.numerics.arrays import Reals
+from gearlink.core.wide_swing.device import Pneumatic
+from gearlink.core.wide_swing.elastic_law import ElasticLaw
+
+
+def velocity_peak(swing: ArrayLike, pivot_ratio: float) -> Reals:
+    """B over the swing at constant pivot ratio.
+
+    Parameters
+        swing : array [rad] - above 0, at most 300 deg
+        pivot_ratio : float - lambda, above 1
+    Returns
+        peak : array [1] - not a number where there is no law
+    Example
+        >>> velocity_peak(np.radians([120.0]), 2.5).round(9).tolist()
+        [1.687523657]
+
+    Source
+        wide-swing dissertation, figure 6
+    """
+    return _peaks("velocity_peak", swing, pivot_ratio)
+
+
+def acceleration_peak(swing: ArrayLike, pivot_ratio: float) -> Reals:
+    """C over the swing at constant pivot ratio; arguments as of `velocity_peak`.
+
+    Example
+        >>> bool(acceleration_peak(np.radians([120.0]), 2.5)[0] > 4.0)
+        True
+
+    Source
+        wide-swing dissertation, figure 6
+    """
+    return _peaks("acceleration_peak", swing, pivot_ratio)
+
+
+def energy_parameter(swing: ArrayLike, pivot_ratio: float) -> Reals:
+    """N over the swing at constant pivot ratio; arguments as of `velocity_peak`.
+
+    Example
+        >>> energy_parameter(np.radians([120.0]), 2.5).round(9).tolist()
+        [4.19124042]
+
+    Source
+        wide-swing dissertation, figure 6
+    """
+    return _peaks("energy_parameter", swing, pivot_ratio)
+
+
+def _peaks(
+    name: Literal["velocity_peak", "acceleration_peak", "energy_parameter"], swing: ArrayLike, pivot_ratio: float
+) -> Reals:
+    def value(gamma: float) -> float:
+        try:
+            return float(getattr(ElasticLaw(Pneumatic(pivot_ratio), gamma), name))
+        except NoSolution:
+            return math.nan
+
+    return np.array([value(float(gamma)) for gamma in np.atleast_1d(np.asarray(swing, dtype=float))])
