@@ -71,7 +71,7 @@ def window_over_frame(frame_ratio: ArrayLike, i3: float) -> Reals:
         back-step exceeds it.
     Example
         >>> np.degrees(window_over_frame([5.178349, 5.1783], -1.8)).round(3).tolist()
-        [70.436, 51.819]
+        [70.436, 52.478]
 
     Source
         own derivation

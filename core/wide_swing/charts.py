@@ -50,7 +50,7 @@ def energy_parameter(swing: ArrayLike, pivot_ratio: float) -> Reals:
 
     Example
         >>> energy_parameter(np.radians([120.0]), 2.5).round(9).tolist()
-        [4.19124042]
+        [4.191240425]
 
     Source
         wide-swing dissertation, figure 6
