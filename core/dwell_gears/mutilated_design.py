@@ -231,7 +231,7 @@ class MutilatedGearDwell(RealSpeed, SingleMesh):
             start = self.start_crank_angle
             states = [solve(self.linkage, start + angle, 1) for angle in driven]
             columns["rocker_angle"] = ([math.degrees(state.rocker_angle) for state in states], "deg")
-            rocker = [state.rocker_velocity * speed for state, speed in zip(states, speeds, strict=True)]
+            rocker = [state.rocker_velocity * speed + 0.0 for state, speed in zip(states, speeds, strict=True)]
             columns["rocker_speed_ratio"] = (rocker, "1")
         rates = {"driven_speed": ("driven_speed_ratio", 1)}
         if "rocker_speed_ratio" in columns:
