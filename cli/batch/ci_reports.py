@@ -87,8 +87,8 @@ def as_sarif(results: Sequence[Outcome]) -> str:
     entries: list[dict[str, Any]] = []
     rules: dict[str, dict[str, Any]] = {}
     for outcome in results:
-        fixes = [None] * len(outcome.errors) + list(outcome.fixes)
-        for fix, (status, code, name, message, line, column) in zip_longest(fixes, _findings(outcome)):
+        fixes = [()] * len(outcome.errors) + list(outcome.fixes)
+        for fix, (status, code, name, message, line, column) in zip_longest(fixes, _findings(outcome), fillvalue=()):
             rules.setdefault(code, _rule(code, name))
             region = {"startLine": line, "startColumn": column}
             place = {"artifactLocation": {"uri": _uri(outcome.file)}, "region": region}
@@ -98,20 +98,26 @@ def as_sarif(results: Sequence[Outcome]) -> str:
                 "message": {"text": f"{outcome.name} ({outcome.command or 'read'}): {message}"},
                 "locations": [{"physicalLocation": place}],
             }
-            entries.append(entry if fix is None else entry | {"fixes": [_sarif_fix(outcome.file, fix)]})
+            entries.append(entry | {"fixes": [_sarif_fix(outcome.file, fix)]} if fix else entry)
     driver = {"name": "gearlink", "version": VERSION, "rules": [rules[code] for code in sorted(rules)]}
     run = {"tool": {"driver": driver}, "columnKind": "unicodeCodePoints", "results": entries}
     schema = "https://json.schemastore.org/sarif-2.1.0.json"
     return json.dumps({"$schema": schema, "version": "2.1.0", "runs": [run]}, ensure_ascii=False, indent=1) + "\n"
 
 
-def _sarif_fix(file: str, fix: Fix) -> dict[str, Any]:
-    """The replacement of a number, as SARIF writes it."""
-    region = {"startLine": fix.line, "startColumn": fix.column, "endLine": fix.line, "endColumn": fix.end}
-    replacement = {"deletedRegion": region, "insertedContent": {"text": fix.text}}
+def _sarif_fix(file: str, fix: Sequence[Fix]) -> dict[str, Any]:
+    """The replacement of values, as SARIF writes it."""
+    replacements = [
+        {
+            "deletedRegion": {"startLine": f.line, "startColumn": f.column, "endLine": f.line, "endColumn": f.end},
+            "insertedContent": {"text": f.text},
+        }
+        for f in fix
+    ]
+    words = " and ".join(f"line {f.line}, column {f.column} by {f.text}" for f in fix)
     return {
-        "description": {"text": f"replace it by {fix.text}"},
-        "artifactChanges": [{"artifactLocation": {"uri": _uri(file)}, "replacements": [replacement]}],
+        "description": {"text": f"replace {words}"},
+        "artifactChanges": [{"artifactLocation": {"uri": _uri(file)}, "replacements": replacements}],
     }
 
 

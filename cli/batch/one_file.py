@@ -35,7 +35,7 @@ def _computed(path: Path, options: BatchOptions) -> Iterator[Outcome]:
         report: Report | None = None,
         errors: Sequence[Diagnostic] = (),
         places: tuple[tuple[int, int], ...] = (),
-        fixes: tuple[Fix | None, ...] = (),
+        fixes: tuple[tuple[Fix, ...], ...] = (),
     ) -> Outcome:
         seconds = perf_counter() - start
         return Outcome(file, kind_name, name, command, status, report, tuple(errors), places, fixes, seconds)
@@ -73,13 +73,16 @@ def _places(loaded: LoadedFile, report: Report) -> tuple[tuple[int, int], ...]:
     return tuple(loaded.place_in_file(parse_path(key_of(loaded.data, check)) or ("kind",)) for check in bad)
 
 
-def _fixes(loaded: LoadedFile, report: Report) -> tuple[Fix | None, ...]:
+def _fixes(loaded: LoadedFile, report: Report) -> tuple[tuple[Fix, ...], ...]:
     return tuple(_fix(loaded, check.remedy) for check in report.checks if check.status != "pass")
 
 
-def _fix(loaded: LoadedFile, remedy: Remedy) -> Fix | None:
-    if len(remedy) != 1 or remedy[0][1] is None:
-        return None
-    (key, value), *_ = remedy
-    found = loaded.number_in_file(parse_path(key) or ())
-    return None if found is None else Fix(*found, json.dumps(value))
+def _fix(loaded: LoadedFile, remedy: Remedy) -> tuple[Fix, ...]:
+    """The replacements that a remedy makes in the file; none where one of its keys has no plain value there."""
+    places = [(loaded.value_in_file(parse_path(key) or ()), value) for key, value in remedy]
+    found = [Fix(*place, _written(value)) for place, value in places if place is not None and value is not None]
+    return tuple(found) if len(found) == len(remedy) else ()
+
+
+def _written(value: float | str) -> str:
+    return value if isinstance(value, str) else json.dumps(value)

@@ -12,7 +12,7 @@ from gearlink.core.report import Check, Report
 
 @dataclass(frozen=True, slots=True)
 class Fix:
-    """A number of a design file to be replaced: its line, first column, the column after it, and the new text."""
+    """A value of a design file to be replaced: its line, first column, the column after it, and the new text."""
 
     line: int
     column: int
@@ -25,7 +25,7 @@ class Outcome:
     """What became of one command on one design file.
 
     `places` holds line and column of each check that did not pass, where the output of the batch shows them, `fixes`
-    what its remedy replaces, if that is one number of the file.
+    what its remedy replaces together; nothing where the file does not have all of its values.
     `note` is what the cache could not do for its file.
     """
 
@@ -37,7 +37,7 @@ class Outcome:
     report: Report | None = None
     errors: tuple[Diagnostic, ...] = ()
     places: tuple[tuple[int, int], ...] = ()
-    fixes: tuple[Fix | None, ...] = ()
+    fixes: tuple[tuple[Fix, ...], ...] = ()
     seconds: float = 0.0
     cached: bool = False
     note: str = ""

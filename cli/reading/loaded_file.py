@@ -12,7 +12,7 @@ from gearlink.cli.reading.yaml_reader import Marks, Tree, format_path
 KeyPath = tuple[str | int, ...]
 """A key path: `("teeth", 1)` for `teeth[1]`."""
 
-_NUMBER = re.compile(r"[-+]?[.0-9][-+.0-9eE]*(?=[\s,\]}]|$)")
+_PLAIN = re.compile(r"(?:[-+]?[.0-9][-+.0-9eE]*|[a-z][-a-z0-9]*)(?=[\s,\]}]|$)")
 _STEP = re.compile(r"(?:(?:^|(?<=.)\.)([^.\[\]=\s]+)|\[([0-9]{1,6})\])")
 
 
@@ -52,20 +52,15 @@ class LoadedFile:
         at, _ = _find(self.tree.marks, path, self.tree.at, False)
         return self.tree.source.place(at)
 
-    def number_in_file(self, path: KeyPath) -> tuple[int, int, int] | None:
-        """Line, first column and the column after the number that a key has in the file itself; None where the file
-        has no plain number there, or `--set` put another value over it."""
+    def value_in_file(self, path: KeyPath) -> tuple[int, int, int] | None:
+        """Line, first column and the column after the number or word that a key has in the file itself; None where
+        the file has no plain one there, or `--set` put another value over it."""
         at, found = _find(self.tree.marks, path, self.tree.at, True)
-        number = _NUMBER.match(self.text, at)
-        if (
-            not path
-            or found < len(path)
-            or number is None
-            or any(path[: len(o.path)] == o.path for o in self.overrides)
-        ):
+        plain = _PLAIN.match(self.text, at)
+        if not path or found < len(path) or plain is None or any(path[: len(o.path)] == o.path for o in self.overrides):
             return None
         line, column = self.tree.source.place(at)
-        return line, column, column + len(number[0])
+        return line, column, column + len(plain[0])
 
     def report(self, code: str, message: str, path: KeyPath, *, key: str | None = None, help: str = "") -> Diagnostic:
         """A diagnostic that points at a key, or at the nearest parent of a missing one."""

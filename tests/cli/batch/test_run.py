@@ -178,14 +178,38 @@ class TestFormats:
         (replacement,) = change["replacements"]
         region, lines = replacement["deletedRegion"], path.read_text().splitlines(keepends=True)
         row = lines[region["startLine"] - 1]
-        assert row[region["startColumn"] - 1 : region["endColumn"] - 1] == "121.4"
+        assert row[region["startColumn"] - 1 : region["endColumn"] - 1] in ("18", "121.4")
         new = row[: region["startColumn"] - 1] + replacement["insertedContent"]["text"] + row[region["endColumn"] - 1 :]
         lines[region["startLine"] - 1] = new
         path.write_text("".join(lines))
         assert gearlink("analyze", path).status == ExitCode.OK
-        overridden = gearlink("batch", path, "--format", "sarif", "--set", "links.frame=121.4").out
+        overridden = gearlink(
+            "batch", path, "--format", "sarif", "--set", "links.crank=18", "--set", "links.frame=121.4"
+        ).out
         (result,) = (r for r in json.loads(overridden)["runs"][0]["results"] if r["ruleId"] == "GL301")
         assert "fixes" not in result
+
+    def test_a_fix_of_several_values(self, gearlink: Any, tmp_path: Path) -> None:
+        path = tmp_path / "small.yaml"
+        path.write_text(
+            "kind: three-gear-four-bar\ngears: {module: 2, crank: 14, idler: 40, output: 40}\n"
+            "links: {crank: 10, frame: 90}\n"
+        )
+        (result,) = (
+            r
+            for r in json.loads(gearlink("batch", path, "--format", "sarif").out)["runs"][0]["results"]
+            if r["ruleId"] == "GL201"
+        )
+        (change,) = result["fixes"][0]["artifactChanges"]
+        lines = path.read_text().splitlines(keepends=True)
+        for replacement in reversed(change["replacements"]):
+            region, text = replacement["deletedRegion"], replacement["insertedContent"]["text"]
+            row, start, end = lines[region["startLine"] - 1], region["startColumn"] - 1, region["endColumn"] - 1
+            assert row[start:end] in ("14", "40")
+            lines[region["startLine"] - 1] = row[:start] + text + row[end:]
+        assert len(change["replacements"]) == 2
+        path.write_text("".join(lines))
+        assert gearlink("analyze", path).status == ExitCode.OK
 
     @pytest.mark.parametrize("form", ["junit", "sarif", "github"])
     def test_places_are_kept(self, gearlink: Any, folder: Path, tmp_path: Path, form: str) -> None:
