@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterator, Sequence
-from itertools import zip_longest
 from pathlib import PurePath
 from typing import Any
 from xml.sax.saxutils import escape, quoteattr
@@ -87,8 +86,10 @@ def as_sarif(results: Sequence[Outcome]) -> str:
     entries: list[dict[str, Any]] = []
     rules: dict[str, dict[str, Any]] = {}
     for outcome in results:
-        fixes = [()] * len(outcome.errors) + list(outcome.fixes)
-        for fix, (status, code, name, message, line, column) in zip_longest(fixes, _findings(outcome), fillvalue=()):
+        found = list(_findings(outcome))
+        fixes: list[tuple[Fix, ...]] = [()] * len(outcome.errors) + list(outcome.fixes)
+        fixes += [()] * (len(found) - len(fixes))
+        for fix, (status, code, name, message, line, column) in zip(fixes, found, strict=True):
             rules.setdefault(code, _rule(code, name))
             region = {"startLine": line, "startColumn": column}
             place = {"artifactLocation": {"uri": _uri(outcome.file)}, "region": region}
