@@ -109,12 +109,19 @@ KINDS: dict[str, Kind] = {
                 "crank": _PRESS,
                 "analyze": _PRESS,
                 "loads": "flatbed_press.loads:PressLoads",
+                "register": "flatbed_press.register:PressRegister",
             },
         ),
         Kind(
             "swing-gripper",
             "swing_gripper.spec:SwingGripperSpec",
-            {"gripper": _GRIPPER, "cam": _GRIPPER, "analyze": _GRIPPER, "loads": "swing_gripper.loads:GripperLoads"},
+            {
+                "gripper": _GRIPPER,
+                "cam": _GRIPPER,
+                "analyze": _GRIPPER,
+                "loads": "swing_gripper.loads:GripperLoads",
+                "register": "swing_gripper.register:GripperRegister",
+            },
         ),
         Kind("wide-swing-cam", "wide_swing.spec:WideSwingSpec", {"swing": _SWING, "cam": _SWING, "analyze": _SWING}),
         Kind(

@@ -42,9 +42,7 @@ _GEAR_LINKAGE = {
     "quartic_l": Term("L", "mm^6", "coefficient of cos^2(beta) for a momentary dwell", "thesis (4-27)"),
     "quartic_m": Term("M", "mm^6", "constant term for a momentary dwell", "thesis (4-27)"),
     "base_angle": Term("beta", "deg", "base angle of the triangle CFE in the standstill", "thesis (4-26)"),
-    "pole_angle": Term(
-        "alpha", "deg", "angle of the crank to the line of poles in the standstill", "thesis (4-28)"
-    ),
+    "pole_angle": Term("alpha", "deg", "angle of the crank to the line of poles in the standstill", "thesis (4-28)"),
     "segment_af": Term("AF", "mm", "input axis to the pole of crank gear and idler", "thesis (4-29)"),
     "segment_fe": Term("FE", "mm", "distance of the two poles", "thesis (4-30)"),
     "segment_eg": Term("EG", "mm", "pole of idler and output gear to the foot of D", "thesis (4-31)"),

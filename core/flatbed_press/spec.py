@@ -140,6 +140,11 @@ class FlatbedPressSpec(TolerancedSpec):
     cam: PressCam | None = None
     size: PressSize | None = None
     limits: PressLimits = PressLimits()
+    register_: Annotated[Any, Deferred("tolerance.spec:Register")] | None = Field(
+        None,
+        alias="register",
+        description="what the register may lose, for the command register: bed against cylinder in the synchronous zone",
+    )
     loads: Annotated[Any, Deferred("flatbed_press.loads_spec:PressLoads")] | None = Field(
         None, description="masses, forces and drive, for the command loads"
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -21,12 +22,14 @@ class Contribution:
         gain : (N,) array, real or complex - error per mm of the source; complex for a vector of any direction
         limit : float [mm] - greatest deviation of the source
         sigma : float [mm] - its standard deviation; of a vector that of one component
+        relative : bool - the error at the start has the same cause as that later on, which an uneven profile's has not
     """
 
     source: str
     gain: NDArray[Any]
     limit: float
     sigma: float
+    relative: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +76,7 @@ def budget(contributions: Sequence[Contribution], start: int | None) -> Budget:
     Source
         ISO/IEC Guide 98-3, 5.1.2; own derivation of the gains
     """
-    gains = [np.abs(one.gain if start is None else one.gain - one.gain[start]) for one in contributions]
+    gains = [np.abs(_counted(one, start)) for one in contributions]
     limits = np.array([one.limit for one in contributions])
     sigmas = np.array([one.sigma for one in contributions])
     magnitudes = np.array(gains)
@@ -93,3 +96,10 @@ def budget(contributions: Sequence[Contribution], start: int | None) -> Budget:
         for one, magnitude, square in zip(contributions, magnitudes, squares, strict=True)
     )
     return Budget(worst, rss, at, rows)
+
+
+def _counted(one: Contribution, start: int | None) -> NDArray[Any]:
+    """The gain that counts: relative to the start, where the cause is the same there."""
+    if start is None:
+        return one.gain
+    return one.gain - one.gain[start] if one.relative else one.gain * math.sqrt(2.0)

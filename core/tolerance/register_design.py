@@ -106,11 +106,13 @@ class RegisterDesign(Design):
         if isinstance(self.place, float):
             return np.array([math.radians(self.place)])
         start, end = self.stretch(self.place)
+        if start == end:
+            return np.array([start])
         count = max(2, math.ceil((end - start) / _STEP) + 1)
         return np.linspace(start, end, count)
 
     def _budget(self, sign: int) -> Budget:
-        start = None if isinstance(self.place, float) else 0
+        start = 0 if self.input_angles.size > 1 else None
         return budget(self.contributions(self.input_angles, sign), start)
 
     @cached_property
@@ -148,10 +150,13 @@ class RegisterDesign(Design):
     # Tables
 
     def table_budget(self, _samples: int | None = None) -> Table:
-        """Every source where the whole is greatest, for either torque sign, the greatest first."""
+        """Every source where the whole is greatest, for either torque sign where they differ, the greatest first."""
+        both = list(zip(SIGNS, self.budgets, strict=True))
+        if both[0][1].rows == both[1][1].rows:  # nothing depends on the flank that carries
+            both = both[:1]
         rows = [
             (sign, row.source, row.gain, row.limit, row.worst, row.sigma, row.share)
-            for sign, one in zip(SIGNS, self.budgets, strict=True)
+            for sign, one in both
             for row in sorted(one.rows, key=lambda row: -row.share)
         ]
         units = ("1", "1", "1", "mm", "mm", "mm", "1")
@@ -191,12 +196,14 @@ class RegisterDesign(Design):
 
     @property
     def _where(self) -> str:
-        return f"at {self.place:g} deg" if isinstance(self.place, float) else f"over the {self.place}"
+        if isinstance(self.place, float):
+            return f"at {self.place:g} deg"
+        return f"{'over' if self.input_angles.size > 1 else 'at'} the {self.place}"
 
     def check_backlash_in_dwell(self) -> Iterator[Check]:
         """GL521 where the torque on the output turns within the stretch."""
         flips = self.flips
-        if flips is None or isinstance(self.place, float):
+        if flips is None or self.input_angles.size == 1:
             return
         start, end = float(self.input_angles[0]), float(self.input_angles[-1])
         inside = [flip for flip in flips if (flip - start) % (2.0 * math.pi) < end - start]

@@ -187,6 +187,7 @@ class Register(Spec):
     backlash: Distance | dict[str, Distance] | None = Field(
         None, description="circumferential backlash of each mesh by its name, or one for all"
     )
+    cam_error: Length | None = Field(None, description="greatest error of a cam's profile, at right angles to it")
     output_inertia: Annotated[float, Field(gt=0, json_schema_extra={"unit": "kg m^2"})] | None = Field(
         None, description="moment of inertia of all that turns with the output"
     )

@@ -47,10 +47,15 @@ class Problem:
 
     @cached_property
     def sources(self) -> tuple[Scatter, ...]:
-        """The sources whose scatter changes the design; those of gear teeth count in `register` alone."""
+        """The sources whose scatter changes the design; gear teeth, and pins of press and gripper, count in `register`."""
+        counted = {key: one for key, one in self.section.sources.items() if not self._of_register_alone(key)}
         parts = Parts({}) if self.axis is None else self.axis.parts
-        found = scatters(self.section, self.base.spec(), parts)
+        found = scatters(self.section.model_copy(update={"sources": counted}), self.base.spec(), parts)
         return tuple(one for one in found if one.kind != "gear")
+
+    def _of_register_alone(self, key: str) -> bool:
+        """Play of pins in the machines whose register counts it, but whose analysis has no play."""
+        return self.axis is None and "register" in self.base.kind.commands and key.startswith(("pins.", "bearings."))
 
     @property
     def coordinates(self) -> int:
