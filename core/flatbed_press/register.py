@@ -169,16 +169,19 @@ class PressRegister(RegisterDesign):
 
     def _other(self, key: str, gains: PressGains) -> Any:
         """Gains of the keys beside the drag links; angles per degree."""
-        degree, slider = math.radians(1.0), gains.slider_crank
-        stroke_to_crank = self._crank_per_stroke
-        return {
-            "bed.stroke": lambda: slider["crank"] * stroke_to_crank,
-            "bed.rod": lambda: slider["rod"],
-            "bed.offset": lambda: slider["offset"],
-            "bed.crank_offset_angle": lambda: slider["angle"] * degree,
-            "cylinder.initial_crank_angle": lambda: -gains.cylinder_rate * degree,
-            "cylinder.radius": lambda: -gains.motion.cylinder.travel(gains.phi).value / gains.motion.cylinder.radius,
-        }.get(key, lambda: None)()
+        degree, slider, cylinder = math.radians(1.0), gains.slider_crank, gains.motion.cylinder
+        match key:
+            case "bed.stroke":
+                return slider["crank"] * self._crank_per_stroke
+            case "bed.rod" | "bed.offset":
+                return slider[key.removeprefix("bed.")]
+            case "bed.crank_offset_angle":
+                return slider["angle"] * degree
+            case "cylinder.initial_crank_angle":
+                return -gains.cylinder_rate * degree
+            case "cylinder.radius":
+                return -cylinder.travel(gains.phi).value / cylinder.radius
+        return None
 
     @property
     def _crank_per_stroke(self) -> float:

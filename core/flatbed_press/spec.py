@@ -143,7 +143,7 @@ class FlatbedPressSpec(TolerancedSpec):
     register_: Annotated[Any, Deferred("tolerance.spec:Register")] | None = Field(
         None,
         alias="register",
-        description="what the register may lose, for the command register: bed against cylinder in the synchronous zone",
+        description="what bed and cylinder may lose in the synchronous zone, for the command register",
     )
     loads: Annotated[Any, Deferred("flatbed_press.loads_spec:PressLoads")] | None = Field(
         None, description="masses, forces and drive, for the command loads"

@@ -47,7 +47,7 @@ class Problem:
 
     @cached_property
     def sources(self) -> tuple[Scatter, ...]:
-        """The sources whose scatter changes the design; gear teeth, and pins of press and gripper, count in `register`."""
+        """The sources whose scatter changes the design; teeth, and pins of press and gripper, count in `register`."""
         counted = {key: one for key, one in self.section.sources.items() if not self._of_register_alone(key)}
         parts = Parts({}) if self.axis is None else self.axis.parts
         found = scatters(self.section.model_copy(update={"sources": counted}), self.base.spec(), parts)
