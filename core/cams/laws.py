@@ -40,6 +40,7 @@ class Law:
         interior_jerk : float - largest |j| beside the jumps of the acceleration
         peak_jerk : float - the same (Cj), or inf where the acceleration jumps inside or at an end
         end_jumps : bool - the acceleration is not zero at an end, so the law must not join a dwell
+        joints : floats in (0, 1) - where the acceleration or a derivative of it may jump
     """
 
     name: str
@@ -52,6 +53,7 @@ class Law:
     peak_jerk: float
     peak_power: float
     end_jumps: bool = False
+    joints: tuple[float, ...] = ()
 
     def evaluate(self, x: X, order: int = 3) -> tuple[X, ...]:
         """Rise and its derivatives with respect to x.
@@ -89,7 +91,14 @@ def _rest_to_rest(name: str, half: FirstHalf) -> Law:
         peak_jerk=math.inf if jumps else half.interior_jerk,
         peak_power=half.peak_power,
         end_jumps=half.end_jumps,
+        joints=_joints(half),
     )
+
+
+def _joints(half: FirstHalf) -> tuple[float, ...]:
+    """Ends of the pieces and their mirror images."""
+    ends = [end for end, _ in half.pieces]
+    return tuple(sorted({*ends, *(1.0 - end for end in ends)} - {0.0, 1.0}))
 
 
 def _half_law(name: str, half: FirstHalf) -> Law:
@@ -116,6 +125,7 @@ def _half_law(name: str, half: FirstHalf) -> Law:
         interior_jerk=jerk,
         peak_jerk=jerk,
         peak_power=half.peak_power / (2.0 * speed * speed),
+        joints=tuple(2.0 * place for place in _joints(half) if place < 0.5),
     )
 
 
@@ -135,6 +145,7 @@ def _velocity_law(name: str, half: FirstHalf) -> Law:
         interior_jerk=half.peak_acceleration,
         peak_jerk=half.peak_acceleration,
         peak_power=_peak_power(derivatives),
+        joints=_joints(half),
     )
 
 
@@ -159,6 +170,7 @@ def _free_law(name: str, base: FirstHalf, addition: FirstHalf, kappa: float) -> 
         interior_jerk=jerk,
         peak_jerk=jerk,
         peak_power=_peak_power(derivatives),
+        joints=tuple(sorted({*_joints(base), *_joints(addition)})),
     )
 
 

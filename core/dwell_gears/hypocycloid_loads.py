@@ -24,6 +24,7 @@ class HypocycloidDwellLoads(LoadsDesign):
     spec: HypocycloidDwellSpec
     links, sliding = ("carrier", "planet", "rod", "slider"), ("slider",)
     pins, meshes = ("O", "planet", "M", "F"), ("mesh_ring",)
+    output = "slider"
     outlines = loads_outline(pins, meshes)
 
     @cached_property

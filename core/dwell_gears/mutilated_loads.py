@@ -39,6 +39,7 @@ class MutilatedGearLoads(LoadsDesign):
     links = ("crank", "coupler", "rocker")
     pins, meshes = ("A", "B", "C", "D"), ("mesh_wheel",)
     joints_of_period = True
+    output, jumps = "rocker", True
     outlines = loads_outline(pins, meshes, ("engagement_energy",))
 
     @cached_property

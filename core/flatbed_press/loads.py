@@ -43,6 +43,7 @@ class PressLoads(CamLoadsDesign):
     sliding = ("carriage", "rack", "bed")
     pins = ("A", "B", "C", "D", "E", "F", "F_pinion", "G", "H", "M", "N", "cylinder")
     meshes = ("mesh_12", "mesh_34", "rack_lower", "rack_upper")
+    output = "bed"
     outlines = loads_outline(pins, meshes, CONTACT, CAM_CHECKS)
     on_two_sides = True
 
@@ -181,6 +182,13 @@ class PressLoads(CamLoadsDesign):
         rho_2 = self.design.cams.roller_center_distance * _MM - rho
         other = (rho_2 - 1j * cam.first * _MM) * 1j / np.hypot(rho_2, cam.first * _MM)
         return [Contact("cam", "CDE", "rack", axis + 1j * rho, normal, (axis - 1j * rho_2, other))]
+
+    @property
+    def dwell_zones(self) -> list[tuple[float, float]]:
+        """The bed does not stand anywhere."""
+        return []
+
+    speed_unit, speed_unit_name, speed_words = _TURN / 3600.0, "sheets/h", "sheets/h"
 
     # Rollers
 

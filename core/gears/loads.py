@@ -28,6 +28,7 @@ class GearPairLoads(LoadsDesign):
     spec: GearPairSpec
     links = ("gear1", "gear2")
     pins, meshes = ("gear1", "gear2"), ("mesh_12",)
+    output = "gear2"
     outlines = loads_outline(pins, meshes)
 
     @cached_property

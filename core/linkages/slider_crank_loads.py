@@ -23,6 +23,7 @@ class SliderCrankLoads(LoadsDesign):
     spec: SliderCrankSpec
     links, sliding = ("crank", "rod", "slider"), ("slider",)
     pins, meshes = ("D", "E", "F"), ()
+    output = "slider"
     outlines = loads_outline(pins, meshes, BALANCE)
 
     @cached_property

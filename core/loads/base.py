@@ -31,6 +31,11 @@ class LoadsBase(Design):
 
     joints_of_period: ClassVar[bool] = False
     links: ClassVar[tuple[str, ...]]
+    output: ClassVar[str] = "output"
+    stands: ClassVar[bool] = False
+    """Whether the output truly rests in its dwells."""
+    jumps: ClassVar[bool] = False
+    """Whether its speed jumps."""
     sliding: ClassVar[tuple[str, ...]] = ()
     pins: ClassVar[tuple[str, ...]]
     meshes: ClassVar[tuple[str, ...]]

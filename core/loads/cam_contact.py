@@ -126,7 +126,7 @@ class LineContact:
     Example
         >>> contact = LineContact(np.array([1000.0]), np.array([20.0]), 30.0, plane_modulus(206_000.0, 0.3))
         >>> round(float(contact.pressure[0]), 3), round(float(contact.half_width[0]), 6)
-        (245.052, 0.086595)
+        (245.046, 0.086599)
 
     Source
         H. Hertz, line contact

@@ -138,3 +138,38 @@ PRELOAD = Rule(
     checks=("preload",),
     keys=("loads.roller.preload", "loads.roller"),
 )
+
+RIGID_MODEL = Rule(
+    "GL605",
+    "rigid model",
+    "The first natural frequency is not far above the frequency of the input, or the motion is short against the "
+    "natural period.",
+    "All forces are those of rigid links; the nearer the frequencies, the more the output differs from its law.",
+    "Stiffen the drive of the output, lighten it, or lower the speed.",
+    "f_n >= limits.frequency_ratio f,  r = T_1 f_n",
+    "VDI 2149",
+    checks=("rigid-model",),
+    keys=("loads.vibration",),
+)
+RESIDUAL_VIBRATION = Rule(
+    "GL610",
+    "residual vibration",
+    "The output still vibrates in the dwell by more than is allowed.",
+    "What is gripped, printed or fed in the dwell moves.",
+    "Lower the speed, stiffen the drive of the output, or take a smoother law (4-5-6-7, cycloidal).",
+    "amplitude after the rise <= loads.vibration.allowed_residual",
+    "VDI 2149",
+    checks=("residual-vibration",),
+    keys=("loads.vibration.allowed_residual", "loads.vibration"),
+)
+RESONANCE = Rule(
+    "GL611",
+    "resonance",
+    "A harmonic of the motion lies at the natural frequency of the output.",
+    "Every period adds to the vibration; without damping it grows without limit.",
+    "Change the speed, or the natural frequency, by a tenth.",
+    "n_k = 60 f_n/k",
+    "linear vibration of one degree of freedom",
+    checks=("resonance",),
+    keys=("loads.vibration",),
+)

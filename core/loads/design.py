@@ -7,11 +7,18 @@ import math
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from gearlink.core.design import Outline
-from gearlink.core.loads import checks, tables
-from gearlink.core.loads.base import LoadsBase
+from gearlink.core.errors import MissingSection
+from gearlink.core.loads import checks, tables, vibration_checks
+from gearlink.core.loads.base import RPM, LoadsBase
+from gearlink.core.loads.vibration_checks import VIBRATION_CHECKS
+from gearlink.core.nomenclature import term
+from gearlink.core.report import Quantity
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from gearlink.core.loads.vibrating import Vibrating
     from gearlink.core.numerics.arrays import Reals
 
 TORQUE = (
@@ -47,7 +54,16 @@ BALANCE = (
 )
 PIN = ("peak", "equivalent", "travel", "life", "bearing_pressure")
 MESH = ("tooth_force_max", "reversals")
-TABLES = ("torque", "joints", "teeth", "frame", "speed")
+TABLES = ("torque", "joints", "teeth", "frame", "speed", "spectrum", "harmonics")
+VIBRATION = (
+    "natural_frequency",
+    "frequency_ratio",
+    "rise_periods",
+    "residual_amplitude",
+    "residual_speed_limit",
+    "dwell_twist",
+    "twisted_ripple",
+)
 
 
 def loads_outline(
@@ -59,8 +75,8 @@ def loads_outline(
     """The outline of `loads` for a machine with these joints."""
     own = [f"pin_{pin}.{name}" for pin in pins for name in PIN]
     own += [f"{mesh}.{name}" for mesh in meshes for name in MESH]
-    names = (*TORQUE, *RUN, *FRAME, *more, *own, "power_identity")
-    return {"loads": Outline(names, (*checks.CHECKS, *more_checks), ("torque",))}
+    names = (*TORQUE, *RUN, *FRAME, *more, *own, *VIBRATION, "power_identity")
+    return {"loads": Outline(names, (*checks.CHECKS, *more_checks, *VIBRATION_CHECKS), ("torque",))}
 
 
 class LoadsDesign(LoadsBase):
@@ -115,6 +131,102 @@ class LoadsDesign(LoadsBase):
         """Least transmission angle over the period [rad], of machines that have one."""
         found: float | None = getattr(getattr(self, "design", None), "min_transmission_angle", None)
         return found
+
+    # Vibration
+
+    @cached_property
+    def vibrating(self) -> Vibrating:
+        """The output on its spring."""
+        from gearlink.core.loads.vibrating import Vibrating
+
+        return Vibrating(self)
+
+    @property
+    def vibrating_given(self) -> Vibrating:
+        """The same, refused where the file does not give it."""
+        if self.section.vibration is None:
+            raise MissingSection("this table needs loads.vibration: {frequency: Hz}", key="loads")
+        return self.vibrating
+
+    speed_unit_name: ClassVar[str] = "1/min"
+
+    @property
+    def dwell_zones(self) -> list[tuple[float, float]]:
+        """Dwells of the output: first input angle and width of each [rad]."""
+        return self.quiet_zones
+
+    speed_unit: ClassVar[float] = RPM
+    speed_words: ClassVar[str] = "rev/min"
+
+    def quantity(self, name: str) -> Quantity | None:
+        """Places of the output are in mm where it slides, speeds in the unit of the kind's own."""
+        unit = self._own_unit(name)
+        if unit is None:
+            return super().quantity(name)
+        value, entry = self.raw(name), term(name)
+        return None if value is None else Quantity(name, value, unit, entry.symbol, entry.words)
+
+    def _own_unit(self, name: str) -> str | None:
+        if name in ("residual_amplitude", "dwell_twist", "twisted_ripple"):
+            return "mm" if self.output in self.sliding else "deg"
+        return self.speed_unit_name if name == "residual_speed_limit" else None
+
+    def _of_vibration(self, value: Callable[[Vibrating], Any]) -> Any:
+        return None if self.section.vibration is None else value(self.vibrating)
+
+    @property
+    def natural_frequency(self) -> float | None:
+        """Natural frequency of the output [Hz]."""
+        found: float | None = self._of_vibration(lambda v: v.frequency)
+        return found
+
+    @property
+    def frequency_ratio(self) -> float | None:
+        """It over the frequency of the input."""
+        found: float | None = self._of_vibration(lambda v: v.frequency_ratio)
+        return found
+
+    @property
+    def rise_periods(self) -> float | None:
+        """Natural periods in the shortest motion between two dwells."""
+        found: float | None = self._of_vibration(lambda v: v.rise_periods)
+        return found
+
+    @property
+    def residual_amplitude(self) -> float | None:
+        """Amplitude that a motion leaves in the dwell after it [deg or mm]."""
+        found: float | None = self._of_vibration(lambda v: v.residual)
+        return found
+
+    @property
+    def residual_speed_limit(self) -> float | None:
+        """Least speed at which that passes what is allowed, in the unit of the kind's own speed."""
+        limit: float | None = self._of_vibration(lambda v: v.speed_limit)
+        return None if limit is None else limit / self.speed_unit
+
+    @property
+    def dwell_twist(self) -> float | None:
+        """Greatest deflection in the dwells in the steady state [deg or mm]."""
+        found: float | None = self._of_vibration(lambda v: v.twist)
+        return found
+
+    @property
+    def twisted_ripple(self) -> float | None:
+        """Range of the output with its deflection in a dwell [deg or mm]."""
+        found: float | None = self._of_vibration(lambda v: v.twisted_ripple)
+        return found
+
+    def harmonic_share(self, order: int) -> float:
+        """Acceleration of a harmonic of the output over that of the greatest."""
+        import numpy as np
+
+        from gearlink.core.loads.vibration import harmonics
+
+        rows = max(720 * self.turns, 4 * order)
+        phi = np.arange(rows, dtype=np.float64) * (self.machine.period / rows)
+        found = harmonics(self.vibrating.bend(phi), order)
+        top = float(np.max(harmonics(self.vibrating.bend(phi), rows // 2)))
+        return float(found[-1]) / top if top > 0.0 else 0.0
 
     # Counterweights
 
@@ -213,10 +325,13 @@ class LoadsDesign(LoadsBase):
 
     table_torque, table_joints = tables.torque, tables.joints
     table_teeth, table_frame, table_speed = tables.teeth, tables.frame, tables.speed
+    table_spectrum, table_harmonics = tables.spectrum, tables.harmonics
 
     check_power_identity, check_load_reversal = checks.power_identity, checks.load_reversal
     check_motor_torque, check_speed_fluctuation = checks.motor_torque, checks.speed_fluctuation
     check_bearing_life, check_force_amplification = checks.bearing_life, checks.force_amplification
+    check_rigid_model, check_resonance = vibration_checks.rigid_model, vibration_checks.resonance
+    check_residual_vibration = vibration_checks.residual_vibration
     check_impact, check_self_locking = checks.impact, checks.self_locking
 
 

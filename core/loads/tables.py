@@ -98,3 +98,41 @@ def speed(design: LoadsDesign, samples: int | None = None) -> Table:
         "kinetic_energy": (kinetic, "J"),
     }
     return Table.of("speed", columns)
+
+
+def spectrum(design: LoadsDesign, samples: int | None = None) -> Table:
+    """Residual vibration from 0.1 to 1.3 times the speed of the design."""
+    vibrating = design.vibrating_given
+    shares, periods, residual = vibrating.spectrum(samples or 121)
+    columns = {
+        "speed": (shares * abs(design.speed) / design.speed_unit, design.speed_unit_name),
+        "ratio": (periods, "1"),
+        "residual": (residual, "mm" if vibrating.slides else "deg"),
+    }
+    return Table.of("spectrum", columns)
+
+
+def harmonics(design: LoadsDesign, samples: int | None = None) -> Table:
+    """Harmonics of the output's motion: order, frequency, torque or force of its mass, and deflection."""
+    import numpy as np
+
+    from gearlink.core.loads.vibration import harmonics as amplitudes
+
+    vibrating, machine = design.vibrating_given, design.machine
+    orders, rows = 40 * design.turns, max(samples or 720, 160) * design.turns
+    phi = np.arange(rows, dtype=np.float64) * (machine.period / rows)
+    bend = amplitudes(vibrating.bend(phi), orders) * machine.speed**2
+    order = np.arange(1, orders + 1) / design.turns
+    w_n, zeta = vibrating.oscillator.frequency, vibrating.oscillator.damping
+    at = order * abs(machine.speed)
+    transfer = np.abs(w_n**2 - at**2 + 2j * zeta * w_n * at)
+    mass = design.masses.get(design.output)
+    inertia = 0.0 if mass is None else 1e-3 * mass.mass if vibrating.slides else np.radians(mass.inertia)
+    columns = {
+        "order": (order, "1"),
+        "frequency": (at / (2.0 * np.pi), "Hz"),
+        "torque": (bend * inertia, "N" if vibrating.slides else "N m"),
+        "twist": (np.divide(bend, transfer, out=np.full_like(bend, np.nan), where=transfer > 0.0),
+                  "mm" if vibrating.slides else "deg"),
+    }  # fmt: skip
+    return Table.of("harmonics", columns)

@@ -37,6 +37,8 @@ class GripperLoads(CamLoadsDesign):
     section: Section
     links = ("input", "coupler", "output", "return_rocker", "cam")
     pins, meshes = ("A", "C", "D", "E", "A_return", "O"), ()
+    stands = True
+    speed_unit, speed_unit_name, speed_words = 2.0 * math.pi / 3600.0, "sheets/h", "sheets/h"
     outlines = loads_outline(pins, meshes, (*CONTACT, "lift_off_speed"), CAM_CHECKS)
 
     @cached_property
@@ -98,12 +100,14 @@ class GripperLoads(CamLoadsDesign):
 
     @cached_property
     def own_joints(self) -> list[float]:
-        """Cylinder angles at which the law changes [rad]."""
-        ends, at = [], 0.0
-        for length in self.spec.phases.lengths():
-            at += length
-            ends.append(math.radians(at))
-        return ends
+        """Cylinder angles at which the law of the swing changes, its pieces among them [rad]."""
+        law, lengths = self.design.law, self.spec.phases.lengths()
+        starts = law.starts
+        found = list(starts[1:])
+        for k, joints in ((0, law.accelerate.joints), (2, law.decelerate.joints), (4, law.return_.joints)):
+            # The law of the second runs backwards.
+            found += [starts[k] + lengths[k] * (1.0 - x if k == 2 else x) for x in joints]
+        return [math.radians(degrees) for degrees in found]
 
     @property
     def quiet_zones(self) -> list[tuple[float, float]]:

@@ -1,0 +1,195 @@
+"""The vibration of one design: its output on a spring, in its dwells and over the period."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from gearlink.core.errors import MissingSection, NoSolution
+from gearlink.core.loads.kinematics import dot
+from gearlink.core.loads.vibration import ASSUMED_DAMPING, Oscillator, Panelled, PeriodicResponse, speed_limit
+from gearlink.core.results import cached_property
+
+if TYPE_CHECKING:
+    from gearlink.core.loads.design import LoadsDesign
+    from gearlink.core.numerics.arrays import Reals
+
+_DEGREES = 180.0 / math.pi
+_MM = 1e3
+_MOST_PERIODS = 40.0
+_PER_UNIT = 50
+
+
+class Vibrating:
+    """The output of a design as a mass on a spring; places in deg where it turns, in mm where it slides.
+
+    Parameters
+        design : LoadsDesign - with the section `vibration`
+    """
+
+    def __init__(self, design: LoadsDesign) -> None:
+        self.design, self.section = design, design.section.vibration
+
+    @property
+    def slides(self) -> bool:
+        """Whether the output slides."""
+        return self.design.output in self.design.sliding
+
+    @cached_property
+    def inertia(self) -> float:
+        """Mass [kg] or moment of inertia [kg m^2] of the output."""
+        mass = self.design.masses.get(self.design.output)
+        found = 0.0 if mass is None else mass.mass if self.slides else mass.inertia
+        if found == 0.0 and self.section.stiffness is not None:
+            what = "mass" if self.slides else "inertia"
+            raise MissingSection(
+                f"loads.vibration.stiffness needs the {what} of {self.design.output}: give it, or frequency in place",
+                key="loads.vibration.stiffness",
+            )
+        return found
+
+    @cached_property
+    def oscillator(self) -> Oscillator:
+        """Natural frequency and damping."""
+        if self.design.jumps:
+            raise NoSolution(
+                "the speed of this machine jumps: its vibration after a blow is not in the model; leave vibration out",
+                key="loads.vibration",
+            )
+        damping = ASSUMED_DAMPING if self.section.damping is None else self.section.damping
+        if self.section.frequency is not None:
+            return Oscillator(2.0 * math.pi * self.section.frequency, damping)
+        stiffness = self.section.stiffness * (1e3 if self.slides else 1.0)
+        return Oscillator(math.sqrt(stiffness / self.inertia), damping)
+
+    @property
+    def frequency(self) -> float:
+        """Natural frequency [Hz]."""
+        return self.oscillator.frequency / (2.0 * math.pi)
+
+    @property
+    def frequency_ratio(self) -> float:
+        """Natural frequency over that of the input."""
+        return self.oscillator.frequency / abs(self.design.speed)
+
+    def bend(self, phi: Reals) -> Reals:
+        """Second derivative of the output's place by the input angle [deg/rad^2 or mm/rad^2]."""
+        mechanism = self.design.machine.at(phi)
+        link = mechanism.links[self.design.output]
+        if self.slides:
+            return _MM * dot(mechanism.travel[self.design.output], link.origin.second)
+        return _DEGREES * link.turn.second
+
+    def place(self, phi: Reals) -> Reals:
+        """Place of the output [deg or mm]."""
+        mechanism = self.design.machine.at(phi)
+        link = mechanism.links[self.design.output]
+        if self.slides:
+            return _MM * dot(mechanism.travel[self.design.output], link.origin.value)
+        return _DEGREES * link.turn.value
+
+    @cached_property
+    def response(self) -> PeriodicResponse:
+        """The periodic steady state."""
+        machine = self.design.machine
+        breaks = tuple(machine.breaks)
+        return PeriodicResponse(self.bend, machine.period, breaks, self.oscillator, abs(machine.speed))
+
+    # Motions between the dwells
+
+    @cached_property
+    def dwells(self) -> list[tuple[float, float]]:
+        """Start and width of each dwell of the output within the period, ascending [rad]."""
+        period = self.design.machine.period
+        return sorted((start % period, width) for start, width in self.design.dwell_zones)
+
+    @cached_property
+    def motions(self) -> list[tuple[float, float]]:
+        """Start and end of each motion that ends in a dwell; the end lies within the period or after it [rad]."""
+        period, found = self.design.machine.period, []
+        for i, (start, _) in enumerate(self.dwells):
+            before, width = self.dwells[i - 1]
+            left = before + width
+            found.append((left - period if left > start else left, start))
+        return found
+
+    def _panelled(self, start: float, end: float, slowest: float) -> Panelled:
+        machine = self.design.machine
+        breaks = [place + turn for place in machine.breaks for turn in (-machine.period, 0.0, machine.period)]
+        breaks += [0.0, -machine.period]
+        return Panelled.of(
+            lambda phi: self.bend(np.mod(phi, machine.period)), start, end, breaks, self.oscillator.frequency / slowest
+        )
+
+    @cached_property
+    def rise_periods(self) -> float | None:
+        """Natural periods in the shortest motion between two dwells; None without dwells."""
+        if not self.motions:
+            return None
+        angle = min(end - start for start, end in self.motions)
+        return angle / abs(self.design.speed) * self.oscillator.frequency / (2.0 * math.pi)
+
+    @cached_property
+    def residual(self) -> float | None:
+        """Greatest amplitude that a motion from rest leaves in the dwell after it [deg or mm]; None without dwells."""
+        if not self.motions or not self.design.stands:
+            return None
+        speed = abs(self.design.speed)
+        return max(self._panelled(a, b, speed).residual(self.oscillator, speed) for a, b in self.motions)
+
+    @cached_property
+    def lift(self) -> float:
+        """Greatest less least place over the period [deg or mm]."""
+        values = self.place(np.linspace(0.0, self.design.machine.period, 721))
+        return float(values.max() - values.min())
+
+    @cached_property
+    def speed_limit(self) -> float | None:
+        """Least speed of the input at which a motion leaves more than is allowed [rad/s]."""
+        allowed = self.section.allowed_residual
+        if allowed is None or not self.motions or not self.design.stands:
+            return None
+        found = []
+        for start, end in self.motions:
+            slowest = (end - start) * self.frequency / _MOST_PERIODS
+            ratios = np.linspace(_MOST_PERIODS, 1.0, round(_MOST_PERIODS - 1.0) * _PER_UNIT + 1)
+            speeds = (end - start) * self.frequency / ratios
+            found.append(speed_limit(self._panelled(start, end, slowest), self.oscillator, speeds, allowed))
+        return min((speed for speed in found if speed is not None), default=None)
+
+    def spectrum(self, count: int) -> tuple[Reals, Reals, Reals]:
+        """Shares of the design's speed from 0.1 to 1.3, r and residual there."""
+        shares = np.linspace(0.1, 1.3, count)
+        speed = abs(self.design.speed)
+        motions = [self._panelled(a, b, 0.1 * speed) for a, b in self.motions] if self.design.stands else []
+        residuals = [
+            max((m.residual(self.oscillator, float(share * speed)) for m in motions), default=math.nan)
+            for share in shares
+        ]
+        return shares, (self.rise_periods or math.nan) / shares, np.array(residuals)
+
+    # In the dwell
+
+    @cached_property
+    def twist(self) -> float | None:
+        """Greatest deflection in the dwells in the steady state [deg or mm]; None without dwells or a steady state."""
+        if not self.dwells or self.response.unbounded:
+            return None
+        return max(float(np.max(np.abs(self.response.deflection(self._rows(*zone))))) for zone in self.dwells)
+
+    @cached_property
+    def twisted_ripple(self) -> float | None:
+        """Greatest less least place of the output with its deflection in a dwell [deg or mm]."""
+        if not self.dwells or self.response.unbounded:
+            return None
+        found = []
+        for zone in self.dwells:
+            rows = self._rows(*zone)
+            place = self.place(rows) + self.response.deflection(rows)
+            found.append(float(place.max() - place.min()))
+        return max(found)
+
+    def _rows(self, start: float, width: float) -> Reals:
+        return np.mod(start + width * np.linspace(0.0, 1.0, 181), self.design.machine.period)

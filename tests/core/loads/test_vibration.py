@@ -1,0 +1,174 @@
+"""Residual vibration: closed forms, the reference of all laws, and second ways by Fourier series.
+
+1e-12 absolute for residuals over the lift (the reference holds 1e-12), 1e-10 of the largest for periodic states.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import factory
+import numpy as np
+import pytest
+
+from gearlink.core.cams.laws import law
+from gearlink.core.errors import NoSolution
+from gearlink.core.loads.vibration import Oscillator, Panelled, PeriodicResponse, harmonics, speed_limit
+
+DATA = json.loads((Path(__file__).parents[2] / "reference" / "loads.json").read_text())
+LAWS = DATA["residual amplitude of all laws, damping 0.0"]
+CYCLOID = DATA["cycloidal rise: residual amplitude"]
+PERIODIC = DATA["periodic steady state of a double-dwell cam"]
+
+
+def rise(name: str, ratio: float) -> Panelled:
+    """A rise of 1 in a time of 1."""
+    motion = law(name)
+    return Panelled.of(
+        lambda u: motion.evaluate(np.clip(u, 0.0, 1.0), 2)[2], 0.0, 1.0, motion.joints, 2.0 * math.pi * ratio
+    )
+
+
+@pytest.mark.parametrize("name", LAWS["expected"])
+def test_residual_of_every_law(name: str) -> None:
+    for ratio, wanted in zip(LAWS["spec"]["ratio"], LAWS["expected"][name], strict=True):
+        found = rise(name, ratio).residual(Oscillator(2.0 * math.pi * ratio, 0.0), 1.0)
+        assert found == pytest.approx(wanted, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("ratio", "wanted"), list(zip(CYCLOID["spec"]["ratio"], CYCLOID["expected"]["closed_form"], strict=True))
+)
+def test_cycloid_has_its_closed_form(ratio: float, wanted: float) -> None:
+    """|sin pi r|/(pi r |1 - r^2|), 1/2 at r = 1."""
+    assert rise("cycloidal", ratio).residual(Oscillator(2.0 * math.pi * ratio, 0.0), 1.0) == pytest.approx(
+        wanted, abs=1e-13
+    )
+
+
+def test_speed_scales_the_natural_periods() -> None:
+    motion = Panelled.of(
+        lambda u: law("cycloidal").evaluate(np.clip(u / 2.0, 0.0, 1.0), 2)[2] / 4.0, 0.0, 2.0, (1.0,), 60.0
+    )
+    ratio = 1.7
+    speed = 3.0
+    frequency = 2.0 * math.pi * ratio * speed / 2.0
+    closed = abs(math.sin(math.pi * ratio)) / (math.pi * ratio * abs(1.0 - ratio**2))
+    assert motion.residual(Oscillator(frequency, 0.0), speed) == pytest.approx(closed, abs=1e-13)
+
+
+def test_speed_limit_is_where_the_residual_is_what_is_allowed() -> None:
+    motion = rise("polynomial-345", 40.0)
+    oscillator = Oscillator(2.0 * math.pi, 0.02)
+    speeds = 1.0 / np.linspace(40.0, 1.0, 1951)
+    found = speed_limit(motion, oscillator, speeds, 0.01)
+    assert found is not None
+    assert motion.residual(oscillator, found) == pytest.approx(0.01, rel=1e-9)
+    assert all(motion.residual(oscillator, float(speed)) <= 0.01 for speed in speeds[speeds < found * 0.999])
+    assert speed_limit(motion, oscillator, speeds, 10.0) is None
+
+
+def _periodic() -> PeriodicResponse:
+    spec = PERIODIC["spec"]
+
+    def bend(t: Any) -> Any:
+        total = np.zeros_like(t)
+        for piece in spec["pieces"]:
+            width = piece["end"] - piece["start"]
+            u = (t - piece["start"]) / width
+            inside = (u >= 0.0) & (u <= 1.0)
+            second = law(piece["law"]).evaluate(np.clip(u, 0.0, 1.0), 2)[2]
+            total += np.where(inside, piece["lift"] * second / width**2, 0.0)
+        return total
+
+    breaks = []
+    for piece in spec["pieces"]:
+        width = piece["end"] - piece["start"]
+        breaks += [piece["start"] + width * x for x in (0.0, *law(piece["law"]).joints, 1.0)]
+    oscillator = Oscillator(2.0 * math.pi * spec["natural_frequency"], spec["damping"])
+    return PeriodicResponse(bend, spec["period"], tuple(b for b in breaks if b > 0.0), oscillator, 1.0)
+
+
+def test_periodic_state_of_a_double_dwell_cam() -> None:
+    expected, response = PERIODIC["expected"], _periodic()
+    at = np.array(PERIODIC["spec"]["at"])
+    scale = np.abs(expected["deviation"]).max()
+    assert response.deflection(at) == pytest.approx(expected["deviation"], abs=1e-10 * scale)
+    assert response.envelope(np.array([0.1, 0.25])) == pytest.approx(expected["dwell_amplitude"], rel=1e-10)
+
+
+def test_undamped_resonance_is_not_finite() -> None:
+    wave = PeriodicResponse(np.cos, 2.0 * math.pi, (), Oscillator(3.0, 0.0), 1.0)
+    assert wave.unbounded
+    assert not PeriodicResponse(np.cos, 2.0 * math.pi, (), Oscillator(3.3, 0.0), 1.0).unbounded
+
+
+def test_harmonic_motion_has_its_closed_form() -> None:
+    """x = cos phi: z = w^2 cos/(w_n^2 - w^2) without damping."""
+    response = PeriodicResponse(lambda phi: -np.cos(phi), 2.0 * math.pi, (), Oscillator(7.3, 0.0), 2.0)
+    phi = np.linspace(0.0, 6.2, 25)
+    assert response.deflection(phi) == pytest.approx(4.0 * np.cos(phi) / (7.3**2 - 4.0), rel=1e-11, abs=1e-14)
+
+
+FEED = {key: value for key, value in DATA["cases"][0]["spec"].items() if key != "at"}
+
+
+def feed(**vibration: Any) -> Any:
+    return factory.design({**FEED, "loads": {**FEED["loads"], "vibration": vibration}}, command="loads")
+
+
+def test_dwell_twist_against_a_fourier_series() -> None:
+    """Smooth and periodic: 1024 rows give the steady state to rounding by z_n = -x''_n/(w_n^2 - n^2 w^2 + 2 i ...)."""
+    design = feed(frequency=40.0, damping=0.02)
+    n = 1024
+    phi = np.arange(n) * (2.0 * math.pi / n)
+    w, w_n = design.speed, 2.0 * math.pi * 40.0
+    order = np.fft.fftfreq(n, 1.0 / n)
+    spectrum = np.fft.fft(design.vibrating.bend(phi) * w * w)
+    z = np.fft.ifft(-spectrum / (w_n**2 - (order * w) ** 2 + 2j * 0.02 * w_n * order * w)).real
+    assert design.vibrating.response.deflection(phi) == pytest.approx(z, abs=1e-10 * np.abs(z).max())
+    assert 0.0 < design.dwell_twist <= np.abs(z).max()
+
+
+def test_stiffness_with_the_output_s_inertia_is_a_frequency() -> None:
+    by_stiffness = feed(stiffness=0.016 * (2.0 * math.pi * 40.0) ** 2)
+    assert by_stiffness.natural_frequency == pytest.approx(40.0, rel=1e-12)
+    assert by_stiffness.dwell_twist == pytest.approx(feed(frequency=40.0).dwell_twist, rel=1e-12)
+
+
+def test_harmonics_of_a_table_give_the_motion_back() -> None:
+    table = feed(frequency=40.0).table("harmonics")
+    design = feed(frequency=40.0)
+    phi = np.arange(720) * (2.0 * math.pi / 720)
+    wanted = harmonics(design.vibrating.bend(phi), 5) * design.speed**2 * math.radians(0.016)
+    assert table["torque"][:5] == pytest.approx(wanted, rel=1e-12)
+
+
+def test_gripper_vibrates_less_the_stiffer_it_is_driven() -> None:
+    found = [
+        factory.design(
+            "swing_gripper", command="loads", loads={"vibration": {"frequency": f, "allowed_residual": 0.05}}
+        )
+        for f in (60.0, 240.0)
+    ]
+    assert found[0].residual_amplitude > found[1].residual_amplitude > 0.0
+    assert found[1].rise_periods == pytest.approx(4.0 * found[0].rise_periods, rel=1e-12)
+    limit = found[1].residual_speed_limit
+    slower = factory.design(
+        "swing_gripper", command="loads", speed=0.99 * limit, loads={"vibration": {"frequency": 240.0}}
+    )
+    assert slower.residual_amplitude <= 0.05
+
+
+def test_a_machine_whose_speed_jumps_has_no_vibration_here() -> None:
+    design = factory.design(
+        "mutilated_gear_press",
+        command="loads",
+        loads={"speed": 60, "links": {"crank": {"inertia": 0.1}}, "vibration": {"frequency": 50}},
+    )
+    with pytest.raises(NoSolution) as error:
+        _ = design.natural_frequency
+    assert error.value.key == "loads.vibration"
