@@ -52,10 +52,10 @@ def build(
     loaded: LoadedFile, kind: Kind, command: str, spec: Any, options: Options, *, findings_only: bool = False
 ) -> tuple[Design, Report]:
     """The design of a validated spec and its report; what the mechanism refuses becomes a located error."""
-    only = bool(options.tables) and options.format is Format.CSV
+    only = options.candidates or (bool(options.tables) and options.format is Format.CSV)
     wanted = {
         "quantities": options.quantities,
-        "tables": options.tables,
+        "tables": (*options.tables, *(("candidates",) if options.candidates else ())),
         "only": only,
         "samples": options.samples,
         "in_parts": options.format is Format.CSV,

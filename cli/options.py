@@ -55,6 +55,7 @@ class Options:
     save: Path | None = None
     round: float | None = None
     force: bool = False
+    candidates: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,6 +107,7 @@ OPTIONS = {
         ("--save",), "write the complete design: what was found, with --suggest what was changed", Path, "FILE"
     ),
     "round": Option(("--round",), "of --save: step in mm of the lengths that were found", float, least=1e-6, most=100),
+    "candidates": Option(("--candidates",), "show designs for the same task side by side (synth, gear)"),
     "force": Option(("--force",), "let --save overwrite a file"),
 }
 """The options that commands share, by the field of `Options` that keeps their value."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from gearlink.core.clearance.bodies import Layout
 from gearlink.core.clearance.checks import SHAFT_WAYS, collision_check, shaft_checks
@@ -67,7 +67,7 @@ class ThreeGearFourBar(RealSpeed, Design):
         "analyze": Outline(QUANTITIES, ("dwell-window", *CHECKS), ("motion",)),
         "gear": Outline(MESH_QUANTITIES, MESH_CHECKS),
     }
-    extra_tables = ("motion", "links")
+    extra_tables: ClassVar[tuple[str, ...]] = ("motion", "links")
     ways = WAYS
 
     # Gears and links

@@ -15,7 +15,7 @@ from gearlink.core.linkages.standstills import BackStep
 from gearlink.core.real_speed import other_speed
 from gearlink.core.report import Check
 from gearlink.core.results import cached_property
-from gearlink.core.three_gear import dwells, families, internal_families, symmetric_back_step
+from gearlink.core.three_gear import candidates, dwells, families, internal_families, symmetric_back_step
 from gearlink.core.three_gear import symmetric_family as family
 from gearlink.core.three_gear.bodies import layout
 from gearlink.core.three_gear.codes import ACHIEVED
@@ -44,6 +44,9 @@ def with_analysis(synthesis: str, outline: Outline) -> dict[str, Outline]:
 
 class Synthesis(ThreeGearFourBar):
     """What the syntheses share: the choice of the idler; `linkage_of` gives the links for an idler."""
+
+    extra_tables = (*ThreeGearFourBar.extra_tables, "candidates")
+    table_candidates = candidates.table
 
     def linkage_of(self, idler: int) -> FourBar:
         """The links that meet the task with an idler of so many teeth."""
