@@ -55,6 +55,15 @@ _GEAR_LINKAGE = {
 }
 
 _REAL_SPEED = {
+    "feed_radius": Term("r_F", "mm", "radius at which the output's angle becomes travel of chain, web or belt"),
+    "feed_per_turn": Term("s_F", "mm", "net travel of what is fed per turn of the input", "thesis 3.3.2"),
+    "feed_back_step": Term("s_12", "mm", "how far what is fed goes back"),
+    "chain_ripple": Term("1-cos(pi/z)", "1", "share by which a chain's speed falls between two teeth"),
+    "feed_velocity_max": Term("v_F,max", "mm/s", "greatest velocity of what is fed"),
+    "feed_velocity_min": Term("v_F,min", "mm/s", "least velocity of what is fed"),
+    "feed_velocity_mean": Term("v_F,m", "mm/s", "mean velocity of what is fed"),
+    "feed_acceleration_max": Term("a_F,max", "mm/s^2", "greatest acceleration of what is fed"),
+    "feed_acceleration_min": Term("a_F,min", "mm/s^2", "least acceleration of what is fed"),
     "turn_time": Term("T", "ms", "time of an input turn"),
     "output_speed_max": Term("w5_max", "rad/s", "greatest speed of the output at this input speed"),
     "output_speed_min": Term("w5_min", "rad/s", "least speed of the output at this input speed"),

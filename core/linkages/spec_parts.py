@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from pydantic import Field
+from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.spec import AcuteAngle, Distance, GearLimits, Length, LoadLimits, SignedLength, Spec
+from gearlink.core.spec import AcuteAngle, Distance, GearLimits, Length, LoadLimits, Ratio, SignedLength, Spec
 
 
 class LinkageLimits(GearLimits, LoadLimits):
@@ -25,6 +25,32 @@ class PivotShafts(Spec):
 
     A_radius: Length | None = Field(None, description="radius of the input shaft at A")
     D_radius: Length | None = Field(None, description="radius of the rocker's shaft at D")
+
+
+class Feed(Spec):
+    """What the output carries on: a roller or belt by its radius, or a chain by its pitch and the sprocket's teeth."""
+
+    radius: Length | None = Field(None, description="radius of the roller, or of the pulley under the belt")
+    belt_thickness: Distance = Field(
+        0.0, description="thickness of the belt, which runs at half of it above the radius"
+    )
+    pitch: Length | None = Field(None, description="pitch of the chain, with teeth in place of radius")
+    teeth: Annotated[int, Field(ge=5, le=1000, json_schema_extra={"unit": "teeth"})] | None = Field(
+        None, description="teeth of the chain's sprocket"
+    )
+    ratio: Ratio = Field(1.0, description="speed of the feed's shaft over that of the output gear")
+
+    @model_validator(mode="after")
+    def _one_form(self) -> Feed:
+        chain = [name for name in ("pitch", "teeth") if getattr(self, name) is not None]
+        if self.radius is not None and chain:
+            message = "radius goes with a roller or a belt, pitch and teeth with a chain: give one of them"
+            raise PydanticCustomError("GL111", message, {"key": chain[0]})
+        if self.radius is None and len(chain) < 2:
+            raise PydanticCustomError("GL106", "give radius, or pitch and teeth of a chain", {"key": "radius"})
+        if chain and self.belt_thickness:
+            raise PydanticCustomError("GL111", "a chain has no belt_thickness: leave it out", {"key": "belt_thickness"})
+        return self
 
 
 class DwellBand(Spec):

@@ -16,13 +16,14 @@ from gearlink.core.gears.pair import GearPair
 from gearlink.core.gears.single_mesh import MESH_CHECKS, MESH_QUANTITIES, SingleMesh
 from gearlink.core.linkages import standstills
 from gearlink.core.linkages.checks import check_linkage, transmission_check
+from gearlink.core.linkages.feed import FEED_QUANTITIES, FeedResults
 from gearlink.core.linkages.fourbar import FourBar, solve
 from gearlink.core.linkages.standstills import BackStep, Turning
 from gearlink.core.linkages.swing import rocker_swing
 from gearlink.core.planet_linkages.bodies import two_gear_layout
 from gearlink.core.planet_linkages.codes import DWELL_CONDITION
 from gearlink.core.planet_linkages.planet import PlanetLinkage, standstill_coupler_ratio
-from gearlink.core.real_speed import RealSpeed, per_time
+from gearlink.core.real_speed import per_time
 from gearlink.core.remedies import down, either, up
 from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
@@ -71,6 +72,7 @@ QUANTITIES = (
     "output_acceleration_max",
     "output_acceleration_min",
     "back_step_time",
+    *FEED_QUANTITIES,
 )
 CHECKS = ("dwell-condition", "shaft-clearance", "transmission-angle", *MESH_CHECKS)
 
@@ -82,7 +84,7 @@ _FEWER = tuple(down(f"gears.{gear}", step=1) for gear in ("planet", "sun", "ring
 _LINKS = either("links.frame", "links.rocker", "links.coupler")
 
 
-class TwoGearFourBar(RealSpeed, SingleMesh):
+class TwoGearFourBar(FeedResults, SingleMesh):
     """Planet on the coupler, sun or ring gear on the crank's axis; the crank is their centre distance."""
 
     kind = "two-gear-four-bar"

@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.linkages.spec_parts import DwellBand, LinkageLimits, PivotShafts, require_rim
+from gearlink.core.linkages.spec_parts import DwellBand, Feed, LinkageLimits, PivotShafts, require_rim
 from gearlink.core.spec import Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth
 
 
@@ -84,6 +84,7 @@ class TwoGearFourBarSpec(DrivenSpec):
     target: MotionTarget | None = None
     dwell: StandingDwell | None = None
     back_step: BackStepAngle | None = None
+    feed: Feed | None = None
     limits: LinkageLimits = LinkageLimits()
     shafts: PivotShafts | None = None
     loads: Annotated[Any, Deferred("planet_linkages.loads_spec:PlanetLoads")] | None = Field(

@@ -15,10 +15,11 @@ from gearlink.core.gears.internal_mesh import InternalMesh
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.gears.single_mesh import MESH_CHECKS, mesh_checks, mesh_quantity
 from gearlink.core.linkages.checks import check_linkage, dwell_window_check, transmission_check
+from gearlink.core.linkages.feed import FeedResults
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.linkages.standstills import BackStep
 from gearlink.core.linkages.swing import rocker_swing
-from gearlink.core.real_speed import RealSpeed, per_time
+from gearlink.core.real_speed import per_time
 from gearlink.core.remedies import down, either, up
 from gearlink.core.report import Check, safely_above, safely_below
 from gearlink.core.results import cached_property
@@ -58,7 +59,7 @@ WAYS = {
 }
 
 
-class ThreeGearFourBar(RealSpeed, Design):
+class ThreeGearFourBar(FeedResults, Design):
     """A three-gear four-bar of given links; the syntheses replace `linkage`, `idler_teeth` and closed forms."""
 
     kind = "three-gear-four-bar"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from gearlink.core.gears.single_mesh import MESH_CHECKS
 from gearlink.core.gears.single_mesh import MESH_QUANTITIES as OF_A_MESH
+from gearlink.core.linkages.feed import FEED_QUANTITIES
 
 QUANTITIES = (
     "i3",
@@ -45,6 +46,7 @@ QUANTITIES = (
     "back_step_time",
     "dwell_time",
     "tolerance_dwell_time",
+    *FEED_QUANTITIES,
 )
 CHECKS = (
     "gear-collision",

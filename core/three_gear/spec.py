@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal, TypeAlias
 from pydantic import AfterValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.linkages.spec_parts import DwellBand, LinkageLimits, require_rim
+from gearlink.core.linkages.spec_parts import DwellBand, Feed, LinkageLimits, require_rim
 from gearlink.core.real_speed import other_speed
 from gearlink.core.spec import Assembly, Deferred, DrivenSpec, Length, PressureAngle, SignedLength, Spec, Teeth
 
@@ -180,6 +180,7 @@ class ThreeGearSpec(DrivenSpec):
     dwell_backlash: Length | None = Field(
         None, description="play at the output gear's reference circle, in place of dwell_tolerance"
     )
+    feed: Feed | None = None
     limits: LinkageLimits = LinkageLimits()
     shafts: Shafts | None = None
     register_: Annotated[Any, Deferred("tolerance.spec:Register")] | None = Field(

@@ -156,3 +156,50 @@ def test_variable_speed_of_unequal_gears_refuses_another_input_speed_too():
     with pytest.raises(NoSolution, match="input_speed is 999 rev/min") as refused:
         design("thesis_example_2", command="synth variable-speed", input_speed=999, **keys).input_speed  # noqa: B018
     assert refused.value.key == "input_speed"
+
+
+# What the output feeds
+
+
+@pytest.mark.parametrize(("feed", "radius"), [
+    ({"radius": 60.0}, 60.0),
+    ({"radius": 60.0, "belt_thickness": 2.0}, 61.0),
+    ({"radius": 60.0, "ratio": 0.5}, 30.0),
+    ({"pitch": 12.7, "teeth": 19}, 19 * 12.7 / (2.0 * math.pi)),
+])  # fmt: skip
+@pytest.mark.parametrize("name", ["thesis_example_3_as_printed", "two_gear_ring"])
+def test_roller_belt_and_chain(name, feed, radius):
+    made = design(name, input_speed=SPEED, feed=feed)
+    assert made.quantity("feed_radius").value == pytest.approx(radius, **CLOSE)
+    assert made.feed_per_turn == pytest.approx(2.0 * math.pi * made.mean_ratio * radius, **CLOSE)
+    assert made.feed_back_step == pytest.approx(made.back_step_angle * radius, **CLOSE)
+    assert made.feed_velocity_max == pytest.approx(made.output_speed_max * radius, **CLOSE)
+    assert made.feed_acceleration_min == pytest.approx(made.output_acceleration_min * radius, **CLOSE)
+    found = made.table("motion", samples=7200)
+    step = 1e-3 * (found["time"][1] - found["time"][0])
+    slope = (found["feed_travel"][2:] - found["feed_travel"][:-2]) / (2.0 * step)
+    assert np.max(np.abs(slope - found["feed_velocity"][1:-1])) < 1e-5 * np.max(found["feed_velocity"])
+
+
+def test_a_chain_of_many_teeth_runs_evenly():
+    ripple = [design("two_gear_ring", feed={"pitch": 12.7, "teeth": z}).chain_ripple for z in (6, 19, 1000)]
+    assert ripple == pytest.approx([1.0 - math.cos(math.pi / z) for z in (6, 19, 1000)], rel=1e-10)
+    assert design("two_gear_ring", feed={"radius": 10.0}).quantity("chain_ripple") is None
+
+
+def test_travel_needs_no_speed_and_nothing_of_it_appears_without_a_feed():
+    made = design("thesis_example_3_as_printed", feed={"radius": 60.0})
+    assert made.table("motion", samples=4).columns[-1] == "feed_travel"
+    assert made.quantity("feed_velocity_max") is None
+    assert design("thesis_example_3_as_printed", input_speed=SPEED).quantity("feed_per_turn") is None
+
+
+@pytest.mark.parametrize(("feed", "words"), [
+    ({}, "give radius, or pitch and teeth"),
+    ({"pitch": 12.7}, "give radius, or pitch and teeth"),
+    ({"radius": 10.0, "teeth": 19}, "radius goes with a roller or a belt"),
+    ({"pitch": 12.7, "teeth": 19, "belt_thickness": 1.0}, "a chain has no belt_thickness"),
+])  # fmt: skip
+def test_a_feed_is_one_of_three(feed, words):
+    with pytest.raises(ValueError, match=words):
+        design("two_gear_ring", feed=feed)

@@ -1,0 +1,62 @@
+"""A designer's first hour, played: from the list of kinds to the drawing, no number copied by hand.
+
+The analysis of what a synthesis saved is that synthesis's result to 1e-9, the rounding of its closed forms.
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+
+def test_first_hour(gearlink: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "80")
+    assert "gearlink new KIND" in gearlink("new").out
+
+    # a feed that dwells, with three numbers of one's own
+    begun = gearlink("new", "three-gear-four-bar", "--out", "feed.yaml")
+    assert "try: gearlink synth dwell feed.yaml" in begun.err
+    text = Path("feed.yaml").read_text()
+    assert "name: feed" in text
+    for key, value in (("crank", "44"), ("output", "44"), ("window", "60")):
+        text, count = re.subn(rf"(?m)^(  {key}): [\d.]+", rf"\1: {value}", text, count=1)
+        assert count == 1, key
+    Path("feed.yaml").write_text(text.replace("# input_speed:", "input_speed: 90 #", 1))
+
+    # what can be had, what it is, and the whole of it in a file
+    table = gearlink("synth", "dwell", "feed.yaml", "--candidates")
+    assert table.status == 0
+    assert re.search(r"(?m) pass$", table.out)
+    sized = gearlink("synth", "dwell", "feed.yaml", "--save", "full.yaml", "--format", "json")
+    assert sized.status == 0
+    assert "try: gearlink analyze full.yaml" in sized.err
+    assert "found by synth dwell" in Path("full.yaml").read_text()
+
+    # its analysis, without a number copied by hand
+    found = gearlink("analyze", "full.yaml", "--format", "json")
+    assert found.status == 0
+    for name in ("frame_length", "tolerance_dwell_angle", "output_acceleration_max", "tolerance_dwell_time"):
+        before, after = (each.json["quantities"][name] for each in (sized, found))
+        assert after["value"] == pytest.approx(before["value"], rel=1e-9), name
+        assert after["unit"] == before["unit"]
+    assert [c["status"] for c in found.json["checks"] if c["name"] == "dwell-window"] == ["pass"]
+    assert gearlink("explain", "phi_tol").out.startswith("phi_tol: tolerance_dwell_angle")
+
+    # the page, the profiles, and all of it in one run
+    assert gearlink("report", "full.yaml", "--out", "out", "--quiet").status == 0
+    assert gearlink("export", "full.yaml", "--out", "out", "--quiet").status == 0
+    written = sorted(path.suffix for path in Path("out").iterdir())
+    assert ".html" in written
+    assert ".dxf" in written
+    assert gearlink("batch", ".").status == 0
+
+
+def test_a_design_that_fails_is_repaired_and_saved(gearlink: Any, tmp_path: Path, designs: Path) -> None:
+    failing, path = designs / "thesis_example_3_as_printed.yaml", tmp_path / "repaired.yaml"
+    assert gearlink("analyze", failing).status == 1
+    assert gearlink("analyze", failing, "--suggest", "--save", path).status == 0
+    assert gearlink("check", path).status == 0
