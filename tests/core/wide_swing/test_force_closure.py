@@ -126,9 +126,8 @@ def test_balance_leaves_no_force() -> None:
 @pytest.mark.parametrize("changes", [{}, {"layout": "twin-rocker", "swing": 150.0, "cycle_angle": 80.0}])
 def test_greatest_force_is_that_of_the_table(changes: dict[str, Any]) -> None:
     made = design(reserve=0.3, **changes)
-    table = dict(
-        zip(made.table("contact", samples=2000).columns, made.table("contact", samples=2000).data, strict=True)
-    )
+    rows = made.table("contact", samples=2000)
+    table = dict(zip(rows.columns, rows.data, strict=True))
     at_design = np.abs(np.asarray(table["speed_share"]) - 1.0) < 1e-9
     forces = [np.asarray(table[name])[at_design] for name in ("force", "return_force") if name in table]
     largest = max(float(np.nanmax(force)) for force in forces)
