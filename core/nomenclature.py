@@ -172,6 +172,8 @@ _SWING = {
     "middle_radius_estimate": Term("Rm*", "mm", "the source's estimate of R at mid-swing", "dissertation (27)"),
     "contact_end": Term("k_c", "1", "fraction of the stroke at which the roller leaves the profile", "own derivation"),
     "contact_force": Term("F", "N", "greatest force of a roller on its cam at the design speed", "own derivation"),
+    "line_of_centers_place": Term("k*", "1", "fraction of the stroke at which the roller passes the line of centres"),
+    "roller_arm_offset": Term("phi*", "deg", "rocker angle from mid-swing at which it does so", "own derivation"),
     "dwell_force": Term("F_d", "N", "greatest force of a roller on its cam during the rests", "own derivation"),
     "sectors_external": Term(
         "", "deg", "external profile: driven, arc, free, arc from its stroke on", "own derivation"

@@ -103,10 +103,13 @@ def swing_cam(name: str, design: Any) -> Part:
     Raises
         NoSolution - where the profile does not exist
     """
+    from gearlink.core.wide_swing.outline import middle_of
+
     cam, mirror = _served(name, design)
     contact = design.contact_of(cam)
-    places = sorted({0.0, *contact[0], 0.5, *contact[1], 1.0})
-    middle = complex(_pitch_of(cam, mirror)(np.array([0.5]))[0])
+    center = middle_of(cam)
+    places = sorted({0.0, *contact[0], center, *contact[1], 1.0})
+    middle = complex(_pitch_of(cam, mirror)(np.array([center]))[0])
     circles = [Circle("ROLLER_AT_MID_SWING", cam.roller_radius, middle)]
     shaft = design.section.shaft_radius
     if shaft > 0.0:

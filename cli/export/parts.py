@@ -61,8 +61,8 @@ def _wide_swing(design: Any) -> Makers:
         return {}
     from gearlink.cli.export.cam_parts import closed_cam, swing_cam
 
-    # A cam on the rocker of a crank-rocker serves both strokes.
-    names = ("main_cam", "return_cam") if design.spec.drive is None else ("main_cam",)
+    # A cam on the rocker of a crank-rocker serves both strokes, and that of a slider, turning back, the return.
+    names = ("main_cam", "return_cam") if design.spec.drive is None and design.spec.slider is None else ("main_cam",)
     found: Makers = {name: partial(swing_cam, name, design) for name in names}
     if design.spec.cycle is not None:
         found |= {name: partial(closed_cam, name, design) for name in ("contour", "return_contour")}

@@ -24,6 +24,8 @@ def cams_of(design: WideSwingDesign) -> list[tuple[str, AnyCam, float]]:
     working = "Cam of the working stroke"
     if design.spec.drive is not None:
         return [("Oscillating cam", design.cam, 1.0)]
+    if design.spec.slider is not None:
+        return [("Cam of both strokes, turning back in the return", design.cam, 1.0)]
     if design.return_cam is None:
         return [(working, design.cam, 1.0), ("Cam of the return stroke (mirror image)", design.cam, -1.0)]
     if design.spec.layout == "twin-cam":
@@ -132,8 +134,11 @@ def _pitch(axes: Axes, cam: AnyCam, mirror: float) -> None:
     axes.plot(
         *_mirrored(pitch, mirror), color=style.BLUE, linewidth=1.0, linestyle=_DASHED, label="pitch curve", zorder=3
     )
-    zone = min(0.5, cam.transition_zone)
-    part = cam.points(np.linspace(0.5 - zone, 0.5 + zone, 101)).pitch
+    from gearlink.core.wide_swing.outline import middle_of
+
+    middle = middle_of(cam)
+    zone = min(cam.transition_zone, middle, 1.0 - middle)
+    part = cam.points(np.linspace(middle - zone, middle + zone, 101)).pitch
     axes.plot(*_mirrored(part, mirror), color=style.ORANGE, linewidth=3.0, solid_capstyle="butt", zorder=4)
 
 
@@ -141,9 +146,9 @@ def _rockers(axes: Axes, cam: AnyCam, mirror: float) -> None:
     """The rocker at start, mid-swing and end as the cam sees it."""
     import numpy as np
 
-    from gearlink.core.wide_swing.outline import rocker_pivots
+    from gearlink.core.wide_swing.outline import middle_of, rocker_pivots
 
-    points = cam.points(np.array([0.0, 0.5, 1.0]))
+    points = cam.points(np.array([0.0, middle_of(cam), 1.0]))
     pivots = rocker_pivots(cam, points)
     looks = (("start", style.GREEN), ("mid-swing", style.BLACK), ("end", style.PURPLE))
     for roller, pivot, (name, color) in zip(points.pitch, pivots, looks, strict=True):
@@ -181,8 +186,10 @@ def pressure_panel(axes: Axes, design: WideSwingDesign) -> None:
 
 
 def _zone(axes: Axes, design: WideSwingDesign) -> None:
-    zone = min(0.5, max(cam.transition_zone for cam in design.cams.values()))
-    axes.axvspan(0.5 - zone, 0.5 + zone, color=ZONE, linewidth=0, zorder=0)
+    from gearlink.core.wide_swing.outline import middle_of
+
+    zone, middle = min(0.5, max(cam.transition_zone for cam in design.cams.values())), middle_of(design.cam)
+    axes.axvspan(middle - zone, middle + zone, color=ZONE, linewidth=0, zorder=0)
 
 
 def curvature_panel(axes: Axes, design: WideSwingDesign) -> None:

@@ -54,11 +54,13 @@ def _slot_panel(axes: Axes, design: WideSwingDesign, cam: AnyCam, mirror: float)
     """The slot that the roller needs at mid-swing, enlarged."""
     import numpy as np
 
+    from gearlink.core.wide_swing.outline import middle_of
+
     start, end = design.slot_of(cam)
     cam_panel(axes, design, "Slot at mid-swing", cam, mirror)
     words = f"contact until k = {start:.4f}\nand from k = {end:.4f}"
     axes.text(0.97, 0.05, words, transform=axes.transAxes, ha="right", va="bottom", fontsize=7.5, zorder=8)
-    middle = complex(cam.points(np.array([0.5])).pitch[0])
+    middle = complex(cam.points(np.array([middle_of(cam)])).pitch[0])
     half: Any = _SLOT_VIEW * cam.roller_radius
     axes.set_aspect("equal", adjustable="box")
     axes.set_xlim(middle.real - 1.6 * half, middle.real + 1.6 * half)

@@ -101,6 +101,12 @@ class Cycle:
     def cam_turn(self, *, back: bool = False) -> Reals:
         """Angle of an evenly turning cam from mid-swing of the stroke that it guides, the return of the last [rad]."""
         motion = self.design.motion
+        if self.design.spec.slider is not None:
+            from gearlink.core.wide_swing.outline import middle_of
+
+            share = middle_of(self.design.cam)
+            late, share = (0.5 * self.turned, 1.0 - share) if back else (0.0, share)
+            return self.turned * self.fraction - late - share * motion.cycle_angle
         late = 0.5 * self.turned if back else 0.0
         if back and self.whole:
             late = sum(motion.cycle_angles[:2])
@@ -144,6 +150,8 @@ def _cams(cycle: Cycle) -> list[Part]:
     if design.spec.layout == "twin-cam":
         main = _cam(cycle, design.cam, -cycle.cam_turn(), BLUE)
         arms = dict.fromkeys((design.cam.rocker_radius, other.rocker_radius))
+        if design.spec.slider is not None:
+            back = _cam(cycle, other, cycle.cam_turn(back=True), RED)
         return [*back, *main, *(part for arm in arms for part in _roller(cycle, arm))]
     assert design.return_cam is not None, "a twin-rocker has two shapes"
     main = _cam(cycle, design.cam, math.pi + cycle.cam_turn(), BLUE)
@@ -181,7 +189,8 @@ def _closed(cycle: Cycle, turn: Reals, color: str, *, late: bool) -> Body:
 
 def _roller(cycle: Cycle, arm: float) -> list[Part]:
     """A roller on its arm; a negative arm points the other way."""
-    center = arm * np.exp(1j * cycle.swing)
+    aside = cycle.design.slider_cam.arm_offset if cycle.design.spec.slider is not None else 0.0
+    center = arm * np.exp(1j * (cycle.swing - aside))
     cam = cycle.design.spec.cam
     assert cam is not None, "there is a roller where there is a cam"
     return [

@@ -106,7 +106,7 @@ def profile_exists(design: WideSwingDesign) -> Check:
         text = error.message + (f": make drive.crank at most {crank:.12g} mm" if crank else "")
         return codes.PROFILE_EXISTS.check("fail", text, shown, 0.0)
     text = "the pitch curve has no loop"
-    if design.spec.drive is None:
+    if design.spec.drive is None and design.spec.slider is None:
         text += f"; the run-up takes {math.degrees(design.even_cam.phase_angle):.6g} deg of the cam"
     return codes.PROFILE_EXISTS.check("pass", text, shown, 0.0)
 

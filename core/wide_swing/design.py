@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from gearlink.core.wide_swing.cycle import WholeCycle
     from gearlink.core.wide_swing.oscillating_cam import OscillatingCam
     from gearlink.core.wide_swing.outline import AnyCam
+    from gearlink.core.wide_swing.slider_cam import SliderCam
     from gearlink.core.wide_swing.spec import SwingCam, WideSwingSpec
 
 _LAW = {
@@ -50,6 +51,7 @@ _DRIVE = {
     "middle_pressure_angle": "oscillating_cam.middle_pressure_angle",
 }
 _OF_REST = ("dwell_force",)
+_OF_SLIDER_CAM = {"line_of_centers_place": "cam.middle", "roller_arm_offset": "cam.arm_offset"}
 _OF_EVEN_CAM = ("profile_correction", "largest_profile_correction", "phase_angle", "start_curvature_radius")
 _PROFILE = {
     "rocker_radius": "cam.rocker_radius",
@@ -77,7 +79,7 @@ _ITERATION = {
     "iteration_error": "unloading.iteration_error",
 }
 _CURVATURE = {"min_curvature_radius": "cam.min_curvature_radius"}
-_PATHS = _LAW | _TORQUE | _SHAFT | _SLIDER | _DRIVE | _PROFILE | _CURVATURE | _CYCLE | _ITERATION
+_PATHS = _LAW | _TORQUE | _SHAFT | _SLIDER | _DRIVE | _PROFILE | _OF_SLIDER_CAM | _CURVATURE | _CYCLE | _ITERATION
 _NEED_PROFILE = ("start_radius_estimate", "middle_radius_estimate")
 _NEED_ZONE = ("transition_zone", "max_pressure_angle", "min_curvature_radius", "contact_end", "contact_force")
 
@@ -119,8 +121,10 @@ class WideSwingDesign(Design):
         return self.spec.cam
 
     @cached_property
-    def cam(self) -> WideSwingCam | OscillatingCam:
+    def cam(self) -> AnyCam:
         """The cam of the working stroke."""
+        if self.spec.slider is not None:
+            return self.slider_cam
         return self.even_cam if self.spec.drive is None else self.oscillating_cam
 
     @cached_property
@@ -128,11 +132,15 @@ class WideSwingDesign(Design):
         """The cam of the working stroke, turning evenly."""
         if self.spec.drive is not None:
             raise NoSolution("this is a result of a cam that turns evenly: leave out drive", key="drive")
+        if self.spec.slider is not None:
+            raise NoSolution("this is a result of a cam of a rocker alone: leave out slider", key="slider")
         return self._even(self.spec.layout, self.motion.cycle_angle, self.section.rocker_radius)
 
     @cached_property
     def return_cam(self) -> WideSwingCam | None:
         """A return cam of another shape: the external profile of the twin-rocker, or one of another cam angle."""
+        if self.spec.slider is not None:
+            return None
         if self.spec.layout == "twin-cam" and self.motion.return_angle == self.motion.cycle_angle:
             return None
         return self._even("twin-cam", self.motion.return_angle, None)
@@ -159,6 +167,15 @@ class WideSwingDesign(Design):
         section, law, drive = self.section, self.motion.plain_law, self.motion.drive
         with at_key("drive"):
             return OscillatingCam(drive, law, section.center_distance, section.roller_radius)
+
+    @cached_property
+    def slider_cam(self) -> SliderCam:
+        """The cam of a rocker that drives a slider."""
+        from gearlink.core.wide_swing.slider_cam import SliderCam
+
+        section, law, angle = self.section, self.motion.slider, self.motion.cycle_angle
+        with at_key("cycle_angle"):
+            return SliderCam(law, angle, section.center_distance, section.roller_radius)
 
     @property
     def cams(self) -> dict[str, AnyCam]:
@@ -303,7 +320,7 @@ class WideSwingDesign(Design):
     def outline(self, command: str) -> Outline:
         """What the sections of the file allow; a profile with a loop leaves its quantities out of `swing`."""
         base, spec = self.outlines[command], self.spec
-        cams = ("main_cam", "return_cam") if spec.drive is None else ("main_cam",)
+        cams = ("main_cam", "return_cam") if spec.drive is None and spec.slider is None else ("main_cam",)
         turn = ("joints",) if spec.cycle is not None else ()
         of_turn = _CYCLE_CHECKS if spec.cycle is not None else ()
         if command == "cam":
@@ -331,6 +348,8 @@ class WideSwingDesign(Design):
             return ["lift_off_speed"]
         if self.spec.drive is not None:
             names = [*_DRIVE, *(name for name in names if name not in (*_OF_EVEN_CAM, *_OF_REST, *_NEED_PROFILE))]
+        if self.spec.slider is not None:
+            names = [*_OF_SLIDER_CAM, *(name for name in names if name not in (*_OF_EVEN_CAM, *_NEED_PROFILE))]
         if self.spec.cycle is not None and self._profile_exists:
             names += _CYCLE
         if not self._profile_exists:

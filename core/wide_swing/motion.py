@@ -11,6 +11,7 @@ from gearlink.core.results import cached_property
 from gearlink.core.wide_swing.remedies import drive_repair, slider_repair, with_number
 
 if TYPE_CHECKING:
+    from gearlink.core.numerics.arrays import Reals
     from gearlink.core.wide_swing.device import Device
     from gearlink.core.wide_swing.elastic_law import ElasticLaw
     from gearlink.core.wide_swing.oscillating_cam import CrankRockerDrive
@@ -114,6 +115,16 @@ class Motion:
     def law(self) -> ElasticLaw | SliderLaw:
         """The law of motion of the rocker, with its slider where it has one."""
         return self.plain_law if self.spec.slider is None else self.slider
+
+    def torque(self, k: Reals) -> Reals:
+        """Torque of the device that balances the inertia, over J gamma/T^2: c, with a slider (N/2) E_a.
+
+        Parameters
+            k : (N,) array - fractions of the stroke
+        """
+        if self.spec.slider is None:
+            return self.plain_law.invariants(k, 2)[2]
+        return self.slider.device_torque(k)
 
     @property
     def reference_inertia(self) -> float:

@@ -7,13 +7,19 @@ import numpy as np
 from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.wide_swing.cam import CamPoints, WideSwingCam
 from gearlink.core.wide_swing.oscillating_cam import OscillatingCam
+from gearlink.core.wide_swing.slider_cam import SliderCam
 
-AnyCam = WideSwingCam | OscillatingCam
+AnyCam = WideSwingCam | OscillatingCam | SliderCam
 
 
 def is_external(cam: AnyCam) -> bool:
     """Whether the cam's body lies inside its profile."""
     return isinstance(cam, OscillatingCam) or cam.sense > 0
+
+
+def middle_of(cam: AnyCam) -> float:
+    """Fraction of the stroke at which the roller passes the line of centres."""
+    return cam.middle if isinstance(cam, SliderCam) else 0.5
 
 
 def rocker_pivots(cam: AnyCam, points: CamPoints) -> Points:
@@ -57,7 +63,7 @@ def contour(cam: AnyCam, slot: tuple[float, float], count: int = 400) -> tuple[P
     """
     run_up = cam.points(np.linspace(cam.contact[0][0], slot[0], count)).profile
     run_out = cam.points(np.linspace(slot[1], cam.contact[1][1], count)).profile
-    middle = complex(cam.points(np.array([0.5])).pitch[0])
+    middle = complex(cam.points(np.array([middle_of(cam)])).pitch[0])
     return run_up, _slot_bottom(cam, middle, run_up[-1], run_out[0]), run_out
 
 
@@ -83,7 +89,7 @@ def dwell_arc(cam: AnyCam, count: int = 181) -> Points:
     """
     (begin, _), (_, end) = cam.contact
     last, first = (complex(z) for z in cam.points(np.array([end, begin])).profile)
-    middle = complex(cam.points(np.array([0.5])).pitch[0])
+    middle = complex(cam.points(np.array([middle_of(cam)])).pitch[0])
     start, stop = (float(np.angle(z / -middle)) for z in (last, first))
     share: Reals = np.linspace(0.0, 1.0, count)
     radius = abs(last) ** (1.0 - share) * abs(first) ** share

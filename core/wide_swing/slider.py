@@ -247,6 +247,22 @@ class SliderLaw:
         first_half = self._half.displacement(np.abs(sine), cosine)
         return (np.where(sine < 0.0, 1.0 - first_half, first_half), *self._rates(sine, cosine))[: order + 1]
 
+    def device_torque(self, k: Reals) -> Reals:
+        """Torque of the device over J_ref gamma/T^2.
+
+        (N/2) E_a = j c + b^2 j_a/2,   j_a = 2 (1 - j0) b_kp b_kp,a
+
+        Parameters
+            k : (N,) array - fraction of the stroke, 0 to 1
+        Raises
+            NoSolution - for k outside 0 to 1
+        """
+        sine, cosine = self._pendulum(k)
+        b, c = self._rates(sine, cosine)
+        rate, slope = self._slider_rate(self._angle(sine, cosine))
+        torque: Reals = self._inertia(rate) * c + (1.0 - self.rocker_share) * rate * slope * b * b
+        return torque
+
     def slider_invariants(self, k: Reals) -> tuple[Reals, Reals, Reals]:
         """Displacement, velocity and acceleration invariants of the slider.
 

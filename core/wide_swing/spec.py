@@ -215,7 +215,9 @@ class WideSwingSpec(TolerancedSpec):
         if self.drive is not None:
             self._agree_with_drive()
         if self.slider is not None:
-            for name in ("cam", "drive", "shaft"):
+            if self.cam is not None:
+                self._cam_with_slider(self.cam)
+            for name in ("drive", "shaft"):
                 if getattr(self, name) is not None:
                     _refuse(
                         name,
@@ -223,6 +225,14 @@ class WideSwingSpec(TolerancedSpec):
                         name=name,
                     )
         return self
+
+    def _cam_with_slider(self, cam: SwingCam) -> None:
+        if self.layout != "twin-cam":
+            _refuse("layout", "the cam of a rocker with a slider has an external profile: layout must be twin-cam")
+        if self.cycle is not None:
+            _refuse("cycle", "a cycle is that of a rocker without a slider: give cycle_angle")
+        if cam.rocker_radius is not None:
+            _refuse("cam.rocker_radius", "the law of a slider gives the rocker radius: leave out cam.rocker_radius")
 
     def _agree_with_drive(self) -> None:
         if self.cycle is not None:

@@ -65,7 +65,9 @@ def contact(design: WideSwingDesign, samples: int | None = None) -> Table:
 def _force(design: WideSwingDesign, cam: AnyCam, k: Any, share: Any) -> Any:
     import numpy as np
 
-    touching = design.touches(cam, k) & (k != 0.5)
+    from gearlink.core.wide_swing.outline import middle_of
+
+    touching = design.touches(cam, k) & (k != middle_of(cam))
     force = np.full_like(k, np.nan)
     force[touching] = design.unloading.contact_force(cam, k[touching], share[touching])
     return force

@@ -145,7 +145,7 @@ class Unloading:
         motion = self.motion
         speed_ratio = speed_ratio * (motion.device_angle / cam.cycle_angle)
         scale = 1e3 * motion.inertia * motion.swing / (motion.stroke_time**2 * cam.rocker_radius)
-        acceleration = np.abs(motion.plain_law.invariants(k, 2)[2])
+        acceleration = np.abs(motion.torque(k))
         excess = self.spec.unloader.reserve - (speed_ratio - 1.0) * (speed_ratio + 1.0)
         force: Reals = scale * excess * acceleration / np.cos(cam.pressure_angle(k))
         return force
@@ -162,4 +162,4 @@ class Unloading:
         """
         import numpy as np
 
-        return max(float(self.contact_force(cam, np.zeros(1), 0.0)[0]) for cam in cams)
+        return max(float(self.contact_force(cam, np.array([0.0, 1.0]), 0.0).max()) for cam in cams)

@@ -68,6 +68,7 @@ def table(path: Path) -> list[dict[str, str]]:
         ("wide_swing_twin_rocker.yaml", {"main_cam", "return_cam"}),
         ("wide_swing_cycle.yaml", {"main_cam", "return_cam", "contour", "return_contour"}),
         ("wide_swing_oscillating_cam.yaml", {"main_cam"}),
+        ("wide_swing_slider_cam.yaml", {"main_cam"}),
         ("two_gear_drag_link.yaml", {"gear2", "gear5"}),
         ("two_gear_ring.yaml", {"gear2", "gear5"}),
         ("wide_lever.yaml", {"gear2", "gear5"}),

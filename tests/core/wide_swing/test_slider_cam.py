@@ -1,0 +1,145 @@
+"""The cam of a wide-swing rocker that drives a slider: geometry in the world, contact, and the torque of the device.
+
+Tolerances: places 1e-12 of the centre distance; directions against differences over 1e-5 of the stroke 1e-6; torque of
+the device against the energy of rocker and slider by differences 1e-6; without a slider's mass the cam is that of the
+rocker alone within 1e-9, since the law is then computed another way.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from factory import design
+
+from gearlink.core.errors import NoSolution
+from gearlink.core.wide_swing.cam import WideSwingCam
+from gearlink.core.wide_swing.elastic_law import ElasticLaw, Pneumatic
+from gearlink.core.wide_swing.slider import SliderDrive, SliderLaw
+from gearlink.core.wide_swing.slider_cam import HalfLaw, SliderCam
+
+GAMMA, ANGLE, A, R = math.radians(120.0), math.radians(150.0), 200.0, 8.0
+DRIVE = SliderDrive(150.0, 450.0, math.radians(90.0))
+
+
+def cam(share: float = 0.3) -> SliderCam:
+    return SliderCam(SliderLaw(Pneumatic(2.6), GAMMA, DRIVE, share), ANGLE, A, R)
+
+
+def path(made: SliderCam, k: Any) -> Any:
+    """The roller's centre in the turning cam, from the rocker's angle."""
+    phi = made.law.swing * (made.law.invariants(np.asarray(k), 0)[0] - 0.5) - made.arm_offset
+    theta = made.cycle_angle * (np.asarray(k) - made.middle)
+    return np.exp(1j * theta) * (made.rocker_radius * np.exp(1j * phi) - A)
+
+
+def test_pitch_curve_is_the_rollers_path() -> None:
+    made, k = cam(), np.linspace(0.0, 1.0, 401)
+    np.testing.assert_allclose(made.points(k).pitch, path(made, k), atol=1e-10)
+
+
+def test_roller_is_fastest_on_the_line_of_centres() -> None:
+    made = cam()
+    b = made.law.invariants(np.linspace(0.0, 1.0, 20001), 1)[1]
+    assert made.middle == pytest.approx(float(np.argmax(b)) / 20000, abs=1e-4)
+    first, second = made.halves
+    assert first.rocker_radius == pytest.approx(second.rocker_radius, rel=1e-13)
+    assert made.rocker_radius == pytest.approx(A / (1.0 + float(b.max()) * GAMMA / ANGLE), rel=1e-8)
+
+
+def test_profile_stands_on_the_normal_and_the_pressure_angle_on_the_arm() -> None:
+    made, h = cam(), 1e-5
+    for k in (0.05, 0.3, 0.55, 0.8, 0.95):
+        z = path(made, [k - h, k + h])
+        along = (z[1] - z[0]) / abs(z[1] - z[0])
+        at = made.points(np.array([k]))
+        normal = complex(at.profile[0] - at.pitch[0]) / R
+        assert abs((normal * along.conjugate()).real) < 1e-6
+        assert abs(normal) == pytest.approx(1.0, rel=1e-12)
+        assert (normal * complex(at.pitch[0]).conjugate()).real < 0.0  # the body lies inside
+        pivot = -A * np.exp(1j * made.cycle_angle * (k - made.middle))
+        motion = 1j * (complex(at.pitch[0]) - pivot)
+        angle = math.acos(abs((normal * motion.conjugate()).real) / abs(motion))
+        assert abs(float(at.pressure_angle[0])) == pytest.approx(angle, abs=1e-6)
+
+
+def test_roller_nowhere_enters_the_profile() -> None:
+    made = cam()
+    (first, start), (end, last) = made.contact
+    k = np.concatenate([np.linspace(first, start, 1500), np.linspace(end, last, 1500)])
+    profile = made.points(k).profile
+    centre = made.points(np.linspace(0.0, 1.0, 1201)).pitch
+    room = np.abs(profile[None, :] - centre[:, None]).min(axis=1)
+    assert room.min() > R * (1.0 - 1e-9)
+
+
+def test_without_the_sliders_mass_it_is_the_rockers_own_cam() -> None:
+    made = cam(share=1.0)
+    plain = WideSwingCam("twin-cam", ElasticLaw(Pneumatic(2.6), GAMMA), ANGLE, A, R)
+    assert made.middle == pytest.approx(0.5, abs=1e-12)
+    for name in ("rocker_radius", "min_radius", "max_radius", "max_pressure_angle", "min_curvature_radius"):
+        assert getattr(made, name) == pytest.approx(getattr(plain, name), rel=1e-9), name
+    assert made.transition_zone == pytest.approx(plain.transition_zone, rel=1e-9)
+    assert made.loop_margin == pytest.approx(plain.loop_margin, rel=1e-6)
+    k = np.array([0.0, 0.1, 0.3, 0.45, 0.6, 0.9, 1.0])
+    one, other = made.points(k), plain.points(k)
+    np.testing.assert_allclose(one.profile, other.profile, atol=1e-9)
+    np.testing.assert_allclose(one.pressure_angle, other.pressure_angle, atol=1e-9)
+    np.testing.assert_allclose(one.curvature_radius, other.curvature_radius, rtol=1e-7)
+
+
+def test_deficit_is_the_peak_less_the_velocity() -> None:
+    law = cam().law
+    half = HalfLaw(law, cam().middle, late=False)
+    view = half.middle_view(np.array([0.1, 0.3, 0.45, 0.49]))
+    np.testing.assert_allclose(view.deficit, half.velocity_peak - view.velocity, atol=1e-12)
+
+
+def test_torque_of_the_device_is_the_change_of_the_energy() -> None:
+    law = cam().law
+    k, h = np.array([0.1, 0.35, 0.6, 0.9]), 1e-5
+
+    def energy(at: Any) -> Any:
+        """b^2 j/2, of rocker and slider together."""
+        b = law.invariants(at, 1)[1]
+        slider = law.slider_invariants(at)[1]
+        return 0.5 * (law.rocker_share * b * b + (1.0 - law.rocker_share) * slider * slider)
+
+    gained = energy(k + h) - energy(k - h)
+    turned = law.invariants(k + h, 0)[0] - law.invariants(k - h, 0)[0]
+    np.testing.assert_allclose(law.device_torque(k), gained / turned, rtol=1e-6)
+
+
+def test_design() -> None:
+    made = design("wide_swing_slider_cam")
+    report = made.report("analyze")
+    assert {check.status for check in report.checks} <= {"pass", "warn"}
+    names = {quantity.name for quantity in report.quantities}
+    assert {"line_of_centers_place", "roller_arm_offset", "contact_force", "dwell_force", "slider_stroke"} <= names
+    assert made.quantity("line_of_centers_place").value == made.cam.middle
+    force = made.unloading.contact_force(made.cam, np.array([0.0, 0.2, 0.9]))
+    assert (force > 0.0).all()
+    assert made.dwell_force == pytest.approx(
+        float(made.unloading.contact_force(made.cam, np.array([0.0, 1.0]), 0.0).max()), rel=1e-14
+    )
+    with pytest.raises(NoSolution, match="leave out slider"):
+        _ = made.even_cam
+
+
+def test_film_turns_the_cam_under_the_roller() -> None:
+    """In the scene the roller touches the drawn profile in working and return stroke."""
+    from gearlink.cli.scenes.scene import Body
+    from gearlink.cli.scenes.wide_swing_cam import Cycle, build
+
+    made = design("wide_swing_slider_cam")
+    fraction = np.array([0.05, 0.12, 0.3, 0.38, 0.55, 0.62, 0.8, 0.88])
+    scene, cycle = build(made, fraction), Cycle(made, fraction)
+    centre = made.cam.rocker_radius * np.exp(1j * (cycle.swing - made.cam.arm_offset))
+    bodies = [part for part in scene.parts if isinstance(part, Body) and len(part.outline) > 150]
+    working, returning = bodies[1], bodies[0]
+    for part, rows in ((working, slice(0, 4)), (returning, slice(4, 8))):
+        outline = part.place[rows, None] + np.exp(1j * part.turn[rows, None]) * part.outline[None, :]
+        reach = np.abs(outline - centre[rows, None]).min(axis=1)
+        np.testing.assert_allclose(reach, made.cam.roller_radius, atol=0.3)
