@@ -109,6 +109,19 @@ def goals(wide_vectors: bool) -> list[Goal]:
         Goal("phi13, 1e5 designs", 60.0, "ns", _row("dwell", "phi13: vector steps of third order", "nanoseconds")),
         Goal("its error", 4.0, "ulp", _row("dwell", "phi13: vector steps of third order", "error")),
         Goal("momentary frame, 1e5 designs", 20.0, "ns", _row("dwell", "frame: closed form", "nanoseconds")),
+        *(
+            Goal(
+                f"design of a study, {command} with all checks",
+                limit,
+                "ns",
+                _row("studies", f"{command}, at once", "nanoseconds"),
+            )
+            for command, limit in (
+                ("synth dwell", 2000.0),
+                ("synth variable-speed", 2000.0),
+                ("synth back-step", 4000.0),
+            )
+        ),
         Goal(
             "press: chains, zone, both cams, 3600 positions",
             3e6,

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
     Column: TypeAlias = Sequence[Any] | NDArray[Any]
 
-Value = float | int | str | list[float] | list[int]
+Value = float | int | str | bool | list[float] | list[int]
 Status = Literal["pass", "warn", "fail"]
 Remedy: TypeAlias = tuple[tuple[str, float | str | None], ...]
 """Keys of the design file with the values that repair a finding, to be put in together; None leaves a key out."""

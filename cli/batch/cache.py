@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import hmac
+import re
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
     from gearlink.cli.batch.options import BatchOptions
 
 _LARGEST_ENTRY = 1 << 26
+_OF = re.compile(rb"(?m)^[\"'{ ]*of[\"']? *:")
 _MAC_DIGITS = 64
 
 
@@ -68,7 +70,24 @@ def _entry_of(path: Path, options: BatchOptions) -> Path | None:
         design.overrides,
         design.samples,
     )
-    return options.cache / hashlib.sha256(repr(decides).encode() + b"\0" + content).hexdigest()
+    base = _base_of(path, content)
+    return options.cache / hashlib.sha256(repr(decides).encode() + b"\0" + content + base).hexdigest()
+
+
+def _base_of(path: Path, content: bytes) -> bytes:
+    """The file that a study takes its base design from, with its length; nothing of other files."""
+    named = _OF.search(content)
+    if named is None:
+        return b""
+    from gearlink.cli.reading.base_design import base_path
+    from gearlink.cli.reading.design_file import parse
+
+    try:
+        of = parse(content, str(path)).data.get("of")
+        base = read_at_most(base_path(str(path), of), MAX_BYTES + 1) if isinstance(of, str) else b""
+    except DesignFileError:
+        return b""
+    return b"\0%d\0" % len(base) + base
 
 
 def _signature(entry: Path, data: bytes, options: BatchOptions) -> bytes:

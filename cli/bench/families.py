@@ -18,6 +18,7 @@ FAMILIES = {
     "start-up": "start_up:family",
     "batch": "start_up:batch",
     "parallel": "start_up:parallel",
+    "studies": "studies:family",
 }
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import json
+import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from difflib import get_close_matches
@@ -21,6 +22,7 @@ from gearlink.core.spec_paths import put
 
 Changes = Iterable[tuple[str, Any]]
 _DEEPEST = 4
+_PATH = re.compile(r"\w+(?:\.\w+|\[\d{1,6}\])*")
 _WHOLE = ("int_type", "int_from_float")
 
 
@@ -92,6 +94,8 @@ class Base:
 
     def knows(self, path: str) -> bool:
         """Whether the model has such a key."""
+        if not _PATH.fullmatch(path):
+            return False
         try:
             self.spec([(path, None)])
         except ValidationError as error:

@@ -24,7 +24,7 @@ SCHEMA = 1
 CHUNK, SCALAR_CHUNK = 8192, 64
 GRID_BUDGET, SAMPLE_BUDGET = 1e8, 2.0**17
 SCALAR_GRID_BUDGET, SCALAR_SAMPLE_BUDGET = 2e4, 2.0**12
-_TRIED_VALUES = 100
+_TRIED_VALUES, _TRIED_LISTED = 100, 1000
 _EDGE = 1e-9
 _ORDERED = ("variables", "minimize", "maximize")
 
@@ -401,9 +401,10 @@ def _most_values(variable: Variable) -> float:
 
 
 def _tried(variable: Variable, before: dict[str, Variable]) -> Iterator[Any]:
-    """Values of a variable that are tried in the base: all where they are few, else ends and an even share."""
+    """Values of a variable that are tried in the base: all where they are not many, else ends and an even share."""
     if variable.values:
-        yield from variable.values
+        stride = max(1, len(variable.values) // _TRIED_LISTED)
+        yield from dict.fromkeys((*variable.values[::stride], variable.values[-1]))
         return
     parents = _span(before[variable.times], before) if variable.times else (1.0, 1.0)
     low, high = (float(variable.ends(parent)[i]) for parent, i in zip(parents, (0, 1), strict=True))

@@ -151,6 +151,8 @@ def condition(text: str, names: Names, place: Place) -> Condition:
     amount = _AMOUNT.fullmatch(right)
     if amount is not None:
         limit = float(amount[1])
+        if not np.isfinite(limit):
+            raise FaultFound(Fault("GL152", f"{amount[1]} is beyond all numbers", place))
         return Condition(text, expression, sign, limit, _same_unit(left, expression, amount[2] or "", names, place))
     if sign != "==" or not _WORD.fullmatch(right):
         message = f"{right!r} is no number" + ("" if sign == "==" else ": words are compared by == alone")

@@ -27,7 +27,7 @@ class VariableSpec(Spec):
     step: Annotated[float, Field(gt=0, json_schema_extra={"unit": "the key's"})] | None = Field(
         None, description="step of the range; default 1 for whole numbers; left out, real numbers are sampled"
     )
-    points: Annotated[int, Field(ge=2, le=1_000_000, json_schema_extra=_UNIT)] | None = Field(
+    points: Annotated[int, Field(ge=2, le=100_000, json_schema_extra=_UNIT)] | None = Field(
         None, description="number of values from `from` to `to`, in place of step"
     )
     log: bool = Field(False, description="sampled, or divided into points, by equal ratios")

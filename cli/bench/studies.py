@@ -1,0 +1,73 @@
+"""Designs a second of studies: many at once against one by one."""
+
+from __future__ import annotations
+
+import json
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from gearlink.cli.bench.timing import Family, Method, Row, measure, numpy_pass
+from gearlink.core.explore.chunks import chunk_of, evaluated, one_by_one
+from gearlink.core.explore.problem import CHUNK, Problem, problem
+from gearlink.core.study.spec import StudySpec
+
+_GEARS = {
+    "gears.crank": {"from": 20, "to": 60, "also": ["gears.output"]},
+    "gears.idler": {"from": 1, "to": 4, "times": "gears.crank"},
+    "gears.module": {"values": [1.5, 2, 2.5, 3, 4]},
+}
+_TASKS: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
+    "synth dwell": ({"dwell": {"angle": 135}}, {"dwell.angle": {"from": 60, "to": 180, "step": 8}}),
+    "synth back-step": ({"back_step": {"angle": 20}}, {"back_step.angle": {"from": 5, "to": 35, "step": 2}}),
+    "synth variable-speed": ({"speed": {"min": 100, "max": 300}}, {"speed.min": {"from": 0, "to": 150, "step": 10}}),
+}
+_FEW = 50
+
+
+def family(quick: bool) -> Family:
+    """The table of the family; the error is the greatest difference of any quantity from the design class's."""
+    methods = []
+    for command in _TASKS:
+        made = _study(command)
+        size = CHUNK // (4 if quick else 1)
+        columns = made.order.columns(np.arange(size) * (made.order.count // size))
+        few = columns[:, :: size // _FEW][:, :_FEW]
+        off = _difference(made, few)
+        methods.append(Method(f"{command}, at once", size, partial(evaluated, made, columns), off))
+        methods.append(Method(f"{command}, by class", _FEW, partial(one_by_one, made, few), 0.0))
+        if command == "synth dwell":
+            methods.append(Method("the same with its front", CHUNK, partial(chunk_of, made, 7), off))
+    rows: tuple[Row, ...] = measure(methods, numpy_pass(CHUNK), CHUNK, 3)
+    return Family(
+        "studies",
+        "Studies of three-gear four-bars: every quantity sought and all checks of a design",
+        "relative",
+        "one numpy pass of sin + cos + arctan2 + sqrt over 8192 numbers",
+        rows,
+        ("statuses and refusals are those of the design class; designs next to a limit are computed by it",),
+    )
+
+
+def _study(command: str) -> Problem:
+    section, variable = _TASKS[command]
+    gears = {"module": 2, "crank": 40, "idler": 72, "output": 40}
+    data = {
+        "kind": "study",
+        "design": {"kind": "three-gear-four-bar", "gears": gears, **section},
+        "command": command,
+        "variables": {**_GEARS, **variable},
+        "minimize": {"frame_length": 10, "speed_ratio_max": 0.1},
+        "maximize": {"min_transmission_angle": 2},
+    }
+    return problem(StudySpec.model_validate_json(json.dumps(data)))
+
+
+def _difference(made: Problem, columns: Any) -> float:
+    many, single = evaluated(made, columns), one_by_one(made, columns)
+    worst = 0.0
+    for name in made.names:
+        a, b = many.quantities[name], single.quantities[name]
+        worst = max(worst, float(np.nanmax(np.abs(a - b) / np.maximum(1.0, np.abs(b)))))
+    return worst
