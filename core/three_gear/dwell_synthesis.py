@@ -33,6 +33,7 @@ from gearlink.core.three_gear.synthesis import BackStepFamily, with_analysis
 from gearlink.core.three_gear.tolerance_dwell import tolerance_dwell
 
 _MARGIN = 0.01
+_ROUNDING = 1e-9
 _PLAIN_TOLERANCE = math.radians(1.0)  # of a dwell that names none
 
 _WORDS = "angle, or window and tolerance (deg)"
@@ -120,6 +121,8 @@ class DwellSynthesis(BackStepFamily):
                 words = f"a back-step of twice the tolerance, {math.degrees(2.0 * self._aimed_at()):.6g} deg,"
                 return solved(family, back_step_of(train), 2.0 * self._aimed_at(), words)
             self._refuse_even_motion(abs(train.ratio))
+            if self.spec.gears.idler is None:
+                self._refuse_short_reach(family, train)
             words = f"a window of {wish.window:g} deg"
             linkage = solved(family, window_of(train), self.window, words)
             self._refuse_narrow_band(family, train, ripple(linkage, train).tolerance)
@@ -136,6 +139,21 @@ class DwellSynthesis(BackStepFamily):
             raise NoSolution(
                 f"an even motion stays within +-{math.degrees(band):.9g} deg over that window: it needs no linkage; "
                 "ask for a longer window or a smaller tolerance"
+            )
+
+    def _refuse_short_reach(self, family: Family, train: GearTrain) -> None:
+        """While an idler is sought: the window that fills the band tells sooner than the band that a window takes."""
+        band, window = self._band, self.window
+        if band is None or window is None:
+            return
+        try:
+            longest = ripple(solved(family, back_step_of(train), 2.0 * band, "this tolerance"), train).crank_angle
+        except NoSolution:
+            return  # no band of this family is as wide
+        if longest < window * (1.0 - _ROUNDING):
+            raise NoSolution(
+                f"the output cannot stay within +-{math.degrees(band):.9g} deg over {self._wish.window:g} deg with "
+                f"these gears: at most over {math.degrees(longest):.5g} deg; ask for that"
             )
 
     def _refuse_narrow_band(self, family: Family, train: GearTrain, least: float) -> None:

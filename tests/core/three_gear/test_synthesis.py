@@ -481,5 +481,7 @@ def test_the_root_of_the_dwell_is_solved_once(monkeypatch):
         return solve(i3, angle)
 
     monkeypatch.setattr(symmetric_back_step, "crank_angle_for_dwell", counted)
-    design("synth dwell", gears=EQUAL | {"idler": 72}, dwell={"angle": 135.0}).report("synth dwell")
+    made = design("synth dwell", gears=EQUAL | {"idler": 72}, dwell={"angle": 135.0})
+    made.require("synth dwell")
+    assert [made.check(name) for name in made.outline("synth dwell").checks]
     assert len(solved) == 1
