@@ -34,7 +34,9 @@ def folder(tmp_path: Path, designs: Path) -> Path:
     """A design that fails, one that passes, a wrong file."""
     place = tmp_path / "files"
     place.mkdir()
-    (place / "fail.yaml").write_text((designs / "thesis_example_3_as_printed.yaml").read_text())
+    (place / "fail.yaml").write_text(
+        (designs / "six_bar_two_trains.yaml").read_text().replace("mobility: 1", "mobility: 2")
+    )
     (place / "pass.yaml").write_text(CRANK)
     (place / "wrong.yaml").write_text("kind: slider-crank\nrod: 5\n")
     return place
@@ -133,7 +135,7 @@ class TestForged:
     def test_an_entry_does_not_serve_for_another_design(self, batch: Any, tmp_path: Path) -> None:
         """The failing design's entry replaced by the passing one's, each signed by this user."""
         batch()
-        entries = {("GL301" in path.read_text()): path for path in (tmp_path / "cache").iterdir()}
+        entries = {("GL309" in path.read_text()): path for path in (tmp_path / "cache").iterdir()}
         entries[True].write_bytes(entries[False].read_bytes())
         again = batch()
         assert [design["result"] for design in again.json["designs"]] == ["fail", "pass", "error"]
