@@ -15,7 +15,7 @@ from xml.sax.saxutils import escape, quoteattr
 
 from gearlink.cli.export.parts import is_ring
 from gearlink.core.errors import NoSolution
-from gearlink.core.gears.internal_mesh import InternalMesh
+from gearlink.core.gears.mesh_phase import signed_pair
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.version import VERSION
 
@@ -183,22 +183,14 @@ def _meshes(design: Any) -> Iterator[tuple[tuple[str, str], GearPair, tuple[floa
         yield ("gear 1", "gear 2"), design.gear_pair, widths
     elif design.kind == "three-gear-four-bar":
         first, second = design.meshes.values()
-        yield ("gear 3", "gear 1") if design.crank_teeth < 0 else ("gear 1", "gear 3"), _signed(first), None
-        yield ("gear 3", "gear 5"), _signed(second), None
+        yield ("gear 3", "gear 1") if design.crank_teeth < 0 else ("gear 1", "gear 3"), signed_pair(first), None
+        yield ("gear 3", "gear 5"), signed_pair(second), None
     elif design.kind in _KINDS:
         yield (
             ("planet", "ring") if design.kind == "hypocycloid-dwell" else ("gear 2", "gear 5"),
-            _signed(design.mesh),
+            signed_pair(design.mesh),
             None,
         )
-
-
-def _signed(mesh: GearPair | InternalMesh) -> GearPair:
-    """A mesh with a ring as a pair whose ring has negative teeth."""
-    if isinstance(mesh, GearPair):
-        return mesh
-    shape: Any = {"addendum": mesh.addendum, "clearance": mesh.clearance, "pressure_angle": mesh.pressure_angle}
-    return GearPair(module=mesh.module, teeth=(mesh.teeth[0], -mesh.teeth[1]), given_shift=(0.0, 0.0), **shape)
 
 
 _KINDS = (

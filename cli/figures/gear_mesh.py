@@ -307,4 +307,4 @@ def _text(pair: GearPair, name: str, gear: int | None = None) -> str:
     if found is None:
         return "–"
     value = found[gear or 0] if isinstance(found, tuple) else found
-    return f"{math.degrees(value) if term(name).unit == 'deg' else value:.6g}"
+    return style.number(math.degrees(value) if term(name).unit == "deg" else value)

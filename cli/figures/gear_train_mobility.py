@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.figures import linkage, panels, style
 from gearlink.core.linkages.mobility import pin_names
@@ -39,15 +39,16 @@ def diagram(axes: Axes, design: GearTrainMobility) -> None:
     for i, train in enumerate(design.spec.trains):
         color = _COLORS[i % len(_COLORS)]
         apart = [abs(places[p.at] - places[q.at]) for p in train.gears for q in train.gears if p.at != q.at]
-        half = min(apart, default=_ALONE) / 2.0
-        words = f"train {i + 1}: R = {design.fixed_ends[i]}, {design.mobility_changes[i]:+d}"
+        half = min(apart, default=_ALONE) / 2.0 * (1.0 if i % 2 == 0 else 0.86)
+        change = f"{design.mobility_changes[i]:+d}".replace("-", "−")
+        words = f"train {i + 1}: {design.fixed_ends[i]} gears fixed to links, mobility {change}"
         axes.plot([], [], color=color, linewidth=1.6, label=words)
         for gear in train.gears:
             style.circle(axes, places[gear.at], half, color=color, linewidth=1.6, zorder=3)
             _fixing(axes, places, design, gear.at, gear.fixed_to, half, color)
     for pin, place in places.items():
         axes.plot([place.real], [place.imag], "o", color="white", markeredgecolor=style.BLACK, markersize=7, zorder=6)
-        style.letter(axes, place, pin, (12.0 * place.real, 12.0 * place.imag))
+        style.letter(axes, place, pin, (19.0 * place.real, 19.0 * place.imag))
 
 
 def pin_places(design: GearTrainMobility) -> dict[str, complex]:
@@ -64,13 +65,16 @@ def pin_places(design: GearTrainMobility) -> dict[str, complex]:
 def _link(axes: Axes, name: str, points: list[complex]) -> None:
     """A binary link as a bar, one with more pins as a plate; the frame in grey."""
     color = style.GREY if name == "frame" else style.BLACK
+    if name == "frame":
+        for point in points:
+            style.pivot(axes, point)
     if len(points) > 2:
         axes.fill([p.real for p in points], [p.imag for p in points], color=color, alpha=0.15, zorder=1)
     ends = [*points, points[0]] if len(points) > 2 else points
     axes.plot([p.real for p in ends], [p.imag for p in ends], color=color, linewidth=2.4, zorder=2)
     middle = sum(points, 0j) / len(points)
-    box = {"boxstyle": "round,pad=0.15", "facecolor": "white", "edgecolor": "none", "alpha": 0.85}
-    axes.text(middle.real, middle.imag, name, fontsize=8, color=color, ha="center", va="center", bbox=box, zorder=5)
+    look: dict[str, Any] = {"fontsize": 8, "color": color, "ha": "center", "va": "center", "zorder": 5}
+    axes.text(0.86 * middle.real, 0.86 * middle.imag, name, path_effects=style.outlined(), **look)
 
 
 def _fixing(

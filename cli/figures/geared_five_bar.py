@@ -11,7 +11,7 @@ from gearlink.cli.figures import linkage, panels, scene_axes, style
 from gearlink.cli.scenes.geared_five_bar import build
 from gearlink.core.five_bar.design import GearedFiveBar
 from gearlink.core.five_bar.path_motion import PathFiveBar
-from gearlink.core.gears.pair import GearPair
+from gearlink.core.gears.mesh_phase import signed_pair
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -39,13 +39,12 @@ def draw(command: str, design: GearedFiveBar) -> Figure:
     """The sheet of a command on a geared five-bar."""
     title = f"{design.spec.name}: {command}"
     meshes = list(design.meshes.items())
-    if command == "gear" and all(isinstance(mesh, GearPair) for _, mesh in meshes):
+    if command == "gear":
         from gearlink.cli.figures.gear_mesh import Mesh, mesh_figure
 
-        pairs = [(label, mesh) for label, mesh in meshes if isinstance(mesh, GearPair)]
-        return mesh_figure(title, [Mesh(mesh, label.replace("_", "-")) for label, mesh in pairs])
+        return mesh_figure(title, [Mesh(signed_pair(mesh), label.replace("_", "-")) for label, mesh in meshes])
     if design.is_path:
-        return linkage.sheet(title, design, path_mechanism, _WORDS, [_coordinates, _span])
+        return linkage.sheet(title, design, path_mechanism, _WORDS, [_coordinates, _velocity, _transmission, _span])
     error = [_structural_error] if design.wanted is not None else []
     return linkage.sheet(title, design, function_mechanism, _WORDS, [_function, *error, _span])
 
@@ -74,8 +73,42 @@ def _coordinates(axes: Axes, design: GearedFiveBar) -> None:
     linkage.chart(axes, "Coupler point", "x, y [mm]", "input angle [deg]", turn=False)
     angle = linkage.closed(data["input_angle"], 360.0 * design.period_turns)
     for name, color in (("x", style.BLUE), ("y", style.ORANGE)):
-        axes.plot(angle, linkage.closed(data[name]), color=color, linewidth=1.6, label=name)
+        line: Any = "-" if name == "x" else style.LONG
+        axes.plot(angle, linkage.closed(data[name]), color=color, linewidth=1.6, linestyle=line, label=name)
+    _period(axes, design)
     panels.legend_above(axes, 2)
+
+
+def _period(axes: Axes, design: GearedFiveBar) -> None:
+    """The x axis over as many turns as bring the linkage home."""
+    turns = design.period_turns
+    axes.set_xlim(0.0, 360.0 * turns)
+    axes.set_xticks(range(0, 360 * turns + 1, 60 if turns == 1 else 180 if turns <= 3 else 360 * -(-turns // 8)))
+
+
+def _velocity(axes: Axes, design: GearedFiveBar) -> None:
+    data = linkage.columns(design, "path")
+    linkage.chart(axes, "Velocity of M", "x′, y′ [mm/rad]", "input angle [deg]", turn=False)
+    angle = linkage.closed(data["input_angle"], 360.0 * design.period_turns)
+    looks = (("x", style.BLUE, "-"), ("y", style.ORANGE, style.LONG))
+    for name, color, line in looks:
+        values = linkage.closed(data[f"{name}_velocity"])
+        axes.plot(angle, values, color=color, linewidth=1.6, linestyle=line, label=f"{name}′")
+    axes.axhline(0.0, color=style.GREY, linewidth=0.6)
+    _period(axes, design)
+    panels.legend_above(axes, 2)
+
+
+def _transmission(axes: Axes, design: GearedFiveBar) -> None:
+    data, limit = linkage.columns(design, "path"), design.spec.limits.transmission_angle
+    linkage.chart(axes, "Transmission angle", "transmission\nangle [deg]", "input angle [deg]", turn=False)
+    angle = linkage.closed(data["input_angle"], 360.0 * design.period_turns)
+    axes.plot(angle, linkage.closed(data["transmission_angle"]), color=style.GREEN, linewidth=1.6)
+    axes.axhline(limit, color=style.RED, linewidth=1.1, linestyle=style.DASHED, label=f"limit {limit:g}°")
+    axes.set_ylim(0.0, 92.0)
+    axes.set_yticks(range(0, 91, 30))
+    _period(axes, design)
+    panels.legend_above(axes, 1)
 
 
 def _function(axes: Axes, design: GearedFiveBar) -> None:
@@ -119,11 +152,13 @@ def _span(axes: Axes, design: GearedFiveBar) -> None:
     ends = (0.0, bar.period) if isinstance(bar, PathFiveBar) else design.input_range
     square = bar.span_squared if isinstance(bar, PathFiveBar) else bar.reach_squared
     links = (bar.coupler, bar.follower) if path else (bar.follower, bar.output)
-    linkage.chart(axes, "Closing", "BD [mm]" if path else "CE [mm]", "input angle [deg]", turn=False)
+    linkage.chart(axes, "Span of the two links", "BD [mm]" if path else "CE [mm]", "input angle [deg]", turn=False)
     angles = [ends[0] + (ends[1] - ends[0]) * i / 720.0 for i in range(721)]
     spans = [math.sqrt(max(square.value(x), 0.0)) for x in angles]
     axes.plot([math.degrees(x) for x in angles], spans, color=style.BLUE, linewidth=1.6)
-    for limit, words in ((sum(links), "opens beyond"), (abs(links[0] - links[1]), None)):
+    for limit, words in ((sum(links), "limits: links in line"), (abs(links[0] - links[1]), None)):
         axes.axhline(limit, color=style.RED, linewidth=0.9, linestyle=style.DASHED, label=words)
     axes.set_ylim(bottom=0.0)
+    if path:
+        _period(axes, design)
     panels.legend_above(axes, 1)

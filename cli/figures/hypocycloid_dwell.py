@@ -10,6 +10,7 @@ import numpy as np
 from gearlink.cli.figures import linkage, panels, scene_axes, style
 from gearlink.cli.scenes.hypocycloid_dwell import build
 from gearlink.core.dwell_gears.hypocycloid_design import HypocycloidDwell
+from gearlink.core.gears.mesh_phase import signed_pair
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -29,6 +30,10 @@ _WORDS = {
 
 def draw(command: str, design: HypocycloidDwell) -> Figure:
     """The sheet of a command on a hypocycloid dwell."""
+    if command == "gear":
+        from gearlink.cli.figures.gear_mesh import Mesh, mesh_figure
+
+        return mesh_figure(f"{design.spec.name}: {command}", [Mesh(signed_pair(design.mesh), "", ("2", "ring"))])
     return linkage.sheet(f"{design.spec.name}: {command}", design, mechanism, _WORDS, [_turn, _magnified])
 
 

@@ -59,7 +59,12 @@ def numbers(axes: Axes, drawing: Axes, design: Any, words: Mapping[str, str]) ->
 def _text(value: object, unit: str) -> str:
     if isinstance(value, list):
         return ", ".join(_text(item, unit) for item in value) or "none"
-    return style.number(value, scale=0.0 if unit == "mm" else 1.0) if isinstance(value, float) else str(value)
+    return style.number(value, scale=0.0 if unit == "mm" else 1.0) if isinstance(value, float) else _count(value)
+
+
+def _count(value: object) -> str:
+    """A whole number with a true minus sign, or words."""
+    return str(value).replace("-", "−") if isinstance(value, int) else str(value)
 
 
 def chart(axes: Axes, title: str, ylabel: str, xlabel: str = "crank angle [deg]", turn: bool = True) -> None:

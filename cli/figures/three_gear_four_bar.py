@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from gearlink.cli.figures import linkage, panels, style
 from gearlink.cli.figures.three_gear_mechanism import mechanism, words
-from gearlink.core.gears.pair import GearPair
+from gearlink.core.gears.mesh_phase import signed_pair
 from gearlink.core.three_gear.design import ThreeGearFourBar
 
 if TYPE_CHECKING:
@@ -19,13 +19,12 @@ if TYPE_CHECKING:
 def draw(command: str, design: ThreeGearFourBar) -> Figure:
     """The figure of a command on a three-gear four-bar."""
     title = f"{design.spec.name}: {command}"
-    external = any(isinstance(pair, GearPair) for pair in design.meshes.values())
-    if command == "gear" and external:
+    if command == "gear":
         from gearlink.cli.figures.gear_mesh import Mesh, mesh_figure
 
-        names = (("crank-idler", ("1", "3")), ("idler-output", ("3", "5")))
-        pairs = zip(design.meshes.values(), names, strict=True)
-        return mesh_figure(title, [Mesh(pair, *name) for pair, name in pairs if isinstance(pair, GearPair)])
+        names = (("crank-idler", ("3", "1") if design.crank_teeth < 0 else ("1", "3")), ("idler-output", ("3", "5")))
+        meshes = zip(design.meshes.values(), names, strict=True)
+        return mesh_figure(title, [Mesh(signed_pair(mesh), *name) for mesh, name in meshes])
     charts = [_output, *([_magnified] if design.dwell_crank_angles else []), _speed]
     if command == "analyze":
         charts += [_acceleration, _transmission]

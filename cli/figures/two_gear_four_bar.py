@@ -11,7 +11,7 @@ import numpy as np
 
 from gearlink.cli.figures import linkage, panels, scene_axes, style
 from gearlink.cli.scenes.two_gear_four_bar import build
-from gearlink.core.gears.pair import GearPair
+from gearlink.core.gears.mesh_phase import signed_pair
 from gearlink.core.planet_linkages.two_gear_design import TwoGearFourBar
 
 if TYPE_CHECKING:
@@ -35,10 +35,10 @@ _WORDS = {
 def draw(command: str, design: TwoGearFourBar) -> Figure:
     """The sheet of a command on a two-gear four-bar."""
     title = f"{design.spec.name}: {command}"
-    if command == "gear" and isinstance(design.mesh, GearPair):
+    if command == "gear":
         from gearlink.cli.figures.gear_mesh import Mesh, mesh_figure
 
-        return mesh_figure(title, [Mesh(design.mesh, "", ("2", "5"))])
+        return mesh_figure(title, [Mesh(signed_pair(design.mesh), "", ("2", "5"))])
     charts: list[linkage.Panel] = [
         _output,
         partial(_curve, title="Output speed", ylabel="speed ratio", name="speed_ratio"),

@@ -24,7 +24,11 @@ def backdrop(stage: Stage) -> Picture:
         if isinstance(part, Line):
             _line(draw, part, stage)
     size = FINER * stage.text_size
-    draw.text((0.9 * size, 0.6 * size), stage.title, font=font(1.25 * size, stage.title), fill=BLACK)
+    letters, room = font(1.25 * size, stage.title), made.width - 1.8 * size
+    title = stage.title
+    while len(title) > 1 and draw.textlength(title, font=letters) > room:
+        title = title.rstrip("…")[:-1] + "…"
+    draw.text((0.9 * size, 0.6 * size), title, font=letters, fill=BLACK)
     if stage.scene.chart is not None:
         scale = ChartScale(stage.scene.chart, stage.chart_room)
         _chart(draw, scale)

@@ -14,14 +14,23 @@ if TYPE_CHECKING:
     from PIL.Image import Image as Picture
 
 _COLORS = 64
+_ALMOST = 250
 
 
 def write_gif(stream: IO[bytes], raster: Raster, count: int, fps: int, told: Iterable[int]) -> None:
     """Write the pictures; `told` counts them and may show how far the work is."""
-    palette = raster.picture(0).quantize(_COLORS, method=Image.Quantize.MEDIANCUT)
+    palette = _with_white(raster.picture(0).quantize(_COLORS, method=Image.Quantize.MEDIANCUT))
     made = _frames(raster, palette, told)
     first = next(made)
     first.save(stream, "GIF", save_all=True, append_images=made, duration=durations(count, fps), loop=0, optimize=False)
+
+
+def _with_white(picture: Picture) -> Picture:
+    """The picture with what is almost white in its palette made white: paper has no tint."""
+    colors = list(picture.getpalette() or [])
+    rows = [colors[k : k + 3] for k in range(0, len(colors), 3)]
+    picture.putpalette([part for row in rows for part in ([255, 255, 255] if min(row) >= _ALMOST else row)])
+    return picture
 
 
 def _frames(raster: Raster, palette: Picture, told: Iterable[int]) -> Iterator[Picture]:

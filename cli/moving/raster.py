@@ -8,7 +8,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from PIL import ImageDraw
+from PIL import Image, ImageDraw
 
 from gearlink.cli.moving.backdrop import backdrop
 from gearlink.cli.moving.brush import FINER, bar, disc, flat, font
@@ -37,7 +37,7 @@ class Raster:
         made = self._reduced.copy()
         made.paste(large.reduce(FINER), (left, top))
         self._dots(made, i)
-        self._words(ImageDraw.Draw(made), i)
+        self._words(made, i)
         return made
 
     # Backdrops
@@ -96,11 +96,16 @@ class Raster:
                 disc(draw, joint, 1.7 * FINER + 0.5 * width, WHITE, chain.color, round(1.4 * FINER))
 
     def _pivot(self, draw: ImageDraw.ImageDraw, point: Points) -> None:
-        size = 0.55 * self.stage.text_size * FINER
+        """A pin on its hatched ground."""
+        size, line = 0.5 * self.stage.text_size * FINER, round(1.3 * FINER)
         at = complex(self._fine(point)[0])
-        foot = [at, at - size + 1.5j * size, at + size + 1.5j * size]
-        draw.polygon(flat(np.array(foot)), fill=BLACK)
-        disc(draw, at, 0.55 * size, WHITE, BLACK, round(1.2 * FINER))
+        foot = at + 1.7j * size
+        draw.polygon(flat(np.array([at, foot - size, foot + size])), fill=WHITE)
+        draw.line(flat(np.array([at, foot - size, foot + size, at])), fill=BLACK, width=line)
+        draw.line(flat(foot + size * np.array([-1.7, 1.7 + 0j])), fill=BLACK, width=line)
+        for k in (-1, 0, 1, 2):
+            draw.line(flat(foot + size * np.array([0.8 * k + 0j, 0.8 * k - 0.6 + 0.7j])), fill=BLACK, width=line)
+        disc(draw, at, 0.4 * size, WHITE, BLACK, round(1.2 * FINER))
 
     # Points on the curves, and words, on the reduced picture
 
@@ -125,23 +130,56 @@ class Raster:
     def _texts(self) -> list[list[str]]:
         return self.stage.texts()
 
-    def _words(self, draw: ImageDraw.ImageDraw, i: int) -> None:
-        size = self.stage.text_size
-        for k, texts in enumerate(self._texts):
-            place = (0.9 * size + k * 0.24 * self.stage.width, 2.5 * size)
-            draw.text(place, texts[i], font=self._font, fill=BLACK)
+    @cached_property
+    def _readouts(self) -> tuple[Any, list[float]]:
+        """Font and places of the values: smaller letters where they would run into each other."""
+        size, room = self.stage.text_size, self.stage.width - 1.8 * self.stage.text_size
+        longest = [max(self._font.getlength(text) for text in (max(texts, key=len), texts[0])) for texts in self._texts]
+        step = [max(wide + 1.5 * size, 0.24 * self.stage.width) for wide in longest]
+        share = min(1.0, room / (sum(longest) + 1.5 * size * max(0, len(longest) - 1) or 1.0))
+        if share < 1.0 or sum(step) > room:
+            step = [share * (wide + 1.5 * size) for wide in longest]
+        places = [0.9 * size + sum(step[:k]) for k in range(len(step))]
+        return (font(share * size) if share < 1.0 else self._font), places
+
+    def _words(self, made: Picture, i: int) -> None:
+        draw, size = ImageDraw.Draw(made), self.stage.text_size
+        letters_of_values, places = self._readouts
+        for x, texts in zip(places, self._texts, strict=True):
+            draw.text((x, 2.5 * size), texts[i].replace("-", "−"), font=letters_of_values, fill=BLACK)
         letters, labels = self.stage.shifts
         labelled = [part for part in self.stage.scene.parts if isinstance(part, Body) and part.label]
         for body, shift in zip(labelled, labels, strict=True):
-            self._haloed(draw, self._pixel(body.place, i) + shift, body.label, body.color, body.fill or WHITE)
+            self._haloed(made, self._pixel(body.place, i) + shift, body.label, body.color, body.fill or WHITE)
         for mark, shift in zip(self.stage.scene.marks, letters, strict=True):
             if mark.text:
-                self._haloed(draw, self._pixel(mark.point, i) + shift, mark.text, BLACK, WHITE)
+                self._haloed(made, self._pixel(mark.point, i) + shift, mark.text, BLACK, WHITE)
 
     def _pixel(self, points: Points, i: int) -> complex:
         return complex(self.stage.pixels(points[i : i + 1])[0])
 
-    def _haloed(self, draw: ImageDraw.ImageDraw, at: complex, words: str, color: str, halo: str) -> None:
-        """Words that stand out from what they lie on."""
+    def _haloed(self, made: Picture, at: complex, words: str, color: str, halo: str) -> None:
+        """Words that stand out from what they lie on, to a quarter of a pixel; each such stamp is drawn once."""
+        quarters = round(4.0 * at.real), round(4.0 * at.imag)
+        key = (words, color, halo, quarters[0] % 4, quarters[1] % 4)
+        if key not in self._stamps:
+            self._stamps[key] = self._stamp(*key)
+        stamp = self._stamps[key]
+        left, top = quarters[0] // 4 - stamp.width // 2, quarters[1] // 4 - stamp.height // 2
+        made.paste(stamp, (left, top), stamp)
+
+    @cached_property
+    def _stamps(self) -> dict[tuple[str, str, str, int, int], Picture]:
+        return {}
+
+    def _stamp(self, words: str, color: str, halo: str, right: int, down: int) -> Picture:
+        """A picture of the words, transparent about them, so many quarters of a pixel beside its middle."""
         look: dict[str, Any] = {"font": self._font, "anchor": "mm", "stroke_width": 2, "stroke_fill": halo}
-        draw.text((at.real, at.imag), words, fill=color, **look)
+        box = ImageDraw.Draw(Image.new("L", (1, 1))).textbbox(
+            (0, 0), words, font=self._font, anchor="mm", stroke_width=2
+        )
+        half = [int(max(abs(box[i]), abs(box[i + 2]))) + 2 for i in (0, 1)]
+        stamp = Image.new("RGBA", (2 * half[0], 2 * half[1]), halo + "00" if len(halo) == 7 else halo)
+        draw = ImageDraw.Draw(stamp)
+        draw.text((half[0] + 0.25 * right, half[1] + 0.25 * down), words, fill=color, **look)
+        return stamp

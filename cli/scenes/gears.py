@@ -40,7 +40,9 @@ def gear(
     teeth, tip = abs(pair.teeth[number]), pair.tip_radius[number]
     look = Body(outline=np.zeros(1), place=place, turn=turn, color=color, fill=pale(color), width=1.0, label=label)
     radii = pair.reference_radius if isinstance(pair, InternalMesh) else pair.working_radius
-    look = replace(look, name=f"{name}, z = {pair.teeth[number]}".removeprefix(", "), pitch=abs(radii[number]))
+    look = replace(
+        look, name=f"{name}, z = {pair.teeth[number]}".removeprefix(", ").replace("-", "−"), pitch=abs(radii[number])
+    )
     if isinstance(pair, GearPair) and pair.teeth[number] < 0:
         return _ring(look, teeth, ring_of(pair), -pair.root_radius[1] + RIM_MODULES * pair.module)
     if isinstance(pair, InternalMesh):

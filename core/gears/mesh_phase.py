@@ -114,6 +114,28 @@ def ring_of(pair: GearPair, points_on_flank: int = 12) -> Points:
     return _ring_teeth(z, half_tooth - involute(alpha), radii, low, points_on_flank, pair.shaped)
 
 
+def signed_pair(mesh: GearPair | InternalMesh) -> GearPair:
+    """A mesh as a gear pair whose ring, where it has one, has negative teeth.
+
+    Example
+        >>> signed_pair(InternalMesh(2.0, (48, 62))).center_distance
+        -14.0
+
+    Source
+        ISO 21771, whose signs of a ring are those of `GearPair`
+    """
+    if isinstance(mesh, GearPair):
+        return mesh
+    return GearPair(
+        module=mesh.module,
+        teeth=(mesh.teeth[0], -mesh.teeth[1]),
+        pressure_angle=mesh.pressure_angle,
+        given_shift=(0.0, 0.0),
+        addendum=mesh.addendum,
+        clearance=mesh.clearance,
+    )
+
+
 def _ring_teeth(
     z: int,
     at_base: float,

@@ -452,3 +452,11 @@ def test_a_bar_is_shown_on_a_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
     assert list(_told(5, Options())) == [0, 1, 2, 3, 4]
     assert "drawing" in screen.getvalue()
     assert math.isclose(len(list(_told(5, Options(quiet=True)))), 5)
+
+
+def test_paper_is_white_in_every_picture(gearlink: Any, designs: Path, tmp_path: Path) -> None:
+    assert gearlink("animate", designs / "candy_feed.yaml", "--out", tmp_path, *QUICK).status == 0
+    with Image.open(tmp_path / "candy-feed-motion.gif") as film:
+        for i in range(film.n_frames):
+            film.seek(i)
+            assert film.convert("RGB").getpixel((film.width - 2, 2)) == (255, 255, 255)
