@@ -93,8 +93,10 @@ def show_refusal(error: DesignFileError | CannotWrite | NoSolution, source: str,
 def plot(command: str, design: Design, options: Options, report: Report) -> None:
     """Write the design's figure, with what its report finds wrong, and say where."""
     from gearlink.cli.figures.write import write_plot
+    from gearlink.cli.patience import patience
 
-    path = write_plot(command, design, options, checks=report.checks)
+    with patience(f"drawing {report.name}", quiet=options.quiet):
+        path = write_plot(command, design, options, checks=report.checks)
     if not options.quiet:
         print(f"wrote {path}", file=sys.stderr)
 

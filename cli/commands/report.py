@@ -15,6 +15,7 @@ from gearlink.cli.evaluate import build, exit_status, open_design, read_spec
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite, safe_stem, write_atomically
 from gearlink.cli.options import Options
+from gearlink.cli.patience import patience
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.errors import show_errors
 from gearlink.core.errors import NoSolution
@@ -31,8 +32,10 @@ def run_report(source: str, options: Options) -> int:
     try:
         loaded, kind = open_design(source, options)
         spec = read_spec(loaded, kind, source)
-        parts = [build(loaded, kind, command, spec, options) for command in spec.commands()]
-        page = whole_page(spec.name, _body(loaded.text, spec, parts))
+        with patience(f"computing {spec.name}", quiet=options.quiet):
+            parts = [build(loaded, kind, command, spec, options) for command in spec.commands()]
+        with patience(f"drawing {spec.name}", quiet=options.quiet):
+            page = whole_page(spec.name, _body(loaded.text, spec, parts))
         path = options.out / f"{safe_stem(spec.name)}.html"
         write_atomically(path, lambda stream: stream.write(page.encode()))
     except DesignFileError as error:

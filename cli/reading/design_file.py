@@ -34,6 +34,7 @@ if TYPE_CHECKING:
 
 _ROOT: KeyPath = ()
 _LONGEST_KIND = 60
+_NUMBERS = {"2": "two", "3": "three", "4": "four", "5": "five"}
 LEAST_SIZE, LARGEST_SIZE = 1e-30, 1e12
 """Between them the fourth powers of a number and of its ratios to others neither overflow nor vanish."""
 
@@ -119,10 +120,20 @@ def read_kind(loaded: LoadedFile, kinds: Sequence[str]) -> str:
     if not isinstance(kind, str):
         wrong = loaded.report("GL107", "kind must be one word of text", ("kind",), help=known)
         raise DesignFileError([*loaded.problems, wrong])
-    near = get_close_matches(kind.lower().replace("_", "-"), kinds, n=1) if len(kind) <= _LONGEST_KIND else []
+    near = get_close_matches(_spelled(kind), kinds, n=1) if len(kind) <= _LONGEST_KIND else []
     remedy = f"did you mean {near[0]}? {known}" if near else known
     shown = repr(kind if len(kind) <= _LONGEST_KIND else kind[: _LONGEST_KIND - 3] + "...")
     raise DesignFileError([*loaded.problems, loaded.report("GL109", f"no kind {shown}", ("kind",), help=remedy)])
+
+
+def _spelled(kind: str) -> str:
+    """A kind in the form of their names: numbers in words, words parted by -.
+
+    Example
+        >>> _spelled("3_gear-four-bar")
+        'three-gear-four-bar'
+    """
+    return "-".join(_NUMBERS.get(part, part) for part in kind.lower().replace("_", "-").split("-"))
 
 
 def diagnose_no_solution(loaded: LoadedFile, error: NoSolution) -> Diagnostic:

@@ -8,6 +8,8 @@ from typing import Any
 
 from gearlink.core.report import Report, Table, without_noise
 
+_NOISE = 1e-12  # of the scale: what a root is left with, in a table of seven digits
+
 
 def number(value: object, digits: int = 7) -> str:
     """A value to a few digits, as an engineer reads it; the members of a list side by side.
@@ -52,7 +54,9 @@ def quiet(value: object, scale: float) -> object:
     """
     if isinstance(value, list):
         return [quiet(item, scale) for item in value]
-    return without_noise(value, scale) if isinstance(value, float) else value
+    if not isinstance(value, float) or abs(value) < _NOISE * scale:
+        return 0.0 if isinstance(value, float) else value
+    return without_noise(value, scale)
 
 
 def thinning(step: int, table: Table) -> str:

@@ -213,7 +213,7 @@ class Compensation:
         begin, start, end = self.cam_sync_start - self.lead_in, self.cam_sync_start, self.cam_sync_end
         if not self.transition_end > end:
             least = math.degrees(end)
-            remedy = f"set transition_end above {safely_above(least, 6)} deg" if end < _TURN else "shorten the zone"
+            remedy = f"set cam.transition_end above {safely_above(least, 6)} deg" if end < _TURN else "shorten the zone"
             raise NoSolution(
                 f"the transition ends at cam angle {math.degrees(self.transition_end):.6g} deg, but the synchronous "
                 f"zone only at {least:.6g} deg: {remedy}",
@@ -239,9 +239,11 @@ class Compensation:
         )
         most = math.degrees(next_sheet - self.transition_end)
         if most > 0.0:
-            return NoSolution(f"{text}: set return_angle to at most {safely_below(most)} deg", key="cam.return_angle")
+            return NoSolution(
+                f"{text}: set cam.return_angle to at most {safely_below(most)} deg", key="cam.return_angle"
+            )
         room = safely_below(math.degrees(self.cam_sync_start + _TURN - self.transition_end))
-        return NoSolution(f"{text}: lead_in and return_angle have {room} deg together", key="cam.lead_in")
+        return NoSolution(f"{text}: cam.lead_in and cam.return_angle have {room} deg together", key="cam.lead_in")
 
     def evaluate(self, theta: Any, order: int = 2) -> tuple[Travel, list[str]]:
         """Lift at an array of cam angles, with `order` derivatives, and the phase of each.

@@ -21,6 +21,7 @@ from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.linkages.standstills import BackStep
 from gearlink.core.numerics.roots import bracketed_root
+from gearlink.core.report import safely_above, safely_below
 from gearlink.core.three_gear.dwells import back_step, dwell_angle, gain
 from gearlink.core.three_gear.momentary_dwell import (
     balanced_eccentricity,
@@ -185,7 +186,8 @@ def with_speed_quotient(family: Family, train: GearTrain, quotient: float) -> Fo
     most, least = over(low) + quotient, over(high) + quotient
     if not min(least, most) <= quotient <= max(least, most):
         raise NoSolution(
-            f"no linkage of these gears gives min/max = {quotient:.9g}: it must lie between {least:.9g} and {most:.9g}"
+            f"no linkage of these gears gives min/max = {quotient:.6g}: it must lie between "
+            f"{safely_above(min(least, most), 4)} and {safely_below(max(least, most), 4)}"
         )
     return family.linkage(bracketed_root(over, low, high))
 

@@ -313,6 +313,9 @@ class BackStepSynthesis(BackStepFamily):
         task = self.section("back_step", "angle, crank_angle (deg)")
         if self.general or task.angle is None or task.crank_angle is None:
             return super().chosen_idler()
+        if task.crank_angle == 0.0:
+            words = "the output does not step back over a crank angle of 0: leave crank_angle out, or give one above 0"
+            raise NoSolution(words, key="back_step.crank_angle")
         with at_key("back_step.angle"):
             i3 = symmetric_back_step.i3_for_back_step(math.radians(task.angle), math.radians(task.crank_angle))
         with at_key("gears.idler"):

@@ -400,7 +400,7 @@ def test_lead_in_counts_to_the_turn():
 
 
 def test_lead_in_that_leaves_no_room_at_all():
-    with pytest.raises(NoSolution, match=r"lead_in and return_angle have 267\.31 deg together") as refusal:
+    with pytest.raises(NoSolution, match=r"cam.lead_in and cam.return_angle have 267\.31 deg together") as refusal:
         _ = follower(TY460, lead_in=300.0).segments
     assert refusal.value.key == "cam.lead_in"
     assert follower(TY460, lead_in=167.31).segments
