@@ -1,4 +1,4 @@
-"""Words where something takes longer than a second: on a terminal alone, then taken back. Times in tenths of a second."""
+"""Words where something takes longer than a second: on a terminal alone, then taken back. Tenths of a second wide."""
 
 import io
 import time
