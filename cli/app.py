@@ -13,7 +13,7 @@ from typing import Annotated, Any
 import typer
 import typer.main
 
-from gearlink.cli.batch.options import BatchFormat, BatchOptions, FailOn
+from gearlink.cli.batch.options import Added, BatchFormat, BatchOptions, FailOn
 from gearlink.cli.bench.command import register as register_bench
 from gearlink.cli.command_groups import OrderOfWork
 from gearlink.cli.commands.gears import gears
@@ -113,6 +113,9 @@ def _batch(
     shard: Annotated[str, typer.Option(metavar="I/N", help="run only the I-th of N shares of the files")] = "1/1",
     jobs: Annotated[int, typer.Option("--jobs", "-j", min=0, help="number of processes; 0: chosen automatically")] = 0,
     dask: Annotated[str, typer.Option(metavar="ADDRESS", help="compute on the Dask cluster of this scheduler")] = "",
+    added: Annotated[
+        list[Added] | None, typer.Option("--with", help="run this as well on files with tolerances (repeatable)")
+    ] = None,
 ) -> None:
     """Run every design file in folders; print one summary and give one exit status.
 
@@ -123,7 +126,8 @@ def _batch(
     if options.plot and out is None:
         raise typer.BadParameter("--plot of a batch needs --out DIR", param_hint="--plot")
     design = replace(options, strict=options.strict or fail_on is FailOn.WARNING)
-    raise typer.Exit(run_batch(places, BatchOptions(design, format, out, cache, _share(shard), jobs, dask)))
+    more = tuple(dict.fromkeys(one.value for one in added or ()))
+    raise typer.Exit(run_batch(places, BatchOptions(design, format, out, cache, _share(shard), jobs, dask, more)))
 
 
 def _share(text: str) -> tuple[int, int]:

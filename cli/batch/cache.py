@@ -66,6 +66,7 @@ def _entry_of(path: Path, options: BatchOptions) -> Path | None:
         str(path),
         options.findings_only,
         options.with_places,
+        options.added,
         design.strict,
         design.overrides,
         design.samples,

@@ -6,6 +6,7 @@ import json
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from time import perf_counter
+from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.batch.options import BatchOptions
 from gearlink.cli.batch.outcome import Fix, Outcome
@@ -15,6 +16,9 @@ from gearlink.cli.files import CannotWrite, stem_of
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import LoadedFile, parse_path
 from gearlink.core.report import Remedy, Report
+
+if TYPE_CHECKING:
+    from gearlink.core.kinds import Kind
 
 
 def outcomes(path: Path, options: BatchOptions) -> list[Outcome]:
@@ -45,7 +49,7 @@ def _computed(path: Path, options: BatchOptions) -> Iterator[Outcome]:
         kind_name = kind.name
         spec = read_spec(loaded, kind, file)
         name = spec.name
-        for command in spec.commands():
+        for command in (*spec.commands(), *_added(kind, spec, options)):
             try:
                 design, report = build(loaded, kind, command, spec, options.design, findings_only=options.findings_only)
                 if options.out is not None:
@@ -64,6 +68,12 @@ def _computed(path: Path, options: BatchOptions) -> Iterator[Outcome]:
     except Exception as fault:
         message = f"fault of the program: {type(fault).__name__}: {fault}"
         yield ended(ExitCode.FAULT, errors=[Diagnostic("GL199", message, file=file)])
+
+
+def _added(kind: Kind, spec: Any, options: BatchOptions) -> Iterator[str]:
+    """What the user asked for besides, of a file that says how its sizes scatter."""
+    scatters = getattr(spec, "tolerance", None) is not None
+    yield from (command for command in options.added if scatters and command in kind.commands)
 
 
 def _places(loaded: LoadedFile, report: Report) -> tuple[tuple[int, int], ...]:

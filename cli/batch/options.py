@@ -26,6 +26,13 @@ class BatchFormat(StrEnum):
     GITHUB = "github"
 
 
+class Added(StrEnum):
+    """Commands that a batch runs on request alone."""
+
+    TOLERANCE = "tolerance"
+    REGISTER = "register"
+
+
 class FailOn(StrEnum):
     """What ends a batch with status 1."""
 
@@ -39,7 +46,8 @@ class BatchOptions:
 
     `shard` is (i, n): the i-th of n shares of the files, counted from 1. `jobs` 0 lets the program choose;
     `dask` is the address of a scheduler whose workers compute, in place of processes.
-    `cache_key` signs what `cache` keeps.
+    `cache_key` signs what `cache` keeps. `added` are commands that run on files with a section
+    `tolerance` as well.
     """
 
     design: Options = field(default_factory=Options)
@@ -49,6 +57,7 @@ class BatchOptions:
     shard: tuple[int, int] = (1, 1)
     jobs: int = 0
     dask: str = ""
+    added: tuple[str, ...] = ()
     cache_key: bytes = field(default=b"", repr=False)
 
     @property

@@ -13,7 +13,7 @@ KeyPath = tuple[str | int, ...]
 """A key path: `("teeth", 1)` for `teeth[1]`."""
 
 _PLAIN = re.compile(r"(?:[-+]?[.0-9][-+.0-9eE]*|[a-z][-a-z0-9]*)(?=[\s,\]}]|$)")
-_STEP = re.compile(r"(?:(?:^|(?<=.)\.)([^.\[\]=\s]+)|\[([0-9]{1,6})\])")
+_STEP = re.compile(r"""(?:(?:^|(?<=.)\.)(?:(["'])([^"'=]+)\1|([^.\[\]=\s"']+))|\[([0-9]{1,6})\])""")
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,11 +88,13 @@ def parse_path(text: str) -> KeyPath | None:
     Example
         >>> parse_path("pivots.input[1]"), parse_path("a..b")
         (('pivots', 'input', 1), None)
+        >>> parse_path('tolerance.sources."links.crank".cpk')
+        ('tolerance', 'sources', 'links.crank', 'cpk')
     """
     steps: list[str | int] = []
     at = 0
     while match := _STEP.match(text, at):
-        steps.append(match[1] if match[2] is None else int(match[2]))
+        steps.append(int(match[4]) if match[4] is not None else match[2] or match[3])
         at = match.end()
     return tuple(steps) if at == len(text) and steps and isinstance(steps[0], str) else None
 

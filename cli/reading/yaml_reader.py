@@ -351,8 +351,15 @@ def format_path(path: tuple[str | int, ...]) -> str:
     Example
         >>> format_path(("gears", "teeth", 1))
         'gears.teeth[1]'
+        >>> format_path(("tolerance", "sources", "links.crank", "cpk"))
+        'tolerance.sources."links.crank".cpk'
     """
-    return "".join(f"[{step}]" if isinstance(step, int) else f".{step}" for step in path).removeprefix(".")
+    return "".join(f"[{step}]" if isinstance(step, int) else f".{_quoted(step)}" for step in path).removeprefix(".")
+
+
+def _quoted(step: str) -> str:
+    """A key in quotes where it has a dot or a bracket of its own."""
+    return f'"{step}"' if {".", "["} & set(step) else step
 
 
 def _no_mapping(tree: Tree) -> Diagnostic:

@@ -187,8 +187,15 @@ class ToleranceStudy(Design):
         text = f"{100 * good.value:.5g} % of the designs as made are good (95 %: {ends})"
         short = good.low < target
         if short:
-            text += f", {100 * target:.6g} % are wanted: {self._what_to_tighten()}"
+            text += f", {100 * target:.6g} % are wanted: {self._remedy(good.value, target)}"
         yield TARGET_YIELD.check("fail" if short else "pass", text, good.low, target)
+
+    def _remedy(self, value: float, target: float) -> str:
+        """More samples where the yield may well be there, else what to tighten."""
+        if value == 1.0:
+            needed = math.ceil(math.log(0.05) / math.log(target))
+            return f"none failed, but so few samples prove no more; take --samples {needed}"
+        return self._what_to_tighten()
 
     def _what_to_tighten(self) -> str:
         """The source that adds most to the requirement that fails most."""

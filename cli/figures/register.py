@@ -1,0 +1,95 @@
+"""Sheet of a register budget: the error along the stretch for both torque signs, and its sources."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from gearlink.cli.figures import panels, style
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from gearlink.core.tolerance.budget import Budget
+    from gearlink.core.tolerance.register_design import RegisterDesign
+
+_LINES = ("-", style.DASHED)
+
+
+def draw(design: RegisterDesign) -> Figure:
+    """The sheet: along the stretch, over the cycle, and by source."""
+    made = panels.page(f"{design.spec.name}: register", 1.0)
+    grid = made.add_gridspec(3, 1, height_ratios=[1.0, 1.0, 1.1])
+    along = design.input_angles.size > 1
+    if along:
+        _stretch(made.add_subplot(grid[0]), design)
+    _cycle(made.add_subplot(grid[1] if along else grid[:2]), design)
+    _sources(made.add_subplot(grid[2]), design)
+    return made
+
+
+def _signs(design: RegisterDesign) -> list[tuple[str, Budget]]:
+    """The budgets to draw, each with its name: one where the flank does not matter."""
+    one, other = design.budgets
+    return [("", one)] if one.rows == other.rows else [(" torque +1", one), (" torque -1", other)]
+
+
+def _stretch(axes: Axes, design: RegisterDesign) -> None:
+    """Band and worst case relative to the start of the stretch."""
+    import numpy as np
+
+    degrees = np.degrees(design.input_angles)
+    style.curves(axes, "input angle [deg]", "error [mm]")
+    panels.small_ticks(axes)
+    for (name, found), line in zip(_signs(design), _LINES, strict=False):
+        axes.plot(degrees, 3.0 * found.rss, color=style.BLUE, linestyle=line, linewidth=1.6, label=f"99.73 %{name}")
+        axes.plot(degrees, found.worst, color=style.ORANGE, linestyle=line, linewidth=1.1, label=f"worst{name}")
+    if design.section.tolerance is not None:
+        limit = design.section.tolerance
+        axes.axhline(limit, color=style.RED, linewidth=1.2, linestyle=style.CHAIN, label="allowed")
+    for flip in design.flips or ():
+        place = math.degrees(flip)
+        place += 360.0 * math.ceil((degrees[0] - place) / 360.0)
+        if place <= degrees[-1]:
+            axes.axvline(place, color=style.GREY, linewidth=1.0, linestyle=style.DOTTED, label="torque turns")
+    axes.set_xlim(degrees[0], degrees[-1])
+    axes.set_ylim(0.0, None)
+    panels.legend_under_heading(axes, f"Over the {design.place}, relative to its start", 5)
+
+
+def _cycle(axes: Axes, design: RegisterDesign) -> None:
+    """Absolute error over the whole cycle."""
+    import numpy as np
+
+    table = design.table_cycle()
+    signs, degrees, band = (np.asarray(table[name]) for name in ("torque_sign", "input_angle", "band"))
+    style.curves(axes, "input angle [deg]", "error [mm]")
+    panels.small_ticks(axes)
+    names = _signs(design)
+    for sign, (name, _), line in zip((1, -1), names, _LINES, strict=False):
+        here = signs == sign
+        axes.plot(degrees[here], band[here], color=style.BLUE, linestyle=line, label=f"99.73 %{name}")
+    style.full_turn(axes)
+    axes.set_ylim(0.0, None)
+    panels.legend_under_heading(axes, "Over the cycle, absolute", 4)
+
+
+def _sources(axes: Axes, design: RegisterDesign) -> None:
+    """Three sigma of every source where the whole is greatest."""
+    style.curves(axes, "3 sigma where the whole is greatest [mm]", "")
+    panels.small_ticks(axes)
+    found = _signs(design)
+    order = sorted(found[0][1].rows, key=lambda row: row.sigma)
+    height = 0.8 / len(found)
+    for i, (name, one) in enumerate(found):
+        sigma = {row.source: row.sigma for row in one.rows}
+        places = [j + (i - 0.5 * (len(found) - 1)) * height for j in range(len(order))]
+        color = (style.BLUE, style.SKY)[i]
+        label = name.strip() or None
+        axes.barh(places, [3.0 * sigma[row.source] for row in order], height=height, color=color, label=label)
+    axes.set_yticks(range(len(order)), [row.source for row in order])
+    if len(found) > 1:
+        panels.legend_under_heading(axes, "By source", 2)
+    else:
+        panels.heading(axes, "By source")

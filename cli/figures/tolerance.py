@@ -1,0 +1,78 @@
+"""Sheet of a tolerance study: histograms with their limits, and beside each what contributes to it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from gearlink.cli.figures import panels, style
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from gearlink.core.tolerance_study.design import ToleranceStudy
+
+_MOST = 4
+_BINS = 60
+
+
+def draw(study: ToleranceStudy) -> Figure:
+    """The sheet: a row for each quantity, those of the requirements first."""
+    names = study.varying[:_MOST]
+    made = panels.page(f"{study.spec.name}: tolerance", 0.12 + 0.22 * max(1, len(names)))
+    grid = made.add_gridspec(max(1, len(names)), 2, width_ratios=[1.25, 1.0])
+    for row, name in enumerate(names):
+        _histogram(made.add_subplot(grid[row, 0]), study, name)
+        _contributions(made.add_subplot(grid[row, 1]), study, name)
+    if not names:
+        axes = made.add_subplot(grid[0, :])
+        axes.axis("off")
+        axes.text(0.5, 0.5, "nothing scatters", ha="center", va="center")
+    return made
+
+
+def _histogram(axes: Axes, study: ToleranceStudy, name: str) -> None:
+    """Density of a quantity, its nominal value, its quantiles and its limits."""
+    import numpy as np
+
+    values = study.result.values[name]
+    values = values[~np.isnan(values)]
+    unit = study.units[name]
+    style.curves(axes, f"{name} [{unit}]" if unit != "1" else name, "density")
+    panels.small_ticks(axes)
+    axes.hist(values, bins=_BINS, density=True, color=style.SKY, edgecolor="white", linewidth=0.3)
+    axes.axvline(study.nominal[name], color=style.BLACK, linewidth=1.2, label="nominal")
+    low, _, high = study.result.spreads[name].quantiles
+    for place, label in ((low.value, "0.135 and 99.865 %"), (high.value, None)):
+        axes.axvline(place, color=style.BLUE, linewidth=1.0, linestyle=style.DASHED, label=label)
+    for i, limit in enumerate(one for one in study.limits(name) if one is not None):
+        axes.axvline(limit, color=style.RED, linewidth=1.6, linestyle=style.CHAIN, label=None if i else "limit")
+    axes.set_yticks([])
+    panels.legend_under_heading(axes, _headline(study, name), 3)
+
+
+def _headline(study: ToleranceStudy, name: str) -> str:
+    spread = study.result.spreads[name]
+    return f"{name}: sigma {spread.sigma.value:.3g}"
+
+
+def _contributions(axes: Axes, study: ToleranceStudy, name: str) -> None:
+    """Shares of the variance: total Sobol' indices where they were asked for, else by the slopes."""
+    table = study.table_contributions()
+    rows = [dict(zip(table.columns, row, strict=True)) for row in zip(*table.data, strict=True)]
+    rows = [row for row in rows if row["quantity"] == name]
+    kind = "total" if rows[0]["total"] is not None else "linear"
+    shares: list[tuple[str, Any, Any]] = [(row["source"], row[kind], row["total_pm"]) for row in rows]
+    what = "total Sobol' index" if kind == "total" else "share of the variance"
+    style.curves(axes, what, "")
+    panels.small_ticks(axes)
+    panels.heading(axes, "Contributions")
+    if any(share is None for _, share, _ in shares):
+        axes.axis("off")
+        words = "the quantity has a kink here:\nno linear shares; ask for --sobol"
+        axes.text(0.5, 0.5, words, ha="center", va="center", fontsize=8, transform=axes.transAxes)
+        return
+    shares.sort(key=lambda row: row[1])
+    error = [row[2] for row in shares] if kind == "total" else None
+    axes.barh([row[0] for row in shares], [row[1] for row in shares], xerr=error, color=style.ORANGE, height=0.7)
+    axes.set_xlim(0.0, None)

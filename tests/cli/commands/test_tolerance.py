@@ -1,0 +1,102 @@
+"""The commands tolerance and register at the command line: options, exit statuses, places of errors, batch."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+DESIGN = """\
+kind: three-gear-four-bar
+gears: {module: 2, crank: 40, idler: 72, output: 40}
+links: {crank: 38.942, frame: 153.530}
+tolerance:
+  sources:
+    links.crank: {plus_minus: 0.02}
+    links.frame: {plus_minus: 0.02}
+  require: [back_step_angle <= 20.4 deg]
+"""
+
+
+@pytest.fixture
+def spec(tmp_path: Path) -> Path:
+    path = tmp_path / "feed.yaml"
+    path.write_text(DESIGN)
+    return path
+
+
+def test_options_are_keys_of_the_section(gearlink: Any, spec: Path) -> None:
+    line = ["tolerance", str(spec), "--samples", "100", "--seed", "7", "--worst-case", "--sobol", "--format", "json"]
+    ended = gearlink(*line)
+    status, out = ended.status, ended.out
+    found = json.loads(out)
+    assert status == 0
+    assert found["quantities"]["samples"]["value"] == 128
+    assert found["quantities"]["seed"]["value"] == 7
+    assert set(found["tables"]) == {"quantities", "requirements", "contributions", "corners"}
+    columns = found["tables"]["contributions"]["columns"]
+    assert all(row[columns.index("total")] is not None for row in found["tables"]["contributions"]["rows"])
+    assert gearlink(*line).out == out
+
+
+def test_a_missed_target_fails(gearlink: Any, spec: Path) -> None:
+    line = ["tolerance", str(spec), "--samples", "512", "--set", "tolerance.target_yield=0.9999", "--format", "json"]
+    ended = gearlink(*line)
+    status, out = ended.status, ended.out
+    (check,) = [check for check in json.loads(out)["checks"] if check["code"] == "GL179"]
+    assert (status, check["status"]) == (1, "fail")
+    assert "--samples" in check["message"]
+
+
+def test_a_quoted_key_is_one_step_of_a_path(gearlink: Any, spec: Path) -> None:
+    key = 'tolerance.sources."links.crank".plus_minus'
+    line = ["tolerance", str(spec), "--samples", "512", "--format", "json"]
+    wide = json.loads(gearlink(*line, "--set", f"{key}=0.2").out)["tables"]["quantities"]["rows"][0]
+    narrow = json.loads(gearlink(*line).out)["tables"]["quantities"]["rows"][0]
+    assert wide[5] > 5.0 * narrow[5]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "code", "place"),
+    [
+        ("links.frame:", "links.frme:", "GL170", (7, 5)),
+        ("plus_minus: 0.02}\n  require", "plus_minus: 0.02, cp: 1, cpk: 2}\n  require", "GL172", (7, 5)),
+        ("{plus_minus: 0.02}\n    links.frame", "{limits: [1, 1]}\n    links.frame", "GL171", (6, 5)),
+        ("back_step_angle", "back_stp_angle", "GL152", (8, 13)),
+    ],
+)
+def test_errors_have_a_place(gearlink: Any, spec: Path, old: str, new: str, code: str, place: tuple[int, int]) -> None:
+    spec.write_text(DESIGN.replace(old, new))
+    ended = gearlink("tolerance", str(spec), "--samples", "64", "--format", "json")
+    status, out = ended.status, ended.out
+    error = json.loads(out)["errors"][0]
+    assert (status, error["code"], error["line"], error["column"]) == (2, code, *place)
+
+
+def test_without_the_section_there_is_nothing_to_study(gearlink: Any, spec: Path) -> None:
+    spec.write_text(DESIGN[: DESIGN.index("tolerance:")])
+    for command in ("tolerance", "register"):
+        ended = gearlink(command, str(spec), "--format", "json")
+        status, out = ended.status, ended.out
+        assert (status, json.loads(out)["errors"][0]["code"]) == (2, "GL113")
+
+
+def test_a_batch_runs_them_on_request_alone(gearlink: Any, spec: Path) -> None:
+    def commands(*more: str) -> list[str]:
+        out = gearlink("batch", str(spec), "--jobs", "1", "--format", "json", *more).out
+        return [result["command"] for result in json.loads(out)["results"]]
+
+    assert commands() == ["analyze"]
+    more = ("--with", "register", "--with", "tolerance", "--set", "tolerance.samples=64")
+    assert commands(*more) == ["analyze", "register", "tolerance"]
+
+
+def test_register_at_an_angle_is_absolute(gearlink: Any, spec: Path) -> None:
+    ended = gearlink("register", str(spec), "--at", "270", "--format", "json")
+    status, out = ended.status, ended.out
+    found = json.loads(out)["quantities"]
+    # frame 1.3708 and crank 0.3477 (the theory's gains at 270 deg), +-0.02 each
+    assert status == 0
+    assert found["worst"]["value"][0] == pytest.approx(0.02 * (1.3708 + 0.3477), abs=3e-6)

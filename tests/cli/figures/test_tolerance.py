@@ -1,0 +1,46 @@
+"""Sheets of tolerance and register: what they draw is what the tables say."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from sheets import sheet
+
+SMALL = {"tolerance__samples": 512}
+
+
+def test_histogram_is_of_the_samples_with_nominal_value_and_limit() -> None:
+    design, figure = sheet("candy_feed_tolerances", "tolerance", **SMALL)
+    axes = next(axes for axes in figure.axes if axes.get_xlabel().startswith("back_step_angle"))
+    area = sum(bar.get_width() * bar.get_height() for bar in axes.patches)
+    assert area == pytest.approx(1.0, rel=1e-9)
+    verticals = [float(line.get_xdata()[0]) for line in axes.lines]
+    assert 20.4 in [pytest.approx(place) for place in verticals]
+    assert design.nominal["back_step_angle"] in verticals
+
+
+def test_bars_are_the_linear_shares() -> None:
+    design, figure = sheet("candy_feed_tolerances", "tolerance", **SMALL)
+    axes = next(axes for axes in figure.axes if axes.get_title(loc="left") == "Contributions")
+    table = design.table_contributions()
+    rows = [dict(zip(table.columns, row, strict=True)) for row in zip(*table.data, strict=True)]
+    wanted = sorted(row["linear"] for row in rows if row["quantity"] == "back_step_angle")
+    assert [bar.get_width() for bar in axes.patches] == pytest.approx(wanted)
+    assert math.fsum(wanted) == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("name", ["candy_feed_tolerances", "ty460_register", "swing_gripper_register"])
+def test_register_sheet_shows_every_source(name: str) -> None:
+    design, figure = sheet(name, "register")
+    axes = next(axes for axes in figure.axes if axes.get_title(loc="left") == "By source")
+    assert {label.get_text() for label in axes.get_yticklabels()} == {row.source for row in design.budgets[0].rows}
+
+
+def test_band_over_the_dwell_is_three_sigma() -> None:
+    design, figure = sheet("candy_feed_tolerances", "register")
+    axes: Any = figure.axes[0]
+    line = next(line for line in axes.lines if line.get_label() == "99.73 % torque +1")
+    assert np.asarray(line.get_ydata()) == pytest.approx(3.0 * design.budgets[0].rss)
