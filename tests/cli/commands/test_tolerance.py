@@ -86,7 +86,7 @@ def test_without_the_section_there_is_nothing_to_study(gearlink: Any, spec: Path
 def test_a_batch_runs_them_on_request_alone(gearlink: Any, spec: Path) -> None:
     def commands(*more: str) -> list[str]:
         out = gearlink("batch", str(spec), "--jobs", "1", "--format", "json", *more).out
-        return [result["command"] for result in json.loads(out)["results"]]
+        return [result["command"] for result in json.loads(out)["designs"]]
 
     assert commands() == ["analyze"]
     more = ("--with", "register", "--with", "tolerance", "--set", "tolerance.samples=64")
