@@ -1,7 +1,8 @@
-"""The figure of a gear pair: both gears, the mesh zone and a table."""
+"""The figure of a gear pair: both gears, the mesh zone, a table, the blocking contour, values along the path."""
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 from gearlink.cli.figures.gear_mesh import Mesh, mesh_figure
@@ -14,4 +15,7 @@ if TYPE_CHECKING:
 
 def draw(command: str, design: GearPairDesign) -> Figure:
     """The figure of `gear` or `analyze` on a gear pair."""
-    return mesh_figure(f"{design.spec.name}: {command}", [Mesh(design.gear_pair)])
+    from gearlink.cli.figures.gear_contour import contour_plot, path_plot
+
+    plots = (partial(contour_plot, data=design.data), partial(path_plot, data=design.data))
+    return mesh_figure(f"{design.spec.name}: {command}", [Mesh(design.gear_pair)], plots)

@@ -1,0 +1,132 @@
+"""The blocking contour of a gear pair with the design in it, and sliding, pressure and root stress along its path."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from gearlink.cli.figures import panels, style
+from gearlink.core.errors import NoSolution
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.lines import Line2D
+
+    from gearlink.core.gears.along_path import AlongPath, Place
+    from gearlink.core.gears.data import GearData
+
+_LOOKS = (
+    ("undercut", style.RED, "-", "undercut"),
+    ("pointed tip", style.BLACK, "-", "pointed tip"),
+    ("tip fouling", style.RED, style.DASHED, "tip fouling"),
+    ("radial assembly", style.GREY, style.DASHED, "radial assembly"),
+    ("tip", style.BLACK, style.DOTTED, "tip thickness 0.2, 0.4 m"),
+    ("fillet", style.ORANGE, "-", "root fillet met"),
+    ("base circle", style.ORANGE, style.DASHED, "base circle met"),
+    ("contact ratio", style.BLUE, "-", "contact ratio 1, 1.1, 1.2"),
+    ("equal sliding", style.GREEN, "-", "equal sliding"),
+    ("equal root stress", style.GREEN, style.DASHED, "equal root stress"),
+)
+_FOOT = ("data", "axes fraction")
+_STEP = 0.15
+"""Points of a line farther apart than this, in both shifts, belong to different branches."""
+
+
+def contour_plot(axes: Axes, key: Axes, data: GearData) -> None:
+    """Every line of the contour in the plane of both shifts, and the design."""
+    from gearlink.core.gears.contour import BlockingContour
+
+    contour = BlockingContour(data)
+    panels.heading(axes, "Blocking contour")
+    named: set[str] = set()
+    for name, points in contour.points.items():
+        _, color, dashes, words = next(look for look in _LOOKS if name.startswith(look[0]))
+        for branch in _branches(points):
+            label = words if words not in named else "_"
+            named.add(words)
+            xs, ys = zip(*branch, strict=True)
+            axes.plot(xs, ys, color=color, linestyle=dashes, linewidth=1.1, label=label)
+    x1, x2 = data.pair.profile_shift
+    axes.plot([x1], [x2], "o", color="white", markeredgecolor=style.BLACK, markersize=6, label="this design", zorder=6)
+    axes.set_xlim(*contour.window[0])
+    axes.set_ylim(*contour.window[1])
+    _named(axes, "$x_1$", "$x_2$")
+    _key(key, axes.get_legend_handles_labels()[0], 3)
+
+
+def _named(axes: Axes, across: str, up: str) -> None:
+    axes.tick_params(labelsize=7)
+    axes.set_xlabel(across, fontsize=8)
+    axes.set_ylabel(up, fontsize=8)
+
+
+def _key(axes: Axes, handles: Sequence[Any], columns: int) -> None:
+    """The legend in axes of its own."""
+    axes.set_axis_off()
+    labels = [str(handle.get_label()) for handle in handles]
+    look: dict[str, Any] = {"fontsize": 6.5, "frameon": False, "handlelength": 1.8, "columnspacing": 1.0}
+    legend = axes.legend(handles, labels, loc="upper left", ncols=columns, borderaxespad=0.0, **look)
+    legend.set_in_layout(False)
+
+
+def _branches(points: list[tuple[float, float]]) -> list[list[tuple[float, float]]]:
+    """The points of a line sorted into branches: each continues the nearest one that is near enough."""
+    branches: list[list[tuple[float, float]]] = []
+    for point in points:
+        near = [
+            branch
+            for branch in branches
+            if branch[-1] != point and max(abs(branch[-1][k] - point[k]) for k in (0, 1)) < _STEP
+        ]
+        if near:
+            min(near, key=lambda branch: sum(abs(branch[-1][k] - point[k]) for k in (0, 1))).append(point)
+        else:
+            branches.append([point])
+    return branches
+
+
+def path_plot(axes: Axes, key: Axes, data: GearData) -> None:
+    """Specific sliding of both gears from A to E; with a load the pressure and root stresses as well."""
+    from gearlink.core.gears.along_path import AlongPath
+
+    along = AlongPath(data)
+    try:
+        places = along.places(120)
+    except NoSolution:
+        axes.set_axis_off()
+        key.set_axis_off()
+        return
+    panels.heading(axes, "Along the path of contact")
+    rho = [place.rho for place in places]
+    for gear, color in ((0, style.BLUE), (1, style.ORANGE)):
+        sliding = [max(-6.0, along.sliding(place.rho)[gear]) for place in places]
+        axes.plot(rho, sliding, color=color, linewidth=1.2, label=f"sliding, gear {gear + 1}")
+    axes.axhline(0.0, color=style.GREY, linewidth=0.6)
+    _named(axes, r"$\rho_1$ in mm", r"specific sliding $\zeta$")
+    handles = list(axes.get_lines()[:2])
+    if data.load is not None and data.face_width is not None and along.single is not None:
+        handles += _stresses(axes, along, places)
+    for name, at in (("A", data.path.start), ("C", data.path.pitch), ("E", data.path.end)):
+        axes.annotate(name, (at, 0.0), (1, 3), xycoords=_FOOT, textcoords="offset points", fontsize=7)
+    _key(key, handles, 2)
+
+
+def _stresses(axes: Axes, along: AlongPath, places: list[Place]) -> list[Line2D]:
+    """Pressure and root stresses on an axis of their own."""
+    import math
+
+    other = axes.twinx()
+    _named(other, "", "N/mm²")
+    rho = [place.rho for place in places]
+    found: list[Line2D] = []
+
+    def drawn(values: list[float | None], words: str, color: str, dashes: Any) -> None:
+        heights = [math.nan if value is None or math.isinf(value) else value for value in values]
+        found.extend(other.plot(rho, heights, color=color, linestyle=dashes, linewidth=1.1, label=words))
+
+    drawn([along.pressure(place) for place in places], "pressure", style.RED, "-")
+    for gear, color in ((0, style.BLUE), (1, style.ORANGE)):
+        stresses = [along.root_stress(place, gear) for place in places]
+        drawn(stresses, f"root stress, gear {gear + 1}", color, style.DASHED)
+    other.set_ylim(bottom=0.0)
+    return found
