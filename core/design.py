@@ -270,4 +270,4 @@ def in_unit(value: Any, unit: str) -> Any:
     """A value in the unit of design files: radians to degrees where it is an angle; pairs and lists become lists."""
     if isinstance(value, (list, tuple)):
         return [in_unit(item, unit) for item in value]
-    return math.degrees(value) if unit == "deg" else value
+    return math.degrees(value) if unit == "deg" and value is not None else value

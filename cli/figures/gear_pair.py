@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
 def draw(command: str, design: GearPairDesign) -> Figure:
     """The figure of `gear` or `analyze` on a gear pair."""
+    design.require_two_gears("the picture")
     from gearlink.cli.figures.gear_contour import contour_plot, path_plot
 
     plots = (partial(contour_plot, data=design.data), partial(path_plot, data=design.data))

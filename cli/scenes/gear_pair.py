@@ -21,6 +21,7 @@ _MOST_PITCHES = 36
 
 def build(design: GearPairDesign, fraction: Reals) -> Scene:
     """Positions over fractions of the loop; gear 1 drives counter-clockwise."""
+    design.require_two_gears("the picture")
     return pair_scene(design.gear_pair, ("1", "2"), fraction)
 
 

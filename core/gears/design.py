@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.design import Design, Outline
-from gearlink.core.errors import at_key
+from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantities, gear_check, gear_quantity
 from gearlink.core.gears.data import DRAWING_QUANTITIES, GearData
 from gearlink.core.gears.drawing import drawing_table
@@ -18,6 +18,7 @@ from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
     from gearlink.core.gears.contour import BlockingContour
+    from gearlink.core.gears.rack import RackMesh
     from gearlink.core.gears.spec import GearPairSpec
 
 _SHIFTS = (
@@ -61,7 +62,7 @@ class GearPairDesign(GearQuantities, Design):
     @property
     def ways(self) -> dict[str, tuple[Way, ...]]:  # type: ignore[override]
         """More teeth of a ring are a smaller number."""
-        return _WAYS_WITH_RING if self.spec.teeth[1] < 0 else _WAYS
+        return _WAYS_WITH_RING if not self.spec.rack and self.gear_pair.internal else _WAYS
 
     @cached_property
     def gear_pair(self) -> GearPair:
@@ -78,14 +79,27 @@ class GearPairDesign(GearQuantities, Design):
         """The pair with all that its drawing needs."""
         return data_of(self.spec, self.gear_pair)
 
+    @cached_property
+    def rack(self) -> RackMesh | None:
+        """The mesh of a gear on a rack; None for two gears."""
+        if not self.spec.rack:
+            return None
+        from gearlink.core.gears.rack import RackMesh
+
+        return RackMesh(self.data)
+
     def raw(self, name: str) -> Any:
         """Every quantity is the pair's."""
         with at_key(self._placed_by):
+            if self.rack is not None:
+                return self.rack.quantity(name)
             return gear_quantity(self.gear_pair, name) if name in GEAR_QUANTITIES else self.data.quantity(name)
 
     def check(self, name: str) -> list[Check]:
         """Every check is the pair's."""
         with at_key(self._placed_by):
+            if self.rack is not None:
+                return list(self.rack.checks(name, self.spec.limits))
             if name in DRAWING_CHECKS:
                 radial = self.spec.assembly == "radial"
                 return list(drawing_check(name, self.data, self.spec.limits, radial=radial))
@@ -93,18 +107,36 @@ class GearPairDesign(GearQuantities, Design):
                 return [found]
             return list(gear_check(name, self.gear_pair, self.spec.limits, shifts=True))
 
+    def _two_gears(self, what: str) -> GearData:
+        """The data of a pair of two gears.
+
+        Raises
+            NoSolution - for a gear on a rack
+        """
+        self.require_two_gears(f"the table {what}")
+        return self.data
+
+    def require_two_gears(self, what: str) -> None:
+        """Refuse what a gear on a rack does not have.
+
+        Raises
+            NoSolution
+        """
+        if self.spec.rack:
+            raise NoSolution(f"{what} needs two gears, not a rack", key="teeth[1]")
+
     def table_drawing(self, _samples: int | None = None) -> Table:
         """The gear table of the drawing."""
         hands = self.spec.helix_hand
         with at_key(self._placed_by):
-            return drawing_table(self.data, None if hands is None else (hands[0], hands[1]))
+            return drawing_table(self._two_gears("drawing"), None if hands is None else (hands[0], hands[1]))
 
     def table_path(self, samples: int | None = None) -> Table:
         """Sliding, pressure and root stress along the path of contact."""
         from gearlink.core.gears.along_path import AlongPath
 
         with at_key(self._placed_by):
-            along = AlongPath(self.data)
+            along = AlongPath(self._two_gears("path"))
             return along.table() if samples is None else along.table(samples)
 
     def table_candidates(self, _samples: int | None = None) -> Table:
@@ -112,14 +144,14 @@ class GearPairDesign(GearQuantities, Design):
         from gearlink.core.gears.candidates import candidates_table
 
         with at_key(self._placed_by):
-            return candidates_table(self.data)
+            return candidates_table(self._two_gears("candidates"))
 
     @cached_property
     def contour(self) -> BlockingContour:
         """The blocking contour about the design."""
         from gearlink.core.gears.contour import BlockingContour
 
-        return BlockingContour(self.data)
+        return BlockingContour(self._two_gears("contour"))
 
     def table_contour(self, _samples: int | None = None) -> Table:
         """The lines of the blocking contour, point by point."""

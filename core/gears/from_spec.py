@@ -29,7 +29,7 @@ def pair_of(spec: GearPairSpec) -> GearPair:
     """
     known: dict[str, Any] = {
         "module": spec.module,
-        "teeth": (spec.teeth[0], spec.teeth[1]),
+        "teeth": tuple(spec.teeth),
         "pressure_angle": math.radians(spec.pressure_angle),
         "helix_angle": math.radians(spec.helix_angle),
         "addendum": spec.addendum,
@@ -44,6 +44,8 @@ def pair_of(spec: GearPairSpec) -> GearPair:
         known["cutter"] = PinionCutter(**spec.cutter.model_dump())
     with at_key("tool"):
         known["tools"] = tools_of(spec)
+    if spec.rack:
+        return _on_rack(spec, known)
     shift, distance = spec.profile_shift, spec.center_distance
     if shift is None:
         split = spec.shift_split
@@ -56,6 +58,17 @@ def pair_of(spec: GearPairSpec) -> GearPair:
     with at_key("center_distance"):
         pair = GearPair(**known, given_shift=(shift[0], shift[1]), given_distance=distance)
     return _without_difference(pair)
+
+
+def _on_rack(spec: GearPairSpec, known: dict[str, Any]) -> GearPair:
+    """The gear on a rack, as gear 1 of a pair; x_1 = (a - r_1)/m where the distance to the datum line is given."""
+    from gearlink.core.gears.rack import beside_a_rack
+
+    if spec.profile_shift is not None:
+        return beside_a_rack(known, spec.profile_shift[0])
+    assert spec.center_distance is not None, "the spec asks for one of the two"
+    radius = beside_a_rack(known, 0.0).reference_radius[0]
+    return beside_a_rack(known, (spec.center_distance - radius) / spec.module)
 
 
 def _shared(spec: GearPairSpec, pair: GearPair, split: str) -> GearPair:

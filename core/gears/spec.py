@@ -51,8 +51,8 @@ class GearPairSpec(TolerancedSpec):
 
     kind: Literal["gear-pair"]
     module: Length = Field(description="normal module")
-    teeth: Annotated[list[SignedTeeth], Field(min_length=2, max_length=2)] = Field(
-        description="teeth of gear 1 and 2; a negative number is a ring"
+    teeth: Annotated[list[SignedTeeth | Literal["rack"]], Field(min_length=2, max_length=2)] = Field(
+        description="teeth of gear 1 and 2; a negative number is a ring, rack in place of gear 2 a rack"
     )
     center_distance: Length | None = Field(
         None, description="working centre distance; with profile_shift the difference is backlash"
@@ -111,22 +111,25 @@ class GearPairSpec(TolerancedSpec):
             )
         exclude_each_other(self, "tip_shortening", "tip_diameter")
         for place, spanned in enumerate(self.span_teeth or ()):
-            if spanned > abs(self.teeth[place]):
+            z = self.teeth[place]
+            if isinstance(z, int) and spanned > abs(z):
                 message = "a gear of {z} teeth has no span over {k}"
                 key = f"span_teeth[{place}]"
-                raise PydanticCustomError("GL111", message, {"key": key, "z": abs(self.teeth[place]), "k": spanned})
+                raise PydanticCustomError("GL111", message, {"key": key, "z": abs(z), "k": spanned})
         return self
 
     @model_validator(mode="after")
     def _fits_its_kind(self) -> GearPairSpec:
-        internal = self.teeth[1] < 0
+        second = self.teeth[1]
+        internal = isinstance(second, int) and second < 0
+        self._fits_a_rack()
         if self.cutter is not None and not internal:
             message = "a pinion cutter goes with a ring (negative teeth): leave it out, or give tool"
             raise PydanticCustomError("GL111", message, {"key": "cutter"})
-        if self.cutter is not None and self.cutter.teeth >= -self.teeth[1]:
+        if self.cutter is not None and isinstance(second, int) and self.cutter.teeth >= -second:
             message = "a cutter of {cutter} teeth does not go into a ring of {ring}: take a smaller one"
             raise PydanticCustomError(
-                "GL111", message, {"key": "cutter.teeth", "cutter": self.cutter.teeth, "ring": -self.teeth[1]}
+                "GL111", message, {"key": "cutter.teeth", "cutter": self.cutter.teeth, "ring": -second}
             )
         if self.helix_hand is None:
             return self
@@ -137,6 +140,24 @@ class GearPairSpec(TolerancedSpec):
             message = "helix_hand: a pinion and its ring have the same hand, two external gears opposite ones"
             raise PydanticCustomError("GL111", message, {"key": "helix_hand"})
         return self
+
+    @property
+    def rack(self) -> bool:
+        """Whether gear 2 is a rack."""
+        return self.teeth[1] == "rack"
+
+    def _fits_a_rack(self) -> None:
+        """Refuse what a rack cannot have."""
+        if not self.rack:
+            return
+        if self.profile_shift is not None and (self.center_distance is not None or self.profile_shift[1] != 0.0):
+            message = "a rack has no shift: give profile_shift: [x1, 0], or center_distance to its datum line"
+            key = "profile_shift[1]" if self.center_distance is None else "profile_shift"
+            raise PydanticCustomError("GL111", message, {"key": key})
+        for key in ("load", "loads", "center_distance_allowance", "tip_diameter"):
+            if getattr(self, key) is not None:
+                message = "{key} is not known of a gear on a rack: leave it out"
+                raise PydanticCustomError("GL111", message, {"key": key})
 
     def commands(self) -> tuple[str, ...]:
         """What the file asks for."""

@@ -17,6 +17,7 @@ from factory import design
 
 from gearlink.core.gears.allowances import thickness_allowances
 from gearlink.core.gears.involute import involute
+from gearlink.core.gears.pair import GearPair
 from gearlink.core.gears.ring_cutter import ShapedRing
 from gearlink.core.gears.root_fillet import RackCutRoot
 from gearlink.core.gears.tools import PinionCutter, RackTool
@@ -209,3 +210,20 @@ def test_fillet_of_a_shaped_ring_meets_its_involute_where_the_form_radius_says(
     before = abs(cmath.phase(ring.fillet(end - 1e-4)) - cmath.phase(ring.fillet(end)))
     assert before < 1e-4  # it ends along the flank, without a corner
     assert ring.substitute.rounding > rounding
+
+
+@pytest.mark.parametrize(("beta", "x"), [(0.0, 0.0), (0.0, 0.3), (15.0, -0.1)])
+def test_a_rack_is_the_limit_of_ever_more_teeth(beta: float, x: float) -> None:
+    """What a wheel of 10000 teeth lacks of a rack is of the order 1/10000; of a million, a hundred times less."""
+    spec = {"kind": "gear-pair", "module": 2, "helix_angle": beta, "profile_shift": [x, 0]}
+    rack = design(spec | {"teeth": [20, "rack"]})
+    mesh = GearPair(module=2.0, teeth=(20, 10**6), helix_angle=math.radians(beta), given_shift=(x, 0.0), tip="none")
+    assert rack.quantity("contact_ratio").value == pytest.approx(mesh.contact_ratio, rel=1e-4)
+    assert rack.quantity("specific_sliding").value[0] == pytest.approx(mesh.specific_sliding[0], rel=1e-3)
+    assert rack.quantity("center_distance").value == rack.quantity("reference_radius").value[0] + 2.0 * x
+    assert [rack.quantity(name).value[1] for name in ("tip_radius", "measure_over_balls", "span_teeth")] == [None] * 3
+    placed = design(
+        {key: value for key, value in spec.items() if key != "profile_shift"}
+        | {"teeth": [20, "rack"], "center_distance": rack.quantity("center_distance").value}
+    )
+    assert placed.quantity("profile_shift").value[0] == pytest.approx(x, abs=1e-14)
