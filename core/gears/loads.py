@@ -39,7 +39,7 @@ class GearPairLoads(LoadsDesign):
     @property
     def turns(self) -> int:
         """Turns of gear 1 until both gears are back at their place."""
-        return abs(self.spec.teeth[1]) // math.gcd(*self.spec.teeth)
+        return abs(self.pair.teeth[1]) // math.gcd(*self.pair.teeth)
 
     def kinematics(self, phi: Reals) -> Mechanism:
         """Both gears at angles of gear 1."""
