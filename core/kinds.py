@@ -123,7 +123,16 @@ KINDS: dict[str, Kind] = {
                 "register": "swing_gripper.register:GripperRegister",
             },
         ),
-        Kind("wide-swing-cam", "wide_swing.spec:WideSwingSpec", {"swing": _SWING, "cam": _SWING, "analyze": _SWING}),
+        Kind(
+            "wide-swing-cam",
+            "wide_swing.spec:WideSwingSpec",
+            {
+                "swing": _SWING,
+                "cam": _SWING,
+                "analyze": _SWING,
+                "loads": "wide_swing.loads:WideSwingLoads",
+            },
+        ),
         Kind(
             "gear-train-mobility",
             "linkages.mobility_spec:GearTrainMobilitySpec",

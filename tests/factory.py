@@ -51,4 +51,14 @@ def worked(name: str) -> dict[str, Any]:
 
 @cache
 def _read(name: str) -> dict[str, Any]:
-    return {"name": name} | yaml.safe_load((DESIGNS / f"{name}.yaml").read_text(encoding="utf-8"))
+    data: dict[str, Any] = _keys_as_written(yaml.safe_load((DESIGNS / f"{name}.yaml").read_text(encoding="utf-8")))
+    return {"name": name} | data
+
+
+def _keys_as_written(node: Any) -> Any:
+    """PyYAML takes the key `on` for true; the program's own reader takes it as it stands."""
+    if isinstance(node, list):
+        return [_keys_as_written(item) for item in node]
+    if isinstance(node, dict):
+        return {"on" if key is True else key: _keys_as_written(value) for key, value in node.items()}
+    return node

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from itertools import cycle
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.figures import panels, style
+from gearlink.cli.figures import loads_contact, panels, style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -20,20 +20,25 @@ _COLORS = (style.BLUE, style.ORANGE, style.GREEN, style.RED, style.PURPLE, style
 _POLAR_COLUMNS = 3
 
 
-def draw(design: LoadsDesign) -> Figure:
+def draw(design: Any) -> Figure:
     """The sheet of `loads`: curves over the turn one below the other, then the loads of the pins as polar diagrams."""
+    if design.kind == "wide-swing-cam":
+        return loads_contact.stroke_sheet(design)
     curves = [panel for panel, wanted in _CURVES if wanted(design)]
     pins = [name for name in design.pins if design.has(name) and name not in design.unknown_joints]
-    polar = math.ceil((len(pins) + 1) / _POLAR_COLUMNS)
+    cams = list(getattr(design, "own_rollers", ())) if design.section_roller is not None else []
+    polar = math.ceil((len(pins) + len(cams) + 1) / _POLAR_COLUMNS)
     heights = [1.3] + [1.0] * (len(curves) - 1) + [1.55] * polar
     made = panels.page(f"{design.spec.name}: loads", min(1.6, 0.115 * sum(heights)))
     grid = made.add_gridspec(len(heights), _POLAR_COLUMNS, height_ratios=heights)
     for row, panel in enumerate(curves):
         panel(made.add_subplot(grid[row, :]), design)
-    places = [(len(curves) + i // _POLAR_COLUMNS, i % _POLAR_COLUMNS) for i in range(len(pins) + 1)]
-    for (row, column), name in zip(places, [*pins, ""], strict=True):
+    places = [(len(curves) + i // _POLAR_COLUMNS, i % _POLAR_COLUMNS) for i in range(len(pins) + len(cams) + 1)]
+    for (row, column), name in zip(places, [*pins, *(f"cam {cam}" for cam in cams), ""], strict=True):
         axes = made.add_subplot(grid[row, column])
-        if name:
+        if name.startswith("cam "):
+            loads_contact.profile(axes, design, name.removeprefix("cam "))
+        elif name:
             _pin(axes, design, name)
         else:
             _shaking(axes, design)
@@ -116,6 +121,30 @@ def _forces(axes: Axes, design: LoadsDesign) -> None:
     panels.legend_above(axes, 8)
 
 
+def _speed(axes: Axes, design: LoadsDesign) -> None:
+    """Speed of the input with its flywheel or motor."""
+    _over_turn(axes, design, "Speed of the input", "speed [rev/min]")
+    columns = _columns(design, "speed")
+    axes.plot(_angles(columns, design), _closed(columns["speed"]), color=style.BLUE, linewidth=1.5)
+    axes.margins(y=0.15)
+
+
+def _deflection(axes: Axes, design: LoadsDesign) -> None:
+    """Output with and without its deflection, in the dwells; steady state."""
+    import numpy as np
+
+    vibrating = design.vibrating
+    unit = "mm" if vibrating.slides else "deg"
+    _over_turn(axes, design, "Deflection of the output, steady state", f"deflection [{unit}]")
+    phi = np.linspace(0.0, design.machine.period, 721 * design.turns)
+    axes.axhline(0.0, color=style.BLACK, linewidth=0.8)
+    axes.plot(np.degrees(phi), vibrating.response.deflection(phi), color=style.PURPLE, linewidth=1.2)
+    for start, width in vibrating.dwells:
+        for turn in (-1, 0):
+            low = math.degrees(start + turn * design.machine.period)
+            axes.axvspan(low, low + math.degrees(width), color=style.LIGHT, linewidth=0, zorder=0)
+
+
 def _pin(axes: Axes, design: LoadsDesign, name: str) -> None:
     """Force on the second link of a joint as a curve, round the joint."""
     columns = _columns(design, "joints")
@@ -151,4 +180,9 @@ _CURVES: tuple[tuple[Panel, Callable[[Any], bool]], ...] = (
     (_inertia, _always),
     (_forces, _always),
     (_teeth, lambda design: bool(design.meshes_found)),
+    (_speed, lambda design: design.speed_min is not None),
+    (loads_contact.forces, lambda design: hasattr(design, "own_rollers")),
+    (loads_contact.pressures, lambda design: hasattr(design, "own_rollers") and design.section.roller is not None),
+    (loads_contact.residual, lambda design: design.section.vibration is not None and design.residual_amplitude),
+    (_deflection, lambda design: design.section.vibration is not None and design.dwell_twist is not None),
 )

@@ -54,6 +54,11 @@ class LoadsBase(Design):
             raise MissingSection("`loads` needs the section loads: {speed: 1/min, links: ...}", key="loads")
         return self.spec.loads
 
+    @property
+    def section_roller(self) -> Any:
+        """The rollers of the file, of kinds that have cams; None without."""
+        return getattr(self.section, "roller", None)
+
     @cached_property
     def speed(self) -> float:
         """Speed of the input [rad/s], signed."""

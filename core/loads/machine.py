@@ -26,7 +26,10 @@ Kinematics: TypeAlias = Callable[[Reals], Mechanism]
 TURN = 2.0 * math.pi
 NODES = 16
 PANEL = math.radians(10.0)
-_KEPT = 8
+_STEPS = 150
+_KEPT = 24
+_FEW = 340
+"""Rows at most of what a search looks at on the way; the grids that searches begin with are kept apart from it."""
 
 
 @dataclass(frozen=True)
@@ -59,6 +62,7 @@ class Machine:
     joints_of_period: bool = False
     more: Callable[[Mechanism, Reals], Sequence[Force | Torque]] | None = None
     kept: dict[tuple[str, bytes], Any] = field(default_factory=dict, repr=False)
+    kept_few: dict[tuple[str, bytes], Any] = field(default_factory=dict, repr=False)
 
     @property
     def period(self) -> float:
@@ -67,11 +71,12 @@ class Machine:
 
     def _keep(self, what: str, phi: Reals, make: Callable[[], Any]) -> Any:
         key = what, phi.tobytes()
-        if key not in self.kept:
-            while len(self.kept) >= _KEPT:
-                del self.kept[next(iter(self.kept))]
-            self.kept[key] = make()
-        return self.kept[key]
+        kept = self.kept if phi.size > _FEW else self.kept_few
+        if key not in kept:
+            while len(kept) >= _KEPT:
+                del kept[next(iter(kept))]
+            kept[key] = make()
+        return kept[key]
 
     def at(self, phi: Reals) -> Mechanism:
         """The links at input angles [rad]."""
@@ -215,19 +220,29 @@ class Panels:
 
 
 def zeros(f: Callable[[Reals], Reals], period: float, turns: int = 1) -> list[float]:
-    """Places within a period where a function changes its sign, to the last bits (bisection, all at once).
+    """Places within a period where a function changes its sign, to the last bits, all at once.
 
     Notes
         Brackets from 720 rows a turn; a zero that is touched without a change of sign is none.
     """
     grid = np.linspace(0.0, period, 720 * turns + 1)
-    signs = f(grid) > 0.0
-    rows = np.flatnonzero(signs[:-1] != signs[1:])
+    values = f(grid)
+    rows = np.flatnonzero((values[:-1] > 0.0) != (values[1:] > 0.0))
     if rows.size == 0:
         return []
-    low, high, up = grid[rows], grid[rows + 1], signs[rows + 1]
-    for _ in range(48):
-        middle = 0.5 * (low + high)
-        after = (f(middle) > 0.0) == up
-        low, high = np.where(after, low, middle), np.where(after, middle, high)
-    return [float(place) for place in 0.5 * (low + high)]
+    low, high, f_low, f_high = grid[rows], grid[rows + 1], values[rows], values[rows + 1]
+    up, last = f_high > 0.0, low
+    for step in range(_STEPS):
+        # Illinois' false position, halved every third time, so that a jump is found as well.
+        share = f_low / (f_low - f_high) if step % 3 else np.full_like(low, 0.5)
+        place = low + (high - low) * np.clip(np.nan_to_num(share, nan=0.5), 0.0, 1.0)
+        value = f(place)
+        after = (value > 0.0) == up
+        f_high = np.where(after, value, 0.5 * f_high)
+        f_low = np.where(after, 0.5 * f_low, value)
+        low, high = np.where(after, low, place), np.where(after, place, high)
+        near = 4.0 * np.spacing(period)
+        if step % 3 and np.all((np.abs(place - last) <= near) | (high - low <= near)):
+            break
+        last = place
+    return [float(each) for each in last]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, Literal, LiteralString, NoReturn, TypeAlias
+from typing import Annotated, Any, Literal, LiteralString, NoReturn, TypeAlias
 
 from pydantic import Field, ValidationInfo, field_validator, model_validator
 from pydantic_core import PydanticCustomError
@@ -12,8 +12,10 @@ from gearlink.core.spec import (
     AcuteAngle,
     Angle,
     Assembly,
+    Deferred,
     Distance,
     Length,
+    LoadLimits,
     Ratio,
     Share,
     SignedLength,
@@ -155,7 +157,7 @@ class SwingDrive(Spec):
     )
 
 
-class SwingLimits(Spec):
+class SwingLimits(LoadLimits):
     """Limits of the checks."""
 
     pressure_angle: AcuteAngle = Field(45.0, description="greatest pressure angle outside the transition zone")
@@ -195,6 +197,9 @@ class WideSwingSpec(TolerancedSpec):
     slider: SwingSlider | None = None
     shaft: SwingShaft | None = None
     limits: SwingLimits = SwingLimits()
+    loads: Annotated[Any, Deferred("wide_swing.loads_spec:SwingLoads")] | None = Field(
+        None, description="roller, material and vibration, for the command loads"
+    )
 
     @field_validator("cycle_angle")
     @classmethod
@@ -248,4 +253,5 @@ class WideSwingSpec(TolerancedSpec):
 
     def commands(self) -> tuple[str, ...]:
         """What the file asks for."""
-        return ("swing", "cam") if self.cam is not None else ("swing",)
+        cam = ("cam",) if self.cam is not None else ()
+        return ("swing", *cam, *(("loads",) if self.loads is not None and cam else ()))
