@@ -30,6 +30,8 @@ _BACK_STEP = {
     "dwell_angle": "dwell, $\\varphi_{13}$",
 }
 
+_WITHIN = {"tolerance_dwell_angle": "window within the tolerance", "tolerance_dwell_start": "start of the window"}
+
 
 def dwell_position(design: ThreeGearFourBar) -> tuple[float, str]:
     """Crank angle [rad] at which the mechanism is drawn, and what that position is."""
@@ -95,4 +97,11 @@ def _shafts(axes: Axes, design: ThreeGearFourBar) -> None:
 def words(design: ThreeGearFourBar) -> dict[str, str]:
     """The quantities beside the drawing, in short words."""
     links = {name: text for name, text in _LINKS.items() if name != "gear_gap" or design.gear_gap is not None}
-    return {**links, **(_STEADY if design.back_step is None else _BACK_STEP)}
+    return {**links, **(_STEADY if design.back_step is None else _BACK_STEP), **_window(design)}
+
+
+def _window(design: ThreeGearFourBar) -> dict[str, str]:
+    """The dwell within a tolerance, where the file asks for one."""
+    wish = design.spec.dwell
+    asked = design.spec.dwell_tolerance is not None or (wish is not None and wish.angle is None)
+    return _WITHIN if asked and design.tolerance_dwell is not None else {}

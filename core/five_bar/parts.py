@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from gearlink.core.design import Design, placed
+from gearlink.core.design import Design, Found, placed
 from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.five_bar.function_motion import FunctionFiveBar
 from gearlink.core.five_bar.path_motion import PathFiveBar
@@ -37,6 +38,23 @@ class FiveBarParts(Design):
     def is_path(self) -> bool:
         """Whether the coupler point's path counts."""
         return self.spec.form == "path"
+
+    def completion(self) -> Iterator[Found]:
+        """The links that were found in place of the target."""
+        target = self.spec.target
+        if target is None or (target.function is not None and target.function.links == "given"):
+            return
+        bar, why = self.bar, "found for target"
+        names = ("input", "coupler", "follower", "output", "frame")
+        yield Found("links", {name: float(getattr(bar, name)) for name in names}, why)
+        yield Found("phase", math.degrees(math.remainder(bar.phase, _TURN)), why)
+        yield Found("assembly", bar.assembly, why)
+        if self.is_path:
+            yield Found("coupler_point", {"along": self.offset.real, "across": self.offset.imag}, why)
+        else:
+            start, end = (math.degrees(angle) for angle in self.input_range)
+            yield Found("range", {"start": start, "end": end}, "from target" if self.spec.range is None else "")
+        yield Found("target", None)
 
     # Gears
 

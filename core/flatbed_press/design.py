@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from gearlink.core.design import Design, Outline, placed
+from gearlink.core.design import Design, Found, Outline, placed
 from gearlink.core.errors import MissingSection, NoSolution, at_key
 from gearlink.core.flatbed_press import checks, remedies, tables
 from gearlink.core.flatbed_press.cams import PressCams
@@ -71,6 +72,12 @@ class FlatbedPress(SliderCrankQuantities, GearQuantities, Design):
     extra_tables = ("chains",)
     trials = 30
     candidates, ways_of = remedies.candidates, remedies.ways_of
+
+    def completion(self) -> Iterator[Found]:
+        """The base radius in place of the rule that chose it."""
+        if self.spec.size is not None and self.spec.cam is not None and self.spec.cam.base_radius is None:
+            yield Found("cam.base_radius", float(self.cams.base_radius), "found for size")
+            yield Found("size", None)
 
     # Parts
 

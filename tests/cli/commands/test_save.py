@@ -29,6 +29,8 @@ SYNTHESES = [
     ("synth dwell", "two_gear_standing", "back_step_angle"),
     ("analyze", "wide_lever", "output_swing"),
     ("analyze", "hypocycloid_slider", "stroke"),
+    ("analyze", "five_bar_points", "path_width"),
+    ("analyze", "five_bar_positions", "span_max"),
 ]
 
 
