@@ -21,8 +21,14 @@ def value_at(spec: Any, path: str) -> Any:
         8.0
     """
     for step in _steps(path):
-        spec = spec[step] if isinstance(step, int) else getattr(spec, step)
+        spec = spec[step] if isinstance(step, int) else getattr(spec, _name_of(spec, step))
     return spec
+
+
+def _name_of(spec: Any, key: str) -> str:
+    """The attribute of a key: its own name, but for words like `return` that Python keeps for itself."""
+    fields = getattr(type(spec), "model_fields", {})
+    return key if key in fields else next((name for name, field in fields.items() if field.alias == key), key)
 
 
 def replaced(spec: Any, path: str, value: Any) -> Any:
@@ -71,8 +77,8 @@ def numbers_at(spec: Any, path: str) -> Iterator[str]:
         for i in range(len(value)):
             yield from numbers_at(spec, f"{path}[{i}]")
     else:
-        for name in getattr(type(value), "model_fields", ()):
-            yield from numbers_at(spec, f"{path}.{name}")
+        for name, field in getattr(type(value), "model_fields", {}).items():
+            yield from numbers_at(spec, f"{path}.{field.alias or name}")
 
 
 _STEPS_BY_UNIT = {"1": 0.01, "deg": 0.5}
@@ -84,7 +90,7 @@ def step_of(spec: Any, path: str) -> float:
     if isinstance(number_at(spec, path), int):
         return 1.0
     section = value_at(spec, head) if head else spec
-    field = getattr(type(section), "model_fields", {}).get(last.partition("[")[0])
+    field = getattr(type(section), "model_fields", {}).get(_name_of(section, last.partition("[")[0]))
     extra = getattr(field, "json_schema_extra", None)
     return _STEPS_BY_UNIT.get(extra.get("unit", ""), 0.1) if isinstance(extra, dict) else 0.1
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.cams.checks import HUB, ROLLER_SHARE
 from gearlink.core.errors import NoSolution
-from gearlink.core.remedies import Way, at_least, at_most, either, left_out, refusal_ways, up
+from gearlink.core.remedies import REFUSAL, Way, at_least, at_most, either, left_out, refusal_ways, up
 
 if TYPE_CHECKING:
     from gearlink.core.flatbed_press.design import FlatbedPress
@@ -89,6 +89,7 @@ def _smooth(design: FlatbedPress) -> Iterator[Remedy]:
 
 
 _CLOSED: dict[str, Callable[[FlatbedPress], Iterator[Remedy]]] = {
+    REFUSAL: lambda _: iter(((("cam.return_law", "cycloidal"),),)),
     "sync-length": _length,
     "pressure-angle": _pressure,
     "cam-undercut": _roller,

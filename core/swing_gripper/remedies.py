@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.cams.checks import HUB, ROLLER_SHARE
 from gearlink.core.errors import NoSolution
-from gearlink.core.remedies import Way, at_least, at_most, down, either, refusal_ways, up
+from gearlink.core.remedies import REFUSAL, Way, at_least, at_most, down, either, refusal_ways, up
 
 if TYPE_CHECKING:
     from gearlink.core.report import Remedy
@@ -85,8 +85,19 @@ def _rollers(design: SwingGripper) -> Iterator[Remedy]:
 
 
 def _shaft(design: SwingGripper) -> Iterator[Remedy]:
-    """A shaft that leaves its cams a hub."""
-    least = min(design.cams.min_radius)
+    """Rollers that leave a hub round the shaft, where no more than half is to be taken off them; or a thinner shaft."""
+    section, least = design.cams.section, min(design.cams.min_radius)
+    rollers = {"cam.roller.radius": section.roller, "cam.return_roller.radius": section.return_roller}
+    smaller: list[tuple[str, float]] = []
+    for (key, roller), radius in zip(rollers.items(), design.cams.min_radius, strict=False):
+        missing = HUB * section.shaft_radius - radius
+        if roller is not None and missing > 0.0:
+            smaller.append((key, at_most(roller.radius - missing)))
+            if smaller[-1][1] < 0.5 * roller.radius:
+                smaller.clear()
+                break
+    if smaller:
+        yield tuple(smaller)
     if least > 0.0:
         yield (("cam.shaft_radius", at_most(least / HUB)),)
 
@@ -115,6 +126,7 @@ def _closing(design: SwingGripper) -> Iterator[Remedy]:
 
 
 _CLOSED: dict[str, Callable[[SwingGripper], Iterator[Remedy]]] = {
+    REFUSAL: lambda design: _laws(design, _QUIET),
     "handover": _handover,
     "pressure-angle": _pressure,
     "cam-undercut": _rollers,

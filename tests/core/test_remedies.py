@@ -10,6 +10,7 @@ import copy
 import re
 from typing import Any
 
+import factory
 import pytest
 from oracles.random_designs import KINDS as DRAWN
 from oracles.random_designs import Data, draw
@@ -18,6 +19,7 @@ from gearlink.core.errors import NoSolution
 from gearlink.core.kinds import KINDS
 from gearlink.core.remedies import down, left_out, shared, up
 from gearlink.core.report import Check, Remedy, remedy_words
+from gearlink.core.spec_paths import changed, numbers_at, step_of, value_at
 
 SLOW_KINDS = ("five_bar", "hypocycloid")
 
@@ -126,6 +128,14 @@ def test_no_tooth_is_split() -> None:
     assert ratio.remedy([20, 60], 1) == (("gears.planet", 21), ("gears.ring", 63))
     assert ratio.remedy([20, 50], 1) == ()
     assert ratio.remedy([20, 50], 2) == (("gears.planet", 22), ("gears.ring", 55))
+
+
+def test_a_key_that_python_keeps_for_itself() -> None:
+    spec = design(factory.worked("swing_gripper"), "gripper").spec
+    assert value_at(spec, "laws.return") == "modified-sine"
+    assert "phases.return" in list(numbers_at(spec, "phases"))
+    assert step_of(spec, "phases.return") == 0.5
+    assert changed(spec, (("laws.return", "cycloidal"),)).laws.return_ == "cycloidal"
 
 
 def test_a_kind_without_shifts_hears_nothing_of_them(gearlink: Any, tmp_path: Any) -> None:

@@ -219,6 +219,7 @@ def test_where_nothing_was_found_it_says_so(gearlink: Any, tmp_path: Path) -> No
     [
         "press ty460 cam.base_radius=30",
         "gripper swing_gripper cam.return_roller.angle=20",
+        "gripper swing_gripper laws.return=simple-harmonic",
         "swing wide_swing_twin_rocker swing=60",
         "swing wide_swing_twin_cam unloader.pivot_ratio=0.9",
     ],
