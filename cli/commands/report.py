@@ -6,6 +6,7 @@ of player and cursor. It holds no date, so the same design gives the same bytes.
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Iterator, Sequence
 from html import escape
@@ -23,6 +24,11 @@ from gearlink.core.errors import NoSolution
 if TYPE_CHECKING:
     from gearlink.core.design import Design
     from gearlink.core.report import Report
+
+    Part = tuple[Design, Report]
+
+_PARTS: list[Part] = []
+"""What forked processes draw: it needs no way to them."""
 
 
 def run_report(source: str, options: Options) -> int:
@@ -52,14 +58,47 @@ def run_report(source: str, options: Options) -> int:
     return max(exit_status(report, strict=options.strict) for _, report in parts)
 
 
-def _body(text: str, spec: Any, parts: Sequence[tuple[Design, Report]]) -> Iterator[str]:
+def _body(text: str, spec: Any, parts: Sequence[Part]) -> Iterator[str]:
     from gearlink.cli.page import sections
-    from gearlink.cli.page.sheets import sheet
 
+    sheets = list(_sheets(parts))
     yield sections.head(spec, parts)
     yield sections.film(parts)
     yield sections.given(text, spec)
-    for design, report in parts:
+    for (_, report), sheet in zip(parts, sheets, strict=True):
         yield f"<h2>{escape(report.command)}</h2>"
-        yield sheet(report.command, design, report.checks)
+        yield sheet
         yield sections.results(report)
+
+
+def _sheets(parts: Sequence[Part]) -> Iterator[str]:
+    """The sheets, which take most of the time: on a machine with several processors the others beside the first."""
+    spare = len(os.sched_getaffinity(0)) - 1 if sys.platform == "linux" else 0
+    if min(spare, len(parts) - 1) < 1:
+        yield from (_sheet(part) for part in parts)
+        return
+    import matplotlib.figure  # noqa: F401 - the forked processes have it then
+
+    from gearlink.cli.workers import workers
+
+    _PARTS[:] = parts
+    with workers(min(spare, len(parts) - 1)) as pool:
+        others = [pool.submit(_other_sheet, i) for i in range(1, len(parts))]
+        yield _sheet(parts[0])
+        for part, other in zip(parts[1:], others, strict=True):
+            yield other.result() or _sheet(part)
+
+
+def _sheet(part: Part) -> str:
+    from gearlink.cli.page.sheets import sheet
+
+    design, report = part
+    return sheet(report.command, design, report.checks)
+
+
+def _other_sheet(i: int) -> str:
+    """A sheet in a process of its own; empty where the design refuses it, which the parent then says."""
+    try:
+        return _sheet(_PARTS[i])
+    except NoSolution:
+        return ""

@@ -95,3 +95,15 @@ def test_wrong_design_writes_nothing(gearlink: Any, crank: Path, tmp_path: Path)
 def test_rows_left_out_are_counted_in_english(step: int, words: str) -> None:
     table = Table("positions", ("x",), ("1",), (range(360),))
     assert thinning(step, table) == f"every {words} of 360 rows"
+
+
+def test_sheets_drawn_side_by_side_are_the_same(
+    gearlink: Any, designs: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pages = []
+    for processors in ({0}, {0, 1}):
+        monkeypatch.setattr("os.sched_getaffinity", lambda _, found=processors: found, raising=False)
+        out = tmp_path / str(len(processors))
+        assert gearlink("report", designs / "two_gear_drag_link.yaml", "--out", out, "-q").status in (0, 1)
+        pages.append((out / "two-gear-drag-link.html").read_bytes())
+    assert pages[0] == pages[1]
