@@ -13,6 +13,7 @@ from gearlink.cli.reading.design_file import parse, validate
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.texts.spec_keys import spec_keys
 from gearlink.cli.texts.written_design import flow, written
+from gearlink.core.errors import NoSolution
 from gearlink.core.version import VERSION
 
 if TYPE_CHECKING:
@@ -53,17 +54,31 @@ def save(
     """
     assert options.save is not None
     text = complete(loaded, kind, command, design, options.save, options.round, changes)
-    spec = validate(parse(text.encode(), str(options.save)), kind.spec_model())
-    write_atomically(options.save, lambda stream: _write(stream, text))
     again = "analyze" if "analyze" in kind.commands else command
+    failing = _failing_when_rounded(kind, again, text, options)
+    write_atomically(options.save, lambda stream: _write(stream, text))
     if not options.quiet:
         print(f"wrote {options.save}; try: gearlink {again} {options.save}", file=sys.stderr)
-    if options.round is None:
-        return ExitCode.OK
-    worse = [check for check in _failing(kind, again, spec) if check.code not in _codes(design, command)]
+    worse = [check for check in failing if check.code not in _codes(design, command)]
     for check in worse:
         print(f"rounded to {options.round:g} mm it fails {check.code} {check.name}: {check.message}", file=sys.stderr)
     return ExitCode.FINDING if worse else ExitCode.OK
+
+
+def _failing_when_rounded(kind: Kind, command: str, text: str, options: Options) -> list[Check]:
+    """The checks that the rounded design fails.
+
+    Raises
+        DesignFileError - GL115 where rounding leaves no mechanism
+    """
+    if options.round is None:
+        return []
+    try:
+        return _failing(kind, command, validate(parse(text.encode(), str(options.save)), kind.spec_model()))
+    except (DesignFileError, NoSolution) as error:
+        reason = error.message if isinstance(error, NoSolution) else error.diagnostics[0].message
+        words = f"rounded to {options.round:g} mm there is no such mechanism: {reason}; take a smaller step"
+        raise DesignFileError([Diagnostic("GL115", words, file="<command line>", key="--round")]) from error
 
 
 def _write(stream: IO[bytes], text: str) -> None:

@@ -84,6 +84,17 @@ def test_a_rounding_that_breaks_a_check_is_said(gearlink: Any, tmp_path: Path) -
     assert gearlink("analyze", path).status == 1
 
 
+@pytest.mark.parametrize("step", ["100", "40"])
+def test_a_rounding_that_leaves_no_mechanism_writes_nothing(gearlink: Any, tmp_path: Path, step: str) -> None:
+    path = tmp_path / "full.yaml"
+    ended = gearlink(
+        "synth", "dwell", DESIGNS / "candy_feed.yaml", "--save", path, "--round", step, "--set", "gears.module=1"
+    )
+    assert ended.status == 2
+    assert f"rounded to {step} mm there is no such mechanism" in ended.err
+    assert not path.exists()
+
+
 def test_suggest_saves_the_repaired_design(gearlink: Any, tmp_path: Path) -> None:
     path = tmp_path / "repaired.yaml"
     ended = gearlink("analyze", DESIGNS / "thesis_example_3_as_printed.yaml", "--suggest", "--save", path)
