@@ -120,6 +120,8 @@ def goals(wide_vectors: bool) -> list[Goal]:
                 ("synth dwell", 2000.0),
                 ("synth variable-speed", 2000.0),
                 ("synth back-step", 4000.0),
+                ("synth momentary-dwell", 4000.0),
+                ("analyze", 4000.0),
             )
         ),
         Goal(

@@ -40,11 +40,14 @@ def open_design(source: str, options: Options) -> tuple[LoadedFile, Kind]:
 
 def read_spec(loaded: LoadedFile, kind: Kind, source: str) -> Any:
     """The validated spec, named after the file where it names no design."""
-    spec = named(validate(loaded, kind.spec_model()), source)
     if kind is not STUDY:
-        return spec
-    from gearlink.cli.reading.base_design import with_base
+        return named(validate(loaded, kind.spec_model()), source)
+    from gearlink.cli.reading.base_design import with_base, with_plain_keys
 
+    try:
+        spec = named(validate(loaded, kind.spec_model()), source)
+    except DesignFileError as error:
+        raise with_plain_keys(error) from None
     return with_base(loaded, spec)
 
 

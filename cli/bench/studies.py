@@ -21,6 +21,11 @@ _GEARS = {
 _TASKS: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
     "synth dwell": ({"dwell": {"angle": 135}}, {"dwell.angle": {"from": 60, "to": 180, "step": 8}}),
     "synth back-step": ({"back_step": {"angle": 20}}, {"back_step.angle": {"from": 5, "to": 35, "step": 2}}),
+    "synth momentary-dwell": (
+        {"momentary": {"eccentricity": 30}},
+        {"momentary.eccentricity": {"from": 12, "to": 27, "step": 1}},
+    ),
+    "analyze": ({"links": {"crank": 38.9, "frame": 153.5}}, {"links.frame": {"from": 120, "to": 270, "step": 10}}),
     "synth variable-speed": ({"speed": {"min": 100, "max": 300}}, {"speed.min": {"from": 0, "to": 150, "step": 10}}),
 }
 _FEW = 50

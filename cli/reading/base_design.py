@@ -66,6 +66,16 @@ def located(loaded: LoadedFile, faults: Sequence[Fault]) -> list[Diagnostic]:
     found = []
     for fault in faults:
         place = ("of",) if fault.place[:1] == ("design",) and "design" not in loaded.data else fault.place
-        key = format_path(tuple(fault.place))
+        key = unquoted(format_path(tuple(fault.place)))
         found.append(loaded.report(fault.code, fault.message, place, key=key, help=fault.help))
     return found
+
+
+def unquoted(key: str) -> str:
+    """A key of a study as scripts read it: the variables are paths themselves, `variables.gears.crank.to`."""
+    return key.replace('"', "")
+
+
+def with_plain_keys(error: DesignFileError) -> DesignFileError:
+    """The errors of a study's model, their keys unquoted."""
+    return DesignFileError([replace(wrong, key=unquoted(wrong.key)) for wrong in error.diagnostics])

@@ -57,6 +57,38 @@ TASKS: dict[str, tuple[str, dict[str, Any], dict[str, Any]]] = {
         {"back_step": {"crank_angle": 20, "angle": 20}, "limits": {"least_shaft": 7, "undercut": 0.3, "sliding": 2}},
         {**GEARS, "back_step.crank_angle": {"from": 0, "to": 179.5}, "back_step.angle": {"from": 0.1, "to": 60}},
     ),
+    "momentary": (
+        "synth momentary-dwell",
+        {"momentary": {"eccentricity": 20}},
+        {
+            "gears.crank": {"from": 8, "to": 60},
+            "gears.idler": {"from": 8, "to": 100},
+            "gears.output": {"from": 8, "to": 90},
+            "momentary.eccentricity": {"from": 2, "to": 50},
+        },
+    ),
+    "analysis": (
+        "analyze",
+        {"links": {"crank": 20, "frame": 150}},
+        {
+            "gears.crank": {"from": 8, "to": 60},
+            "gears.idler": {"from": 8, "to": 100},
+            "gears.output": {"from": 8, "to": 90},
+            "links.crank": {"from": 2, "to": 50},
+            "links.frame": {"from": 20, "to": 220},
+        },
+    ),
+    "analysis, drag links": (
+        "analyze",
+        {"links": {"crank": 20, "frame": 150}, "assembly": -1},
+        {
+            "gears.crank": {"from": 20, "to": 60},
+            "gears.idler": {"from": 20, "to": 100},
+            "gears.output": {"from": 20, "to": 90},
+            "links.crank": {"from": 60, "to": 200},
+            "links.frame": {"from": 5, "to": 60},
+        },
+    ),
     "speed": (
         "synth variable-speed",
         {"speed": {"min": 0, "max": 200}},
@@ -120,7 +152,7 @@ def by_path(made: Problem, columns: Any) -> dict[str, Any]:
     return found
 
 
-@pytest.mark.parametrize("name", ["dwell", "back-step", "speed"])
+@pytest.mark.parametrize("name", ["dwell", "back-step", "speed", "momentary", "analysis"])
 def test_no_bit_depends_on_the_neighbours(name: str) -> None:
     made = study(name, 1024)
     columns = made.order.columns(np.arange(1024))

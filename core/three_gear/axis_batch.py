@@ -1,0 +1,245 @@
+"""Three-gear four-bars over arrays, whatever their task: lengths, meshes, checks, and the quantities by name."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from gearlink.core.clearance.bodies import LEAST_SHAFT_MODULES
+from gearlink.core.design_axis import Evaluated, Findings
+from gearlink.core.gears.unshifted import Mesh, UnshiftedMeshes
+from gearlink.core.linkages.codes import GEAR_COLLISION, SHAFT_CLEARANCE, TRANSMISSION_ANGLE
+from gearlink.core.numerics.arrays import Mask, Reals
+from gearlink.core.spec_paths import number_at
+from gearlink.core.three_gear.codes import BACK_STEP, DWELL_TOLERANCE
+from gearlink.core.three_gear.motion import tip_radius
+
+TEETH = ("gears.crank", "gears.idler", "gears.output")
+LIMITS = ("limits.transmission_angle", "limits.gear_gap")
+_POOR = 5.0
+_NEAR = 1e-9
+_JUDGED_HERE = {r.code for r in (GEAR_COLLISION, SHAFT_CLEARANCE, TRANSMISSION_ANGLE, BACK_STEP, DWELL_TOLERANCE)}
+
+
+class Batch:
+    """Some designs; every result is an array, made when it is asked for. A subclass finds the links of its task.
+
+    Parameters
+        spec, command : of the base design
+        wanted : names of the quantities
+        meshes : UnshiftedMeshes - of the base's pressure angle
+        columns : (N,) arrays by path
+    """
+
+    keys: tuple[str, ...] = ()
+    """Keys of the task."""
+
+    def __init__(
+        self, spec: Any, command: str, wanted: Sequence[str], meshes: UnshiftedMeshes, columns: Mapping[str, Reals]
+    ) -> None:
+        self.spec, self.command, self.wanted = spec, command, wanted
+        self._made, self._columns = meshes, columns
+        self.count = len(next(iter(columns.values())))
+        self.z1, self.z3, self.z5 = (self.key(path) for path in TEETH)
+        self.module = self.key("gears.module")
+
+    def key(self, path: str) -> Reals:
+        """A key's values; NaN where the base has none and it is not varied."""
+        if path in self._columns:
+            return np.asarray(self._columns[path], dtype=float)
+        value = number_at(self.spec, path)
+        return np.full(self.count, np.nan if value is None else value)
+
+    # What a task gives, in mm and radians; NaN where there is none
+
+    reasons: tuple[str, ...]
+    """Keys that designs are refused for."""
+
+    @property
+    def reason(self) -> Any:
+        """0, or 1 + the place in `reasons` that a design is refused for; what the class refuses first counts."""
+        raise NotImplementedError
+
+    @property
+    def links(self) -> tuple[Reals, Reals]:
+        """Crank AB and frame AD."""
+        raise NotImplementedError
+
+    @property
+    def speeds(self) -> tuple[Reals, Reals]:
+        """Greatest and least speed ratio."""
+        raise NotImplementedError
+
+    @property
+    def mu(self) -> Reals:
+        """Least transmission angle."""
+        raise NotImplementedError
+
+    @property
+    def standstills(self) -> tuple[Reals, Reals]:
+        """Crank angles of the first and the second one."""
+        raise NotImplementedError
+
+    @property
+    def back_step(self) -> tuple[Reals, Reals]:
+        """Its size, and its crank angle phi12."""
+        raise NotImplementedError
+
+    @property
+    def dwell_angle(self) -> Reals:
+        """phi13."""
+        raise NotImplementedError
+
+    @property
+    def doubtful(self) -> Mask:
+        """Designs that the class shall compute."""
+        raise NotImplementedError
+
+    def of_task(self) -> Iterator[Findings]:
+        """Findings of the task's own checks."""
+        yield from ()
+
+    # What follows from it
+
+    @cached_property
+    def exists(self) -> Mask:
+        """Designs that have a mechanism."""
+        return np.asarray(self.reason == 0)
+
+    @cached_property
+    def none(self) -> Mask:
+        """No design."""
+        return np.zeros(self.count, dtype=bool)
+
+    @cached_property
+    def coupler(self) -> Reals:
+        """Centre distance of gears 1 and 3."""
+        return self.module * (self.z1 + self.z3) / 2.0
+
+    @cached_property
+    def rocker(self) -> Reals:
+        """Centre distance of gears 3 and 5."""
+        return self.module * (self.z3 + self.z5) / 2.0
+
+    @cached_property
+    def mean_ratio(self) -> Reals:
+        """Net output turns per crank turn."""
+        return np.where(self.links[0] > self.links[1], 1.0, self.z1 / self.z5)
+
+    @cached_property
+    def gap(self) -> Reals:
+        """Gap between the tips of gears 1 and 5."""
+        crank, frame = self.links
+        tips = tip_radius(self.z1, self.module) + tip_radius(self.z5, self.module)  # type: ignore[arg-type]
+        return np.abs(frame - crank) - tips
+
+    @cached_property
+    def plain(self) -> dict[str, Callable[[], Any]]:
+        """The quantities that this form has but for those of meshes, in the units of design files."""
+        degrees = np.degrees
+        return {
+            "i3": lambda: -self.z3 / self.z5,
+            "crank_teeth": lambda: self.z1,
+            "idler_teeth": lambda: self.z3,
+            "output_teeth": lambda: self.z5,
+            "frame_ratio": lambda: self.links[1] / self.links[0],
+            "crank_length": lambda: self.links[0],
+            "coupler_length": lambda: self.coupler,
+            "rocker_length": lambda: self.rocker,
+            "frame_length": lambda: self.links[1],
+            "mean_ratio": lambda: self.mean_ratio,
+            "speed_ratio_max": lambda: self.speeds[0],
+            "speed_ratio_min": lambda: self.speeds[1],
+            "nonuniformity": lambda: (self.speeds[0] - self.speeds[1]) / self.mean_ratio,
+            "motion": self._motion,
+            "dwell_crank_angles[0]": lambda: degrees(self.standstills[0]),
+            "dwell_crank_angles[1]": lambda: degrees(self.standstills[1]),
+            "back_step_angle": lambda: degrees(self.back_step[0]),
+            "back_step_crank_angle": lambda: degrees(self.back_step[1]),
+            "dwell_angle": lambda: degrees(self.dwell_angle),
+            "dwell_angle_approximate": lambda: degrees(1.5 * self.back_step[1]),
+            "min_transmission_angle": lambda: degrees(self.mu),
+            "gear_gap": lambda: self.gap,
+        }
+
+    def _motion(self) -> Any:
+        first, second = (np.isfinite(angle) for angle in self.standstills)
+        words = np.where(second, "back-step", np.where(first, "momentary-dwell", "unidirectional"))
+        return np.where(self.exists, words, "")
+
+    # Meshes and checks
+
+    @cached_property
+    def _meshes(self) -> dict[str, Mesh]:
+        make = self._made.meshes
+        return {
+            "crank_idler": make(self.z1, self.z3, self.module),
+            "idler_output": make(self.z3, self.z5, self.module),
+        }
+
+    def mesh_quantity(self, name: str) -> Any:
+        """A quantity of a mesh by its whole name, in the units of design files; None where this form has it not."""
+        mesh, _, plain = name.partition(".")
+        value = self._meshes[mesh].quantity(plain)
+        angle = plain.partition("[")[0] in ("working_pressure_angle", "tip_pressure_angle")
+        return np.degrees(value) if angle and value is not None else value
+
+    def findings(self) -> Iterator[Findings]:
+        """Every finding of the command's checks."""
+        limit = self.key("limits.gear_gap")
+        yield Findings(GEAR_COLLISION.code, self.gap, limit, self.gap < limit, self.none, "mm")
+        yield from self._shafts()
+        mu, limit = np.degrees(self.mu), self.key("limits.transmission_angle")
+        warns = (mu >= limit) & (mu < limit + _POOR)
+        yield Findings(TRANSMISSION_ANGLE.code, mu, limit, mu < limit, warns, "deg")
+        yield from self.of_task()
+        for mesh in self._meshes.values():
+            yield from mesh.findings()
+
+    def _shafts(self) -> Iterator[Findings]:
+        """GL302 for bare axes A and D: of gears that reach them, and of the two axes."""
+        tips = [tip_radius(z, self.module) for z in (self.z1, self.z3, self.z5)]  # type: ignore[arg-type]
+        given, (crank, frame) = self.spec.limits.least_shaft, self.links
+        least = LEAST_SHAFT_MODULES * self.module if given is None else np.full(self.count, given)
+        dead = self.coupler - crank
+        nearest_c = np.where(dead > np.abs(self.rocker - frame), dead, self.rocker - frame)
+        gaps = (
+            (nearest_c - tips[1], least),
+            (frame - tips[2], least),
+            (np.abs(frame - crank) - tips[0], least),
+            (self.rocker - tips[1], least),
+            (frame, 2.0 * least),
+        )
+        for gap, limit in gaps:
+            yield Findings(SHAFT_CLEARANCE.code, gap, limit, self.none, gap < limit, "mm")
+
+    def evaluated(self) -> Evaluated:
+        """All that a study asks for."""
+        gone = ~self.exists
+        found = {}
+        for name in self.wanted:
+            value = self.plain[name]() if name in self.plain else self.mesh_quantity(name)
+            empty: Any = "" if value.dtype.kind == "U" else np.nan
+            found[name] = np.where(gone, empty, value)
+        findings = [_without(each, gone) for each in self.findings()]
+        return Evaluated(found, findings, self.reason, self.reasons, self._unsure(findings))
+
+    def _unsure(self, findings: Sequence[Findings]) -> Mask:
+        """Designs next to a limit, or where a root hangs by few digits."""
+        unsure = np.zeros(self.count, dtype=bool)
+        for each in findings:
+            scale = np.maximum(1.0, np.maximum(np.abs(each.value), np.abs(each.limit)))
+            near = np.abs(each.value - each.limit) <= _NEAR * scale
+            if each.code in _JUDGED_HERE:
+                unsure |= near
+        return np.asarray((unsure | self.doubtful) & self.exists)
+
+
+def _without(each: Findings, gone: Mask) -> Findings:
+    """A finding whose designs that do not exist neither fail nor warn."""
+    if not gone.any():
+        return each
+    return Findings(each.code, each.value, each.limit, each.fails & ~gone, each.warns & ~gone, each.unit)
