@@ -68,7 +68,9 @@ class AlongPath:
     def places(self, steps: int = _STEPS) -> list[Place]:
         """Equal steps from A to E with the named places among them, from the first on."""
         path = self.data.path
-        named = {path.start: "A", path.pitch: "C", path.end: "E"}
+        named = {path.start: "A", path.end: "E"}
+        if path.start < path.pitch < path.end:  # a pair may touch on one side of its pitch point alone
+            named[path.pitch] = "C"
         between = [path.start + (path.end - path.start) * k / steps for k in range(1, steps)]
         found = [Place(rho, name, self.share(rho)) for rho, name in named.items()]
         found += [Place(rho, "", self.share(rho)) for rho in between]

@@ -13,6 +13,8 @@ if TYPE_CHECKING:
     from gearlink.core.gears.pair import GearPair
 
 _MOST_TEETH = 10_000
+_LEAST_MODULE = 1e-100
+"""Squares of lengths stay finite."""
 
 
 def transverse(pressure_angle: float, helix_angle: float) -> float:
@@ -30,6 +32,9 @@ def require_profile(pair: GearPair) -> None:
     """
     if not 0.0 < pair.module < math.inf:
         raise NoSolution(f"module {pair.module:g} mm: it must be positive")
+    if not _LEAST_MODULE <= pair.module <= 1.0 / _LEAST_MODULE:
+        message = f"module {pair.module:g} mm cannot be computed with: it must lie between 1e-100 and 1e100 mm"
+        raise NoSolution(message, key="module")
     _require_teeth(pair)
     if not 0.0 < pair.pressure_angle < math.pi / 2:
         degrees = math.degrees(pair.pressure_angle)

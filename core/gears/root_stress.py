@@ -131,6 +131,8 @@ class RootStress:
         """sigma_F0 = F_t/(b m) Y_F Y_S Y_beta."""
         if self.load is None or self.bearing_width is None or self.helix_angle_factor is None:
             return None
+        if self.path.pair.contact_ratio <= 0.0:
+            return None
         force = self.load.tangential_force(self.path.pair.reference_radius[0])
         line = force / self.path.pair.module * self.helix_angle_factor * self.load_distribution
         b1, b2 = self.bearing_width

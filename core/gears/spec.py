@@ -10,6 +10,7 @@ from pydantic_core import PydanticCustomError
 from gearlink.core.gears.spec_parts import (
     AllowanceSpec,
     CutterSpec,
+    FaceWidth,
     Hand,
     HelixAngle,
     LoadSpec,
@@ -22,6 +23,7 @@ from gearlink.core.gears.spec_parts import (
     TwoLengths,
     TwoShifts,
     TwoTools,
+    TwoWidths,
     exclude_each_other,
     require_teeth,
 )
@@ -72,7 +74,7 @@ class GearPairSpec(TolerancedSpec):
         description="full (default of external pairs), none (of internal ones), or tip alterations k of both gears",
     )
     tip_diameter: TwoLengths | None = Field(None, description="tip diameters, in place of tip_shortening")
-    face_width: Length | TwoLengths | None = Field(None, description="face width of both gears, or of each")
+    face_width: FaceWidth | TwoWidths | None = Field(None, description="face width of both gears, or of each")
     tool: ToolSpec | TwoTools | None = Field(
         None, description="rack tool of both gears, or of each; left out: straight to the addendum"
     )

@@ -14,6 +14,8 @@ HelixAngle = Annotated[float, Field(ge=0, le=45, json_schema_extra={"unit": "deg
 Alteration = Annotated[float, Field(ge=-3, le=3, json_schema_extra={"unit": "1"})]
 Protuberance = Annotated[float, Field(ge=0, le=1, json_schema_extra={"unit": "1"})]
 Rounding = Annotated[float, Field(ge=0, le=3, json_schema_extra={"unit": "1"})]
+FaceWidth = Annotated[float, Field(ge=1e-3, le=1e6, json_schema_extra={"unit": "mm"})]
+TwoWidths = Annotated[list[FaceWidth], Field(min_length=2, max_length=2)]
 TwoShifts = Annotated[list[Shift], Field(min_length=2, max_length=2)]
 TwoLengths = Annotated[list[Length], Field(min_length=2, max_length=2)]
 TwoAlterations = Annotated[list[Alteration], Field(min_length=2, max_length=2)]
@@ -73,7 +75,7 @@ def require_teeth(teeth: list[Any]) -> None:
 Factor = Annotated[float, Field(gt=0, le=100, json_schema_extra={"unit": "1"})]
 Allowance = Annotated[float, Field(ge=-100, le=100, json_schema_extra={"unit": "mm"})]
 TwoAllowances = Annotated[list[Allowance], Field(min_length=2, max_length=2)]
-Stress = Annotated[float, Field(gt=0, le=1e7, json_schema_extra={"unit": "N/mm^2"})]
+Stress = Annotated[float, Field(ge=1e-3, le=1e7, json_schema_extra={"unit": "N/mm^2"})]
 Poisson = Annotated[float, Field(ge=0, le=0.5, json_schema_extra={"unit": "1"})]
 Series = Annotated[str, Field(pattern=r"^(2[1-9]|30)(ab|a|bc|b|cd|c|d|e|f|g|h)$")]
 
