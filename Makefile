@@ -7,7 +7,7 @@ READY := $(VENV)/.ready
 # Bytecode is kept, or every process would compile every test anew.
 PYTEST := PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -q -n auto --maxprocesses 4 --dist loadfile
 
-.PHONY: demo test check check-full format lint types docs bench stress clean
+.PHONY: demo test check check-full format lint types docs bench bench-guard stress clean
 
 $(READY): pyproject.toml
 	$(PYTHON) -c 'import sys; sys.exit("gearlink needs Python 3.11 or newer" if sys.version_info < (3, 11) else 0)'
@@ -41,6 +41,7 @@ check: lint types test
 
 check-full: lint types $(READY)
 	GEARLINK_EXAMPLES=all $(PYTEST) -m 'not stress'
+	$(MAKE) bench-guard
 
 lint: $(READY)
 	$(BIN)/ruff format --check .
@@ -61,6 +62,10 @@ bench/.venv/.ready: Makefile
 
 bench: $(READY) bench/.venv/.ready
 	$(BIN)/python bench/write_page.py
+
+# What is slower than on docs/benchmarks.json, as ratios to the floors of the same run.
+bench-guard: $(READY)
+	$(BIN)/python bench/guard.py
 
 stress: $(READY)
 	$(PYTEST) -m stress tests/stress -rP

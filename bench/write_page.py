@@ -13,6 +13,7 @@ from typing import Any
 from gearlink.cli.bench.command import NAMES
 from gearlink.cli.bench.families import measured
 from gearlink.cli.bench.page import as_markdown, duration, write_pictures
+from gearlink.cli.bench.pictures import WAITS
 from gearlink.cli.bench.timing import Family, machine
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -87,7 +88,26 @@ def goals(wide_vectors: bool) -> list[Goal]:
             ("synth dwell, table", 1.5),
             ("press, json", 2.2),
             ("cam, json", 2.2),
+            ("explain", 1.3),
+            ("schema", 1.3),
+            ("new", 1.3),
         )
+    ]
+    seconds = [
+        Goal(f"{what}, whole process", limit, "ns", _row(family, what, "nanoseconds"))
+        for family, what, limit in (
+            ("start-up", "check of the worked designs", 0.6e9),
+            ("start-up", "batch of the worked designs", 0.6e9),
+            ("pictures", "report, press", 1.5e9),
+            ("pictures", "report, wide swing", 1.5e9),
+            ("pictures", "animate, GIF", 1.5e9),
+            ("pictures", "animate, HTML", 0.7e9),
+        )
+    ]
+    waits = [
+        Goal(f"`{what}` over five empty panels", 2.5 if what.startswith("report") else 1.4, "x", _row("pictures", what))
+        for what in WAITS
+        if not what.startswith("animate")
     ]
     vectors = "closed form, unit vectors"
     return [
@@ -137,6 +157,8 @@ def goals(wide_vectors: bool) -> list[Goal]:
             _row("cam", "envelope with all, in blocks of 8000, constant memory"),
         ),
         *start,
+        *waits,
+        *seconds,
         Goal(
             "1000 designs in a batch over reading their files", 2.0, "x", _row("batch", "batch, as the program chooses")
         ),
@@ -209,7 +231,12 @@ def main() -> None:
     parts = [_HEAD, goals_table(found, wanted), *parts]
     parts.append("## Machine\n\n" + as_markdown(list(found.values()), here, pictures))
     (DOCS / "benchmarks.md").write_text("\n\n".join(part.strip() for part in parts) + "\n", encoding="utf-8")
-    print(f"wrote {DOCS / 'benchmarks.md'}", file=sys.stderr)
+    record = {
+        name: {f"{row.method}, {row.size}": float(f"{row.ratio:.4g}") for row in family.rows}
+        for name, family in found.items()
+    }
+    (DOCS / "benchmarks.json").write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
+    print(f"wrote {DOCS / 'benchmarks.md'} and benchmarks.json", file=sys.stderr)
 
 
 if __name__ == "__main__":

@@ -16,6 +16,7 @@ FAMILIES = {
     "cam": "cam:family",
     "press": "cam:press",
     "start-up": "start_up:family",
+    "pictures": "pictures:family",
     "batch": "start_up:batch",
     "parallel": "start_up:parallel",
     "studies": "studies:family",
