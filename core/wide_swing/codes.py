@@ -19,7 +19,8 @@ TURNABILITY = Rule(
 PROFILE_EXISTS = Rule(
     "GL505",
     "cam profile does not exist",
-    "The pitch curve makes a loop, or the run-up takes no cam angle.",
+    "The pitch curve makes a loop, or the run-up takes no cam angle, or a twin-rocker turns no faster than its cam (no "
+    "value is given then).",
     "A cam with a loop cannot be made.",
     "Enlarge cycle_angle or reduce the swing; a twin-rocker wants a swing above 100 deg.",
     "Phi = phi_ud/2 - xi > 0, and (dTheta/dtheta) rho^2/(1 - cos phi) > 0 over the stroke",
