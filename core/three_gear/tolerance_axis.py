@@ -57,6 +57,11 @@ class ThreeGearSamples:
     extra = (_SWING,)
 
     def __init__(self, nominal: ThreeGearFourBar) -> None:
+        if nominal.train.internal:
+            raise NoSolution(
+                "tolerance and register know external gears alone, not a train with a ring gear",
+                key="gears.output" if nominal.output_teeth < 0 else "gears.crank",
+            )
         self.nominal = nominal
         links = nominal.linkage
         self._lengths = (links.crank, links.coupler, links.rocker, links.frame)
