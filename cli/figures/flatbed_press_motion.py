@@ -81,7 +81,7 @@ def cylinder_positions(axes: Axes, design: FlatbedPress) -> None:
         style.circle(axes, complex(center[0]), radius, color=style.LIGHT, linewidth=0.8)
     _overlay(axes, cylinder_chain(at.cylinder_links), at, design.min_transmission_angle_cylinder)
     velocity = positions.cylinder_positions(chain, at.phi[:-1]).m_velocity * UPRIGHT * design.input_speed
-    tips = _arrows(axes, m, velocity, 0.75 * chain.linkage.rocker, "M")
+    tips = _arrows(axes, m, velocity, 0.75 * chain.linkage.rocker, "M", (0.86, 0.05))
     _numbers(axes, list(tips), complex(n[0]), 0.09 * chain.linkage.rocker)
     panels.legend_below(axes)
 
@@ -122,7 +122,9 @@ def _numbers(axes: Axes, points: list[complex], center: complex, outwards: float
         axes.text(place.real, place.imag, str(number), fontsize=6.5, ha="center", va="center", zorder=7)
 
 
-def _arrows(axes: Axes, start: Any, velocity: Any, longest: float, subject: str) -> Any:
+def _arrows(
+    axes: Axes, start: Any, velocity: Any, longest: float, subject: str, place: tuple[float, float] = (0.86, 1.04)
+) -> Any:
     """Velocity vectors to one scale, with a key of a round speed; their tips are returned."""
     top = float(np.abs(velocity).max())
     scale = top / longest
@@ -147,9 +149,9 @@ def _arrows(axes: Axes, start: Any, velocity: Any, longest: float, subject: str)
     axes.update_datalim(np.column_stack([tips.real, tips.imag]))
     round_speed = _round_below(0.7 * top)
     key = axes.quiverkey(
-        quiver, 0.86, 1.04, round_speed / scale, f"{subject}: {round_speed:g} mm/s", labelpos="W", coordinates="axes"
+        quiver, *place, round_speed / scale, f"{subject}: {round_speed:g} mm/s", labelpos="W", coordinates="axes"
     )
-    key.text.set_fontsize(8)
+    key.text.set_fontsize(8 if place[1] > 1.0 else 6.5)
     return tips
 
 

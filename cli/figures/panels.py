@@ -28,7 +28,7 @@ _LEGEND: dict[str, Any] = {
     "fontsize": 7.5,
     "borderpad": 0.1,
     "borderaxespad": 0.2,
-    "handlelength": 1.8,
+    "handlelength": 2.8,
     "columnspacing": 1.2,
 }
 _NAME_SIZE = 7.5
@@ -97,7 +97,7 @@ def legend_above(axes: Axes, columns: int = 5) -> None:
     labels = axes.get_legend_handles_labels()[1]
     title = str(axes.get_title(loc="left"))
     one_row = len(labels) <= columns
-    if one_row and 1.4 * len(title) + sum(len(label) + 6 for label in labels) > _LINE:
+    if one_row and 1.4 * len(title) + sum(len(label) + 9 for label in labels) > _LINE:
         axes.set_title(title, loc="left", fontsize=9, fontweight="bold", pad=17.0)
     axes.legend(
         loc="lower right",
@@ -157,7 +157,9 @@ def legend_beside(axes: Axes, drawing: Axes, title: str = "") -> None:
     """The legend of a drawing in an empty panel of its own."""
     axes.set_axis_off()
     handles, labels = drawing.get_legend_handles_labels()
-    axes.legend(handles, labels, loc="upper left", frameon=False, fontsize=8, title=title, borderaxespad=0.0)
+    axes.legend(
+        handles, labels, loc="upper left", frameon=False, fontsize=8, title=title, borderaxespad=0.0, handlelength=2.8
+    )
 
 
 def small_ticks(axes: Axes) -> None:

@@ -22,7 +22,7 @@ MARGIN = 8.0 / 25.4
 _TITLE = 12
 DASHED: Any = (0, (5, 3))
 DOTTED: Any = (0, (1, 2))
-LONG: Any = (0, (9, 2))
+LONG: Any = (0, (6, 1.8))
 """Long dashes, of the second of two curves that are not limits."""
 WRONG = "#D00000"
 """What fails: no curve has this colour."""

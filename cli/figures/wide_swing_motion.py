@@ -10,6 +10,7 @@ from gearlink.cli.figures.wide_swing_parts import (
     cam_panel,
     cams_of,
     has_slots,
+    kind_words,
     pressure_panel,
     stroke_axis,
     zone_words,
@@ -29,7 +30,7 @@ _NAMES = (("displacement", "a"), ("velocity", "b"), ("acceleration", "c"))
 def draw(command: str, design: WideSwingDesign) -> Figure:
     """Unit diagrams over the stroke, cams to scale where the profile exists, balance over the speed."""
     cams = design.spec.cam is not None and has_slots(design)
-    title = f"{design.spec.name}: {command} ({design.spec.layout}, {design.spec.swing:g}° swing)"
+    title = f"{design.spec.name}: {command} ({kind_words(design)})"
     made = panels.page(title, 0.95 if cams else 0.62)
     grid = made.add_gridspec(3 if cams else 2, 1, height_ratios=[1.0, 1.75, 1.0] if cams else [1.0, 1.0])
     _law_panels(made, grid[0], design)
@@ -55,7 +56,7 @@ def _law_panels(made: Figure, place: Any, design: WideSwingDesign) -> None:
     for i, (name, symbol) in enumerate(_NAMES):
         axes = made.add_subplot(columns[0, i])
         panels.heading(axes, name.capitalize())
-        stroke_axis(axes, symbol)
+        stroke_axis(axes, f"{symbol} [1]")
         for words, other, dashes in others:
             curve = other.evaluate(k, 2)[i]
             axes.plot(k, curve, color=style.GREY, linewidth=0.9, linestyle=dashes, label=words)

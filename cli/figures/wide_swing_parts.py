@@ -36,6 +36,12 @@ def cams_of(design: WideSwingDesign) -> list[tuple[str, AnyCam, float]]:
     ]
 
 
+def kind_words(design: WideSwingDesign) -> str:
+    """Which of the mechanisms it is, and its swing, for the title."""
+    layout = design.spec.layout if design.spec.drive is None else "oscillating cam"
+    return f"{layout}, {design.spec.swing:g}° swing"
+
+
 def has_slots(design: WideSwingDesign) -> bool:
     """Whether every cam can be drawn: no loop, and a roller that leaves a profile."""
     try:

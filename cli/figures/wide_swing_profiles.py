@@ -6,7 +6,14 @@ from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.figures import panels
 from gearlink.cli.figures.wide_swing_motion import legend_row
-from gearlink.cli.figures.wide_swing_parts import cam_panel, cams_of, curvature_panel, pressure_panel, zone_words
+from gearlink.cli.figures.wide_swing_parts import (
+    cam_panel,
+    cams_of,
+    curvature_panel,
+    kind_words,
+    pressure_panel,
+    zone_words,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -26,7 +33,7 @@ def draw(command: str, design: WideSwingDesign) -> Figure:
         NoSolution - for a profile that does not exist
     """
     whole = design.spec.cycle is not None
-    title = f"{design.spec.name}: {command} ({design.spec.layout}, {design.spec.swing:g}° swing)"
+    title = f"{design.spec.name}: {command} ({kind_words(design)})"
     made = panels.page(title, 1.6 if whole else 1.0)
     drawn = cams_of(design)
     rows = made.add_gridspec(3, 1, height_ratios=[2.3, 0.9, 4.2]) if whole else None
