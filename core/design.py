@@ -85,6 +85,7 @@ class Design:
     kind: ClassVar[str]
     outlines: ClassVar[dict[str, Outline]]
     extra_tables: ClassVar[tuple[str, ...]] = ()
+    page_tables: ClassVar[tuple[str, ...]] = ()  # extra ones that the page of `report` shows
     ways: ClassVar[Mapping[str, tuple[Way, ...]]] = {}
     advises = True
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from html import escape
 from typing import TYPE_CHECKING, Any
 
@@ -39,7 +40,10 @@ def run_report(source: str, options: Options) -> int:
         loaded, kind = open_design(source, options)
         spec = read_spec(loaded, kind, source)
         with patience(f"computing {spec.name}", quiet=options.quiet):
-            parts = [build(loaded, kind, command, spec, options) for command in spec.commands()]
+            parts = [
+                build(loaded, kind, command, spec, replace(options, tables=kind.design_class(command).page_tables))
+                for command in spec.commands()
+            ]
         with patience(f"drawing {spec.name}", quiet=options.quiet):
             page = whole_page(spec.name, _body(loaded.text, spec, parts))
         path = options.out / f"{safe_stem(spec.name)}.html"

@@ -57,6 +57,7 @@ class GearPairDesign(GearQuantities, Design):
         "analyze": Outline((*GEAR_QUANTITIES, *DRAWING_QUANTITIES), (*GEAR_CHECKS, *DRAWING_CHECKS)),
     }
 
+    page_tables = ("drawing",)
     extra_tables = ("drawing", "path", "candidates", "contour", "margins")
 
     @property
