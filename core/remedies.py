@@ -47,7 +47,7 @@ class Way:
     tie: Literal["steps", "ratio", "sum"] = "steps"
 
     def remedy(self, old: list[float], count: int) -> Remedy:
-        """Every key with its value `count` steps on; empty where a tooth would be split."""
+        """Every key with its value `count` steps on; empty where a tooth would be split, or a gear become a ring."""
         if self.step == 0.0:
             return tuple((key, None) for key in self.keys)
         first, *others = old
@@ -60,6 +60,8 @@ class Way:
             return ()
         else:
             new += [value * new[0] // first for value in others]
+        if any(isinstance(was, int) and was * now <= 0 for was, now in zip(old, new, strict=True)):
+            return ()
         return tuple(zip(self.keys, new, strict=True))
 
     def most(self, old: list[float]) -> int:

@@ -130,6 +130,14 @@ def test_no_tooth_is_split() -> None:
     assert ratio.remedy([20, 50], 2) == (("gears.planet", 22), ("gears.ring", 55))
 
 
+def test_no_gear_becomes_a_ring() -> None:
+    """Teeth below 0 are those of a ring gear: another machine, and no remedy."""
+    assert down("gears.output", step=1).remedy([3], 2) == (("gears.output", 1),)
+    assert down("gears.output", step=1).remedy([3], 3) == ()
+    assert down("gears.output", step=1).remedy([3], 5) == ()
+    assert up("gears.output", step=1).remedy([-3], 3) == ()
+
+
 def test_a_key_that_python_keeps_for_itself() -> None:
     spec = design(factory.worked("swing_gripper"), "gripper").spec
     assert value_at(spec, "laws.return") == "modified-sine"
