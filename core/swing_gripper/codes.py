@@ -20,10 +20,11 @@ LIFT_OFF = Rule(
     "GL406",
     "roller leaves its cam",
     "At the design speed the inertia takes up the spring's torque, or keeps less than a tenth of speed in reserve; "
-    "or both rollers lie on one side of the cam, or the spring pushes: nothing keeps both on it then (no value is given).",
+    "or both rollers lie on one side of the cam, or the spring pushes: nothing keeps both on it then (no value is "
+    "given).",
     "A roller that has left its cam falls back on it: wear, noise and a wrong motion.",
-    "Raise spring.torque to the value of the message, lower the masses, or run slower; turn cam.return_roller.angle past "
-    "the cam axis.",
+    "Raise spring.torque to the value of the message, lower the masses, or run slower; turn cam.return_roller.angle "
+    "past the cam axis.",
     "n* = n sqrt(T_s/max(T_inertia)) must exceed n; warns below 1.1 n",
     "own derivation: virtual work of links and coupler",
     ("lift-off",),
