@@ -157,7 +157,8 @@ def _at(data: Any, path: str) -> Any:
 def _default(key: SpecKey) -> str:
     if key.section or key.default is None:
         return ""
-    return f" {key.default:.12g}" if isinstance(key.default, float) else f" {key.default}"
+    words = str(key.default).lower() if isinstance(key.default, bool) else key.default
+    return f" {words:.12g}" if isinstance(words, float) else f" {words}"
 
 
 def _meaning(key: SpecKey) -> str:

@@ -44,7 +44,10 @@ def _factory(name: str) -> Any:
         raise _usage(f"--executor {name!r} is not MODULE:FACTORY, a function that makes an executor", name)
 
     def make() -> Executor:
-        executor = made()
+        try:
+            executor = made()
+        except Exception as error:
+            raise _usage(f"--executor {name} cannot make one: {type(error).__name__}: {error}", name) from error
         if not hasattr(executor, "submit"):
             raise _usage(f"--executor {name} makes no executor, but a {type(executor).__name__}", name)
         return executor  # type: ignore[no-any-return]

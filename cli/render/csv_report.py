@@ -22,7 +22,12 @@ def write_csv(report: Report, stream: IO[str]) -> None:
 def write_rows(rows: Iterable[Iterable[object]], stream: IO[str]) -> None:
     """Write rows as CSV; text in them is shown as `cell` shows it, numbers stand as they are."""
     writer = csv.writer(stream, lineterminator="\n")
-    writer.writerows([cell(item) if type(item) is str else item for item in row] for row in rows)
+    writer.writerows([_shown(item) for item in row] for row in rows)
+
+
+def _shown(item: object) -> object:
+    """Text made visible, truth values as design files write them."""
+    return cell(item) if type(item) is str else str(item).lower() if item is True or item is False else item
 
 
 def _blocks(report: Report) -> Iterator[Iterable[Iterable[object]]]:

@@ -38,6 +38,8 @@ def text_of(value: object) -> str:
     """A value at full precision; the members of a pair or list side by side."""
     if isinstance(value, list):
         return " ".join(text_of(item) for item in value)
+    if isinstance(value, bool):
+        return str(value).lower()
     return "" if value is None else repr(value) if isinstance(value, float) else str(value)
 
 

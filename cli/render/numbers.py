@@ -18,6 +18,8 @@ def number(value: object, digits: int = 7) -> str:
         >>> number(38.85708906143053), number(40), number(None), number([1.0, 2.5])
         ('38.85709', '40', '-', '1 2.5')
     """
+    if isinstance(value, bool):
+        return str(value).lower()
     if value is None:
         return "-"
     if isinstance(value, list):

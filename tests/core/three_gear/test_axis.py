@@ -230,3 +230,33 @@ def test_study_of_record() -> None:
     for row, kept in zip(found.rows, want["kept"], strict=True):
         envelope, back, speed, mu = row.figures
         assert [envelope, -mu, back, speed] == pytest.approx(kept[1:], rel=case["tolerance"])
+
+
+@pytest.mark.slow
+def test_five_thousand_designs_give_the_same_study_one_by_one() -> None:
+    data = {
+        "kind": "study",
+        "design": {**BASE, "dwell": {"angle": 135}},
+        "variables": {
+            "gears.crank": {"from": 16, "to": 40, "step": 2, "also": ["gears.output"]},
+            "gears.idler": {"from": 0.8, "to": 3, "times": "gears.crank", "step": 3},
+            "gears.module": {"values": [2, 3]},
+            "dwell.angle": {"values": [60, 90, 120, 150, 200, 235, 250, 262, 275, 290]},
+        },
+        "minimize": {"frame_length": 5, "back_step_angle": 1},
+        "maximize": {"min_transmission_angle": 1},
+        "checks": {"must_pass": "all", "warn_counts": True},
+        "where": ["gear_gap <= 90 mm"],
+    }
+    made = problem(StudySpec.model_validate_json(json.dumps(data)))
+    found = Found.of(made, together(made, (chunk_of(made, number) for number in range(made.chunks))))
+    assert 4000 < made.order.count < 6000
+    assert found.total.misses["refused dwell.angle"].fails > 0
+    alone = problem(made.spec)
+    vars(alone)["axis"] = None
+    single = Found.of(alone, together(alone, (chunk_of(alone, number) for number in range(alone.chunks))))
+    assert [row.index for row in found.rows] == [row.index for row in single.rows]
+    assert (found.total.feasible, found.front_size) == (single.total.feasible, single.front_size)
+    for name, miss in single.total.misses.items():
+        same = found.total.misses[name]
+        assert (same.fails, same.alone, same.index) == (miss.fails, miss.alone, miss.index), name
