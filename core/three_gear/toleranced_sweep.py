@@ -8,115 +8,69 @@ Where they do not come to rest at the right kind of place the element is not set
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 
-from gearlink.core.linkages import fourbar
 from gearlink.core.linkages.fourbar_lengths import Lengths, Places, solve
 from gearlink.core.numerics.arrays import Mask, Reals
 from gearlink.core.results import cached_property
-from gearlink.core.three_gear.design import ThreeGearFourBar
 from gearlink.core.three_gear.dwells import STANDSTILL_TOLERANCE
+from gearlink.core.three_gear.near_drives import REST, STEPS, NearDrives, Seen, Stop
 
-_STEPS = 12
-_REST = 3e-8  # of a step [rad]: the next one, its square, is below rounding
+_NEAR_EXTREME = 3e-5  # of a step [rad]: a value at an extreme is wrong by the square of the place's error
+_CHORD_REST = 3e-7  # of a step whose slope is the nominal drive's
 _TURN = 2.0 * math.pi
 
 
-class DriveSamples:
-    """Drives near a nominal one.
+@dataclass(frozen=True, slots=True)
+class Extreme:
+    """An extreme of the speed: its place [rad], the speed and jerk ratio there, the loop beside it."""
 
-    Parameters
-        nominal : ThreeGearFourBar
-        links : Lengths - (N,) arrays
-        frame_turn : (N,) array [rad] - by how much the line A-D is turned: crank angles count from the nominal line
-    """
+    place: Reals
+    speed: Reals
+    jerk: Reals
+    places: Places
 
-    def __init__(self, nominal: ThreeGearFourBar, links: Lengths, frame_turn: Reals | float = 0.0) -> None:
-        self.nominal, self.links, self.frame_turn = nominal, links, frame_turn
-        self.train = nominal.train
-        self.count = np.broadcast(links.crank, links.coupler, links.rocker, links.frame, frame_turn).size
-        self.unsettled: Mask = np.zeros(self.count, dtype=bool)
 
-    # Motion at crank angles
-
-    def _rates(self, phi: Reals, order: int) -> list[Reals]:
-        """Speed, acceleration and jerk ratio of the output, as many as asked for."""
-        places = solve(self.links, phi, order)
-        p, q = self.train.coupler_share, self.train.rocker_share
-        pairs = (
-            (places.coupler_velocity, places.rocker_velocity),
-            (places.coupler_acceleration, places.rocker_acceleration),
-            (places.coupler_jerk, places.rocker_jerk),
-        )
-        rates = [p * two + q * three for two, three in pairs[:order]]
-        rates[0] = rates[0] + self.train.ratio
-        return rates
-
-    def _angle(self, phi: Reals, near: float, places: Places | None = None) -> Reals:
-        """Output angle [rad] on the branch of the nominal drive at the crank angle `near`."""
-        found = solve(self.links, phi) if places is None else places
-        at = fourbar.solve(self.nominal.linkage, near)
-        start = fourbar.solve(self.nominal.linkage, 0.0)
-        coupler = (at.coupler_angle - start.coupler_angle) + np.angle(found.coupler * np.exp(-1j * at.coupler_angle))
-        rocker = (at.rocker_angle - start.rocker_angle) + np.angle(found.rocker * np.exp(-1j * at.rocker_angle))
-        turned: Reals = self.train.ratio * phi + self.train.coupler_share * coupler + self.train.rocker_share * rocker
-        return turned
-
-    def _rooted(self, step: Callable[[Reals], Reals], start: Reals | float) -> Reals:
-        """Newton steps to rest; elements that do not rest are not settled."""
-        place = np.broadcast_to(np.asarray(start, dtype=float), (self.count,)).copy()
-        moved = np.full(self.count, np.inf)
-        with np.errstate(all="ignore"):
-            for _ in range(_STEPS):
-                change = step(place)
-                place -= change
-                moved = np.abs(change)
-                if np.nanmax(moved, initial=0.0) <= _REST:
-                    break
-        self.unsettled |= ~(moved <= _REST)
-        return place
+class DriveSamples(NearDrives):
+    """What a study asks of many drives near a nominal one."""
 
     # Extremes
 
-    def _extreme(self, place: float, sign: float) -> Reals:
-        """Place of an extreme of the speed near the nominal one; sign +1 for the greatest."""
-
-        def step(phi: Reals) -> Reals:
-            _, acceleration, jerk = self._rates(phi, 3)
-            return acceleration / jerk
-
-        found = self._rooted(step, place)
-        self.unsettled |= ~(self._rates(found, 3)[2] * sign < 0.0) | ~(np.abs(found - place) < 0.5)
-        return found
+    def _extreme(self, place: float, sign: float) -> Extreme:
+        """The extreme of the speed near the nominal one; sign +1 for the greatest."""
+        found = self.chord(lambda seen: seen.rates[1] / seen.rates[2], 3, place, _NEAR_EXTREME)
+        speed, acceleration, jerk = found.seen.rates
+        self.unsettled |= ~(jerk * sign < 0.0) | ~(np.abs(found.place - place) < 0.5)
+        return Extreme(found.place, speed - 0.5 * acceleration * found.step, jerk, found.seen.places)
 
     @cached_property
-    def least_place(self) -> Reals:
-        """Crank angle of the least speed [rad], against the line A-D."""
+    def _least(self) -> Extreme:
         return self._extreme(self.nominal.speed_extremes.least_angle, -1.0)
 
     @cached_property
-    def greatest_place(self) -> Reals:
-        """Crank angle of the greatest speed [rad]."""
+    def _greatest(self) -> Extreme:
         return self._extreme(self.nominal.speed_extremes.greatest_angle, 1.0)
 
-    @cached_property
+    @property
     def speed_ratio_min(self) -> Reals:
         """Least speed ratio."""
-        return self._rates(self.least_place, 1)[0]
+        return self._least.speed
 
-    @cached_property
+    @property
     def speed_ratio_max(self) -> Reals:
         """Greatest speed ratio."""
-        return self._rates(self.greatest_place, 1)[0]
+        return self._greatest.speed
 
     def _acceleration_extreme(self, place: float) -> Reals:
         h = 1e-4
         slope = float(np.diff(self._nominal_jerk(np.array([place - h, place + h])))[0] / (2.0 * h))
-        found = self._rooted(lambda phi: self._rates(phi, 3)[2] / slope, place)
-        self.unsettled |= ~(np.abs(found - place) < 0.5)
-        return self._rates(found, 2)[1]
+        found = self.chord(lambda seen: seen.rates[2] / slope, 3, place, _CHORD_REST)
+        self.unsettled |= ~(np.abs(found.place - place) < 0.5)
+        _, acceleration, jerk = found.seen.rates
+        value: Reals = acceleration - 0.5 * jerk * found.step
+        return value
 
     def _nominal_jerk(self, phi: Reals) -> Reals:
         links = self.nominal.linkage
@@ -146,39 +100,41 @@ class DriveSamples:
     @cached_property
     def turns_back(self) -> Mask:
         """Where the output turns back."""
-        places = solve(self.links, self.least_place, 1)
-        train = self.train
-        terms = abs(train.ratio) + np.abs(train.coupler_share * places.coupler_velocity)
-        terms += np.abs(train.rocker_share * places.rocker_velocity)
-        return np.asarray(self.speed_ratio_min < -STANDSTILL_TOLERANCE * terms)
+        least, train = self._least, self.train
+        terms = abs(train.ratio) + np.abs(train.coupler_share * least.places.coupler_velocity)
+        terms += np.abs(train.rocker_share * least.places.rocker_velocity)
+        return np.asarray(least.speed < -STANDSTILL_TOLERANCE * terms)
 
     @cached_property
-    def standstills(self) -> tuple[Reals, Reals]:
-        """Start and end of the back-step [rad], against the line A-D; without one the least speed's place twice."""
-        least, back = self.least_place, self.turns_back
-        step, spread = self.nominal.back_step, np.zeros(self.count)
-        jerk = self._rates(least, 3)[2]
-        with np.errstate(invalid="ignore"):
-            spread = np.where(back, np.sqrt(np.maximum(-2.0 * self.speed_ratio_min, 0.0) / jerk), 0.0)
-        if step is None:
-            first, second = least - spread, least + spread
-        else:
-            near = self.nominal.speed_extremes.least_angle
-            start = near - (near - step.start) % _TURN
-            # Near a momentary dwell the root of the parabola, else the nominal place, is the better start.
-            short = spread < 0.5 * step.crank_angle
-            first = np.where(short, least - spread, start)
-            second = np.where(short, least + spread, start + step.crank_angle)
+    def _stops(self) -> tuple[Stop, Stop]:
+        """The standstills; of a drive without them the least speed's place twice."""
+        least, back = self._least.place, self.turns_back
+        guesses = self._guesses(least, back)
         ends = []
-        for guess, sign in ((first, -1.0), (second, 1.0)):
-            found = self._rooted(lambda phi: np.where(back, self._newton(phi), 0.0), guess)
-            self.unsettled |= back & ~(self._rates(found, 2)[1] * sign > 0.0)
+        for guess, sign in zip(guesses, (-1.0, 1.0), strict=True):
+            found = self.rooted(lambda seen: (np.where(back, seen.rates[0], 0.0), seen.rates[1]), 2, guess)
+            self.unsettled |= back & ~(found.seen.rates[1] * sign > 0.0)
             ends.append(found)
         return ends[0], ends[1]
 
-    def _newton(self, phi: Reals) -> Reals:
-        speed, acceleration = self._rates(phi, 2)
-        return speed / acceleration
+    def _guesses(self, least: Reals, back: Mask) -> tuple[Reals, Reals]:
+        """Near a momentary dwell the roots of the parabola, else the nominal places."""
+        step, spread = self.nominal.back_step, np.zeros(self.count)
+        with np.errstate(invalid="ignore"):
+            deep = np.maximum(-2.0 * self._least.speed, 0.0)
+            spread = np.where(back, np.sqrt(deep / self._least.jerk), 0.0)
+        if step is None:
+            return least - spread, least + spread
+        near = self.nominal.speed_extremes.least_angle
+        start = near - (near - step.start) % _TURN
+        short = spread < 0.5 * step.crank_angle
+        return np.where(short, least - spread, start), np.where(short, least + spread, start + step.crank_angle)
+
+    @property
+    def standstills(self) -> tuple[Reals, Reals]:
+        """Start and end of the back-step [rad], against the line A-D; without one the least speed's place twice."""
+        first, second = self._stops
+        return first.place, second.place
 
     @property
     def _near(self) -> float:
@@ -187,8 +143,8 @@ class DriveSamples:
 
     @cached_property
     def _top_and_bottom(self) -> tuple[Reals, Reals]:
-        first, second = self.standstills
-        return self._angle(first, self._near), self._angle(second, self._near)
+        first, second = (self.angle_of(stop, self._near) for stop in self._stops)
+        return first, second
 
     @cached_property
     def back_step_angle(self) -> Reals:
@@ -218,15 +174,7 @@ class DriveSamples:
         if nominal is not None and self.nominal.back_step is not None:
             further = nominal - self.nominal.back_step.crank_angle
             guess = np.where(width < 0.5 * self.nominal.back_step.crank_angle, guess, second + further)
-        near = float(guess[0])
-
-        def step(phi: Reals) -> Reals:
-            places = solve(self.links, phi, 1)
-            speed = self.train.ratio + self.train.coupler_share * places.coupler_velocity
-            speed = speed + self.train.rocker_share * places.rocker_velocity
-            return np.where(back, (self._angle(phi, near, places) - top) / speed, 0.0)
-
-        found = self._rooted(step, guess)
+        found = self._level(top, guess, float(guess[0]), back)
         self.unsettled |= back & ~(found > second)
         return found
 
@@ -240,13 +188,10 @@ class DriveSamples:
     def _level(self, level: Reals, guess: Reals, near: float, where: Mask) -> Reals:
         """Crank angle near the guess at which the output is at a level."""
 
-        def step(phi: Reals) -> Reals:
-            places = solve(self.links, phi, 1)
-            speed = self.train.ratio + self.train.coupler_share * places.coupler_velocity
-            speed = speed + self.train.rocker_share * places.rocker_velocity
-            return np.where(where, (self._angle(phi, near, places) - level) / speed, 0.0)
+        def above(seen: Seen) -> tuple[Reals, Reals]:
+            return np.where(where, self.angle(seen, near) - level, 0.0), seen.rates[0]
 
-        return self._rooted(step, np.where(where, guess, near))
+        return self.rooted(above, 1, np.where(where, guess, near)).place
 
     @cached_property
     def tolerance_dwell(self) -> tuple[Reals, Reals]:
@@ -276,7 +221,7 @@ class DriveSamples:
         beyond = 0.5 * (second - first)
         left, right = np.minimum(start, first - beyond), np.maximum(start + length, second + beyond)
         left, right = self._equal_speeds(tolerance, left, right, fits)
-        raised = bottom - self._angle(left, near)
+        raised = bottom - self.angle_at(left, near)
         good = fits & (left <= first) & (right >= second) & (raised >= 0.0) & (raised <= spare) & (right - left < _TURN)
         rest = fits & ~good
         if rest.any():
@@ -295,19 +240,17 @@ class DriveSamples:
         """phi5(R) - phi5(L) = 2 tol and W(L) = W(R), by Newton steps in both ends."""
         near = self._near
         with np.errstate(all="ignore"):
-            for _ in range(_STEPS):
-                speed_l, slope_l = self._rates(left, 2)
-                speed_r, slope_r = self._rates(right, 2)
-                gain = self._angle(right, near) - self._angle(left, near) - 2.0 * tolerance
+            for _ in range(STEPS):
+                at_left, at_right = self.seen(left, 2), self.seen(right, 2)
+                (speed_l, slope_l), (speed_r, slope_r) = at_left.rates, at_right.rates
+                gain = self.angle(at_right, near) - self.angle(at_left, near) - 2.0 * tolerance
                 unequal = speed_r - speed_l
                 scale = speed_r * slope_l - speed_l * slope_r
                 move_l = (unequal * speed_r - gain * slope_r) / scale
                 move_r = (unequal * speed_l - gain * slope_l) / scale
                 left, right = left + move_l, right + move_r
-                if (
-                    np.nanmax(np.abs(np.where(where, move_l, 0.0)) + np.abs(np.where(where, move_r, 0.0)), initial=0.0)
-                    <= _REST
-                ):
+                moved = np.where(where, np.abs(move_l) + np.abs(move_r), 0.0)
+                if np.nanmax(moved, initial=0.0) <= REST:
                     break
         return left, right
 
@@ -322,7 +265,7 @@ class DriveSamples:
                 self._level(bottom - rise, guess_l, near, where),
                 self._level(bottom + 2.0 * float(self.nominal.output_tolerance or 0.0) - rise, guess_r, near, where),
             )
-            found.append((*ends, self._rates(ends[1], 1)[0] - self._rates(ends[0], 1)[0]))
+            found.append((*ends, self.rates(ends[1], 1)[0] - self.rates(ends[0], 1)[0]))
         (low_l, low_r, low_gain), (high_l, high_r, high_gain) = found
         self.unsettled |= where & (low_gain > 0.0) & (high_gain < 0.0)
         self.unsettled |= where & ~((low_l <= first) & (low_r >= second))
@@ -334,7 +277,7 @@ class DriveSamples:
         best_l = best_r = np.zeros(self.count)
         for place, level, sign in zip(self.standstills, self._top_and_bottom, (-1.0, 1.0), strict=True):
             with np.errstate(all="ignore"):
-                spread = np.sqrt(4.0 * tolerance / np.abs(self._rates(place, 2)[1]))
+                spread = np.sqrt(4.0 * tolerance / np.abs(self.rates(place, 2)[1]))
             ends = [
                 self._level(level + sign * 2.0 * tolerance, place + side * spread, self._near, where)
                 for side in (-1.0, 1.0)
@@ -359,11 +302,12 @@ class DriveSamples:
         """
         near = start + 0.5 * length
         ends = [np.broadcast_to(start + share * length - self.frame_turn, (self.count,)) for share in (0.0, 1.0)]
-        angles = [self._angle(end, near) for end in ends]
-        for place in self.standstills if self.turns_back.any() else ():
-            turns = np.rint((place - near) / _TURN) * _TURN
-            inside = self.turns_back & (place - turns > ends[0]) & (place - turns < ends[1])
-            angles.append(np.where(inside, self._angle(place - turns, near), angles[0]))
+        angles = [self.angle_at(end, near) for end in ends]
+        for stop in self._stops if self.turns_back.any() else ():
+            turns = np.rint((stop.place - near) / _TURN)
+            inside = self.turns_back & (stop.place - turns * _TURN > ends[0]) & (stop.place - turns * _TURN < ends[1])
+            angle = self.angle_of(stop, self._near) - turns * _TURN * self.nominal.mean_ratio
+            angles.append(np.where(inside, angle, angles[0]))
         swing: Reals = 0.5 * (np.max(angles, axis=0) - np.min(angles, axis=0))
         return swing
 
