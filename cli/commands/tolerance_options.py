@@ -51,6 +51,9 @@ def _tolerance(
     allocate: Annotated[
         bool, typer.Option("--allocate", help="add the table allocation: grades at least cost")
     ] = False,
+    jobs: Annotated[int, typer.Option("--jobs", "-j", min=0, help="number of processes; 0: chosen automatically")] = 0,
+    executor: Annotated[str, typer.Option(metavar="MODULE:FACTORY", help="what makes an executor to compute by")] = "",
+    dask: Annotated[str, typer.Option(metavar="ADDRESS", help="compute on the Dask cluster of this scheduler")] = "",
 ) -> None:
     """Yield of a design as made: spreads, capabilities, and which tolerance contributes what.
 
@@ -59,10 +62,13 @@ def _tolerance(
     Example: gearlink tolerance designs/candy_feed_tolerances.yaml --worst-case
     """
     from gearlink.cli.commands.design import run_design
+    from gearlink.cli.computing_shares import shares_by
 
     options = _keyed(options, "tolerance", {"samples": samples, "seed": seed, "sobol": sobol})
     added = (*(("corners",) if worst_case else ()), *(("allocation",) if allocate else ()))
-    raise typer.Exit(run_design("tolerance", spec, replace(options, tables=(*options.tables, *added))))
+    options = replace(options, tables=(*options.tables, *added))
+    with shares_by(jobs, executor, dask, words="samples", quiet=options.quiet):
+        raise typer.Exit(run_design("tolerance", spec, options))
 
 
 @takes(*_SHARED)

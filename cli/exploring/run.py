@@ -112,10 +112,10 @@ def _keep(made: Problem, asked: Exploring) -> Opened:
 @contextmanager
 def _means(asked: Exploring) -> Iterator[Means]:
     if asked.dask or asked.executor:
-        from gearlink.cli.exploring.executors import means_of
+        from gearlink.cli.executors import executor_of
 
-        with means_of(asked.executor, asked.dask) as means:
-            yield means
+        with executor_of(asked.executor, asked.dask) as (made, workers):
+            yield Means(executor=made, workers=workers)
     else:
         yield Means(asked.jobs)
 

@@ -24,14 +24,15 @@ def rounded_up(samples: int) -> int:
     return REPLICATIONS * (1 << (each - 1).bit_length())
 
 
-def replications(coordinates: int, samples: int, seed: int) -> Iterator[Reals]:
-    """Scrambled Sobol' points of the unit cube, one replication at a time.
+def replication(coordinates: int, samples: int, seed: int, number: int) -> Reals:
+    """Scrambled Sobol' points of the unit cube: one of the 16 replications.
 
     Parameters
         coordinates : int - dimensions
         samples : int - of all replications, as `rounded_up` gives it
         seed : int - replication r is scrambled by [seed, r]: the same points whatever computes them
-    Yields
+        number : int - r, from 0
+    Returns
         points : (samples/16, coordinates) array - in (0, 1)
     Notes
         A power of two of points, or their balance is lost. 53 bits of scrambling keep equal points apart.
@@ -41,8 +42,16 @@ def replications(coordinates: int, samples: int, seed: int) -> Iterator[Reals]:
     from scipy.stats.qmc import Sobol
 
     power = (samples // REPLICATIONS).bit_length() - 1
+    points: Reals = Sobol(coordinates, scramble=True, bits=53, rng=np.random.default_rng([seed, number])).random_base2(
+        power
+    )
+    return points
+
+
+def replications(coordinates: int, samples: int, seed: int) -> Iterator[Reals]:
+    """All replications, as `replication` gives each."""
     for number in range(REPLICATIONS):
-        yield Sobol(coordinates, scramble=True, bits=53, rng=np.random.default_rng([seed, number])).random_base2(power)
+        yield replication(coordinates, samples, seed, number)
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,7 +13,6 @@ import numpy as np
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.tolerance.iso_286 import standard_tolerance
 from gearlink.core.tolerance_study.problem import Problem, no
-from gearlink.core.tolerance_study.samples import all_replications
 from gearlink.core.tolerance_study.statistics import result
 
 _MOST = 1_000_000
@@ -221,4 +220,4 @@ def _sampled(made: Problem, places: Sequence[int], grades: Sequence[int]) -> flo
         changes = dict.fromkeys(("lower", "upper", "limits", "sigma", "class_", "measured"))
         sources[source.key] = source.entry.model_copy(update={**changes, "plus_minus": half})
     changed = replace(made, section=made.section.model_copy(update={"sources": sources}))
-    return result(all_replications(changed)).good.low
+    return result(changed).good.low

@@ -14,7 +14,7 @@ from gearlink.core.tolerance.codes import NO_MECHANISM, NOT_LINEAR, TARGET_YIELD
 from gearlink.core.tolerance.sampling import Estimate
 from gearlink.core.tolerance_study import allocation
 from gearlink.core.tolerance_study.problem import MOST_WITH_INDICES, Problem, no, problem
-from gearlink.core.tolerance_study.samples import all_replications, evaluated
+from gearlink.core.tolerance_study.samples import evaluated
 from gearlink.core.tolerance_study.sensitivity import Indices, Slope, corners, indices, linear_shares, slopes
 from gearlink.core.tolerance_study.statistics import Result, capabilities, result
 
@@ -54,7 +54,7 @@ class ToleranceStudy(Design):
     @cached_property
     def result(self) -> Result:
         """Everything that came of the samples."""
-        return result(all_replications(self.problem))
+        return result(self.problem)
 
     def raw(self, name: str) -> Any:
         """The six quantities."""

@@ -38,12 +38,16 @@ class Problem:
         nominal : Design - of that base
         section : Tolerance
         axis : ToleranceAxis or None - of kinds that compute many designs at once
+        data : the design file without the sections about it
+        asked : str - the command that the file's samples are for
     """
 
     base: Base
     nominal: Design
     section: Tolerance
     axis: ToleranceAxis | None
+    data: Mapping[str, Any]
+    asked: str
 
     @cached_property
     def sources(self) -> tuple[Scatter, ...]:
@@ -209,7 +213,7 @@ def problem(spec: Any, command: str | None = None) -> Problem:
     if place is not None:
         module, _, name = place.partition(":")
         axis = getattr(import_module(f"gearlink.core.{module}"), name)(nominal)
-    return Problem(base, nominal, section, axis)
+    return Problem(base, nominal, section, axis, data, asked)
 
 
 def _with_links(base: Base) -> Base:

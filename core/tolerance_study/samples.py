@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -13,7 +13,7 @@ from gearlink.core.explore.base import Refused
 from gearlink.core.explore.one_by_one import Single, as_arrays, findings_of
 from gearlink.core.nomenclature import term
 from gearlink.core.numerics.arrays import Mask, Points, Reals
-from gearlink.core.tolerance.sampling import replications, rounded_up
+from gearlink.core.tolerance.sampling import replication, rounded_up
 from gearlink.core.tolerance_study.problem import Problem
 
 Columns = Mapping[str, Reals | Points]
@@ -77,7 +77,6 @@ def _extra(made: Problem) -> Sequence[str]:
     return () if made.axis is None else made.axis.extra
 
 
-def all_replications(made: Problem) -> Iterator[Judged]:
-    """Every replication of the study, one at a time."""
-    for points in replications(made.coordinates, rounded_up(made.samples), made.section.seed):
-        yield judged(made, points)
+def judged_replication(made: Problem, number: int) -> Judged:
+    """One replication of the study."""
+    return judged(made, replication(made.coordinates, rounded_up(made.samples), made.section.seed, number))

@@ -5,14 +5,16 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
 from gearlink.core.numerics.arrays import Reals
-from gearlink.core.tolerance.sampling import Estimate, estimate, replications, rounded_up
+from gearlink.core.tolerance.sampling import Estimate, estimate, replication, rounded_up
 from gearlink.core.tolerance.sources import Scatter
 from gearlink.core.tolerance_study.problem import Problem
 from gearlink.core.tolerance_study.samples import evaluated, judged
+from gearlink.core.tolerance_study.shares import replicated
 
 _KINK = 0.1  # of the whole scatter: sides that differ by more belong to no line
 
@@ -120,23 +122,29 @@ def indices(made: Problem, names: Sequence[str]) -> dict[str, list[Indices]]:
         I. M. Sobol', Math. Comput. Simul. 55 (2001) 271; A. Janon et al., ESAIM P&S 18 (2014) 342; M. J. W. Jansen,
         Comput. Phys. Comm. 117 (1999) 35
     """
+    rows = list(replicated(made, partial(_indices_of, names=tuple(names))))
+    return {
+        name: [_estimated(np.array([row[name][i] for row in rows])) for i in range(len(made.sources))] for name in names
+    }
+
+
+def _indices_of(made: Problem, number: int, names: Sequence[str]) -> Mapping[str, list[tuple[float, float]]]:
+    """First and total index of every source, by quantity, of one replication."""
     width = made.coordinates
+    points = replication(2 * width, rounded_up(made.samples), made.section.seed, number)
+    a, b = points[:, :width], points[:, width:]
+    one, other = (judged(made, part).quantities for part in (a, b))
+    mixed = [judged(made, _swapped(a, b, group)).quantities for group in _columns(made)]
+    return {name: [_indices(one[name], other[name], each[name]) for each in mixed] for name in names}
+
+
+def _columns(made: Problem) -> list[slice]:
+    """Which random numbers are a source's."""
     groups, at = [], 0
     for source in made.sources:
         groups.append(slice(at, at + source.coordinates))
         at += source.coordinates
-
-    def values(points: Reals) -> Mapping[str, Reals]:
-        return judged(made, points).quantities
-
-    rows: dict[str, list[list[tuple[float, float]]]] = {name: [] for name in names}
-    for points in replications(2 * width, rounded_up(made.samples), made.section.seed):
-        a, b = points[:, :width], points[:, width:]
-        one, other = values(a), values(b)
-        per_source = [values(_swapped(a, b, group)) for group in groups]
-        for name in names:
-            rows[name].append([_indices(one[name], other[name], mixed[name]) for mixed in per_source])
-    return {name: [_estimated(np.array(table)[:, i]) for i in range(len(groups))] for name, table in rows.items()}
+    return groups
 
 
 def _swapped(a: Reals, b: Reals, group: slice) -> Reals:

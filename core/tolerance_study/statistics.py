@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.tolerance.sampling import Estimate, estimate, share_estimate
-from gearlink.core.tolerance_study.samples import Judged
+from gearlink.core.tolerance_study.problem import Problem
+from gearlink.core.tolerance_study.samples import judged_replication
+from gearlink.core.tolerance_study.shares import replicated
 
 QUANTILES = (0.00135, 0.5, 0.99865)
 _KEPT = 2  # replications whose values pictures show
@@ -55,30 +57,53 @@ class Result:
     values: Mapping[str, Reals]
 
 
-def result(found: Iterable[Judged]) -> Result:
-    """Sum up the replications of a study."""
-    shares: dict[str, list[float]] = {}
-    rows: dict[str, list[tuple[float, ...]]] = {}
-    kept: list[Mapping[str, Reals]] = []
-    good, missing, count = [], [], 0
-    for one in found:
-        count += one.good.size
-        good.append(float(one.good.mean()))
-        missing.append(float(1.0 - one.exists.mean()))
-        for name, mask in one.passes.items():
-            shares.setdefault(name, []).append(float(mask.mean()))
-        for name, value in one.quantities.items():
-            if value.dtype.kind == "f":
-                rows.setdefault(name, []).append(_numbers(value))
-        if len(kept) < _KEPT:
-            kept.append(one.quantities)
+@dataclass(frozen=True)
+class Counted:
+    """What is kept of a replication.
+
+    Fields
+        count : int
+        good, missing : float - shares
+        passes : share by code and by requirement
+        numbers : mean, deviation and order statistics by quantity
+        values : (N,) arrays by quantity - of the first replications
+    """
+
+    count: int
+    good: float
+    missing: float
+    passes: Mapping[str, float]
+    numbers: Mapping[str, tuple[float, ...]]
+    values: Mapping[str, Reals]
+
+
+def counted(made: Problem, number: int) -> Counted:
+    """Compute a replication, and keep what the study needs of it."""
+    one = judged_replication(made, number)
+    real = {name: value for name, value in one.quantities.items() if value.dtype.kind == "f"}
+    return Counted(
+        one.good.size,
+        float(one.good.mean()),
+        float(1.0 - one.exists.mean()),
+        {name: float(mask.mean()) for name, mask in one.passes.items()},
+        {name: _numbers(value) for name, value in real.items()},
+        real if number < _KEPT else {},
+    )
+
+
+def result(made: Problem) -> Result:
+    """Compute a study, and sum up its replications."""
+    rows = list(replicated(made, counted))
+    count = sum(one.count for one in rows)
+    names = list(dict.fromkeys(name for one in rows for name in one.passes))
+    kept = [one.values for one in rows if one.values]
     return Result(
         count,
-        _yield(good, count),
-        float(np.mean(missing)),
-        {name: _yield(values, count) for name, values in shares.items()},
-        {name: _spread(values) for name, values in rows.items()},
-        {name: np.concatenate([quantities[name] for quantities in kept]) for name in rows},
+        _yield([one.good for one in rows], count),
+        float(np.mean([one.missing for one in rows])),
+        {name: _yield([one.passes[name] for one in rows if name in one.passes], count) for name in names},
+        {name: _spread([one.numbers[name] for one in rows]) for name in rows[0].numbers},
+        {name: np.concatenate([values[name] for values in kept]) for name in rows[0].numbers},
     )
 
 

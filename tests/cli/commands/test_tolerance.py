@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import json
+from concurrent.futures import BrokenExecutor, Executor, Future
 from pathlib import Path
 from typing import Any
 
 import pytest
+
+from gearlink.cli import computing_shares
 
 DESIGN = """\
 kind: three-gear-four-bar
@@ -100,3 +103,41 @@ def test_register_at_an_angle_is_absolute(gearlink: Any, spec: Path) -> None:
     # frame 1.3708 and crank 0.3477 (the theory's gains at 270 deg), +-0.02 each
     assert status == 0
     assert found["worst"]["value"][0] == pytest.approx(0.02 * (1.3708 + 0.3477), abs=3e-6)
+
+
+PAIR = """\
+kind: gear-pair
+module: 4
+teeth: [23, 41]
+center_distance: 129.5
+tolerance: {sources: {center_distance: {plus_minus: 0.03}}, samples: 64, sobol: true}
+"""
+
+
+def test_the_same_bytes_by_whatever_computes(gearlink: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "pair.yaml"
+    path.write_text(PAIR)
+    (tmp_path / "pools.py").write_text(
+        "from concurrent.futures import ThreadPoolExecutor\nmake = lambda: ThreadPoolExecutor(2)\n"
+    )
+    monkeypatch.chdir(tmp_path)
+    line = ["tolerance", str(path), "--format", "json"]
+    means = (["--jobs", "1"], ["--jobs", "2"], ["--executor", "pools:make"])
+    ended = [gearlink(*line, *more) for more in means]
+    assert [one.status for one in ended] == [0, 0, 0]
+    assert len({one.out for one in ended}) == 1
+
+
+def test_shares_of_a_worker_that_ends_are_computed_here(capsys: pytest.CaptureFixture[str]) -> None:
+    class Dying(Executor):
+        def submit(self, function: Any, /, *line: Any, **_: Any) -> Any:
+            future: Any = Future()
+            if line[0] % 2:
+                future.set_exception(BrokenExecutor("killed"))
+            else:
+                future.set_result(function(*line))
+            return future
+
+    told = computing_shares._Told("samples", 4, quiet=True)
+    assert computing_shares._given(Dying(), abs, [0, 1, 2, 3], told) == [0, 1, 2, 3]
+    assert "killed" in capsys.readouterr().err

@@ -4,20 +4,21 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
 from contextlib import contextmanager
 from importlib import import_module
 from typing import Any
 
 from gearlink.cli.cluster import client
-from gearlink.cli.exploring.computing import Means
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
+
+_WORKERS = 8  # of an executor that does not say
 
 
 @contextmanager
-def means_of(factory: str, dask: str) -> Iterator[Means]:
-    """What a command line names to compute by.
+def executor_of(factory: str, dask: str) -> Iterator[tuple[Callable[[], Executor], int]]:
+    """What a command line names to compute by: what makes an executor, and how many workers that has at least.
 
     Raises
         DesignFileError - GL115 where it cannot be had, GL158 for a worker with another program
@@ -26,9 +27,9 @@ def means_of(factory: str, dask: str) -> Iterator[Means]:
         raise _usage("--executor and --dask exclude each other", dask)
     if dask:
         with client(dask) as made:
-            yield Means(executor=lambda: made.get_executor(), workers=max(1, len(made.ncores())))
+            yield made.get_executor, max(1, len(made.ncores()))
     else:
-        yield Means(executor=_factory(factory))
+        yield _factory(factory), _WORKERS
 
 
 def _factory(name: str) -> Any:

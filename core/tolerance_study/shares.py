@@ -1,0 +1,57 @@
+"""Replications as shares of a study's work: each depends on the study's text and its own number alone."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterable, Sequence
+from contextvars import ContextVar
+from functools import lru_cache, partial
+from typing import Protocol, TypeVar
+
+from gearlink.core.kinds import KINDS
+from gearlink.core.tolerance.sampling import REPLICATIONS
+from gearlink.core.tolerance_study.problem import Problem, problem
+
+Found = TypeVar("Found")
+
+
+class Compute(Protocol):
+    """Computes a module's function, or a partial of one, at some numbers, and gives what it found in their order."""
+
+    def __call__(self, function: Callable[[int], Found], numbers: Sequence[int]) -> Iterable[Found]:
+        """What the function gives for each number."""
+        ...
+
+
+COMPUTED_BY: ContextVar[Compute | None] = ContextVar("COMPUTED_BY", default=None)
+"""By what replications are computed; None: here, one after the other."""
+
+
+def replicated(made: Problem, function: Callable[[Problem, int], Found]) -> Iterable[Found]:
+    """What a function finds in every replication, in order.
+
+    Parameters
+        made : Problem
+        function : of the problem and the replication's number - of a module, so that it can be sent elsewhere
+    """
+    by = COMPUTED_BY.get()
+    if by is None:
+        return (function(made, number) for number in range(REPLICATIONS))
+    return by(partial(_by_text, function, text_of(made)), range(REPLICATIONS))
+
+
+def _by_text(function: Callable[[Problem, int], Found], text: str, number: int) -> Found:
+    return function(problem_of(text), number)
+
+
+def text_of(made: Problem) -> str:
+    """A study as text, from which `problem_of` makes the same study anywhere."""
+    section = made.section.model_dump(mode="json", exclude_unset=True, exclude_none=True, by_alias=True)
+    section["command"] = made.asked
+    return json.dumps({**made.data, "tolerance": section})
+
+
+@lru_cache(maxsize=4)
+def problem_of(text: str) -> Problem:
+    """The study of a text."""
+    return problem(KINDS[json.loads(text)["kind"]].spec_model().model_validate_json(text))
