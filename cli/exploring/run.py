@@ -30,7 +30,8 @@ from gearlink.cli.render.errors import show_errors
 from gearlink.core.explore.chunks import together
 from gearlink.core.explore.exploration import Exploration
 from gearlink.core.explore.front import Found
-from gearlink.core.explore.problem import Problem, problem
+from gearlink.core.explore.preparing import problem
+from gearlink.core.explore.problem import Problem
 from gearlink.core.study.faults import WrongStudy
 
 

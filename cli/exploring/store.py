@@ -18,7 +18,8 @@ from typing import Any, Protocol
 from gearlink.cli.cluster import processor
 from gearlink.core.errors import GearlinkError
 from gearlink.core.explore.chunks import Chunk
-from gearlink.core.explore.problem import SCHEMA, Problem, problem_of
+from gearlink.core.explore.preparing import problem_of
+from gearlink.core.explore.problem import SCHEMA, Problem
 from gearlink.core.version import VERSION
 
 Result = tuple[int, str, bytes]

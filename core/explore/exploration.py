@@ -9,7 +9,8 @@ from gearlink.core.design import Design, Outline
 from gearlink.core.explore.chunks import Miss, chunk_of, together
 from gearlink.core.explore.front import SHOWN, Found
 from gearlink.core.explore.order import Variable
-from gearlink.core.explore.problem import Problem, problem
+from gearlink.core.explore.preparing import problem
+from gearlink.core.explore.problem import Problem
 from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
 from gearlink.core.study.codes import FEASIBLE, RANGE_END

@@ -15,7 +15,8 @@ import pytest
 
 from gearlink.core.explore.chunks import chunk_of, evaluated, one_by_one, together
 from gearlink.core.explore.front import Found
-from gearlink.core.explore.problem import Problem, problem
+from gearlink.core.explore.preparing import problem
+from gearlink.core.explore.problem import Problem
 from gearlink.core.study.spec import StudySpec
 
 CASES = {c["name"]: c for c in json.loads((Path(__file__).parents[2] / "reference" / "explore.json").read_text())}

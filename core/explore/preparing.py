@@ -1,0 +1,274 @@
+"""From a study file to a problem that can be computed, or to all that is wrong with it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from typing import Any
+
+from gearlink.core.explore.base import Base, Refused
+from gearlink.core.explore.order import Variable
+from gearlink.core.explore.problem import Problem, numeric
+from gearlink.core.explore.wishes import Condition, FaultFound, Names, Objective, condition, contradiction, objective
+from gearlink.core.kinds import KINDS
+from gearlink.core.study.expressions import Expression
+from gearlink.core.study.faults import Fault, Place, WrongStudy
+from gearlink.core.study.spec import StudySpec, VariableSpec
+
+_TRIED_VALUES, _TRIED_LISTED = 100, 1000
+_EDGE = 1e-9
+
+
+def problem_of(canonical: str) -> Problem:
+    """The problem of a canonical text."""
+    data = json.loads(canonical)
+    del data["schema"], data["chunk"]
+    return problem(StudySpec.model_validate_json(json.dumps(data)))
+
+
+def problem(spec: StudySpec) -> Problem:
+    """Make a study ready to be computed.
+
+    Parameters
+        spec : StudySpec - with its base in `design`
+    Raises
+        WrongStudy - with all that is wrong
+    """
+    base = _base(spec)
+    reading = _Reading(spec, base)
+    variables = tuple(reading.variables())
+    names = reading.names()
+    objectives, conditions = reading.wishes(names)
+    if reading.faults:
+        raise WrongStudy(reading.faults)
+    must_pass = reading.base_values(objectives, conditions)
+    if reading.faults:
+        raise WrongStudy(reading.faults)
+    return Problem(spec, base, variables, tuple(objectives), tuple(conditions), must_pass)
+
+
+def _base(spec: StudySpec) -> Base:
+    assert spec.design is not None, "the reader puts the file of `of` here"
+    kind = spec.design.get("kind")
+    if kind not in KINDS:
+        raise WrongStudy([Fault("GL156", f"the base design has no kind {kind!r}", ("design", "kind"))])
+    probe = Base(spec.design, "")
+    try:
+        asked = probe.spec().commands()
+    except ValueError as error:
+        raise WrongStudy([Fault("GL156", f"the base design is wrong: {error}", ("design",))]) from None
+    known = tuple(KINDS[kind].commands)
+    command = spec.command or next((name for name in asked if name in known), known[0])
+    if command not in known:
+        message = f"`{command}` does not apply to a {kind}; this kind understands: {', '.join(known)}"
+        raise WrongStudy([Fault("GL113", message, ("command",))])
+    return Base(spec.design, command)
+
+
+class _Reading:
+    """Reads the parts of a study, and keeps all that is wrong."""
+
+    def __init__(self, spec: StudySpec, base: Base) -> None:
+        self.spec, self.base = spec, base
+        self.faults: list[Fault] = []
+
+    def variables(self) -> Iterator[Variable]:
+        """The variables that are in order; of the others a fault each."""
+        before: dict[str, Variable] = {}
+        taken: dict[str, str] = {}
+        for path, given in self.spec.variables.items():
+            made = self._variable(path, given, before, taken)
+            if made is not None:
+                before[path] = made
+                yield made
+
+    def _variable(
+        self, path: str, given: VariableSpec, before: dict[str, Variable], taken: dict[str, str]
+    ) -> Variable | None:
+        place = ("variables", path)
+        for other, at in ((path, place), *((name, (*place, "also")) for name in given.also)):
+            if not self.base.knows(other):
+                kind = self.base.kind.name
+                helps = self.base.nearest(other, self.base.units)
+                self.faults.append(Fault("GL151", f"{other} is no key of {kind}", at, helps))
+                return None
+            if other in taken:
+                message = f"{other} is given by the variable {taken[other]} already"
+                self.faults.append(Fault("GL111", message, at))
+                return None
+            taken[other] = path
+        if given.times is not None and (given.times not in before or not numeric(before[given.times])):
+            message = f"{given.times!r} is no variable of numbers above {path}"
+            self.faults.append(Fault("GL151", message, (*place, "times"), "list it before"))
+            return None
+        made = self._made(path, given)
+        wrong = self._refused_value(made, before)
+        if wrong is not None:
+            self.faults.append(wrong)
+            return None
+        return made
+
+    def _made(self, path: str, given: VariableSpec) -> Variable:
+        also = tuple(given.also)
+        if given.values is not None:
+            return Variable(path, also, tuple(given.values))
+        low, high = given.from_, given.to
+        assert low is not None, "the model asks for it"
+        assert high is not None, "the model asks for it"
+        whole = self.base.is_whole(path)
+        if given.points is not None:
+            return Variable(path, also, tuple(_points(low, high, given.points, log=given.log, whole=whole)))
+        step = given.step
+        if step is None and whole:
+            step = 1.0
+        return Variable(path, also, (), low, high, step, given.times or "", whole, given.log)
+
+    def _refused_value(self, variable: Variable, before: dict[str, Variable]) -> Fault | None:
+        """What the base has against one of a variable's values, each put in alone."""
+        place: tuple[str, ...] = ("variables", variable.path)
+        if variable.whole and variable.step is not None and variable.step != int(variable.step):
+            return Fault(
+                "GL156", f"{variable.path} takes whole numbers, a step of {variable.step:g} not", (*place, "step")
+            )
+        tried = list(_tried(variable, before))
+        if not tried:
+            return Fault("GL111", f"the range of {variable.path} holds no value", place, "widen it")
+        for value in tried:
+            message = self.base.takes([(path, value) for path in (variable.path, *variable.also)])
+            if message:
+                key = "values" if variable.values else "from" if value == tried[0] else "to"
+                at = (*place, key) if self.spec.variables[variable.path].points is None else place
+                return Fault("GL156", f"{variable.path} = {value!r} is refused in the base: {message}", at)
+        return None
+
+    def names(self) -> Names:
+        """The quantities and what is defined of them."""
+        known = frozenset(self.base.places)
+        defined: dict[str, Expression] = {}
+        for name, text in self.spec.define.items():
+            names = Names(self.base.unit, known, dict(defined), self.base.nearest)
+            place = ("define", name)
+            if not name.isidentifier() or name in known:
+                message = f"{name!r} is no new name" if name in known else f"{name!r} is no name: letters, digits and _"
+                self.faults.append(Fault("GL152", message, place, "choose another name"))
+                continue
+            try:
+                defined[name] = names.expression(text, place)
+            except FaultFound as found:
+                self.faults.append(found.fault)
+        return Names(self.base.unit, known, defined, self.base.nearest)
+
+    def wishes(self, names: Names) -> tuple[list[Objective], list[Condition]]:
+        """Objectives in the order of the file, minimised ones first, and conditions."""
+        objectives, conditions = [], []
+        for key, sign in (("minimize", 1.0), ("maximize", -1.0)):
+            for name, given in getattr(self.spec, key).items():
+                if sign < 0.0 and name in self.spec.minimize:
+                    self.faults.append(Fault("GL111", f"{name} is minimised already", (key, name)))
+                    continue
+                try:
+                    objectives.append(objective(name, given, sign, names, (key, name)))
+                except FaultFound as found:
+                    self.faults.append(found.fault)
+        for i, text in enumerate(self.spec.where):
+            try:
+                conditions.append(condition(text, names, ("where", i)))
+            except FaultFound as found:
+                self.faults.append(found.fault)
+        clash = contradiction(conditions)
+        if clash is not None:
+            first, second = (conditions[i].text for i in clash)
+            message = f"no design can meet both `{first}` and `{second}`"
+            self.faults.append(Fault("GL111", message, ("where", clash[1]), "widen or leave out one of them"))
+        return objectives, conditions
+
+    def base_values(self, objectives: list[Objective], conditions: list[Condition]) -> tuple[str, ...]:
+        """Compute the base; what its quantities are like, and the codes that must pass."""
+        wishes: list[tuple[Objective | Condition, Place]] = [
+            *((wish, ("minimize" if wish.sign > 0.0 else "maximize", wish.name)) for wish in objectives),
+            *((wish, ("where", i)) for i, wish in enumerate(conditions)),
+        ]
+        names = dict.fromkeys(name for wish, _ in wishes for name in wish.expression.names)
+        try:
+            design = self.base.design()
+            values = self.base.values(design, names)
+            failing = self._failing(design)
+        except Refused as error:
+            message = f"the base design cannot be computed: {error}"
+            below = error.key.split(".") if self.spec.of is None and error.key else ()
+            self.faults.append(Fault("GL156", message, ("design", *below), "a study varies a design that exists"))
+            return ()
+        for wish, place in wishes:
+            self.faults += _odd(wish, values, place)
+        return self._must_pass(failing)
+
+    def _failing(self, design: Any) -> set[str]:
+        from gearlink.core.errors import NoSolution
+
+        try:
+            outline = design.outline(self.base.command)
+            return {check.code for name in outline.checks for check in design.check(name) if check.status == "fail"}
+        except NoSolution as error:
+            raise Refused(error.key, error.message) from error
+
+    def _must_pass(self, failing: set[str]) -> tuple[str, ...]:
+        asked, known = self.spec.checks.must_pass, self.base.codes
+        if isinstance(asked, str):
+            left = set() if asked == "none" else set(known) - (failing if asked == "default" else set())
+            return tuple(sorted(left))
+        for i, code in enumerate(asked):
+            if code not in known:
+                helps = f"its checks are {', '.join(sorted(known))}"
+                message = f"no check {code!r} of `{self.base.command}`"
+                self.faults.append(Fault("GL152", message, ("checks", "must_pass", i), helps))
+        return tuple(sorted(set(asked)))
+
+
+def _odd(wish: Objective | Condition, values: dict[str, Any], place: Place) -> Iterator[Fault]:
+    """What is wrong with the quantities of a wish, by their values in the base."""
+    expression = wish.expression
+    words = isinstance(wish, Condition) and isinstance(wish.limit, str)
+    for name in expression.names:
+        value = values[name]
+        if isinstance(value, (list, tuple)):
+            message = f"{name} is a list of {len(value)}"
+            yield Fault("GL152", message, place, f"take one of them, {name}[0]")
+        elif isinstance(value, str) and not words:
+            yield Fault("GL152", f"{name} is a word ({value}), not a number", place, f"where: {name} == {value}")
+        elif value is not None and not isinstance(value, str) and words:
+            yield Fault("GL152", f"{name} is a number, not a word", place)
+        elif isinstance(wish, Condition) and wish.sign == "==" and isinstance(value, float) and name == expression.text:
+            message = f"{name} is a real number, which equals nothing exactly"
+            yield Fault("GL152", message, place, "compare it by >= and <=")
+
+
+def _points(low: float, high: float, count: int, *, log: bool, whole: bool) -> list[Any]:
+    shares = [i / (count - 1) for i in range(count)]
+    found = [low * (high / low) ** share if log else low + share * (high - low) for share in shares]
+    found[-1] = high
+    return list(dict.fromkeys(round(value) for value in found)) if whole else found
+
+
+def _tried(variable: Variable, before: dict[str, Variable]) -> Iterator[Any]:
+    """Values of a variable that are tried in the base: all where they are not many, else ends and an even share."""
+    if variable.values:
+        stride = max(1, len(variable.values) // _TRIED_LISTED)
+        yield from dict.fromkeys((*variable.values[::stride], variable.values[-1]))
+        return
+    parents = _span(before[variable.times], before) if variable.times else (1.0, 1.0)
+    low, high = (float(variable.ends(parent)[i]) for parent, i in zip(parents, (0, 1), strict=True))
+    if high < low:
+        return
+    step = variable.step or (high - low) / 8 or 1.0
+    count = int((high - low) / step + _EDGE) + 1
+    stride = max(1, count // _TRIED_VALUES)
+    for i in dict.fromkeys((0, count - 1, *range(0, count, stride))):
+        yield variable.written(low + i * step)
+
+
+def _span(variable: Variable, before: dict[str, Variable]) -> tuple[float, float]:
+    """Least and greatest value of a variable of numbers."""
+    if variable.values:
+        return min(variable.values), max(variable.values)
+    low, high = _span(before[variable.times], before) if variable.times else (1.0, 1.0)
+    return float(variable.ends(low)[0]), float(variable.ends(high)[1])
