@@ -53,7 +53,7 @@ def _keys(section: Node, definitions: Node, before: str) -> Iterator[SpecKey]:
     required = section.get("required", ())
     for name, node in section.get("properties", {}).items():
         path = before + name
-        inner = [definitions[target] for target in _targets(node)]
+        inner = list(_sections(node, definitions))
         yield SpecKey(
             path,
             node.get("unit", ""),
@@ -67,13 +67,15 @@ def _keys(section: Node, definitions: Node, before: str) -> Iterator[SpecKey]:
             yield from _keys(part, definitions, path + ".")
 
 
-def _targets(node: Node) -> Iterator[str]:
-    """Names of the sections that may stand at a node: itself, an alternative of it, but not elements of a list."""
+def _sections(node: Node, definitions: Node) -> Iterator[Node]:
+    """Sections that may stand at a node: itself, an alternative of it, but not elements of a list."""
     if "$ref" in node:
-        yield str(node["$ref"]).rpartition("/")[2]
+        yield definitions[str(node["$ref"]).rpartition("/")[2]]
+    elif "properties" in node and "description" in node:  # of a law by its numbers nothing is said
+        yield node
     for combination in ("allOf", "anyOf", "oneOf"):
         for part in node.get(combination, ()):
-            yield from _targets(part)
+            yield from _sections(part, definitions)
 
 
 def _range(node: Node) -> str:

@@ -28,7 +28,7 @@ class ToleranceStudy(Design):
     outlines = {
         "tolerance": Outline(
             ("yield", "yield_low", "yield_high", "samples", "seed", "no_mechanism"),
-            ("nominal", "target-yield", "no-mechanism", "linear-shares"),
+            ("target-yield", "no-mechanism", "linear-shares"),
             ("quantities", "requirements", "contributions"),
         )
     }
@@ -171,11 +171,15 @@ class ToleranceStudy(Design):
 
     # Checks
 
-    def check_nominal(self) -> Iterator[Check]:
-        """The checks of the nominal design."""
-        base = self.problem.base
-        for name in self.problem.nominal.outlines[base.command].checks:
-            yield from self.problem.nominal.check(name)
+    def outline(self, command: str) -> Outline:
+        """Besides the study's own checks those of the nominal design."""
+        own, nominal = super().outline(command), self.problem.nominal.outlines[self.problem.base.command]
+        return Outline(own.quantities, (*nominal.checks, *own.checks), own.tables)
+
+    def check(self, name: str) -> list[Check]:
+        """A check of the study, or of its nominal design."""
+        own = name in self.outlines["tolerance"].checks
+        return super().check(name) if own else self.problem.nominal.check(name)
 
     def check_target_yield(self) -> Iterator[Check]:
         """GL179 where the file names a target."""
