@@ -96,15 +96,26 @@ def legend_above(axes: Axes, columns: int = 5) -> None:
     """The legend above the right end of the panel, outside the curves; below the heading where they would meet."""
     labels = axes.get_legend_handles_labels()[1]
     title = str(axes.get_title(loc="left"))
-    one_row = len(labels) <= columns
-    if one_row and 1.4 * len(title) + sum(len(label) + 9 for label in labels) > _LINE:
-        axes.set_title(title, loc="left", fontsize=9, fontweight="bold", pad=17.0)
+    rows = max(1, math.ceil(len(labels) / columns))
+    widest = sum(max(len(label) for label in labels[i : i + rows]) + 9 for i in range(0, len(labels), rows))
+    if title and 1.4 * len(title) + widest > _LINE * _share_of_page(axes):
+        axes.set_title(title, loc="left", fontsize=9, fontweight="bold", pad=17.0 + 12.0 * (rows - 1))
     axes.legend(
         loc="lower right",
         bbox_to_anchor=(1.0, 1.0),
         ncols=columns,
         **_LEGEND,
     )
+
+
+def _share_of_page(axes: Axes) -> float:
+    """Part of the page's width that the panel's columns of the grid have, its margins not counted."""
+    place = axes.get_subplotspec()
+    if place is None:
+        return 1.0
+    grid = place.get_gridspec()
+    ratios: Any = grid.get_width_ratios() or [1.0] * grid.ncols
+    return float(sum(ratios[place.colspan.start : place.colspan.stop]) / sum(ratios))
 
 
 def legend_under_heading(axes: Axes, title: str, columns: int = 2) -> None:
