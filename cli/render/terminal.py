@@ -19,6 +19,8 @@ from gearlink.cli.render.numbers import number, quiet, readable_rows, scales, th
 from gearlink.core.report import Check, Quantity, Report, Table
 
 _MOST_ROWS = 24
+_HALF_WIDTH = "_pm"
+_MOST_DIGITS = 7  # behind the point: an interval that is narrower is not shown
 _STYLE = {"pass": "green", "warn": "yellow", "fail": "bold red"}
 _WIDE = 110
 _NOTHING = 1e-8  # of the limit: rounding, beside what the limit lets pass
@@ -180,6 +182,8 @@ def show_table(table: Table, console: Console, most: int = _MOST_ROWS) -> None:
     cells = readable_rows(table, step)
     thinned = f", {thinning(step, table)} (all with --table {table.name} --format csv)" if step > 1 else ""
     console.print(Text(f"\n{table.name}{thinned}", style="bold"))
+    if step == 1:
+        table, cells = _with_intervals(table, cells)
     for columns in _folds(table, cells, console.width):
         grid = grid_for(console)
         for i in columns:
@@ -190,6 +194,39 @@ def show_table(table: Table, console: Console, most: int = _MOST_ROWS) -> None:
         for row in cells:
             grid.add_row(*(row[i] for i in columns))
         console.print(grid)
+
+
+def _with_intervals(table: Table, cells: list[list[str]]) -> tuple[Table, list[list[str]]]:
+    """Estimates with their half-width X_pm in one column, short; columns that say nothing left out.
+
+    A table without half-widths stays as it is.
+    """
+    at = {name: i for i, name in enumerate(table.columns)}
+    if not any(name.endswith(_HALF_WIDTH) for name in table.columns):
+        return table, cells
+    shown = [
+        i
+        for i, name in enumerate(table.columns)
+        if name.removesuffix(_HALF_WIDTH) == name and any(value is not None for value in table.data[i])
+    ]
+    rows = []
+    for k, row in enumerate(cells):
+        halves = {i: table.data[at[name + _HALF_WIDTH]][k] for name, i in at.items() if name + _HALF_WIDTH in at}
+        rows.append([_interval(row[i], halves.get(i)) for i in shown])
+    units, data = tuple(table.units[i] for i in shown), tuple(table.data[i] for i in shown)
+    return Table(table.name, tuple(table.columns[i] for i in shown), units, data), rows
+
+
+def _interval(cell: str, half: float | None) -> str:
+    """A value to the digits that its interval leaves it, as 20.3107 +-0.0005."""
+    if half is None or not math.isfinite(half):
+        return cell
+    if half <= 0.0 or cell == "-":
+        return cell
+    digits = max(0, -math.floor(math.log10(half)))
+    if digits > _MOST_DIGITS:
+        return cell
+    return f"{float(cell):.{digits}f} +-{half:.{digits}f}"
 
 
 def _folds(table: Table, cells: Sequence[Sequence[str]], width: int) -> list[list[int]]:

@@ -22,6 +22,7 @@ from gearlink.core.three_gear.register_gains import Drive, register_gains
 from gearlink.core.three_gear.synthesis import BackStepSynthesis, VariableSpeedSynthesis
 from gearlink.core.three_gear.tolerance_axis import ThreeGearSamples
 from gearlink.core.tolerance.budget import Contribution
+from gearlink.core.tolerance.correlation import coordinate_root, together
 from gearlink.core.tolerance.register_design import RegisterDesign, contribution, no_such_place
 from gearlink.core.tolerance.sampling import replications, rounded_up
 from gearlink.core.tolerance.sources import Parts, Scatter
@@ -183,9 +184,10 @@ class ThreeGearRegister(RegisterDesign):
         chosen = angles[np.linspace(0, angles.size - 1, min(angles.size, _PLACES_PER_SAMPLE)).astype(int)]
         count = rounded_up(section.samples or _SAMPLES)
         width = sum(2 if one.coordinates == 2 else 1 for one in sources)
-        worst = []
+        _ = self.correlations  # refused before anything is sampled
+        root, worst = coordinate_root(section, sources), []
         for points in replications(width, count, section.seed):
-            errors = Errors(self._errors(sources, points))
+            errors = Errors(self._errors(sources, together(points, root)))
             error = partial(output_error, self.drive, torque_sign=sign, errors=errors)
             relative = 0.0 if chosen.size == 1 else error(np.full(1, chosen[0]))
             found = [error(np.full(1, phi)) - relative for phi in chosen]

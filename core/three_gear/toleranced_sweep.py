@@ -174,7 +174,8 @@ class DriveSamples(NearDrives):
         if nominal is not None and self.nominal.back_step is not None:
             further = nominal - self.nominal.back_step.crank_angle
             guess = np.where(width < 0.5 * self.nominal.back_step.crank_angle, guess, second + further)
-        found = self._level(top, guess, float(guess[0]), back)
+        there = guess[np.isfinite(guess)]
+        found = self._level(top, guess, float(there[0]) if there.size else self._near, back)
         self.unsettled |= back & ~(found > second)
         return found
 

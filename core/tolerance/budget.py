@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -57,14 +57,20 @@ class Budget:
     rows: tuple[Row, ...]
 
 
-def budget(contributions: Sequence[Contribution], start: int | None) -> Budget:
+def budget(
+    contributions: Sequence[Contribution],
+    start: int | None,
+    correlations: Mapping[tuple[str, str], float] | None = None,
+) -> Budget:
     """Add up the sources of an error.
 
-    worst = sum |g - g0| limit,   rss^2 = sum |g - g0|^2 sigma^2
+    worst = sum |g - g0| limit,   rss^2 = sum |g - g0|^2 sigma^2 + sum rho_ij (g - g0)_i (g - g0)_j sigma_i sigma_j
 
     Parameters
         contributions : of one length
         start : int - place that the error is relative to, since what does not change costs nothing; None: absolute
+        correlations : by pairs of sources, both ways round - of real gains; a row's share is its covariance with the
+            whole, and may be negative
     Notes
         The gain's difference is taken before its magnitude: both ends of a stretch have the same cause.
     Example
@@ -76,12 +82,17 @@ def budget(contributions: Sequence[Contribution], start: int | None) -> Budget:
     Source
         ISO/IEC Guide 98-3, 5.1.2; own derivation of the gains
     """
-    gains = [np.abs(_counted(one, start)) for one in contributions]
+    counted = [_counted(one, start) for one in contributions]
     limits = np.array([one.limit for one in contributions])
     sigmas = np.array([one.sigma for one in contributions])
-    magnitudes = np.array(gains)
+    magnitudes = np.abs(np.array(counted))
     worst, squares = limits @ magnitudes, (sigmas[:, None] * magnitudes) ** 2
-    rss = np.sqrt(squares.sum(axis=0))
+    names = [one.source for one in contributions]
+    for (one, other), rho in (correlations or {}).items():
+        if one in names and other in names:
+            i, j = names.index(one), names.index(other)
+            squares[i] += rho * sigmas[i] * sigmas[j] * np.real(counted[i] * np.conj(counted[j]))
+    rss = np.sqrt(np.maximum(squares.sum(axis=0), 0.0))
     at = int(np.argmax(rss))
     whole = float(squares[:, at].sum())
     rows = tuple(

@@ -15,6 +15,7 @@ from gearlink.core.report import Check, Status, Table, safely_above
 from gearlink.core.results import cached_property
 from gearlink.core.tolerance.budget import Budget, Contribution, budget
 from gearlink.core.tolerance.codes import BACKLASH_IN_DWELL, REGISTER_BUDGET
+from gearlink.core.tolerance.correlation import of_sizes
 from gearlink.core.tolerance.sources import Parts, Scatter, scatters
 from gearlink.core.tolerance.spec import Register
 
@@ -88,6 +89,11 @@ class RegisterDesign(Design):
         return scatters(self.spec.tolerance, self.spec, self.parts)
 
     @cached_property
+    def correlations(self) -> dict[tuple[str, str], float]:
+        """How sizes scatter together."""
+        return of_sizes(self.spec.tolerance, self.sources)
+
+    @cached_property
     def place(self) -> str | float:
         """Where the register is asked for: a name, or an input angle [deg]."""
         at = self.section.at
@@ -113,7 +119,7 @@ class RegisterDesign(Design):
 
     def _budget(self, sign: int) -> Budget:
         start = 0 if self.input_angles.size > 1 else None
-        return budget(self.contributions(self.input_angles, sign), start)
+        return budget(self.contributions(self.input_angles, sign), start, self.correlations)
 
     @cached_property
     def budgets(self) -> tuple[Budget, Budget]:
@@ -168,7 +174,7 @@ class RegisterDesign(Design):
         from gearlink.core.numerics.arrays import turn_degrees
 
         degrees = turn_degrees(samples)
-        found = [budget(self.contributions(np.radians(degrees), sign), None) for sign in SIGNS]
+        found = [budget(self.contributions(np.radians(degrees), sign), None, self.correlations) for sign in SIGNS]
         columns = {
             "torque_sign": (np.repeat(np.array(SIGNS), degrees.size), "1"),
             "input_angle": (np.tile(degrees, 2), "deg"),

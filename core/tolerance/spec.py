@@ -170,6 +170,8 @@ class Tolerance(Spec):
         for group in self.correlated:
             if unknown := [name for name in group.sources if name not in self.sources]:
                 raise _wrong("GL176", f"{unknown[0]!r} of correlated is no source: name keys of `sources`")
+            if twice := [name for name in group.sources if group.sources.count(name) > 1]:
+                raise _wrong("GL176", f"{twice[0]!r} stands twice in one group of correlated: name different sources")
         return self
 
 

@@ -11,14 +11,16 @@ from gearlink.core.errors import MissingSection
 from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
 from gearlink.core.tolerance.codes import NO_MECHANISM, NOT_LINEAR, TARGET_YIELD
+from gearlink.core.tolerance.correlation import pairs
 from gearlink.core.tolerance.sampling import Estimate
 from gearlink.core.tolerance_study import allocation
 from gearlink.core.tolerance_study.problem import MOST_WITH_INDICES, Problem, no, problem
 from gearlink.core.tolerance_study.samples import evaluated
 from gearlink.core.tolerance_study.sensitivity import Indices, Slope, corners, indices, linear_shares, slopes
-from gearlink.core.tolerance_study.statistics import Result, capabilities, result
+from gearlink.core.tolerance_study.statistics import Result, Spread, capabilities, result
 
 _EXPLAINED = 0.9
+_ROUNDING = 1e-13
 
 
 class ToleranceStudy(Design):
@@ -93,7 +95,7 @@ class ToleranceStudy(Design):
     def varying(self) -> tuple[str, ...]:
         """Quantities that scatter."""
         spreads = self.result.spreads
-        return tuple(name for name in self.problem.names if name in spreads and spreads[name].sigma.value > 0.0)
+        return tuple(name for name in self.problem.names if name in spreads and _scatters(spreads[name]))
 
     @cached_property
     def units(self) -> dict[str, str]:
@@ -147,9 +149,9 @@ class ToleranceStudy(Design):
 
     def table_contributions(self, _samples: int | None = None) -> Table:
         """What each source adds to each quantity's variance."""
-        rows = []
+        rows, correlations = [], pairs(self.problem.section, self.problem.sources)
         for name in self.varying:
-            shares = linear_shares(self.slopes[name])
+            shares = linear_shares(self.slopes[name], self.problem.sources, correlations)
             for i, source in enumerate(self.problem.sources):
                 found = None if self._indices is None else self._indices[name][i]
                 estimates = (None, None) if found is None else (found.first, found.total)
@@ -233,6 +235,11 @@ class ToleranceStudy(Design):
             if share < _EXPLAINED:
                 text = f"the slopes explain {100 * share:.3g} % of the variance of {name}: ask for --sobol"
                 yield NOT_LINEAR.check("warn", text, share, _EXPLAINED)
+
+
+def _scatters(spread: Spread) -> bool:
+    """Whether a quantity scatters by more than rounding does, as the residual of a solver would."""
+    return spread.sigma.value > _ROUNDING * max(1.0, abs(spread.mean.value))
 
 
 def _pm(one: Estimate | None) -> tuple[float | None, float | None]:

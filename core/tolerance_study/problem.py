@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -21,11 +20,13 @@ from gearlink.core.nomenclature import term
 from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.study.faults import Fault, WrongStudy
 from gearlink.core.tolerance.axis import ToleranceAxis
+from gearlink.core.tolerance.correlation import coordinate_root, together
 from gearlink.core.tolerance.sources import Parts, Scatter, scatters
 from gearlink.core.tolerance.spec import Tolerance
 
 ARRAY_SAMPLES, SCALAR_SAMPLES = 131_072, 4096
 MOST_WITH_INDICES = 32
+_ABOUT = ("tolerance", "register", "loads")  # commands about a design, and their sections: no sample is for them
 _AXES = {"three-gear-four-bar": "three_gear.tolerance_axis:ThreeGearSamples"}
 
 
@@ -78,10 +79,32 @@ class Problem:
         found = []
         for i, text in enumerate(self.section.require):
             try:
-                found.append(condition(text, names, ("tolerance", "require", i)))
+                one = condition(text, names, ("tolerance", "require", i))
             except FaultFound as error:
                 raise WrongStudy([error.fault]) from error
+            self._comparable(one, i)
+            found.append(one)
         return tuple(found)
+
+    def _comparable(self, one: Condition, place: int) -> None:
+        """Words are compared with words, numbers with numbers.
+
+        Raises
+            WrongStudy - GL152
+        """
+        worded, kinds = isinstance(one.limit, str), ("number", "word")
+        for name in one.expression.names:
+            if self.axis is not None and name in self.axis.extra:
+                is_word = False
+            else:
+                value = self._nominal_value(name.partition("[")[0])
+                if value is None:
+                    continue
+                is_word = isinstance(value, str)
+            if is_word != worded:
+                helps = f"such as {name} == {value}" if is_word else f"such as {name} >= 0"
+                message = f"{name} is a {kinds[is_word]}, {one.limit if worded else f'{one.limit:g}'} a {kinds[worded]}"
+                raise WrongStudy([Fault("GL152", message, ("tolerance", "require", place), helps)])
 
     @cached_property
     def names(self) -> tuple[str, ...]:
@@ -124,26 +147,8 @@ class Problem:
 
     @cached_property
     def _correlation(self) -> Reals | None:
-        """Lower triangle that makes normal coordinates scatter together; None where all are independent."""
-        if not self.section.correlated:
-            return None
-        place, at = {}, 0
-        for one in self.sources:
-            place[one.key] = range(at, at + one.coordinates)
-            at += one.coordinates
-        matrix = np.eye(at)
-        for group in self.section.correlated:
-            keys = [key for key in group.sources if key in place]
-            for key, other in itertools.permutations(keys, 2):
-                for i, j in zip(place[key], place[other], strict=False):
-                    matrix[i, j] = group.rho
-        least = float(np.linalg.eigvalsh(matrix)[0])
-        if least < -1e-12:
-            message = f"these correlations contradict each other (least eigenvalue {least:.3g}): make them smaller"
-            raise no("GL176", message, "correlated")
-        values, vectors = np.linalg.eigh(matrix)
-        root: Reals = vectors * np.sqrt(np.maximum(values, 0.0))
-        return root
+        """What makes normal coordinates scatter together; None where all are independent."""
+        return coordinate_root(self.section, self.sources)
 
     def sizes(self, points: Reals) -> dict[str, Reals | Points]:
         """Sizes as made of random numbers.
@@ -153,10 +158,7 @@ class Problem:
         Returns
             columns : (N,) arrays by source - as `gearlink.core.tolerance.axis` wants them
         """
-        if self._correlation is not None:
-            from scipy.special import ndtr, ndtri
-
-            points = ndtr(ndtri(points) @ self._correlation.T)
+        points = together(points, self._correlation)
         columns: dict[str, Reals | Points] = {}
         at = 0
         for one in self.sources:
@@ -196,13 +198,13 @@ def problem(spec: Any, command: str | None = None) -> Problem:
     """
     section: Tolerance = spec.tolerance
     data = spec.model_dump(mode="json", exclude_unset=True, by_alias=True)
-    for key in ("tolerance", "register", "loads"):
+    for key in _ABOUT:
         data.pop(key, None)
-    asked = command or section.command or next(one for one in spec.commands() if one not in ("loads", "tolerance"))
+    asked = command or section.command or next(one for one in spec.commands() if one not in _ABOUT)
     kind = KINDS[data["kind"]]
-    if asked not in kind.commands:
-        known = ", ".join(one for one in kind.commands if one not in ("tolerance", "register", "loads"))
-        raise NoSolution(f"{kind.name} has no command {asked!r}: it has {known}", key="tolerance.command")
+    if asked not in kind.commands or asked in _ABOUT:
+        known = ", ".join(one for one in kind.commands if one not in _ABOUT)
+        raise NoSolution(f"no samples for the command {asked!r} of {kind.name}: take {known}", key="tolerance.command")
     base = _with_links(Base(data, asked))
     try:
         nominal = base.design()

@@ -10,6 +10,7 @@ from functools import partial
 import numpy as np
 
 from gearlink.core.numerics.arrays import Reals
+from gearlink.core.tolerance.correlation import groups
 from gearlink.core.tolerance.sampling import Estimate, estimate, replication, rounded_up
 from gearlink.core.tolerance.sources import Scatter
 from gearlink.core.tolerance_study.problem import Problem
@@ -94,12 +95,23 @@ def component_sigma(source: Scatter) -> float:
     return 0.5 * math.sqrt(0.5 * (mean * mean + sigma * sigma))
 
 
-def linear_shares(rows: Sequence[Slope]) -> list[float | None]:
-    """Shares of the variance by the slopes; None for all where one of them has a kink, or nothing scatters."""
-    whole = sum(row.sigma**2 for row in rows)
+def linear_shares(
+    rows: Sequence[Slope], sources: Sequence[Scatter], correlations: Mapping[tuple[str, str], float]
+) -> list[float | None]:
+    """Shares of the variance by the slopes; None for all where one of them has a kink, or nothing scatters.
+
+    A source's share is its covariance with the whole: with correlations it may be negative, and all still add up to 1.
+    """
+    signed = [math.copysign(row.sigma, row.gain[0]) for row in rows]
+    parts = [
+        one
+        * sum(correlations.get((a.key, b.key), float(a is b)) * other for b, other in zip(sources, signed, strict=True))
+        for a, one in zip(sources, signed, strict=True)
+    ]
+    whole = sum(parts)
     if whole <= 0.0 or not math.isfinite(whole) or any(row.kink for row in rows):
         return [None] * len(rows)
-    return [row.sigma**2 / whole for row in rows]
+    return [part / whole for part in parts]
 
 
 @dataclass(frozen=True)
@@ -116,7 +128,8 @@ def indices(made: Problem, names: Sequence[str]) -> dict[str, list[Indices]]:
     S_i = [mean(f_B f_C) - f0^2]/V (Janon),   T_i = mean((f_A - f_C)^2)/(2 V) (Jansen)
 
     Notes
-        C is A with the source's columns of B. Each replication by itself, with the mean and variance of its own; the
+        C is A with the source's columns of B; sources that scatter together have one index, that of their group.
+        Each replication by itself, with the mean and variance of its own; the
         interval is that of the replications.
     Source
         I. M. Sobol', Math. Comput. Simul. 55 (2001) 271; A. Janon et al., ESAIM P&S 18 (2014) 342; M. J. W. Jansen,
@@ -138,16 +151,17 @@ def _indices_of(made: Problem, number: int, names: Sequence[str]) -> Mapping[str
     return {name: [_indices(one[name], other[name], each[name]) for each in mixed] for name in names}
 
 
-def _columns(made: Problem) -> list[slice]:
-    """Which random numbers are a source's."""
-    groups, at = [], 0
+def _columns(made: Problem) -> list[list[int]]:
+    """Which random numbers are a source's, and those of the sources that scatter with it."""
+    own, at = [], 0
     for source in made.sources:
-        groups.append(slice(at, at + source.coordinates))
+        own.append(range(at, at + source.coordinates))
         at += source.coordinates
-    return groups
+    group = groups(made.section, made.sources)
+    return [[i for j, columns in enumerate(own) if group[j] == number for i in columns] for number in group]
 
 
-def _swapped(a: Reals, b: Reals, group: slice) -> Reals:
+def _swapped(a: Reals, b: Reals, group: list[int]) -> Reals:
     mixed = a.copy()
     mixed[:, group] = b[:, group]
     return mixed

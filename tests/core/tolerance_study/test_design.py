@@ -11,6 +11,7 @@ import factory
 import numpy as np
 import pytest
 
+from gearlink.core.errors import NoSolution
 from gearlink.core.study.faults import WrongStudy
 from gearlink.core.tolerance_study.allocation import Graded, Wish, choices
 
@@ -169,3 +170,56 @@ def test_too_many_sources_are_refused() -> None:
     made = study(data, sources=sources, sobol=True, samples=16)
     assert made.problem.coordinates == 9
     assert np.isfinite(made.raw("yield"))
+
+
+def register(rho: float | None, method: str = "rss", **more: Any) -> Any:
+    sources = {key: FOUR[key] for key in ("centers.crank_idler", "centers.idler_output")} | more
+    group = [] if rho is None else [{"sources": list(sources), "rho": rho}]
+    section = {"sources": sources, "correlated": group, "samples": 2**15}
+    return factory.design(CANDY | {"tolerance": section, "register": {"method": method}}, command="register")
+
+
+def test_sizes_that_scatter_as_one_add_up_in_the_register() -> None:
+    """rho = 1: the two standard deviations add; rho = -1 and equal gains: they cancel."""
+    alone, one, against = register(None), register(1.0), register(-1.0)
+    gains = np.array([row["sigma"] for row in rows(alone.table_budget()) if row["torque_sign"] == 1])
+    assert alone.rss[0] == pytest.approx(math.hypot(*gains), rel=1e-14)
+    assert one.rss[0] == pytest.approx(gains.sum(), rel=1e-14)
+    assert against.rss[0] == pytest.approx(0.0, abs=1e-9)  # the root of a difference that is rounding
+    assert one.worst == alone.worst
+    assert sum(row["share"] for row in rows(one.table_budget()) if row["torque_sign"] == 1) == pytest.approx(1.0)
+
+
+def test_correlated_samples_of_the_chain_are_the_correlated_budget() -> None:
+    """A quantile of 2^15 samples of a normal error: some thousandths."""
+    assert register(0.7, "mc").band == pytest.approx(register(0.7).band, rel=0.02)
+
+
+@pytest.mark.parametrize("key", ["require", "command", "correlated"])
+def test_words_numbers_and_commands_that_fit_nothing_are_refused(key: str) -> None:
+    wrong = {"require": ["motion >= 3"], "command": "loads"}
+    if key == "correlated":
+        with pytest.raises(WrongStudy, match="has a direction"):
+            register(0.5, **{"pins.A": {"clearance": [0.01, 0.02]}}).report("register")
+        return
+    with pytest.raises((WrongStudy, NoSolution), match=r"word|loads"):
+        study(CANDY, sources=FOUR, samples=64, **{key: wrong[key]}).report("tolerance")
+
+
+def test_limits_beyond_all_machines_leave_no_mechanism() -> None:
+    made = study(CANDY, sources={"links.crank": {"plus_minus": 1e12}}, samples=64)
+    assert (made.no_mechanism, made.raw("yield")) == (1.0, 0.0)
+
+
+def test_indices_of_correlated_sources_are_those_of_their_group() -> None:
+    """Of a nearly linear quantity: the group's share of the variance, (g1 + g2)^2 where both are one, and the rest."""
+    group = [{"sources": ["centers.crank_idler", "centers.idler_output"], "rho": 1.0}]
+    section = {"sources": FOUR, "correlated": group, "require": ["back_step_angle <= 21 deg"], "sobol": True}
+    found = rows(study(CANDY, **section, samples=2**13).table_contributions())
+    crank, frame, both = 2.9581448247**2, 0.7503110467**2, (2.0 * 1.0285307299) ** 2
+    shares = {"links.crank": crank, "links.frame": frame, "centers.crank_idler": both, "centers.idler_output": both}
+    for row in found:
+        assert row["first"] == pytest.approx(shares[row["source"]] / (crank + frame + both), abs=0.01)
+        assert row["total"] == pytest.approx(row["first"], abs=0.01)
+        half = 0.5 if row["source"].startswith("centers") else 1.0  # each of the two covers half of the group's
+        assert row["linear"] == pytest.approx(half * shares[row["source"]] / (crank + frame + both), rel=1e-6)
