@@ -71,7 +71,7 @@ def _wide_swing(design: Any) -> Makers:
 
 def _pair(design: Any, key: str = "") -> Makers:
     pair = design.gear_pair
-    widths = design.data.face_width if hasattr(design, "data") else None
+    widths = (design.gear_data if design.kind == "flatbed-press" else design.data).face_width
     found = _of_mesh(pair, ("gear1", "gear2"), ("gear 1", "gear 2"), key, widths=widths)
     return {"gear1": found["gear1"]} if getattr(design.spec, "rack", False) else found
 

@@ -179,7 +179,7 @@ def _meshes(design: Any) -> Iterator[tuple[tuple[str, str], GearPair, tuple[floa
     if design.kind in ("gear-pair", "flatbed-press"):
         if design.kind == "flatbed-press" and design.spec.input_gears is None:
             return
-        widths = design.data.face_width if design.kind == "gear-pair" else None
+        widths = (design.data if design.kind == "gear-pair" else design.gear_data).face_width
         yield ("gear 1", "gear 2"), design.gear_pair, widths
     elif design.kind == "three-gear-four-bar":
         first, second = design.meshes.values()

@@ -11,9 +11,11 @@ from gearlink.core.errors import MissingSection, NoSolution, at_key
 from gearlink.core.flatbed_press import checks, remedies, tables
 from gearlink.core.flatbed_press.cams import PressCams
 from gearlink.core.flatbed_press.motion import PressMotion
-from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantities, gear_check, gear_quantity
+from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantities, gear_quantity
+from gearlink.core.gears.data import DRAWING_QUANTITIES
+from gearlink.core.gears.drawing_checks import DRAWING_CHECKS, pair_check
 from gearlink.core.linkages.slider_crank_design import SLIDER_QUANTITIES, SliderCrankQuantities
-from gearlink.core.report import Check
+from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
@@ -21,6 +23,7 @@ if TYPE_CHECKING:
     from gearlink.core.flatbed_press.chains import BedChain, CylinderChain
     from gearlink.core.flatbed_press.compensation import Compensation
     from gearlink.core.flatbed_press.spec import FlatbedPressSpec
+    from gearlink.core.gears.data import GearData
     from gearlink.core.gears.pair import GearPair
     from gearlink.core.linkages.slider_crank import SliderCrank
 
@@ -65,11 +68,11 @@ class FlatbedPress(SliderCrankQuantities, GearQuantities, Design):
         "press": Outline(_PRESS_QUANTITIES, _PRESS_CHECKS, ("positions",)),
         "cam": Outline((*_SYNC, *_CAM), _CAM_CHECKS, _CAM_TABLES),
         "crank": Outline(("crank_length", *SLIDER_QUANTITIES)),
-        "gear": Outline(GEAR_QUANTITIES, GEAR_CHECKS),
+        "gear": Outline((*GEAR_QUANTITIES, *DRAWING_QUANTITIES), (*GEAR_CHECKS, *DRAWING_CHECKS)),
         "analyze": Outline(_PRESS_QUANTITIES, _PRESS_CHECKS, ("positions",)),
     }
 
-    extra_tables = ("chains",)
+    extra_tables = ("chains", "drawing")
     trials = 30
     candidates, ways_of = remedies.candidates, remedies.ways_of
 
@@ -97,21 +100,30 @@ class FlatbedPress(SliderCrankQuantities, GearQuantities, Design):
         gears = self.spec.input_gears
         if gears is None:
             raise MissingSection("`gear` needs the section input_gears: module, horizontal_distance", key="input_gears")
-        from gearlink.core.gears.pair import GearPair
+        from gearlink.core.gears.from_spec import pair_at
 
         bed = self.spec.bed
         distance = math.hypot(gears.horizontal_distance, bed.offset - bed.double_crank.frame)
         # A centre distance of whole teeth is not to lose one of them to the rounding of the quotient.
-        teeth = math.floor(distance / gears.module * (1.0 + 1e-12))
+        transverse = gears.module / math.cos(math.radians(gears.helix_angle))
+        teeth = math.floor(distance / transverse * (1.0 + 1e-12))
         if teeth < 1:
             raise NoSolution(
                 f"module {gears.module:g} mm leaves no tooth at the centre distance {distance:.6g} mm: make it smaller",
                 key="input_gears.module",
             )
         with at_key("input_gears"):
-            return GearPair.from_center_distance(
-                gears.module, (teeth, teeth), distance, pressure_angle=math.radians(gears.pressure_angle)
-            )
+            return pair_at(gears, (teeth, teeth), distance)
+
+    @cached_property
+    def gear_data(self) -> GearData:
+        """The input gears with all that their drawing needs."""
+        from gearlink.core.gears.from_spec import data_of
+
+        pair = self.gear_pair
+        assert self.spec.input_gears is not None, "the pair asks for it"
+        with at_key("input_gears"):
+            return data_of(self.spec.input_gears, pair)
 
     input_speed: float = placed("motion.input_speed")
     zone_length: float = placed("motion.zone_length")
@@ -149,9 +161,25 @@ class FlatbedPress(SliderCrankQuantities, GearQuantities, Design):
 
     def raw(self, name: str) -> Any:
         """Quantities of the gear pair are its own."""
-        return gear_quantity(self.gear_pair, name) if name in GEAR_QUANTITIES else super().raw(name)
+        if name in GEAR_QUANTITIES:
+            return gear_quantity(self.gear_pair, name)
+        if name not in DRAWING_QUANTITIES:
+            return super().raw(name)
+        with at_key("input_gears"):
+            return self.gear_data.quantity(name)
+
+    @property
+    def _shifts_given(self) -> bool:
+        return self.spec.input_gears is not None and self.spec.input_gears.profile_shift is not None
 
     # Tables and checks
+
+    def table_drawing(self, _samples: int | None = None) -> Table:
+        """The gear table of the drawing of the input gears."""
+        from gearlink.core.gears.drawing import drawing_table
+
+        with at_key("input_gears"):
+            return drawing_table(self.gear_data)
 
     table_positions, table_follower, table_chains = tables.positions, tables.follower, tables.chains
     table_main_cam, table_return_cam = tables.main_cam, tables.return_cam
@@ -164,9 +192,10 @@ class FlatbedPress(SliderCrankQuantities, GearQuantities, Design):
 
     def check(self, name: str) -> list[Check]:
         """Gear checks come from the gear pair, all others are the press's own."""
-        if name in GEAR_CHECKS:
-            return list(gear_check(name, self.gear_pair, self.spec.limits))
-        return super().check(name)
+        if name not in GEAR_CHECKS and name not in DRAWING_CHECKS:
+            return super().check(name)
+        with at_key("input_gears"):
+            return pair_check(name, self.gear_data, self.spec.limits, shifts=self._shifts_given)
 
     def outline(self, command: str) -> Outline:
         """With the section `cam`, `press` judges whether the cams can bear the motion; `analyze` shows them too."""

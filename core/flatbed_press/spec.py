@@ -7,6 +7,8 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
+from gearlink.core.gears.pair_keys import PairKeys
+from gearlink.core.gears.spec_parts import DrawingLimits
 from gearlink.core.spec import (
     AcuteAngle,
     Angle,
@@ -17,7 +19,6 @@ from gearlink.core.spec import (
     Length,
     LoadLimits,
     MotionLaw,
-    PressureAngle,
     Ratio,
     SignedLength,
     Spec,
@@ -29,12 +30,10 @@ TurnAngle = Annotated[float, Field(ge=0, lt=360, json_schema_extra={"unit": "deg
 PartOfTurn = Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})]
 
 
-class InputGears(Spec):
+class InputGears(PairKeys):
     """The 1:1 pair that brings the power in; its centre distance follows from the machine."""
 
-    module: Length = Field(description="module")
     horizontal_distance: Length = Field(description="horizontal distance w of the two axes")
-    pressure_angle: PressureAngle = Field(20.0, description="pressure angle of the reference profile")
 
 
 class DoubleCrank(Spec):
@@ -121,7 +120,7 @@ class PressSize(Spec):
     )
 
 
-class PressLimits(GearLimits, LoadLimits):
+class PressLimits(DrawingLimits, GearLimits, LoadLimits):
     """Limits of the checks."""
 
     transmission_angle: AcuteAngle = Field(30.0, description="least transmission angle of both chains")

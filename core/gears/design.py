@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 from gearlink.core.design import Design, Outline
 from gearlink.core.errors import NoSolution, at_key
-from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantities, gear_check, gear_quantity
+from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantities, gear_quantity
 from gearlink.core.gears.data import DRAWING_QUANTITIES, GearData
 from gearlink.core.gears.drawing import drawing_table
-from gearlink.core.gears.drawing_checks import DRAWING_CHECKS, drawing_check, helical_contact
+from gearlink.core.gears.drawing_checks import DRAWING_CHECKS, pair_check
 from gearlink.core.gears.from_spec import data_of, pair_of
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.remedies import Way, down, either, shared, up
@@ -92,21 +92,16 @@ class GearPairDesign(GearQuantities, Design):
     def raw(self, name: str) -> Any:
         """Every quantity is the pair's."""
         with at_key(self._placed_by):
-            if self.rack is not None:
+            if self.spec.rack and self.rack is not None:
                 return self.rack.quantity(name)
             return gear_quantity(self.gear_pair, name) if name in GEAR_QUANTITIES else self.data.quantity(name)
 
     def check(self, name: str) -> list[Check]:
         """Every check is the pair's."""
         with at_key(self._placed_by):
-            if self.rack is not None:
+            if self.spec.rack and self.rack is not None:
                 return list(self.rack.checks(name, self.spec.limits))
-            if name in DRAWING_CHECKS:
-                radial = self.spec.assembly == "radial"
-                return list(drawing_check(name, self.data, self.spec.limits, radial=radial))
-            if name == "contact-ratio" and (found := helical_contact(self.data, self.spec.limits)):
-                return [found]
-            return list(gear_check(name, self.gear_pair, self.spec.limits, shifts=True))
+            return pair_check(name, self.data, self.spec.limits, radial=self.spec.assembly == "radial")
 
     def _two_gears(self, what: str) -> GearData:
         """The data of a pair of two gears.

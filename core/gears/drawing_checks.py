@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from typing import Protocol
 
+from gearlink.core.gears.checks import Limits, gear_check
 from gearlink.core.gears.codes import BACKLASH, BENDING, CONTACT_RATIO, FILLET, PITTING, TIP_FOULING
 from gearlink.core.gears.data import GearData
 from gearlink.core.gears.internal import InternalInterference
@@ -32,6 +34,13 @@ class DrawingLimits(Protocol):
     def safety_bending(self) -> float: ...
 
 
+class PairLimits(Limits, DrawingLimits, Protocol):
+    """What all checks of a pair read of a spec's `limits`."""
+
+    @property
+    def contact_ratio(self) -> float: ...
+
+
 def drawing_check(name: str, data: GearData, limits: DrawingLimits, *, radial: bool = False) -> Iterator[Check]:
     """The findings of one of DRAWING_CHECKS on a pair.
 
@@ -48,6 +57,30 @@ def drawing_check(name: str, data: GearData, limits: DrawingLimits, *, radial: b
         yield from _cutter(data)
         return
     yield from _OF_PAIR[name](data, limits)
+
+
+def pair_check(
+    name: str, data: GearData, limits: PairLimits, *, mesh: str = "", shifts: bool = True, radial: bool = False
+) -> list[Check]:
+    """The findings of one of GEAR_CHECKS or DRAWING_CHECKS on a pair of gears.
+
+    Parameters
+        name : str
+        data : GearData
+        limits : the `limits` section of a spec
+        mesh : str - name of the mesh in a design with several, put before the message
+        shifts : bool - the design file has keys of the profile shifts, which messages may then name
+        radial : bool - the pinion is to be put into its ring along the line of centres
+    Source
+        ISO 21771 for the quantities
+    """
+    if name in DRAWING_CHECKS:
+        before = f"{mesh.replace('_', '-')} mesh: " if mesh else ""
+        found = drawing_check(name, data, limits, radial=radial)
+        return [replace(check, message=before + check.message) if before else check for check in found]
+    if name == CONTACT_RATIO.name and (helical := helical_contact(data, limits)):
+        return [helical]
+    return list(gear_check(name, data.pair, limits, mesh, shifts))
 
 
 def helical_contact(data: GearData, limits: DrawingLimits) -> Check | None:

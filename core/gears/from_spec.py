@@ -14,6 +14,7 @@ from gearlink.core.gears.pair import GearPair, Pair
 from gearlink.core.gears.tools import PinionCutter, RackTool, usual_rounding
 
 if TYPE_CHECKING:
+    from gearlink.core.gears.pair_keys import PairKeys
     from gearlink.core.gears.spec import GearPairSpec
     from gearlink.core.gears.spec_parts import AllowanceSpec, LoadSpec, MaterialSpec, ToolSpec
 
@@ -60,6 +61,32 @@ def pair_of(spec: GearPairSpec) -> GearPair:
     return _without_difference(pair)
 
 
+def pair_at(given: PairKeys, teeth: tuple[int, int], distance: float) -> GearPair:
+    """The pair of a section at the centre distance of its machine.
+
+    Parameters
+        given : PairKeys, with module and pressure_angle
+        teeth : (int, int)
+        distance : float [mm]
+    Raises
+        NoSolution - where the teeth cannot mesh
+    """
+    shift = as_pair(given.profile_shift)
+    pair = GearPair(
+        module=given.module,
+        teeth=teeth,
+        pressure_angle=math.radians(given.pressure_angle),
+        helix_angle=math.radians(given.helix_angle),
+        addendum=given.addendum,
+        clearance=given.clearance,
+        tip=as_pair(given.tip_shortening),
+        tools=tools_of(given),
+        given_shift=shift,
+        given_distance=distance,
+    )
+    return pair if shift is None else _without_difference(pair)
+
+
 def _on_rack(spec: GearPairSpec, known: dict[str, Any]) -> GearPair:
     """The gear on a rack, as gear 1 of a pair; x_1 = (a - r_1)/m where the distance to the datum line is given."""
     from gearlink.core.gears.rack import beside_a_rack
@@ -96,7 +123,7 @@ def _without_difference(pair: GearPair) -> GearPair:
     return alone if same else pair
 
 
-def data_of(spec: GearPairSpec, pair: GearPair) -> GearData:
+def data_of(spec: GearPairSpec | PairKeys, pair: GearPair) -> GearData:
     """The pair of a design file with all that its drawing needs.
 
     Raises
@@ -130,7 +157,7 @@ def allowances_of(given: AllowanceSpec | None, pair: GearPair) -> tuple[Pair, Pa
     return first, second
 
 
-def _distance_allowance(spec: GearPairSpec, pair: GearPair) -> float | None:
+def _distance_allowance(spec: GearPairSpec | PairKeys, pair: GearPair) -> float | None:
     given = spec.center_distance_allowance
     if not isinstance(given, str):
         return given
@@ -155,7 +182,7 @@ def material_of(given: MaterialSpec, gear: int) -> Material:
     return Material(**values)
 
 
-def tools_of(spec: GearPairSpec) -> tuple[RackTool | None, RackTool | None]:
+def tools_of(spec: GearPairSpec | PairKeys) -> tuple[RackTool | None, RackTool | None]:
     """The rack tools that the file gives, checked that they have a tip.
 
     Raises
@@ -166,7 +193,7 @@ def tools_of(spec: GearPairSpec) -> tuple[RackTool | None, RackTool | None]:
     return _tool(spec, one), _tool(spec, other)
 
 
-def _tool(spec: GearPairSpec, given: ToolSpec | None) -> RackTool | None:
+def _tool(spec: GearPairSpec | PairKeys, given: ToolSpec | None) -> RackTool | None:
     if given is None:
         return None
     alpha, rounding = math.radians(spec.pressure_angle), given.rounding

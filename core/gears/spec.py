@@ -10,6 +10,7 @@ from pydantic_core import PydanticCustomError
 from gearlink.core.gears.spec_parts import (
     AllowanceSpec,
     CutterSpec,
+    DrawingLimits,
     FaceWidth,
     Hand,
     HelixAngle,
@@ -34,18 +35,12 @@ from gearlink.core.spec import (
     Length,
     LoadLimits,
     PressureAngle,
-    Ratio,
-    SignedLength,
     TolerancedSpec,
 )
 
 
-class PairLimits(GearLimits, LoadLimits):
+class PairLimits(DrawingLimits, GearLimits, LoadLimits):
     """Limits of the checks of a gear pair."""
-
-    backlash: SignedLength = Field(0.0, description="least normal backlash; below it a warning")
-    safety_pitting: Ratio = Field(1.0, description="least safety against pitting")
-    safety_bending: Ratio = Field(1.4, description="least safety against breaking at the root")
 
 
 class GearPairSpec(TolerancedSpec):

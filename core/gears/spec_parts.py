@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.spec import Coefficient, Length, Spec
+from gearlink.core.spec import Coefficient, Length, Ratio, SignedLength, Spec
 
 Shift = Annotated[float, Field(ge=-5, le=5, json_schema_extra={"unit": "1"})]
 HelixAngle = Annotated[float, Field(ge=0, le=45, json_schema_extra={"unit": "deg"})]
@@ -169,3 +169,11 @@ class MaterialSpec(Spec):
     bending_factors: Factor | Annotated[list[Factor], Field(min_length=2, max_length=2)] = Field(
         1.0, description="Y_N Y_drelT Y_RrelT Y_X as one product, given"
     )
+
+
+class DrawingLimits(Spec):
+    """Limits of what only a drawing fixes: backlash and strength."""
+
+    backlash: SignedLength = Field(0.0, description="least normal backlash; below it a warning")
+    safety_pitting: Ratio = Field(1.0, description="least safety against pitting")
+    safety_bending: Ratio = Field(1.4, description="least safety against breaking at the root")

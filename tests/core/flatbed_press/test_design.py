@@ -12,7 +12,7 @@ Tolerances
 import json
 import re
 from dataclasses import replace
-from math import degrees, radians
+from math import cos, degrees, radians
 from pathlib import Path
 
 import factory
@@ -195,6 +195,38 @@ def test_input_gears_beyond_undercut_or_pointed_tips_fail(module, pressure_angle
     assert {check.code for check in found if check.status == "fail"} == {code}
 
 
+DRAWN = {
+    "profile_shift": [0.35, 0.2],
+    "face_width": [42.0, 40.0],
+    "tool": {"rounding": 0.3},
+    "allowances": {"series": "25cd"},
+    "center_distance_allowance": "js7",
+    "pin_diameter": 7.0,
+    "load": {"torque": 200.0},
+    "material": {"contact_limit": 1200.0, "bending_limit": 400.0},
+}
+
+
+@pytest.mark.parametrize("helix", [0.0, 12.0])
+def test_input_gears_have_the_drawing_of_a_gear_pair_at_their_centre_distance(helix):
+    inside = press(input_gears=GEARS | DRAWN | {"helix_angle": helix})
+    pair = inside.gear_pair
+    teeth, distance = list(pair.teeth), pair.center_distance
+    alone = factory.design({"kind": "gear-pair", "module": 4.0, "teeth": teeth, "center_distance": distance,
+                  "helix_angle": helix, **DRAWN})  # fmt: skip
+    assert teeth[0] == int(distance * cos(radians(helix)) / 4.0)
+    assert inside.report("gear").quantities == alone.report("gear").quantities
+    assert inside.table("drawing") == alone.table("drawing")
+    words = [(check.code, check.status, check.value) for check in inside.report("gear").checks]
+    assert words == [(check.code, check.status, check.value) for check in alone.report("gear").checks]
+
+
+def test_press_shows_nothing_of_its_gears():
+    design = press(input_gears=GEARS | DRAWN)
+    design.report("press")
+    assert not computed(design) & {"gear_pair", "gear_data"}
+
+
 # Refusals
 
 
@@ -318,7 +350,7 @@ def test_start_position_and_bed_touch_nothing_of_the_cylinder():
 def test_gears_touch_no_chain():
     design = press(input_gears=GEARS, cam=CAM)
     design.report("gear")
-    assert computed(design) == {"gear_pair"}
+    assert computed(design) == {"gear_pair", "gear_data"}
 
 
 def test_cam_never_sizes_gears_nor_press_the_cam():
