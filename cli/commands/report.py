@@ -24,6 +24,7 @@ from gearlink.core.errors import NoSolution
 
 if TYPE_CHECKING:
     from gearlink.core.design import Design
+    from gearlink.core.kinds import Kind
     from gearlink.core.report import Report
 
     Part = tuple[Design, Report]
@@ -42,7 +43,7 @@ def run_report(source: str, options: Options) -> int:
         with patience(f"computing {spec.name}", quiet=options.quiet):
             parts = [
                 build(loaded, kind, command, spec, replace(options, tables=kind.design_class(command).page_tables))
-                for command in spec.commands()
+                for command in (*spec.commands(), *_budgets(kind, spec))
             ]
         with patience(f"drawing {spec.name}", quiet=options.quiet):
             page = whole_page(spec.name, _body(loaded.text, spec, parts))
@@ -60,6 +61,12 @@ def run_report(source: str, options: Options) -> int:
     if not options.quiet:
         print(f"wrote {path}", file=sys.stderr)
     return max(exit_status(report, strict=options.strict) for _, report in parts)
+
+
+def _budgets(kind: Kind, spec: Any) -> tuple[str, ...]:
+    """The register budget of a file that has one; samples take their time, and are asked for by their own command."""
+    given = getattr(spec, "tolerance", None) is not None and getattr(spec, "register_", None) is not None
+    return ("register",) if given and "register" in kind.commands else ()
 
 
 def _body(text: str, spec: Any, parts: Sequence[Part]) -> Iterator[str]:

@@ -96,15 +96,12 @@ class RegisterDesign(Design):
     @cached_property
     def place(self) -> str | float:
         """Where the register is asked for: a name, or an input angle [deg]."""
-        at = self.section.at
-        if at is None:
-            return self.default_at
-        if isinstance(at, str):
-            try:
-                return float(at)
-            except ValueError:
-                return at
-        return float(at)
+        at = self.default_at if self.section.at is None else self.section.at
+        try:
+            angle = float(at)
+        except ValueError:
+            return at
+        return angle if math.isfinite(angle) else str(at)
 
     @cached_property
     def input_angles(self) -> Reals:

@@ -141,3 +141,28 @@ def test_shares_of_a_worker_that_ends_are_computed_here(capsys: pytest.CaptureFi
     told = computing_shares._Told("samples", 4, quiet=True)
     assert computing_shares._given(Dying(), abs, [0, 1, 2, 3], told) == [0, 1, 2, 3]
     assert "killed" in capsys.readouterr().err
+
+
+def test_the_page_of_a_file_with_a_register_shows_its_budget(gearlink: Any, spec: Path, tmp_path: Path) -> None:
+    ended = gearlink("report", str(spec), "--set", "register.tolerance=0.5", "--out", str(tmp_path))
+    page = (tmp_path / "feed.html").read_text()
+    assert ended.status == 0
+    assert "<h2>register</h2>" in page
+    assert "GL520" in page
+    assert "<h2>tolerance</h2>" not in page
+
+
+@pytest.mark.parametrize("at", ["nan", "abc", "zone"])
+def test_a_place_that_is_none_is_refused_at_its_key(gearlink: Any, spec: Path, at: str) -> None:
+    ended = gearlink("register", str(spec), "--at", at)
+    assert ended.status == 2
+    assert "register.at" in ended.err
+    assert "give dwell or an input angle" in ended.err
+
+
+def test_estimates_stand_with_their_intervals_on_a_terminal(gearlink: Any, spec: Path) -> None:
+    out = gearlink("tolerance", str(spec), "--samples", "512").out
+    assert " +-0.0" in out
+    assert "mean_pm" not in out
+    assert max(map(len, out.splitlines())) <= 80
+    assert "mean_pm" in gearlink("tolerance", str(spec), "--samples", "512", "--format", "csv").out
