@@ -33,8 +33,8 @@ def written(
     Example
         >>> from gearlink.core.kinds import KINDS
         >>> print(written(KINDS["slider-crank"], {"kind": "slider-crank", "stroke": 310.0, "rod": 520}))
-        kind: slider-crank   # an offset slider-crank given by its stroke
-        stroke: 310          # mm: stroke of the slider; yours to choose
+        kind: slider-crank   # an offset slider-crank given by its stroke or its crank
+        stroke: 310          # mm: stroke of the slider; may be left out
         rod: 520             # mm: connecting rod; yours to choose
         <BLANKLINE>
     """

@@ -27,7 +27,7 @@ class SliderLimits(LoadLimits):
 
 
 class SliderCrankSpec(DrivenSpec):
-    """An offset slider-crank given by its stroke."""
+    """An offset slider-crank given by its stroke or its crank."""
 
     kind: Literal["slider-crank"]
     stroke: Length | None = Field(None, description="stroke of the slider")

@@ -76,10 +76,10 @@ def window_over_frame(frame_ratio: ArrayLike, i3: float) -> Reals:
     Source
         own derivation
     """
-    train = GearTrain(1.0, -i3, 1.0)
 
     def window(ratio: float) -> float:
-        return tolerance_dwell(symmetric_linkage(ratio, 1.0), train, FRAME_TOLERANCE).crank_angle
+        linkage, train = symmetric_linkage(ratio, 1.0), GearTrain(1.0, -i3, 1.0)
+        return tolerance_dwell(linkage, train, FRAME_TOLERANCE).crank_angle
 
     return _each(window, frame_ratio)
 

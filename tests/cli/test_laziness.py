@@ -135,7 +135,7 @@ _EVALUATED = [
     ),
     ("synth dwell", "candy_feed", "dwell_crank_angles", "idler_teeth train general crank_angle_at"),
     ("synth back-step", "thesis_example_1", "coupler_length", "idler_teeth"),
-    ("gear", "ty460_input_gears", "contact_ratio", "gear_pair"),
+    ("gear", "ty460_input_gears", "contact_ratio", "gear_pair rack"),  # whether it is one
     ("crank", "ty460_slider_crank", "max_stroke", "slider_crank"),
     ("press", "ty460", "crank_length", "slider_crank"),
     ("press", "ty460", "initial_crank_angle", "slider_crank bed"),
