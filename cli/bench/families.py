@@ -20,6 +20,7 @@ FAMILIES = {
     "batch": "start_up:batch",
     "parallel": "start_up:parallel",
     "studies": "studies:family",
+    "samples": "samples:family",
 }
 
 
