@@ -312,7 +312,11 @@ class WideSwingDesign(Design):
     check_profile_planes = cycle_checks.profile_planes
 
     ways = remedies.WAYS
-    trials = 40
+    @property
+    def trials(self) -> int:
+        """A slider's cam takes a quarter of a second to judge, a rocker's a fraction of that."""
+        return 6 if self.spec.slider is not None else 40
+
     candidates, varied = remedies.candidates, remedies.varied
 
     # Outlines
