@@ -202,7 +202,7 @@ def _with_intervals(table: Table, cells: list[list[str]]) -> tuple[Table, list[l
     A table without half-widths stays as it is.
     """
     at = {name: i for i, name in enumerate(table.columns)}
-    if not any(name.endswith(_HALF_WIDTH) for name in table.columns):
+    if not cells or not any(name.endswith(_HALF_WIDTH) for name in table.columns):
         return table, cells
     shown = [
         i

@@ -199,7 +199,7 @@ class _Reading:
             self.faults.append(Fault("GL156", message, ("design", *below), "a study varies a design that exists"))
             return ()
         for wish, place in wishes:
-            self.faults += _odd(wish, values, place)
+            self.faults += odd_comparisons(wish, values, place)
         return self._must_pass(failing)
 
     def _failing(self, design: Any) -> set[str]:
@@ -224,7 +224,7 @@ class _Reading:
         return tuple(sorted(set(asked)))
 
 
-def _odd(wish: Objective | Condition, values: dict[str, Any], place: Place) -> Iterator[Fault]:
+def odd_comparisons(wish: Objective | Condition, values: dict[str, Any], place: Place) -> Iterator[Fault]:
     """What is wrong with the quantities of a wish, by their values in the base."""
     expression = wish.expression
     words = isinstance(wish, Condition) and isinstance(wish.limit, str)

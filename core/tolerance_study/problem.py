@@ -14,6 +14,7 @@ import numpy as np
 from gearlink.core.design import Design
 from gearlink.core.errors import NoSolution
 from gearlink.core.explore.base import Base, Refused
+from gearlink.core.explore.preparing import odd_comparisons
 from gearlink.core.explore.wishes import Condition, FaultFound, Names, condition
 from gearlink.core.kinds import KINDS
 from gearlink.core.nomenclature import term
@@ -87,24 +88,18 @@ class Problem:
         return tuple(found)
 
     def _comparable(self, one: Condition, place: int) -> None:
-        """Words are compared with words, numbers with numbers.
+        """Words are compared with words, numbers with numbers, lists by their entries.
 
         Raises
             WrongStudy - GL152
         """
-        worded, kinds = isinstance(one.limit, str), ("number", "word")
-        for name in one.expression.names:
-            if self.axis is not None and name in self.axis.extra:
-                is_word = False
-            else:
-                value = self._nominal_value(name.partition("[")[0])
-                if value is None:
-                    continue
-                is_word = isinstance(value, str)
-            if is_word != worded:
-                helps = f"such as {name} == {value}" if is_word else f"such as {name} >= 0"
-                message = f"{name} is a {kinds[is_word]}, {one.limit if worded else f'{one.limit:g}'} a {kinds[worded]}"
-                raise WrongStudy([Fault("GL152", message, ("tolerance", "require", place), helps)])
+        own = () if self.axis is None else self.axis.extra
+        values: dict[str, Any] = dict.fromkeys(one.expression.names)
+        known = [name for name in values if name not in own]
+        values |= self.base.values(self.nominal, known)
+        faults = list(odd_comparisons(one, values, ("tolerance", "require", place)))
+        if faults:
+            raise WrongStudy(faults)
 
     @cached_property
     def names(self) -> tuple[str, ...]:
