@@ -107,6 +107,8 @@ def _pressure(design: WideSwingDesign) -> Iterator[Change]:
     """What brings the pressure angle of every cam within the limit: keys by turns, the least change of each first."""
     if design.section.rocker_radius is not None:
         yield "cam.rocker_radius", None
+    if design.spec.slider is not None:  # a third of a second each: the few trials of the ways must do
+        return
     for path, step, bounds in _bearing(design):
         start = number_at(design.spec, path) or 0.0
         found = (nearest_good(start, bound, _good(design, path, _pressure_holds), step) for bound in bounds)
