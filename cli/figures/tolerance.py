@@ -74,5 +74,7 @@ def _contributions(axes: Axes, study: ToleranceStudy, name: str) -> None:
         return
     shares.sort(key=lambda row: row[1])
     error = [row[2] for row in shares] if kind == "total" else None
-    axes.barh([row[0] for row in shares], [row[1] for row in shares], xerr=error, color=style.ORANGE, height=0.7)
+    places = range(len(shares))
+    axes.barh(places, [row[1] for row in shares], xerr=error, color=style.ORANGE, height=0.7)
+    axes.set_yticks(places, [row[0] for row in shares])
     axes.set_xlim(0.0, None)
