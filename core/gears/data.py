@@ -4,19 +4,21 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.gears.backlash import Backlash
 from gearlink.core.gears.contact import PathOfContact
 from gearlink.core.gears.flank_strength import FlankStrength
 from gearlink.core.gears.inspection import Ball, chord, preferred_pin
-from gearlink.core.gears.internal import InternalInterference
 from gearlink.core.gears.load import Load, Material
 from gearlink.core.gears.pair import GearPair, Pair
 from gearlink.core.gears.root_stress import RootStress
 from gearlink.core.gears.tools import RackTool
 from gearlink.core.results import cached_property
+
+if TYPE_CHECKING:
+    from gearlink.core.gears.backlash import Backlash
+    from gearlink.core.gears.internal import InternalInterference
 
 Both = tuple[float | None, float | None]
 PLACES = {
@@ -115,7 +117,11 @@ class GearData:
     @cached_property
     def internal(self) -> InternalInterference | None:
         """The interferences of a pinion in a ring; None for an external pair."""
-        return InternalInterference(self.pair) if self.pair.internal else None
+        if not self.pair.internal:
+            return None
+        from gearlink.core.gears.internal import InternalInterference
+
+        return InternalInterference(self.pair)
 
     @cached_property
     def pin_diameter(self) -> Both:
@@ -220,6 +226,8 @@ class GearData:
         if self.allowances is None and self.distance_allowance is None and not both_given:
             return None
         one, other = self.allowances or ((0.0, 0.0), (0.0, 0.0))
+        from gearlink.core.gears.backlash import Backlash
+
         return Backlash(
             pair=self.pair,
             upper=(one[0], other[0]),

@@ -8,7 +8,6 @@ from gearlink.core.design import Design, Outline
 from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantities, gear_quantity
 from gearlink.core.gears.data import DRAWING_QUANTITIES, GearData
-from gearlink.core.gears.drawing import drawing_table
 from gearlink.core.gears.drawing_checks import DRAWING_CHECKS, pair_check
 from gearlink.core.gears.from_spec import data_of, pair_of
 from gearlink.core.gears.pair import GearPair
@@ -123,6 +122,8 @@ class GearPairDesign(GearQuantities, Design):
 
     def table_drawing(self, _samples: int | None = None) -> Table:
         """The gear table of the drawing."""
+        from gearlink.core.gears.drawing import drawing_table
+
         hands = self.spec.helix_hand
         with at_key(self._placed_by):
             return drawing_table(self._two_gears("drawing"), None if hands is None else (hands[0], hands[1]))

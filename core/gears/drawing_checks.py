@@ -9,7 +9,6 @@ from typing import Protocol
 from gearlink.core.gears.checks import Limits, gear_check
 from gearlink.core.gears.codes import BACKLASH, BENDING, CONTACT_RATIO, FILLET, PITTING, TIP_FOULING
 from gearlink.core.gears.data import GearData
-from gearlink.core.gears.internal import InternalInterference
 from gearlink.core.gears.load import Factors
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.report import Check, Rule, Status
@@ -137,6 +136,8 @@ def _cutter(data: GearData) -> Iterator[Check]:
     pair, shaped = data.pair, data.pair.shaped
     if shaped is None or pair.cutter is None:
         return
+    from gearlink.core.gears.internal import InternalInterference
+
     cutting = GearPair(
         module=pair.module,
         teeth=(pair.cutter.teeth, pair.teeth[1]),

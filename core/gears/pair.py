@@ -8,17 +8,19 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.gears import pair_limits, teeth
 from gearlink.core.gears.involute import involute, involute_rise
 from gearlink.core.gears.pitch_pair import Pair as Pair
 from gearlink.core.gears.pitch_pair import PitchPair
-from gearlink.core.gears.ring_cutter import ShapedRing
-from gearlink.core.gears.root_fillet import RackCutRoot
-from gearlink.core.gears.tools import PinionCutter, RackTool, standard_tool
 from gearlink.core.results import cached_property
+
+if TYPE_CHECKING:
+    from gearlink.core.gears.ring_cutter import ShapedRing
+    from gearlink.core.gears.root_fillet import RackCutRoot
+    from gearlink.core.gears.tools import PinionCutter, RackTool
 
 TipRule = Literal["full", "none"] | Pair
 
@@ -192,6 +194,8 @@ class GearPair(PitchPair):
 
     def tool(self, gear: int) -> RackTool:
         """The rack tool of a gear: the given one, or that of the profile."""
+        from gearlink.core.gears.tools import standard_tool
+
         return self.tools[gear] or standard_tool(self.pressure_angle, self.addendum, self.clearance)
 
     def root_depth(self, gear: int) -> float:
@@ -204,6 +208,8 @@ class GearPair(PitchPair):
         """The ring as its pinion cutter leaves it; None without one."""
         if self.cutter is None or not self.internal:
             return None
+        from gearlink.core.gears.ring_cutter import ShapedRing
+
         return ShapedRing(
             module=self.module,
             teeth=self.teeth[1],
@@ -218,9 +224,8 @@ class GearPair(PitchPair):
         """r_f = r - (h_fP* - x) m [mm]; of a ring that a pinion cutter shapes what it leaves."""
         r, x = self.reference_radius, self.profile_shift
         first = r[0] - self.module * (self.root_depth(0) - x[0])
-        if self.shaped is not None:
-            return first, -self.shaped.root_radius
-        return first, r[1] - self.module * (self.root_depth(1) - x[1])
+        rack_cut = r[1] - self.module * (self.root_depth(1) - x[1])
+        return first, rack_cut if self.shaped is None else -self.shaped.root_radius
 
     @cached_property
     def tip_clearance(self) -> Pair:
@@ -249,9 +254,7 @@ class GearPair(PitchPair):
 
     @cached_property
     def tip_thickness(self) -> Pair:
-        """s_an = r_a (s_t/r - 2 (inv(alpha_a) - inv(alpha_t))) cos(beta_a) [mm]; negative where the flanks meet
-        below the tip.
-        """
+        """s_an = r_a (s_t/r - 2 (inv(alpha_a) - inv(alpha_t))) cos(beta_a) [mm]; negative where flanks cross."""
         return self._tip_thickness_of(0), self._tip_thickness_of(1)
 
     def _tip_thickness_of(self, gear: int) -> float:
@@ -304,13 +307,12 @@ class GearPair(PitchPair):
     def _specific_sliding_of(self, gear: int) -> float:
         left = self._left_at_root(gear)
         if not left * self.signs[gear] > 0.0:
-            beyond = -self.interference_margin[1 - gear]
             raise NoSolution(
-                f"tip of gear {2 - gear} reaches {beyond:.6g} mm beyond the base tangent point of gear {gear + 1}, "
-                "where sliding has no bound: lower its profile shift or the addendum, or take more teeth"
+                f"tip of gear {2 - gear} reaches {-self.interference_margin[1 - gear]:.6g} mm beyond the base tangent "
+                f"point of gear {gear + 1}, where sliding has no bound: lower its profile shift or the addendum, or "
+                "take more teeth"
             )
-        mate = self.teeth[1 - gear]
-        return -self._action[1 - gear] * self._teeth_sum / (mate * left)
+        return -self._action[1 - gear] * self._teeth_sum / (self.teeth[1 - gear] * left)
 
     @property
     def slides(self) -> bool:
@@ -330,12 +332,12 @@ class GearPair(PitchPair):
 
     def cut_root(self, gear: int, shift: float | None = None) -> RackCutRoot:
         """The root of an external gear as its tool leaves it, in modules; `shift` is a generating one."""
-        x = self.profile_shift[gear] if shift is None else shift
-        tool = self.tool(gear)
+        from gearlink.core.gears.root_fillet import RackCutRoot
+
         return RackCutRoot(
             teeth=self.teeth[gear],
-            shift=x,
-            tool=tool,
+            shift=self.profile_shift[gear] if shift is None else shift,
+            tool=self.tool(gear),
             pressure_angle=self.pressure_angle,
             helix_angle=self.helix_angle,
         )

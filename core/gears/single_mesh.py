@@ -4,17 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from gearlink.core.design import Design
 from gearlink.core.errors import at_key
 from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantities, gear_check, gear_quantity
 from gearlink.core.gears.codes import CONTACT_RATIO, INTERFERENCE, TIP_FOULING, UNDERCUT
-from gearlink.core.gears.internal_mesh import InternalMesh
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.gears.teeth import min_shift_no_undercut
 from gearlink.core.report import Check, Rule, Status
 from gearlink.core.results import cached_property
+
+if TYPE_CHECKING:
+    from gearlink.core.gears.internal_mesh import InternalMesh
 
 INTERNAL_QUANTITIES = (
     "center_distance",
@@ -70,7 +72,7 @@ def mesh_checks(name: str, mesh: GearPair | InternalMesh, limits: Any, label: st
     Source
         ISO 21771 for the quantities
     """
-    if isinstance(mesh, InternalMesh):
+    if not isinstance(mesh, GearPair):
         found = _internal_check(name, mesh, limits)
         return [
             replace(check, message=f"{label.replace('_', '-')} mesh: {check.message}") if label else check

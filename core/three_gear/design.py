@@ -11,7 +11,6 @@ from gearlink.core.clearance.checks import SHAFT_WAYS, collision_check, shaft_ch
 from gearlink.core.design import Design, Outline, placed
 from gearlink.core.errors import MissingSection, at_key
 from gearlink.core.gears.checks import gear_ways
-from gearlink.core.gears.internal_mesh import InternalMesh
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.gears.single_mesh import MESH_CHECKS, mesh_checks, mesh_quantity
 from gearlink.core.linkages.checks import check_linkage, dwell_window_check, transmission_check
@@ -31,6 +30,7 @@ from gearlink.core.three_gear.motion import Extremes, GearTrain
 from gearlink.core.three_gear.names import CHECKS, MESH_QUANTITIES, MESHES, QUANTITIES
 
 if TYPE_CHECKING:
+    from gearlink.core.gears.internal_mesh import InternalMesh
     from gearlink.core.linkages.band_dwell import ToleranceDwell
     from gearlink.core.three_gear.spec import ThreeGearSpec
 
@@ -268,6 +268,8 @@ class ThreeGearFourBar(FeedResults, Design):
         alpha = math.radians(gears.pressure_angle)
         if min(one, other) > 0:
             return GearPair.from_shift(gears.module, (one, other), (0.0, 0.0), pressure_angle=alpha)
+        from gearlink.core.gears.internal_mesh import InternalMesh
+
         rim = gears.rim if other < 0 else None
         with at_key("gears"):
             return InternalMesh(gears.module, (max(one, other), -min(one, other)), alpha, rim=rim)

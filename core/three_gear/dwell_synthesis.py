@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from gearlink.core.design import Found, Outline
 from gearlink.core.errors import MissingSection, NoSolution, at_key
@@ -14,23 +14,17 @@ from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.report import Check, safely_below
 from gearlink.core.results import cached_property
-from gearlink.core.three_gear import families, internal_families, symmetric_back_step, window_dwell
+from gearlink.core.three_gear import symmetric_back_step
 from gearlink.core.three_gear.codes import BACK_STEP
-from gearlink.core.three_gear.families import (
-    Family,
-    back_step_of,
-    dwell_angle_of,
-    ripple,
-    solved,
-    window_of,
-)
+from gearlink.core.three_gear.forms import forms_for
 from gearlink.core.three_gear.idler_choice import LEAST_IDLER
-from gearlink.core.three_gear.internal_dwell import is_internal
 from gearlink.core.three_gear.momentary_dwell import wrap
 from gearlink.core.three_gear.motion import GearTrain, output_angle
 from gearlink.core.three_gear.names import CHECKS, QUANTITIES
 from gearlink.core.three_gear.synthesis import BackStepFamily, with_analysis
-from gearlink.core.three_gear.tolerance_dwell import tolerance_dwell
+
+if TYPE_CHECKING:
+    from gearlink.core.three_gear.families import Family
 
 _MARGIN = 0.01
 _ROUNDING = 1e-9
@@ -101,6 +95,8 @@ class DwellSynthesis(BackStepFamily):
         if self._wish.angle is not None:
             with at_key("dwell.angle"):
                 return symmetric_back_step.crank_angle_for_dwell(i3, math.radians(self._wish.angle))
+        from gearlink.core.three_gear import window_dwell
+
         with at_key(self._key()):
             if self.window is None:
                 return window_dwell.crank_angle_for_tolerance(i3, self._aimed_at())
@@ -111,6 +107,8 @@ class DwellSynthesis(BackStepFamily):
 
     def in_family(self, family: Family, train: GearTrain) -> FourBar:
         """phi13, the window of equal ripple, or the back-step that fills the band: the root of the one unknown."""
+        from gearlink.core.three_gear.families import back_step_of, dwell_angle_of, ripple, solved, window_of
+
         wish = self._wish
         if wish.angle is not None:
             with at_key("dwell.angle"):
@@ -146,6 +144,8 @@ class DwellSynthesis(BackStepFamily):
         band, window = self._band, self.window
         if band is None or window is None:
             return
+        from gearlink.core.three_gear.families import back_step_of, ripple, solved
+
         try:
             longest = ripple(solved(family, back_step_of(train), 2.0 * band, "this tolerance"), train).crank_angle
         except NoSolution:
@@ -160,6 +160,8 @@ class DwellSynthesis(BackStepFamily):
         band = self._band
         if band is None or least <= band:
             return
+        from gearlink.core.three_gear.families import back_step_of, ripple, solved
+
         longest = ripple(solved(family, back_step_of(train), 2.0 * band, "this tolerance"), train).crank_angle
         raise NoSolution(
             f"the output cannot stay within +-{math.degrees(band):.9g} deg over {self._wish.window:g} deg with these "
@@ -232,6 +234,8 @@ class DwellSynthesis(BackStepFamily):
         if self.asked_tolerance is not None or step is None:
             return super().tolerance_dwell
         if self.general:
+            from gearlink.core.three_gear.families import ripple
+
             found = ripple(self.linkage, self.train)
             return ToleranceDwell(found.start, found.crank_angle, found.output_angle)
         phi13 = symmetric_back_step.dwell_angle(self.i3, step.crank_angle)
@@ -246,7 +250,11 @@ class DwellSynthesis(BackStepFamily):
         if band is None:
             return None
         if not self.general:
+            from gearlink.core.three_gear import window_dwell
+
             return window_dwell.longest_window(self.i3, band)
+        from gearlink.core.three_gear.families import back_step_of, ripple, solved
+
         family = self._family(self.idler_teeth)
         return ripple(solved(family, back_step_of(self.train), 2.0 * band, "this tolerance"), self.train).crank_angle
 
@@ -256,6 +264,8 @@ class DwellSynthesis(BackStepFamily):
         if self.window is None or self._band is None:
             return None
         if not self.general:
+            from gearlink.core.three_gear import window_dwell
+
             return list(window_dwell.frame_ratio_interval(self.i3, self.window, self._band))
         interval = self.frame_length_interval
         return None if interval is None else [length / self.linkage.crank for length in interval]
@@ -270,10 +280,12 @@ class DwellSynthesis(BackStepFamily):
         window, band = self.window, self._band
         if window is None or band is None:
             return None
+        from gearlink.core.three_gear.families import back_step_of, solved
+        from gearlink.core.three_gear.tolerance_dwell import tolerance_dwell
+
         links, train = self.linkage, self.train
         radii = self._radii(self.idler_teeth)
-        forms = internal_families if is_internal(*radii) else families
-        family = forms.with_crank(*radii, links.crank, self.spec.assembly)
+        family = forms_for(*radii).with_crank(*radii, links.crank, self.spec.assembly)
 
         def spare(frame: float) -> float:
             return tolerance_dwell(family.linkage(frame), train, band).crank_angle - window

@@ -15,7 +15,6 @@ from gearlink.core.linkages.fourbar import FourBar, solve
 from gearlink.core.linkages.standstills import BackStep
 from gearlink.core.numerics.gauss import integral
 from gearlink.core.numerics.roots import bracketed_root
-from gearlink.core.three_gear import internal_dwell
 from gearlink.core.three_gear.momentary_dwell import (
     Tangency,
     crank_angle,
@@ -72,6 +71,8 @@ def dwell_positions(linkage: FourBar, train: GearTrain) -> list[float]:
     check_linkage(linkage)
     r1, r3, r5 = _radii(linkage, train)
     if train.internal:
+        from gearlink.core.three_gear import internal_dwell
+
         touching = internal_dwell.tangency(r1, r3, r5, linkage.crank)
         once = [] if touching is None else _momentary(linkage, train, touching, r1, r3, r5)
         return once or internal_dwell.standstills(linkage, train, (r1, r3, r5))
@@ -231,6 +232,8 @@ def _frame_for_back_step(linkage: FourBar, train: GearTrain) -> str:
     """Which frame, if any, would make the output turn back."""
     r1, r3, r5 = _radii(linkage, train)
     if train.internal:
+        from gearlink.core.three_gear import internal_dwell
+
         touching = internal_dwell.tangency(r1, r3, r5, linkage.crank)
         if touching is None:
             return "no frame does that; take another crank or other teeth"

@@ -6,31 +6,27 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from gearlink.core.design import Found, Outline
 from gearlink.core.errors import MissingSection, NoSolution, at_key
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.linkages.standstills import BackStep
 from gearlink.core.real_speed import other_speed
-from gearlink.core.report import Check
+from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
-from gearlink.core.three_gear import candidates, dwells, families, internal_families, symmetric_back_step
+from gearlink.core.three_gear import dwells, symmetric_back_step
 from gearlink.core.three_gear import symmetric_family as family
 from gearlink.core.three_gear.bodies import layout
 from gearlink.core.three_gear.codes import ACHIEVED
 from gearlink.core.three_gear.design import ThreeGearFourBar
-from gearlink.core.three_gear.families import (
-    Family,
-    back_step_crank_angle_of,
-    back_step_of,
-    solved,
-    with_speed_quotient,
-)
+from gearlink.core.three_gear.forms import forms_for
 from gearlink.core.three_gear.idler_choice import GREATEST_IDLER, LEAST_IDLER, idler_for_ratio, smallest_idler
-from gearlink.core.three_gear.internal_dwell import is_internal, shape
 from gearlink.core.three_gear.motion import Extremes, GearTrain, gear_gap
 from gearlink.core.three_gear.names import CHECKS, QUANTITIES
+
+if TYPE_CHECKING:
+    from gearlink.core.three_gear.families import Family
 
 _GEARS = ThreeGearFourBar.outlines["gear"]
 _STANDSTILL = 1.5 * math.pi
@@ -46,7 +42,12 @@ class Synthesis(ThreeGearFourBar):
     """What the syntheses share: the choice of the idler; `linkage_of` gives the links for an idler."""
 
     extra_tables = (*ThreeGearFourBar.extra_tables, "candidates")
-    table_candidates = candidates.table
+
+    def table_candidates(self, samples: int | None = None) -> Table:
+        """The other modules and idlers that meet the task."""
+        from gearlink.core.three_gear.candidates import table
+
+        return table(self, samples)
 
     def linkage_of(self, idler: int) -> FourBar:
         """The links that meet the task with an idler of so many teeth."""
@@ -157,8 +158,10 @@ class SymmetricSynthesis(Synthesis):
 
     def _family(self, idler: int) -> Family:
         section, radii = getattr(self.spec, self.task), self._radii(idler)
-        forms = internal_families if is_internal(*radii) else families
-        if is_internal(*radii):
+        forms = forms_for(*radii)
+        if min(radii) < 0.0:
+            from gearlink.core.three_gear.internal_dwell import shape
+
             with at_key("gears.output" if radii[0] > 0.0 else "gears.crank"):
                 shape(*radii)  # a train that never just stops is refused whatever the links
         found: Family
@@ -294,6 +297,8 @@ class BackStepSynthesis(BackStepFamily):
 
     def in_family(self, family: Family, train: GearTrain) -> FourBar:
         """One of back-step and crank angle, met by the root of the one unknown."""
+        from gearlink.core.three_gear.families import back_step_crank_angle_of, back_step_of, solved
+
         task = self.section("back_step", "angle or crank_angle (deg)")
         if task.angle is not None and task.crank_angle is not None:
             raise NoSolution(
@@ -350,6 +355,8 @@ class VariableSpeedSynthesis(SymmetricSynthesis):
 
     def in_family(self, family: Family, train: GearTrain) -> FourBar:
         """W_min/W_max = min/max, met by the root of the one unknown."""
+        from gearlink.core.three_gear.families import with_speed_quotient
+
         speed = self.section("speed", "min, max (rev/min)")
         with at_key("speed.max" if speed.max <= speed.min else "speed.min"):
             if speed.max <= speed.min:

@@ -80,6 +80,28 @@ def test_results_as_json_import_what_reading_needs_and_no_more(lines: list[str],
     assert not {name for name in modules if name.startswith(("gearlink.cli.figures", "gearlink.cli.app"))}
 
 
+_SEARCHES = {"explore", "study", "tolerance", "tolerance_study"}
+_DATA = {"gears.backlash", "gears.internal", "gears.drawing", "gears.allowances"}
+_RINGS = {"gears.internal_mesh", "gears.ring_cutter", "gears.internal", "gears.mesh_phase"}
+_TOOLS = {"gears.tools", "gears.root_fillet", "gears.data", "gears.load"}
+_GENERAL = {f"three_gear.{name}" for name in ("families", "internal_families", "internal_dwell", "candidates")}
+
+
+@pytest.mark.parametrize(
+    ("line", "unused"),
+    [
+        ("synth dwell designs/candy_feed.yaml", _RINGS | _TOOLS | _GENERAL | {"three_gear.window_dwell"}),
+        ("gear designs/ty460_input_gears.yaml", _RINGS | {"gears.backlash", "gears.drawing", "linkages", "cams"}),
+        ("crank designs/ty460_slider_crank.yaml", _RINGS | _TOOLS | _DATA | {"gears.pair", "cams"}),
+        ("press designs/ty460.yaml", _RINGS | _TOOLS | _DATA | {"loads.machine"}),
+    ],
+)
+def test_a_command_imports_no_room_that_it_does_not_enter(line: str, unused: set[str]) -> None:
+    """Rings, tooth data, general families, loads and studies are imported by designs that have them."""
+    modules = modules_of(*line.split(), "--format", "json")
+    assert not {f"gearlink.core.{name}" for name in unused | _SEARCHES} & modules
+
+
 def test_checks_of_scalar_designs_import_no_numpy() -> None:
     assert not packages(modules_of(*" + ".join(CHECKS).split())) & {"numpy", "scipy", "matplotlib"}
 
