@@ -12,8 +12,7 @@ from gearlink.core.flatbed_press import checks, remedies, tables
 from gearlink.core.flatbed_press.cams import PressCams
 from gearlink.core.flatbed_press.motion import PressMotion
 from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantities, gear_quantity
-from gearlink.core.gears.data import DRAWING_QUANTITIES
-from gearlink.core.gears.drawing_checks import DRAWING_CHECKS, pair_check
+from gearlink.core.gears.drawing_names import DRAWING_CHECKS, DRAWING_QUANTITIES
 from gearlink.core.linkages.slider_crank_design import SLIDER_QUANTITIES, SliderCrankQuantities
 from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
@@ -194,6 +193,8 @@ class FlatbedPress(SliderCrankQuantities, GearQuantities, Design):
         """Gear checks come from the gear pair, all others are the press's own."""
         if name not in GEAR_CHECKS and name not in DRAWING_CHECKS:
             return super().check(name)
+        from gearlink.core.gears.drawing_checks import pair_check
+
         with at_key("input_gears"):
             return pair_check(name, self.gear_data, self.spec.limits, shifts=self._shifts_given)
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.gears.contact import PathOfContact
+from gearlink.core.gears.drawing_names import PLACES
 from gearlink.core.gears.flank_strength import FlankStrength
 from gearlink.core.gears.inspection import Ball, chord, preferred_pin
 from gearlink.core.gears.load import Load, Material
@@ -21,53 +22,6 @@ if TYPE_CHECKING:
     from gearlink.core.gears.internal import InternalInterference
 
 Both = tuple[float | None, float | None]
-PLACES = {
-    "transverse_pressure_angle": "pair.transverse_pressure_angle",
-    "base_helix_angle": "pair.base_helix_angle",
-    "overlap_ratio": "path.overlap_ratio",
-    "total_contact_ratio": "path.total_contact_ratio",
-    "usable_contact_ratio": "path.usable_contact_ratio",
-    "path_of_contact": "path.length",
-    "form_radius": "pair.form_radius",
-    "used_root_radius": "path.used_root_radius",
-    "tip_clearance": "pair.tip_clearance",
-    "specific_sliding_tip": "path.sliding_at_tip",
-    "sliding_factor": "path.sliding_factor",
-    "involute_margin": "internal.involute_margin",
-    "tip_fouling_margin": "internal.tip_fouling_margin",
-    "radial_assembly_margin": "internal.radial_assembly_margin",
-    "pin_diameter": "pin_diameter",
-    "measure_over_balls": "measure_over_balls",
-    "measure_over_pins": "measure_over_pins",
-    "chordal_thickness": "chordal_thickness",
-    "chordal_height": "chordal_height",
-    "generating_shift": "generating_shift",
-    "span_measurement_limits": "span_measurement_limits",
-    "measure_limits": "measure_limits",
-    "backlash_circumferential": "backlash.circumferential",
-    "backlash_normal": "backlash.normal",
-    "backlash_angle": "backlash.angle",
-    "tangential_force": "flank.tangential_force",
-    "zone_factor": "flank.zone_factor",
-    "elasticity_factor": "flank.elasticity_factor",
-    "contact_ratio_factor": "flank.contact_ratio_factor",
-    "helix_angle_factor_contact": "flank.helix_angle_factor",
-    "single_contact_factor": "flank.single_contact_factor",
-    "nominal_contact_stress": "flank.nominal_stress",
-    "contact_stress": "flank.stress",
-    "safety_pitting": "flank.safety",
-    "root_chord": "root.chord",
-    "bending_moment_arm": "root.moment_arm",
-    "root_fillet_radius": "root.fillet_radius",
-    "form_factor": "root.form_factor",
-    "stress_correction_factor": "root.stress_correction_factor",
-    "helix_angle_factor_bending": "root.helix_angle_factor",
-    "nominal_root_stress": "root.nominal_stress",
-    "root_stress": "root.stress",
-    "safety_bending": "root.safety",
-}
-"""Where each quantity of a drawing stands in a GearData."""
-DRAWING_QUANTITIES = tuple(PLACES)
 _MAGNITUDES = frozenset(
     (
         "center_distance",

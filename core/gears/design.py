@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 from gearlink.core.design import Design, Outline
 from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantities, gear_quantity
-from gearlink.core.gears.data import DRAWING_QUANTITIES, GearData
-from gearlink.core.gears.drawing_checks import DRAWING_CHECKS, pair_check
+from gearlink.core.gears.data import GearData
+from gearlink.core.gears.drawing_checks import pair_check
+from gearlink.core.gears.drawing_names import DRAWING_CHECKS, DRAWING_QUANTITIES
 from gearlink.core.gears.from_spec import data_of, pair_of
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.remedies import Way, down, either, shared, up

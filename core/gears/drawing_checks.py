@@ -9,6 +9,7 @@ from typing import Protocol
 from gearlink.core.gears.checks import Limits, gear_check
 from gearlink.core.gears.codes import BACKLASH, BENDING, CONTACT_RATIO, FILLET, PITTING, TIP_FOULING
 from gearlink.core.gears.data import GearData
+from gearlink.core.gears.drawing_names import DRAWING_CHECKS
 from gearlink.core.gears.load import Factors
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.report import Check, Rule, Status
@@ -260,4 +261,3 @@ _OF_PAIR: dict[str, Callable[[GearData, DrawingLimits], Iterator[Check]]] = {
     "pitting": _pitting,
     "bending": _bending,
 }
-DRAWING_CHECKS = ("tip-fouling", "radial-assembly", "fillet-interference", "backlash", "pitting", "bending")

@@ -9,7 +9,8 @@ from typing import Any
 
 from gearlink.core.gears.checks import GEAR_QUANTITIES, gear_check, gear_quantity
 from gearlink.core.gears.codes import CONTACT_RATIO, FILLET, INTERFERENCE
-from gearlink.core.gears.data import PLACES, GearData
+from gearlink.core.gears.data import GearData
+from gearlink.core.gears.drawing_names import PLACES
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.report import Check, Status
 from gearlink.core.results import cached_property

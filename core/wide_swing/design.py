@@ -312,6 +312,7 @@ class WideSwingDesign(Design):
     check_profile_planes = cycle_checks.profile_planes
 
     ways = remedies.WAYS
+
     @property
     def trials(self) -> int:
         """A slider's cam takes a quarter of a second to judge, a rocker's a fraction of that."""

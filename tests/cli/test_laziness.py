@@ -93,7 +93,7 @@ _GENERAL = {f"three_gear.{name}" for name in ("families", "internal_families", "
         ("synth dwell designs/candy_feed.yaml", _RINGS | _TOOLS | _GENERAL | {"three_gear.window_dwell"}),
         ("gear designs/ty460_input_gears.yaml", _RINGS | {"gears.backlash", "gears.drawing", "linkages", "cams"}),
         ("crank designs/ty460_slider_crank.yaml", _RINGS | _TOOLS | _DATA | {"gears.pair", "cams"}),
-        ("press designs/ty460.yaml", _RINGS | _TOOLS | _DATA | {"loads.machine"}),
+        ("press designs/ty460.yaml", _RINGS | _TOOLS | _DATA | {"gears.pair", "loads.machine"}),
     ],
 )
 def test_a_command_imports_no_room_that_it_does_not_enter(line: str, unused: set[str]) -> None:
