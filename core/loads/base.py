@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from gearlink.core.numerics.extremes import Extreme
 
 RPM = 2.0 * math.pi / 60.0
+_SLOWEST = 1e-6
 
 
 class LoadsBase(Design):
@@ -66,8 +67,9 @@ class LoadsBase(Design):
         given = getattr(self.spec, "input_speed", None) if given is None else given
         if given is None:
             raise MissingSection("`loads` needs the speed of the input: give loads.speed", key="loads.speed")
-        if given == 0.0:
-            raise NoSolution("a speed of 0 has no loads of motion: give the speed of the input", key="loads.speed")
+        if abs(given) < _SLOWEST:
+            message = f"a speed of {given:g} has no loads of motion: give the speed of the input, {_SLOWEST:g} or more"
+            raise NoSolution(message, key="loads.speed")
         return float(given) * RPM
 
     @property

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,7 +11,7 @@ import numpy as np
 from gearlink.core.numerics.arrays import Reals
 
 if TYPE_CHECKING:
-    from gearlink.core.loads.spec import Course
+    from gearlink.core.loads.spec import Course, Zone
 
 _TURN = 2.0 * math.pi
 
@@ -25,11 +26,7 @@ def values(course: float | Course, phi: Reals) -> Reals:
     if isinstance(course, (int, float)):
         return np.full_like(phi, course)
     if course.zones is not None:
-        found = np.zeros_like(phi)
-        for zone in course.zones:
-            start, width = math.radians(zone.start), _width(zone.start, zone.end)
-            found += np.where(_after(phi, start) < width, zone.value, 0.0)
-        return found
+        return _from_zones(course.zones, phi)
     return _from_table(course, phi)
 
 
@@ -52,11 +49,33 @@ def _width(start: float, end: float) -> float:
     return width if width > 0.0 else (_TURN if end != start else 0.0)
 
 
-def _after(phi: Reals, start: float) -> Reals:
-    """Angle from the start of a zone, in [0, 2 pi); a place that is the start but for rounding is the start."""
+def _from_zones(zones: Sequence[Zone], phi: Reals) -> Reals:
+    """The sum of the zones: a level between each two of their ends."""
+    whole = sum(zone.value for zone in zones if _width(zone.start, zone.end) == _TURN)
+    ends = [
+        (math.radians(zone.start) % _TURN, math.radians(zone.end) % _TURN, zone.value)
+        for zone in zones
+        if 0.0 < _width(zone.start, zone.end) < _TURN
+    ]
+    edges = np.unique([0.0, *(end for start, stop, _ in ends for end in (start, stop))])
+    levels = np.full_like(edges, whole)
+    for start, stop, value in ends:
+        first, last = np.searchsorted(edges, (start, stop))
+        levels[first : last if first < last else None] += value
+        if first > last:
+            levels[:last] += value
+    return np.asarray(levels[np.searchsorted(edges, _after(phi, 0.0, edges), side="right") - 1])
+
+
+def _after(phi: Reals, start: float, edges: Reals | None = None) -> Reals:
+    """Angle from a start, in [0, 2 pi); a place that is the start, or an edge, but for rounding is there."""
     after = np.mod(phi - start, _TURN)
     near = 4.0 * np.spacing(np.maximum(np.abs(phi), _TURN))
-    return np.asarray(np.where(_TURN - after <= near, 0.0, after))
+    after = np.where(_TURN - after <= near, 0.0, after)
+    if edges is not None:
+        following = np.append(edges, _TURN)[np.searchsorted(edges, after, side="right")]
+        after = np.where(following - after <= near, np.mod(following, _TURN), after)
+    return np.asarray(after)
 
 
 def _from_table(course: Course, phi: Reals) -> Reals:

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from gearlink.core.loads.vibrating import Vibrating
     from gearlink.core.numerics.arrays import Reals
 
+_HIGHEST = 10_000
 TORQUE = (
     "input_torque_mean",
     "input_torque_rms",
@@ -217,16 +218,22 @@ class LoadsDesign(LoadsBase):
         return found
 
     def harmonic_share(self, order: int) -> float:
-        """Acceleration of a harmonic of the output over that of the greatest."""
+        """Acceleration of a harmonic of the output over that of the greatest.
+
+        Notes
+            0 above 10000 a turn: even where the acceleration jumps, it has fallen below 1e-3 there.
+        """
         import numpy as np
 
         from gearlink.core.loads.vibration import harmonics
 
+        if order > _HIGHEST * self.turns:
+            return 0.0
         rows = max(720 * self.turns, 4 * order)
         phi = np.arange(rows, dtype=np.float64) * (self.machine.period / rows)
-        found = harmonics(self.vibrating.bend(phi), order)
-        top = float(np.max(harmonics(self.vibrating.bend(phi), rows // 2)))
-        return float(found[-1]) / top if top > 0.0 else 0.0
+        found = harmonics(self.vibrating.bend(phi), rows // 2)
+        top = float(np.max(found))
+        return float(found[order - 1]) / top if top > 0.0 else 0.0
 
     # Counterweights
 

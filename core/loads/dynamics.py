@@ -7,9 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.loads.kinematics import Point, cross, dot
@@ -40,6 +41,10 @@ class Torque(NamedTuple):
     on: str
     torque: Reals
 
+
+Rows: TypeAlias = npt.NDArray[np.intp]
+_ALL = slice(None)
+_BLOCK = 2048
 
 Applied = Sequence[Force | Torque]
 Masses = Mapping[str, Mass]
@@ -148,68 +153,93 @@ class System:
         size = 3 * len(self.index)
         if len(self.columns) != size:
             raise AssertionError(f"{len(self.columns)} unknowns for {size} equations")
-        self.matrix = np.zeros((mechanism.rows, size, size))
+        self.size = size
+
+    def matrix(self, rows: Rows) -> Reals:
+        """The equations of some of the input angles, (rows, n, n)."""
+        found = np.zeros((len(rows), self.size, self.size))
         for k, (_, column) in enumerate(self.columns):
-            self._put(self.matrix[:, :, k], column.first, column.second, column.force, column.at, column.couple)
+            self._put(found[:, :, k].T, column.first, column.second, column.force, column.at, column.couple, rows)
+        return found
 
     def _put(
-        self, rows: Reals, first: str, second: str, force: Points | complex, at: Points, couple: Reals | float
+        self,
+        entries: Reals,
+        first: str,
+        second: str,
+        force: Points | complex,
+        at: Points,
+        couple: Reals | float,
+        rows: Rows | slice = _ALL,
     ) -> None:
-        """Add a force and a couple on the second link, and their opposites on the first, to an array of equations."""
+        """Add a force and a couple on the second link, and their opposites on the first, to (n, rows) equations."""
+        at = at[rows]
+        force = force[rows] if isinstance(force, np.ndarray) else force
+        couple = couple[rows] if isinstance(couple, np.ndarray) else couple
         for name, sign in ((second, 1.0), (first, -1.0)):
             if name != FRAME:
                 k = 3 * self.index[name]
-                rows[:, k] += sign * force.real
-                rows[:, k + 1] += sign * force.imag
-                rows[:, k + 2] += sign * (cross(at - self.centers[name].value, force) + couple)
+                entries[k] += sign * force.real
+                entries[k + 1] += sign * force.imag
+                entries[k + 2] += sign * (cross(at - self.centers[name].value[rows], force) + couple)
 
     def right_side(
         self, applied: Applied, gravity: complex, speed: Reals | float, acceleration: Reals | float
     ) -> Reals:
-        """Inertia less what is applied."""
-        side = np.zeros((self.mechanism.rows, 3 * len(self.index)))
+        """Inertia less what is applied, (n, N)."""
+        side = np.zeros((self.size, self.mechanism.rows))
         square = np.asarray(speed) ** 2
         for name, mass in self.masses.items():
             k, center, turn = 3 * self.index[name], self.centers[name], self.mechanism.links[name].turn
             force = mass.mass * (center.second * square + center.first * acceleration - gravity)
-            side[:, k] += force.real
-            side[:, k + 1] += force.imag
-            side[:, k + 2] += mass.inertia * (turn.second * square + turn.first * acceleration)
+            side[k] += force.real
+            side[k + 1] += force.imag
+            side[k + 2] += mass.inertia * (turn.second * square + turn.first * acceleration)
         for each in applied:
             if isinstance(each, Force):
                 self._put(side, each.on, FRAME, each.force, each.at.value, 0.0)
             else:
-                side[:, 3 * self.index[each.on] + 2] -= each.torque
+                side[3 * self.index[each.on] + 2] -= each.torque
         return side
 
-    def solve(self, side: Reals) -> Reals:
-        """The unknowns, (N, n), the radial forces of the teeth included.
+    def solve(self, side: Reals, rows: Rows | None = None) -> Reals:
+        """The unknowns, (n, N), the radial forces of the teeth included; of some rows where they are given.
 
         Notes
             The radial force of a mesh acts along the link that joins its axes (or into a guide), so it changes no
             tangential force. The answer to a unit of each is found with the same factors and added once.
         """
         meshes = self.mechanism.meshes
-        sides = np.zeros((*side.shape, 1 + len(meshes)))
-        sides[:, :, 0] = side
+        rows = np.arange(self.mechanism.rows) if rows is None else rows
+        sides = np.zeros((1 + len(meshes), self.size, len(rows)))
+        sides[0] = side[:, rows]
         for k, mesh in enumerate(meshes, 1):
             radial = mesh.radial()
-            self._put(sides[:, :, k], mesh.second, mesh.first, radial.force, radial.at, 0.0)
-        try:
-            found = np.linalg.solve(self.matrix, sides)
-        except np.linalg.LinAlgError:
-            raise NoSolution("the joint forces are not finite: two links of the mechanism stand in line") from None
-        result = found[:, :, 0].copy()
+            self._put(sides[k], mesh.second, mesh.first, radial.force, radial.at, 0.0, rows)
+        found = self._solved(sides, rows)
+        result = found[0].copy()
         for k, mesh in enumerate(meshes, 1):
             place = next(i for i, (name, _) in enumerate(self.columns) if name == mesh.name)
-            result += np.abs(found[:, place, 0])[:, None] * found[:, :, k]
+            result += np.abs(found[0, place]) * found[k]
         return np.asarray(result)
+
+    def _solved(self, sides: Reals, rows: Rows) -> Reals:
+        """The unknowns to some right sides, (sides, n, N); a block of rows at a time, for the memory's sake."""
+        found = np.empty_like(sides)
+        try:
+            for start in range(0, len(rows), _BLOCK):
+                part = slice(start, start + _BLOCK)
+                block = np.linalg.solve(self.matrix(rows[part]), sides[:, :, part].transpose(2, 1, 0))
+                found[:, :, part] = block.transpose(2, 1, 0)
+        except np.linalg.LinAlgError:
+            raise NoSolution("the joint forces are not finite: two links of the mechanism stand in line") from None
+        return found
 
     def reactions(self, solution: Reals) -> Reactions:
         """The unknowns by connection."""
         rows: dict[str, list[Reals]] = {}
         for k, (name, _) in enumerate(self.columns):
-            rows.setdefault(name, []).append(solution[:, k])
+            rows.setdefault(name, []).append(solution[k])
         gain = self.mechanism.gain
         torque = rows.pop("drive")[0] if gain is None else gain * rows[self.mechanism.drive][0]
         return Reactions({name: np.array(values) for name, values in rows.items()}, torque, self.mechanism)

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.loads.dynamics import Applied, Force, Masses, Reactions, System, Torque
+from gearlink.core.loads.dynamics import Applied, Force, Masses, Reactions, Rows, System, Torque
 from gearlink.core.loads.kinematics import dot
 from gearlink.core.loads.mechanism import (
     FRAME,
@@ -100,10 +100,13 @@ def with_friction(
     """
     system = System(mechanism, masses)
     side = system.right_side(applied, gravity, speed, 0.0)
-    found = system.reactions(system.solve(side))
-    if (sided := _sided(mechanism, found)) is not None:
+    solution = system.solve(side)
+    found = system.reactions(solution)
+    sided, rows = _sided(mechanism, found)
+    if len(rows):
         mechanism, system = sided, System(sided, masses)
-        found = system.reactions(system.solve(side))
+        solution[:, rows] = system.solve(side, rows)
+        found = system.reactions(solution)
     if friction is None:
         return found
     before = np.inf
@@ -136,16 +139,18 @@ def passes_ratio(
     return second / first if first > 0.0 else 0.0
 
 
-def _sided(mechanism: Mechanism, found: Reactions) -> Mechanism | None:
-    """The mechanism with the rollers that carry, where a second one does anywhere."""
-    backs = [each.name for each in mechanism.connections if isinstance(each, Contact) and each.back is not None]
-    if not any(np.any(found.unknowns[name][0] < 0.0) for name in backs):
-        return None
-    connections = [
-        each.sided(found.unknowns[each.name][0]) if isinstance(each, Contact) else each
-        for each in mechanism.connections
-    ]
-    return replace(mechanism, connections=connections)
+def _sided(mechanism: Mechanism, found: Reactions) -> tuple[Mechanism, Rows]:
+    """The mechanism with the rollers that carry, and the rows where that is a second one anywhere."""
+    pulled = np.zeros(mechanism.rows, dtype=bool)
+    connections: list[Connection] = []
+    for each in mechanism.connections:
+        if isinstance(each, Contact) and each.back is not None:
+            force = found.unknowns[each.name][0]
+            pulled |= force < 0.0
+            connections.append(each.sided(force))
+        else:
+            connections.append(each)
+    return replace(mechanism, connections=connections), np.flatnonzero(pulled)
 
 
 def _with(system: System, side: Reals, losses: Applied) -> Reals:

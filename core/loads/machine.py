@@ -28,6 +28,7 @@ NODES = 16
 PANEL = math.radians(10.0)
 _STEPS = 150
 _KEPT = 24
+_ROWS_KEPT = 200_000
 _FEW = 340
 """Rows at most of what a search looks at on the way; the grids that searches begin with are kept apart from it."""
 
@@ -73,7 +74,8 @@ class Machine:
         key = what, phi.tobytes()
         kept = self.kept if phi.size > _FEW else self.kept_few
         if key not in kept:
-            while len(kept) >= _KEPT:
+            # The oldest go; of long arrays few are held, so that a table of a million rows does not fill the memory.
+            while kept and (len(kept) >= _KEPT or (len(kept) + 1) * phi.size > _ROWS_KEPT):
                 del kept[next(iter(kept))]
             kept[key] = make()
         return kept[key]

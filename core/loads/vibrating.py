@@ -20,6 +20,7 @@ _DEGREES = 180.0 / math.pi
 _MM = 1e3
 _MOST_PERIODS = 40.0
 _PER_UNIT = 50
+_LEAST_RATIO, _MOST_RATIO = 1e-6, 1e4
 
 
 class Vibrating:
@@ -59,10 +60,19 @@ class Vibrating:
                 key="loads.vibration",
             )
         damping = ASSUMED_DAMPING if self.section.damping is None else self.section.damping
-        if self.section.frequency is not None:
-            return Oscillator(2.0 * math.pi * self.section.frequency, damping)
-        stiffness = self.section.stiffness * (1e3 if self.slides else 1.0)
-        return Oscillator(math.sqrt(stiffness / self.inertia), damping)
+        given = "stiffness" if self.section.frequency is None else "frequency"
+        if given == "frequency":
+            frequency = 2.0 * math.pi * self.section.frequency
+        else:
+            frequency = math.sqrt(self.section.stiffness * (1e3 if self.slides else 1.0) / self.inertia)
+        ratio = frequency / abs(self.design.speed)
+        if not _LEAST_RATIO <= ratio <= _MOST_RATIO:
+            message = f"the natural frequency is {ratio:.3g} times that of the input, outside of {_LEAST_RATIO:g} to "
+            remedy = f"{_MOST_RATIO:g}: such an output moves as a rigid one does; leave vibration out"
+            if ratio < _LEAST_RATIO:
+                remedy = f"{_MOST_RATIO:g}: such an output does not follow its drive; make it stiffer"
+            raise NoSolution(message + remedy, key=f"loads.vibration.{given}")
+        return Oscillator(frequency, damping)
 
     @property
     def frequency(self) -> float:

@@ -1,0 +1,91 @@
+"""Loads at the edge of what a file may say: they end with a place and a remedy, and take neither memory nor time."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import factory
+import numpy as np
+import pytest
+from pydantic import ValidationError
+
+from gearlink.core.errors import GearlinkError
+from gearlink.core.loads import courses
+from gearlink.core.loads.spec import Course
+
+FEED = "loaded_feed"
+
+
+def _value_of_zones(zones: list[tuple[float, float, float]], phi: float) -> float:
+    """The definition: each zone from its start up to its end, through 360 deg where the end lies below."""
+    turn, total = 2.0 * math.pi, 0.0
+    for start, end, value in zones:
+        width = math.radians(end - start) % turn or (turn if start != end else 0.0)
+        total += value if math.fmod(math.fmod(phi - math.radians(start), turn) + turn, turn) < width else 0.0
+    return total
+
+
+def test_zones_add_and_pass_through_the_turn() -> None:
+    rng = np.random.default_rng(3)
+    ends = [tuple(float(x) for x in pair) for pair in rng.integers(-7, 8, (12, 2)) * 45.0 + rng.uniform(-0.1, 0.1)]
+    zones = [(start, end, float(k + 1)) for k, (start, end) in enumerate(ends)]
+    course = Course.model_validate({"zones": [{"from": a, "to": b, "value": v} for a, b, v in zones]})
+    phi = rng.uniform(-10.0, 20.0, 400)
+    assert courses.values(course, phi).tolist() == [_value_of_zones(zones, float(x)) for x in phi]
+
+
+def test_zone_holds_from_its_start_up_to_its_end() -> None:
+    course = Course.model_validate({"zones": [{"from": 34, "to": 154, "value": 3}]})
+    places = np.radians([34.0, 154.0]) + 2.0 * math.pi * np.arange(4)[:, None]
+    assert courses.values(course, places[:, 0]).tolist() == [3.0] * 4
+    assert courses.values(course, places[:, 1]).tolist() == [0.0] * 4
+
+
+def test_blocks_of_rows_are_solved_alike() -> None:
+    """Systems are solved a block of rows at a time; what a row gets does not depend on the others."""
+    machine = factory.design(FEED, command="loads").machine
+    phi = np.linspace(0.0, 6.0, 5000)
+    whole, few = machine.reactions(phi), machine.reactions(phi[::500])
+    for name, values in few.unknowns.items():
+        assert np.array_equal(whole.unknowns[name][:, ::500], values)
+
+
+def test_long_arrays_are_not_kept() -> None:
+    machine = factory.design(FEED, command="loads").machine
+    for start in range(6):
+        machine.at(np.linspace(start, start + 1.0, 60_000))
+    assert sum(len(key[1]) // 8 for key in machine.kept) <= 200_000
+
+
+@pytest.mark.parametrize(
+    ("keys", "place"),
+    [
+        ({"loads__vibration__frequency": 1e7}, "loads.vibration.frequency"),
+        ({"loads__vibration__frequency": 1e-300}, "loads.vibration.frequency"),
+        ({"loads__vibration": {"stiffness": 1e15}}, "loads.vibration.stiffness"),
+        ({"loads__speed": 1e-300}, "loads.speed"),
+        ({"loads__speed": 0.0}, "loads.speed"),
+        ({"loads__forces": [{"on": "nobody", "torque": 1}]}, "loads.forces[0].on"),
+    ],
+)
+def test_refused_with_the_key(keys: dict[str, Any], place: str) -> None:
+    with pytest.raises(GearlinkError) as caught:
+        design = factory.design(FEED, command="loads", **keys)
+        design.report()
+    assert caught.value.key == place
+
+
+@pytest.mark.parametrize(
+    "keys",
+    [
+        {"loads__links__crank__mass": -1.0},
+        {"loads__links__output__inertia": -1e-9},
+        {"loads__motor__slope": 0.0},
+        {"loads__forces": [{"on": "output", "torque": {"zones": []}}]},
+        {"loads__forces": [{"on": "output", "torque": {"table": [[0, 1], [90, 2], [45, 3]]}}]},
+    ],
+)
+def test_refused_by_the_section(keys: dict[str, Any]) -> None:
+    with pytest.raises(ValidationError):
+        factory.design(FEED, command="loads", **keys)
