@@ -71,8 +71,7 @@ def test_long_arrays_are_not_kept() -> None:
 )
 def test_refused_with_the_key(keys: dict[str, Any], place: str) -> None:
     with pytest.raises(GearlinkError) as caught:
-        design = factory.design(FEED, command="loads", **keys)
-        design.report()
+        factory.design(FEED, command="loads", **keys).report("loads")
     assert caught.value.key == place
 
 
