@@ -1,9 +1,10 @@
-"""Writes docs/nomenclature.md from the engine's own nomenclature; run by `make docs`, checked by the tests."""
+"""Writes docs/nomenclature.md and the list of keys that `explain` reads; run by `make docs`, checked by the tests."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
+from gearlink.cli.texts import key_index
 from gearlink.core.kinds import FILES
 from gearlink.core.nomenclature import TERMS
 
@@ -43,3 +44,4 @@ def _kinds_by_quantity() -> dict[str, list[str]]:
 
 if __name__ == "__main__":
     TARGET.write_text(text())
+    key_index.FILE.write_text(key_index.text(), encoding="utf-8")

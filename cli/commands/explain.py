@@ -6,7 +6,6 @@ import textwrap
 from collections.abc import Iterator
 from dataclasses import dataclass
 from difflib import get_close_matches
-from functools import cache
 from shutil import get_terminal_size
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +14,6 @@ from gearlink.cli.options import Format, Options
 from gearlink.cli.texts.columns import COLUMNS, CONSTANTS, column_words
 
 if TYPE_CHECKING:
-    from gearlink.cli.texts.spec_keys import SpecKey
     from gearlink.core.kinds import Kind
     from gearlink.core.report import Rule
 
@@ -52,7 +50,7 @@ def run_explain(subject: str | None, format: Format) -> int:
 def find(subject: str) -> list[Topic]:
     """Every topic of a name; a name written with - for _ counts where nothing bears it as it stands."""
     exact = list(_topics(subject))
-    if all(topic.about == "column" for topic in exact):  # all schemas are read for the keys, which takes its time
+    if all(topic.about == "column" for topic in exact):  # a key says more than a column
         exact = [*_keys(subject), *exact]
     if exact:
         return exact
@@ -96,34 +94,28 @@ def _symbols(name: str) -> Iterator[Topic]:
 
 def _keys(name: str) -> Iterator[Topic]:
     """Keys of design files by path, `gears.module`, or by their last word; one topic where several kinds agree."""
+    from gearlink.cli.texts.key_index import known_keys
     from gearlink.cli.texts.written_design import choice
 
-    found: dict[tuple[str, str], tuple[SpecKey, list[str]]] = {}
-    for kind, key in _all_keys():
-        if name in (key.path, key.path.rpartition(".")[2]):
-            found.setdefault((key.path, key.words), (key, []))[1].append(kind)
-    for (path, words), (key, kinds) in found.items():
+    for key, kinds in known_keys():
+        if name not in (key.path, key.path.rpartition(".")[2]):
+            continue
         told = {"Unit": key.unit if key.unit not in ("", "1") else "", "Range": key.range, "Choice": choice(key)}
         told |= {"Kinds": ", ".join(kinds), "See also": f"`gearlink new {kinds[0]}` shows it in its place"}
-        yield Topic("key", path, f"key of a design file: {words or 'a section'}", {k: v for k, v in told.items() if v})
+        yield Topic(
+            "key", key.path, f"key of a design file: {key.words or 'a section'}", {k: v for k, v in told.items() if v}
+        )
 
 
 def names() -> tuple[str, ...]:
     """Everything that can be explained, but for the last words of keys and single symbols, which lead there too."""
-    return tuple(dict.fromkeys([*plain_names(), *(key.path for _, key in _all_keys())]))
+    from gearlink.cli.texts.key_index import known_keys
 
-
-@cache
-def _all_keys() -> list[tuple[str, SpecKey]]:
-    """Every key of every kind of file, with the kind."""
-    from gearlink.cli.texts.spec_keys import spec_keys
-    from gearlink.core.kinds import FILES
-
-    return [(kind.name, key) for kind in FILES.values() for key in spec_keys(kind) if key.path != "kind"]
+    return tuple(dict.fromkeys([*plain_names(), *(key.path for key, _ in known_keys())]))
 
 
 def plain_names() -> tuple[str, ...]:
-    """Codes, checks, kinds, quantities, laws, columns: what is known without reading all schemas."""
+    """Codes, checks, kinds, quantities, laws, columns: what is known beside the keys of files."""
     from gearlink.cli.texts.codes import explanations
     from gearlink.core.kinds import FILES
     from gearlink.core.nomenclature import TERMS

@@ -113,6 +113,12 @@ def test_help_imports_no_models() -> None:
     assert not {m for m in modules if m in ("yaml", "scipy", "matplotlib", "gearlink.cli.commands.design")}
 
 
+def test_an_explained_key_reads_no_schema() -> None:
+    modules = modules_of("explain", "gears.module")
+    assert not packages(modules) & {"numpy", "yaml"}  # Typer itself brings pydantic
+    assert not {m for m in modules if m.startswith("gearlink.core.") and m.endswith((".spec", ".design"))}
+
+
 def test_version_imports_no_typer() -> None:
     assert installed(modules_of("--version")) <= {"gearlink"}
 

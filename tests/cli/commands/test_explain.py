@@ -84,6 +84,13 @@ def test_keys_of_the_explanations_exist_in_a_kind() -> None:
     assert missing == set()
 
 
+def test_the_list_of_keys_is_what_the_schemas_say() -> None:
+    """After a change of the specs: `make docs`."""
+    from gearlink.cli.texts import key_index
+
+    assert key_index.FILE.read_text(encoding="utf-8") == key_index.text()
+
+
 def test_formulas_belong_to_quantities() -> None:
     assert set(FORMULAS) <= set(TERMS)
 
