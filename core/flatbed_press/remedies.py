@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.cams.checks import HUB, ROLLER_SHARE
 from gearlink.core.errors import NoSolution
-from gearlink.core.remedies import REFUSAL, Way, at_least, at_most, either, left_out, refusal_ways, up
+from gearlink.core.remedies import REFUSAL, Way, at_least, at_most, down, either, left_out, refusal_ways, up
 
 if TYPE_CHECKING:
     from gearlink.core.flatbed_press.design import FlatbedPress
@@ -18,7 +18,15 @@ _LEAD_IN = 10.0
 _LINKS = tuple(f"{chain}.double_crank.{link}" for chain in ("bed", "cylinder") for link in ("frame", "coupler"))
 _LARGER = (up("cam.base_radius"), up("cam.return_angle", step=0.5))
 _ZONE = (left_out("sync.start"), up("cam.lead_in", step=1.0))
+_WIDER = (up("input_gears.face_width", step=1.0), Way(("input_gears.face_width[0]", "input_gears.face_width[1]"), 1.0))
 _WAYS = {
+    "backlash": tuple(
+        Way((f"input_gears.allowances.upper[{gear}]", f"input_gears.allowances.lower[{gear}]"), -0.005)
+        for gear in (0, 1)
+    )
+    + tuple(down(f"input_gears.profile_shift[{gear}]", step=0.01) for gear in (0, 1)),
+    "pitting": _WIDER,
+    "bending": (*_WIDER, up("input_gears.tool.rounding", step=0.01)),
     "transmission-angle": either(*_LINKS),
     "sync-speed": _ZONE,
     "sync-length": (left_out("sync.end"),),

@@ -61,13 +61,13 @@ def pair_of(spec: GearPairSpec) -> GearPair:
     return _without_difference(pair)
 
 
-def pair_at(given: PairKeys, teeth: tuple[int, int], distance: float) -> GearPair:
-    """The pair of a section at the centre distance of its machine.
+def pair_at(given: PairKeys, teeth: tuple[int, int], distance: float | None = None) -> GearPair:
+    """The pair of a section, at the centre distance of its machine or that of its shifts.
 
     Parameters
         given : PairKeys, with module and pressure_angle
         teeth : (int, int)
-        distance : float [mm]
+        distance : float [mm] - None: without backlash by the shifts
     Raises
         NoSolution - where the teeth cannot mesh
     """
@@ -84,7 +84,7 @@ def pair_at(given: PairKeys, teeth: tuple[int, int], distance: float) -> GearPai
         given_shift=shift,
         given_distance=distance,
     )
-    return pair if shift is None else _without_difference(pair)
+    return pair if shift is None or distance is None else _without_difference(pair)
 
 
 def _on_rack(spec: GearPairSpec, known: dict[str, Any]) -> GearPair:

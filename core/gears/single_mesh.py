@@ -66,7 +66,9 @@ def mesh_quantity(mesh: GearPair | InternalMesh, name: str) -> Any:
     return getattr(mesh, name) if name in INTERNAL_QUANTITIES else None
 
 
-def mesh_checks(name: str, mesh: GearPair | InternalMesh, limits: Any, label: str = "") -> list[Check]:
+def mesh_checks(
+    name: str, mesh: GearPair | InternalMesh, limits: Any, label: str = "", shifts: bool = False
+) -> list[Check]:
     """The findings of one of MESH_CHECKS on a mesh, which goes by a label where a design has several.
 
     Source
@@ -78,7 +80,7 @@ def mesh_checks(name: str, mesh: GearPair | InternalMesh, limits: Any, label: st
             replace(check, message=f"{label.replace('_', '-')} mesh: {check.message}") if label else check
             for check in found
         ]
-    return [] if name == "tip-fouling" else list(gear_check(name, mesh, limits, label))
+    return [] if name == "tip-fouling" else list(gear_check(name, mesh, limits, label, shifts))
 
 
 def _internal_check(name: str, mesh: InternalMesh, limits: Any) -> Iterator[Check]:

@@ -62,7 +62,7 @@ def _served(spec: Any, command: str, paths: Sequence[str]) -> bool:
     section = getattr(spec, task)
     if section is None or spec.gears.i3 is not None or spec.shafts is not None:
         return False
-    if min(spec.gears.crank, spec.gears.output) < 0:  # a ring gear
+    if spec.gears.own_teeth or min(spec.gears.crank, spec.gears.output) < 0:  # or a ring gear
         return False
     if any(getattr(spec, name) is not None for name in ("dwell_tolerance", "dwell_backlash", "input_speed")):
         return False

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
 from gearlink.core.clearance.bodies import Gear, Layout, Shaft, least_shaft
 from gearlink.core.clearance.reach import constant, coupler_joint, crank_pin
@@ -16,13 +17,24 @@ if TYPE_CHECKING:
     from gearlink.core.three_gear.spec import ThreeGearSpec
 
 
-def layout(links: FourBar, train: GearTrain, spec: ThreeGearSpec) -> Layout:
-    """Gears, shafts and distances; the crank gear is one body with crank and input shaft."""
+def layout(links: FourBar, train: GearTrain, spec: ThreeGearSpec, own: Mapping[str, Any] | None = None) -> Layout:
+    """Gears, shafts and distances; the crank gear is one body with crank and input shaft.
+
+    Parameters
+        links : FourBar [mm]
+        train : GearTrain
+        spec : ThreeGearSpec
+        own : dict of GearPair - external meshes with teeth of their own; None: standard teeth
+    """
     module, shafts = spec.gears.module, spec.shafts
     gears = (
-        _gear("the crank gear", "B", train.crank, train, module, None, "CD" if train.internal else "C"),
-        Gear("the idler", "C", tip_radius(train.idler, module), mates="BD"),
-        _gear("the output gear", "D", train.output, train, module, spec.gears.rim, "C"),
+        _own(own)
+        if own is not None
+        else (
+            _gear("the crank gear", "B", train.crank, train, module, None, "CD" if train.internal else "C"),
+            Gear("the idler", "C", tip_radius(train.idler, module), mates="BD"),
+            _gear("the output gear", "D", train.output, train, module, spec.gears.rim, "C"),
+        )
     )
     return Layout(
         gears=gears,
@@ -48,6 +60,16 @@ def _gear(name: str, axis: str, teeth: float, train: GearTrain, module: float, r
 
     mesh = InternalMesh(module, (int(train.idler), int(-teeth)), rim=rim)
     return Gear(f"{name}, a ring,", axis, mesh.rim_radius, mesh.tip_radius[1], mates)
+
+
+def _own(meshes: Mapping[str, Any]) -> tuple[Gear, Gear, Gear]:
+    """Gears with tips of their own."""
+    (crank, idler), (_, output) = (mesh.tip_radius for mesh in meshes.values())
+    return (
+        Gear("the crank gear", "B", crank, mates="C"),
+        Gear("the idler", "C", idler, mates="BD"),
+        Gear("the output gear", "D", output, mates="C"),
+    )
 
 
 def ring_planes(train: GearTrain) -> Check:

@@ -11,15 +11,15 @@ from gearlink.core.clearance.checks import SHAFT_WAYS, collision_check, shaft_ch
 from gearlink.core.design import Design, Outline, placed
 from gearlink.core.errors import MissingSection, at_key
 from gearlink.core.gears.checks import gear_ways
-from gearlink.core.gears.pair import GearPair
 from gearlink.core.gears.single_mesh import MESH_CHECKS, mesh_checks, mesh_quantity
+from gearlink.core.gears.train_names import TRAIN_CHECKS, TRAIN_QUANTITIES
 from gearlink.core.linkages.checks import check_linkage, dwell_window_check, transmission_check
 from gearlink.core.linkages.feed import FeedResults
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.linkages.standstills import BackStep
 from gearlink.core.linkages.swing import rocker_swing
 from gearlink.core.real_speed import per_time
-from gearlink.core.remedies import down, either, up
+from gearlink.core.remedies import Way, down, either, up
 from gearlink.core.report import Check, safely_above, safely_below
 from gearlink.core.results import cached_property
 from gearlink.core.three_gear import bodies, dwells, motion, tables
@@ -27,11 +27,14 @@ from gearlink.core.three_gear.codes import ACHIEVED, DWELL_TOLERANCE
 from gearlink.core.three_gear.idler_choice import idler_for_ratio
 from gearlink.core.three_gear.momentary_dwell import crank_with_room
 from gearlink.core.three_gear.motion import Extremes, GearTrain
-from gearlink.core.three_gear.names import CHECKS, MESH_QUANTITIES, MESHES, QUANTITIES
+from gearlink.core.three_gear.names import CHECKS, MESH_QUANTITIES, QUANTITIES
 
 if TYPE_CHECKING:
+    from gearlink.core.gears.data import GearData
     from gearlink.core.gears.internal_mesh import InternalMesh
+    from gearlink.core.gears.pair import GearPair
     from gearlink.core.linkages.band_dwell import ToleranceDwell
+    from gearlink.core.three_gear.by_roots import ByRoots
     from gearlink.core.three_gear.spec import ThreeGearSpec
 
 _TEETH = (
@@ -54,6 +57,7 @@ WAYS = {
         *SHAFT_WAYS,
     ),
     "transmission-angle": (*_LINKS, up("gears.idler", step=1), *_TEETH, down("momentary.eccentricity")),
+    "backlash": tuple(Way((f"gears.allowances.upper[{i}]", f"gears.allowances.lower[{i}]"), -0.005) for i in range(3)),
     "dwell-tolerance": (down("dwell_tolerance", step=0.01), down("dwell_backlash", step=0.01)),
     **gear_ways(*_TEETH),
 }
@@ -66,9 +70,9 @@ class ThreeGearFourBar(FeedResults, Design):
     spec: ThreeGearSpec
     outlines = {
         "analyze": Outline(QUANTITIES, ("dwell-window", *CHECKS), ("motion",)),
-        "gear": Outline(MESH_QUANTITIES, MESH_CHECKS),
+        "gear": Outline(MESH_QUANTITIES, (*MESH_CHECKS, *TRAIN_CHECKS)),
     }
-    extra_tables: ClassVar[tuple[str, ...]] = ("motion", "links")
+    extra_tables: ClassVar[tuple[str, ...]] = ("motion", "links", "drawing")
     ways = WAYS
 
     # Gears and links
@@ -109,12 +113,22 @@ class ThreeGearFourBar(FeedResults, Design):
     @property
     def coupler_length(self) -> float:
         """Centre distance of crank gear and idler [mm]."""
+        if self.off_center:
+            return self.mesh_data["crank_idler"].pair.center_distance
         return self.spec.gears.module * abs(self.crank_teeth + self.idler_teeth) / 2.0
 
     @property
     def rocker_length(self) -> float:
         """Centre distance of idler and output gear [mm]."""
+        if self.off_center:
+            return self.mesh_data["idler_output"].pair.center_distance
         return self.spec.gears.module * abs(self.idler_teeth + self.output_teeth) / 2.0
+
+    @property
+    def off_center(self) -> bool:
+        """Whether the profile shifts of a mesh do not cancel, which moves its centre distance."""
+        shift = self.spec.gears.shift
+        return shift(0) + shift(1) != 0.0 or shift(1) + shift(2) != 0.0
 
     @cached_property
     def linkage(self) -> FourBar:
@@ -135,7 +149,7 @@ class ThreeGearFourBar(FeedResults, Design):
     @property
     def frame_ratio(self) -> float:
         """Frame over crank."""
-        return self.linkage.frame / self.linkage.crank
+        return self.frame_length / self.crank_length
 
     # Motion
 
@@ -179,7 +193,16 @@ class ThreeGearFourBar(FeedResults, Design):
     @cached_property
     def dwell_crank_angles(self) -> list[float]:
         """Crank angles of zero output speed [rad], ascending."""
+        if self.off_center:
+            return self.by_roots.places
         return dwells.dwell_positions(self.linkage, self.train)
+
+    @cached_property
+    def by_roots(self) -> ByRoots:
+        """Standstills as roots of the output's speed, for links that are not in proportion to the teeth."""
+        from gearlink.core.three_gear.by_roots import ByRoots
+
+        return ByRoots(self.linkage, self.train)
 
     @cached_property
     def motion(self) -> str:
@@ -189,6 +212,8 @@ class ThreeGearFourBar(FeedResults, Design):
     @cached_property
     def back_step(self) -> BackStep | None:
         """The back-step, where there is one."""
+        if self.off_center:
+            return self.by_roots.back_step
         return dwells.back_step(self.linkage, self.train) if self.motion == "back-step" else None
 
     back_step_angle: float | None = placed("back_step.angle")
@@ -198,6 +223,8 @@ class ThreeGearFourBar(FeedResults, Design):
     def dwell_angle(self) -> float | None:
         """Crank angle until the output regains its place, phi13 [rad]."""
         step = self.back_step
+        if self.off_center:
+            return self.by_roots.dwell_angle
         return None if step is None else dwells.dwell_angle(self.linkage, self.train, step)
 
     @property
@@ -216,6 +243,8 @@ class ThreeGearFourBar(FeedResults, Design):
         tolerance = self.output_tolerance
         if tolerance is None or tolerance >= self._endless_tolerance:
             return None
+        if self.off_center:
+            return self.by_roots.within(tolerance, self.speed_extremes, self.mean_ratio)
         from gearlink.core.three_gear.tolerance_dwell import tolerance_dwell
 
         with at_key("dwell_tolerance" if self.spec.dwell_backlash is None else "dwell_backlash"):
@@ -248,31 +277,31 @@ class ThreeGearFourBar(FeedResults, Design):
     @cached_property
     def layout(self) -> Layout:
         """The bodies in the plane of the gears."""
-        return bodies.layout(self.linkage, self.train, self.spec)
+        own = self.meshes if self.spec.gears.own_teeth else None
+        return bodies.layout(self.linkage, self.train, self.spec, own)
 
     @cached_property
     def gear_gap(self) -> float | None:
         """Gap of the tips of gears 1 and 5 at the closest [mm]; None where one is a ring, in another plane."""
         if self.train.internal:
             return None
+        if self.spec.gears.own_teeth:
+            return self.layout.gear_pairs[0].gap
         return motion.gear_gap(self.linkage, self.train, self.spec.gears.module)
 
     @cached_property
     def meshes(self) -> dict[str, GearPair | InternalMesh]:
-        """The two meshes without profile shift; an internal one is a pair of idler and ring."""
-        teeth = ((self.crank_teeth, self.idler_teeth), (self.idler_teeth, self.output_teeth))
-        return {mesh: self._mesh(*pair) for mesh, pair in zip(MESHES, teeth, strict=True)}
+        """The two meshes; an internal one is a pair of idler and ring."""
+        from gearlink.core.three_gear.meshes import meshes
 
-    def _mesh(self, one: int, other: int) -> GearPair | InternalMesh:
-        gears = self.spec.gears
-        alpha = math.radians(gears.pressure_angle)
-        if min(one, other) > 0:
-            return GearPair.from_shift(gears.module, (one, other), (0.0, 0.0), pressure_angle=alpha)
-        from gearlink.core.gears.internal_mesh import InternalMesh
+        return meshes(self.spec.gears, self.idler_teeth)
 
-        rim = gears.rim if other < 0 else None
-        with at_key("gears"):
-            return InternalMesh(gears.module, (max(one, other), -min(one, other)), alpha, rim=rim)
+    @cached_property
+    def mesh_data(self) -> dict[str, GearData]:
+        """The two meshes with all that their drawing needs; in a pair the ring is the second."""
+        from gearlink.core.three_gear.mesh_data import data
+
+        return data(self.spec.gears, self.idler_teeth)
 
     def raw(self, name: str) -> Any:
         """Names that carry their mesh are the gear pair's, all others the design's own."""
@@ -280,20 +309,26 @@ class ThreeGearFourBar(FeedResults, Design):
         if not mesh:
             return super().raw(name)
         with at_key("gears"):
-            found = mesh_quantity(self.meshes[mesh], quantity)
+            drawn = quantity in TRAIN_QUANTITIES
+            found = self.mesh_data[mesh].quantity(quantity) if drawn else mesh_quantity(self.meshes[mesh], quantity)
         # a ring on the crank is the first of its mesh, the second of its pair of gears
         return found[::-1] if mesh == "crank_idler" and self.crank_teeth < 0 and isinstance(found, tuple) else found
 
-    table_motion, table_links = tables.motion, tables.links
+    table_motion, table_links, table_drawing = tables.motion, tables.links, tables.drawing
 
     # Checks
 
     def check(self, name: str) -> list[Check]:
         """Gear checks run over both meshes."""
+        limits = self.spec.limits
+        if name in TRAIN_CHECKS:
+            from gearlink.core.three_gear.mesh_data import drawing_checks
+
+            return drawing_checks(name, self.mesh_data, self.spec)
         if name not in MESH_CHECKS:
             return super().check(name)
-        limits = self.spec.limits
-        return [c for mesh, pair in self.meshes.items() for c in mesh_checks(name, pair, limits, mesh)]
+        shifts = self.spec.gears.profile_shift is not None
+        return [c for mesh, pair in self.meshes.items() for c in mesh_checks(name, pair, limits, mesh, shifts)]
 
     def check_gear_collision(self) -> Iterator[Check]:
         """GL301: gears 1 and 5, over the whole turn."""

@@ -102,7 +102,7 @@ def motion(positions: list[float]) -> str:
     Source
         thesis 4.1.2, 4.2.1
     """
-    return (UNIDIRECTIONAL, MOMENTARY_DWELL, BACK_STEP)[len(positions)]
+    return (UNIDIRECTIONAL, MOMENTARY_DWELL, BACK_STEP)[min(len(positions), 2)]
 
 
 def back_step(linkage: FourBar, train: GearTrain) -> BackStep:

@@ -12,6 +12,7 @@ from gearlink.core.results import cached_property
 from gearlink.core.three_gear.design import ThreeGearFourBar
 
 if TYPE_CHECKING:
+    from gearlink.core.gears.pair import GearPair
     from gearlink.core.loads.mechanism import Mechanism
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.three_gear.loads_spec import ThreeGearLoads as Section
@@ -57,13 +58,24 @@ class ThreeGearLoads(LoadsDesign):
         state = solve(self.design.linkage, 0.0)
         return state.coupler_angle, state.rocker_angle
 
+    @cached_property
+    def _rolling(self) -> list[tuple[float, float, float]]:
+        """Working radii [m] of both meshes and the tangent of their working pressure angle."""
+        design, gears = self.design, self.spec.gears
+        if design.off_center:
+            return [_rolling_of(data.pair) for data in design.mesh_data.values()]
+        train, half = design.train, 0.5 * gears.module * MM
+        tangent = math.tan(math.radians(gears.pressure_angle))
+        r1, r3, r5 = (half * teeth for teeth in (train.crank, train.idler, train.output))
+        return [(r1, r3, tangent), (r3, r5, tangent)]
+
     def kinematics(self, phi: Reals) -> Mechanism:
         """The five links at crank angles."""
         from gearlink.core.loads.kinematics import from_start, mixed, steady
         from gearlink.core.loads.mechanism import FRAME, Link, Mechanism, Mesh, Pin
 
         design, train = self.design, self.design.train
-        linkage, module = design.linkage, self.spec.gears.module * MM
+        linkage = design.linkage
         links = four_bar(linkage, phi)
         coupler, rocker = (
             from_start(links[name].turn, start) for name, start in zip(("coupler", "rocker"), self._start, strict=True)
@@ -74,15 +86,20 @@ class ThreeGearLoads(LoadsDesign):
         center_c = links["rocker"].at(linkage.rocker * MM)
         links["idler"] = Link(center_c, idler)
         links["output"] = Link(links["rocker"].origin, mixed((i3, idler), (1.0 - i3, rocker)))
-        r1, r3, r5 = (0.5 * module * teeth for teeth in (train.crank, train.idler, train.output))
-        tangent = math.tan(math.radians(self.spec.gears.pressure_angle))
+        (r1, r3, flank), (r3_out, r5, flank_out) = self._rolling
         b, d = links["coupler"], links["rocker"]
         meshes = [
-            Mesh("mesh_13", "crank", "idler", b.origin.value, b.unit, abs(r1), r3, tangent, r1 < 0.0, "coupler"),
-            Mesh("mesh_35", "output", "idler", d.origin.value, d.unit, abs(r5), r3, tangent, r5 < 0.0, "rocker"),
+            Mesh("mesh_13", "crank", "idler", b.origin.value, b.unit, abs(r1), r3, flank, r1 < 0.0, "coupler"),
+            Mesh("mesh_35", "output", "idler", d.origin.value, d.unit, abs(r5), r3_out, flank_out, r5 < 0.0, "rocker"),
         ]
         pins += [
             Pin("C_idler", self.section.idler_pin, "idler", center_c.value),
             Pin("D_output", FRAME, "output", links["output"].origin.value),
         ]
         return Mechanism(links, [*pins, *meshes], "crank")
+
+
+def _rolling_of(pair: GearPair) -> tuple[float, float, float]:
+    """Working radii [m] and the tangent of the working pressure angle."""
+    r1, r2 = pair.working_radius
+    return r1 * MM, r2 * MM, math.tan(pair.working_pressure_angle)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from gearlink.core.gears.single_mesh import MESH_CHECKS
 from gearlink.core.gears.single_mesh import MESH_QUANTITIES as OF_A_MESH
+from gearlink.core.gears.train_names import TRAIN_QUANTITIES
 from gearlink.core.linkages.feed import FEED_QUANTITIES
 
 QUANTITIES = (
@@ -57,4 +58,4 @@ CHECKS = (
     *MESH_CHECKS,
 )
 MESHES = ("crank_idler", "idler_output")
-MESH_QUANTITIES = tuple(f"{mesh}.{name}" for mesh in MESHES for name in OF_A_MESH)
+MESH_QUANTITIES = tuple(f"{mesh}.{name}" for mesh in MESHES for name in (*OF_A_MESH, *TRAIN_QUANTITIES))

@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal, TypeAlias
 from pydantic import AfterValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
+from gearlink.core.gears.train_keys import TrainKeys
 from gearlink.core.linkages.spec_parts import DwellBand, Feed, LinkageLimits, require_rim
 from gearlink.core.real_speed import other_speed
 from gearlink.core.spec import Assembly, Deferred, DrivenSpec, Length, PressureAngle, SignedLength, Spec, Teeth
@@ -23,8 +24,10 @@ SignedTeeth: TypeAlias = Annotated[
 ]
 
 
-class Gears(Spec):
+class Gears(TrainKeys):
     """The three gears in mesh; the idler stands on the pin of coupler and rocker."""
+
+    drawn = ("crank", "idler", "output")
 
     module: Length = Field(description="module of all three gears")
     crank: SignedTeeth = Field(description="teeth of the gear fixed to the crank; negative: a ring round the idler")
@@ -48,6 +51,11 @@ class Gears(Spec):
         if self.i3 is not None and min(self.crank, self.output) < 0:
             message = "i3 goes with external gears: give idler in place of i3"
             raise PydanticCustomError("GL111", message, {"key": "i3"})
+        if self.own_teeth and min(self.crank, self.output) < 0:
+            own = {"profile_shift": self.profile_shift, "tool": self.tool}
+            key = next((key for key, value in own.items() if value is not None), "addendum")
+            message = "a train with a ring has teeth of the standard profile without shift: leave {key} out"
+            raise PydanticCustomError("GL111", message, {"key": key})
         require_rim(self.rim, -self.output if self.output < 0 else None, self.module)
         return self
 
@@ -59,6 +67,12 @@ class Gears(Spec):
             message = "i3 goes with equal crank and output teeth: set output to {crank}, or give idler in place of i3"
             raise PydanticCustomError("GL111", message, {"key": "output", "crank": self.crank})
         return self
+
+
+class ThreeGearLimits(LinkageLimits):
+    """Limits of the checks."""
+
+    backlash: SignedLength = Field(0.0, description="least normal backlash of a mesh; below it a warning")
 
 
 class Links(Spec):
@@ -181,7 +195,7 @@ class ThreeGearSpec(DrivenSpec):
         None, description="play at the output gear's reference circle, in place of dwell_tolerance"
     )
     feed: Feed | None = None
-    limits: LinkageLimits = LinkageLimits()
+    limits: ThreeGearLimits = ThreeGearLimits()
     shafts: Shafts | None = None
     register_: Annotated[Any, Deferred("tolerance.spec:Register")] | None = Field(
         None, alias="register", description="what the output may lose in its dwell, for the command register"

@@ -49,6 +49,15 @@ class Synthesis(ThreeGearFourBar):
 
         return table(self, samples)
 
+    def __init__(self, spec: Any) -> None:
+        super().__init__(spec)
+        if self.off_center:
+            raise NoSolution(
+                "a synthesis needs profile shifts that add up to 0 in each mesh, such as [x, -x, x]: links in "
+                "proportion to the teeth",
+                key="gears.profile_shift",
+            )
+
     def linkage_of(self, idler: int) -> FourBar:
         """The links that meet the task with an idler of so many teeth."""
         raise NotImplementedError

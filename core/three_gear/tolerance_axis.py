@@ -62,6 +62,10 @@ class ThreeGearSamples:
                 "tolerance and register know external gears alone, not a train with a ring gear",
                 key="gears.output" if nominal.output_teeth < 0 else "gears.crank",
             )
+        if nominal.off_center:
+            raise NoSolution(
+                "tolerance and register know meshes whose profile shifts add up to 0", key="gears.profile_shift"
+            )
         self.nominal = nominal
         links = nominal.linkage
         self._lengths = (links.crank, links.coupler, links.rocker, links.frame)

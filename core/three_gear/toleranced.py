@@ -1,7 +1,7 @@
 """A three-gear four-bar whose centre distances are not those of its teeth: each part as made, one at a time.
 
-The teeth keep the ratio of the gears, so coupler and rocker may differ a little from the centre distances. The closed
-forms of `gearlink.core.three_gear.dwells` then do not hold; standstills are bracketed roots of the output's speed.
+The teeth keep the ratio of the gears, so coupler and rocker may differ a little from the centre distances; standstills
+are those of `gearlink.core.three_gear.by_roots`.
 """
 
 from __future__ import annotations
@@ -10,15 +10,14 @@ import math
 from typing import Any
 
 from gearlink.core.errors import at_key
-from gearlink.core.linkages.band_dwell import ToleranceDwell, Valley, longest_in_band
+from gearlink.core.linkages.band_dwell import ToleranceDwell
 from gearlink.core.linkages.checks import check_linkage
-from gearlink.core.linkages.fourbar import FourBar, solve
-from gearlink.core.linkages.standstills import BackStep, back_steps, standstills, turnings
-from gearlink.core.numerics.roots import bracketed_root
+from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.standstills import BackStep
 from gearlink.core.results import cached_property
 from gearlink.core.three_gear import motion
 from gearlink.core.three_gear.design import ThreeGearFourBar
-from gearlink.core.three_gear.dwells import MOMENTARY_DWELL, STANDSTILL_TOLERANCE, UNIDIRECTIONAL
+from gearlink.core.three_gear.dwells import MOMENTARY_DWELL, UNIDIRECTIONAL
 
 _TURN = 2.0 * math.pi
 
@@ -58,20 +57,10 @@ class TolerancedDrive(ThreeGearFourBar):
             check_linkage(linkage)
         return linkage
 
-    def _speed(self, phi: float) -> float:
-        return motion.output_speed(self.linkage, self.train, phi)
-
-    def _angle(self, phi: float) -> float:
-        return motion.output_angle(self.linkage, self.train, phi)
-
     @cached_property
     def dwell_crank_angles(self) -> list[float]:
         """Crank angles of zero output speed [rad], ascending."""
-        extremes = turnings(self._speed, lambda phi: motion.output_acceleration(self.linkage, self.train, phi))
-        state = solve(self.linkage, min(extremes, key=lambda one: one.speed).place, 1)
-        train = self.train
-        terms = (train.ratio, train.coupler_share * state.coupler_velocity, train.rocker_share * state.rocker_velocity)
-        return standstills(self._speed, extremes, STANDSTILL_TOLERANCE * sum(map(abs, terms)))
+        return self.by_roots.places
 
     @cached_property
     def motion(self) -> str:
@@ -84,17 +73,12 @@ class TolerancedDrive(ThreeGearFourBar):
     @cached_property
     def back_step(self) -> BackStep | None:
         """The back-step, where there is one."""
-        found = back_steps(self._speed, self._angle, self.dwell_crank_angles)
-        return found[0] if found else None
+        return self.by_roots.back_step
 
     @cached_property
     def dwell_angle(self) -> float | None:
         """Crank angle until the output regains its place [rad]."""
-        step = self.back_step
-        if step is None:
-            return None
-        level = self._angle(step.start)
-        return bracketed_root(lambda x: self._angle(step.start + x) - level, step.crank_angle, _TURN)
+        return self.by_roots.dwell_angle
 
     @cached_property
     def tolerance_dwell(self) -> ToleranceDwell | None:
@@ -102,13 +86,7 @@ class TolerancedDrive(ThreeGearFourBar):
         tolerance = self.output_tolerance
         if tolerance is None or tolerance >= math.pi * self.mean_ratio:
             return None
-        extremes, step = self.speed_extremes, self.back_step
-        first = second = extremes.least_angle
-        if step is not None:
-            first, second = step.start, step.start + step.crank_angle
-        after = first + (extremes.greatest_angle - first) % _TURN
-        low = after - _TURN
-        return longest_in_band(Valley(self._angle, self._speed, first, second, low, after, self.mean_ratio), tolerance)
+        return self.by_roots.within(tolerance, self.speed_extremes, self.mean_ratio)
 
     @cached_property
     def dwell_swing(self) -> float:
@@ -116,5 +94,5 @@ class TolerancedDrive(ThreeGearFourBar):
         start, length = self.window
         inside = [start + (place - start) % _TURN for place in self.dwell_crank_angles]
         places = [start, start + length, *(place for place in inside if place < start + length)]
-        angles = [self._angle(place) for place in places]
+        angles = [motion.output_angle(self.linkage, self.train, place) for place in places]
         return 0.5 * (max(angles) - min(angles))

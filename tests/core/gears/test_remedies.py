@@ -12,6 +12,7 @@ from gearlink.core.gears.checks import gear_check
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.report import Check
 from gearlink.core.spec import GearLimits
+from gearlink.core.spec_paths import changed
 
 SHIFTED = {"kind": "gear-pair", "module": 4, "teeth": [12, 40], "profile_shift": [0.9, -0.2]}
 
@@ -61,3 +62,44 @@ def test_the_file_takes_what_is_named(gearlink: Any, tmp_path: Path) -> None:
     assert [change["key"] for change in remedy] == ["shift_split"]
     overrides = [f"--set={change['key']}={change['value']}" for change in remedy]
     assert gearlink("gear", path, *overrides).status == 0
+
+
+LOADED = {
+    "kind": "gear-pair",
+    "module": 3,
+    "teeth": [21, 67],
+    "profile_shift": [0.3, -0.1],
+    "face_width": 20,
+    "allowances": {"upper": [0.02, 0.01], "lower": [-0.03, -0.03]},
+    "load": {"torque": 300},
+    "material": {"contact_limit": 1100, "bending_limit": 250},
+}
+INSIDE = {key: value for key, value in LOADED.items() if key not in ("kind", "module", "teeth")} | {
+    "profile_shift": [0.3, 0.3],
+    "load": {"torque": 2000},
+}
+
+
+@pytest.mark.parametrize(
+    ("data", "keys"),
+    [
+        (LOADED, {}),
+        (LOADED, {"face_width": [20, 22]}),
+        (LOADED, {"allowances": None, "center_distance": 132.5}),
+        (LOADED, {"teeth": [21, -67]}),
+        ("ty460", {f"input_gears__{key}": value for key, value in INSIDE.items()}),
+    ],
+)
+def test_width_and_thickness_repair_strength_and_backlash(data: Any, keys: Any) -> None:
+    found = [
+        check
+        for check in design(data, command="gear", **keys).report("gear").checks
+        if check.status == "fail" and check.name in ("backlash", "pitting", "bending")
+    ]
+    assert {check.name for check in found} >= {"bending"}
+    for check in found:
+        assert check.remedy, check.message
+        made = design(data, command="gear", **keys)
+        again = type(made)(changed(made.spec, check.remedy)).check(check.name)
+        gear = [other for other in again if other.message.split()[:5] == check.message.split()[:5]]
+        assert all(other.status != "fail" for other in gear), check.message

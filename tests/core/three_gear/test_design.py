@@ -23,7 +23,7 @@ from sweeps import mostly_slow
 
 from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.gears.pair import GearPair
-from gearlink.core.three_gear.design import MESHES
+from gearlink.core.three_gear.names import MESHES
 
 ROOT = Path(__file__).parents[3]
 CASES = json.loads((ROOT / "tests" / "reference" / "contract" / "analyze.json").read_text())
