@@ -29,6 +29,10 @@ _ANGLE = either("pressure_angle", step=0.5)
 _LOWER = down("addendum", step=0.01)
 
 
+_WIDER = (up("face_width", step=1.0), Way(("face_width[0]", "face_width[1]"), 1.0))
+_THINNER = tuple(Way((f"allowances.upper[{gear}]", f"allowances.lower[{gear}]"), -0.005) for gear in (0, 1))
+
+
 def _ways(*teeth: Way) -> dict[str, tuple[Way, ...]]:
     return {
         "undercut": (*_SHIFTS, *teeth, *_ANGLE),
@@ -40,6 +44,9 @@ def _ways(*teeth: Way) -> dict[str, tuple[Way, ...]]:
         "fillet-interference": (*_SHIFTS, _LOWER, *teeth),
         "tip-fouling": (*_SHIFTS, _LOWER, *teeth, *_ANGLE),
         "radial-assembly": (*_SHIFTS, _LOWER, *teeth, *_ANGLE),
+        "backlash": (*_THINNER, *either("center_distance", step=0.01), *_SHIFTS),
+        "pitting": (*_WIDER, up("module", step=0.25), *_SHIFTS, *teeth),
+        "bending": (*_WIDER, up("tool.rounding", step=0.01), up("module", step=0.25), *_SHIFTS, *teeth),
     }
 
 

@@ -127,8 +127,7 @@ class ThreeGearFourBar(FeedResults, Design):
     @property
     def off_center(self) -> bool:
         """Whether the profile shifts of a mesh do not cancel, which moves its centre distance."""
-        shift = self.spec.gears.shift
-        return shift(0) + shift(1) != 0.0 or shift(1) + shift(2) != 0.0
+        return any(self.spec.gears.shift(i) + self.spec.gears.shift(i + 1) for i in range(2))
 
     @cached_property
     def linkage(self) -> FourBar:
