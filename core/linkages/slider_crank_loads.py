@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 from gearlink.core.linkages.slider_crank import SliderCrank
@@ -30,6 +31,11 @@ class SliderCrankLoads(LoadsDesign):
     def slider_crank(self) -> SliderCrank:
         """The geometry."""
         return self.spec.slider_crank()
+
+    @property
+    def transmission_angle(self) -> float:
+        """Least angle between the rod and the normal to the guide [rad]: cos mu = (r + |e|)/L."""
+        return math.acos((self.slider_crank.crank_length + abs(self.spec.offset)) / self.spec.rod)
 
     def counterweights(self) -> dict[str, complex]:
         """One on the crank, for the rotating masses and a share of the reciprocating ones.

@@ -184,3 +184,12 @@ def test_zone_and_step_table_say_the_same() -> None:
     assert one.input_torque_rms == pytest.approx(two.input_torque_rms, rel=1e-13)
     turn = one.machine.at(np.radians([34.0, 154.0])).links["output"].turn.value
     assert one.input_torque_mean == pytest.approx(120.0 * (turn[1] - turn[0]) / (2.0 * math.pi), rel=1e-12)
+
+
+def test_least_transmission_angle_of_a_slider_crank_is_that_of_its_rod() -> None:
+    """GL612: the rod's own direction over a fine grid, flat at its minimum to 1e-9."""
+    design = loads_of(next(case for case in CASES if case["spec"]["kind"] == "slider-crank"))
+    rod = design.machine.at(np.linspace(0.0, 2.0 * math.pi, 20_001)).links["rod"].turn.value
+    assert math.sin(design.transmission_angle) == pytest.approx(np.abs(np.sin(rod)).min(), rel=1e-8)
+    (check,) = design.check("force-amplification")
+    assert check.value == pytest.approx(1.0 / np.abs(np.sin(rod)).min(), rel=1e-8)
