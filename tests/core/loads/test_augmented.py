@@ -3,8 +3,8 @@
 [M  C^T; C  0] [a; lambda] = [Q; gamma],  C = dPhi/dq by complex steps, gamma by differences of sixth order
 
 It shares the places of the links with the program, nothing of its columns, its accelerations or its radial forces: the
-teeth are true involutes, r_b1 (t1 - psi) + r_b2 (t2 - psi) -+ (r_b1 + r_b2) inv(alpha(a)), pressed apart. Accelerations come out as
-well. Tolerance 1e-8 of the largest force: differences of sixth order over 1e-3 rad leave about 1e-10.
+teeth are true involutes, r_b1 (t1 - psi) + r_b2 (t2 - psi) -+ (r_b1 + r_b2) inv(alpha(a)), pressed apart. Accelerations
+come out as well. Tolerance 1e-8 of the largest force: differences of sixth order over 1e-3 rad leave about 1e-10.
 """
 
 from __future__ import annotations
