@@ -130,11 +130,14 @@ class GearPairDesign(GearQuantities, Design):
 
     def table_drawing(self, _samples: int | None = None) -> Table:
         """The gear table of the drawing."""
-        from gearlink.core.gears.drawing import drawing_table
+        from gearlink.core.gears.drawing import drawing_table, rack_drawing
 
         hands = self.spec.helix_hand
+        of_both = None if hands is None else (hands[0], hands[1])
         with at_key(self._placed_by):
-            return drawing_table(self._two_gears("drawing"), None if hands is None else (hands[0], hands[1]))
+            if self.rack is not None:
+                return rack_drawing(self.rack, of_both)
+            return drawing_table(self.data, of_both)
 
     def table_path(self, samples: int | None = None) -> Table:
         """Sliding, pressure and root stress along the path of contact."""

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from gearlink.core.gears.data import GearData
 from gearlink.core.report import Table
+
+if TYPE_CHECKING:
+    from gearlink.core.gears.rack import RackMesh
 
 Row = tuple[str, str, Any, Any, str]
 
@@ -22,8 +25,38 @@ def drawing_table(data: GearData, hands: tuple[str, str] | None = None) -> Table
         DIN 3966 for what belongs on a drawing, from memory
     """
     rows = [row for row in _rows(data, hands) if not (row[2] is None and row[3] is None)]
+    return _table(rows)
+
+
+def _table(rows: list[Row]) -> Table:
     columns = ("item", "symbol", "gear_1", "gear_2", "unit")
     return Table("drawing", columns, ("",) * len(columns), tuple(list(column) for column in zip(*rows, strict=True)))
+
+
+_OF_RACK = frozenset(
+    ("normal module", "pressure angle", "tool addendum", "tool rounding", "helix angle", "hand of helix", "face width")
+)
+
+
+def rack_drawing(rack: RackMesh, hands: tuple[str, str] | None = None) -> Table:
+    """The table `drawing` of a gear on a rack, whose column is empty where a rack has no such line.
+
+    Parameters
+        rack : RackMesh
+        hands : (str, str) or None - hands of helix
+    Source
+        DIN 3966 for what belongs on a drawing, from memory
+    """
+    data = rack.data
+    rows: list[Row] = []
+    for item, symbol, gear, mate, unit in (*_teeth(data, hands), *_circles(data), *_thickness(data)):
+        if item == "number of teeth":
+            rows.append((item, symbol, gear, "rack", unit))
+        elif gear is not None or item in _OF_RACK:
+            rows.append((item, symbol, gear, mate if item in _OF_RACK else None, unit))
+    rows.append(("axis to the datum line of the rack", "a", rack.center_distance, rack.center_distance, "mm"))
+    rows.append(("contact ratio", "eps_alpha", rack.contact_ratio, rack.contact_ratio, ""))
+    return _table([row for row in rows if row[2] is not None or row[3] is not None])
 
 
 def _rows(data: GearData, hands: tuple[str, str] | None) -> Iterator[Row]:

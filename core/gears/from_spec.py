@@ -133,7 +133,7 @@ def data_of(spec: GearPairSpec | PairKeys, pair: GearPair) -> GearData:
         pair=pair,
         face_width=both(spec.face_width),
         pins=both(spec.pin_diameter) or (None, None),
-        allowances=allowances_of(spec.allowances, pair),
+        allowances=allowances_of(spec.allowances, pair, rack=getattr(spec, "rack", False)),
         distance_allowance=_distance_allowance(spec, pair),
         load=load_of(spec.load),
         materials=(material_of(spec.material, 0), material_of(spec.material, 1)),
@@ -142,17 +142,17 @@ def data_of(spec: GearPairSpec | PairKeys, pair: GearPair) -> GearData:
     )
 
 
-def allowances_of(given: AllowanceSpec | None, pair: GearPair) -> tuple[Pair, Pair] | None:
-    """Upper and lower thickness allowance of both gears [mm]."""
+def allowances_of(given: AllowanceSpec | None, pair: GearPair, *, rack: bool = False) -> tuple[Pair, Pair] | None:
+    """Upper and lower thickness allowance of both gears [mm]; a rack has no diameter, its gear's stands for it."""
     if given is None:
         return None
     if given.upper is not None and given.lower is not None:
         return (given.upper[0], given.lower[0]), (given.upper[1], given.lower[1])
     series = given.series if isinstance(given.series, list) else [given.series, given.series]
+    radii = (pair.reference_radius[0],) * 2 if rack else pair.reference_radius
     with at_key("allowances.series"):
         first, second = (
-            thickness_allowances(str(one), 2.0 * abs(radius))
-            for one, radius in zip(series, pair.reference_radius, strict=True)
+            thickness_allowances(str(one), 2.0 * abs(radius)) for one, radius in zip(series, radii, strict=True)
         )
     return first, second
 
