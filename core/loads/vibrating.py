@@ -9,7 +9,7 @@ import numpy as np
 
 from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.loads.kinematics import dot
-from gearlink.core.loads.vibration import ASSUMED_DAMPING, Oscillator, Panelled, PeriodicResponse, speed_limit
+from gearlink.core.loads.vibration import ASSUMED_DAMPING, Oscillator, Panelled, PeriodicResponse, bounded, speed_limit
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
@@ -20,7 +20,6 @@ _DEGREES = 180.0 / math.pi
 _MM = 1e3
 _MOST_PERIODS = 40.0
 _PER_UNIT = 50
-_LEAST_RATIO, _MOST_RATIO = 1e-6, 1e4
 
 
 class Vibrating:
@@ -65,13 +64,7 @@ class Vibrating:
             frequency = 2.0 * math.pi * self.section.frequency
         else:
             frequency = math.sqrt(self.section.stiffness * (1e3 if self.slides else 1.0) / self.inertia)
-        ratio = frequency / abs(self.design.speed)
-        if not _LEAST_RATIO <= ratio <= _MOST_RATIO:
-            message = f"the natural frequency is {ratio:.3g} times that of the input, outside of {_LEAST_RATIO:g} to "
-            remedy = f"{_MOST_RATIO:g}: such an output moves as a rigid one does; leave vibration out"
-            if ratio < _LEAST_RATIO:
-                remedy = f"{_MOST_RATIO:g}: such an output does not follow its drive; make it stiffer"
-            raise NoSolution(message + remedy, key=f"loads.vibration.{given}")
+        frequency = bounded(frequency, self.design.speed, f"loads.vibration.{given}")
         return Oscillator(frequency, damping)
 
     @property

@@ -15,6 +15,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from gearlink.core.errors import NoSolution
 from gearlink.core.numerics.arrays import Points, Reals
 
 ASSUMED_DAMPING = 0.03
@@ -23,7 +24,24 @@ _PHASE = 6.0
 """Phase of the vibration over a panel [rad]: 16 Gauss nodes take it to rounding."""
 _STEP = math.radians(10.0)
 _UNBOUNDED = 1e-6
+_LEAST_RATIO, _MOST_RATIO = 1e-6, 1e4
 Function = Callable[[Reals], Reals]
+
+
+def bounded(frequency: float, speed: float, key: str) -> float:
+    """A natural frequency [rad/s] whose vibration over a turn of the input [rad/s] can be followed.
+
+    Raises
+        NoSolution - outside of 1e-6 to 10000 times the input's speed, with the key of the file
+    """
+    ratio = frequency / abs(speed)
+    if _LEAST_RATIO <= ratio <= _MOST_RATIO:
+        return frequency
+    remedy = "moves as a rigid one does: leave vibration out"
+    if ratio < _LEAST_RATIO:
+        remedy = "does not follow its drive: make it stiffer"
+    message = f"the natural frequency is {ratio:.3g} times that of the input, outside of {_LEAST_RATIO:g} to "
+    raise NoSolution(f"{message}{_MOST_RATIO:g}; such an output {remedy}", key=key)
 
 
 @dataclass(frozen=True)

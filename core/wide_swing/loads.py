@@ -206,15 +206,17 @@ class WideSwingLoads(Design):
     @cached_property
     def oscillator(self) -> Oscillator | None:
         """The rocker on the shaft that drives it; None where the file does not say."""
-        from gearlink.core.loads.vibration import ASSUMED_DAMPING, Oscillator
+        from gearlink.core.loads.vibration import ASSUMED_DAMPING, Oscillator, bounded
 
         given = self.section.vibration
         if given is None:
             return None
         damping = ASSUMED_DAMPING if given.damping is None else given.damping
         if given.frequency is not None:
-            return Oscillator(2.0 * math.pi * given.frequency, damping)
-        return Oscillator(math.sqrt((given.stiffness or 0.0) / self.design.motion.inertia), damping)
+            frequency, key = 2.0 * math.pi * given.frequency, "frequency"
+        else:
+            frequency, key = math.sqrt((given.stiffness or 0.0) / self.design.motion.inertia), "stiffness"
+        return Oscillator(bounded(frequency, self.speed, f"loads.vibration.{key}"), damping)
 
     def _stroke(self, slowest: float) -> Panelled:
         """The swing [deg] over the cam angle of the stroke."""

@@ -88,3 +88,9 @@ def test_refused_with_the_key(keys: dict[str, Any], place: str) -> None:
 def test_refused_by_the_section(keys: dict[str, Any]) -> None:
     with pytest.raises(ValidationError):
         factory.design(FEED, command="loads", **keys)
+
+
+def test_wide_swing_refuses_such_a_frequency_too() -> None:
+    with pytest.raises(GearlinkError, match="6e\\+05 times") as caught:
+        factory.design("loaded_wide_swing", command="loads", loads__vibration__frequency=1e6).report("loads")
+    assert caught.value.key == "loads.vibration.frequency"
