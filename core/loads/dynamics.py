@@ -154,6 +154,7 @@ class System:
         if len(self.columns) != size:
             raise AssertionError(f"{len(self.columns)} unknowns for {size} equations")
         self.size = size
+        self.inverse: Reals | None = None
 
     def matrix(self, rows: Rows) -> Reals:
         """The equations of some of the input angles, (rows, n, n)."""
@@ -223,13 +224,26 @@ class System:
             result += np.abs(found[0, place]) * found[k]
         return np.asarray(result)
 
+    def invert(self) -> None:
+        """Keep the inverse, for many solutions of few rows.
+
+        Notes
+            Relative error about eps times the condition, as of a solution; the power identity holds it.
+        """
+        if self.mechanism.rows <= _BLOCK:
+            self.inverse = np.asarray(np.linalg.inv(self.matrix(np.arange(self.mechanism.rows))))
+
     def _solved(self, sides: Reals, rows: Rows) -> Reals:
         """The unknowns to some right sides, (sides, n, N); a block of rows at a time, for the memory's sake."""
         found = np.empty_like(sides)
         try:
             for start in range(0, len(rows), _BLOCK):
                 part = slice(start, start + _BLOCK)
-                block = np.linalg.solve(self.matrix(rows[part]), sides[:, :, part].transpose(2, 1, 0))
+                right = sides[:, :, part].transpose(2, 1, 0)
+                if self.inverse is not None and len(rows) == len(self.inverse):
+                    block: Reals = np.asarray(self.inverse @ right)
+                else:
+                    block = np.asarray(np.linalg.solve(self.matrix(rows[part]), right))
                 found[:, :, part] = block.transpose(2, 1, 0)
         except np.linalg.LinAlgError:
             raise NoSolution("the joint forces are not finite: two links of the mechanism stand in line") from None

@@ -109,6 +109,7 @@ def with_friction(
         found = system.reactions(solution)
     if friction is None:
         return found
+    system.invert()
     before = np.inf
     for _ in range(_PASSES):
         losses = list(resistances(found, friction, speed))
