@@ -17,6 +17,7 @@ FAMILIES = {
     "press": "cam:press",
     "start-up": "start_up:family",
     "pictures": "pictures:family",
+    "folders": "pictures:folders",
     "batch": "start_up:batch",
     "parallel": "start_up:parallel",
     "studies": "studies:family",

@@ -44,7 +44,7 @@ def family(quick: bool) -> Family:
         compile_all()
         methods = [Method(what, 1, process(folder, "-c", RUN, *line, "--out", name)) for what, line in WAITS.items()]
         reference = process(folder, str(least), str(folder / "least.png"))
-        rows = measure(methods, reference, 1, 3 if quick else 7)
+        rows = measure(methods, reference, 1, 3 if quick else 5)
     return Family(
         "pictures",
         "What a designer waits for: the whole process",
@@ -52,6 +52,24 @@ def family(quick: bool) -> Family:
         "a process that draws five empty panels and saves them as PNG",
         rows,
         ("the worked designs; modules compiled beforehand",),
+    )
+
+
+FOLDERS = {"check of the worked designs": ["check", "."], "batch of the worked designs": ["batch", ".", "--jobs", "1"]}
+
+
+def folders(quick: bool) -> Family:
+    """All worked designs in one process."""
+    compile_all()
+    methods = [Method(what, 1, process(designs(), "-c", RUN, *line)) for what, line in FOLDERS.items()]
+    reference = process(designs(), "-c", RUN, "check", "candy_feed.yaml")
+    return Family(
+        "folders",
+        "All worked designs in one process",
+        "none",
+        "the check of one of them, candy_feed.yaml",
+        measure(methods, reference, 1, 1 if quick else 3),
+        ("some of the designs are searches and studies of a second or two each",),
     )
 
 

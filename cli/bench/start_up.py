@@ -44,8 +44,6 @@ COMMANDS = {
     "explain": ["explain", "GL301"],
     "schema": ["schema", "gear-pair"],
     "new": ["new", "gear-pair"],
-    "check of the worked designs": ["check", "."],
-    "batch of the worked designs": ["batch", "."],
 }
 RUN = "import sys; from gearlink.cli.main import main; sys.exit(main())"
 
