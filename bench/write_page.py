@@ -47,6 +47,13 @@ _REASONS = """## Where a goal is missed, and why
 * **Start-up.** Plain command lines are read without Typer, and pydantic's search for plug-ins is switched off;
   what remains is the import of pydantic (which Typer's own floor includes), of numpy for sweeps, and of rich for
   tables on a terminal.
+* **Pictures, reports, films.** matplotlib's import and its constrained layout are most of a picture; the program's own
+  part is the last third. `gear --plot` draws six panels and the blocking contour. A report draws its further sheets in
+  other processes. A film of a machine with true teeth spends its time on polygons and on encoding, some 20 ms a frame.
+* **`explain`, `schema`, `new`** import Typer (the floor) and then pydantic's models of the kinds; `explain` with a code
+  reads the rules of every room.
+* **All worked designs.** The folder holds searches, studies and loads of a second or two each (a five-bar's function, a
+  press with its joint forces, a study of gripper cams); a folder of designs that are complete takes milliseconds each.
 * **Batch.** Reading and validating a small file takes 0.1 to 0.2 ms, for libyaml and pydantic-core are compiled; the
   results and checks of a design take one to two times that in Python, spread over dozens of places of a few us each. In
   one process that makes 2.5 to 3 times the reading; with two, which the program takes from 0.15 s of work on, 1.8 to

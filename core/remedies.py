@@ -24,8 +24,6 @@ if TYPE_CHECKING:
 
 _GROWTH = 1.35
 _FARTHEST, _LEAST_STEPS = 3.0, 30
-_OF_WARNING = 6
-"""A warning is worth so small a share of the trials of a failing check."""
 _RANK = {"pass": 0, "warn": 1, "fail": 2}
 _PASSES, _HOLDS = 2, 1
 REFUSAL = "refusal"
@@ -132,7 +130,7 @@ def left_out(key: str) -> Way:
 
 
 def with_remedies(design: Design, command: str, findings: tuple[Check, ...]) -> tuple[Check, ...]:
-    """The findings of a check; those that fail or warn have the best remedy that was found, in data and words."""
+    """The findings of a check; those that fail have the best remedy that was found, in data and words."""
     if all(found.status == "pass" for found in findings):
         return findings
     bench = design.benches.setdefault(command, Bench(design, command))
@@ -148,7 +146,7 @@ class Bench:
 
     Parameters
         design, command : the design, and the command whose findings are to be repaired
-        patient : bool - a warning is worth as many trials as what fails
+        patient : bool - what warns is to be repaired as well
     """
 
     def __init__(self, design: Design, command: str, *, patient: bool = False) -> None:
@@ -173,10 +171,9 @@ class Bench:
             A failing check is to pass and no other finding to become worse; where no way leads there, it may warn and
             so may others. A check that warns is to pass.
         """
-        if found.status == "pass":
-            return ()
-        trials = self._design.trials
-        self._left = trials if self._patient or found.status == "fail" else trials // _OF_WARNING
+        if found.status == "pass" or (found.status == "warn" and not self._patient):
+            return ()  # what warns may be built: no report waits for its trials
+        self._left = self._design.trials
         for wanted in (_PASSES, _HOLDS) if found.status == "fail" else (_PASSES,):
             remedy = self._first(found.name, lambda tried, wanted=wanted: self._grade(tried, found, index) >= wanted)  # type: ignore[misc]
             if remedy:
