@@ -55,9 +55,10 @@ _REASONS = """## Where a goal is missed, and why
 * **All worked designs.** The folder holds searches, studies and loads of a second or two each (a five-bar's function, a
   press with its joint forces, a study of gripper cams); a folder of designs that are complete takes milliseconds each.
 * **Batch.** Reading and validating a small file takes 0.1 to 0.2 ms, for libyaml and pydantic-core are compiled; the
-  results and checks of a design take one to two times that in Python, spread over dozens of places of a few us each. In
-  one process that makes 2.5 to 3 times the reading; with two, which the program takes from 0.15 s of work on, 1.8 to
-  2.2. Two processes are 1.4 times as fast as one on such small designs and 1.6 times on presses, on a busy machine no
+  results and checks take 1.5 ms a design in Python, most of it the drawing's quantities of gear pairs (measures over
+  pins, form radii, margins) and the extremes of a synthesis. When neither was asked for, a batch took 2.5 to 3 times
+  the reading in one process and 1.8 to 2.2 in two, which the program takes from 0.15 s of work on.
+  Two processes are 1.4 times as fast as one on such small designs and 1.6 times on presses, on a busy machine no
   faster at all: forking, sending results back and the caches that both cores share are the rest. Where the output
   shows findings alone (everything but JSON and `--out`), quantities are computed, since they tell whether there is a
   mechanism at all, but put into no words, and no table is computed.
