@@ -80,3 +80,26 @@ class Maker(Protocol):
     """
 
     def __call__(self, spec: Any, command: str, paths: Sequence[str], quantities: Sequence[str]) -> Axis | None: ...
+
+
+def kept_inside(
+    columns: Mapping[str, Reals], domains: Mapping[str, tuple[float, float, float]]
+) -> tuple[dict[str, Reals], Mask]:
+    """Values that an array form can compute with, and the designs that have others: those are left to the class.
+
+    Parameters
+        columns : (N,) arrays by path
+        domains : by path, the least and the greatest value, and one between that stands in for those beyond
+    Example
+        >>> inside, outside = kept_inside({"teeth": np.array([20.0, -90.0])}, {"teeth": (1.0, 1e4, 30.0)})
+        >>> inside["teeth"].tolist(), outside.tolist()
+        ([20.0, 30.0], [False, True])
+    """
+    inside = dict(columns)
+    outside = np.zeros(len(next(iter(columns.values()))), dtype=bool)
+    for path, (low, high, between) in domains.items():
+        if path in columns:
+            beyond = ~((columns[path] >= low) & (columns[path] <= high))
+            inside[path] = np.where(beyond, between, columns[path])
+            outside |= beyond
+    return inside, outside

@@ -218,10 +218,10 @@ def _of_code(code: str, found: Evaluated, *, warn_counts: bool, count: int) -> t
     for each in found.findings:
         if each.code != code:
             continue
-        unit = each.unit
         bad = each.fails | each.warns if warn_counts else each.fails
         if not bad.any():
             continue
+        unit = each.unit
         with np.errstate(invalid="ignore"):
             nearer = bad & ~(np.abs(value - limit) <= np.abs(each.value - each.limit))
         value, limit = np.where(nearer, each.value, value), np.where(nearer, each.limit, limit)

@@ -253,7 +253,8 @@ def _tried(variable: Variable, before: dict[str, Variable]) -> Iterator[Any]:
     """Values of a variable that are tried in the base: all where they are not many, else ends and an even share."""
     if variable.values:
         stride = max(1, len(variable.values) // _TRIED_LISTED)
-        yield from dict.fromkeys((*variable.values[::stride], variable.values[-1]))
+        ends = (min(variable.values), max(variable.values)) if numeric(variable) else ()
+        yield from dict.fromkeys((*variable.values[::stride], variable.values[-1], *ends))
         return
     parents = _span(before[variable.times], before) if variable.times else (1.0, 1.0)
     low, high = (float(variable.ends(parent)[i]) for parent, i in zip(parents, (0, 1), strict=True))

@@ -8,14 +8,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from gearlink.core.design_axis import Evaluated
-from gearlink.core.gears.unshifted import UnshiftedMeshes
+from gearlink.core.design_axis import Evaluated, kept_inside
+from gearlink.core.gears.unshifted import MOST_TEETH, UnshiftedMeshes
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.spec_paths import number_at
 from gearlink.core.three_gear.axis_batch import LIMITS, TEETH, Batch
@@ -30,6 +30,8 @@ _TASKS: dict[str, tuple[str, type[Batch]]] = {
     "synth momentary-dwell": ("momentary", Momentary),
     "analyze": ("links", Analysis),
 }
+_DOMAIN = {path: (1.0, float(MOST_TEETH), 20.0) for path in TEETH} | {"gears.module": (1e-6, 1e6, 1.0)}
+"""Least and greatest value that is computed here, not by the class, and one between that stands in for others."""
 _PLACED = ("crank", "frame", "balanced")
 _OTHERS = {
     "dwell": (*_PLACED, "window", "tolerance", "margin"),
@@ -93,5 +95,7 @@ class ThreeGearAxis:
 
     def evaluate(self, columns: Mapping[str, Reals]) -> Evaluated:
         """As `core.design_axis.Axis`."""
+        inside, outside = kept_inside(columns, _DOMAIN)
         with np.errstate(all="ignore"):
-            return self.batch(columns).evaluated()
+            found = self.batch(inside).evaluated()
+        return replace(found, unsure=found.unsure | outside)

@@ -174,6 +174,61 @@ def test_designs_next_to_a_limit_are_left_to_the_class() -> None:
     assert again.unsure[np.isfinite(gap)].all()
 
 
+RINGS: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
+    "analyze": (
+        {"links": {"crank": 20, "frame": 150}},
+        {
+            "gears.crank": {"values": [40, -120, 30, -100]},
+            "gears.idler": {"values": [72, 30, 20]},
+            "gears.output": {"values": [40, -120, -90]},
+            "links.frame": {"values": [150, 60]},
+        },
+    ),
+    "synth dwell": (
+        {"dwell": {"angle": 135}},
+        {
+            "gears.crank": {"values": [40, -120, 36, -90, 10_000, -10_000], "also": ["gears.output"]},
+            "gears.idler": {"values": [17, 52, 80]},
+            "dwell.angle": {"values": [100, 150]},
+        },
+    ),
+    "synth momentary-dwell": (
+        {"momentary": {"eccentricity": 20}},
+        {
+            "gears.crank": {"values": [40, -120, 36]},
+            "gears.output": {"values": [-90, 30, 40]},
+            "gears.module": {"values": [2, 1e-9, 1e200]},
+        },
+    ),
+}
+
+
+@pytest.mark.parametrize("command", RINGS)
+def test_teeth_beyond_the_form_give_what_the_class_gives(command: str) -> None:
+    section, variables = RINGS[command]
+    data = {
+        "kind": "study",
+        "design": {**BASE, **section},
+        "command": command,
+        "variables": variables,
+        "minimize": {"frame_length": 1, "gear_gap": 1},
+        "where": ["min_transmission_angle >= 20 deg"],
+        "checks": {"must_pass": "all"},
+    }
+    made = problem(StudySpec.model_validate_json(json.dumps(data)))
+    alone = problem(made.spec)
+    vars(alone)["axis"] = None
+    many, single = (together(each, (chunk_of(each, k) for k in range(each.chunks))) for each in (made, alone))
+    assert made.axis is not None
+    assert (many.designs, many.feasible) == (single.designs, single.feasible)
+    assert many.feasible > 0
+    assert many.misses.keys() == single.misses.keys()
+    for name, miss in single.misses.items():
+        same = many.misses[name]
+        assert (same.fails, same.alone, same.index, same.unit) == (miss.fails, miss.alone, miss.index, miss.unit), name
+    assert np.allclose(many.rows, single.rows, rtol=1e-9)
+
+
 @pytest.mark.parametrize(
     ("change", "served"),
     [
