@@ -71,8 +71,8 @@ KINDS: dict[str, Kind] = {
             "three_gear.spec:ThreeGearSpec",
             {
                 "synth dwell": "three_gear.dwell_synthesis:DwellSynthesis",
-                "synth back-step": "three_gear.synthesis:BackStepSynthesis",
-                "synth variable-speed": "three_gear.synthesis:VariableSpeedSynthesis",
+                "synth back-step": "three_gear.back_step_synthesis:BackStepSynthesis",
+                "synth variable-speed": "three_gear.variable_speed_synthesis:VariableSpeedSynthesis",
                 "synth momentary-dwell": "three_gear.momentary_synthesis:MomentaryDwellSynthesis",
                 "analyze": _THREE_GEAR,
                 "gear": _THREE_GEAR,

@@ -111,3 +111,8 @@ def test_each_package_says_what_stands_there() -> None:
     for path in (ROOT / top for top in ("core", "cli")):
         for init in path.rglob("__init__.py"):
             assert ast.get_docstring(ast.parse(init.read_text(encoding="utf-8"))), init
+
+
+def test_no_module_is_longer_than_one_reads_at_a_sitting() -> None:
+    long = {name: lines for name, path in MODULES.items() if (lines := len(path.read_text().splitlines())) > 400}
+    assert not long, f"split by subject: {long}"

@@ -5,19 +5,18 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from gearlink.core.clearance.bodies import Layout
 from gearlink.core.clearance.checks import SHAFT_WAYS, collision_check, shaft_checks
 from gearlink.core.design import Outline, placed
 from gearlink.core.errors import NoSolution
-from gearlink.core.five_bar import bodies
+from gearlink.core.five_bar import bodies, tables
 from gearlink.core.five_bar.codes import CLOSURE
 from gearlink.core.five_bar.parts import FiveBarParts
 from gearlink.core.gears.checks import gear_ways
 from gearlink.core.gears.single_mesh import MESH_CHECKS, mesh_checks
 from gearlink.core.linkages.checks import target_check, transmission_check
-from gearlink.core.numerics.rows import row_numbers
 from gearlink.core.real_speed import RealSpeed
 from gearlink.core.remedies import down, either, up
 from gearlink.core.report import Check, Table
@@ -269,97 +268,8 @@ class GearedFiveBar(RealSpeed, FiveBarParts):
         """Input turns that the path's table covers: the period, or the beginning of a long one."""
         return min(self.period_turns, _SHOWN_TURNS)
 
-    def table_path(self, samples: int | None = None) -> Table:
-        """Coupler point, its speed and the links over the period, or the first hundred turns of a longer one."""
-        import numpy as np
-
-        from gearlink.core.five_bar.path import sweep
-        from gearlink.core.linkages.fourbar_refine import dead_point_distance
-        from gearlink.core.numerics.arrays import turn_degrees
-
-        turns = self.shown_turns
-        degrees = turn_degrees(samples, turns)
-        bar = self.path_bar
-        found = sweep(bar, np.radians(degrees), self.offset)
-        columns = {
-            "input_angle": (degrees, "deg"),
-            "output_angle": (math.degrees(bar.phase) + float(bar.ratio) * degrees, "deg"),
-            "coupler_angle": (np.degrees(found.coupler_angle), "deg"),
-            "x": (found.point.real, "mm"),
-            "y": (found.point.imag, "mm"),
-            "x_velocity": (found.velocity.real, "mm/rad"),
-            "y_velocity": (found.velocity.imag, "mm/rad"),
-            "x_acceleration": (found.acceleration.real, "mm/rad^2"),
-            "y_acceleration": (found.acceleration.imag, "mm/rad^2"),
-            "transmission_angle": (np.degrees(dead_point_distance(found.transmission_angle)), "deg"),
-        }
-        rates = {
-            "point_x_velocity": ("x_velocity", 1),
-            "point_y_velocity": ("y_velocity", 1),
-            "point_x_acceleration": ("x_acceleration", 2),
-            "point_y_acceleration": ("y_acceleration", 2),
-        }
-        return Table.of("path", self.timed(columns, "input_angle", rates))
-
-    def table_deviations(self, _samples: int | None = None) -> Table:
-        """Every point that is asked for and its distance from the path."""
-        target, fit = self.spec.target, self.fit
-        assert target is not None, "shown only with a fit"
-        assert target.points is not None, "shown only with a fit"
-        assert fit is not None, "shown only with a fit"
-        x, y = zip(*target.points, strict=True)
-        columns: dict[str, tuple[Any, str]] = {"x": (x, "mm"), "y": (y, "mm"), "distance": (fit.distance, "mm")}
-        if self.timed_fit is not None and target.input_angles is not None:
-            first = math.degrees(self.timed_fit.first_angle)
-            columns = {"input_angle": ([first + angle for angle in target.input_angles], "deg"), **columns}
-        return Table.of("deviations", columns)
-
-    def table_function(self, samples: int | None = None) -> Table:
-        """Output angle and speed over the range of the input, both ends included."""
-        start, end = self.input_range
-        count, bar = samples or 180, self.function_bar
-        rows = row_numbers(samples, count + 1)
-        angles = [start + (end - start) * i / count if i < count else end for i in rows]
-        followed = bar.output_angles([start, *angles])[1:]
-        columns = {
-            "input_angle": ([math.degrees(angle) for angle in angles], "deg"),
-            "output_angle": ([math.degrees(angle) for angle in followed], "deg"),
-            "speed_ratio": ([bar.output_speed(angle) for angle in angles], "1"),
-            "acceleration_ratio": ([bar.output_acceleration(angle) for angle in angles], "1"),
-        }
-        rates = {"output_speed": ("speed_ratio", 1), "output_acceleration": ("acceleration_ratio", 2)}
-        return Table.of("function", self.timed(columns, "input_angle", rates))
-
-    def table_structural_error(self, samples: int | None = None) -> Table:
-        """Output angle, what it should be, and the difference, over the interval of the function."""
-        import numpy as np
-
-        from gearlink.core.five_bar.wanted import outputs
-
-        found, wanted = self.function_fit, self.wanted
-        assert found is not None, "shown only with a function"
-        assert wanted is not None, "shown only with a function"
-        s = np.linspace(0.0, 1.0, (samples or 60) + 1)
-        fine = np.linspace(0.0, 1.0, 721)
-        phi = found.start + wanted.input_swing * np.concatenate([fine, s])
-        order = np.argsort(phi, kind="stable")
-        reached = np.empty(phi.size)
-        reached[order] = outputs(found.bar, phi[order])
-        output, asked = reached[fine.size :], found.error.zero + wanted.output(s)
-        turns = 2.0 * math.pi * round(float(output[0] - asked[0]) / (2.0 * math.pi))
-        columns = {
-            "input_angle": (np.degrees(phi[fine.size :]), "deg"),
-            "output_angle": (np.degrees(output - turns), "deg"),
-            "wanted_angle": (np.degrees(asked), "deg"),
-            "error": (np.degrees(output - turns - asked), "deg"),
-        }
-        return Table.of("structural_error", columns)
-
-    def table_search(self, _samples: int | None = None) -> Table:
-        """What the search had reached after each of its rounds."""
-        rounds, unit = self.search_rounds, "mm" if self.is_path else "deg"
-        error = [each.error if self.is_path else math.degrees(each.error) for each in rounds]
-        return Table.of("search", {"starts": ([each.starts for each in rounds], "1"), "error": (error, unit)})
+    table_path, table_deviations, table_search = tables.path, tables.deviations, tables.search
+    table_function, table_structural_error = tables.function, tables.structural_error
 
     # Checks
 

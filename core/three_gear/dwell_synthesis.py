@@ -15,13 +15,14 @@ from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.report import Check, safely_below
 from gearlink.core.results import cached_property
 from gearlink.core.three_gear import symmetric_back_step
+from gearlink.core.three_gear.back_step_synthesis import BackStepFamily
 from gearlink.core.three_gear.codes import BACK_STEP
 from gearlink.core.three_gear.forms import forms_for
 from gearlink.core.three_gear.idler_choice import LEAST_IDLER
 from gearlink.core.three_gear.momentary_dwell import wrap
 from gearlink.core.three_gear.motion import GearTrain, output_angle
 from gearlink.core.three_gear.names import CHECKS, QUANTITIES
-from gearlink.core.three_gear.synthesis import BackStepFamily, with_analysis
+from gearlink.core.three_gear.synthesis import with_analysis
 
 if TYPE_CHECKING:
     from gearlink.core.three_gear.families import Family

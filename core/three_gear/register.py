@@ -14,13 +14,14 @@ from gearlink.core.numerics.arrays import Reals
 from gearlink.core.results import cached_property
 from gearlink.core.spec_paths import changed
 from gearlink.core.three_gear import motion
+from gearlink.core.three_gear.back_step_synthesis import BackStepSynthesis
 from gearlink.core.three_gear.design import ThreeGearFourBar
 from gearlink.core.three_gear.dwell_synthesis import DwellSynthesis
 from gearlink.core.three_gear.momentary_synthesis import MomentaryDwellSynthesis
 from gearlink.core.three_gear.register_chain import Errors, output_error
 from gearlink.core.three_gear.register_gains import Drive, register_gains
-from gearlink.core.three_gear.synthesis import BackStepSynthesis, VariableSpeedSynthesis
 from gearlink.core.three_gear.tolerance_axis import ThreeGearSamples
+from gearlink.core.three_gear.variable_speed_synthesis import VariableSpeedSynthesis
 from gearlink.core.tolerance.budget import Contribution
 from gearlink.core.tolerance.correlation import coordinate_root, together
 from gearlink.core.tolerance.register_design import RegisterDesign, contribution, no_such_place
