@@ -15,7 +15,7 @@ _WORTH_SECONDS = 1.0
 
 @contextmanager
 def shares_by(jobs: int, factory: str, dask: str, *, words: str, quiet: bool) -> Iterator[None]:
-    """Compute the replications of tolerance studies by what a command line names.
+    """Compute the replications of `tolerance` and `register` by what a command line names.
 
     Parameters
         jobs : int - processes, 0: as many as pay
@@ -25,7 +25,7 @@ def shares_by(jobs: int, factory: str, dask: str, *, words: str, quiet: bool) ->
     Raises
         DesignFileError - GL115 where an executor cannot be had, GL158 for a worker with another program
     """
-    from gearlink.core.tolerance_study.shares import COMPUTED_BY
+    from gearlink.core.tolerance.shares import COMPUTED_BY
 
     def compute(function: Callable[[int], Any], numbers: Sequence[int]) -> list[Any]:
         told = _Told(words, len(numbers), quiet=quiet)

@@ -27,6 +27,10 @@ Samples = Annotated[
 ]
 Seed = Annotated[int | None, typer.Option("--seed", min=0, max=2**32 - 1, help="the same seed gives the same samples")]
 
+Jobs = Annotated[int, typer.Option("--jobs", "-j", min=0, help="number of processes; 0: chosen automatically")]
+Factory = Annotated[str, typer.Option("--executor", metavar="MODULE:FACTORY", help="what makes an executor")]
+Scheduler = Annotated[str, typer.Option("--dask", metavar="ADDRESS", help="compute on this scheduler's Dask cluster")]
+
 
 def register(app: typer.Typer) -> None:
     """Add the commands of this module to the command tree."""
@@ -51,9 +55,9 @@ def _tolerance(
     allocate: Annotated[
         bool, typer.Option("--allocate", help="add the table allocation: grades at least cost")
     ] = False,
-    jobs: Annotated[int, typer.Option("--jobs", "-j", min=0, help="number of processes; 0: chosen automatically")] = 0,
-    executor: Annotated[str, typer.Option(metavar="MODULE:FACTORY", help="what makes an executor to compute by")] = "",
-    dask: Annotated[str, typer.Option(metavar="ADDRESS", help="compute on the Dask cluster of this scheduler")] = "",
+    jobs: Jobs = 0,
+    executor: Factory = "",
+    dask: Scheduler = "",
 ) -> None:
     """Yield of a design as made: spreads, capabilities, and which tolerance contributes what.
 
@@ -82,6 +86,9 @@ def _register(
     ] = None,
     samples: Samples = None,
     seed: Seed = None,
+    jobs: Jobs = 0,
+    executor: Factory = "",
+    dask: Scheduler = "",
 ) -> None:
     """Register: what play, pitch error and the other errors of the parts cost at the print, by source.
 
@@ -90,7 +97,9 @@ def _register(
     Example: gearlink register designs/candy_feed_tolerances.yaml --at dwell
     """
     from gearlink.cli.commands.design import run_design
+    from gearlink.cli.computing_shares import shares_by
 
     options = _keyed(options, "register", {"at": at, "method": method and method.value, "radius": radius})
     options = _keyed(options, "tolerance", {"samples": samples, "seed": seed})
-    raise typer.Exit(run_design("register", spec, options))
+    with shares_by(jobs, executor, dask, words="samples", quiet=options.quiet):
+        raise typer.Exit(run_design("register", spec, options))

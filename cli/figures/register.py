@@ -6,26 +6,27 @@ import math
 from typing import TYPE_CHECKING
 
 from gearlink.cli.figures import panels, style
+from gearlink.core.tolerance.budget import counted
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from gearlink.core.tolerance.budget import Budget
+    from gearlink.core.tolerance.budget import Budget, Row
     from gearlink.core.tolerance.register_design import RegisterDesign
 
 _LINES = ("-", style.DASHED)
+_COLORS = (style.BLUE, style.ORANGE, style.GREEN, style.RED, style.BLACK, style.SKY)
 
 
 def draw(design: RegisterDesign) -> Figure:
-    """The sheet: along the stretch, over the cycle, and by source."""
-    made = panels.page(f"{design.spec.name}: register", 1.0)
-    grid = made.add_gridspec(3, 1, height_ratios=[1.0, 1.0, 1.1])
+    """The sheet: along the stretch, as a whole and by source, over the cycle, and what is greatest."""
     along = design.input_angles.size > 1
-    if along:
-        _stretch(made.add_subplot(grid[0]), design)
-    _cycle(made.add_subplot(grid[1] if along else grid[:2]), design)
-    _sources(made.add_subplot(grid[2]), design)
+    panels_of = (_stretch, _along, _cycle, _sources) if along else (_cycle, _sources)
+    made = panels.page(f"{design.spec.name}: register", 0.3 * len(panels_of) + 0.1)
+    grid = made.add_gridspec(len(panels_of), 1)
+    for place, draw_one in enumerate(panels_of):
+        draw_one(made.add_subplot(grid[place]), design)
     return made
 
 
@@ -43,7 +44,7 @@ def _stretch(axes: Axes, design: RegisterDesign) -> None:
     style.curves(axes, "input angle [deg]", "error [mm]")
     panels.small_ticks(axes)
     for (name, found), line in zip(_signs(design), _LINES, strict=False):
-        axes.plot(degrees, 3.0 * found.rss, color=style.BLUE, linestyle=line, linewidth=1.6, label=f"99.73 %{name}")
+        axes.plot(degrees, found.band, color=style.BLUE, linestyle=line, linewidth=1.6, label=f"99.73 %{name}")
         axes.plot(degrees, found.worst, color=style.ORANGE, linestyle=line, linewidth=1.1, label=f"worst{name}")
     if design.section.tolerance is not None:
         limit = design.section.tolerance
@@ -55,7 +56,25 @@ def _stretch(axes: Axes, design: RegisterDesign) -> None:
             axes.axvline(place, color=style.GREY, linewidth=1.0, linestyle=style.DOTTED, label="torque turns")
     axes.set_xlim(degrees[0], degrees[-1])
     axes.set_ylim(0.0, None)
-    panels.legend_under_heading(axes, f"Over the {design.place}, relative to its start", 5)
+    panels.legend_under_heading(axes, f"Over the {design.place}, relative to its start", 4)
+
+
+def _along(axes: Axes, design: RegisterDesign) -> None:
+    """The greatest sources along the stretch, each at its limit, relative to its start."""
+    import numpy as np
+
+    degrees = np.degrees(design.input_angles)
+    style.curves(axes, "input angle [deg]", "error [mm]")
+    panels.small_ticks(axes)
+    both = [design.contributions(design.input_angles, sign) for sign in (1, -1)][: len(_signs(design))]
+    costs = [{one.source: one.limit * np.abs(counted(one, 0)) for one in found} for found in both]
+    order = sorted(costs[0], key=lambda name: -max(float(cost[name].max()) for cost in costs))
+    for name, color in zip(order, _COLORS, strict=False):
+        for cost, line in zip(costs, _LINES, strict=False):
+            axes.plot(degrees, cost[name], color=color, linestyle=line, label=name if line == "-" else None)
+    axes.set_xlim(degrees[0], degrees[-1])
+    axes.set_ylim(0.0, None)
+    panels.legend_under_heading(axes, "By source, each at its limit", 3)
 
 
 def _cycle(axes: Axes, design: RegisterDesign) -> None:
@@ -76,20 +95,24 @@ def _cycle(axes: Axes, design: RegisterDesign) -> None:
 
 
 def _sources(axes: Axes, design: RegisterDesign) -> None:
-    """Three sigma of every source where the whole is greatest."""
-    style.curves(axes, "3 sigma where the whole is greatest [mm]", "")
+    """Three sigma of every source, and its mean, where the whole is greatest."""
+    style.curves(axes, "3 sigma and mean where the whole is greatest [mm]", "")
     panels.small_ticks(axes)
     found = _signs(design)
-    order = sorted(found[0][1].rows, key=lambda row: row.sigma)
+    order = sorted(found[0][1].rows, key=_width)
     height = 0.8 / len(found)
     for i, (name, one) in enumerate(found):
-        sigma = {row.source: row.sigma for row in one.rows}
+        width = {row.source: _width(row) for row in one.rows}
         places = [j + (i - 0.5 * (len(found) - 1)) * height for j in range(len(order))]
         color = (style.BLUE, style.SKY)[i]
         label = name.strip() or None
-        axes.barh(places, [3.0 * sigma[row.source] for row in order], height=height, color=color, label=label)
+        axes.barh(places, [width[row.source] for row in order], height=height, color=color, label=label)
     axes.set_yticks(range(len(order)), [row.source for row in order])
     if len(found) > 1:
         panels.legend_under_heading(axes, "By source", 2)
     else:
         panels.heading(axes, "By source")
+
+
+def _width(row: Row) -> float:
+    return 3.0 * row.sigma + abs(row.mean)

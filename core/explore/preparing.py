@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 from gearlink.core.explore.base import Base, Refused
@@ -222,6 +222,22 @@ class _Reading:
                 message = f"no check {code!r} of `{self.base.command}`"
                 self.faults.append(Fault("GL152", message, ("checks", "must_pass", i), helps))
         return tuple(sorted(set(asked)))
+
+
+def beyond_lists(names: Iterable[str], whole: dict[str, Any], place: Place) -> Iterator[Fault]:
+    """Entries that are asked of lists that do not have them; `whole`: the quantities without index."""
+    for name in names:
+        plain, _, index = name.partition("[")
+        value = whole[plain]
+        if not index or value is None:
+            continue
+        if not isinstance(value, (list, tuple)):
+            yield Fault("GL152", f"{plain} is no list: it has no entry {index.rstrip(']')}", place, f"take {plain}")
+        elif int(index.rstrip("]")) >= len(value):
+            last = f"the last is {plain}[{len(value) - 1}]" if value else "it is empty"
+            yield Fault(
+                "GL152", f"{plain} is a list of {len(value)}: it has no {name}", place, f"counted from 0, {last}"
+            )
 
 
 def odd_comparisons(wish: Objective | Condition, values: dict[str, Any], place: Place) -> Iterator[Fault]:

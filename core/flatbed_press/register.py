@@ -7,15 +7,18 @@ zone shifts the print and costs no register, so every error counts relative to t
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.core.errors import NoSolution
+from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.flatbed_press.chains import difference
 from gearlink.core.flatbed_press.design import FlatbedPress
+from gearlink.core.flatbed_press.register_chain import PressErrors, register_error
 from gearlink.core.linkages import fourbar_sweep
 from gearlink.core.linkages.loop_gains import LoopGains, loop_gains
+from gearlink.core.linkages.standstills import zeros_over_turn
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.results import cached_property
 from gearlink.core.tolerance.budget import Contribution
@@ -26,6 +29,7 @@ if TYPE_CHECKING:
     from gearlink.core.flatbed_press.spec import FlatbedPressSpec
 
 _LINKS = ("crank", "coupler", "rocker", "frame")
+MESHES = ("mesh_12", "mesh_34", "rack_lower", "rack_upper")
 _PINS = ("A", "B", "C", "D", "E", "F", "G", "H", "M", "N")
 
 
@@ -126,6 +130,7 @@ class PressRegister(RegisterDesign):
     kind = "flatbed-press"
     spec: FlatbedPressSpec
     default_at = "zone"
+    turning = "force on the racks and on the cylinder's gears"
 
     @cached_property
     def design(self) -> FlatbedPress:
@@ -143,15 +148,102 @@ class PressRegister(RegisterDesign):
             raise no_such_place(at, ("zone",))
         return self.design.motion.sync_start, self.design.motion.sync_end
 
-    def contributions(self, input_angle: Reals, _torque_sign: int) -> list[Contribution]:
-        """Every source of the file, and the cam's own error."""
+    def contributions(self, input_angle: Reals, torque_sign: int) -> list[Contribution]:
+        """Every source of the file, the cam's own error, and the meshes whose backlash is given."""
         gains = PressGains(self.design, input_angle)
         found = [contribution(source, self._gain(source, gains)) for source in self.sources]
         if self.section.cam_error is not None:
             lean = self._cam_lean(gains)
             error = self.section.cam_error
             found.append(Contribution("cam profile", 1.0 / np.cos(lean), error, error / 3.0, relative=False))
+        for mesh, play in self.backlash.items():
+            half = 0.5 * play
+            gain = self._mesh_gain(mesh, gains, torque_sign)
+            found.append(Contribution(f"backlash of {mesh}", gain, half, 0.0, mean=half))
         return found
+
+    # Backlash
+
+    @cached_property
+    def backlash(self) -> dict[str, float]:
+        """Circumferential backlash of each mesh [mm]; that of the cylinder's gears at its surface."""
+        return {name: play for name, play in self.section.backlash_of(MESHES).items() if play > 0.0}
+
+    @cached_property
+    def _input_radius(self) -> float:
+        """Working radius of the input gears [mm]."""
+        if self.spec.input_gears is None:
+            raise MissingSection("the backlash of mesh_12 needs the section input_gears", key="input_gears")
+        return float(self.design.gear_pair.working_radius[0])
+
+    def _mesh_gain(self, mesh: str, gains: PressGains, torque_sign: int) -> Reals:
+        """Gain of half the backlash of a mesh: the driven member lags behind.
+
+        Notes
+            The torque's sign is that in the input mesh, +1 where the gear of the bed drives that of the cylinder. Bed
+            and cylinder are pushed by their inertia: by the sign of q''.
+        """
+        if mesh == "mesh_12":
+            rate: Reals = torque_sign * gains.cylinder_rate / self._input_radius
+            return rate
+        pushed = np.where(gains.motion.cylinder.travel(gains.phi, 2).second >= 0.0, 1.0, -1.0)
+        return pushed if mesh == "mesh_34" else -pushed
+
+    @cached_property
+    def _jumps(self) -> dict[str, float]:
+        """How far bed and cylinder jump against each other where the force turns in a mesh, at most [mm]."""
+        gains = PressGains(self.design, self.input_angles)
+        return {
+            mesh: play * float(np.abs(self._mesh_gain(mesh, gains, 1)).max()) for mesh, play in self.backlash.items()
+        }
+
+    @cached_property
+    def dead_band(self) -> float | None:
+        """The jumps of all meshes together [mm]."""
+        return sum(self._jumps.values()) if self.backlash else None
+
+    @property
+    def jump(self) -> float:
+        """What inertia makes jump: all but the input mesh [mm]."""
+        return sum(jump for mesh, jump in self._jumps.items() if mesh != "mesh_12")
+
+    against_flips = "take the backlash out there, or preload it"
+
+    @cached_property
+    def flips(self) -> list[float] | None:
+        """Input angles at which the inertia of bed and cylinder turns round [rad]; None without backlash.
+
+        q'' = 0: in the zone the bed goes as the cylinder does
+        """
+        if not self.backlash:
+            return None
+        return zeros_over_turn(lambda phi: float(self.design.motion.cylinder.travel(phi, 2).second))
+
+    # Samples of the exact chain
+
+    def sampled_errors(self, input_angle: Reals, _torque_sign: int, parts: Mapping[str, Any]) -> Reals:
+        """Errors of the print by the exact chain."""
+        values: dict[str, Any] = {}
+        for source in self.sources:
+            name, scale = self._chain_name(source)
+            values[name] = values.get(name, 0.0) + scale * parts[source.key]
+        motion = self.design.motion
+        return register_error(motion.bed, motion.cylinder, input_angle[:, None], PressErrors(values))
+
+    def _chain_name(self, source: Scatter) -> tuple[str, float]:
+        """What a source is called in the chain, and the chain's error per one of the source."""
+        if source.kind == "pin":
+            return source.key.partition(".")[2], 1.0
+        name, degree = source.key.replace(".double_crank", ""), math.radians(1.0)
+        scales = {
+            "bed.stroke": ("crank", self._crank_per_stroke),
+            "bed.rod": ("rod", 1.0),
+            "bed.offset": ("offset", 1.0),
+            "bed.crank_offset_angle": ("angle", degree),
+            "cylinder.initial_crank_angle": ("cylinder.angle", degree),
+            "cylinder.radius": ("radius", 1.0),
+        }
+        return scales.get(name, (name, 1.0))
 
     def _gain(self, source: Scatter, gains: PressGains) -> Any:
         section, _, rest = source.key.partition(".")
@@ -178,7 +270,7 @@ class PressRegister(RegisterDesign):
             case "bed.crank_offset_angle":
                 return slider["angle"] * degree
             case "cylinder.initial_crank_angle":
-                return -gains.cylinder_rate * degree
+                return gains.cylinder_rate * degree
             case "cylinder.radius":
                 return -cylinder.travel(gains.phi).value / cylinder.radius
         return None

@@ -1,4 +1,4 @@
-"""What an error of a link costs at the rocker of a four-bar: the linear map of its loop."""
+"""What an error of a link costs at the rocker of a four-bar: the linear map of its loop, and the loop closed anew."""
 
 from __future__ import annotations
 
@@ -58,3 +58,28 @@ def loop_gains(crank_angle: Reals, coupler_angle: Reals, rocker_angle: Reals, ro
         frame=-pin.real,
         pin=pin,
     )
+
+
+def closed_pin(start: Points, end: Points, first: Reals | float, second: Reals | float, side: int) -> Points:
+    """Pin of two links between points, many at once.
+
+    Parameters
+        start, end : complex arrays [mm] - that broadcast, with the lengths too
+        first, second : float or array [mm] - length of the link from start, of that from end
+        side : +1 or -1 - +1: the pin lies left of the line from start to end
+    Returns
+        pin : complex array [mm] - NaN where the links do not reach
+    Example
+        >>> closed_pin(np.array([0j]), np.array([6.0 + 0j]), 5.0, 5.0, 1).tolist()
+        [(3+4j)]
+
+    Source
+        own derivation: the triangle of the links and the distance
+    """
+    line = end - start
+    length = np.abs(line)
+    along = (length * length + (first - second) * (first + second)) / (2.0 * length)
+    with np.errstate(invalid="ignore"):
+        across = side * np.sqrt((first - along) * (first + along))
+    pin: Points = start + (along + 1j * across) * line / length
+    return pin

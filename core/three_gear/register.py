@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from functools import partial
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -23,11 +23,8 @@ from gearlink.core.three_gear.register_gains import Drive, register_gains
 from gearlink.core.three_gear.tolerance_axis import ThreeGearSamples
 from gearlink.core.three_gear.variable_speed_synthesis import VariableSpeedSynthesis
 from gearlink.core.tolerance.budget import Contribution
-from gearlink.core.tolerance.correlation import coordinate_root, together
 from gearlink.core.tolerance.register_design import RegisterDesign, contribution, no_such_place
-from gearlink.core.tolerance.sampling import replications, rounded_up
-from gearlink.core.tolerance.sources import Parts, Scatter
-from gearlink.core.tolerance.spec import Tolerance
+from gearlink.core.tolerance.sources import Parts
 
 if TYPE_CHECKING:
     from gearlink.core.three_gear.spec import ThreeGearSpec
@@ -46,8 +43,6 @@ _SYNTHESES = {
     "synth variable-speed": VariableSpeedSynthesis,
     "synth momentary-dwell": MomentaryDwellSynthesis,
 }
-_SAMPLES = 16_384
-_PLACES_PER_SAMPLE = 13
 
 
 class ThreeGearRegister(RegisterDesign):
@@ -120,7 +115,7 @@ class ThreeGearRegister(RegisterDesign):
         assert self.section.stiffness is not None
         torque = np.array([self.output_torque(float(phi)) for phi in input_angle])
         return Contribution(
-            "wind-up of the output shaft", self.drive.radius * torque / self.section.stiffness, 1.0, 0.0
+            "wind-up of the output shaft", self.drive.radius * torque / self.section.stiffness, 1.0, 0.0, mean=1.0
         )
 
     # Torque and backlash
@@ -178,49 +173,25 @@ class ThreeGearRegister(RegisterDesign):
 
     # Monte-Carlo of the exact chain
 
-    def sampled_band(self, sign: int) -> float:
-        """Half of what holds 99.73 % of the errors over the stretch, by the exact chain [mm]."""
-        section: Tolerance = self.spec.tolerance  # type: ignore[assignment]
-        sources, angles = self.sources, self.input_angles
-        chosen = angles[np.linspace(0, angles.size - 1, min(angles.size, _PLACES_PER_SAMPLE)).astype(int)]
-        count = rounded_up(section.samples or _SAMPLES)
-        width = sum(2 if one.coordinates == 2 else 1 for one in sources)
-        _ = self.correlations  # refused before anything is sampled
-        root, worst = coordinate_root(section, sources), []
-        for points in replications(width, count, section.seed):
-            errors = Errors(self._errors(sources, together(points, root)))
-            error = partial(output_error, self.drive, torque_sign=sign, errors=errors)
-            relative = 0.0 if chosen.size == 1 else error(np.full(1, chosen[0]))
-            found = [error(np.full(1, phi)) - relative for phi in chosen]
-            worst.append(np.array([_band(one) for one in found]))
-        return float(np.max(np.mean(worst, axis=0)))
+    def sampled_errors(self, input_angle: Reals, torque_sign: int, parts: Mapping[str, Any]) -> Reals:
+        """Errors of the output by the exact chain."""
+        return output_error(self.drive, input_angle[:, None], torque_sign, Errors(self._errors(parts)))
 
-    def _errors(self, sources: tuple[Scatter, ...], points: Reals) -> dict[str, Any]:
-        """Errors of the parts in all samples."""
+    def _errors(self, parts: Mapping[str, Any]) -> dict[str, Any]:
+        """Errors by the names of the chain."""
         found: dict[str, Any] = {}
-        at = 0
-        for source in sources:
-            part = points[:, at : at + source.coordinates]
-            at += source.coordinates
-            name = source.key.partition(".")[2]
-            size = source.law.deviations(part[:, 0])
-            if source.kind == "size" or source.kind == "center":
-                _add(found, _SIZES[source.key], size)
-                continue
-            vector = size * np.exp(2j * math.pi * part[:, 1])
-            if source.kind == "gear":
-                _add(found, _GEARS[name], vector)
+        for source in self.sources:
+            name, error = source.key.partition(".")[2], parts[source.key]
+            if source.kind in ("size", "center"):
+                _add(found, _SIZES[source.key], error)
+            elif source.kind == "gear":
+                _add(found, _GEARS[name], error)
             elif name in ("A", "D"):
-                _add(found, "loop", 0.5 * vector * (1.0 if name == "A" else -1.0))
+                _add(found, "loop", error if name == "A" else -error)
             else:
-                _add(found, _PINS[name], 0.5 * vector.real)
+                _add(found, _PINS[name], error.real)
         return found
 
 
 def _add(found: dict[str, Any], name: str, value: Any) -> None:
     found[name] = found[name] + value if name in found else value
-
-
-def _band(errors: Reals) -> float:
-    ordered = np.sort(np.abs(errors))
-    return float(ordered[min(ordered.size - 1, math.ceil(0.9973 * ordered.size) - 1)])

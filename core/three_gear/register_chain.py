@@ -16,6 +16,7 @@ import numpy as np
 
 from gearlink.core.gears.involute_sweep import involute
 from gearlink.core.linkages import fourbar_sweep
+from gearlink.core.linkages.loop_gains import closed_pin
 from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.three_gear.register_gains import Drive, gear_angles
 
@@ -87,7 +88,7 @@ class _Chain:
         crank_pin = errors["loop"] + (links.crank + errors["crank"]) * crank
         output_pin = links.frame + errors["frame"] + 0j
         lengths = links.coupler + errors["crank_idler"], links.rocker + errors["idler_output"]
-        knee = _closing(crank_pin, output_pin, *lengths, links.assembly)
+        knee = closed_pin(crank_pin, output_pin, *lengths, links.assembly)
         first = crank_pin + errors["crank_gear"] * crank
         mesh = ("crank_idler_play", "idler", self.idler, self.coupler_direction)
         idler = self._turned(self.base[:2], -self.flank, turned, first, knee, mesh)
@@ -118,13 +119,3 @@ class _Chain:
                 break
             turned = new
         return turned
-
-
-def _closing(crank_pin: Points, output_pin: Points, coupler: Reals, rocker: Reals, assembly: int) -> Points:
-    """Where coupler and rocker meet: C to the left (+1) of the line from B to D."""
-    line = output_pin - crank_pin
-    length = np.abs(line)
-    along = (length * length + coupler * coupler - rocker * rocker) / (2.0 * length)
-    with np.errstate(invalid="ignore"):
-        across = assembly * np.sqrt((coupler - along) * (coupler + along))
-    return crank_pin + (along + 1j * across) * line / length

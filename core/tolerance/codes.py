@@ -44,7 +44,7 @@ REGISTER_BUDGET = Rule(
     "the machines do not keep it, or at worst one does not (a warning).",
     "Colours no longer fall on each other, or the sheet is handed over where the next gripper does not expect it.",
     "Mend what stands first in the table budget.",
-    "3 sigma of the error over the stretch, relative to its start, <= register.tolerance; worst case: a warning",
+    "what 99.73 % keep over the stretch, relative to its start, <= register.tolerance; worst case: a warning",
     "ISO/IEC Guide 98-3, 5.1.2; own derivation of the gains",
     ("register-budget",),
     ("register.tolerance", "register"),
@@ -52,10 +52,11 @@ REGISTER_BUDGET = Rule(
 BACKLASH_IN_DWELL = Rule(
     "GL521",
     "torque turns within the dwell",
-    "The torque on the output changes its sign while the output should stand or print (a warning).",
+    "The torque on the output (of a press the force on racks and cylinder) changes its sign while the output should "
+    "stand or print (a warning).",
     "There the output jumps by the backlash of all meshes on its way.",
     "Brake the output with more friction than its inertia asks for, or preload the gears.",
-    "sign of J W' w^2 + T_f sign(W) + T_load over the stretch",
+    "sign of J W' w^2 + T_f sign(W) + T_load over the stretch; of a press sign of q''",
     "own derivation",
     ("backlash-in-dwell",),
     ("register.friction", "register"),

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from functools import lru_cache, partial
 from typing import Any, ClassVar
 
 import numpy as np
@@ -13,14 +15,17 @@ from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.report import Check, Status, Table, safely_above
 from gearlink.core.results import cached_property
-from gearlink.core.tolerance.budget import Budget, Contribution, budget
+from gearlink.core.tolerance.budget import Budget, Contribution, budget, counted
 from gearlink.core.tolerance.codes import BACKLASH_IN_DWELL, REGISTER_BUDGET
-from gearlink.core.tolerance.correlation import of_sizes
+from gearlink.core.tolerance.correlation import coordinate_root, of_sizes, together
+from gearlink.core.tolerance.sampling import replication, rounded_up
+from gearlink.core.tolerance.shares import is_shared, of_replications
 from gearlink.core.tolerance.sources import Parts, Scatter, scatters
-from gearlink.core.tolerance.spec import Register
+from gearlink.core.tolerance.spec import Register, Tolerance
 
 SIGNS = (1, -1)
-_NORMAL = 3.0  # 99.73 % of a normal error
+_SAMPLES = 16_384
+_SAMPLED_PLACES = 13
 _STEP = math.radians(0.5)
 
 
@@ -31,12 +36,13 @@ class RegisterDesign(Design):
     """
 
     default_at: ClassVar[str]
+    turning: ClassVar[str] = "torque on the output"
     outlines: ClassVar[dict[str, Outline]] = {
         "register": Outline(
             ("worst", "rss", "band", "dead_band", "flips"), ("register-budget", "backlash-in-dwell"), ("budget",)
         )
     }
-    extra_tables = ("cycle",)
+    extra_tables = ("cycle", "sources")
     advises = False
 
     # What a machine gives
@@ -67,6 +73,11 @@ class RegisterDesign(Design):
     def dead_band(self) -> float | None:
         """How far the output jumps where its torque turns [mm]."""
         return sum(self.backlash.values()) if self.backlash else None
+
+    @property
+    def jump(self) -> float:
+        """How far it jumps where inertia, friction and load turn [mm]."""
+        return self.dead_band or 0.0
 
     @property
     def flips(self) -> list[float] | None:
@@ -139,16 +150,75 @@ class RegisterDesign(Design):
         if self.section.method == "worst":
             return self.worst
         if self.section.method == "mc":
-            return [self.sampled_band(sign) for sign in SIGNS]
-        return [_NORMAL * one for one in self.rss]
+            return self.sampled_band
+        return [float(one.band.max()) for one in self.budgets]
 
-    def sampled_band(self, _sign: int) -> float:
-        """The band by samples of the whole chain [mm].
+    # Samples of the whole chain
+
+    @cached_property
+    def sampled_band(self) -> list[float]:
+        """What 99.73 % of the samples of the whole chain keep, to either side, for either torque sign [mm]."""
+        _ = self.correlations, self.input_angles  # refused before anything is sampled
+        share = partial(_share_of, type(self), type(self.spec), self._text) if is_shared() else self.sampled_share
+        found = np.mean(list(of_replications(share)), axis=0)
+        return [float(one.max()) for one in found]
+
+    def sampled_share(self, number: int) -> Reals:
+        """The band at some places of the stretch by one replication; (2, places) array [mm]."""
+        section: Tolerance = self.spec.tolerance
+        count = rounded_up(section.samples or _SAMPLES)
+        chosen = self.input_angles[_spread(self.input_angles.size)]
+        own = self._own_errors(chosen)
+        width = sum(one.coordinates for one in self.sources)
+        points = replication(width + len(own[0]), count, section.seed, number)
+        parts = self._parts_of(together(points[:, :width], coordinate_root(section, self.sources)))
+        bands = []
+        for sign, beside in zip(SIGNS, own, strict=True):
+            errors = self.sampled_errors(chosen, sign, parts)
+            if chosen.size > 1:
+                errors = errors - errors[0]
+            bands.append([_band(one) for one in errors + _scattered(beside, points[:, width:])])
+        return np.array(bands)
+
+    def _own_errors(self, chosen: Reals) -> list[list[Contribution]]:
+        """What the machine adds to the sources of the file, for either torque sign, as it counts over the stretch."""
+        keys = {one.key for one in self.sources}
+        start = 0 if chosen.size > 1 else None
+        return [
+            [
+                replace(one, gain=counted(one, start))
+                for one in self.contributions(chosen, sign)
+                if one.source not in keys
+            ]
+            for sign in SIGNS
+        ]
+
+    def _parts_of(self, points: Reals) -> dict[str, Any]:
+        """Errors of the parts in all samples, by source: sizes, and of pins and gears vectors."""
+        found: dict[str, Any] = {}
+        at = 0
+        for source in self.sources:
+            part = points[:, at : at + source.coordinates]
+            at += source.coordinates
+            size = source.law.deviations(part[:, 0])
+            if source.coordinates == 2:
+                half = 0.5 if source.kind == "pin" else 1.0
+                size = half * size * np.exp(2j * math.pi * part[:, 1])
+            found[source.key] = size
+        return found
+
+    def sampled_errors(self, _input_angle: Reals, _torque_sign: int, _parts: Mapping[str, Any]) -> Reals:
+        """Errors of machines as made at some input angles; (places, N) array [mm].
 
         Raises
             NoSolution - for machines whose chain is linear alone
         """
         raise NoSolution("this machine's register has no Monte-Carlo: take method rss or worst", key="register.method")
+
+    @property
+    def _text(self) -> str:
+        """The design file as text, for what is computed elsewhere."""
+        return str(self.spec.model_dump_json(exclude_unset=True, exclude_none=True, by_alias=True))
 
     # Tables
 
@@ -158,12 +228,12 @@ class RegisterDesign(Design):
         if both[0][1].rows == both[1][1].rows:  # nothing depends on the flank that carries
             both = both[:1]
         rows = [
-            (sign, row.source, row.gain, row.limit, row.worst, row.sigma, row.share)
+            (sign, row.source, row.gain, row.limit, row.worst, row.sigma, row.share, row.mean)
             for sign, one in both
             for row in sorted(one.rows, key=lambda row: -row.share)
         ]
-        units = ("1", "1", "1", "mm", "mm", "mm", "1")
-        columns = ("torque_sign", "source", "gain", "limit", "worst", "sigma", "share")
+        units = ("1", "1", "1", "mm", "mm", "mm", "1", "mm")
+        columns = ("torque_sign", "source", "gain", "limit", "worst", "sigma", "share", "mean")
         return Table("budget", columns, units, tuple(zip(*rows, strict=True)))
 
     def table_cycle(self, samples: int | None = None) -> Table:
@@ -176,9 +246,23 @@ class RegisterDesign(Design):
             "torque_sign": (np.repeat(np.array(SIGNS), degrees.size), "1"),
             "input_angle": (np.tile(degrees, 2), "deg"),
             "worst": (np.concatenate([one.worst for one in found]), "mm"),
-            "band": (_NORMAL * np.concatenate([one.rss for one in found]), "mm"),
+            "band": (np.concatenate([one.band for one in found]), "mm"),
         }
         return Table.of("cycle", columns)
+
+    def table_sources(self, samples: int | None = None) -> Table:
+        """What each source costs at its limit over the whole cycle, absolute, for either torque sign."""
+        from gearlink.core.numerics.arrays import turn_degrees
+
+        degrees = turn_degrees(samples)
+        both = [self.contributions(np.radians(degrees), sign) for sign in SIGNS]
+        columns = {
+            "torque_sign": (np.repeat(np.array(SIGNS), degrees.size), "1"),
+            "input_angle": (np.tile(degrees, 2), "deg"),
+        }
+        for pair in zip(*both, strict=True):
+            columns[pair[0].source] = (np.concatenate([one.limit * np.abs(one.gain) for one in pair]), "mm")
+        return Table.of("sources", columns)
 
     # Checks
 
@@ -211,18 +295,49 @@ class RegisterDesign(Design):
         start, end = float(self.input_angles[0]), float(self.input_angles[-1])
         inside = [flip for flip in flips if (flip - start) % (2.0 * math.pi) < end - start]
         if not inside:
-            yield BACKLASH_IN_DWELL.check("pass", f"the torque on the output keeps its sign {self._where}", 0.0, 0.0)
+            yield BACKLASH_IN_DWELL.check("pass", f"the {self.turning} keeps its sign {self._where}", 0.0, 0.0)
             return
         places = ", ".join(f"{math.degrees(flip):.6g}" for flip in inside)
-        text = f"the torque on the output turns at {places} deg {self._where}"
-        if self.dead_band is not None:
-            text += f", where it jumps by {self.dead_band:.4g} mm"
+        text = f"the {self.turning} turns at {places} deg {self._where}"
+        if self.jump:
+            text += f", where it jumps by {self.jump:.4g} mm"
         yield BACKLASH_IN_DWELL.check("warn", f"{text}: {self.against_flips}", float(len(inside)), 0.0)
 
     @property
     def against_flips(self) -> str:
         """What keeps the torque's sign."""
         return "brake the output, or preload the gears"
+
+
+@lru_cache(maxsize=4)
+def _made(register: type[RegisterDesign], model: type[Any], text: str) -> RegisterDesign:
+    return register(model.model_validate_json(text))
+
+
+def _share_of(register: type[RegisterDesign], model: type[Any], text: str, number: int) -> Reals:
+    made = _made(register, model, text)  # type: ignore[arg-type]  # mypy takes a class for unhashable
+    return made.sampled_share(number)
+
+
+def _spread(count: int) -> Any:
+    """Places spread over a stretch, its ends among them."""
+    return np.linspace(0, count - 1, min(count, _SAMPLED_PLACES)).astype(int)
+
+
+def _scattered(own: Sequence[Contribution], points: Reals) -> Any:
+    """Errors by gains: what all machines have alike, and normal scatter about it; (places, N) array."""
+    from gearlink.core.tolerance.laws import Law
+
+    found: Any = 0.0
+    for one, share in zip(own, points.T, strict=True):
+        law = Law("normal", -one.limit, one.limit, one.mean, one.sigma)
+        found = found + np.real(one.gain)[:, None] * law.deviations(share)
+    return found
+
+
+def _band(errors: Reals) -> float:
+    ordered = np.sort(np.abs(errors))
+    return float(ordered[min(ordered.size - 1, math.ceil(0.9973 * ordered.size) - 1)])
 
 
 def mean_square(source: Scatter) -> float:
@@ -236,8 +351,9 @@ def mean_square(source: Scatter) -> float:
 
 
 def contribution(source: Scatter, gain: Any, name: str = "") -> Contribution:
-    """A source with its gain."""
-    return Contribution(name or source.key, np.asarray(gain), source.limit, math.sqrt(mean_square(source)))
+    """A source with its gain; what has a direction is 0 on average."""
+    mean = source.law.moments()[0] if source.coordinates == 1 else 0.0
+    return Contribution(name or source.key, np.asarray(gain), source.limit, math.sqrt(mean_square(source)), mean)
 
 
 def no_such_place(at: str, known: Sequence[str]) -> NoSolution:

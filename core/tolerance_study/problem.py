@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from importlib import import_module
@@ -14,12 +14,12 @@ import numpy as np
 from gearlink.core.design import Design
 from gearlink.core.errors import NoSolution
 from gearlink.core.explore.base import Base, Refused
-from gearlink.core.explore.preparing import odd_comparisons
+from gearlink.core.explore.preparing import beyond_lists, odd_comparisons
 from gearlink.core.explore.wishes import Condition, FaultFound, Names, condition
 from gearlink.core.kinds import KINDS
 from gearlink.core.nomenclature import term
 from gearlink.core.numerics.arrays import Points, Reals
-from gearlink.core.study.faults import Fault, WrongStudy
+from gearlink.core.study.faults import Fault, Place, WrongStudy
 from gearlink.core.tolerance.axis import ToleranceAxis
 from gearlink.core.tolerance.correlation import coordinate_root, together
 from gearlink.core.tolerance.sources import Parts, Scatter, scatters
@@ -88,18 +88,30 @@ class Problem:
         return tuple(found)
 
     def _comparable(self, one: Condition, place: int) -> None:
-        """Words are compared with words, numbers with numbers, lists by their entries.
+        """Words are compared with words, numbers with numbers, lists by entries that they have.
 
         Raises
-            WrongStudy - GL152
+            WrongStudy - GL152, also for what the nominal design does not have
         """
-        own = () if self.axis is None else self.axis.extra
-        values: dict[str, Any] = dict.fromkeys(one.expression.names)
-        known = [name for name in values if name not in own]
-        values |= self.base.values(self.nominal, known)
-        faults = list(odd_comparisons(one, values, ("tolerance", "require", place)))
+        at = ("tolerance", "require", place)
+        names = list(one.expression.names)
+        whole = self._nominal_values({name.partition("[")[0] for name in names}, at)
+        faults = list(beyond_lists(names, whole, at))
+        if not faults:
+            values = self._nominal_values(names, at)
+            faults = [*_absent(values, at), *odd_comparisons(one, values, at)]
         if faults:
             raise WrongStudy(faults)
+
+    def _nominal_values(self, names: Iterable[str], at: Place) -> dict[str, Any]:
+        """Quantities of the nominal design; those that only samples have count as numbers."""
+        own = () if self.axis is None else self.axis.extra
+        try:
+            found = self.base.values(self.nominal, [name for name in names if name not in own])
+        except Refused as error:
+            message = f"the nominal design does not give it: {error}"
+            raise WrongStudy([Fault("GL152", message, at)]) from error
+        return found | {name: 0.0 for name in names if name in own}
 
     @cached_property
     def names(self) -> tuple[str, ...]:
@@ -180,6 +192,15 @@ def _vector(source: Scatter, part: Reals) -> Points:
         radius = 0.5 * np.maximum(source.law.deviations(part[:, 0]), 0.0)
     offset: Points = radius * np.exp(2j * math.pi * part[:, 1])
     return offset
+
+
+def _absent(values: Mapping[str, Any], at: Place) -> list[Fault]:
+    """Quantities that the nominal design does not have: a design as made that meets a wish on them is chance."""
+    return [
+        Fault("GL152", f"{name} does not apply to the nominal design", at, f"gearlink explain {name.partition('[')[0]}")
+        for name, value in values.items()
+        if value is None
+    ]
 
 
 def problem(spec: Any, command: str | None = None) -> Problem:

@@ -3,28 +3,15 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Sequence
-from contextvars import ContextVar
+from collections.abc import Callable, Iterable
 from functools import lru_cache, partial
-from typing import Protocol, TypeVar
+from typing import TypeVar
 
 from gearlink.core.kinds import KINDS
-from gearlink.core.tolerance.sampling import REPLICATIONS
+from gearlink.core.tolerance.shares import is_shared, of_replications
 from gearlink.core.tolerance_study.problem import Problem, problem
 
 Found = TypeVar("Found")
-
-
-class Compute(Protocol):
-    """Computes a module's function, or a partial of one, at some numbers, and gives what it found in their order."""
-
-    def __call__(self, function: Callable[[int], Found], numbers: Sequence[int]) -> Iterable[Found]:
-        """What the function gives for each number."""
-        ...
-
-
-COMPUTED_BY: ContextVar[Compute | None] = ContextVar("COMPUTED_BY", default=None)
-"""By what replications are computed; None: here, one after the other."""
 
 
 def replicated(made: Problem, function: Callable[[Problem, int], Found]) -> Iterable[Found]:
@@ -34,10 +21,9 @@ def replicated(made: Problem, function: Callable[[Problem, int], Found]) -> Iter
         made : Problem
         function : of the problem and the replication's number - of a module, so that it can be sent elsewhere
     """
-    by = COMPUTED_BY.get()
-    if by is None:
-        return (function(made, number) for number in range(REPLICATIONS))
-    return by(partial(_by_text, function, text_of(made)), range(REPLICATIONS))
+    if is_shared():
+        return of_replications(partial(_by_text, function, text_of(made)))
+    return of_replications(partial(function, made))
 
 
 def _by_text(function: Callable[[Problem, int], Found], text: str, number: int) -> Found:

@@ -128,6 +128,42 @@ def test_the_same_bytes_by_whatever_computes(gearlink: Any, tmp_path: Path, monk
     assert len({one.out for one in ended}) == 1
 
 
+def test_samples_of_a_register_are_the_same_by_whatever_computes(
+    gearlink: Any, spec: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "pools.py").write_text(
+        "from concurrent.futures import ThreadPoolExecutor\nmake = lambda: ThreadPoolExecutor(2)\n"
+    )
+    monkeypatch.chdir(tmp_path)
+    line = ["register", str(spec), "--method", "mc", "--samples", "256", "--format", "json"]
+    means = (["--jobs", "1"], ["--jobs", "2"], ["--executor", "pools:make"])
+    ended = [gearlink(*line, *more) for more in means]
+    assert [one.status for one in ended] == [0, 0, 0]
+    assert len({one.out for one in ended}) == 1
+
+
+@pytest.mark.parametrize(
+    ("wish", "told"),
+    [
+        ("dwell_crank_angles[5] <= 3 deg", "counted from 0, the last is dwell_crank_angles[1]"),
+        ("back_step_angle[0] <= 3 deg", "take back_step_angle"),
+        ("dwell_swing[0] <= 3 deg", "take dwell_swing"),
+        ("dwell_crank_angles <= 3 deg", "take one of them"),
+        ("tolerance_dwell_angle >= 3 deg", "does not apply to the nominal design"),
+        ("frame_ratio_interval[0] >= 3", "the nominal design does not give it"),
+        ("dwell_swing == 3 deg", "compare it by >= and <="),
+    ],
+)
+def test_a_wish_that_nothing_can_meet_is_an_error_at_its_line(gearlink: Any, spec: Path, wish: str, told: str) -> None:
+    spec.write_text(DESIGN.replace("back_step_angle <= 20.4 deg", f'"{wish}"'))
+    ended = gearlink("tolerance", str(spec), "--samples", "64")
+    assert ended.status == 2
+    assert "GL152" in ended.err
+    assert f"{spec}:8:13:" in ended.err
+    assert "^" in ended.err
+    assert told in ended.err
+
+
 def test_shares_of_a_worker_that_ends_are_computed_here(capsys: pytest.CaptureFixture[str]) -> None:
     class Dying(Executor):
         def submit(self, function: Any, /, *line: Any, **_: Any) -> Any:

@@ -39,8 +39,19 @@ def test_register_sheet_shows_every_source(name: str) -> None:
     assert {label.get_text() for label in axes.get_yticklabels()} == {row.source for row in design.budgets[0].rows}
 
 
-def test_band_over_the_dwell_is_three_sigma() -> None:
+def test_band_over_the_dwell_is_that_of_the_budget() -> None:
     design, figure = sheet("candy_feed_tolerances", "register")
     axes: Any = figure.axes[0]
     line = next(line for line in axes.lines if line.get_label() == "99.73 % torque +1")
-    assert np.asarray(line.get_ydata()) == pytest.approx(3.0 * design.budgets[0].rss)
+    assert np.asarray(line.get_ydata()) == pytest.approx(design.budgets[0].band)
+
+
+def test_lines_along_the_zone_are_the_sources_at_their_limits() -> None:
+    design, figure = sheet("ty460_register", "register")
+    axes = next(axes for axes in figure.axes if axes.get_title(loc="left").startswith("By source, each"))
+    gains = {one.source: one for one in design.contributions(design.input_angles, 1)}
+    named = [line for line in axes.lines if line.get_label() in gains]
+    assert len(named) == 6
+    for line in named:
+        one = gains[line.get_label()]
+        assert np.asarray(line.get_ydata()) == pytest.approx(one.limit * np.abs(one.gain - one.gain[0]))

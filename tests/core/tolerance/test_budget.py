@@ -1,0 +1,78 @@
+"""The budget of an error: bands about a mean, against the normal distribution itself and against samples of a chain."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import factory
+import numpy as np
+import pytest
+
+from gearlink.core.tolerance.budget import Contribution, budget, normal_band
+
+COVERED = math.erf(3.0 / math.sqrt(2.0))  # 99.73 %
+CANDY: dict[str, Any] = {
+    "kind": "three-gear-four-bar",
+    "name": "candy",
+    "gears": {"module": 2.0, "crank": 40, "idler": 72, "output": 40},
+    "links": {"crank": 38.94178567, "frame": 153.53024891},
+}
+
+
+def register(sources: dict[str, Any], **section: Any) -> Any:
+    data = CANDY | {"tolerance": {"sources": sources, "samples": 2**15}, "register": section}
+    return factory.design(data, command="register")
+
+
+@pytest.mark.parametrize("mean", [0.0, 1e-9, 0.01, 0.7, 1.0, 3.0, 30.0])
+def test_a_band_holds_the_share_of_three_sigma(mean: float) -> None:
+    """By erf, which the band does not use; both tails to rounding."""
+    b = float(normal_band(np.array([mean]), np.array([1.0]))[0])
+    inside = 0.5 * (math.erf((b - mean) / math.sqrt(2.0)) + math.erf((b + mean) / math.sqrt(2.0)))
+    assert inside == pytest.approx(COVERED, abs=4e-16)
+
+
+def test_a_band_does_not_depend_on_sign_or_unit() -> None:
+    mean, sigma = np.array([0.5, -0.5, 0.0, -2.0]), np.array([0.2, 0.2, 0.2, 0.0])
+    found = normal_band(mean, sigma)
+    assert found[0] == found[1]
+    assert found[2:].tolist() == pytest.approx([0.6, 2.0], abs=1e-15)
+    assert normal_band(1e-6 * mean, 1e-6 * sigma) == pytest.approx(1e-6 * found, rel=1e-14)
+
+
+def test_a_mean_is_relative_to_the_start_as_gains_are() -> None:
+    one = Contribution("long", np.array([1.0, 3.0]), 0.02, 0.0, mean=0.01)
+    found = budget([one], 0)
+    assert found.mean.tolist() == [0.0, 0.02]
+    assert found.band.tolist() == [0.0, 0.02]
+    assert (found.at, found.rows[0].mean, found.rows[0].share) == (1, 0.02, 0.0)
+
+
+def test_a_process_off_its_middle_moves_the_band() -> None:
+    """C_p 2, C_pk 0.5: the crank is 15 um too long in the mean, 4.5 sigma: one tail alone counts."""
+    made = register({"links.crank": {"plus_minus": 0.02, "cp": 2.0, "cpk": 0.5, "shift": "up"}}, at=270.0)
+    (row,) = made.budgets[0].rows
+    assert abs(row.mean) == pytest.approx(row.gain * 0.015, rel=1e-14)
+    assert made.band[0] == pytest.approx(row.gain * (0.015 + 2.7821749705 * 0.02 / 6.0), rel=1e-9)
+
+
+@pytest.mark.parametrize("law", [{"cp": 1.5, "cpk": 0.6, "shift": "down"}, {}])
+def test_samples_of_the_chain_keep_the_band(law: dict[str, Any]) -> None:
+    """A quantile of 2^15 samples of a normal error: some thousandths."""
+    sources = {"links.crank": {"plus_minus": 0.02} | law, "links.frame": {"limits": [-0.01, 0.05]}}
+    assert register(sources, method="mc").band == pytest.approx(register(sources).band, rel=0.01)
+
+
+def test_a_measured_part_is_an_error_without_scatter() -> None:
+    made = register({"links.crank": {"measured": 38.95178567}, "links.frame": {"plus_minus": 1e-6}}, at=270.0)
+    gain = {row.source: row.gain for row in made.budgets[0].rows}["links.crank"]
+    frame = {row.source: row.sigma for row in made.budgets[0].rows}["links.frame"]
+    assert made.band[0] == pytest.approx(0.01 * gain + 2.7821749705 * frame, rel=1e-9)
+
+
+def test_twist_of_a_shaft_counts_in_band_and_samples_alike() -> None:
+    twist = {"stiffness": 500.0, "load": 3.0, "at": 100.0}
+    one, other = (register({"links.crank": {"plus_minus": 0.002}}, method=m, **twist) for m in ("rss", "mc"))
+    assert one.band[0] > 40.0 * 3.0 / 500.0
+    assert other.band == pytest.approx(one.band, rel=2e-3)
