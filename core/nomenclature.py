@@ -292,6 +292,8 @@ _LOADS = {
     "twisted_ripple": Term("D_z", "deg", "range of the output with its deflection in a dwell"),
     "tooth_force_max": Term("F_t", "N", "greatest tangential force of a mesh"),
     "reversals": Term("", "1", "changes of flank of a mesh over the period"),
+    "axial_force_max": Term("F_a", "N", "greatest axial force of helical teeth, F_t tan(beta_w)"),
+    "tilting_moment_max": Term("M_t", "N m", "greatest moment F_a r_w of it on gear 1 and gear 2"),
     "engagement_energy": Term("E", "J", "energy that the hardest start of a mutilated gear's motion costs"),
     "power_identity": Term("", "1", "difference of the input torques by virtual power and by the joint forces"),
 }

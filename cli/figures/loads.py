@@ -22,11 +22,11 @@ _POLAR_COLUMNS = 3
 
 def draw(design: Any) -> Figure:
     """The sheet of `loads`: curves over the turn one below the other, then the loads of the pins as polar diagrams."""
-    if design.kind == "wide-swing-cam":
+    if design.kind == "wide-swing-cam" and not design.whole:
         return loads_contact.stroke_sheet(design)
     curves = [panel for panel, wanted in _CURVES if wanted(design)]
     pins = [name for name in design.pins if design.has(name) and name not in design.unknown_joints]
-    cams = list(getattr(design, "own_rollers", ())) if design.section_roller is not None else []
+    cams = _cams(design)
     polar = math.ceil((len(pins) + len(cams) + 1) / _POLAR_COLUMNS)
     heights = [1.3] + [1.0] * (len(curves) - 1) + [1.55] * polar
     made = panels.page(f"{design.spec.name}: loads", min(1.6, 0.115 * sum(heights)))
@@ -37,12 +37,29 @@ def draw(design: Any) -> Figure:
     for (row, column), name in zip(places, [*pins, *(f"cam {cam}" for cam in cams), ""], strict=True):
         axes = made.add_subplot(grid[row, column])
         if name.startswith("cam "):
-            loads_contact.profile(axes, design, name.removeprefix("cam "))
+            _profile(axes, design, name.removeprefix("cam "))
         elif name:
             _pin(axes, design, name)
         else:
             _shaking(axes, design)
     return made
+
+
+def _cams(design: Any) -> list[str]:
+    """Rollers whose cams are coloured by pressure, which needs a width."""
+    if design.section_roller is None:
+        return []
+    if hasattr(design, "strokes"):
+        return [stroke.name for stroke in design.strokes]
+    return list(getattr(design, "own_rollers", ()))
+
+
+def _profile(axes: Axes, design: Any, name: str) -> None:
+    if hasattr(design, "strokes"):
+        stroke = next(each for each in design.strokes if each.name == name)
+        loads_contact.stroke_profile(axes, stroke)
+    else:
+        loads_contact.profile(axes, design, name)
 
 
 def _columns(design: LoadsDesign, table: str) -> dict[str, Any]:
@@ -183,6 +200,8 @@ _CURVES: tuple[tuple[Panel, Callable[[Any], bool]], ...] = (
     (_speed, lambda design: design.speed_min is not None),
     (loads_contact.forces, lambda design: hasattr(design, "own_rollers")),
     (loads_contact.pressures, lambda design: hasattr(design, "own_rollers") and design.section.roller is not None),
+    (loads_contact.stroke_forces, lambda design: hasattr(design, "strokes")),
+    (loads_contact.stroke_pressures, lambda design: hasattr(design, "strokes") and design.section.roller is not None),
     (loads_contact.residual, lambda design: design.section.vibration is not None and design.residual_amplitude),
     (_deflection, lambda design: design.section.vibration is not None and design.dwell_twist is not None),
 )

@@ -90,8 +90,10 @@ def _colored(axes: Axes, points: Any, values: Any, title: str) -> None:
     panels.drawing(axes, title)
     axes.set_title(title, loc="left", fontsize=9, fontweight="bold")
     xy = np.column_stack((points.real, points.imag))
-    lines = LineCollection(np.stack((xy[:-1], xy[1:]), axis=1).tolist(), cmap="viridis", linewidths=2.6)
-    lines.set_array(np.nan_to_num(0.5 * (values[:-1] + values[1:])))
+    pieces, level = np.stack((xy[:-1], xy[1:]), axis=1), np.nan_to_num(0.5 * (values[:-1] + values[1:]))
+    whole = np.isfinite(pieces).all(axis=(1, 2))
+    lines = LineCollection(pieces[whole].tolist(), cmap="viridis", linewidths=2.6)
+    lines.set_array(level[whole])
     axes.add_collection(lines)
     axes.autoscale_view()
     bar = axes.figure.colorbar(lines, ax=axes, shrink=0.8, pad=0.02)
@@ -99,28 +101,61 @@ def _colored(axes: Axes, points: Any, values: Any, title: str) -> None:
 
 
 def stroke_sheet(design: Any) -> Figure:
-    """The sheet of a wide-swing stroke: force, pressure, torque of the cam and residual vibration."""
-    has = {"pressure": design.section.roller is not None, "residual": design.oscillator is not None}
+    """The sheet of a wide-swing stroke: force, pressure, torque of the cam, residual vibration, and the cam."""
+    has = {"pressure": design.section.roller is not None, "residual": design.section.vibration is not None}
     count = 2 + sum(has.values())
-    made = panels.page(f"{design.spec.name}: loads", 0.21 * count)
-    grid = iter(made.subplots(count, 1).ravel())
-    _stroke(next(grid), design, "Force of the roller on its cam", "force [N]", "main_force", style.BLUE)
+    made = panels.page(f"{design.spec.name}: loads", 0.21 * count + 0.3 * has["pressure"])
+    rows = made.add_gridspec(count + has["pressure"], 1, height_ratios=[1.0] * count + [1.5] * has["pressure"])
+    grid = iter(made.add_subplot(rows[row, 0]) for row in range(count + has["pressure"]))
+    stroke_forces(next(grid), design)
     if has["pressure"]:
-        axes = next(grid)
-        _stroke(axes, design, "Hertzian pressure", "p [N/mm²]", "main_pressure", style.RED)
-        _allowed(axes, design)
-        panels.legend_above(axes, 1)
-    _stroke(next(grid), design, "Torque on the cam", "torque [N m]", "input_torque", style.GREEN)
+        stroke_pressures(next(grid), design)
+    axes = next(grid)
+    _stroke(axes, design, "Torque on the cam", "torque [N m]", "input_torque")
+    axes.axhline(0.0, color=style.BLACK, linewidth=0.8)
     if has["residual"]:
         residual(next(grid), design)
+    if has["pressure"]:
+        stroke_profile(next(grid), design.strokes[0])
     return made
 
 
-def _stroke(axes: Axes, design: Any, title: str, ylabel: str, column: str, color: str) -> None:
+def stroke_forces(axes: Axes, design: Any) -> None:
+    """Force of the roller on the cam of each stroke; empty where it touches nothing."""
+    _stroke(axes, design, "Force of the roller on its cam", "force [N]", "{}_force")
+    axes.axhline(0.0, color=style.BLACK, linewidth=0.8)
+
+
+def stroke_pressures(axes: Axes, design: Any) -> None:
+    """Hertzian pressure over each stroke, and what is allowed."""
+    _stroke(axes, design, "Hertzian pressure", "p [N/mm²]", "{}_pressure")
+    _allowed(axes, design)
+    axes.set_ylim(bottom=0.0)
+    panels.legend_above(axes, 3)
+
+
+def stroke_profile(axes: Axes, stroke: Any) -> None:
+    """The cam of a stroke, its profile coloured by the pressure; open where the roller stands in its slot."""
+    import numpy as np
+
+    parts = [np.linspace(low, high, 241) for low, high in stroke.parts]
+    k = np.concatenate([parts[0], [0.5], parts[1]])
+    points, pressure = stroke.cam.points(k).profile, stroke.contact(k).pressure
+    points[len(parts[0])] = complex(np.nan, np.nan)
+    _colored(axes, points, pressure, f"{'cam' if stroke.name == 'main' else 'return cam'}: pressure [N/mm²]")
+    axes.plot([0.0], [0.0], "+", color=style.BLACK, markersize=8)
+
+
+def _stroke(axes: Axes, design: Any, title: str, ylabel: str, column: str) -> None:
     table = design.table("contact_stroke", samples=400)
     style.curves(axes, "cam angle [deg]", ylabel)
     panels.small_ticks(axes)
     panels.heading(axes, title)
-    axes.plot(table["cam_angle"], table[column].astype(float), color=color, linewidth=1.5)
-    axes.set_xlim(0.0, math.degrees(design.cam.cycle_angle))
-    axes.axhline(0.0, color=style.BLACK, linewidth=0.8)
+    for stroke, color in zip(design.strokes, panels.CAM_COLORS, strict=False):
+        later = "" if stroke.name == "main" else "return_"
+        values = table[column.format(stroke.name) if "{}" in column else f"{later}{column}"].astype(float)
+        label = "working stroke" if stroke.name == "main" else "return stroke"
+        axes.plot(table[f"{later}cam_angle"], values, color=color, linewidth=1.5, label=label)
+    axes.set_xlim(0.0, 360.0 if design.whole else math.degrees(design.cam.cycle_angle))
+    if len(design.strokes) > 1:
+        panels.legend_above(axes, 2)

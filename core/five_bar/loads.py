@@ -6,7 +6,7 @@ import cmath
 import math
 from typing import TYPE_CHECKING
 
-from gearlink.core.errors import NoSolution, at_key
+from gearlink.core.errors import NoSolution
 from gearlink.core.five_bar.design import GearedFiveBar
 from gearlink.core.loads.design import LoadsDesign, loads_outline
 from gearlink.core.results import cached_property
@@ -65,8 +65,16 @@ class FiveBarLoads(LoadsDesign):
     def function_bar(self) -> FunctionFiveBar:
         """The function form over its whole period."""
         bar = self.design.function_bar
-        with at_key("range" if self.spec.range is not None else "links"):
+        try:
             bar.closure(0.0, 2.0 * math.pi * self.turns)
+        except NoSolution as error:
+            words = (
+                error.message.replace(", or narrow the range", "")
+                .replace("mm, lengthen", "mm, or lengthen")
+                .replace("together, shorten", "together, or shorten")
+            )
+            message = f"loads are those of the whole period, whatever the range: {words}"
+            raise NoSolution(message, key="range" if self.spec.range is not None else "links") from error
         return bar
 
     @property

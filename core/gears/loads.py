@@ -1,6 +1,7 @@
 """The loads of a gear pair: tooth force and bearings of two gears on the frame; gear 1 is the input, at 0.
 
-Forces are those in the plane of the gears: of helical teeth the axial force is left out.
+Pin forces are those in the plane of the gears. Helical teeth push besides along the axis with F_a = F_t tan(beta_w),
+which tilts each gear with F_a r_w; what that puts on its two bearings depends on their distance.
 """
 
 from __future__ import annotations
@@ -9,7 +10,9 @@ import math
 from typing import TYPE_CHECKING
 
 from gearlink.core.gears.design import GearPairDesign
+from gearlink.core.loads import tables
 from gearlink.core.loads.design import LoadsDesign, loads_outline
+from gearlink.core.report import Table
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
@@ -29,7 +32,7 @@ class GearPairLoads(LoadsDesign):
     links = ("gear1", "gear2")
     pins, meshes = ("gear1", "gear2"), ("mesh_12",)
     output = "gear2"
-    outlines = loads_outline(pins, meshes)
+    outlines = loads_outline(pins, meshes, ("axial_force_max", "tilting_moment_max"))
 
     @cached_property
     def pair(self) -> GearPair:
@@ -40,6 +43,32 @@ class GearPairLoads(LoadsDesign):
     def turns(self) -> int:
         """Turns of gear 1 until both gears are back at their place."""
         return abs(self.pair.teeth[1]) // math.gcd(*self.pair.teeth)
+
+    @property
+    def axial_share(self) -> float:
+        """F_a over F_t: tan(beta_w), tan(beta_w) = tan(beta) r_w/r."""
+        pair = self.pair
+        return math.tan(abs(pair.helix_angle)) * pair.working_radius[0] / pair.reference_radius[0]
+
+    @property
+    def axial_force_max(self) -> float | None:
+        """Greatest axial force of helical teeth [N]; None of spur gears."""
+        return self.axial_share * self.mesh("mesh_12").tooth_force_max if self.pair.helix_angle else None
+
+    @property
+    def tilting_moment_max(self) -> list[float] | None:
+        """Greatest moment F_a r_w that tilts gear 1 and gear 2 [N m]; None of spur gears."""
+        force = self.axial_force_max
+        return None if force is None else [force * abs(radius) * _MM for radius in self.pair.working_radius]
+
+    def table_teeth(self, samples: int | None = None) -> Table:
+        """Tangential and radial tooth force; of helical teeth the axial one, a magnitude."""
+        found = tables.teeth(self, samples)
+        if not self.pair.helix_angle:
+            return found
+        columns = dict(zip(found.columns, zip(found.data, found.units, strict=True), strict=True))
+        columns["mesh_12_axial"] = (self.axial_share * abs(found["mesh_12"]), "N")
+        return Table.of("teeth", columns)
 
     def kinematics(self, phi: Reals) -> Mechanism:
         """Both gears at angles of gear 1."""

@@ -249,8 +249,11 @@ class LoadsBase(Design):
 
     @property
     def energy_fluctuation(self) -> float:
-        """Greatest less least energy surplus over the period [J]."""
-        return self.energy.fluctuation
+        """Greatest less least energy surplus over the period [J]; what is below the rounding of its size is 0."""
+        from gearlink.core.report import without_noise
+
+        size = max(abs(self.input_torque_max), abs(self.input_torque_min)) * self.machine.period
+        return without_noise(self.energy.fluctuation, 16.0 * size)
 
     @cached_property
     def running(self) -> Running:
@@ -294,7 +297,7 @@ class LoadsBase(Design):
         import numpy as np
 
         machine = self.machine
-        phi = np.radians(np.arange(360.0 * self.turns))
+        phi = np.linspace(0.0, machine.period, 360 * self.turns, endpoint=False)
         found = machine.reactions(phi)
         if machine.friction is None:
             power = machine.reduced(phi).torque(machine.speed)

@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from gearlink.core.numerics.arrays import Reals
 
 _HIGHEST = 10_000
+MOST_TURNS = 100
+"""Turns of the period that tables show at most."""
 TORQUE = (
     "input_torque_mean",
     "input_torque_rms",
@@ -72,12 +74,13 @@ def loads_outline(
     meshes: tuple[str, ...],
     more: tuple[str, ...] = (),
     more_checks: tuple[str, ...] = (),
+    shown: tuple[str, ...] = ("torque",),
 ) -> dict[str, Outline]:
     """The outline of `loads` for a machine with these joints."""
     own = [f"pin_{pin}.{name}" for pin in pins for name in PIN]
     own += [f"{mesh}.{name}" for mesh in meshes for name in MESH]
     names = (*TORQUE, *RUN, *FRAME, *more, *own, *VIBRATION, "power_identity")
-    return {"loads": Outline(names, (*checks.CHECKS, *more_checks, *VIBRATION_CHECKS), ("torque",))}
+    return {"loads": Outline(names, (*checks.CHECKS, *more_checks, *VIBRATION_CHECKS), shown)}
 
 
 class LoadsDesign(LoadsBase):
@@ -93,6 +96,15 @@ class LoadsDesign(LoadsBase):
         if joint.startswith("pin_"):
             return getattr(self.pin(joint.removeprefix("pin_")), quantity, None)
         return getattr(self.mesh(joint), quantity, None)
+
+    def rows(self, samples: int | None) -> tuple[Reals, dict[str, tuple[Any, str]]]:
+        """Input angles [rad] of a table's rows, and its first columns."""
+        import numpy as np
+
+        from gearlink.core.numerics.arrays import turn_degrees
+
+        degrees = turn_degrees(samples, min(self.turns, MOST_TURNS))
+        return np.radians(degrees), {"input_angle": (degrees, "deg")}
 
     # Frame and joints
 

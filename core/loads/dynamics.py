@@ -160,7 +160,10 @@ class System:
         """The equations of some of the input angles, (rows, n, n)."""
         found = np.zeros((len(rows), self.size, self.size))
         for k, (_, column) in enumerate(self.columns):
-            self._put(found[:, :, k].T, column.first, column.second, column.force, column.at, column.couple, rows)
+            entries = found[:, :, k].T
+            self._put(entries, column.first, column.second, column.force, column.at, column.couple, rows)
+            for act in column.also:
+                self._put(entries, FRAME, act.on, act.force, act.at, act.couple, rows)
         return found
 
     def _put(

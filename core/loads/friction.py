@@ -19,11 +19,13 @@ from gearlink.core.loads.mechanism import (
     FRAME,
     Connection,
     Contact,
+    Coupling,
     Guide,
     Mechanism,
     Mesh,
     Pin,
     Rack,
+    SharedContact,
     ToothDrive,
     rates,
 )
@@ -170,7 +172,7 @@ def resistances(found: Reactions, friction: Coefficients, speed: float) -> Itera
     mechanism, sense = found.mechanism, np.sign(speed)
     for each in mechanism.connections:
         share = friction.of(each)
-        if not share or isinstance(each, (Contact, ToothDrive)):
+        if not share or isinstance(each, (Contact, SharedContact, Coupling, ToothDrive)):
             continue
         direction = np.sign(sense * relative(mechanism, each))
         if isinstance(each, Guide):

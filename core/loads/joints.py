@@ -93,7 +93,7 @@ class PinLoad:
         from gearlink.core.loads.machine import Panels
 
         panels = Panels.over(machine.period, edges[1:-1])
-        return panels.integral(np.abs(self.rate(panels.nodes))) / (2.0 * math.pi * machine.turns)
+        return panels.integral(np.abs(self.rate(panels.nodes))) / machine.period
 
     @cached_property
     def life(self) -> float | None:

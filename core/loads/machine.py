@@ -49,6 +49,7 @@ class Machine:
         shaft_inertia : float [kg m^2] - of what turns evenly with the input
         more : what acts besides the sources, a spring of the machine's own
         joints_of_period : bool - the joints are those of the whole period
+        stroke : float [rad] - of a machine that is looked at over less than a turn; 0: over its turns
     """
 
     kinematics: Kinematics
@@ -61,14 +62,15 @@ class Machine:
     joints: tuple[float, ...] = ()
     shaft_inertia: float = 0.0
     joints_of_period: bool = False
+    stroke: float = 0.0
     more: Callable[[Mechanism, Reals], Sequence[Force | Torque]] | None = None
     kept: dict[tuple[str, bytes], Any] = field(default_factory=dict, repr=False)
     kept_few: dict[tuple[str, bytes], Any] = field(default_factory=dict, repr=False)
 
     @property
     def period(self) -> float:
-        """Input angle after which everything repeats [rad]."""
-        return TURN * self.turns
+        """Input angle after which everything repeats, or of the stroke [rad]."""
+        return self.stroke or TURN * self.turns
 
     def _keep(self, what: str, phi: Reals, make: Callable[[], Any]) -> Any:
         key = what, phi.tobytes()
@@ -126,7 +128,7 @@ class Machine:
     def locking_ratio(self) -> float:
         """Change of the second pass of the friction over that of the first, over a turn."""
         assert self.friction is not None, "asked for only where there is friction"
-        phi = np.radians(np.arange(0.0, 360.0, 5.0))
+        phi = np.linspace(0.0, min(TURN, self.period), 72, endpoint=False)
         return passes_ratio(self.at(phi), self.masses, self.applied(phi), self.gravity, self.speed, self.friction)
 
     # Places where something jumps, and integrals

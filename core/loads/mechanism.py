@@ -36,14 +36,27 @@ class Link:
         return carried(self.origin, self.turn, arm, self.unit)
 
 
+class Act(NamedTuple):
+    """A force on a link, where it acts, and a couple."""
+
+    on: str
+    force: Points | complex
+    at: Points
+    couple: Reals | float
+
+
 class Column(NamedTuple):
-    """One unknown: the force that its unit gives on the second link, where it acts, and a couple."""
+    """One unknown: the force that its unit gives on the second link, where it acts, and a couple.
+
+    The first link takes the opposite; `also` is what its unit gives on further links.
+    """
 
     first: str
     second: str
     force: Points | complex
     at: Points
     couple: Reals | float
+    also: tuple[Act, ...] = ()
 
 
 class Radial(NamedTuple):
@@ -228,7 +241,43 @@ class Contact:
         return [Column(self.first, self.second, self.normal, self.at, 0.0)]
 
 
-Connection = Pin | Guide | Mesh | Rack | ToothDrive | Contact
+@dataclass(frozen=True)
+class Coupling:
+    """A train on the frame that turns the second shaft `ratio` times as fast as the first."""
+
+    name: str
+    first: str
+    second: str
+    at: Points
+    ratio: float
+
+    def columns(self) -> list[Column]:
+        """A couple on the second shaft; -ratio times it on the first, the frame takes the rest."""
+        return [Column(FRAME, self.second, 0j, self.at, 1.0, (Act(self.first, 0j, self.at, -self.ratio),))]
+
+
+@dataclass(frozen=True)
+class SharedContact:
+    """A roller that several cams guide in turn: one force along the normal at the roller's centre.
+
+    Fields
+        shares : by cam - (N,) array, 1 where it guides the roller, else 0
+    """
+
+    name: str
+    second: str
+    at: Points
+    normal: Points
+    shares: Mapping[str, Reals]
+    first: str = FRAME
+
+    def columns(self) -> list[Column]:
+        """N n_out on the roller, the opposite on the cam that guides it."""
+        cams = tuple(Act(cam, -share * self.normal, self.at, 0.0) for cam, share in self.shares.items())
+        return [Column(FRAME, self.second, self.normal, self.at, 0.0, cams)]
+
+
+Connection = Pin | Guide | Mesh | Rack | ToothDrive | Contact | Coupling | SharedContact
 Toothed = (Mesh, Rack, ToothDrive)
 
 

@@ -2,31 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from gearlink.core.report import Table
 
 if TYPE_CHECKING:
     from gearlink.core.loads.design import LoadsDesign
-    from gearlink.core.numerics.arrays import Reals
-
-MOST_TURNS = 100
-Columns = dict[str, tuple[Any, str]]
-
-
-def _rows(design: LoadsDesign, samples: int | None) -> tuple[Reals, Reals, Columns]:
-    """Input angles in rad and deg of the rows, and the first column."""
-    import numpy as np
-
-    from gearlink.core.numerics.arrays import turn_degrees
-
-    degrees = turn_degrees(samples, min(design.turns, MOST_TURNS))
-    return np.radians(degrees), degrees, {"input_angle": (degrees, "deg")}
 
 
 def torque(design: LoadsDesign, samples: int | None = None) -> Table:
     """Input torque and its parts, reflected inertia and power over the input angle."""
-    phi, _, columns = _rows(design, samples)
+    phi, columns = design.rows(samples)
     machine = design.machine
     reduced, whole = machine.reduced(phi), machine.torque(phi)
     inertial = reduced.inertial(machine.speed)
@@ -45,7 +31,7 @@ def joints(design: LoadsDesign, samples: int | None = None) -> Table:
     """Every pin's force on the second link of the joint, and those of the guides."""
     from gearlink.core.loads.mechanism import Guide, Pin
 
-    phi, _, columns = _rows(design, samples)
+    phi, columns = design.rows(samples)
     found = design.machine.reactions(phi)
     for each in found.mechanism.connections:
         if not isinstance(each, (Pin, Guide)) or each.name in design.unknown_joints:
@@ -65,7 +51,7 @@ def teeth(design: LoadsDesign, samples: int | None = None) -> Table:
     """Tangential and radial tooth force of every mesh."""
     from gearlink.core.loads.mechanism import ToothDrive
 
-    phi, _, columns = _rows(design, samples)
+    phi, columns = design.rows(samples)
     found = design.machine.reactions(phi)
     for mesh in found.mechanism.meshes:
         tangential = found.unknowns[mesh.name][0]
@@ -78,7 +64,7 @@ def teeth(design: LoadsDesign, samples: int | None = None) -> Table:
 
 def frame(design: LoadsDesign, samples: int | None = None) -> Table:
     """Shaking force and moment of the masses on the frame."""
-    phi, _, columns = _rows(design, samples)
+    phi, columns = design.rows(samples)
     force, moment = design.shaking(phi)
     columns |= {"force_x": (force.real, "N"), "force_y": (force.imag, "N"), "moment": (moment, "N m")}
     return Table.of("frame", columns)
@@ -88,7 +74,7 @@ def speed(design: LoadsDesign, samples: int | None = None) -> Table:
     """Speed of the input, time and kinetic energy over the input angle."""
     from gearlink.core.loads.running import RPM
 
-    phi, _, columns = _rows(design, samples)
+    phi, columns = design.rows(samples)
     running = design.running
     found = running.speed(phi)
     kinetic = 0.5 * (design.machine.reduced(phi).inertia + running.inertia) * found**2

@@ -16,6 +16,7 @@ VIBRATION_CHECKS = ("rigid-model", "residual-vibration", "resonance")
 _ONE_PERCENT = 0.01
 _NEAR = 0.8
 _NEAR_RESONANCE = 0.1
+_CLOSE = 5
 
 
 def rigid_model(design: LoadsDesign) -> Iterator[Check]:
@@ -77,7 +78,9 @@ def resonance(design: LoadsDesign) -> Iterator[Check]:
         return
     share = design.harmonic_share(order)
     if off < _NEAR_RESONANCE and share > _ONE_PERCENT and math.isfinite(share):
-        message = f"{text} and has {100.0 * share:.3g} % of the greatest: change the speed by a tenth"
+        # from the fifth harmonic on the next one is as near, whatever the speed
+        remedy = "change the speed by a tenth" if order < _CLOSE else "stiffen the output, or take a smoother law"
+        message = f"{text} and has {100.0 * share:.3g} % of the greatest: {remedy}"
         yield codes.RESONANCE.check("warn", message, off, _NEAR_RESONANCE)
     else:
         yield codes.RESONANCE.check("pass", text, off, _NEAR_RESONANCE)

@@ -1,33 +1,40 @@
-"""The loads of a wide-swing mechanism over its working stroke: what the cam gives, its contact, what vibrates after.
+"""The loads of a wide-swing mechanism: rocker with its device, cam shaft, and the roller between them.
 
-The device bears the inertia but for what it gives too much; that is all that the cam carries. The part of the stroke
-where the roller touches nothing is left out of greatest force and pressure.
+The input angle is that of the cam, from the start of the working stroke; torques are positive in the sense of that
+stroke. With `cycle` the whole turn is computed, with `cycle_angle` the working stroke alone. In a stroke its own cam
+guides the rocker, and in the rest after it that cam's arc holds it against the device.
 """
 
 from __future__ import annotations
 
+import cmath
 import math
-from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from gearlink.core.design import Design, Outline, placed
+from gearlink.core.design import placed
 from gearlink.core.errors import MissingSection, NoSolution
-from gearlink.core.loads import codes
-from gearlink.core.nomenclature import term
-from gearlink.core.report import Check, Quantity, Table, safely_above
+from gearlink.core.loads.cam_checks import CAM_CHECKS
+from gearlink.core.loads.design import LoadsDesign, loads_outline
+from gearlink.core.report import Quantity
 from gearlink.core.results import cached_property
+from gearlink.core.wide_swing import loads_checks, loads_tables
 from gearlink.core.wide_swing.design import WideSwingDesign
 
 if TYPE_CHECKING:
-    from gearlink.core.loads.cam_contact import LineContact
-    from gearlink.core.loads.vibration import Oscillator, Panelled
-    from gearlink.core.numerics.arrays import Reals
+    from gearlink.core.loads.dynamics import Force, Mass, Torque
+    from gearlink.core.loads.kinematics import Turn
+    from gearlink.core.loads.machine import Machine
+    from gearlink.core.loads.mechanism import Connection, Link, Mechanism
+    from gearlink.core.loads.vibrating import Vibrating
+    from gearlink.core.numerics.arrays import Points, Reals
     from gearlink.core.wide_swing.cam import WideSwingCam
     from gearlink.core.wide_swing.loads_spec import SwingLoads as Section
+    from gearlink.core.wide_swing.loads_stroke import SwingStroke
     from gearlink.core.wide_swing.spec import WideSwingSpec
 
+_MM = 1e-3
 _RPM = 2.0 * math.pi / 60.0
-_NAMES = (
+_CONTACT = (
     "contact_force_max",
     "hertz_pressure_max",
     "shear_depth",
@@ -37,35 +44,23 @@ _NAMES = (
     "cam_torque_min",
     "cam_torque_rms",
     "lift_off_speed",
-    "natural_frequency",
-    "frequency_ratio",
-    "rise_periods",
-    "residual_amplitude",
-    "residual_speed_limit",
 )
-_OWN_UNITS = {"lift_off_speed": "1/min", "residual_amplitude": "deg", "residual_speed_limit": "1/min"}
+_OF_TURN = ("bearings", "flywheel", "motor")
+_PINS = ("O", "O_return", "D")
 
 
-class WideSwingLoads(Design):
-    """The working stroke by fractions k; speeds are those of a cam that turns evenly."""
+class WideSwingLoads(LoadsDesign):
+    """Cam on O, rocker on D; a twin-cam with its whole cycle has a second cam that turns the other way, on O_return."""
 
     kind = "wide-swing-cam"
     spec: WideSwingSpec
-    outlines = {
-        "loads": Outline(
-            _NAMES, ("contact-pressure", "contact-loss", "rigid-model", "residual-vibration"), ("contact_stroke",)
-        )
-    }
-    extra_tables = ("spectrum",)
-    advises = False
-
-    @cached_property
-    def section(self) -> Section:
-        """The section `loads`."""
-        if self.spec.loads is None:
-            raise MissingSection("`loads` needs the section loads: {roller: {width: mm}}", key="loads")
-        found: Section = self.spec.loads
-        return found
+    section: Section
+    links = ("rocker", "cam", "return_cam")
+    output = "rocker"
+    pins, meshes = _PINS, ()
+    stands = True
+    outlines = loads_outline(_PINS, (), _CONTACT, CAM_CHECKS[:2], ("torque", "contact_stroke"))
+    extra_tables = (*LoadsDesign.extra_tables, "contact_stroke")
 
     @cached_property
     def design(self) -> WideSwingDesign:
@@ -75,301 +70,249 @@ class WideSwingLoads(Design):
     @cached_property
     def cam(self) -> WideSwingCam:
         """The cam of the working stroke."""
-        if self.spec.drive is not None:
-            raise NoSolution("loads are those of a cam that turns evenly: leave out drive", key="drive")
+        for key in ("drive", "slider"):
+            if getattr(self.spec, key) is not None:
+                words = "of a cam that turns evenly and drives a rocker alone"
+                raise NoSolution(f"loads are those {words}: leave out {key}", key=key)
         return self.design.even_cam
 
     @property
+    def whole(self) -> bool:
+        """Whether the file gives the whole turn."""
+        return self.spec.cycle is not None
+
+    @cached_property
+    def strokes(self) -> tuple[SwingStroke, ...]:
+        """The working stroke, and with a cycle the return stroke."""
+        from gearlink.core.wide_swing.loads_stroke import SwingStroke
+
+        main = SwingStroke("main", self.cam, 0.0, self)
+        if not self.whole:
+            return (main,)
+        back = self.design.return_cam or self.design.even_cam
+        return main, SwingStroke("return", back, sum(self.design.motion.cycle_angles[:2]), self)
+
+    @property
+    def has_return_cam(self) -> bool:
+        """Whether a second cam turns the other way."""
+        return self.whole and self.spec.layout == "twin-cam"
+
+    @property
+    def own_links(self) -> tuple[str, ...]:
+        """Both cams, or one."""
+        return self.links if self.has_return_cam else self.links[:-1]
+
+    @cached_property
     def speed(self) -> float:
         """Speed of the cam [rad/s]."""
         return self.spec.speed * _RPM
 
-    # The stroke
+    @cached_property
+    def masses(self) -> dict[str, Mass]:
+        """The rocker's inertia."""
+        from gearlink.core.loads.dynamics import Mass
 
-    def torque(self, k: Reals) -> Reals:
-        """Torque that the cam must give the rocker [N m], positive in the sense of the stroke.
+        return {"rocker": Mass(0.0, self.design.motion.inertia)}
 
-        T = J psi'' less the device, which gives (1 + reserve) times what the design speed needs
-        """
-        reserve = self.spec.unloader.reserve
-        return -reserve * self.inertia_torque(k)
+    @cached_property
+    def machine(self) -> Machine:
+        """Everything, with the device."""
+        from dataclasses import replace
 
-    def inertia_torque(self, k: Reals) -> Reals:
-        """Torque that moves the rocker at the design speed, J gamma c/T^2 [N m]."""
-        motion = self.design.motion
-        found: Reals = motion.inertia * motion.swing / motion.stroke_time**2 * motion.plain_law.invariants(k, 2)[2]
-        return found
+        _ = self.cam
+        given = next((key for key in _OF_TURN if getattr(self.section, key)), None)
+        if not self.whole and given is not None:
+            message = f"{given} needs the whole turn of the cam: give cycle in place of cycle_angle"
+            raise MissingSection(message, key=f"loads.{given}")
+        for stroke in self.strokes:
+            stroke.cam.require_profile()
+        return replace(super().machine, more=self._device, stroke=0.0 if self.whole else self.cam.cycle_angle)
 
-    def ratio(self, k: Reals) -> Reals:
-        """Rocker speed over cam speed."""
-        motion = self.design.motion
-        found: Reals = motion.swing / self.cam.cycle_angle * motion.plain_law.invariants(k, 1)[1]
-        return found
+    @property
+    def own_joints(self) -> list[float]:
+        """Mid-swing and the ends of the strokes."""
+        ends = [stroke.start + share * stroke.cam.cycle_angle for stroke in self.strokes for share in (0.0, 0.5, 1.0)]
+        return [angle for angle in ends if angle > 0.0]
 
-    def force(self, k: Reals) -> Reals:
-        """Force of the roller on its cam [N]."""
-        return self.design.unloading.contact_force(self.cam, k)
+    @property
+    def dwell_zones(self) -> list[tuple[float, float]]:
+        """Both rests of a whole turn."""
+        if not self.whole:
+            return []
+        working, far, back, near = self.design.motion.cycle_angles
+        return [(working, far), (working + far + back, near)]
 
-    def relative_radius(self, k: Reals) -> Reals:
-        """R = r_g (1 - r_g kappa) of roller and profile [mm], kappa positive where the body is convex."""
-        radius = self.cam.roller_radius
-        return radius * (1.0 - radius * self.cam.bulge(k))
+    @property
+    def unknown_joints(self) -> tuple[str, ...]:
+        """D, where nothing says which way the device pulls."""
+        return ("D",) if self.section.device_direction is None else ()
 
-    def way(self, k: Reals) -> Reals:
-        """Way of the roller's centre over the cam, per cam angle [mm]."""
+    def _device(self, mechanism: Mechanism, _phi: Reals) -> list[Force | Torque]:
+        """The pull of the device on its pin of the rocker, towards its base pin."""
         import numpy as np
 
-        curve = self.cam.curve
-        return np.asarray(self.cam.center_distance * np.abs(curve.gradient(curve.state(k))))
+        from gearlink.core.loads.dynamics import Force
 
-    def roller_speed(self, k: Reals) -> Reals:
-        """Speed of the roller about its own axis [rad/s]."""
-        return (self.way(k) / self.cam.roller_radius - 1.0) * self.speed
+        unloader, unloading = self.spec.unloader, self.design.unloading
+        way = cmath.rect(1.0, math.radians(self.section.device_direction or 0.0))
+        rocker = mechanism.links["rocker"]
+        pin = rocker.at(unloader.arm * _MM * way)
+        base = rocker.origin.value + unloader.pivot_ratio * unloader.arm * _MM * way
+        along = base - pin.value
+        length = np.abs(along)
+        if unloader.type == "pneumatic":
+            pull = np.full(length.shape, unloading.force or 0.0)
+        else:
+            geometry = self.design.motion.plain_law.geometry
+            mounted = (geometry.shortest - unloader.stretch_ratio * geometry.stroke) * unloader.arm * _MM
+            pull = 1e3 * (unloading.spring_rate or 0.0) * (length - mounted)
+        return [Force("rocker", pull * along / length, pin)]
 
-    def entrainment(self, k: Reals) -> Reals:
-        """Speed of both surfaces through the contact [mm/s]."""
-        return self.way(k) * self.speed * self.relative_radius(k) / self.cam.roller_radius
+    # Motion
 
-    def contact(self, k: Reals) -> LineContact | None:
-        """The Hertzian contact; None without a width."""
+    def _share(self, phi: Reals) -> tuple[Any, Reals]:
+        """Number of the phase in which input angles lie (0 to 3), and the fraction of the phase that has passed."""
+        import numpy as np
+
+        motion = self.design.motion
+        angles = motion.cycle_angles if self.whole else (self.cam.cycle_angle,)
+        edges = np.concatenate(([0.0], np.cumsum(angles)))
+        turned = np.mod(phi, 2.0 * math.pi) if self.whole else phi
+        sector = np.clip(np.searchsorted(edges, turned, side="right") - 1, 0, len(angles) - 1)
+        width = np.where(np.diff(edges) > 0.0, np.diff(edges), 1.0)
+        return sector, np.clip((turned - edges[sector]) / width[sector], 0.0, 1.0)
+
+    def _rocker(self, sector: Any, share: Reals) -> tuple[Turn, Points, Points]:
+        """The rocker's angle, the centre of the guided roller [m], and the direction in which its cam pushes it."""
+        import numpy as np
+
+        from gearlink.core.loads.kinematics import Turn
+
+        motion, rows = self.design.motion, len(share)
+        turn, place, normal = np.zeros((3, rows)), *np.zeros((2, rows), dtype=np.complex128)
+        for number, stroke in enumerate(self.strokes):
+            moving, resting = sector == 2 * number, sector == 2 * number + 1
+            swing, angle = (motion.swing if number == 0 else -motion.swing), stroke.cam.cycle_angle
+            if moving.any():
+                a, b, c = motion.plain_law.invariants(share[moving], 2)
+                turn[:, moving] = (a - 0.5) * swing, swing / angle * b, swing / angle**2 * c
+                place[moving], normal[moving] = stroke.roller(share[moving])
+            if resting.any():
+                turn[0, resting] = 0.5 * swing
+                place[resting], normal[resting] = stroke.roller(np.ones(np.count_nonzero(resting)), resting=True)
+        return Turn(*turn), place, normal
+
+    def kinematics(self, phi: Reals) -> Mechanism:
+        """Rocker and cams at input angles."""
+        import numpy as np
+
+        from gearlink.core.loads.kinematics import fixed, steady
+        from gearlink.core.loads.mechanism import FRAME, Coupling, Link, Mechanism, Pin, SharedContact
+
+        sector, share = self._share(phi)
+        turn, place, normal = self._rocker(sector, share)
+        sense = -1.0 if self.spec.layout == "twin-cam" else 1.0
+        axis, pivot = fixed(0j, phi), fixed(complex(sense * self.cam.center_distance * _MM), phi)
+        links: dict[str, Link] = {"rocker": Link(pivot, turn), "cam": Link(axis, steady(phi, sense))}
+        connections: list[Connection] = [Pin("O", FRAME, "cam", axis.value), Pin("D", FRAME, "rocker", pivot.value)]
+        shares: dict[str, Reals] = {"cam": np.ones(len(phi))}
+        if self.has_return_cam:
+            links["return_cam"] = Link(axis, steady(phi, -sense))
+            shares = {"cam": 1.0 * (sector < 2), "return_cam": 1.0 * (sector >= 2)}
+            connections += [
+                Pin("O_return", FRAME, "return_cam", axis.value),
+                Coupling("train", "cam", "return_cam", axis.value, -1.0),
+            ]
+        connections.append(SharedContact("roller", "rocker", place, normal, shares))
+        return Mechanism(links, connections, "cam", sense)
+
+    # The stroke
+
+    def inertia_torque(self, k: Reals) -> Reals:
+        """Torque that moves the rocker in the working stroke at the design speed, J gamma c/T^2 [N m]."""
+        motion = self.design.motion
+        found: Reals = motion.inertia * motion.swing / motion.working_time**2 * motion.plain_law.invariants(k, 2)[2]
+        return found
+
+    @property
+    def own_forces(self) -> bool:
+        """Whether more acts than inertia and device."""
+        return self.machine.sources.any or self.machine.friction is not None
+
+    def _greatest(self, name: str) -> float:
+        """Greatest value over the strokes of a method of theirs, where the roller touches."""
+        import numpy as np
+
+        return max(
+            stroke.greatest(lambda k, stroke=stroke: np.abs(getattr(stroke, name)(k)))  # type: ignore[misc]
+            for stroke in self.strokes
+        )
+
+    @cached_property
+    def contact_force_max(self) -> float:
+        """Greatest force of the roller on any of the cams over the strokes [N]."""
+        return self._greatest("force") if self.own_forces else self.design.contact_force
+
+    @cached_property
+    def least_contact_force(self) -> float:
+        """Least force of the roller where it touches the cam of a stroke [N]."""
+        return min(stroke.least(stroke.force) for stroke in self.strokes)
+
+    lift_off_speed: float = placed("design.unloading.lift_off_speed")
+
+    def _of_contact(self, name: str) -> float | None:
         if self.section.roller is None:
             return None
-        from gearlink.core.loads.cam_contact import LineContact, plane_modulus
-        from gearlink.core.loads.spec import Material
-
-        material = self.section.material or Material()
-        modulus = plane_modulus(material.modulus, material.poisson)
-        return LineContact(self.force(k), self.relative_radius(k), self.section.roller.width, modulus)
-
-    def _greatest(self, f: Any) -> float:
-        from gearlink.core.numerics.extremes import maximum_over
-
-        return max(maximum_over(f, *part, samples=128).value for part in self.design.contact_of(self.cam))
-
-    contact_force_max: float = placed("design.contact_force")
-    lift_off_speed: float = placed("design.unloading.lift_off_speed")
+        return max(
+            stroke.greatest(lambda k, stroke=stroke: getattr(stroke.contact(k), name))  # type: ignore[misc]
+            for stroke in self.strokes
+        )
 
     @cached_property
     def hertz_pressure_max(self) -> float | None:
         """Greatest pressure of roller and cam [N/mm^2]."""
-        if self.section.roller is None:
-            return None
-        return self._greatest(lambda k: self.contact(k).pressure)  # type: ignore[union-attr]
+        return self._of_contact("pressure")
 
     @cached_property
     def shear_depth(self) -> float | None:
         """Greatest depth of the greatest shear stress [mm]."""
-        if self.section.roller is None:
-            return None
-        return self._greatest(lambda k: self.contact(k).shear_depth)  # type: ignore[union-attr]
+        return self._of_contact("shear_depth")
 
     @property
     def roller_speed_max(self) -> float:
         """Greatest speed of the roller where it touches [1/min]."""
-        return self._greatest(lambda k: abs(self.roller_speed(k))) / _RPM
+        return self._greatest("roller_speed") / _RPM
 
     @property
     def entrainment_speed_max(self) -> float:
         """Greatest entrainment speed where the roller touches [mm/s]."""
-        return self._greatest(self.entrainment)
+        return self._greatest("entrainment")
 
-    # Torque of the cam
+    cam_torque_max: float = placed("input_torque_max")
+    cam_torque_min: float = placed("input_torque_min")
+    cam_torque_rms: float = placed("input_torque_rms")
 
-    def cam_torque(self, k: Reals) -> Reals:
-        """Torque that drives the cam [N m]: what the rocker needs, times its speed ratio."""
-        return self.torque(k) * self.ratio(k)
-
-    @cached_property
-    def cam_torque_max(self) -> float:
-        """Greatest torque on the cam over the stroke [N m]."""
-        from gearlink.core.numerics.extremes import maximum_over
-
-        return maximum_over(self.cam_torque, 0.0, 1.0, joints=(0.5,), samples=256).value
+    # Vibration
 
     @cached_property
-    def cam_torque_min(self) -> float:
-        """Least torque on the cam over the stroke [N m]."""
-        from gearlink.core.numerics.extremes import minimum_over
+    def vibrating(self) -> Vibrating:
+        """The rocker on the shaft that drives it."""
+        from gearlink.core.wide_swing.loads_vibration import SwingVibrating
 
-        return minimum_over(self.cam_torque, 0.0, 1.0, joints=(0.5,), samples=256).value
-
-    @cached_property
-    def cam_torque_rms(self) -> float:
-        """Root mean square of it over the stroke [N m]."""
-        from gearlink.core.loads.machine import Panels
-
-        panels = Panels.over(1.0, [i / 32 for i in range(1, 32)])
-        return math.sqrt(panels.integral(self.cam_torque(panels.nodes) ** 2))
-
-    # Vibration after the stroke
-
-    @cached_property
-    def oscillator(self) -> Oscillator | None:
-        """The rocker on the shaft that drives it; None where the file does not say."""
-        from gearlink.core.loads.vibration import ASSUMED_DAMPING, Oscillator, bounded
-
-        given = self.section.vibration
-        if given is None:
-            return None
-        damping = ASSUMED_DAMPING if given.damping is None else given.damping
-        if given.frequency is not None:
-            frequency, key = 2.0 * math.pi * given.frequency, "frequency"
-        else:
-            frequency, key = math.sqrt((given.stiffness or 0.0) / self.design.motion.inertia), "stiffness"
-        return Oscillator(bounded(frequency, self.speed, f"loads.vibration.{key}"), damping)
-
-    def _stroke(self, slowest: float) -> Panelled:
-        """The swing [deg] over the cam angle of the stroke."""
-        from gearlink.core.loads.vibration import Panelled
-
-        angle, swing = self.cam.cycle_angle, math.degrees(self.design.motion.swing)
-        law, oscillator = self.design.motion.plain_law, self.oscillator
-        assert oscillator is not None, "asked for only with a vibration"
-
-        def bend(phi: Reals) -> Reals:
-            import numpy as np
-
-            found: Reals = swing / angle**2 * law.invariants(np.clip(phi / angle, 0.0, 1.0), 2)[2]
-            return found
-
-        return Panelled.of(bend, 0.0, angle, (0.5 * angle,), oscillator.frequency / slowest)
-
-    @property
-    def natural_frequency(self) -> float | None:
-        """Natural frequency of the rocker [Hz]."""
-        return None if self.oscillator is None else self.oscillator.frequency / (2.0 * math.pi)
-
-    @property
-    def frequency_ratio(self) -> float | None:
-        """It over the frequency of the cam."""
-        return None if self.oscillator is None else self.oscillator.frequency / self.speed
-
-    @property
-    def rise_periods(self) -> float | None:
-        """Natural periods in the stroke."""
-        if self.natural_frequency is None:
-            return None
-        return self.natural_frequency * self.cam.cycle_angle / self.speed
-
-    @cached_property
-    def residual_amplitude(self) -> float | None:
-        """Amplitude that the stroke leaves in the dwell after it [deg]."""
-        if self.oscillator is None:
-            return None
-        return self._stroke(self.speed).residual(self.oscillator, self.speed)
-
-    @cached_property
-    def residual_speed_limit(self) -> float | None:
-        """Least speed of the cam at which that passes what is allowed [1/min]."""
-        given, oscillator = self.section.vibration, self.oscillator
-        if given is None or given.allowed_residual is None or oscillator is None:
-            return None
-        import numpy as np
-
-        from gearlink.core.loads.vibration import speed_limit
-
-        whole = self.cam.cycle_angle * oscillator.frequency / (2.0 * math.pi)
-        speeds = whole / np.linspace(40.0, 1.0, 1951)
-        found = speed_limit(self._stroke(whole / 40.0), oscillator, speeds, given.allowed_residual)
-        return None if found is None else found / _RPM
+        return SwingVibrating(self)
 
     def quantity(self, name: str) -> Quantity | None:
-        """As for every design; what carries its own unit is not turned into another."""
-        if name not in _OWN_UNITS:
-            return super().quantity(name)
-        value, entry = self.raw(name), term(name)
-        return None if value is None else Quantity(name, value, _OWN_UNITS[name], entry.symbol, entry.words)
+        """The speed of lift-off is the cam's."""
+        from dataclasses import replace
 
-    # Tables
+        found = super().quantity(name)
+        return replace(found, unit="1/min") if found is not None and name == "lift_off_speed" else found
 
-    def table_contact_stroke(self, samples: int | None = None) -> Table:
-        """Torque, force, pressure and speeds over the stroke; empty where the roller touches nothing."""
-        import numpy as np
+    def raw(self, name: str) -> Any:
+        """A stroke alone has no turns to count."""
+        return None if name.endswith(".travel") and not self.whole else super().raw(name)
 
-        count = samples or 100
-        k = np.arange(count + 1) / count
-        touching = self.design.touches(self.cam, k) & (k != 0.5)
-        contact = self.contact(k[touching])
-
-        def shown(values: Reals) -> Reals:
-            found = np.full_like(k, np.nan)
-            found[touching] = values
-            return found
-
-        none = np.full(np.count_nonzero(touching), np.nan)
-        at = k[touching]
-        columns = {
-            "k": (k, "1"),
-            "cam_angle": (np.degrees(k * self.cam.cycle_angle), "deg"),
-            "main_force": (shown(self.force(at)), "N"),
-            "main_pressure": (shown(none if contact is None else contact.pressure), "N/mm^2"),
-            "main_radius": (shown(self.relative_radius(at)), "mm"),
-            "roller_speed": (shown(self.roller_speed(at) / _RPM), "1/min"),
-            "entrainment": (shown(self.entrainment(at)), "mm/s"),
-            "input_torque": (self.cam_torque(k), "N m"),
-        }
-        return Table.of("contact_stroke", columns)
-
-    def table_spectrum(self, samples: int | None = None) -> Table:
-        """Residual vibration from 0.1 to 1.3 times the speed of the design."""
-        import numpy as np
-
-        if self.oscillator is None:
-            raise MissingSection("this table needs loads.vibration: {frequency: Hz}", key="loads")
-        shares, motion = np.linspace(0.1, 1.3, samples or 121), self._stroke(0.1 * self.speed)
-        residual = [motion.residual(self.oscillator, float(share) * self.speed) for share in shares]
-        columns = {
-            "speed": (shares * self.spec.speed, "1/min"),
-            "ratio": ((self.rise_periods or math.nan) / shares, "1"),
-            "residual": (np.array(residual), "deg"),
-        }
-        return Table.of("spectrum", columns)
-
-    # Checks
-
-    def check_contact_pressure(self) -> Iterator[Check]:
-        """GL607, where the file gives an allowed pressure."""
-        allowed = None if self.section.material is None else self.section.material.allowed_pressure
-        found, roller = self.hertz_pressure_max, self.section.roller
-        if allowed is None or found is None or roller is None:
-            return
-        text = f"the roller presses with {found:.5g} N/mm^2"
-        if found > allowed:
-            width = safely_above(roller.width * (found / allowed) ** 2, 4)
-            message = f"{text}, above {allowed:g}: set loads.roller.width to {width} or more"
-            yield codes.CONTACT_PRESSURE.check("fail", message, found, allowed, "N/mm^2")
-        else:
-            status, more = ("warn", f", little below {allowed:g}") if found > 0.9 * allowed else ("pass", "")
-            yield codes.CONTACT_PRESSURE.check(status, text + more, found, allowed, "N/mm^2")  # type: ignore[arg-type]
-
-    def check_contact_loss(self) -> Check:
-        """GL608: the device holds the roller on its cam up to the speed of lift-off."""
-        speed, limit = self.spec.speed, self.lift_off_speed
-        text = f"the roller leaves its cam at {limit:.5g} rev/min"
-        if limit < speed * (1.0 - 1e-9):
-            message = f"{text}, below the design's {speed:g}: raise unloader.reserve"
-            return codes.CONTACT_LOSS.check("fail", message, limit, speed, "1/min")
-        return codes.CONTACT_LOSS.check("pass", text, limit, speed, "1/min")
-
-    def check_rigid_model(self) -> Iterator[Check]:
-        """GL605."""
-        ratio, limit = self.frequency_ratio, self.spec.limits.frequency_ratio
-        if ratio is None:
-            return
-        text = f"the natural frequency is {ratio:.4g} times that of the cam; {self.rise_periods:.4g} natural periods "
-        text += "in the stroke"
-        status = "warn" if ratio < limit else "pass"
-        yield codes.RIGID_MODEL.check(status, text, ratio, limit)  # type: ignore[arg-type]
-
-    def check_residual_vibration(self) -> Iterator[Check]:
-        """GL610, where the file allows some."""
-        given, found = self.section.vibration, self.residual_amplitude
-        if given is None or given.allowed_residual is None or found is None:
-            return
-        allowed, text = given.allowed_residual, f"the rocker vibrates after its stroke by {found:.4g} deg"
-        if found > allowed:
-            message = f"{text}, more than {allowed:g}: lower the speed, or raise the natural frequency"
-            yield codes.RESIDUAL_VIBRATION.check("fail", message, found, allowed, "deg")
-        else:
-            status, more = ("warn", f", little below {allowed:g}") if found > 0.8 * allowed else ("pass", "")
-            yield codes.RESIDUAL_VIBRATION.check(status, text + more, found, allowed, "deg")  # type: ignore[arg-type]
+    rows = loads_tables.rows
+    table_contact_stroke, table_harmonics = loads_tables.contact_stroke, loads_tables.harmonics
+    check_contact_pressure, check_contact_loss = loads_checks.contact_pressure, loads_checks.contact_loss
+    check_resonance = loads_checks.resonance

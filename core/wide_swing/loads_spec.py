@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
-from gearlink.core.loads.spec import Material, Roller, Vibration
-from gearlink.core.spec import Spec
+from typing import Annotated
+
+from pydantic import Field
+
+from gearlink.core.loads.spec import CommonLoads, Material, Roller
+
+Direction = Annotated[float, Field(ge=-360, le=360, json_schema_extra={"unit": "deg"})]
 
 
-class SwingLoads(Spec):
-    """Roller, material and vibration of a wide-swing mechanism."""
+class SwingLoads(CommonLoads):
+    """Forces, rollers and vibration of a wide-swing mechanism; its speed, inertia and device are its own."""
 
+    device_direction: Direction | None = Field(
+        None, description="direction from the rocker's axis D to the base pin of the device; left out: no force at D"
+    )
     roller: Roller | None = None
     material: Material | None = None
-    vibration: Vibration | None = None

@@ -120,3 +120,27 @@ def test_gear_pair_carries_torque_over_radius(teeth: list[int], sign: float) -> 
     assert design.input_torque_mean == pytest.approx(sign * 40.0 * 21 / 67, rel=1e-12)
     assert design.raw("mesh_12.tooth_force_max") == pytest.approx(40.0 / 0.067, rel=1e-12)
     assert design.raw("pin_gear1.peak") == pytest.approx(40.0 / 0.067 / math.cos(math.radians(20.0)), rel=1e-12)
+
+
+def test_helical_teeth_push_along_the_axis() -> None:
+    """The tooth's normal lies in the plane of action, inclined by the base helix angle."""
+    design = factory.design(
+        "gear_pair", command="loads", loads={"speed": 600, "forces": [{"on": "gear2", "torque": -40}]}
+    )
+    pair, teeth = design.pair, design.table("teeth", samples=4)
+    base = math.atan(math.tan(pair.helix_angle) * math.cos(pair.transverse_pressure_angle))
+    normal = np.sqrt(teeth["mesh_12"] ** 2 + teeth["mesh_12_radial"] ** 2 + teeth["mesh_12_axial"] ** 2)
+    assert normal * math.cos(base) * math.cos(pair.working_pressure_angle) == pytest.approx(
+        np.abs(teeth["mesh_12"]), rel=1e-12
+    )
+    force = design.raw("axial_force_max")
+    assert force == pytest.approx(teeth["mesh_12_axial"][0], rel=1e-12)
+    assert design.raw("tilting_moment_max") == pytest.approx([1e-3 * force * r for r in pair.working_radius], rel=1e-12)
+
+
+def test_spur_gears_have_no_axial_force() -> None:
+    design = factory.design(
+        "ring_pair", command="loads", loads={"speed": 600, "forces": [{"on": "gear2", "torque": -40}]}
+    )
+    assert design.raw("axial_force_max") is None
+    assert "mesh_12_axial" not in design.table("teeth", samples=2).columns

@@ -11,6 +11,8 @@ import factory
 import numpy as np
 import pytest
 
+from gearlink.core.errors import GearlinkError
+
 DATA = json.loads((Path(__file__).parents[2] / "reference" / "loads.json").read_text())
 EXPECTED = DATA["wide_swing"]["expected"]
 K = np.array(EXPECTED["k"])
@@ -23,19 +25,80 @@ def swing() -> Any:
 
 
 def test_stroke_against_the_reference(swing: Any) -> None:
+    stroke, reserve = swing.strokes[0], swing.spec.unloader.reserve
     assert swing.inertia_torque(K) == pytest.approx(EXPECTED["torque"], rel=1e-7)
-    assert swing.relative_radius(K) == pytest.approx(EXPECTED["relative_radius"], rel=1e-7)
-    assert swing.inertia_torque(K) * swing.ratio(K) == pytest.approx(EXPECTED["cam_torque"], rel=1e-7)
+    assert stroke.relative_radius(K) == pytest.approx(EXPECTED["relative_radius"], rel=1e-7)
     # With its device the cam carries what the device gives too much, the other way.
-    without = -swing.force(K) / swing.spec.unloader.reserve
-    assert without == pytest.approx(EXPECTED["contact_force"], rel=1e-7)
+    assert -swing.machine.torque(stroke.angle(K)) / reserve == pytest.approx(EXPECTED["cam_torque"], rel=1e-7)
+    assert -stroke.force(K) / reserve == pytest.approx(EXPECTED["contact_force"], rel=1e-7)
 
 
-def test_torque_of_the_cam_is_that_of_the_contact(swing: Any) -> None:
-    """By power, and by the pressure angle: T = N r cos(delta)."""
-    cam = swing.cam
-    lever = 1e-3 * cam.rocker_radius * np.cos(cam.pressure_angle(K))
-    assert swing.force(K) * lever == pytest.approx(np.abs(swing.torque(K)), rel=1e-12)
+SPRING = {"between": ["rocker", "frame"], "points": [[40, 0], [160, 90]], "rate": 0.02, "free_length": 60}
+FORCES = {
+    "roller": {"width": 20},
+    "device_direction": 40,
+    "forces": [{"on": "rocker", "torque": {"zones": [{"from": 20, "to": 60, "value": -3}]}}],
+    "springs": [SPRING],
+    "friction": {"pins": 0.05, "pin_radius": 8},
+}
+
+
+@pytest.mark.parametrize("base", ["wide_swing_twin_cam", "wide_swing_twin_rocker"])
+def test_device_by_its_geometry_leaves_what_its_law_says(base: str) -> None:
+    """The pull of cylinder or spring along its own line, against the closed form of the law; both strokes' profiles."""
+    design = factory.design(base, command="loads", loads={"roller": {"width": 20}})
+    stroke = design.strokes[0]
+    lever = 1e-3 * stroke.cam.rocker_radius * np.cos(stroke.cam.pressure_angle(K))
+    excess = design.spec.unloader.reserve * np.abs(design.inertia_torque(K))
+    assert stroke.force(K) * lever == pytest.approx(excess, rel=1e-11)
+    assert design.design.unloading.contact_force(stroke.cam, K) == pytest.approx(stroke.force(K), rel=1e-11)
+    assert design.power_identity <= 1e-12
+
+
+@pytest.mark.parametrize("layout", ["twin-rocker", "twin-cam"])
+def test_whole_cycle(layout: str) -> None:
+    """Both strokes against the closed form, rests against the device's whole force, where no torque is left."""
+    design = factory.design("wide_swing_cycle", command="loads", layout=layout, loads={"roller": {"width": 20}})
+    for stroke in design.strokes:
+        assert design.design.unloading.contact_force(stroke.cam, K) == pytest.approx(stroke.force(K), rel=1e-11)
+    working, far, back, near = design.design.motion.cycle_angles
+    rests = np.array([working + 0.3 * far, working + far + back + 0.6 * near])
+    forces = design.machine.reactions(rests).unknowns["roller"][0]
+    assert max(forces) == pytest.approx(design.design.dwell_force, rel=1e-12)
+    assert design.machine.torque(rests) == pytest.approx(0.0, abs=1e-12)
+    assert design.power_identity <= 1e-12
+    assert abs(design.input_torque_mean) <= 1e-12 * design.input_torque_max
+
+
+@pytest.mark.parametrize("layout", ["twin-rocker", "twin-cam"])
+def test_cycle_with_all_that_may_act(layout: str) -> None:
+    """Friction's power is what virtual power and reactions differ by; the shafts together bear what acts outside."""
+    design = factory.design("wide_swing_cycle", command="loads", layout=layout, loads=FORCES)
+    assert design.power_identity <= 1e-12
+    phi = np.radians(np.array([33.0, 120.0, 200.0, 300.0]))
+    found = design.machine.reactions(phi)
+    frame = sum(found.force(name) for name in design.pins if design.has(name))
+    pulls = sum(each.force for each in design.machine.applied(phi) if hasattr(each, "force"))
+    assert frame + pulls == pytest.approx(0.0, abs=1e-9 * np.abs(pulls).max())
+    assert design.contact_force_max != pytest.approx(design.design.contact_force, rel=1e-3)
+
+
+def test_what_needs_the_whole_turn_says_so() -> None:
+    loads = {"flywheel": {"inertia": 1.0}}
+    with pytest.raises(GearlinkError, match="give cycle") as caught:
+        factory.design("wide_swing_twin_cam", command="loads", loads=loads).report("loads")
+    assert caught.value.key == "loads.flywheel"
+    run = factory.design("wide_swing_cycle", command="loads", loads={"flywheel": {"inertia": 40.0}})
+    assert 0.0 < run.raw("speed_fluctuation") < 0.1
+
+
+@pytest.mark.parametrize(
+    ("base", "key"), [("wide_swing_slider_cam", "slider"), ("wide_swing_oscillating_cam", "drive")]
+)
+def test_other_cams_are_refused(base: str, key: str) -> None:
+    with pytest.raises(GearlinkError, match=f"leave out {key}") as caught:
+        factory.design(base, command="loads", loads={"roller": {"width": 20}}).report("loads")
+    assert caught.value.key == key
 
 
 def test_residual_after_the_stroke_by_another_integral(swing: Any) -> None:
@@ -53,5 +116,5 @@ def test_residual_after_the_stroke_by_another_integral(swing: Any) -> None:
 
 def test_every_result_can_be_asked_for(swing: Any) -> None:
     report = swing.report("loads", tables=("spectrum",))
-    assert {table.name for table in report.tables} == {"contact_stroke", "spectrum"}
+    assert {table.name for table in report.tables} == {"torque", "contact_stroke", "spectrum"}
     assert all(math.isfinite(quantity.value) for quantity in report.quantities)
