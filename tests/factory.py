@@ -3,16 +3,40 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import cache
 from pathlib import Path
 from typing import Any
 
+import pytest
 import yaml
 
 from gearlink.core.kinds import KINDS
 
 DESIGNS = Path(__file__).resolve().parents[1] / "designs"
+
+QUICK = {
+    "candy_feed",
+    "ring_feed",
+    "two_gear_drag_link",
+    "wide_lever",
+    "hypocycloid_slider",
+    "mutilated_gear_press",
+    "five_bar_path",
+    "five_bar_positions",
+    "six_bar_two_trains",
+    "gear_pair",
+    "ty460_slider_crank",
+    "ty460",
+    "swing_gripper",
+    "wide_swing_twin_cam",
+}
+"""Worked designs of `make test` where any of its kind serves: each kind, each form, none that is searched for long."""
+
+
+def each_kind(paths: Iterable[Path]) -> list[Any]:
+    """Design files for `pytest.mark.parametrize`: those of QUICK, the others in `make check-full` alone."""
+    return [path if path.stem in QUICK else pytest.param(path, marks=pytest.mark.slow) for path in paths]
 
 
 def design(given: str | Mapping[str, Any], /, *, command: str = "analyze", **keys: Any) -> Any:

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from factory import DESIGNS
+from sweeps import mostly_slow
 
 from gearlink.cli import completing
 from gearlink.core.kinds import FILES, KINDS, SUMMARIES
@@ -107,8 +108,12 @@ def _script(shell: str) -> str:
     return f'{sys.executable} -c "{code}"'
 
 
-@pytest.mark.parametrize(("line", "wanted"), LINES[:1] + LINES[3:4])
-@pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
+@pytest.mark.parametrize(
+    ("shell", "line", "wanted"),
+    mostly_slow(
+        [("bash", *LINES[3]), ("zsh", *LINES[0]), ("fish", *LINES[0]), ("bash", *LINES[0]), ("zsh", *LINES[3])], 3
+    ),
+)
 def test_a_shell_is_answered(shell: str, line: str, wanted: str) -> None:
     assert wanted in asked(shell, line)
 

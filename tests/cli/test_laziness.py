@@ -123,6 +123,7 @@ def test_version_imports_no_typer() -> None:
     assert installed(modules_of("--version")) <= {"gearlink"}
 
 
+@pytest.mark.slow
 def test_core_imports_no_interface() -> None:
     """One direction only: no module of core imports cli, typer, rich, yaml or matplotlib."""
     probe = (

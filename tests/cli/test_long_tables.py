@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from factory import each_kind
 from sweeps import mostly_slow
 
 import gearlink.core.design
@@ -38,7 +39,7 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     return lengths
 
 
-@pytest.mark.parametrize("path", mostly_slow(DESIGNS, 5), ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", each_kind(DESIGNS), ids=lambda path: path.stem)
 @pytest.mark.usefixtures("asked")
 def test_parts_hold_the_rows_of_the_whole(path: Path) -> None:
     loaded, kind = open_design(str(path), Options())

@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 import pytest
 import yaml
+from factory import each_kind
 from matplotlib.path import Path as Outline
 from PIL import Image
 from sweeps import mostly_slow
@@ -51,7 +52,7 @@ def kind_in(path: Path) -> str:
 
 
 MOVING = [path for path in sorted(DESIGNS.glob("*.yaml")) if kind_in(path) in moving_kinds()]
-each_design = pytest.mark.parametrize("path", MOVING, ids=lambda path: path.stem)
+each_design = pytest.mark.parametrize("path", each_kind(MOVING), ids=lambda path: path.stem)
 
 
 def bodies(scene: Scene) -> list[Body]:

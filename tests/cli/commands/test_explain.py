@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from factory import DESIGNS, design, each_kind, worked
 from sweeps import mostly_slow
 
 from gearlink.cli.commands.explain import names
@@ -242,10 +243,9 @@ def test_no_paragraph_repeats_the_headline(gearlink: Any) -> None:
     assert gearlink("explain", "dwell_angle").out.count("crank angle until the output regains its place") == 1
 
 
-@pytest.mark.parametrize("name", sorted({path.stem for path in (ROOT / "designs").glob("*.yaml")}))
-def test_every_column_of_a_worked_design_has_words(name: str) -> None:
-    from factory import design, worked
-
+@pytest.mark.parametrize("path", each_kind(sorted(DESIGNS.glob("*.yaml"))), ids=lambda path: path.stem)
+def test_every_column_of_a_worked_design_has_words(path: Path) -> None:
+    name = path.stem
     for command in ("analyze", "gripper", "press", "swing"):
         if command not in KINDS[worked(name)["kind"]].commands:
             continue

@@ -97,6 +97,7 @@ def test_rows_left_out_are_counted_in_english(step: int, words: str) -> None:
     assert thinning(step, table) == f"every {words} of 360 rows"
 
 
+@pytest.mark.slow
 def test_sheets_drawn_side_by_side_are_the_same(
     gearlink: Any, designs: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

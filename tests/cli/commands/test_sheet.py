@@ -96,6 +96,7 @@ def test_keyways_begin_above_a_bore(bore: float, key: tuple[float, float] | None
     assert cam_sheets.keyway(bore) == key
 
 
+@pytest.mark.slow
 def test_every_sheet_of_a_press(gearlink: Any, designs: Path, tmp_path: Path) -> None:
     ended = gearlink("sheet", designs / "ty460.yaml", "--plot-format", "svg", "--out", tmp_path)
     assert (ended.status, ended.out) == (0, "")

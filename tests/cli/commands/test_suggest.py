@@ -216,13 +216,16 @@ def test_where_nothing_was_found_it_says_so(gearlink: Any, tmp_path: Path) -> No
 
 @pytest.mark.parametrize(
     "line",
-    [
-        "press ty460 cam.base_radius=30",
-        "gripper swing_gripper cam.return_roller.angle=20",
-        "gripper swing_gripper laws.return=simple-harmonic",
-        "swing wide_swing_twin_rocker swing=60",
-        "swing wide_swing_twin_cam unloader.pivot_ratio=0.9",
-    ],
+    mostly_slow(
+        [
+            "gripper swing_gripper laws.return=simple-harmonic",
+            "swing wide_swing_twin_cam unloader.pivot_ratio=0.9",
+            "press ty460 cam.base_radius=30",
+            "gripper swing_gripper cam.return_roller.angle=20",
+            "swing wide_swing_twin_rocker swing=60",
+        ],
+        2,
+    ),
 )
 def test_options_of_every_cam_kind_repair_the_design(gearlink: Any, designs: Path, line: str) -> None:
     command, name, change = line.split()

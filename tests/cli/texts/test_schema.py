@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from factory import each_kind
 from jsonschema import Draft7Validator
 
 from gearlink.cli.reading.design_file import load, parse, validate
@@ -100,7 +101,7 @@ def at(data: Any, path: tuple[Any, ...]) -> Any:
     return data
 
 
-@pytest.mark.parametrize("path", DESIGNS, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", each_kind(DESIGNS), ids=lambda path: path.stem)
 def test_schema_and_program_agree_on_wrong_values(path: Path) -> None:
     """Each value in turn made text, negative, huge, true or a section: what the schema refuses the program refuses.
 

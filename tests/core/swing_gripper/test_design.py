@@ -179,7 +179,12 @@ _NO_CAM = [
         "cam.center",
         "pressure angle 90 deg.*for 45 deg: set cam.center to",
     ),
-    ({"cam__center": None, "size": {"pressure_angle": 20.0}}, "size.pressure_angle", "no cam centre keeps"),
+    pytest.param(
+        {"cam__center": None, "size": {"pressure_angle": 20.0}},
+        "size.pressure_angle",
+        "no cam centre keeps",
+        marks=pytest.mark.slow,  # a second of search
+    ),
 ]
 
 

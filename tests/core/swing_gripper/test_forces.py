@@ -17,7 +17,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from oracles.gripper import CASES, REFERENCE, kinetic_energy, machine
-from sweeps import examples
+from sweeps import examples, mostly_slow
 
 from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.swing_gripper.forces import LeverSpring, Masses, contact_torques, inertia_torque, lift_off_speed
@@ -181,7 +181,7 @@ def test_rollers_on_one_side_are_refused() -> None:
     assert refused.value.key == "cam.return_roller.angle"
 
 
-@pytest.mark.parametrize("command", ["gripper", "analyze", "cam"])
+@pytest.mark.parametrize("command", mostly_slow(["gripper", "analyze", "cam"], 1))
 def test_rollers_on_one_side_leave_the_kinematics(command: str) -> None:
     """A failed check beside what stands: law, linkage and cams, with an angle of the roller that closes both."""
     made = machine(cam__return_roller__angle=20.0)

@@ -12,6 +12,7 @@ from typing import Any
 import factory
 import numpy as np
 import pytest
+from sweeps import ALL
 
 from gearlink.core.design import in_unit
 from gearlink.core.linkages import fourbar
@@ -55,6 +56,10 @@ DRIVES = {
 }
 
 
+COUNT = 12 if ALL else 4
+"""Samples that are computed alone as well."""
+
+
 @pytest.mark.parametrize("name", DRIVES)
 def test_without_deviations_the_general_class_is_the_ordinary_one(name: str) -> None:
     nominal = DRIVES[name]()
@@ -69,10 +74,10 @@ def test_without_deviations_the_general_class_is_the_ordinary_one(name: str) -> 
 @pytest.mark.parametrize("name", DRIVES)
 def test_many_drives_at_once_are_those_computed_alone(name: str) -> None:
     nominal = DRIVES[name]()
-    axis, columns = ThreeGearSamples(nominal), _columns(nominal, 12)
+    axis, columns = ThreeGearSamples(nominal), _columns(nominal, COUNT)
     names = [*NAMES, "frame_length", "coupler_length", *(["dwell_swing"] if axis.has_window else [])]
     found = axis.evaluate(columns, names)
-    for i in range(12):
+    for i in range(COUNT):
         alone = axis.design({key: value[i] for key, value in columns.items()})
         for quantity in names:
             raw = alone.raw(quantity)

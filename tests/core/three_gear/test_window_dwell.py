@@ -183,6 +183,7 @@ class TestRefusals:
             crank_angle_for_window(-1.8, window_limit(-1.8))
 
 
+@pytest.mark.slow
 def test_what_the_limits_leave_is_named_and_can_be_had() -> None:
     wish = {"kind": "three-gear-four-bar", "gears": {"module": 2.0, "crank": 40, "output": 40}}
     refused = design({**wish, "dwell": {"window": 80.0, "tolerance": 0.5}}, command="synth dwell")

@@ -188,6 +188,7 @@ def test_without_a_cam_no_roller_is_judged() -> None:
         made.table("contact")
 
 
+@pytest.mark.slow
 def test_return_cam_without_contact_is_a_finding_and_no_refusal() -> None:
     """The roller covers the external profile of this twin-rocker alone: GL402 and GL507 fail, the rest is shown."""
     rocker = {"layout": "twin-rocker", "swing": 150.0, "cycle_angle": 60.0}
