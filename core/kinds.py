@@ -89,6 +89,7 @@ KINDS: dict[str, Kind] = {
                 "analyze": "gears.design:GearPairDesign",
                 "loads": "gears.loads:GearPairLoads",
             },
+            "gears.axis:axis",
         ),
         Kind(
             "slider-crank",

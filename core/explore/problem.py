@@ -66,7 +66,7 @@ class Problem:
             return None
         paths = [path for variable in self.variables for path in (variable.path, *variable.also)]
         served = all(numeric(variable) for variable in self.variables)
-        return make(self.base.spec(), self.base.command, paths, self.names) if served else None
+        return make(self.base.spec(), self.base.command, paths, self.names, self.must_pass) if served else None
 
     @property
     def chunk_size(self) -> int:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from functools import reduce
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from gearlink.core.gears.codes import (
@@ -54,6 +55,8 @@ GEAR_CHECKS = tuple(
 )
 _USUAL_TIP = 0.15
 """So many modules above the least tip thickness a tip is no longer called thin."""
+_MORE_CONTACT = 0.1
+"""So much above the least contact ratio it is no longer called little."""
 UNUSUAL_SLIDING = 8.0
 
 
@@ -120,9 +123,8 @@ def gear_check(name: str, pair: GearPair, limits: Limits, mesh: str = "", shifts
     """
     before = f"{mesh.replace('_', '-')} mesh: " if mesh else ""
     if name == CONTACT_RATIO.name:
-        least, subject = limits.contact_ratio, f"{before}the contact ratio"
         remedy = f"take more teeth, {_either(shifts, 'a smaller pressure angle or less profile shift')}"
-        yield CONTACT_RATIO.below(pair.contact_ratio, least, least + 0.1, "1", subject, remedy)
+        yield CONTACT_RATIO.below(*measured(name, pair, 0, limits), "1", f"{before}the contact ratio", remedy)
         return
     for gear in (0, 1):
         which = _Gear(pair, gear, f"{before}{{}}gear {gear + 1}", shifts)
@@ -145,36 +147,115 @@ class _Gear(NamedTuple):
         """A quantity of this gear."""
         return float(getattr(self.pair, quantity)[self.place])
 
+    def measured(self, name: str, limits: Limits) -> Measured:
+        """What a check compares of this gear."""
+        return measured(name, self.pair, self.place, limits)
+
     def named(self, part: str = "") -> str:
         """The gear, or a part of it, in words."""
         return self.words.format(part)
 
 
+def measured(name: str, pair: GearPair, gear: int, limits: Limits) -> Measured:
+    """What a check of GEAR_CHECKS compares: the value fails below the first limit and warns below the second.
+
+    Parameters
+        name : str - one of GEAR_CHECKS but the sliding, which has no bound everywhere
+        pair : GearPair - one, or many over arrays
+        gear : int - 0 or 1; of the contact ratio either
+        limits : the `limits` section of a spec
+    """
+    return _MEASURES[name](pair, gear, limits)
+
+
+class Measured(NamedTuple):
+    """A value, the limit below which it fails, and the one below which it warns."""
+
+    value: float
+    fails_below: float
+    warns_below: float
+
+    @property
+    def status(self) -> Status:
+        """As it is judged."""
+        return "fail" if self.value < self.fails_below else "warn" if self.value < self.warns_below else "pass"
+
+
+def _contact_measure(pair: GearPair, _gear: int, limits: Limits) -> Measured:
+    return Measured(pair.contact_ratio, limits.contact_ratio, limits.contact_ratio + _MORE_CONTACT)
+
+
+def _undercut_measure(pair: GearPair, gear: int, limits: Limits) -> Measured:
+    return Measured(pair.profile_shift[gear] - pair.min_shift_of(gear), -limits.undercut, 0.0)
+
+
+def _tip_measure(pair: GearPair, gear: int, limits: Limits) -> Measured:
+    limit = limits.tip_thickness
+    return Measured(pair.tip_thickness[gear] / pair.module, limit, limit + _USUAL_TIP)
+
+
+def _interference_measure(pair: GearPair, gear: int, _limits: Limits) -> Measured:
+    return Measured(pair.interference_margin[gear], 0.0, 0.0)
+
+
+def _clearance_measure(pair: GearPair, gear: int, _limits: Limits) -> Measured:
+    """Clearance at the root of a gear over the module; that of the profile where the tips keep it, free of rounding."""
+    kept = pair.keeps_clearance
+    clearance = pair.clearance if kept else round(pair.tip_clearance[1 - gear] / pair.module, 12)
+    return Measured(clearance, 0.05, 0.15)
+
+
+def form_parts(pair: GearPair, gear: int) -> dict[str, float]:
+    """Parts of a tooth that no tool can cut where they are 0 or less [mm]."""
+    thickness, root = pair.tooth_thickness[gear], pair.root_radius[gear]
+    return {
+        "the height of the teeth of ": pair.tip_radius[gear] - root,
+        "the root radius of ": root * pair.signs[gear],
+        "the tip thickness of ": pair.tip_thickness[gear],
+        "the tooth thickness on the reference circle of ": thickness,
+        "the tooth space on the reference circle of ": math.pi * pair.module - thickness,
+    }
+
+
+def _form_measure(pair: GearPair, gear: int, _limits: Limits) -> Measured:
+    return Measured(reduce(pair.fn.least, form_parts(pair, gear).values()), 0.0, 0.0)
+
+
+_MEASURES: dict[str, Callable[[GearPair, int, Limits], Measured]] = {
+    UNDERCUT.name: _undercut_measure,
+    TIP_THICKNESS.name: _tip_measure,
+    CONTACT_RATIO.name: _contact_measure,
+    INTERFERENCE.name: _interference_measure,
+    ROOT_CLEARANCE.name: _clearance_measure,
+    TOOTH_FORM.name: _form_measure,
+}
+
+
 def _undercut(gear: _Gear, limits: Limits) -> Iterator[Check]:
     if gear.pair.teeth[gear.place] < 0:
         return
+    found = gear.measured(UNDERCUT.name, limits)
     x, least = gear.of("profile_shift"), gear.of("min_shift_no_undercut")
-    status: Status = "pass" if x >= least else "warn" if x >= least - limits.undercut else "fail"
     teeth = gear.pair.teeth[gear.place]
     text = f"{gear.named()} ({teeth} teeth) has x = {x:.6g}, undercut begins below {least:.6g}"
-    if status != "pass":
+    if found.status != "pass":
         remedy = f"raise its profile shift to {safely_above(least, 4)} or take more teeth"
         text += f": {remedy if gear.shifts else 'take more teeth, or a larger pressure angle'}"
-    yield UNDERCUT.check(status, text, x - least, -limits.undercut)
+    yield UNDERCUT.check(found.status, text, found.value, found.fails_below)
 
 
 def _tip_thickness(gear: _Gear, limits: Limits) -> Iterator[Check]:
-    share, limit = gear.of("tip_thickness") / gear.pair.module, limits.tip_thickness
     subject = f"{gear.named('the tip thickness of ')} over the module"
     remedy = "lower its profile shift or its addendum"
     if not gear.shifts:
         remedy = "take more teeth or a smaller pressure angle"
-    yield TIP_THICKNESS.below(share, limit, limit + _USUAL_TIP, "1", subject, remedy)
+    yield TIP_THICKNESS.below(*gear.measured(TIP_THICKNESS.name, limits), "1", subject, remedy)
 
 
-def _interference(gear: _Gear, _limits: Limits) -> Iterator[Check]:
-    margin, tip = gear.of("interference_margin"), gear.named("the tip of ")
-    if margin >= 0.0:
+def _interference(gear: _Gear, limits: Limits) -> Iterator[Check]:
+    found, tip = gear.measured(INTERFERENCE.name, limits), gear.named("the tip of ")
+    margin = found.value
+    if found.status == "pass":
         text = f"{tip} stays {margin:.4g} mm short of the mate's base tangent point"
         yield INTERFERENCE.check("pass", text, margin, 0.0, "mm")
         return
@@ -188,34 +269,20 @@ def _interference(gear: _Gear, _limits: Limits) -> Iterator[Check]:
     yield INTERFERENCE.check("fail", text, margin, 0.0, "mm")
 
 
-def _root_clearance(gear: _Gear, _limits: Limits) -> Iterator[Check]:
-    least, usual = 0.05, 0.15
-    clearance = _clearance_at_root(gear.pair, gear.place)
+def _root_clearance(gear: _Gear, limits: Limits) -> Iterator[Check]:
+    found = gear.measured(ROOT_CLEARANCE.name, limits)
     subject = f"{gear.named('the clearance at the root of ')} over the module"
     deeper = gear.pair.tools[gear.place] is not None
     remedy = f"raise the {'addendum of its tool' if deeper else 'clearance coefficient'}"
     if not deeper and gear.pair.keeps_clearance:
-        remedy += f" to {least if clearance < least else usual:g} or more"
+        remedy += f" to {found.fails_below if found.status == 'fail' else found.warns_below:g} or more"
     else:
         remedy += f", or shorten the tips of gear {2 - gear.place}"
-    yield ROOT_CLEARANCE.below(clearance, least, usual, "1", subject, remedy)
-
-
-def _clearance_at_root(pair: GearPair, gear: int) -> float:
-    """Clearance at the root of a gear over the module; that of the profile where the tips keep it, free of rounding."""
-    return pair.clearance if pair.keeps_clearance else round(pair.tip_clearance[1 - gear] / pair.module, 12)
+    yield ROOT_CLEARANCE.below(*found, "1", subject, remedy)
 
 
 def _tooth_form(gear: _Gear, _limits: Limits) -> Iterator[Check]:
-    thickness, root = gear.of("tooth_thickness"), gear.of("root_radius")
-    parts = {
-        "the height of the teeth of ": gear.of("tip_radius") - root,
-        "the root radius of ": abs(root) if gear.pair.teeth[gear.place] < 0 else root,
-        "the tip thickness of ": gear.of("tip_thickness"),
-        "the tooth thickness on the reference circle of ": thickness,
-        "the tooth space on the reference circle of ": math.pi * gear.pair.module - thickness,
-    }
-    part, worst = min(parts.items(), key=lambda each: each[1])
+    part, worst = min(form_parts(gear.pair, gear.place).items(), key=lambda each: each[1])
     text = f"{gear.named(part)} is {worst:.4g} mm"
     if worst <= 0.0:
         most = math.pi / (4.0 * math.tan(gear.pair.pressure_angle))

@@ -45,7 +45,7 @@ class PathOfContact:
     def line(self) -> float:
         """T = (r_b1 + r_b2) tan(alpha_wt), from base tangent point to base tangent point; negative with a ring."""
         r = self.pair.base_radius
-        return (r[0] + r[1]) * math.tan(self.pair.working_pressure_angle)
+        return (r[0] + r[1]) * self.pair.fn.tan(self.pair.working_pressure_angle)
 
     @cached_property
     def start(self) -> float:
@@ -55,17 +55,17 @@ class PathOfContact:
     @cached_property
     def end(self) -> float:
         """rho_E1 = sqrt(r_a1^2 - r_b1^2), where contact ends: at the tip of gear 1."""
-        return self.pair.base_radius[0] * math.tan(self.pair.tip_pressure_angle[0])
+        return self.pair.base_radius[0] * self.pair.fn.tan(self.pair.tip_pressure_angle[0])
 
     @cached_property
     def pitch(self) -> float:
         """rho_C1 = r_b1 tan(alpha_wt), at the pitch point."""
-        return self.pair.base_radius[0] * math.tan(self.pair.working_pressure_angle)
+        return self.pair.base_radius[0] * self.pair.fn.tan(self.pair.working_pressure_angle)
 
     @cached_property
     def mate_at_start(self) -> float:
         """rho_A2 = sqrt(r_a2^2 - r_b2^2), signed as the radii of gear 2."""
-        return self.pair.base_radius[1] * math.tan(self.pair.tip_pressure_angle[1])
+        return self.pair.base_radius[1] * self.pair.fn.tan(self.pair.tip_pressure_angle[1])
 
     @cached_property
     def mate_at_end(self) -> float:
@@ -81,7 +81,7 @@ class PathOfContact:
     def used_root_radius(self) -> Pair:
         """r_Nf, where contact reaches the root of a gear (nominal); signed."""
         r1, r2 = self.pair.base_radius
-        return math.hypot(r1, self.start), self.pair.signs[1] * math.hypot(r2, self.mate_at_end)
+        return self.pair.fn.hypot(r1, self.start), self.pair.signs[1] * self.pair.fn.hypot(r2, self.mate_at_end)
 
     @cached_property
     def overlap_ratio(self) -> float | None:
@@ -90,7 +90,7 @@ class PathOfContact:
             return 0.0
         if self.face_width is None:
             return None
-        return self.face_width * math.sin(self.pair.helix_angle) / (math.pi * self.pair.module)
+        return self.face_width * self.pair.fn.sin(self.pair.helix_angle) / (math.pi * self.pair.module)
 
     @cached_property
     def total_contact_ratio(self) -> float | None:
@@ -106,8 +106,10 @@ class PathOfContact:
         form, base = self.pair.form_radius[gear], self.pair.base_radius[gear]
         if form is None:
             return 0.0
-        flank_end = math.sqrt(max(0.0, (form - base) * (form + base)))
-        return max(0.0, self.pair.signs[gear] * (flank_end - root_end))
+        fn = self.pair.fn
+        flank_end = fn.sqrt(fn.greatest(0.0, (form - base) * (form + base)))
+        lost: float = fn.greatest(0.0, self.pair.signs[gear] * (flank_end - root_end))
+        return lost
 
     @cached_property
     def usable_contact_ratio(self) -> float:
@@ -117,9 +119,10 @@ class PathOfContact:
     @cached_property
     def sliding_at_tip(self) -> Pair | None:
         """zeta at the tips: zeta_E1 = 1 - rho_E2/(u rho_E1), zeta_A2 = 1 - u rho_A1/rho_A2."""
+        return None if self.end == 0.0 or self.mate_at_start == 0.0 else self._sliding_at_tip()
+
+    def _sliding_at_tip(self) -> Pair:
         u = self.pair.gear_ratio
-        if self.end == 0.0 or self.mate_at_start == 0.0:
-            return None
         return 1.0 - self.mate_at_end / (u * self.end), 1.0 - u * self.start / self.mate_at_start
 
     @cached_property

@@ -14,7 +14,7 @@ from gearlink.core.gears.load import Factors
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.report import Check, Rule, Status
 
-_FILLET_NOISE = 1e-4
+FILLET_NOISE = 1e-4
 """So far below the form radius contact may go, in modules: what a rounding of 0.38 for 0.37995 makes."""
 
 _NEGATIVE = -1e-6
@@ -173,13 +173,13 @@ def _fillet_of(data: GearData, gear: int) -> Iterator[Check]:
     else:
         text = f"contact at the root of gear {gear + 1} begins at {used:.7g} mm, its flank at {form:.7g} mm"
     status: Status = "pass"
-    if beyond or margin < -_FILLET_NOISE * pair.module:
+    if beyond or margin < -FILLET_NOISE * pair.module:
         judged = beyond or pair.internal or pair.helix_angle != 0.0 or any(pair.tools) or pair.cutter is not None
         status = "fail" if judged else "warn"
         text += (
             f": raise its profile shift, shorten the tips of gear {2 - gear}, or take a tool with a smaller rounding"
         )
-    yield FILLET.check(status, text, margin, -_FILLET_NOISE * pair.module, "mm")
+    yield FILLET.check(status, text, margin, -FILLET_NOISE * pair.module, "mm")
 
 
 def _backlash(data: GearData, limits: DrawingLimits) -> Iterator[Check]:

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Literal
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.gears import pair_limits, teeth
-from gearlink.core.gears.involute import involute, involute_rise
 from gearlink.core.gears.pitch_pair import Pair as Pair
 from gearlink.core.gears.pitch_pair import PitchPair
 from gearlink.core.results import cached_property
@@ -146,11 +145,13 @@ class GearPair(PitchPair):
         d = alpha_wt - alpha_t
         """
         if self.given_shift is not None and self.given_distance is not None:
-            return max(0.0, self.given_shift[0] + self.given_shift[1] - self.center_distance_modification)
+            given = self.given_shift[0] + self.given_shift[1]
+            lost: float = self.fn.greatest(0.0, given - self.center_distance_modification)
+            return lost
         d, alpha = self._rise, self.transverse_pressure_angle
-        bend = 2.0 * math.sin(d / 2.0) ** 2 * math.cos(alpha)
-        bend /= math.cos(self.working_pressure_angle) * math.cos(d)
-        return self._teeth_sum / 2.0 / self._cos_helix * (involute(d) / math.tan(alpha) + bend)
+        bend = 2.0 * self.fn.sin(d / 2.0) ** 2 * self.fn.cos(alpha)
+        bend /= self.fn.cos(self.working_pressure_angle) * self.fn.cos(d)
+        return self._teeth_sum / 2.0 / self._cos_helix * (self.fn.involute(d) / self.fn.tan(alpha) + bend)
 
     @cached_property
     def tip_alteration(self) -> Pair:
@@ -238,7 +239,7 @@ class GearPair(PitchPair):
         height = self.signs[gear] * self.module * self._tip_height[gear]
         radius = abs(self.reference_radius[gear])
         try:
-            return teeth.pressure_angle_rise(radius, height, self.transverse_pressure_angle)
+            return self._rise_to(radius, height)
         except NoSolution:
             raise pair_limits.no_involute_at_tip(self, gear) from None
 
@@ -258,13 +259,13 @@ class GearPair(PitchPair):
         return self._tip_thickness_of(0), self._tip_thickness_of(1)
 
     def _tip_thickness_of(self, gear: int) -> float:
-        angle = (math.pi + 4.0 * self.profile_shift[gear] * math.tan(self.pressure_angle)) / self.teeth[gear]
-        lost = involute_rise(self.transverse_pressure_angle, self._tip_rise[gear])
+        angle = (math.pi + 4.0 * self.profile_shift[gear] * self.fn.tan(self.pressure_angle)) / self.teeth[gear]
+        lost = self.fn.involute_rise(self.transverse_pressure_angle, self._tip_rise[gear])
         return self.tip_radius[gear] * (angle - 2.0 * lost) * self.cos_helix_at(self.tip_radius[gear], gear)
 
     def cos_helix_at(self, radius: float, gear: int) -> float:
         """cos(beta_y) on a circle: tan(beta_y) = r_y/r tan(beta); exactly 1 for spur gears."""
-        return 1.0 / math.hypot(1.0, radius / self.reference_radius[gear] * math.tan(self.helix_angle))
+        return 1.0 / self.fn.hypot(1.0, radius / self.reference_radius[gear] * self.fn.tan(self.helix_angle))
 
     @cached_property
     def _action(self) -> Pair:
@@ -278,7 +279,7 @@ class GearPair(PitchPair):
         z, y = self.teeth[gear], self.center_distance_modification
         above = self.module * (self._tip_height[gear] - y * z / self._teeth_sum)
         squares = above * (self.tip_radius[gear] + self.working_radius[gear]) / self.base_radius[gear] ** 2
-        return z * squares / (math.tan(self.tip_pressure_angle[gear]) + math.tan(self.working_pressure_angle))
+        return z * squares / (self.fn.tan(self.tip_pressure_angle[gear]) + self.fn.tan(self.working_pressure_angle))
 
     @cached_property
     def contact_ratio(self) -> float:
@@ -287,7 +288,7 @@ class GearPair(PitchPair):
 
     def _left_at_root(self, gear: int) -> float:
         """z tan(alpha_wt) - z_mate (tan(alpha_a,mate) - tan(alpha_wt)): what the mate's tip leaves of the line."""
-        return self.teeth[gear] * math.tan(self.working_pressure_angle) - self._action[1 - gear]
+        return self.teeth[gear] * self.fn.tan(self.working_pressure_angle) - self._action[1 - gear]
 
     @cached_property
     def interference_margin(self) -> Pair:
@@ -296,7 +297,7 @@ class GearPair(PitchPair):
         a_w sin(alpha_wt) - sqrt(r_a^2 - r_b^2) for external pairs; negative where the tip meets the mate beyond its
         involute.
         """
-        scale = self.transverse_module * math.cos(self.transverse_pressure_angle) / 2.0
+        scale = self.transverse_module * self.fn.cos(self.transverse_pressure_angle) / 2.0
         return self.signs[1] * scale * self._left_at_root(1), scale * self._left_at_root(0)
 
     @cached_property
@@ -305,14 +306,17 @@ class GearPair(PitchPair):
         return self._specific_sliding_of(0), self._specific_sliding_of(1)
 
     def _specific_sliding_of(self, gear: int) -> float:
-        left = self._left_at_root(gear)
-        if not left * self.signs[gear] > 0.0:
+        if not self._left_at_root(gear) * self.signs[gear] > 0.0:
             raise NoSolution(
                 f"tip of gear {2 - gear} reaches {-self.interference_margin[1 - gear]:.6g} mm beyond the base tangent "
                 f"point of gear {gear + 1}, where sliding has no bound: lower its profile shift or the addendum, or "
                 "take more teeth"
             )
-        return -self._action[1 - gear] * self._teeth_sum / (self.teeth[1 - gear] * left)
+        return self._sliding_at_root(gear)
+
+    def _sliding_at_root(self, gear: int) -> float:
+        mate = self.teeth[1 - gear]
+        return -self._action[1 - gear] * self._teeth_sum / (mate * self._left_at_root(gear))
 
     @property
     def slides(self) -> bool:
@@ -323,7 +327,7 @@ class GearPair(PitchPair):
         """x_min of an external gear [module]: to the profile's addendum, or to where its tool's straight flank ends."""
         tool = self.tools[gear]
         height = self.addendum if tool is None else tool.straight_end(self.pressure_angle)
-        return teeth.min_shift_no_undercut(self.teeth[gear], self.pressure_angle, height, self.helix_angle)
+        return teeth.min_shift_no_undercut(self.teeth[gear], self.pressure_angle, height, self.helix_angle, self.fn)
 
     @cached_property
     def min_shift_no_undercut(self) -> tuple[float, float | None]:
@@ -396,4 +400,4 @@ class GearPair(PitchPair):
         z, x = self._spanned(gear)
         if shift is not None:
             x = math.copysign(1.0, self.teeth[gear]) * shift
-        return teeth.span_measurement(self.module, z, x, self.pressure_angle, count, self.helix_angle)
+        return teeth.span_measurement(self.module, z, x, self.pressure_angle, count, self.helix_angle, self.fn)

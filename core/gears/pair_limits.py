@@ -6,22 +6,22 @@ import math
 from typing import TYPE_CHECKING
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.gears.involute import involute
+from gearlink.core.gears.elementary import SCALARS, Elementary
 from gearlink.core.report import safely_above, safely_below
 
 if TYPE_CHECKING:
     from gearlink.core.gears.pair import GearPair
+    from gearlink.core.gears.pitch_pair import PitchPair
 
 _MOST_TEETH = 10_000
 _LEAST_MODULE = 1e-100
 """Squares of lengths stay finite."""
 
 
-def transverse(pressure_angle: float, helix_angle: float) -> float:
+def transverse(pressure_angle: float, helix_angle: float, f: Elementary = SCALARS) -> float:
     """Pressure angle in the transverse section [rad]; to the bit the normal one where there is no helix."""
-    if helix_angle == 0.0:
-        return pressure_angle
-    return math.atan(math.tan(pressure_angle) / math.cos(helix_angle))
+    turned = f.atan(f.tan(pressure_angle) / f.cos(helix_angle))
+    return f.where(helix_angle == 0.0, pressure_angle, turned)
 
 
 def require_profile(pair: GearPair) -> None:
@@ -67,13 +67,25 @@ def _require_teeth(pair: GearPair) -> None:
         raise NoSolution(f"a gear of {pair.teeth[place]} teeth: it needs at least 3", key=f"teeth[{place}]")
 
 
+def least_distance(pair: PitchPair) -> float:
+    """The least centre distance [mm]: |r_b1 + r_b2|."""
+    return abs(pair.base_radius[0] + pair.base_radius[1])
+
+
+def bound_of_shift_sum(pair: PitchPair) -> float:
+    """The sum of shifts at which the pressure angle is 0 [module]: -(z_1 + z_2) inv(alpha_t)/(2 tan(alpha_n))."""
+    f = pair.fn
+    involute_t = f.involute(transverse(pair.pressure_angle, pair.helix_angle, f))
+    return -(pair.teeth[0] + pair.teeth[1]) * involute_t / (2.0 * f.tan(pair.pressure_angle))
+
+
 def require_distance(pair: GearPair, distance: float) -> None:
     """Refuse a centre distance below the sum of the base radii (their difference, with a ring).
 
     Raises
         NoSolution
     """
-    least = abs(pair.base_radius[0] + pair.base_radius[1])
+    least = least_distance(pair)
     if least <= distance < math.inf:
         return
     sum_of = "difference" if pair.internal else "sum"
@@ -90,8 +102,7 @@ def require_shift(pair: GearPair) -> None:
     Raises
         NoSolution
     """
-    alpha_t = transverse(pair.pressure_angle, pair.helix_angle)
-    bound = -(pair.teeth[0] + pair.teeth[1]) * involute(alpha_t) / (2.0 * math.tan(pair.pressure_angle))
+    bound = bound_of_shift_sum(pair)
     total = pair.shift_sum
     if not pair.internal and not bound <= total < math.inf:
         raise NoSolution(

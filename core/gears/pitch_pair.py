@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import ClassVar
 
 from gearlink.core.gears import pair_limits, teeth
-from gearlink.core.gears.involute import involute_rise, rise_of_involute
+from gearlink.core.gears.elementary import SCALARS, Elementary
 from gearlink.core.results import cached_property
 
 Pair = tuple[float, float]
@@ -44,6 +45,9 @@ class PitchPair:
     given_first_shift: float | None = None
     helix_angle: float = 0.0
 
+    fn: ClassVar[Elementary] = SCALARS
+    """What the formulas are made of; the class of many pairs has those for arrays."""
+
     @property
     def _teeth_sum(self) -> int:
         return self.teeth[0] + self.teeth[1]
@@ -56,7 +60,7 @@ class PitchPair:
     @property
     def signs(self) -> Pair:
         """1 for an external gear, -1 for a ring."""
-        return 1.0, math.copysign(1.0, self.teeth[1])
+        return 1.0, self.fn.copysign(1.0, self.teeth[1])
 
     @property
     def gear_ratio(self) -> float:
@@ -65,7 +69,7 @@ class PitchPair:
 
     @property
     def _cos_helix(self) -> float:
-        return math.cos(self.helix_angle)
+        return self.fn.cos(self.helix_angle)
 
     @property
     def transverse_module(self) -> float:
@@ -75,27 +79,35 @@ class PitchPair:
     @cached_property
     def transverse_pressure_angle(self) -> float:
         """alpha_t [rad]: tan(alpha_t) = tan(alpha_n)/cos(beta)."""
-        return pair_limits.transverse(self.pressure_angle, self.helix_angle)
+        return pair_limits.transverse(self.pressure_angle, self.helix_angle, self.fn)
 
     @cached_property
     def base_helix_angle(self) -> float:
         """beta_b [rad]: sin(beta_b) = sin(beta) cos(alpha_n)."""
-        return math.asin(math.sin(self.helix_angle) * math.cos(self.pressure_angle))
+        return self.fn.asin(self.fn.sin(self.helix_angle) * self.fn.cos(self.pressure_angle))
 
     @cached_property
     def base_pitch(self) -> float:
         """p_et = pi m_t cos(alpha_t) [mm], from one contact point to the next in the transverse section."""
-        return math.pi * self.transverse_module * math.cos(self.transverse_pressure_angle)
+        return math.pi * self.transverse_module * self.fn.cos(self.transverse_pressure_angle)
 
     @cached_property
     def _rise(self) -> float:
         """alpha_wt - alpha_t [rad]."""
-        alpha = self.transverse_pressure_angle
         if self.given_distance is None:
-            tangent = math.tan(self.pressure_angle)
-            return rise_of_involute(alpha, 2.0 * self.shift_sum * tangent / self._teeth_sum)
+            tangent = self.fn.tan(self.pressure_angle)
+            alpha = self.transverse_pressure_angle
+            return self.fn.rise_of_involute(alpha, 2.0 * self.shift_sum * tangent / self._teeth_sum)
         a = abs(self.reference_center_distance)
-        return teeth.pressure_angle_rise(a, self.given_distance - a, alpha, what="centre distance")
+        return self._rise_to(a, self.given_distance - a, "centre distance")
+
+    def _rise_to(self, radius: float, increase: float, what: str = "radius") -> float:
+        """Rise of the transverse pressure angle from one radius to another [rad].
+
+        Raises
+            NoSolution - inside the base circle
+        """
+        return teeth.pressure_angle_rise(radius, increase, self.transverse_pressure_angle, what=what)
 
     @cached_property
     def working_pressure_angle(self) -> float:
@@ -111,7 +123,7 @@ class PitchPair:
     def center_distance(self) -> float:
         """a_w [mm]: the given one, or a + y m."""
         if self.given_distance is not None:
-            return math.copysign(self.given_distance, self._teeth_sum)
+            return self.fn.copysign(self.given_distance, self._teeth_sum)
         return self.reference_center_distance + self.module * self.center_distance_modification
 
     @cached_property
@@ -122,16 +134,16 @@ class PitchPair:
         if self.given_distance is not None:
             return (self.center_distance - self.reference_center_distance) / self.module
         half = self._rise / 2.0
-        product = math.sin(self.transverse_pressure_angle + half) * math.sin(half)
-        return self._teeth_sum * product / math.cos(self.working_pressure_angle) / self._cos_helix
+        product = self.fn.sin(self.transverse_pressure_angle + half) * self.fn.sin(half)
+        return self._teeth_sum * product / self.fn.cos(self.working_pressure_angle) / self._cos_helix
 
     @cached_property
     def shift_sum(self) -> float:
         """x_1 + x_2 = (z_1 + z_2)(inv(alpha_wt) - inv(alpha_t))/(2 tan(alpha_n)) [module], that of the mesh."""
         if self.given_distance is None and self.given_shift is not None:
             return self.given_shift[0] + self.given_shift[1]
-        difference = involute_rise(self.transverse_pressure_angle, self._rise)
-        return self._teeth_sum * difference / (2.0 * math.tan(self.pressure_angle))
+        difference = self.fn.involute_rise(self.transverse_pressure_angle, self._rise)
+        return self._teeth_sum * difference / (2.0 * self.fn.tan(self.pressure_angle))
 
     @cached_property
     def profile_shift(self) -> Pair:
@@ -149,7 +161,7 @@ class PitchPair:
     @cached_property
     def base_radius(self) -> Pair:
         """r_b = r cos(alpha_t) [mm]."""
-        cosine = math.cos(self.transverse_pressure_angle)
+        cosine = self.fn.cos(self.transverse_pressure_angle)
         return self.reference_radius[0] * cosine, self.reference_radius[1] * cosine
 
     @cached_property
@@ -161,7 +173,7 @@ class PitchPair:
     @cached_property
     def tooth_thickness(self) -> Pair:
         """s_n = m (pi/2 + 2 x tan(alpha_n)) [mm], on the reference circle in the normal section."""
-        tangent, x = math.tan(self.pressure_angle), self.profile_shift
+        tangent, x = self.fn.tan(self.pressure_angle), self.profile_shift
         return (
             self.module * (math.pi / 2.0 + 2.0 * x[0] * tangent),
             self.module * (math.pi / 2.0 + 2.0 * x[1] * tangent),

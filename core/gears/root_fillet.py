@@ -11,11 +11,12 @@ on an axis i through the middle of the space.
 
 from __future__ import annotations
 
-import cmath
 import math
 from dataclasses import dataclass
+from typing import ClassVar
 
-from gearlink.core.gears.involute import involute
+from gearlink.core.gears.elementary import SCALARS, Elementary
+from gearlink.core.gears.pair_limits import transverse
 from gearlink.core.gears.tools import RackTool
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.results import cached_property
@@ -52,35 +53,35 @@ class RackCutRoot:
     pressure_angle: float = math.radians(20.0)
     helix_angle: float = 0.0
 
+    fn: ClassVar[Elementary] = SCALARS
+
     @cached_property
     def _transverse(self) -> float:
         """alpha_t [rad]."""
-        if self.helix_angle == 0.0:
-            return self.pressure_angle
-        return math.atan(math.tan(self.pressure_angle) / math.cos(self.helix_angle))
+        return transverse(self.pressure_angle, self.helix_angle, self.fn)
 
     @cached_property
     def _r(self) -> float:
-        return self.teeth / 2.0 / math.cos(self.helix_angle)
+        return self.teeth / 2.0 / self.fn.cos(self.helix_angle)
 
     @cached_property
     def base_radius(self) -> float:
         """r_b = r cos(alpha_t)."""
-        return self._r * math.cos(self._transverse)
+        return self._r * self.fn.cos(self._transverse)
 
     @cached_property
     def half_space_at_base(self) -> float:
         """Half the angle of the space on the base circle [rad], eta - inv(alpha_t)."""
-        half_space = (math.pi / 2.0 - 2.0 * self.shift * math.tan(self.pressure_angle)) / self.teeth
-        return half_space - involute(self._transverse)
+        half_space = (math.pi / 2.0 - 2.0 * self.shift * self.fn.tan(self.pressure_angle)) / self.teeth
+        return half_space - self.fn.involute(self._transverse)
 
     @cached_property
     def flank_start(self) -> float:
         """q = r sin(alpha_t) - h_Ff*/sin(alpha_t): from the base tangent point to where the straight flank's end
         touches; negative where the tool undercuts.
         """
-        sine = math.sin(self._transverse)
-        end = self.tool.straight_end(self.pressure_angle) - self.shift
+        sine = self.fn.sin(self._transverse)
+        end = self.tool.straight_end(self.pressure_angle, self.fn) - self.shift
         return self._r * sine - end / sine
 
     @property
@@ -91,8 +92,8 @@ class RackCutRoot:
     @cached_property
     def min_shift(self) -> float:
         """x_min = h_fP* - rho* (1 - sin(alpha_n)) - z sin^2(alpha_t)/(2 cos(beta)), where undercut begins."""
-        square = math.sin(self._transverse) ** 2
-        return self.tool.straight_end(self.pressure_angle) - self._r * square
+        square = self.fn.sin(self._transverse) ** 2
+        return self.tool.straight_end(self.pressure_angle, self.fn) - self._r * square
 
     @property
     def last_normal(self) -> float:
@@ -102,17 +103,19 @@ class RackCutRoot:
     def fillet(self, normal: float) -> complex:
         """Point of the fillet at a direction b of the normal; the middle of the space is the imaginary axis."""
         beta, tool = self.helix_angle, self.tool
-        x = (tool.rounding_center(self.pressure_angle) + tool.rounding * math.sin(normal)) / math.cos(beta)
-        y = tool.rounding - tool.addendum + self.shift - tool.rounding * math.cos(normal)
-        left = -y * math.tan(normal) * math.cos(beta)
-        return complex(left, y + self._r) * cmath.exp(-1j * (x - left) / self._r)
+        x = (tool.rounding_center(self.pressure_angle, self.fn) + tool.rounding * self.fn.sin(normal)) / self.fn.cos(
+            beta
+        )
+        y = tool.rounding - tool.addendum + self.shift - tool.rounding * self.fn.cos(normal)
+        left = -y * self.fn.tan(normal) * self.fn.cos(beta)
+        return (left + 1j * (y + self._r)) * self.fn.turn((left - x) / self._r)
 
     def _into_tooth(self, normal: float) -> float:
         """Angle by which the fillet stands inside the tooth of the involute, at its own radius [rad]."""
         point = self.fillet(normal)
-        roll = math.sqrt(max((abs(point) / self.base_radius) ** 2 - 1.0, 0.0))
-        beside = math.pi / 2.0 - cmath.phase(point)
-        return beside - self.half_space_at_base - involute(math.atan(roll))
+        roll = self.fn.sqrt(self.fn.greatest((abs(point) / self.base_radius) ** 2 - 1.0, 0.0))
+        beside = math.pi / 2.0 - self.fn.phase(point)
+        return beside - self.half_space_at_base - self.fn.involute(self.fn.atan(roll))
 
     @cached_property
     def end_normal(self) -> float:
@@ -129,11 +132,16 @@ class RackCutRoot:
             return start  # a protuberance that is nowhere without effect: the involute begins on the base circle
         return bracketed_root(self._into_tooth, start, end)
 
+    @property
+    def form_radius_uncut(self) -> float:
+        """r_Ff of a tool without protuberance that does not undercut: sqrt(r_b^2 + q^2)."""
+        return self.fn.hypot(self.base_radius, self.flank_start)
+
     @cached_property
     def form_radius(self) -> float:
         """r_Ff, where fillet and involute meet; with a protuberance where the fillet comes to stand before the
         involute. At least the base radius.
         """
         if not self.undercut and self.tool.residual_undercut == 0.0:
-            return math.hypot(self.base_radius, self.flank_start)
+            return self.form_radius_uncut
         return max(self.base_radius, abs(self.fillet(self.end_normal)))

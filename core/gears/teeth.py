@@ -5,12 +5,14 @@ from __future__ import annotations
 import math
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.gears.involute import involute
+from gearlink.core.gears.elementary import SCALARS, Elementary
 from gearlink.core.gears.pair_limits import transverse
 from gearlink.core.report import safely_above
 
 
-def min_shift_no_undercut(teeth: int, pressure_angle: float, addendum: float = 1.0, helix_angle: float = 0.0) -> float:
+def min_shift_no_undercut(
+    teeth: int, pressure_angle: float, addendum: float = 1.0, helix_angle: float = 0.0, f: Elementary = SCALARS
+) -> float:
     """Least profile shift at which a rack cutter does not undercut the tooth root.
 
     x_min = h - z sin^2(alpha_t)/(2 cos(beta))
@@ -20,6 +22,7 @@ def min_shift_no_undercut(teeth: int, pressure_angle: float, addendum: float = 1
         pressure_angle : float [rad] - of the reference profile, alpha_n
         addendum : float [module] - h, how far the cutter's straight flank reaches below its datum line; usually h_a*
         helix_angle : float [rad] - beta
+        f : Elementary - functions of numbers or of arrays
     Returns
         x_min : float [module] - negative where the gear tolerates a negative shift
     Example
@@ -29,8 +32,8 @@ def min_shift_no_undercut(teeth: int, pressure_angle: float, addendum: float = 1
     Source
         own derivation: the cutter's tip line passes the point where the line of action touches the base circle
     """
-    alpha = transverse(pressure_angle, helix_angle)
-    return addendum - teeth * math.sin(alpha) ** 2 / 2.0 / math.cos(helix_angle)
+    alpha = transverse(pressure_angle, helix_angle, f)
+    return addendum - teeth * f.sin(alpha) ** 2 / 2.0 / f.cos(helix_angle)
 
 
 def pressure_angle_rise(radius: float, increase: float, pressure_angle: float, *, what: str = "radius") -> float:
@@ -56,21 +59,37 @@ def pressure_angle_rise(radius: float, increase: float, pressure_angle: float, *
         >>> round(math.degrees(pressure_angle_rise(288.0, 2.2912330746487, math.radians(20.0))), 10)
         1.2076131545
     """
-    base = radius * math.cos(pressure_angle)
-    above = increase + 2.0 * radius * math.sin(pressure_angle / 2.0) ** 2
-    if not above >= 0.0:
+    if not above_base(radius, increase, pressure_angle) >= 0.0:
+        base = radius * math.cos(pressure_angle)
         raise NoSolution(
             f"{what} {radius + increase:.6g} mm lies inside the base circle, where there is no involute: "
             f"it must be at least {safely_above(base, 6)} mm"
         )
-    u = math.sqrt(above * (above + 2.0 * base))
-    v = radius * math.sin(pressure_angle)
-    sine = math.cos(pressure_angle) * increase * (2.0 * radius + increase) / (u + v)
-    return math.atan2(sine, base * math.cos(pressure_angle) + u * math.sin(pressure_angle))
+    return rise_between(radius, increase, pressure_angle)
+
+
+def above_base(radius: float, increase: float, pressure_angle: float, f: Elementary = SCALARS) -> float:
+    """How far a second radius lies above the base radius [mm]: r + increase - r cos(alpha)."""
+    return increase + 2.0 * radius * f.sin(pressure_angle / 2.0) ** 2
+
+
+def rise_between(radius: float, increase: float, pressure_angle: float, f: Elementary = SCALARS) -> float:
+    """The formula of `pressure_angle_rise` [rad], for radii at or above the base radius; arrays are NaN below it."""
+    base, above = radius * f.cos(pressure_angle), above_base(radius, increase, pressure_angle, f)
+    u = f.sqrt(above * (above + 2.0 * base))
+    v = radius * f.sin(pressure_angle)
+    sine = f.cos(pressure_angle) * increase * (2.0 * radius + increase) / (u + v)
+    return f.atan2(sine, base * f.cos(pressure_angle) + u * f.sin(pressure_angle))
 
 
 def span_measurement(
-    module: float, teeth: int, shift: float, pressure_angle: float, span_teeth: int, helix_angle: float = 0.0
+    module: float,
+    teeth: int,
+    shift: float,
+    pressure_angle: float,
+    span_teeth: int,
+    helix_angle: float = 0.0,
+    f: Elementary = SCALARS,
 ) -> float:
     """Distance of two parallel planes that touch opposite flanks over a number of teeth (base tangent length).
 
@@ -83,6 +102,7 @@ def span_measurement(
         pressure_angle : float [rad] - alpha_n
         span_teeth : int - teeth between the planes, k >= 1
         helix_angle : float [rad] - beta
+        f : Elementary - functions of numbers or of arrays
     Returns
         W_k : float [mm] - for no backlash
     Notes
@@ -96,11 +116,13 @@ def span_measurement(
     Source
         own derivation: k - 1 base pitches and the tooth thickness on the base circle
     """
-    arc = math.pi * (span_teeth - 0.5) + teeth * involute(transverse(pressure_angle, helix_angle))
-    return module * (math.cos(pressure_angle) * arc + 2.0 * shift * math.sin(pressure_angle))
+    arc = math.pi * (span_teeth - 0.5) + teeth * f.involute(transverse(pressure_angle, helix_angle, f))
+    return module * (f.cos(pressure_angle) * arc + 2.0 * shift * f.sin(pressure_angle))
 
 
-def span_contact_radius(base_radius: float, span: float, base_helix_angle: float = 0.0) -> float:
+def span_contact_radius(
+    base_radius: float, span: float, base_helix_angle: float = 0.0, f: Elementary = SCALARS
+) -> float:
     """Radius on which the planes of a span measurement touch the flanks.
 
     R = sqrt(r_b^2 + (W_k cos(beta_b)/2)^2)
@@ -109,7 +131,7 @@ def span_contact_radius(base_radius: float, span: float, base_helix_angle: float
         >>> span_contact_radius(3.0, 8.0)
         5.0
     """
-    return math.hypot(base_radius, span * math.cos(base_helix_angle) / 2.0)
+    return f.hypot(base_radius, span * f.cos(base_helix_angle) / 2.0)
 
 
 def span_teeth(teeth: int, shift: float, pressure_angle: float, helix_angle: float = 0.0) -> int:
@@ -130,18 +152,26 @@ def span_teeth(teeth: int, shift: float, pressure_angle: float, helix_angle: flo
         >>> span_teeth(40, 0.0, math.radians(20.0)), span_teeth(72, 0.29, math.radians(20.0))
         (5, 9)
     """
-    base_helix = math.asin(math.sin(helix_angle) * math.cos(pressure_angle))
-    radius = teeth / 2.0 / math.cos(helix_angle)
-    base = radius * math.cos(transverse(pressure_angle, helix_angle))
+    low, high = span_rivals(teeth, shift, pressure_angle, helix_angle)
+    return high[0] if high[1] < low[1] else low[0]
+
+
+def span_rivals(
+    teeth: int, shift: float, pressure_angle: float, helix_angle: float = 0.0, f: Elementary = SCALARS
+) -> tuple[tuple[int, float], tuple[int, float]]:
+    """The two numbers of `span_teeth` that compete, each with how far its contact lies from the circle r + x m."""
+    base_helix = f.asin(f.sin(helix_angle) * f.cos(pressure_angle))
+    radius = teeth / 2.0 / f.cos(helix_angle)
+    base = radius * f.cos(transverse(pressure_angle, helix_angle, f))
     wanted = radius + shift
-    reach = math.sqrt((wanted - base) * (wanted + base)) if wanted > base else 0.0
-    pitch = math.pi * math.cos(pressure_angle)
-    first = span_measurement(1.0, teeth, shift, pressure_angle, 1, helix_angle)
-    exact = 1.0 + (2.0 * reach / math.cos(base_helix) - first) / pitch
+    reach = f.sqrt(f.greatest(wanted - base, 0.0) * (wanted + base))
+    pitch = math.pi * f.cos(pressure_angle)
+    first = span_measurement(1.0, teeth, shift, pressure_angle, 1, helix_angle, f)
+    exact = 1.0 + (2.0 * reach / f.cos(base_helix) - first) / pitch
 
-    def distance(k: int) -> float:
-        span = span_measurement(1.0, teeth, shift, pressure_angle, k, helix_angle)
-        return abs(span_contact_radius(base, span, base_helix) - wanted)
+    def rival(k: int) -> tuple[int, float]:
+        span = span_measurement(1.0, teeth, shift, pressure_angle, k, helix_angle, f)
+        return k, abs(span_contact_radius(base, span, base_helix, f) - wanted)
 
-    low = max(1, min(teeth, math.floor(exact)))
-    return min((low, min(teeth, low + 1)), key=distance)
+    low = f.greatest(1, f.least(teeth, f.floor(exact)))
+    return rival(low), rival(f.least(teeth, low + 1))

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 from gearlink.core.errors import NoSolution
+from gearlink.core.gears.elementary import SCALARS, Elementary
 from gearlink.core.report import safely_below
 
 _USUAL_ROUNDING = 0.38
@@ -32,18 +33,18 @@ class RackTool:
     rounding: float = _USUAL_ROUNDING
     residual_undercut: float = 0.0
 
-    def straight_end(self, pressure_angle: float) -> float:
+    def straight_end(self, pressure_angle: float, f: Elementary = SCALARS) -> float:
         """h_fP* - rho* (1 - sin(alpha_n)) [module]: how far below the datum line the straight flank reaches."""
-        return self.addendum - self.rounding * (1.0 - math.sin(pressure_angle))
+        return self.addendum - self.rounding * (1.0 - f.sin(pressure_angle))
 
-    def rounding_center(self, pressure_angle: float) -> float:
+    def rounding_center(self, pressure_angle: float, f: Elementary = SCALARS) -> float:
         """E = pi/4 - h_fP* tan(alpha_n) + (s_pr* - rho* (1 - sin(alpha_n)))/cos(alpha_n) [module].
 
         The rounding's centre beside the middle of the tool's tooth; negative for a pointed tool.
         """
-        protruding = self.residual_undercut - self.rounding * (1.0 - math.sin(pressure_angle))
-        center = math.pi / 4.0 - self.addendum * math.tan(pressure_angle) + protruding / math.cos(pressure_angle)
-        return 0.0 if abs(center) < 1e-14 else center
+        protruding = self.residual_undercut - self.rounding * (1.0 - f.sin(pressure_angle))
+        center = math.pi / 4.0 - self.addendum * f.tan(pressure_angle) + protruding / f.cos(pressure_angle)
+        return f.where(abs(center) < 1e-14, 0.0, center)
 
     def require_tip(self, pressure_angle: float) -> None:
         """Refuse a tool whose tip is pointed.
@@ -67,18 +68,20 @@ class RackTool:
         )
 
 
-def full_rounding(pressure_angle: float, addendum: float, residual_undercut: float = 0.0) -> float:
+def full_rounding(
+    pressure_angle: float, addendum: float, residual_undercut: float = 0.0, f: Elementary = SCALARS
+) -> float:
     """Rounding that makes the tip of a rack tool one arc [module]: E = 0.
 
     Example
         >>> round(full_rounding(math.radians(20.0), 1.25), 6)
         0.471911
     """
-    half = math.pi / 4.0 - addendum * math.tan(pressure_angle) + residual_undercut / math.cos(pressure_angle)
-    return half * math.cos(pressure_angle) / (1.0 - math.sin(pressure_angle))
+    half = math.pi / 4.0 - addendum * f.tan(pressure_angle) + residual_undercut / f.cos(pressure_angle)
+    return half * f.cos(pressure_angle) / (1.0 - f.sin(pressure_angle))
 
 
-def standard_tool(pressure_angle: float, addendum: float, clearance: float) -> RackTool:
+def standard_tool(pressure_angle: float, addendum: float, clearance: float, f: Elementary = SCALARS) -> RackTool:
     """The rack tool of a profile with addendum h_a* and clearance c* that names no tool.
 
     rho* = c*/(1 - sin(alpha_n)), where the tool's straight flank ends at h_a*; at most a full round
@@ -91,8 +94,8 @@ def standard_tool(pressure_angle: float, addendum: float, clearance: float) -> R
         ISO 53, profile A
     """
     depth = addendum + clearance
-    most = max(0.0, full_rounding(pressure_angle, depth))
-    return RackTool(addendum=depth, rounding=min(clearance / (1.0 - math.sin(pressure_angle)), most))
+    most = f.greatest(0.0, full_rounding(pressure_angle, depth, f=f))
+    return RackTool(addendum=depth, rounding=f.least(clearance / (1.0 - f.sin(pressure_angle)), most))
 
 
 def usual_rounding(pressure_angle: float, addendum: float, clearance: float, residual_undercut: float = 0.0) -> float:

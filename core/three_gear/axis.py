@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -42,11 +42,13 @@ _OTHERS = {
 }
 
 
-def axis(spec: Any, command: str, paths: Sequence[str], quantities: Sequence[str]) -> ThreeGearAxis | None:
+def axis(
+    spec: Any, command: str, paths: Sequence[str], quantities: Sequence[str], _codes: Sequence[str]
+) -> ThreeGearAxis | None:
     """The array form of a study of three-gear four-bars; None where the design classes have to serve.
 
     Parameters
-        spec, command, paths, quantities : as of `core.design_axis.Maker`
+        spec, command, paths, quantities, _codes : as of `core.design_axis.Maker`
     """
     if command not in _TASKS or not _served(spec, command, paths):
         return None
@@ -97,5 +99,4 @@ class ThreeGearAxis:
         """As `core.design_axis.Axis`."""
         inside, outside = kept_inside(columns, _DOMAIN)
         with np.errstate(all="ignore"):
-            found = self.batch(inside).evaluated()
-        return replace(found, unsure=found.unsure | outside)
+            return self.batch(inside).evaluated(outside)

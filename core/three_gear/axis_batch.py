@@ -216,8 +216,8 @@ class Batch:
         for gap, limit in gaps:
             yield Findings(SHAFT_CLEARANCE.code, gap, limit, self.none, gap < limit, "mm")
 
-    def evaluated(self) -> Evaluated:
-        """All that a study asks for."""
+    def evaluated(self, outside: Mask) -> Evaluated:
+        """All that a study asks for; what lies outside is left to the class."""
         gone = ~self.exists
         found = {}
         for name in self.wanted:
@@ -225,7 +225,7 @@ class Batch:
             empty: Any = "" if value.dtype.kind == "U" else np.nan
             found[name] = np.where(gone, empty, value)
         findings = [_without(each, gone) for each in self.findings()]
-        return Evaluated(found, findings, self.reason, self.reasons, self._unsure(findings))
+        return Evaluated(found, findings, self.reason, self.reasons, outside | self._unsure(findings))
 
     def _unsure(self, findings: Sequence[Findings]) -> Mask:
         """Designs next to a limit, or where a root hangs by few digits."""

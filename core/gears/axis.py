@@ -1,0 +1,242 @@
+"""External gear pairs over arrays of designs: spur and helical ones that the tool of their profile cuts.
+
+What asks for more (rings, racks, tools, allowances, loads, shares of the shift by a criterion) is left to the class.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from gearlink.core.design_axis import Evaluated, Findings, kept_inside
+from gearlink.core.gears.checks import GEAR_QUANTITIES, UNUSUAL_SLIDING, measured
+from gearlink.core.gears.codes import (
+    CONTACT_RATIO,
+    FILLET,
+    INTERFERENCE,
+    PITTING,
+    ROOT_CLEARANCE,
+    SLIDING,
+    TIP_THICKNESS,
+    TOOTH_FORM,
+    UNDERCUT,
+)
+from gearlink.core.gears.drawing_checks import FILLET_NOISE
+from gearlink.core.gears.drawing_names import PLACES
+from gearlink.core.gears.from_spec import both
+from gearlink.core.gears.pair_sweep import GearPairs, PathsOfContact
+from gearlink.core.nomenclature import term
+from gearlink.core.numerics.arrays import Mask, Reals
+from gearlink.core.spec_paths import number_at
+
+_DOMAIN = {
+    "module": (1e-6, 1e6, 1.0),
+    "teeth[0]": (3.0, 1e4, 30.0),
+    "teeth[1]": (3.0, 1e4, 30.0),
+    "center_distance": (1e-9, 1e12, 1.0),
+    "profile_shift[0]": (-5.0, 5.0, 0.0),
+    "profile_shift[1]": (-5.0, 5.0, 0.0),
+    "shift_split": (-5.0, 5.0, 0.0),
+    "pressure_angle": (1.0, 45.0, 20.0),
+    "helix_angle": (0.0, 45.0, 0.0),
+    "addendum": (1e-3, 3.0, 1.0),
+    "clearance": (0.0, 1.0, 0.25),
+}
+"""Keys that may vary: least and greatest value computed here, and one that stands in for others."""
+
+_ABSENT = (
+    *("tip_diameter", "tool", "cutter", "span_teeth", "allowances", "center_distance_allowance", "load"),
+    "helix_hand",
+)
+_OF_DRAWING = (
+    *("transverse_pressure_angle", "base_helix_angle", "form_radius", "tip_clearance"),
+    *("path_of_contact", "used_root_radius", "usable_contact_ratio", "specific_sliding_tip", "sliding_factor"),
+)
+_OF_WIDTH = ("overlap_ratio", "total_contact_ratio")
+_OF_TIPS = {
+    *("contact_ratio", "tip_pressure_angle", "tip_thickness", "specific_sliding", "total_contact_ratio"),
+    *("usable_contact_ratio", "path_of_contact", "used_root_radius", "specific_sliding_tip", "sliding_factor"),
+}
+"""Quantities that a pair does not have where a tip circle lies inside its base circle; `_TIP_RULES` likewise."""
+_TIP_RULES = (TIP_THICKNESS, CONTACT_RATIO, INTERFERENCE, FILLET, SLIDING, PITTING, TOOTH_FORM)
+_OF_EACH = (UNDERCUT, TIP_THICKNESS, INTERFERENCE, ROOT_CLEARANCE, TOOTH_FORM)
+_LENGTHS = (INTERFERENCE, TOOTH_FORM)
+_NEAR = 1e-9
+
+
+def axis(
+    spec: Any, command: str, paths: Sequence[str], quantities: Sequence[str], codes: Sequence[str]
+) -> GearPairAxis | None:
+    """The array form of a study of gear pairs; None where the design class has to serve.
+
+    Parameters
+        spec, command, paths, quantities, codes : as of `core.design_axis.Maker`
+    """
+    if command not in ("gear", "analyze") or not _served(spec, paths):
+        return None
+    names = {*GEAR_QUANTITIES, *_OF_DRAWING, *(() if spec.face_width is None else _OF_WIDTH)}
+    if not {name.partition("[")[0] for name in quantities} <= names:
+        return None
+    made = GearPairAxis(spec, tuple(quantities), frozenset(codes))
+    one = made.evaluate({path: np.array([number_at(spec, path)], dtype=float) for path in ("teeth[0]", "teeth[1]")})
+    return made if all(values.ndim == 1 for values in one.quantities.values()) else None
+
+
+def _served(spec: Any, paths: Sequence[str]) -> bool:
+    """Whether the array form knows all keys that are varied, and the base asks for no more."""
+    if not set(paths) <= _DOMAIN.keys() or any(getattr(spec, name) is not None for name in _ABSENT):
+        return False
+    if any(not isinstance(z, int) or z < 0 for z in spec.teeth) or spec.tip_shortening not in (None, "full"):
+        return False
+    if spec.profile_shift is not None:
+        return spec.center_distance is None and "center_distance" not in paths
+    return "shift_split" in paths or spec.shift_split == "equal" or not isinstance(spec.shift_split, str)
+
+
+@dataclass(frozen=True)
+class GearPairAxis:
+    """The array form; made by `axis`."""
+
+    spec: Any
+    wanted: tuple[str, ...]
+    codes: frozenset[str]
+
+    def evaluate(self, columns: Mapping[str, Reals]) -> Evaluated:
+        """As `core.design_axis.Axis`."""
+        inside, outside = kept_inside(columns, _DOMAIN)
+        with np.errstate(all="ignore"):
+            return _Batch(self, inside, outside).evaluated()
+
+
+class _Batch:
+    """Some pairs."""
+
+    def __init__(self, axis: GearPairAxis, columns: Mapping[str, Reals], outside: Mask) -> None:
+        self.spec, self.wanted, self.codes = axis.spec, axis.wanted, axis.codes
+        self.columns, self.outside = columns, outside
+        self.near = np.zeros(outside.shape, dtype=bool)
+
+    def key(self, path: str) -> Any:
+        """A key's values, or the base's value."""
+        return self.columns[path] if path in self.columns else number_at(self.spec, path)
+
+    @cached_property
+    def pairs(self) -> GearPairs:
+        """The pairs."""
+        by_shift = self.spec.profile_shift is not None
+        return GearPairs(
+            module=self.key("module"),
+            teeth=(self.key("teeth[0]"), self.key("teeth[1]")),
+            pressure_angle=np.radians(self.key("pressure_angle")),
+            helix_angle=np.radians(self.key("helix_angle")),
+            addendum=self.key("addendum"),
+            clearance=self.key("clearance"),
+            given_shift=(self.key("profile_shift[0]"), self.key("profile_shift[1]")) if by_shift else None,
+            given_distance=None if by_shift else self.key("center_distance"),
+            given_first_shift=None if by_shift else self.key("shift_split"),
+        )
+
+    @cached_property
+    def paths(self) -> PathsOfContact:
+        """Their paths of contact, with the lesser width."""
+        widths = both(self.spec.face_width)
+        return PathsOfContact(self.pairs, None if widths is None else min(widths))
+
+    def evaluated(self) -> Evaluated:
+        """All that a study asks for."""
+        asks_tips = any(name.partition("[")[0] in _OF_TIPS for name in self.wanted)
+        asks_tips |= any(rule.code in self.codes for rule in _TIP_RULES)
+        exist, doubtful = self._spread(self.pairs.exist), self._spread(self.pairs.barely_exist)
+        if asks_tips:
+            exist = exist & self._spread(self.pairs.have_flanks)
+            doubtful = doubtful | self._spread(self.pairs.barely_have_flanks)
+        findings = [each for each in self._findings() if each.code in self.codes]
+        quantities = {name: np.where(exist, self._spread(self.quantity(name)), np.nan) for name in self.wanted}
+        if any(name.startswith("span_") for name in self.wanted):
+            doubtful = doubtful | self._spread(self.pairs.span_is_doubtful)
+        if FILLET.code in self.codes or any(name.startswith("form_radius") for name in self.wanted):
+            doubtful = doubtful | (exist & self._spread(self.pairs.form_is_doubtful))
+        if "usable_contact_ratio" in self.wanted:
+            doubtful = doubtful | (exist & self._spread(self.pairs.flank_ends_on_base | self.pairs.form_is_doubtful))
+        for each in findings:
+            each.fails[~exist] = each.warns[~exist] = False
+        reason = "center_distance" if self.spec.profile_shift is None else "profile_shift"
+        unsure = self.outside | doubtful | (self.near & exist)
+        return Evaluated(quantities, findings, np.where(exist, 0, 1), (reason,), unsure)
+
+    def _spread(self, value: Any) -> Any:
+        return np.broadcast_to(value, self.outside.shape)
+
+    def quantity(self, name: str) -> Any:
+        """A quantity, or one of a list, in the units of design files."""
+        plain, _, index = name.partition("[")
+        place = PLACES.get(plain, f"pair.{plain}")
+        value: Any = getattr(self.paths if place.startswith("path.") else self.pairs, place.rpartition(".")[2])
+        if isinstance(value, tuple):
+            value = value[int(index[0])] if index in ("0]", "1]") else np.nan
+        elif index:
+            value = np.nan
+        return np.degrees(value) if term(plain).unit == "deg" else value
+
+    # Checks
+
+    def _findings(self) -> Iterator[Findings]:
+        for rule in _OF_EACH:
+            if rule.code in self.codes:
+                unit = "mm" if rule in _LENGTHS else "1"
+                for gear in (0, 1):
+                    found = measured(rule.name, self.pairs, gear, self.spec.limits)
+                    yield self._below(rule.code, *found, unit, rule is not ROOT_CLEARANCE)
+        if CONTACT_RATIO.code in self.codes:
+            yield self._contact()
+        if SLIDING.code in self.codes:
+            yield from (self._sliding(gear) for gear in (0, 1))
+        if FILLET.code in self.codes:
+            yield from (self._fillet(gear) for gear in (0, 1))
+
+    def _below(self, code: str, value: Any, fails: Any, warns: Any, unit: str, computed: bool = True) -> Findings:
+        value, limit = self._spread(value), self._spread(fails)
+        if computed:  # else the file's own number, which is the class's to the bit
+            self.near |= _close(value, fails) | _close(value, warns)
+        failing = value < fails
+        return Findings(code, value, limit, failing, ~failing & (value < warns), unit)
+
+    def _contact(self) -> Findings:
+        """GL203: of helical pairs with a width the total contact ratio counts."""
+        limits = measured(CONTACT_RATIO.name, self.pairs, 0, self.spec.limits)
+        plain, total = self._spread(limits.value), self._spread(self.paths.total_contact_ratio)
+        helical = self._spread(self.pairs.helix_angle != 0.0) & np.isfinite(total)
+        found = self._below(CONTACT_RATIO.code, np.where(helical, total, plain), *limits[1:], "1")
+        alone = helical & ~found.fails & ~found.warns & (plain < 1.0)
+        self.near |= helical & _close(plain, 1.0)
+        value, limit = np.where(alone, plain, found.value), np.where(alone, 1.0, found.limit)
+        return Findings(found.code, value, limit, found.fails, found.warns | alone, "1")
+
+    def _sliding(self, gear: int) -> Findings:
+        given = self.spec.limits.sliding
+        limit = self._spread(UNUSUAL_SLIDING if given is None else given)
+        size = np.abs(self._spread(self.pairs.specific_sliding[gear]))
+        self.near |= _close(size, limit)
+        return Findings(SLIDING.code, size, limit, np.zeros(size.shape, dtype=bool), size > limit, "1")
+
+    def _fillet(self, gear: int) -> Findings:
+        """GL207: contact below the end of the flank."""
+        form = np.abs(self._spread(self.pairs.form_radius[gear]))
+        used = np.abs(self._spread(self.paths.used_root_radius[gear]))
+        left = self._spread(self.pairs.interference_margin[1 - gear])
+        beyond, margin = left <= 0.0, np.where(np.isnan(form), 0.0, used - form)
+        margin = np.where(beyond, np.minimum(margin, left), margin)
+        limit = self._spread(-FILLET_NOISE * self.pairs.module)
+        known = ~np.isnan(form)
+        bad = beyond | (known & (margin < limit))
+        self.near |= known & (_close(margin, limit) | _close(left, 0.0))
+        judged = beyond | (self.pairs.helix_angle != 0.0)
+        return Findings(FILLET.code, margin, limit, bad & judged, bad & ~judged, "mm")
+
+
+def _close(value: Any, limit: Any) -> Mask:
+    return np.asarray(np.abs(value - limit) <= _NEAR * np.maximum(1.0, np.maximum(np.abs(value), np.abs(limit))))

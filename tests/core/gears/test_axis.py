@@ -1,0 +1,150 @@
+"""Gear pairs over arrays against their class: refusals and statuses equal, values within 1e-9 of their size.
+
+Both forms share their formulas; what is left are the last bits of elementary functions, times the condition of a
+pressure angle near 0, and of the cut between fillet and involute.
+"""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import numpy as np
+import pytest
+from axes import agree, bits_stand_alone, sampled
+
+from gearlink.core.explore.chunks import chunk_of, together
+from gearlink.core.explore.preparing import problem
+from gearlink.core.study.spec import StudySpec
+
+BASE: dict[str, Any] = {"kind": "gear-pair", "module": 2, "teeth": [23, 48], "center_distance": 72}
+SHIFTED = {"kind": "gear-pair", "module": 2, "teeth": [23, 48], "profile_shift": [0.2, 0.1]}
+_OF_BOTH = (
+    *("profile_shift", "reference_radius", "base_radius", "working_radius", "tip_radius", "root_radius"),
+    *("tooth_thickness", "tip_pressure_angle", "tip_thickness", "min_shift_no_undercut", "span_measurement"),
+    *("span_teeth", "specific_sliding", "form_radius", "tip_clearance", "used_root_radius", "specific_sliding_tip"),
+    "sliding_factor",
+)
+QUANTITIES = [
+    *("contact_ratio", "working_pressure_angle", "center_distance", "reference_center_distance", "shift_sum"),
+    *("center_distance_modification", "tip_shortening", "transverse_pressure_angle", "base_helix_angle"),
+    *("path_of_contact", "usable_contact_ratio"),
+    *(f"{name}[{gear}]" for name in _OF_BOTH for gear in (0, 1)),
+]
+WIDE = [*QUANTITIES, "overlap_ratio", "total_contact_ratio"]
+TEETH = {"teeth[0]": {"from": 3, "to": 60}, "teeth[1]": {"from": 3, "to": 120}}
+STUDIES: dict[str, tuple[dict[str, Any], dict[str, Any], list[str]]] = {
+    "distance": (
+        BASE,
+        {
+            "teeth[0]": {"from": 12, "to": 30},
+            "teeth[1]": {"from": 36, "to": 60},
+            "center_distance": {"from": 66, "to": 78},
+        },
+        QUANTITIES,
+    ),
+    "distance, split": (
+        {**BASE, "face_width": [20, 18], "limits": {"undercut": 0.2, "tip_thickness": 0.3, "sliding": 2}},
+        {
+            "module": {"from": 1.8, "to": 2.2},
+            "shift_split": {"from": -1, "to": 1.2},
+            "center_distance": {"from": 66, "to": 78},
+        },
+        WIDE,
+    ),
+    "shifts": (
+        SHIFTED,
+        {**TEETH, "profile_shift[0]": {"from": -1.2, "to": 1.5}, "profile_shift[1]": {"from": -1.2, "to": 1.5}},
+        QUANTITIES,
+    ),
+    "profile": (
+        SHIFTED,
+        {
+            **TEETH,
+            "profile_shift[0]": {"from": -0.6, "to": 1},
+            "module": {"values": [0.3, 1, 2.5, 12]},
+            "pressure_angle": {"from": 12, "to": 32},
+            "addendum": {"from": 0.5, "to": 1.5},
+            "clearance": {"from": 0.02, "to": 0.4},
+        },
+        QUANTITIES,
+    ),
+    "helix": (
+        {**SHIFTED, "helix_angle": 15, "face_width": 20},
+        {
+            **TEETH,
+            "helix_angle": {"values": [0, 0, 5, 10.5, 20, 30, 45]},
+            "profile_shift[1]": {"from": -0.6, "to": 1},
+        },
+        WIDE,
+    ),
+    "helix, distance": (
+        {**BASE, "helix_angle": 10},
+        {"helix_angle": {"from": 0, "to": 30}, "center_distance": {"from": 70, "to": 80}},
+        QUANTITIES,
+    ),
+}
+
+
+@pytest.mark.parametrize("name", STUDIES)
+@pytest.mark.parametrize("count", [128, pytest.param(16384, marks=pytest.mark.slow)])
+def test_refusals_statuses_and_values_are_those_of_the_class(name: str, count: int) -> None:
+    base, variables, quantities = STUDIES[name]
+    agree(sampled(base, "gear", variables, quantities, count))
+
+
+@pytest.mark.parametrize("name", ["distance", "profile", "helix"])
+def test_no_bit_depends_on_the_neighbours(name: str) -> None:
+    base, variables, quantities = STUDIES[name]
+    bits_stand_alone(sampled(base, "gear", variables, quantities, 1024))
+
+
+@pytest.mark.parametrize("must_pass", ["none", ["GL201", "GL205"], ["GL210"], "all"])
+def test_a_design_is_refused_where_what_is_asked_for_needs_it(must_pass: Any) -> None:
+    data = {
+        "kind": "study",
+        "design": SHIFTED,
+        "variables": {
+            "teeth[1]": {"values": [9, 48, -90, 1]},
+            "profile_shift[0]": {"values": [-2.2, -1, 0, 1]},
+            "profile_shift[1]": {"values": [0.5, 2, 4.5]},
+        },
+        "minimize": {"base_radius[1]": 1, "shift_sum": 0.1},
+        "checks": {"must_pass": must_pass},
+    }
+    made = problem(StudySpec.model_validate_json(json.dumps(data)))
+    alone = problem(made.spec)
+    vars(alone)["axis"] = None
+    assert made.axis is not None
+    many, single = (together(each, (chunk_of(each, k) for k in range(each.chunks))) for each in (made, alone))
+    assert many.feasible == single.feasible
+    assert {name: (m.fails, m.alone, m.index) for name, m in many.misses.items()} == {
+        name: (m.fails, m.alone, m.index) for name, m in single.misses.items()
+    }
+    assert np.allclose(many.rows, single.rows, rtol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("change", "served"),
+    [
+        ({}, True),
+        ({"tip_shortening": "full"}, True),
+        ({"tip_shortening": "none"}, False),
+        ({"shift_split": "sliding"}, False),
+        ({"teeth": [23, -90], "center_distance": 66.5}, False),
+        ({"teeth": [23, "rack"], "center_distance": 23.5}, False),
+        ({"load": {"torque": 100}, "face_width": 20}, False),
+        ({"allowances": {"series": "25cd"}}, False),
+        ({"profile_shift": [0.2, 0.2]}, False),
+        ({"tool": {"addendum": 1.3}}, False),
+    ],
+)
+def test_what_the_form_has_not_is_left_to_the_class(change: dict[str, Any], served: bool) -> None:
+    data = {
+        "kind": "study",
+        "design": {**BASE, **change},
+        "variables": {"module": {"values": [2, 2.01]}},
+        "minimize": {"working_pressure_angle": 1},
+        "checks": {"must_pass": "none"},
+    }
+    assert (problem(StudySpec.model_validate_json(json.dumps(data))).axis is not None) is served

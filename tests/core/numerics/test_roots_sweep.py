@@ -1,0 +1,40 @@
+"""Roots of many functions at once: to a few ulp, each by itself."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from gearlink.core.numerics.roots import bracketed_root
+from gearlink.core.numerics.roots_sweep import bracketed_roots
+
+RNG = np.random.default_rng(3)
+
+
+@pytest.mark.parametrize("power", [1, 3, 9])
+def test_roots_are_those_of_one_at_a_time(power: int) -> None:
+    at = RNG.uniform(0.2, 0.9, 300)
+    found = bracketed_roots(lambda x: np.sin(x - at) * (1.0 + x**power), np.zeros(300), np.ones(300))
+    alone = [bracketed_root(lambda x, a=a: float(np.sin(x - a) * (1.0 + x**power)), 0.0, 1.0) for a in at]
+    assert np.abs(found - alone).max() < 4e-16
+    assert np.abs(found - at).max() < 4e-16
+
+
+def test_a_root_does_not_depend_on_the_others() -> None:
+    at = RNG.uniform(-2.0, 2.0, 200)
+    whole = bracketed_roots(
+        lambda x: np.tanh(5.0 * (x - at)) + 0.1 * (x - at) ** 3, np.full(200, -3.0), np.full(200, 3.0)
+    )
+    for k in range(0, 200, 17):
+        one = at[k : k + 1]
+        found = bracketed_roots(
+            lambda x, a=one: np.tanh(5.0 * (x - a)) + 0.1 * (x - a) ** 3, np.full(1, -3.0), np.full(1, 3.0)
+        )
+        assert found[0] == whole[k]
+
+
+def test_ends_that_are_roots_and_brackets_that_are_none() -> None:
+    low, high = np.array([0.0, -1.0, 1.0, -1.0]), np.array([1.0, 0.0, 2.0, np.nan])
+    found = bracketed_roots(lambda x: x, low, high)
+    assert found[:2].tolist() == [0.0, 0.0]
+    assert np.isnan(found[2:]).all()
