@@ -52,9 +52,17 @@ def read_spec(loaded: LoadedFile, kind: Kind, source: str) -> Any:
 
 
 def build(
-    loaded: LoadedFile, kind: Kind, command: str, spec: Any, options: Options, *, findings_only: bool = False
+    loaded: LoadedFile,
+    kind: Kind,
+    command: str,
+    spec: Any,
+    options: Options,
+    *,
+    findings_only: bool = False,
+    made: Design | None = None,
 ) -> tuple[Design, Report]:
-    """The design of a validated spec and its report; what the mechanism refuses becomes a located error."""
+    """The design of a validated spec (`made` already for another of its commands) and its report; what the mechanism
+    refuses becomes a located error."""
     only = options.candidates or (bool(options.tables) and options.format is Format.CSV)
     wanted = {
         "quantities": options.quantities,
@@ -65,7 +73,7 @@ def build(
         "findings_only": findings_only,
     }
     try:
-        design = kind.design(command, spec)
+        design = kind.design(command, spec) if made is None else made
         report = design.report(command, **wanted)  # type: ignore[arg-type]
     except NoSolution as error:
         raise DesignFileError([diagnose_no_solution(loaded, error)]) from error

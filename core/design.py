@@ -87,6 +87,7 @@ class Design:
     extra_tables: ClassVar[tuple[str, ...]] = ()
     page_tables: ClassVar[tuple[str, ...]] = ()  # extra ones that the page of `report` shows
     ways: ClassVar[Mapping[str, tuple[Way, ...]]] = {}
+    derived: ClassVar[frozenset[str]] = frozenset()  # quantities with a value or None wherever there is a mechanism
     advises = True
 
     def __init__(self, spec: Any) -> None:
@@ -201,13 +202,17 @@ class Design:
         return ()
 
     def require(self, command: str) -> None:
-        """Compute every quantity of a command: where no mechanism exists, one of them says so.
+        """Compute the decisive quantities of a command: where no mechanism exists, one of them says so.
 
         Raises
             NoSolution
         """
-        for name in self.outline(command).quantities:
+        for name in self.decisive(command):
             self.raw(name)
+
+    def decisive(self, command: str) -> Iterable[str]:
+        """The quantities of a command that may say that no mechanism exists."""
+        return (name for name in self.outline(command).quantities if name.rpartition(".")[2] not in self.derived)
 
     def report(
         self,

@@ -34,14 +34,21 @@ if TYPE_CHECKING:
 else:
 
     class cached_property(functools.cached_property):
-        """functools' own, which an observer may watch; a value that is kept is read without coming here."""
+        """functools' own without its lock, which an observer may watch; a kept value is read without coming here."""
 
         def __set_name__(self, owner: type, name: str) -> None:
             super().__set_name__(owner, name)
             self.label = f"{owner.__name__}.{name}"
 
         def __get__(self, instance: Any, owner: type | None = None) -> Any:
-            if _observer is None or instance is None:
-                return super().__get__(instance, owner)
+            if instance is None:
+                return self
+            kept = instance.__dict__
+            if self.attrname in kept:  # asked of the property itself, not through the instance
+                return kept[self.attrname]
+            if _observer is None:
+                value = kept[self.attrname] = self.func(instance)
+                return value
             with _observer(self.label):
-                return super().__get__(instance, owner)
+                value = kept[self.attrname] = self.func(instance)
+            return value

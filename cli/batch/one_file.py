@@ -18,6 +18,7 @@ from gearlink.cli.reading.loaded_file import LoadedFile, parse_path
 from gearlink.core.report import Remedy, Report
 
 if TYPE_CHECKING:
+    from gearlink.core.design import Design
     from gearlink.core.kinds import Kind
 
 
@@ -49,9 +50,15 @@ def _computed(path: Path, options: BatchOptions) -> Iterator[Outcome]:
         kind_name = kind.name
         spec = read_spec(loaded, kind, file)
         name = spec.name
+        designs: dict[Any, Design] = {}  # commands of one class share its results
         for command in (*spec.commands(), *_added(kind, spec, options)):
             try:
-                design, report = build(loaded, kind, command, spec, options.design, findings_only=options.findings_only)
+                cls = kind.class_for(command, spec)
+                made = designs.get(cls)
+                design, report = build(
+                    loaded, kind, command, spec, options.design, findings_only=options.findings_only, made=made
+                )
+                designs[cls] = design
                 if options.out is not None:
                     from gearlink.cli.batch.out import write_results
 

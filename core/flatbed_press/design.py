@@ -12,7 +12,7 @@ from gearlink.core.flatbed_press import checks, remedies, tables
 from gearlink.core.flatbed_press.cams import PressCams
 from gearlink.core.flatbed_press.motion import PressMotion
 from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantities, gear_quantity
-from gearlink.core.gears.drawing_names import DRAWING_CHECKS, DRAWING_QUANTITIES
+from gearlink.core.gears.drawing_names import DERIVED, DRAWING_CHECKS, DRAWING_QUANTITIES
 from gearlink.core.linkages.slider_crank_design import SLIDER_QUANTITIES, SliderCrankQuantities
 from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
@@ -71,6 +71,7 @@ class FlatbedPress(SliderCrankQuantities, GearQuantities, Design):
         "analyze": Outline(_PRESS_QUANTITIES, _PRESS_CHECKS, ("positions",)),
     }
 
+    derived = DERIVED
     extra_tables = ("chains", "drawing")
     trials = 30
     candidates, ways_of = remedies.candidates, remedies.ways_of

@@ -9,7 +9,7 @@ from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantities, gear_quantity
 from gearlink.core.gears.data import GearData
 from gearlink.core.gears.drawing_checks import pair_check
-from gearlink.core.gears.drawing_names import DRAWING_CHECKS, DRAWING_QUANTITIES
+from gearlink.core.gears.drawing_names import DERIVED, DRAWING_CHECKS, DRAWING_QUANTITIES
 from gearlink.core.gears.from_spec import data_of, pair_of
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.remedies import Way, down, either, shared, up
@@ -64,6 +64,7 @@ class GearPairDesign(GearQuantities, Design):
         "analyze": Outline((*GEAR_QUANTITIES, *DRAWING_QUANTITIES), (*GEAR_CHECKS, *DRAWING_CHECKS)),
     }
 
+    derived = DERIVED
     page_tables = ("drawing",)
     extra_tables = ("drawing", "path", "candidates", "contour", "margins")
 

@@ -49,4 +49,6 @@ PLACES = {
 }
 """Where each quantity of a drawing stands in a GearData."""
 DRAWING_QUANTITIES = tuple(PLACES)
+DERIVED = frozenset(DRAWING_QUANTITIES) - {"usable_contact_ratio", "span_measurement_limits", "backlash_normal"}
+"""Those of them that refuse nothing: they have a value or None wherever the others, teeth and checks have one."""
 DRAWING_CHECKS = ("tip-fouling", "radial-assembly", "fillet-interference", "backlash", "pitting", "bending")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from bisect import bisect_left
 from dataclasses import dataclass
 
 from gearlink.core.errors import NoSolution
@@ -69,8 +70,13 @@ class Ball:
     def contact_radius(self) -> float:
         """r_M, on which the ball touches: tan(alpha_M) = tan(alpha_K) - D cos(beta_b)/(2 r_b)."""
         base = self.pair.base_radius[self.gear]
-        lost = self.diameter * math.cos(self.pair.base_helix_angle) / (2.0 * base)
-        return math.copysign(math.hypot(base, base * (math.tan(self.pressure_angle) - lost)), base)
+        return math.copysign(math.hypot(base, base * self.roll), base)
+
+    @cached_property
+    def roll(self) -> float:
+        """tan(alpha_M); negative where the ball would touch inside the base circle."""
+        lost = self.diameter * math.cos(self.pair.base_helix_angle) / (2.0 * self.pair.base_radius[self.gear])
+        return math.tan(self.pressure_angle) - lost
 
     @property
     def over_balls(self) -> float:
@@ -97,13 +103,18 @@ def preferred_pin(pair: GearPair, gear: int) -> float | None:
         3.5
     """
     wanted = pair.reference_radius[gear] + pair.module * pair.profile_shift[gear]
-    found: list[tuple[float, float]] = []
-    for diameter in PREFERRED_PINS:
+
+    def contact(diameter: float) -> float:
+        """Signed radius of the contact, which rises with the diameter; beyond all radii where the ball falls through."""
+        ball = Ball(pair=pair, gear=gear, diameter=diameter)
         try:
-            contact = Ball(pair=pair, gear=gear, diameter=diameter).contact_radius
+            return ball.contact_radius if ball.roll >= 0.0 else -ball.contact_radius
         except NoSolution:
-            continue
-        found.append((abs(contact - wanted), diameter))
+            return -math.inf if pair.teeth[gear] > 0 else math.inf
+
+    place = bisect_left(PREFERRED_PINS, wanted, key=contact)
+    near = PREFERRED_PINS[max(place - 1, 0) : place + 1]
+    found = [(abs(abs(radius) - abs(wanted)), pin) for pin in near if math.isfinite(radius := contact(pin))]
     return min(found)[1] if found else None
 
 
