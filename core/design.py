@@ -207,8 +207,13 @@ class Design:
         Raises
             NoSolution
         """
-        for name in self.decisive(command):
+        names = tuple(self.decisive(command))
+        self.prepare(names)
+        for name in names:
             self.raw(name)
+
+    def prepare(self, quantities: Iterable[str], /) -> None:
+        """Compute what these quantities share, where that takes less than one after the other; refuse nothing."""
 
     def decisive(self, command: str) -> Iterable[str]:
         """The quantities of a command that may say that no mechanism exists."""
@@ -246,6 +251,7 @@ class Design:
         if findings_only:
             self.require(command)
         else:
+            self.prepare(outline.quantities)
             found = [self.quantity(name) for name in outline.quantities]
         checks = [check for name in outline.checks for check in self.findings(command, name)]
         return Report(

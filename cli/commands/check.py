@@ -66,6 +66,7 @@ def _findings(loaded: LoadedFile, kind: Kind, spec: Any) -> Iterator[Finding]:
         try:
             design = designs.setdefault(cls, kind.design(command, spec))
             outline = design.outline(command)
+            design.prepare(outline.quantities)
             names = [name for name in outline.checks if (cls, name) not in done]
             done |= {(cls, name) for name in names}
             for check in (check for name in names for check in design.findings(command, name)):

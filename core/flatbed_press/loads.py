@@ -18,9 +18,12 @@ from gearlink.core.loads.design import loads_outline
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
     from gearlink.core.flatbed_press.chains import Travel
     from gearlink.core.flatbed_press.loads_spec import PressLoads as Section
     from gearlink.core.flatbed_press.spec import FlatbedPressSpec
+    from gearlink.core.loads.base import Wanted
     from gearlink.core.loads.cam_contact import RollerOnCam
     from gearlink.core.loads.kinematics import Turn
     from gearlink.core.loads.mechanism import Connection, Link, Mechanism
@@ -105,15 +108,16 @@ class PressLoads(CamLoadsDesign):
             raise MissingSection(
                 "`loads` of a press needs the section cam: its follower moves the lower rack", key="cam"
             )
-        links = self._bed_chain(phi)
-        connections = [*self._bed_joints(links), *self._follower(links)]
+        links, cam = self._bed_chain(phi)
+        connections = [*self._bed_joints(links), *self._follower(links, cam)]
         connections += self._cylinder_chain(links, phi)
         drive, sense = ("gear2", 1.0) if self.section.drive_gear == 2 else ("gear1", -1.0)
         return Mechanism(links, connections, drive, sense, travel=dict.fromkeys(self.sliding, 1j))
 
     # Bed
 
-    def _bed_chain(self, phi: Reals) -> dict[str, Link]:
+    def _bed_chain(self, phi: Reals) -> tuple[dict[str, Link], Travel]:
+        """The links from gear 2 to the bed, and the lift of the follower."""
         from gearlink.core.linkages import fourbar_sweep
         from gearlink.core.loads.kinematics import Point, Turn, carried, fixed, slider, standing, steady
         from gearlink.core.loads.mechanism import Link
@@ -138,7 +142,7 @@ class PressLoads(CamLoadsDesign):
         travel = [2.0 * part.imag - value for part, value in zip(f, lift, strict=True)]
         bed_at = Point(*(np_real(part) + 1j * t for part, t in zip((f.value + r8, 0.0, 0.0), travel, strict=True)))
         pinion = Turn(*((part.imag - value) / r8 for part, value in zip(f, lift, strict=True)))
-        return {
+        links = {
             "gear2": gear2,
             "BC": Link(gear2.at(four.crank * _MM), coupler),
             "CDE": Link(pivot, rocker),
@@ -148,6 +152,7 @@ class PressLoads(CamLoadsDesign):
             "rack": Link(rack, still),
             "bed": Link(bed_at, still),
         }
+        return links, cam
 
     def _bed_joints(self, links: dict[str, Link]) -> list[Connection]:
         from gearlink.core.loads.mechanism import FRAME, Guide, Pin, Rack
@@ -167,14 +172,12 @@ class PressLoads(CamLoadsDesign):
             Rack("rack_upper", "bed", "pinion", f, -1j, -1.0 + 0j, r8, tangent),
         ]
 
-    def _follower(self, links: dict[str, Link]) -> list[Connection]:
+    def _follower(self, links: dict[str, Link], cam: Travel) -> list[Connection]:
         """The roller of the rack's follower on the cams, one force: positive on the main cam, negative on the other."""
         import numpy as np
 
         from gearlink.core.loads.mechanism import Contact
 
-        turn = links["CDE"].turn
-        cam = self.lift(turn.value - self.design.bed.cam_angle_start)
         rho = (self.design.cams.base_radius + cam.value) * _MM
         normal = (rho + 1j * cam.first * _MM) * 1j / np.hypot(rho, cam.first * _MM)
         axis = links["CDE"].origin.value
@@ -238,15 +241,24 @@ class PressLoads(CamLoadsDesign):
         """Least preload that keeps both rollers on their cams [N]; equal stiffness where the file gives none."""
         if self.section.roller is None:
             return None
+        return self.extreme_of("preload").value
+
+    def _needed(self, phi: Reals) -> Reals:
+        import numpy as np
+
         share = self._stiffness[0] / sum(self._stiffness)
+        net: Reals = self.machine.reactions(phi).unknowns["cam"][0]
+        return np.asarray(np.maximum(net * (1.0 - share), -net * share))
 
-        def needed(phi: Reals) -> Reals:
-            import numpy as np
+    def course(self, name: str) -> Callable[[Reals], Reals]:
+        """The preload that an input angle needs as well."""
+        return self._needed if name == "preload" else super().course(name)
 
-            net: Reals = self.machine.reactions(phi).unknowns["cam"][0]
-            return np.asarray(np.maximum(net * (1.0 - share), -net * share))
-
-        return self.extreme(needed).value
+    def wanted(self, quantity: str) -> Iterable[Wanted]:
+        """The extremes that a quantity needs."""
+        if quantity == "preload_needed" and self.section.roller is not None:
+            return (("preload", True),)
+        return super().wanted(quantity)
 
     def cam_speed(self, phi: Reals) -> Reals:
         """Speed of CDE [rad/s]."""

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, ClassVar
+from collections.abc import Callable, Iterable
+from contextlib import suppress
+from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 
 from gearlink.core.design import Design, placed
-from gearlink.core.errors import MissingSection, NoSolution
+from gearlink.core.errors import GearlinkError, MissingSection, NoSolution
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
@@ -21,6 +22,14 @@ if TYPE_CHECKING:
 
 RPM = 2.0 * math.pi / 60.0
 _SLOWEST = 1e-6
+_OF_TORQUE = frozenset(
+    (
+        "input_torque_mean", "input_torque_max", "input_torque_max_at", "input_torque_min", "input_torque_min_at",
+        "input_power_mean", "input_power_peak", "torque_reversals",
+    )
+)  # fmt: skip
+Wanted: TypeAlias = tuple[str, bool]
+"""A course by name, and whether its greatest value is wanted or its least."""
 
 
 class LoadsBase(Design):
@@ -160,17 +169,46 @@ class LoadsBase(Design):
 
     def extreme(self, f: Callable[[Reals], Reals], greatest: bool = True) -> Extreme:
         """Greatest or least value over the period of a function of the input angle, refined."""
-        from gearlink.core.numerics.extremes import maximum_over, minimum_over
+        return self._extremes([(f, greatest)])[0]
+
+    def _extremes(self, wanted: list[tuple[Callable[[Reals], Reals], bool]]) -> list[Extreme]:
+        from gearlink.core.numerics.extremes import extremes_over
 
         machine = self.machine
-        search = maximum_over if greatest else minimum_over
-        return search(f, 0.0, machine.period, joints=machine.breaks, samples=360 * self.turns)
+        return extremes_over(wanted, 0.0, machine.period, joints=machine.breaks, samples=360 * self.turns)
+
+    @cached_property
+    def _found(self) -> dict[Wanted, Extreme]:
+        """Extremes of courses that were asked for."""
+        return {}
+
+    def extreme_of(self, course: str, greatest: bool = True) -> Extreme:
+        """Greatest or least value over the period of a `course`."""
+        if (course, greatest) not in self._found:
+            self._found[course, greatest] = self.extreme(self.course(course), greatest)
+        return self._found[course, greatest]
+
+    def course(self, name: str) -> Callable[[Reals], Reals]:
+        """A function of the input angle whose extremes are results, by name."""
+        return self.machine.torque if name == "torque" else lambda phi: self.machine.reduced(phi).inertia
+
+    def wanted(self, quantity: str) -> Iterable[Wanted]:
+        """The extremes that a quantity needs."""
+        if quantity in _OF_TORQUE:
+            return ("torque", False), ("torque", True)
+        return (("inertia", quantity.endswith("max")),) if quantity.startswith("reflected_inertia_m") else ()
+
+    def prepare(self, quantities: Iterable[str]) -> None:
+        """Search the extremes of these quantities together: the links are computed once for all that looks at them."""
+        with suppress(GearlinkError):  # it is said where the quantity is asked for
+            wanted = dict.fromkeys(key for name in quantities for key in self.wanted(name) if key not in self._found)
+            found = self._extremes([(self.course(course), greatest) for course, greatest in wanted])
+            self._found.update(zip(wanted, found, strict=True))
 
     @cached_property
     def torque_range(self) -> tuple[Extreme, Extreme]:
         """Least and greatest input torque [N m], with their places."""
-        torque = self.machine.torque
-        return self.extreme(torque, False), self.extreme(torque)
+        return self.extreme_of("torque", False), self.extreme_of("torque")
 
     @property
     def input_torque_max(self) -> float:
@@ -228,12 +266,12 @@ class LoadsBase(Design):
     @property
     def reflected_inertia_max(self) -> float:
         """Greatest reflected inertia [kg m^2]."""
-        return self.extreme(lambda phi: self.machine.reduced(phi).inertia).value
+        return self.extreme_of("inertia").value
 
     @property
     def reflected_inertia_min(self) -> float:
         """Least reflected inertia [kg m^2]."""
-        return self.extreme(lambda phi: self.machine.reduced(phi).inertia, False).value
+        return self.extreme_of("inertia", False).value
 
     @property
     def reflected_inertia_mean(self) -> float:

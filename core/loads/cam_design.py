@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from functools import partial
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from gearlink.core.loads import cam_checks, cam_tables
@@ -11,6 +12,7 @@ from gearlink.core.loads.design import LoadsDesign
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
+    from gearlink.core.loads.base import Wanted
     from gearlink.core.loads.cam_contact import LineContact, RollerOnCam
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.numerics.extremes import Extreme
@@ -29,6 +31,7 @@ CONTACT = (
     "cam_torque_rms",
     "preload_needed",
 )
+_OF_EXTREMES = frozenset(CONTACT) - {"traction_needed", "cam_torque_rms", "preload_needed"}
 _RPM = 2.0 * math.pi / 60.0
 
 
@@ -87,13 +90,55 @@ class CamLoadsDesign(LoadsDesign):
         modulus = plane_modulus(material.modulus, material.poisson)
         return LineContact(self.contact_force(name, phi), radius, self.section.roller.width, modulus)
 
-    def _each(self, f: Callable[[str, Reals], Reals], greatest: bool = True) -> list[Extreme]:
-        return [self.extreme(lambda phi, name=name: f(name, phi), greatest) for name in self.own_rollers]  # type: ignore[misc]
+    def course(self, name: str) -> Callable[[Reals], Reals]:
+        """Those of the rollers as well, `contact_force:main`."""
+        what, _, roller = name.partition(":")
+        if what == "cam_torque":
+            return self.cam_torque
+        return partial(self._of_roller(what), roller) if roller else super().course(name)
+
+    def _of_roller(self, what: str) -> Callable[[str, Reals], Reals]:
+        return {
+            "contact_force": self.contact_force,
+            "hertz_pressure": self._pressure,
+            "shear_depth": self._depth,
+            "roller_speed": lambda name, phi: abs(self.roller_speed(name, phi)),
+            "roller_acceleration": lambda name, phi: abs(self.roller_acceleration(name, phi)),
+            "entrainment_speed": lambda name, phi: abs(self.entrainment(name, phi)),
+        }[what]
+
+    def wanted(self, quantity: str) -> Iterable[Wanted]:
+        """The extremes that a quantity needs."""
+        if quantity not in _OF_EXTREMES:
+            return super().wanted(quantity)
+        course, greatest = quantity.removesuffix("_max").removesuffix("_min"), not quantity.endswith("_min")
+        if course == "cam_torque":
+            return ((course, greatest),)
+        if course in ("hertz_pressure", "shear_depth") and self.section.roller is None:
+            return ()
+        return [(f"{course}:{name}", greatest) for name in self.own_rollers]
+
+    def _each(self, course: str, greatest: bool = True) -> list[Extreme]:
+        return [self.extreme_of(f"{course}:{name}", greatest) for name in self.own_rollers]
+
+    def _pressure(self, name: str, phi: Reals) -> Reals:
+        import numpy as np
+
+        contact = self.contact(name, phi)
+        assert contact is not None, "asked for only with a width"
+        return np.nan_to_num(contact.pressure, nan=-1.0)
+
+    def _depth(self, name: str, phi: Reals) -> Reals:
+        import numpy as np
+
+        contact = self.contact(name, phi)
+        assert contact is not None, "asked for only with a width"
+        return np.nan_to_num(contact.shear_depth, nan=-1.0)
 
     @cached_property
     def force_extremes(self) -> list[tuple[Extreme, Extreme]]:
         """Least and greatest force of each roller [N]."""
-        return list(zip(self._each(self.contact_force, False), self._each(self.contact_force), strict=True))
+        return list(zip(self._each("contact_force", False), self._each("contact_force"), strict=True))
 
     @property
     def contact_force_max(self) -> list[float]:
@@ -108,16 +153,7 @@ class CamLoadsDesign(LoadsDesign):
     @cached_property
     def pressure_extremes(self) -> list[Extreme] | None:
         """Greatest Hertzian pressure of each roller [N/mm^2]; None without a width."""
-        if self.section.roller is None:
-            return None
-        import numpy as np
-
-        def pressure(name: str, phi: Reals) -> Reals:
-            contact = self.contact(name, phi)
-            assert contact is not None, "asked for only with a width"
-            return np.nan_to_num(contact.pressure, nan=-1.0)
-
-        return self._each(pressure)
+        return None if self.section.roller is None else self._each("hertz_pressure")
 
     @property
     def hertz_pressure_max(self) -> list[float] | None:
@@ -128,16 +164,7 @@ class CamLoadsDesign(LoadsDesign):
     @cached_property
     def shear_depth(self) -> list[float] | None:
         """Greatest depth of the greatest shear stress [mm]."""
-        if self.section.roller is None:
-            return None
-        import numpy as np
-
-        def depth(name: str, phi: Reals) -> Reals:
-            contact = self.contact(name, phi)
-            assert contact is not None, "asked for only with a width"
-            return np.nan_to_num(contact.shear_depth, nan=-1.0)
-
-        return [each.value for each in self._each(depth)]
+        return None if self.section.roller is None else [each.value for each in self._each("shear_depth")]
 
     def roller_speed(self, name: str, phi: Reals) -> Reals:
         """Speed of a roller that rolls [rad/s]."""
@@ -153,12 +180,12 @@ class CamLoadsDesign(LoadsDesign):
     @property
     def roller_speed_max(self) -> list[float]:
         """Greatest speed of each roller [1/min]."""
-        return [each.value / _RPM for each in self._each(lambda name, phi: abs(self.roller_speed(name, phi)))]
+        return [each.value / _RPM for each in self._each("roller_speed")]
 
     @property
     def roller_acceleration_max(self) -> list[float]:
         """Greatest angular acceleration of each roller [rad/s^2]."""
-        return [each.value for each in self._each(lambda name, phi: abs(self.roller_acceleration(name, phi)))]
+        return [each.value for each in self._each("roller_acceleration")]
 
     def entrainment(self, name: str, phi: Reals) -> Reals:
         """Speed of both surfaces through the contact [mm/s]."""
@@ -168,7 +195,7 @@ class CamLoadsDesign(LoadsDesign):
     @property
     def entrainment_speed_max(self) -> list[float]:
         """Greatest entrainment speed of each roller [mm/s]."""
-        return [each.value for each in self._each(lambda name, phi: abs(self.entrainment(name, phi)))]
+        return [each.value for each in self._each("entrainment_speed")]
 
     def traction(self, name: str, phi: Reals) -> Reals:
         """Share of the contact force that drives the roller round, |J_r dw/dt| and the bearing's moment."""
@@ -204,12 +231,12 @@ class CamLoadsDesign(LoadsDesign):
     @cached_property
     def cam_torque_max(self) -> float:
         """Greatest torque on the cams, counter-clockwise [N m]."""
-        return self.extreme(self.cam_torque).value
+        return self.extreme_of("cam_torque").value
 
     @cached_property
     def cam_torque_min(self) -> float:
         """Least torque on the cams, counter-clockwise [N m]."""
-        return self.extreme(self.cam_torque, False).value
+        return self.extreme_of("cam_torque", False).value
 
     @cached_property
     def cam_torque_rms(self) -> float:

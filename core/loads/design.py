@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import cmath
 import math
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from gearlink.core.design import Outline
-from gearlink.core.errors import MissingSection
+from gearlink.core.errors import GearlinkError, MissingSection
 from gearlink.core.loads import checks, tables, vibration_checks
 from gearlink.core.loads.base import RPM, LoadsBase
 from gearlink.core.loads.vibration_checks import VIBRATION_CHECKS
@@ -16,8 +17,9 @@ from gearlink.core.report import Quantity
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable
 
+    from gearlink.core.loads.base import Wanted
     from gearlink.core.loads.vibrating import Vibrating
     from gearlink.core.numerics.arrays import Reals
 
@@ -108,15 +110,33 @@ class LoadsDesign(LoadsBase):
 
     # Frame and joints
 
+    def course(self, name: str) -> Callable[[Reals], Reals]:
+        """Shaking and the forces of the joints as well."""
+        if name in ("shaking_force", "shaking_moment"):
+            part = 0 if name == "shaking_force" else 1
+            return lambda phi: abs(self.shaking(phi)[part])
+        joint = self.pin(name.removeprefix("pin_")) or self.mesh(name)
+        size: Callable[[Reals], Reals] | None = getattr(joint, "size", None)
+        return size or super().course(name)
+
+    def wanted(self, quantity: str) -> Iterable[Wanted]:
+        """The extremes that a quantity needs."""
+        joint, dot, of_joint = quantity.partition(".")
+        if not dot:
+            return ((quantity.removesuffix("_max"), True),) if quantity in FRAME else super().wanted(quantity)
+        pin = self.pin(joint.removeprefix("pin_"))
+        known = self.has(joint) if pin is None else pin.known and of_joint != "travel"
+        return ((joint, True),) if known else ()
+
     @cached_property
     def shaking_force_max(self) -> float:
         """Greatest shaking force [N]."""
-        return self.extreme(lambda phi: abs(self.shaking(phi)[0])).value
+        return self.extreme_of("shaking_force").value
 
     @cached_property
     def shaking_moment_max(self) -> float:
         """Greatest magnitude of the shaking moment about the input's pivot [N m]."""
-        return self.extreme(lambda phi: abs(self.shaking(phi)[1])).value
+        return self.extreme_of("shaking_moment").value
 
     def shaking(self, phi: Reals) -> Any:
         """Force and moment of the masses on the frame."""
@@ -129,6 +149,18 @@ class LoadsDesign(LoadsBase):
     def limit(self, name: str) -> float:
         """A limit of the file."""
         return float(getattr(self.spec.limits, name))
+
+    def prepare(self, quantities: Iterable[str]) -> None:
+        """Search extremes together, and then the reversals of pins, and those of meshes."""
+        from gearlink.core.loads.joints import find_reversals
+
+        names = tuple(quantities)
+        super().prepare(names)
+        with suppress(GearlinkError):  # it is said where the quantity is asked for
+            asked = [name.partition(".") for name in names]
+            pins = [self.pin(joint[4:]) for joint, _, name in asked if name in ("equivalent", "travel", "life")]
+            meshes = [self.mesh(joint) for joint, _, name in asked if name == "reversals"]
+            find_reversals(self.machine, [pin for pin in pins if pin], [mesh for mesh in meshes if mesh])
 
     @property
     def quiet_zones(self) -> list[tuple[float, float]]:

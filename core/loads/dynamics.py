@@ -158,13 +158,12 @@ class System:
 
     def matrix(self, rows: Rows) -> Reals:
         """The equations of some of the input angles, (rows, n, n)."""
-        found = np.zeros((len(rows), self.size, self.size))
+        found = np.zeros((self.size, self.size, len(rows)))  # input angles last: each entry is a row in the memory
         for k, (_, column) in enumerate(self.columns):
-            entries = found[:, :, k].T
-            self._put(entries, column.first, column.second, column.force, column.at, column.couple, rows)
+            self._put(found[k], column.first, column.second, column.force, column.at, column.couple, rows)
             for act in column.also:
-                self._put(entries, FRAME, act.on, act.force, act.at, act.couple, rows)
-        return found
+                self._put(found[k], FRAME, act.on, act.force, act.at, act.couple, rows)
+        return found.transpose(2, 1, 0)
 
     def _put(
         self,

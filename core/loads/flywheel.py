@@ -13,7 +13,7 @@ import numpy as np
 
 from gearlink.core.loads.machine import NODES, Machine, Panels
 from gearlink.core.numerics.arrays import Reals
-from gearlink.core.numerics.extremes import Extreme, maximum_over, minimum_over
+from gearlink.core.numerics.extremes import Extreme, extremes_over
 
 _STEPS = 30
 Function = Callable[[Reals], Reals]
@@ -81,16 +81,21 @@ class Energy:
         load = self.load(nodes.ravel()).reshape(nodes.shape)
         return np.asarray(self.running[row] + width * ((self.mean - load) @ weights))
 
-    def extreme(self, f: Function, greatest: bool) -> Extreme:
-        """Greatest or least value of a function over the period, refined."""
-        end = float(self.panels.edges[-1])
-        search = maximum_over if greatest else minimum_over
-        return search(f, 0.0, end, joints=self.breaks, samples=max(180, 2 * (len(self.panels.edges) - 1)))
+    def extremes(self, *wanted: tuple[Function, bool]) -> list[Extreme]:
+        """Greatest or least values of functions over the period, refined."""
+        end, samples = float(self.panels.edges[-1]), max(180, 2 * (len(self.panels.edges) - 1))
+        return extremes_over(wanted, 0.0, end, joints=self.breaks, samples=samples)
 
     @cached_property
+    def range(self) -> tuple[float, float]:
+        """Least and greatest surplus [J]."""
+        least, greatest = self.extremes((self.surplus, False), (self.surplus, True))
+        return least.value, greatest.value
+
+    @property
     def fluctuation(self) -> float:
         """Greatest less least surplus [J]."""
-        return self.extreme(self.surplus, True).value - self.extreme(self.surplus, False).value
+        return self.range[1] - self.range[0]
 
     def flywheel_for(self, fluctuation: float, speed: float, more: float = 0.0) -> float:
         """Least flywheel that keeps the speed within a share of its mean [kg m^2].
@@ -115,9 +120,11 @@ class Energy:
             energy over the period; own derivation of the form with variable inertia
         """
         fast, slow = (0.5 * (speed * (1.0 + sign * 0.5 * fluctuation)) ** 2 for sign in (1.0, -1.0))
-        top = self.extreme(lambda phi: self.surplus(phi) - fast * self.inertia(phi), True).value
-        bottom = self.extreme(lambda phi: self.surplus(phi) - slow * self.inertia(phi), False).value
-        return max(0.0, (top - bottom) / (fluctuation * speed * speed) - more)
+        top, bottom = self.extremes(
+            (lambda phi: self.surplus(phi) - fast * self.inertia(phi), True),
+            (lambda phi: self.surplus(phi) - slow * self.inertia(phi), False),
+        )
+        return max(0.0, (top.value - bottom.value) / (fluctuation * speed * speed) - more)
 
     def run(self, flywheel: float, speed: float) -> SteadyRun | None:
         """The periodic run with a given flywheel, its mean of greatest and least speed as asked; None: it stops.
@@ -126,8 +133,8 @@ class Energy:
             flywheel : float [kg m^2] - all constant inertia on the input
             speed : float [rad/s] - w_m > 0
         """
-        floor = -self.extreme(self.surplus, False).value
-        energy = 0.5 * (self.extreme(self.inertia, True).value + flywheel) * speed**2 + self.fluctuation
+        floor = -self.range[0]
+        energy = 0.5 * (self.extremes((self.inertia, True))[0].value + flywheel) * speed**2 + self.fluctuation
         least = 1e-12 * energy
         if energy <= 0.0 or sum(SteadyRun(self, flywheel, floor + least).range) >= 2.0 * speed:
             return None
@@ -172,7 +179,8 @@ class SteadyRun:
     @cached_property
     def extremes(self) -> tuple[Extreme, Extreme]:
         """Least and greatest speed [rad/s] with their places."""
-        return self.energy.extreme(self.speed, False), self.energy.extreme(self.speed, True)
+        least, greatest = self.energy.extremes((self.speed, False), (self.speed, True))
+        return least, greatest
 
     @property
     def range(self) -> tuple[float, float]:

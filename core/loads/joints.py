@@ -7,13 +7,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.core.loads.machine import zeros
+from gearlink.core.loads.machine import zeros, zeros_of
 from gearlink.core.loads.mechanism import Pin, ToothDrive, rates
-from gearlink.core.loads.reversals import places
+from gearlink.core.loads.reversals import places, places_of
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from gearlink.core.loads.design import LoadsDesign
+    from gearlink.core.loads.machine import Machine
     from gearlink.core.loads.spec import Bearing
     from gearlink.core.numerics.arrays import Points, Reals
 
@@ -36,6 +39,10 @@ class PinLoad:
         """Force on the second link [N]."""
         return self.design.machine.reactions(phi).force(self.name)
 
+    def size(self, phi: Reals) -> Reals:
+        """Its magnitude [N]."""
+        return np.asarray(np.abs(self.force(phi)))
+
     def rate(self, phi: Reals) -> Reals:
         """Relative turning per input angle."""
         mechanism = self.design.machine.at(phi)
@@ -51,7 +58,7 @@ class PinLoad:
     @cached_property
     def peak(self) -> float | None:
         """Greatest force [N]."""
-        return self.design.extreme(lambda phi: np.abs(self.force(phi))).value if self.known else None
+        return self.design.extreme_of(f"pin_{self.name}").value if self.known else None
 
     @cached_property
     def reversals(self) -> list[float]:
@@ -147,6 +154,10 @@ class MeshLoad:
         share = mesh.moves if isinstance(mesh, ToothDrive) else 1.0
         return np.asarray(found.unknowns[self.name][0] * share)
 
+    def size(self, phi: Reals) -> Reals:
+        """Its magnitude [N]."""
+        return np.asarray(np.abs(self.force(phi)))
+
     @cached_property
     def radius(self) -> float:
         """Pitch radius of the second gear [m]."""
@@ -156,7 +167,7 @@ class MeshLoad:
     @cached_property
     def tooth_force_max(self) -> float:
         """Greatest magnitude of the tangential force [N]."""
-        return self.design.extreme(lambda phi: np.abs(self.force(phi))).value
+        return self.design.extreme_of(self.name).value
 
     @cached_property
     def reversal_places(self) -> list[float]:
@@ -167,3 +178,13 @@ class MeshLoad:
     def reversals(self) -> int:
         """How often the teeth change flanks over the period."""
         return len(self.reversal_places)
+
+
+def find_reversals(machine: Machine, pins: Sequence[PinLoad], meshes: Sequence[MeshLoad]) -> None:
+    """Search the reversals of pins together, and the changes of flanks of meshes, and keep them there."""
+    turning = [pin for pin in dict.fromkeys(pins) if pin.known and "reversals" not in vars(pin)]
+    for pin, found in zip(turning, zeros_of([pin.rate for pin in turning], machine.period, machine.turns), strict=True):
+        vars(pin)["reversals"] = found
+    rolling = [mesh for mesh in dict.fromkeys(meshes) if "reversal_places" not in vars(mesh)]
+    for mesh, found in zip(rolling, places_of([(m.force, m.tooth_force_max) for m in rolling], machine), strict=True):
+        vars(mesh)["reversal_places"] = found

@@ -21,6 +21,7 @@ from gearlink.core.loads.kinematics import dot
 from gearlink.core.loads.mechanism import Mechanism
 from gearlink.core.loads.sources import Sources
 from gearlink.core.numerics.arrays import Reals
+from gearlink.core.numerics.together import Search, together
 
 Kinematics: TypeAlias = Callable[[Reals], Mechanism]
 TURN = 2.0 * math.pi
@@ -145,8 +146,8 @@ class Machine:
     def _turning_back(self) -> list[float]:
         """Where a link with resistance, or with friction two links against each other, turn back."""
         found: list[float] = []
-        for rate in self._jumping_rates():
-            found += zeros(rate, self.period, self.turns)
+        for places in zeros_of(self._jumping_rates(), self.period, self.turns):
+            found += places
         return found
 
     def _jumping_rates(self) -> list[Callable[[Reals], Reals]]:
@@ -229,8 +230,17 @@ def zeros(f: Callable[[Reals], Reals], period: float, turns: int = 1) -> list[fl
     Notes
         Brackets from 720 rows a turn; a zero that is touched without a change of sign is none.
     """
+    return zeros_of([f], period, turns)[0]
+
+
+def zeros_of(functions: Sequence[Callable[[Reals], Reals]], period: float, turns: int = 1) -> list[list[float]]:
+    """The zeros of several functions, searched together."""
+    return together(functions, [_zeros(period, turns) for _ in functions])
+
+
+def _zeros(period: float, turns: int) -> Search[list[float]]:
     grid = np.linspace(0.0, period, 720 * turns + 1)
-    values = f(grid)
+    values = yield grid
     rows = np.flatnonzero((values[:-1] > 0.0) != (values[1:] > 0.0))
     if rows.size == 0:
         return []
@@ -240,7 +250,7 @@ def zeros(f: Callable[[Reals], Reals], period: float, turns: int = 1) -> list[fl
         # Illinois' false position, halved every third time, so that a jump is found as well.
         share = f_low / (f_low - f_high) if step % 3 else np.full_like(low, 0.5)
         place = low + (high - low) * np.clip(np.nan_to_num(share, nan=0.5), 0.0, 1.0)
-        value = f(place)
+        value = yield place
         after = (value > 0.0) == up
         f_high = np.where(after, value, 0.5 * f_high)
         f_low = np.where(after, 0.5 * f_low, value)

@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import TypeAlias
 
 import numpy as np
 
-from gearlink.core.loads.machine import Machine, zeros
+from gearlink.core.loads.machine import Machine, zeros_of
 from gearlink.core.numerics.arrays import Reals
+
+Function: TypeAlias = Callable[[Reals], Reals]
 
 # A value below this share of the largest is rounding: it has no sign.
 NOISE = 1e-11
 _STEP = 1e-6
 
 
-def places(f: Callable[[Reals], Reals], machine: Machine, size: float) -> list[float]:
+def places(f: Function, machine: Machine, size: float) -> list[float]:
     """Input angles where a function changes its sign, jumps across zero among them [rad].
 
     Parameters
@@ -22,27 +26,40 @@ def places(f: Callable[[Reals], Reals], machine: Machine, size: float) -> list[f
         machine : Machine - gives the period
         size : float - largest magnitude of f; what stays below 1e-11 of it has no sign
     """
-    if size == 0.0:
-        return []
-    found = zeros(lambda phi: _without_noise(f(phi), size), machine.period, machine.turns)
-    if not found or min(found[0], machine.period - found[-1]) > _STEP:
-        # The ends of the period are one place: a sign that changes there is seen from neither side.
-        first, last = f(np.array([_STEP, machine.period - _STEP]))
-        if first * last < 0.0 and min(abs(first), abs(last)) > NOISE * size:
-            found.insert(0, 0.0)
-    return [place for place in found if _changes(f, place, size)]
+    return places_of([(f, size)], machine)[0]
 
 
-def sign_changes(f: Callable[[Reals], Reals], machine: Machine, size: float) -> int:
+def places_of(functions: Sequence[tuple[Function, float]], machine: Machine) -> list[list[float]]:
+    """Those of several functions, searched together."""
+    loaded = [k for k, (_, size) in enumerate(functions) if size != 0.0]
+    signs = [partial(_without_noise, *functions[k]) for k in loaded]
+    found: list[list[float]] = [[] for _ in functions]
+    for k, zeros in zip(loaded, zeros_of(signs, machine.period, machine.turns), strict=True):
+        f, size = functions[k]
+        if not zeros or min(zeros[0], machine.period - zeros[-1]) > _STEP:
+            # The ends of the period are one place: a sign that changes there is seen from neither side.
+            first, last = f(np.array([_STEP, machine.period - _STEP]))
+            if first * last < 0.0 and min(abs(first), abs(last)) > NOISE * size:
+                zeros.insert(0, 0.0)
+        found[k] = _changes(f, zeros, size)
+    return found
+
+
+def sign_changes(f: Function, machine: Machine, size: float) -> int:
     """How many of them there are."""
     return len(places(f, machine, size))
 
 
-def _without_noise(values: Reals, size: float) -> Reals:
+def _without_noise(f: Function, size: float, phi: Reals) -> Reals:
+    values = f(phi)
     return np.where(np.abs(values) <= NOISE * size, 0.0, values)
 
 
-def _changes(f: Callable[[Reals], Reals], place: float, size: float) -> bool:
-    """Whether the function has opposite signs on both sides; one that comes from or goes to nothing has not."""
-    before, after = f(np.array([place - _STEP, place + _STEP]))
-    return bool(before * after < 0.0 and min(abs(before), abs(after)) > NOISE * size)
+def _changes(f: Function, zeros: list[float], size: float) -> list[float]:
+    """The places with opposite signs on both sides; one where f comes from or goes to nothing is none."""
+    if not zeros:
+        return []
+    values = f(np.array([place + step for place in zeros for step in (-_STEP, _STEP)]))
+    before, after = values[::2], values[1::2]
+    changes = (before * after < 0.0) & (np.minimum(np.abs(before), np.abs(after)) > NOISE * size)
+    return [place for place, each in zip(zeros, changes, strict=True) if each]

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gearlink.core.numerics.arrays import Reals
-
-Function: TypeAlias = Callable[[Reals], Reals]
+from gearlink.core.numerics.together import Function, Search, together
 
 TURN = 2.0 * math.pi
 
@@ -59,13 +57,51 @@ def maximum_over(
         >>> top.value, round(top.place, 6)
         (1.0, 1.0)
     """
+    return together([f], [_maximum(start, end, joints, samples)])[0]
+
+
+def extremes_over(
+    wanted: Sequence[tuple[Function, bool]],
+    start: float = 0.0,
+    end: float = TURN,
+    *,
+    joints: Sequence[float] = (),
+    samples: int = 2048,
+) -> list[Extreme]:
+    """Extremes of several functions over the same interval, searched together.
+
+    Parameters
+        wanted : functions as of maximum_over, and whether the largest value of each is wanted or the smallest
+        start, end, joints, samples : as of maximum_over
+    Returns
+        extremes : those that maximum_over and minimum_over give
+    Notes
+        Each function is asked where any search looks: what they share is computed once a round.
+    Example
+        >>> [round(each.value, 12) for each in extremes_over([(np.sin, True), (np.cos, False)])]
+        [1.0, -1.0]
+    """
+    functions = [f if greatest else _negative(f) for f, greatest in wanted]
+    tops = together(functions, [_maximum(start, end, joints, samples) for _ in wanted])
+    return [
+        top if greatest else Extreme(0.0 - top.value, top.place)
+        for top, (_, greatest) in zip(tops, wanted, strict=True)
+    ]
+
+
+def _negative(f: Function) -> Function:
+    return lambda x: -f(x)
+
+
+def _maximum(start: float, end: float, joints: Sequence[float], samples: int) -> Search[Extreme]:
+    """The search of maximum_over."""
     bounds = [start, *sorted(j for j in joints if start < j < end), end]
     grids = [
         _grid(left, right, max(33, math.ceil(samples * (right - left) / (end - start)) + 1))
         for left, right in pairwise(bounds)
     ]
     x = np.concatenate(grids)
-    v = f(x)
+    v = yield x
     ends = dict(_ends(grids, bounds))
     top = int(np.argmax(v))
     best = Extreme(float(v[top]), ends.get(top, float(x[top])))
@@ -76,7 +112,8 @@ def maximum_over(
             lefts.append(float(grid[max(i - 1, 0)]))
             rights.append(float(grid[min(i + 1, grid.size - 1)]))
         offset += grid.size
-    return _enlarged(f, np.array(lefts), np.array(rights), best, 8.0 * math.ulp(max(abs(start), abs(end))))
+    finest = 8.0 * math.ulp(max(abs(start), abs(end)))
+    return (yield from _enlarged(np.array(lefts), np.array(rights), best, finest))
 
 
 def minimum_over(
@@ -88,7 +125,7 @@ def minimum_over(
         >>> minimum_over(lambda x: np.abs(x - 0.3), 0.0, 1.0)
         Extreme(value=0.0, place=0.3)
     """
-    top = maximum_over(lambda x: -f(x), start, end, joints=joints, samples=samples)
+    top = maximum_over(_negative(f), start, end, joints=joints, samples=samples)
     return Extreme(0.0 - top.value, top.place)
 
 
@@ -151,12 +188,12 @@ def _promising(v: Reals, top: float) -> list[int]:
     return [int(i) for i in order[np.argsort(-v[order])][:_MOST_CANDIDATES]]
 
 
-def _enlarged(f: Function, left: Reals, right: Reals, best: Extreme, finest: float) -> Extreme:
+def _enlarged(left: Reals, right: Reals, best: Extreme, finest: float) -> Search[Extreme]:
     """The largest value within any of the brackets, or `best` where none is larger; `finest` ends a bracket."""
     safe_left, safe_right = left, right
     while left.size:
         x = left[:, None] + (right - left)[:, None] * _UNIT
-        v = f(x.ravel()).reshape(x.shape)
+        v = (yield x.ravel()).reshape(x.shape)
         rows, i = np.arange(left.size), np.argmax(v, axis=1)
         peak, place = v[rows, i], x[rows, i]
         row = int(np.argmax(peak))

@@ -1,0 +1,71 @@
+"""Searches that look at functions of one argument, answered together: what the functions share is computed once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator, Sequence
+from typing import Any, TypeAlias, TypeVar
+
+import numpy as np
+
+from gearlink.core.numerics.arrays import Reals
+
+Function: TypeAlias = Callable[[Reals], Reals]
+Found = TypeVar("Found")
+Search: TypeAlias = Generator[Reals, Reals, Found]
+"""Yields places, is sent the values of its function there, returns what it found."""
+
+
+def together(functions: Sequence[Function], searches: Sequence[Search[Found]]) -> list[Found]:
+    """What each search finds of its function; in every round all functions are asked at the same places.
+
+    Parameters
+        functions : functions of a float64 array, returning one like it; no value may depend on the other places
+        searches : a Search for each of them
+    Returns
+        found : what the searches return, in their order
+    Notes
+        Functions that keep what they last computed at an array (a mechanism under its loads) compute it once a
+        round. A search alone is answered at its own places.
+    Example
+        >>> def largest(grid):
+        ...     values = yield grid
+        ...     return float(values.max())
+        >>> places = np.linspace(0.0, 1.0, 5)
+        >>> together([np.square, np.negative], [largest(places), largest(places)])
+        [1.0, -0.0]
+    """
+    found: list[Any] = [None] * len(searches)
+    asked: dict[int, Reals] = {}
+    for k, search in enumerate(searches):
+        _advance(k, search, None, asked, found)
+    while asked:
+        places, parts = _joined(asked)
+        for k in list(asked):
+            values = functions[k](places)
+            _advance(k, searches[k], values[parts[k]], asked, found)
+    return found
+
+
+def _advance(
+    k: int, search: Search[Found], values: Reals | None, asked: dict[int, Reals], found: list[Found | None]
+) -> None:
+    """Give a search its values; note what it asks next, or what it found."""
+    try:
+        asked[k] = next(search) if values is None else search.send(values)
+    except StopIteration as end:
+        asked.pop(k, None)
+        found[k] = end.value
+
+
+def _joined(asked: dict[int, Reals]) -> tuple[Reals, dict[int, slice]]:
+    """All places in one array, the same ones once, and where each search has its own."""
+    starts: dict[bytes, slice] = {}
+    arrays, parts, size = [], {}, 0
+    for k, places in asked.items():
+        key = places.tobytes()
+        if key not in starts:
+            starts[key] = slice(size, size + places.size)
+            arrays.append(places)
+            size += places.size
+        parts[k] = starts[key]
+    return arrays[0] if len(arrays) == 1 else np.concatenate(arrays), parts

@@ -1,0 +1,39 @@
+"""What a command asks of the loads is searched together; what it does not ask for is not searched."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from tests.factory import design
+
+
+def _loads() -> Any:
+    return design("loaded_feed", command="loads")
+
+
+def test_one_quantity_searches_its_own_extreme_alone() -> None:
+    """`--quantity pin_A.peak` looks for no other force, no torque and no reversal."""
+    loads = _loads()
+    loads.report("loads", quantities=["pin_A.peak"])
+    assert set(loads._found) == {("pin_A", True)}
+    assert "reversals" not in vars(loads.pin("A"))
+
+
+def test_quantities_found_together_are_those_found_alone() -> None:
+    """Each quantity of the outline has the same bits, asked for alone."""
+    together = {q.name: q.value for q in _loads().report("loads").quantities}
+    for name in ("input_torque_min", "shaking_force_max", "pin_B.peak", "pin_C.equivalent", "reflected_inertia_max"):
+        (alone,) = _loads().report("loads", quantities=[name]).quantities
+        assert alone.value == together[name], name
+
+
+def test_links_are_computed_once_for_all_that_look_at_them() -> None:
+    """All quantities together compute the links not much more often than the longest search does."""
+    loads, asked = _loads(), []
+    plain = loads.kinematics
+    loads.kinematics = lambda phi: asked.append(phi.size) or plain(phi)
+    loads.prepare(loads.outline("loads").quantities)
+    searched = len(asked)
+    loads.require("loads")
+    assert searched < 60
+    assert len(asked) < 2.5 * searched
