@@ -105,7 +105,7 @@ def preferred_pin(pair: GearPair, gear: int) -> float | None:
     wanted = pair.reference_radius[gear] + pair.module * pair.profile_shift[gear]
 
     def contact(diameter: float) -> float:
-        """Signed radius of the contact, which rises with the diameter; beyond all radii where the ball falls through."""
+        """Signed radius of the contact, which rises with the diameter; beyond all where the ball falls through."""
         ball = Ball(pair=pair, gear=gear, diameter=diameter)
         try:
             return ball.contact_radius if ball.roll >= 0.0 else -ball.contact_radius
