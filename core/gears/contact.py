@@ -108,8 +108,7 @@ class PathOfContact:
             return 0.0
         fn = self.pair.fn
         flank_end = fn.sqrt(fn.greatest(0.0, (form - base) * (form + base)))
-        lost: float = fn.greatest(0.0, self.pair.signs[gear] * (flank_end - root_end))
-        return lost
+        return fn.greatest(0.0, self.pair.signs[gear] * (flank_end - root_end))
 
     @cached_property
     def usable_contact_ratio(self) -> float:

@@ -9,7 +9,6 @@ import cmath
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 from gearlink.core.gears.involute import involute, involute_rise, rise_of_involute
 
@@ -40,8 +39,8 @@ class Elementary:
     floor: Callable[[float], int]
     turn: Callable[[float], complex]
     phase: Callable[[complex], float]
-    least: Callable[[Any, Any], Any]
-    greatest: Callable[[Any, Any], Any]
+    least: Two
+    greatest: Two
     where: Callable[[bool, float, float], float]
     involute: One
     involute_rise: Two

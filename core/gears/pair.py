@@ -145,9 +145,7 @@ class GearPair(PitchPair):
         d = alpha_wt - alpha_t
         """
         if self.given_shift is not None and self.given_distance is not None:
-            given = self.given_shift[0] + self.given_shift[1]
-            lost: float = self.fn.greatest(0.0, given - self.center_distance_modification)
-            return lost
+            return self.fn.greatest(0.0, sum(self.given_shift) - self.center_distance_modification)
         d, alpha = self._rise, self.transverse_pressure_angle
         bend = 2.0 * self.fn.sin(d / 2.0) ** 2 * self.fn.cos(alpha)
         bend /= self.fn.cos(self.working_pressure_angle) * self.fn.cos(d)
@@ -315,8 +313,7 @@ class GearPair(PitchPair):
         return self._sliding_at_root(gear)
 
     def _sliding_at_root(self, gear: int) -> float:
-        mate = self.teeth[1 - gear]
-        return -self._action[1 - gear] * self._teeth_sum / (mate * self._left_at_root(gear))
+        return -self._action[1 - gear] * self._teeth_sum / (self.teeth[1 - gear] * self._left_at_root(gear))
 
     @property
     def slides(self) -> bool:

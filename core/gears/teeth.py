@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.gears.elementary import SCALARS, Elementary
@@ -173,5 +174,6 @@ def span_rivals(
         span = span_measurement(1.0, teeth, shift, pressure_angle, k, helix_angle, f)
         return k, abs(span_contact_radius(base, span, base_helix, f) - wanted)
 
-    low = f.greatest(1, f.least(teeth, f.floor(exact)))
-    return rival(low), rival(f.least(teeth, low + 1))
+    low: Any = f.greatest(1, f.least(teeth, f.floor(exact)))
+    high: Any = f.least(teeth, low + 1)
+    return rival(low), rival(high)
