@@ -59,6 +59,7 @@ _TWO_GEAR = "planet_linkages.two_gear_design:TwoGearFourBar"
 _GEARED_ROCKER = "planet_linkages.rocker_design:GearedRocker"
 _HYPOCYCLOID = "dwell_gears.hypocycloid_design:HypocycloidDwell"
 _FIVE_BAR = "five_bar.design:GearedFiveBar"
+_SIX_BAR = "six_bar.design:GearedSixBar"
 _MUTILATED = "dwell_gears.mutilated_design:MutilatedGearDwell"
 
 _UNTOLERANCED = ("gear-train-mobility",)
@@ -166,6 +167,7 @@ KINDS: dict[str, Kind] = {
             "five_bar.spec:GearedFiveBarSpec",
             {"analyze": _FIVE_BAR, "gear": _FIVE_BAR, "loads": "five_bar.loads:FiveBarLoads"},
         ),
+        Kind("geared-six-bar", "six_bar.spec:GearedSixBarSpec", {"analyze": _SIX_BAR, "gear": _SIX_BAR}),
         Kind(
             "hypocycloid-dwell",
             "dwell_gears.hypocycloid_spec:HypocycloidDwellSpec",
@@ -197,6 +199,7 @@ SUMMARIES = {
     "two-gear-four-bar": "planet on the coupler drives a sun or a ring on the crank's axis",
     "geared-rocker": "rocker whose swing a gear on the coupler multiplies",
     "geared-five-bar": "five-bar held by gears: path of a point, or output as a function of the input",
+    "geared-six-bar": "loop of six links that two gear trains drive by one input",
     "hypocycloid-dwell": "slider that dwells on an arc of a hypocycloid",
     "study": "search through many designs of one kind, for `gearlink explore`",
 }

@@ -11,7 +11,7 @@ GEAR_LINKAGE: dict[str, Term] = {
     "output_teeth": Term("z5", "1", "teeth of the output gear"),
     "frame_ratio": Term("d", "1", "frame length over crank length", "thesis (4-18), (4-20)"),
     "crank_length": Term("l1", "mm", "crank"),
-    "coupler_length": Term("l2", "mm", "coupler; with three gears the centre distance of gears 1 and 3"),
+    "coupler_length": Term("l2", "mm", "coupler (three gears: centre distance of 1 and 3; six-bar: BC, CD, DE)"),
     "rocker_length": Term("l3", "mm", "rocker; with three gears the centre distance of gears 3 and 5"),
     "frame_length": Term("l4", "mm", "frame", "own closed form in place of thesis (4-26)..(4-33)"),
     "mean_ratio": Term("I", "1", "net output turns per input turn", "thesis (4-1)"),

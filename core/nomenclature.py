@@ -190,7 +190,8 @@ _FIVE_BAR = {
     "period_turns": Term("q", "1", "input turns until everything repeats", "own derivation"),
     "input_length": Term("a", "mm", "input link AB"),
     "follower_length": Term("c", "mm", "follower CD"),
-    "output_length": Term("e", "mm", "output link DE"),
+    "output_length": Term("e", "mm", "output link, from the last coupler to its pivot"),
+    "start_directions": Term("", "deg", "directions of BC, CD, DE and FE of a six-bar at input angle 0"),
     "phase": Term(
         "delta", "deg", "direction of the output link at input angle 0; of the coupler where a function is generated"
     ),

@@ -11,7 +11,16 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[1]
-MACHINES = {"three_gear", "planet_linkages", "dwell_gears", "five_bar", "flatbed_press", "swing_gripper", "wide_swing"}
+MACHINES = {
+    "three_gear",
+    "planet_linkages",
+    "dwell_gears",
+    "five_bar",
+    "six_bar",
+    "flatbed_press",
+    "swing_gripper",
+    "wide_swing",
+}
 FOUNDATION = {"core.errors", "core.report"}
 """What the numerics may import of core: how a refusal is raised and a finding is worded."""
 

@@ -123,6 +123,20 @@ def _five_bar_gears(design: Any, mesh: Any) -> list[str]:
     return ["output", "input"] if is_ring(mesh) and gears.input > gears.output else ["input", "output"]
 
 
+def _six_bar(design: Any) -> Makers:
+    """The gears of both trains by train and pin; one between two others from the mesh before it."""
+    found: Makers = {}
+    for i, (train, meshes) in enumerate(zip(design.spec.trains, design.train_meshes, strict=True)):
+        for k, mesh in enumerate(meshes):
+            pins, teeth = train.pins[k : k + 2], train.gears[k : k + 2]
+            ordered = sorted(zip(teeth, pins, strict=True), key=lambda pair: pair[0] < 0) if min(teeth) < 0 else None
+            first, second = (pin for _, pin in ordered) if ordered else pins
+            names = (f"gear{i + 1}{first}", f"gear{i + 1}{second}")
+            titles = (f"train {i + 1}, gear on {first}", f"train {i + 1}, gear on {second}")
+            found = _of_mesh(mesh, names, titles, f"trains[{i}]", train) | found
+    return dict(sorted(found.items()))
+
+
 def _of_mesh(
     mesh: Any,
     names: tuple[str, str],
@@ -176,6 +190,7 @@ _KINDS: dict[str, Callable[[Any], Makers]] = {
     "two-gear-four-bar": _two_gears,
     "geared-rocker": _two_gears,
     "geared-five-bar": _five_bar,
+    "geared-six-bar": _six_bar,
     "hypocycloid-dwell": _hypocycloid,
     "mutilated-gear-dwell": _mutilated,
 }

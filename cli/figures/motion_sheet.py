@@ -75,16 +75,19 @@ def _panel(axes: Axes, course: Course, order: int, *, last: bool) -> None:
     values = np.degrees(course.rates[0]) if course.unit == "rad" and order == 0 else course.rates[order]
     panels.turn_panel(axes, _per_angle(course, order), course.over if last else "")
     axes.set_xlim(float(course.x[0]), float(course.x[-1]))
-    axes.set_xticks(range(0, 361, 60))
-    axes.axhline(0.0, color=style.GREY, linewidth=0.6)
+    if float(course.x[-1]) == 360.0:
+        axes.set_xticks(range(0, 361, 60))
+    if order:
+        axes.axhline(0.0, color=style.GREY, linewidth=0.6)
     axes.plot(course.x, values, color=_COLORS[order], linewidth=1.6, gid=f"{_NAMES[order]}-{course.name}")
     if order and np.isfinite(values).all():
         for pick, above in ((np.argmax, True), (np.argmin, False)):
             i = int(pick(values))
             panels.extreme(axes, *_vertex(course.x, values, i), above=above)
         axes.margins(y=0.2)
-    if order and course.speed is not None:
-        _in_time(axes, course, order)
+    if order:
+        measure, scale = ("m", 1e-3) if course.unit == "mm" else ("rad", 1.0)
+        panels.in_time(axes, course.speed, order, measure, scale)
 
 
 def _vertex(x: Reals, y: Reals, i: int) -> tuple[float, float]:
@@ -106,25 +109,6 @@ def _per_angle(course: Course, order: int) -> str:
     power = ("", "", "²", "³")[order]
     per = f"{course.unit}/rad{power}" if course.unit != "rad" else ("1", "1", "1/rad", "1/rad²")[order]
     return f"{_NAMES[order]}\n[{per}]"
-
-
-def _in_time(axes: Axes, course: Course, order: int) -> None:
-    """The same curve in time, on the right: m/s and so on, or rad/s."""
-    assert course.speed is not None, "asked for where it is known"
-    factor = course.speed**order * (1e-3 if course.unit == "mm" else 1.0)
-
-    def in_time(values: Any) -> Any:
-        return values * factor
-
-    def per_angle(values: Any) -> Any:
-        return values / factor
-
-    right = axes.secondary_yaxis("right", functions=(in_time, per_angle))
-    unit = "m" if course.unit == "mm" else "rad"
-    right.set_ylabel(f"[{unit}/s{('', '', '²', '³')[order]}]", fontsize=8.5)
-    right.tick_params(labelsize=8)
-    right.ticklabel_format(scilimits=(-3, 5))
-    right.yaxis.get_offset_text().set_fontsize(7)
 
 
 # Outputs, kind by kind
@@ -218,6 +202,15 @@ def _five_bar(design: Any) -> list[Course]:
     return found
 
 
+def _six_bar(design: Any) -> list[Course]:
+    course = design.course
+    x = np.linspace(math.degrees(course.start), math.degrees(course.end), 720 * (course.period_turns or 1) + 1)
+    phi = np.radians(x)
+    _, *rates = course.rates(phi)
+    output = (design.output(phi), *(rate[3] for rate in rates))
+    return [Course("Output link EF", "input angle [deg]", x, output, "rad", design.angular_speed)]
+
+
 _KINDS: dict[str, Callable[[Any], list[Course]]] = {
     "three-gear-four-bar": _three_gears,
     "two-gear-four-bar": _planets,
@@ -227,6 +220,7 @@ _KINDS: dict[str, Callable[[Any], list[Course]]] = {
     "swing-gripper": _gripper,
     "hypocycloid-dwell": _hypocycloid,
     "geared-five-bar": _five_bar,
+    "geared-six-bar": _six_bar,
 }
 
 

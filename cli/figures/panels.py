@@ -191,6 +191,30 @@ def _few_ticks(axes: Axes, most: int) -> None:
         axis.set_major_locator(MaxNLocator(most, steps=[1, 2, 2.5, 5, 10]))
 
 
+def in_time(axes: Axes, speed: float | None, order: int, measure: str, scale: float = 1.0) -> None:
+    """A curve per input angle in real time as well, on an axis at the right; nothing where the speed is not known.
+
+    speed : of the input [rad/s]
+    order : 1 for a speed, 2 for an acceleration, 3 for a jerk
+    measure : "rad", "mm" or "m"; scale : of it in a unit of the curve
+    """
+    if speed is None:
+        return
+    factor = scale * speed**order
+
+    def faster(values: Any) -> Any:
+        return values * factor
+
+    def slower(values: Any) -> Any:
+        return values / factor
+
+    right = axes.secondary_yaxis("right", functions=(faster, slower))
+    right.set_ylabel(f"[{measure}/s{('', '', '²', '³')[order]}]", fontsize=8.5)
+    right.tick_params(labelsize=8)
+    right.ticklabel_format(scilimits=(-3, 5))
+    right.yaxis.get_offset_text().set_fontsize(7)
+
+
 def turn_panel(axes: Axes, ylabel: str, xlabel: str = "") -> None:
     """Curves over one turn; panels above others go without a label of the x axis."""
     style.curves(axes, xlabel, ylabel)

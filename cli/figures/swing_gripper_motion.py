@@ -64,24 +64,10 @@ def _law(axes: list[Axes], design: SwingGripper) -> None:
         each.axhline(0.0, color=style.GREY, linewidth=0.6)
         each.axvline(design.spec.handover, color=_HANDOVER, linewidth=0.9, linestyle="--")
         each.plot([design.spec.handover], [mark], "o", color=_HANDOVER, markersize=4.5)
-    _in_time(axes[1], design.shaft_speed, "[rad/s]")
-    _in_time(axes[2], design.shaft_speed**2, "[rad/s²]")
+    panels.in_time(axes[1], design.shaft_speed, 1, "rad")
+    panels.in_time(axes[2], design.shaft_speed, 2, "rad")
     handover = f"handover (dashed) at {design.spec.handover:g}°, {design.handover_speed:.6g} mm/s"
     panels.heading(axes[0], f"Swing β of the gripper arm; {handover}")
-
-
-def _in_time(axes: Axes, factor: float, unit: str) -> None:
-    """The same curve in time, on the right."""
-
-    def faster(value: Any) -> Any:
-        return value * factor
-
-    def slower(value: Any) -> Any:
-        return value / factor
-
-    right = axes.secondary_yaxis("right", functions=(faster, slower))
-    right.set_ylabel(unit, fontsize=8.5)
-    right.tick_params(labelsize=8)
 
 
 def _torques(axes: Axes, design: SwingGripper) -> None:

@@ -196,6 +196,8 @@ CONSTANTS = {
 }
 """Words of `gearlink laws`."""
 
+_PLACE = re.compile(r"(?P<axis>[xy])_(?P<pin>[A-Z])")
+_COUPLER = re.compile(r"coupler_(?P<number>[123])_(?P<rest>\w+)")
 _FORCE = re.compile(r"(?P<pin>[A-Z]|[A-Z]_\w+|planet|guide)_(?P<part>x|y)|mesh_\w+")
 
 
@@ -210,6 +212,11 @@ def column_words(name: str) -> str:
         return COLUMNS[name]
     if name.removesuffix("_pm") in COLUMNS:
         return f"half-width of the 95 % interval of {name.removesuffix('_pm')}"
+    if found := _PLACE.fullmatch(name):
+        return f"{found['axis']} of the pin {found['pin']}"
+    if found := _COUPLER.fullmatch(name):
+        words = COLUMNS.get(f"coupler_{found['rest']}", "")
+        return words.replace("coupler", f"coupler {('BC', 'CD', 'DE')[int(found['number']) - 1]} of a six-bar")
     if found := _FORCE.fullmatch(name):
         if not found["pin"]:
             return "tangential force in that mesh, signed; of a column ..._radial the radial one"

@@ -7,11 +7,10 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.linkages.spec_parts import LinkageLimits, require_rim
+from gearlink.core.linkages.spec_parts import InputRange, LinkageLimits, TurnAngle, require_rim
 from gearlink.core.spec import Angle, Assembly, Deferred, DrivenSpec, Length, PressureAngle, SignedLength, Spec, Teeth
 
 Plain = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "1"})]
-TurnAngle = Annotated[float, Field(ge=-3600, le=3600, json_schema_extra={"unit": "deg"})]
 
 
 class FiveBarGears(Spec):
@@ -71,13 +70,6 @@ class CouplerPoint(Spec):
 
     along: SignedLength = Field(description="from B towards C")
     across: SignedLength = Field(0.0, description="to the left of B->C")
-
-
-class InputRange(Spec):
-    """Input angles over which a function is generated."""
-
-    start: TurnAngle = Field(0.0, description="first input angle")
-    end: TurnAngle = Field(description="last input angle")
 
 
 class WantedFunction(Spec):

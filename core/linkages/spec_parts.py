@@ -9,6 +9,15 @@ from pydantic_core import PydanticCustomError
 
 from gearlink.core.spec import AcuteAngle, Distance, GearLimits, Length, LoadLimits, Ratio, SignedLength, Spec
 
+TurnAngle = Annotated[float, Field(ge=-3600, le=3600, json_schema_extra={"unit": "deg"})]
+
+
+class InputRange(Spec):
+    """Input angles over which a linkage moves."""
+
+    start: TurnAngle = Field(0.0, description="first input angle")
+    end: TurnAngle = Field(description="last input angle")
+
 
 class LinkageLimits(GearLimits, LoadLimits):
     """Limits of the checks."""

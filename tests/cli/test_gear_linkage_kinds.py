@@ -18,6 +18,7 @@ WORKED = {
     "two-gear-four-bar": ["two_gear_drag_link", "two_gear_ring", "two_gear_standing"],
     "geared-rocker": ["wide_lever"],
     "hypocycloid-dwell": ["hypocycloid_slider"],
+    "geared-six-bar": ["geared_six_bar", "six_bar_swing"],
     "geared-five-bar": ["five_bar_path", "five_bar_points", "five_bar_positions"],
 }
 PAIRS = [(kind, name) for kind, names in WORKED.items() for name in names]

@@ -182,6 +182,18 @@ def test_teeth_of_outer_gears_do_not_cross(name: str) -> None:
             assert depth(near, two, inside=True) < 0.03 * pair.module
 
 
+@pytest.mark.parametrize("name", ["geared_six_bar", "six_bar_swing"])
+def test_both_trains_of_a_six_bar_turn_in_mesh(name: str) -> None:
+    design = design_of(DESIGNS / f"{name}.yaml")
+    toothed = gears(build(design, np.array([0.0, 0.137, 0.511, 0.873])))
+    for first, second, mesh in zip(toothed[::2], toothed[1::2], design.meshes.values(), strict=True):
+        for i in range(4):
+            one, two = placed(first, i), placed(second, i)
+            near = one[np.abs(one - second.place[i]) < np.abs(two - second.place[i]).max() + mesh.module]
+            assert near.size
+            assert depth(near, two, inside=True) < 0.03 * mesh.module
+
+
 def _mesh(design: Any) -> Any:
     return design.mesh if hasattr(design, "mesh") else design.gear_pair
 

@@ -1,0 +1,244 @@
+"""The geared six-bar: closed form against Newton's steps, rates against 40 digits, its course against small steps.
+
+Tolerances: positions and rates to some ulp of a turn times the condition 1/sin(mu) of the loop, squared for each order
+of a rate; 40-digit values come from the loop and the trains' rolling alone.
+"""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+from typing import Any
+
+import mpmath
+import numpy as np
+import pytest
+from factory import changed, design, worked
+from hypothesis import given
+from hypothesis import strategies as st
+from sweeps import examples
+
+from gearlink.core.errors import NoSolution
+from gearlink.core.six_bar.course import Course
+from gearlink.core.six_bar.loop import SixBar, pins
+from gearlink.core.six_bar.relations import reduced, train_relation
+
+EPS = 2.0**-52
+CLOSED, FOLLOWED = "geared_six_bar", "six_bar_swing"
+TURNS = np.radians(np.arange(0.0, 360.0, 7.0))
+
+
+def six_bar(name: str, **keys: Any) -> Any:
+    return design(name, **keys)
+
+
+@pytest.mark.parametrize("name", [CLOSED, FOLLOWED])
+def test_the_loop_closes_and_its_gears_roll(name: str) -> None:
+    machine = six_bar(name)
+    phi = np.append(TURNS, 2.0 * math.pi)
+    angles = machine.course.angles(phi)
+    size = sum(machine.lengths)
+    assert np.abs(machine.bar.gap(phi, angles)).max() < 8.0 * EPS * size
+    links = np.vstack([np.full(phi.shape, math.pi), phi, angles])
+    for train in machine.spec.trains:
+        gear = links[train.first_pin]
+        for k, (one, other) in enumerate(pairwise(train.gears), start=1):
+            carrier = links[(train.first_pin + k) % 6]
+            # Willis: what gear 1 rolls against the carrier, gear 2 rolls back, tooth by tooth.
+            gear = carrier - one / other * (gear - carrier)
+        turned = gear - links[(train.first_pin + len(train.gears)) % 6]
+        assert np.ptp(turned) < 200.0 * EPS * max(1.0, float(np.abs(links).max()))
+
+
+def test_closed_form_and_newton_agree() -> None:
+    machine = six_bar(CLOSED)
+    bar = machine.bar
+    assert bar.is_closed_form
+    angles = machine.course.angles(TURNS)
+    near = angles[[j - 2 for j in bar.free]] - bar.numbers[1][[j - 2 for j in bar.free]][:, None]
+    newton = bar._by_newton(TURNS, near + 1e-3)
+    condition = 1.0 / np.sin(bar.transmission(angles))
+    assert (np.abs(newton - angles).max(axis=0) < 60.0 * EPS * condition).all()
+
+
+@pytest.mark.parametrize("name", [CLOSED, FOLLOWED])
+def test_rates_against_forty_digits(name: str) -> None:
+    machine = six_bar(name)
+    bar = machine.bar
+    for phi in (0.7, 2.9, 5.1):
+        found = np.array(machine.course.rates(np.array([phi])))[:, :, 0]
+        wanted = taylor(bar, phi, found[0])
+        condition = 1.0 / math.sin(float(bar.transmission(found[0][:, None])[0]))
+        for order in range(4):
+            scale = max(1.0, float(np.abs(wanted[order]).max())) * condition ** (order + 1)
+            assert np.abs(found[order] - wanted[order]).max() < 300.0 * EPS * scale, (phi, order)
+
+
+def taylor(bar: SixBar, phi: float, near: Any) -> Any:
+    """Directions and three derivatives at 40 digits: the loop and the relations solved, then differences of order 4."""
+    with mpmath.workdps(40):
+        rows = [[mpmath.mpf(r.numerator) / r.denominator for r in row] for row in bar.relations]
+        start = polished(bar, rows, mpmath.mpf(0), bar.start_angles, None)
+        ties = [sum(r * t for r, t in zip(row[2:], start, strict=True)) for row in rows]
+        step = mpmath.mpf(10) ** -6
+        places = [polished(bar, rows, mpmath.mpf(phi) + k * step, near, ties) for k in range(-3, 4)]
+        weights = (
+            (0, 0, 0, 1, 0, 0, 0),
+            tuple(mpmath.mpf(w) / 60 for w in (-1, 9, -45, 0, 45, -9, 1)),
+            tuple(mpmath.mpf(w) / 180 for w in (2, -27, 270, -490, 270, -27, 2)),
+            tuple(mpmath.mpf(w) / 8 for w in (1, -8, 13, 0, -13, 8, -1)),
+        )
+        return np.array(
+            [
+                [float(sum(w * p[j] for w, p in zip(row, places, strict=True)) / step**order) for j in range(4)]
+                for order, row in enumerate(weights)
+            ]
+        )
+
+
+def polished(bar: SixBar, rows: Any, phi: Any, near: Any, ties: Any) -> list[Any]:
+    """The four directions that close the loop and keep the trains' relations; at the start two given ones instead."""
+    a, d, lengths = mpmath.mpf(bar.lengths[1]), mpmath.mpf(bar.lengths[0]), bar.lengths[2:]
+
+    def unit(angle: Any) -> Any:
+        return mpmath.mpc(mpmath.cos(angle), mpmath.sin(angle))
+
+    def lacking(*angles: Any) -> list[Any]:
+        reach = a * unit(phi) + sum(length * unit(t) for length, t in zip(lengths, angles, strict=True)) - d
+        if ties is None:
+            kept = [angles[j - 2] - mpmath.mpf(angle) for j, angle in bar.start.items()]
+        else:
+            sums = (row[1] * phi + sum(r * t for r, t in zip(row[2:], angles, strict=True)) for row in rows)
+            kept = [total - tie for total, tie in zip(sums, ties, strict=True)]
+        return [reach.real, reach.imag, *kept]
+
+    found = mpmath.findroot(lacking, [mpmath.mpf(float(t)) for t in near], tol=mpmath.mpf(10) ** -70)
+    return list(found)
+
+
+def test_the_course_is_that_of_small_steps() -> None:
+    """A hundredth of a degree at a time, Newton's steps from the place before: no closing is changed."""
+    bar = six_bar(FOLLOWED).bar
+    free = [j - 2 for j in bar.free]
+    u, found = np.zeros((2, 1)), []
+    for phi in np.radians(np.arange(0.0, 360.0, 0.25)):
+        angles = bar.closed(np.array([phi]), u)
+        u = angles[free] - bar.numbers[1][free][:, None]
+        found.append(angles[:, 0])
+    course = Course(bar, None)
+    straight = course.angles(np.radians(np.arange(0.0, 360.0, 0.25)))
+    assert np.abs(np.array(found).T - straight).max() < 1e-12
+
+
+def test_periods_and_ranges() -> None:
+    trains = [{"pins": ["A", "B"], "module": 1.5, "gears": [20, 40]}, worked(FOLLOWED)["trains"][1]]
+    machine = six_bar(FOLLOWED, trains=trains, links__coupler_1=10, links__coupler_2=170)
+    assert machine.period_turns == 2
+    phi = np.array([0.3, 0.3 + 4.0 * math.pi, 0.3 - 4.0 * math.pi])
+    pinned = pins(machine.bar, phi, machine.course.angles(phi))
+    assert np.ptp(pinned.real, axis=1).max() < 1e-11
+    part = six_bar(FOLLOWED, range={"start": -40, "end": 75})
+    whole = six_bar(FOLLOWED)
+    at = np.radians([-40.0, -3.0, 0.0, 20.0, 75.0])
+    assert np.abs(part.output(at) - whole.output(at)).max() < 1e-13
+    assert part.period_turns is None
+    assert part.mean_ratio is None
+    assert part.table("motion").data[0][0] == -40.0
+    assert part.table("motion").data[0][-1] == 75.0
+
+
+def test_extremes_against_a_dense_grid() -> None:
+    machine = six_bar(CLOSED)
+    phi = np.linspace(0.0, 2.0 * math.pi, 20001)
+    angles, speed, acceleration, _ = machine.course.rates(phi)
+    for values, name in ((speed[3], "speed_ratio"), (acceleration[3], "acceleration_ratio")):
+        for side, pick in (("max", np.max), ("min", np.min)):
+            most = float(pick(values))
+            assert abs(getattr(machine, f"{name}_{side}") - most) < 1e-6
+            place = np.array([getattr(machine, f"{name}_{side}_at")])
+            assert machine.rate(1 if name == "speed_ratio" else 2)(place)[0] == getattr(machine, f"{name}_{side}")
+    signs = int((np.sign(speed[3][1:]) != np.sign(speed[3][:-1])).sum())
+    assert len(machine.dwell_crank_angles) == signs == 4
+    assert np.abs(machine.rate(1)(np.array(machine.dwell_crank_angles))).max() < 1e-14
+    output = machine.output(phi)
+    assert abs(machine.output_swing - (output.max() - output.min())) < 1e-6
+    assert abs(machine.min_transmission_angle - machine.bar.transmission(angles).min()) < 1e-6
+
+
+def test_a_dead_centre_is_told_with_the_range_that_is_free() -> None:
+    with pytest.raises(NoSolution, match=r"dead centre at input angle .* let the input swing between") as refused:
+        _ = six_bar(FOLLOWED, links__coupler_2=90.0).period_turns
+    words = str(refused.value).split("between ")[1].split(" deg")[0]
+    low, high = (float(word) for word in words.split(" and "))
+    inside = six_bar(FOLLOWED, links__coupler_2=90.0, range={"start": low + 0.01, "end": high - 0.01})
+    assert inside.min_transmission_angle < math.radians(2.0)
+    beyond = six_bar(FOLLOWED, links__coupler_2=90.0, range={"start": low + 0.01, "end": high + 0.01})
+    with pytest.raises(NoSolution, match="dead centre"):
+        _ = beyond.course.angles(np.zeros(1))
+
+
+@given(
+    st.tuples(*[st.floats(20.0, 100.0)] * 5),
+    st.sampled_from([(0, 1), (0, 4), (1, 3), (2, 4), (3, 5), (1, 2), (2, 3), (0, 5), (4, 5), (0, 3)]),
+    st.floats(-3.0, 3.0),
+    st.floats(-3.0, 3.0),
+    st.sampled_from([1, -1]),
+)
+@examples(25)
+def test_any_two_trains(lengths: Any, first: Any, one: float, other: float, assembly: int) -> None:
+    """Wherever the trains sit, a course that is found closes, and it runs on smoothly."""
+    rows = train_relation(first[0], (20, 30)), train_relation(first[1], (36, 24))
+    try:
+        bar = SixBar((150.0, *lengths), rows, {2: one, 4: other}, assembly)
+        course = Course(bar, (-0.05, 0.05))
+        phi = np.linspace(-0.05, 0.05, 11)
+        angles, speed, _, _ = course.rates(phi)
+    except NoSolution:
+        return
+    assert np.abs(bar.gap(phi, angles)).max() < 1e-11
+    assert np.isfinite(speed).all()
+    assert np.abs(angles[:, 5] - bar.start_angles).max() < 1e-9
+
+
+def test_trains_that_tie_the_same_are_refused() -> None:
+    with pytest.raises(NoSolution, match="tie the same"):
+        reduced([train_relation(1, (20, 30)), train_relation(1, (40, 60))])
+    assert sum(train_relation(2, (20, -55, 31))) == 0
+
+
+def test_a_ring_and_a_train_of_three() -> None:
+    """A ring turns the same way; a train over two links has the rates of its two meshes in turn."""
+    ring = train_relation(0, (-60, 20))
+    assert [str(r) for r in ring[:3]] == ["3", "-2", "-1"]
+    long, (one, other) = train_relation(0, (20, 30, 20)), (20 / 30, 30 / 20)
+    links = np.array([0.0, 1.0, 0.4, 0.0, 0.0, 0.0])
+    middle = links[1] - one * (links[0] - links[1])
+    links[3] = links[2] - other * (middle - links[2])
+    assert abs(sum(float(r) * w for r, w in zip(long, links, strict=True))) < 1e-15
+
+
+@pytest.mark.parametrize(
+    ("keys", "message"),
+    [
+        ({"links__input": 31}, "its gears' centre distance is 30"),
+        ({"links__frame": None}, "no train fixes the length of frame"),
+        ({"links__coupler_2": 1000}, "less than the difference of the two links"),
+    ],
+)
+def test_refusals(keys: Any, message: str) -> None:
+    with pytest.raises(NoSolution, match=message):
+        _ = six_bar(FOLLOWED, **keys).bar
+
+
+def test_gears_of_one_plane_are_judged() -> None:
+    apart = six_bar(FOLLOWED)
+    near = six_bar(FOLLOWED, links__frame=110.0, start__output=90.0)
+    assert apart.gear_gap is not None
+    assert all(check.status == "pass" for check in apart.check("gear-collision"))
+    phi = np.linspace(0.0, 2.0 * math.pi, 4001)
+    placed = pins(apart.bar, phi, apart.course.angles(phi))
+    tips = 0.5 * 1.5 * 20 + 1.5 + 0.5 * 3 * 20 + 3
+    assert abs(apart.gear_gap - (np.abs(placed[1] - placed[4]).min() - tips)) < 1e-4
+    assert near.lengths[0] == 110.0
+    assert changed(worked(CLOSED))["kind"] == "geared-six-bar"
+    assert six_bar(CLOSED).gear_gap is None  # trains that share the pin B lie in planes of their own
