@@ -64,6 +64,15 @@ GEAR_PAIR = {
     "form_factor": Term("Y_F", "1", "form factor", "ISO 6336-3"),
     "stress_correction_factor": Term("Y_S", "1", "stress correction factor", "ISO 6336-3"),
     "helix_angle_factor_bending": Term("Y_beta", "1", "helix angle factor of the root", "ISO 6336-3"),
+    "rim_factor": Term("Y_B", "1", "rim thickness factor", "ISO 6336-3"),
+    "deep_tooth_factor": Term("Y_DT", "1", "deep tooth factor of accurate gears", "ISO 6336-3"),
+    "tip_form_factor": Term("Y_Fa", "1", "form factor for load at the tip (method C)", "ISO 6336-3:1996"),
+    "tip_stress_correction_factor": Term(
+        "Y_Sa", "1", "stress correction factor for load at the tip (method C)", "ISO 6336-3:1996"
+    ),
+    "contact_ratio_factor_bending": Term(
+        "Y_eps", "1", "contact ratio factor of method C, with Y_Fa and Y_Sa alone", "ISO 6336-3:1996"
+    ),
     "nominal_root_stress": Term("sigma_F0", "N/mm^2", "nominal root stress", "ISO 6336-3"),
     "root_stress": Term("sigma_F", "N/mm^2", "root stress, with the given K factors", "ISO 6336-3"),
     "safety_bending": Term("S_F", "1", "safety against breaking at the root; K factors given, not computed"),

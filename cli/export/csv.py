@@ -32,14 +32,15 @@ def as_csv(contour: Contour, spec: Any) -> bytes:
 
 
 def _rows(contour: Contour) -> Iterator[list[Any]]:
-    layers = tuple(dict.fromkeys(layer for piece in contour.pieces for layer in piece.stretch.layers))
+    drawn = tuple(piece for piece in contour.pieces if piece.stretch.layers[0] in _HEADS)  # no construction lines
+    layers = tuple(dict.fromkeys(layer for piece in drawn for layer in piece.stretch.layers))
     leading = [head for head in contour.part.extra_columns if head in ("k", "cam_angle [deg]")]
     trailing = [head for head in contour.part.extra_columns if head not in leading]
     yield [*leading, *(head for layer in layers for head in _HEADS[layer]), *trailing, "curve"]
     if contour.part.teeth:
         yield from _tooth_by_tooth(contour)
         return
-    for piece, shown in rows_of(contour.pieces):
+    for piece, shown in rows_of(drawn):
         columns = _columns(piece, layers, contour.part.extra_columns, len(leading))
         for row in zip(*(column[shown] for column in columns), strict=True):
             yield [*(_cell(value) for value in row), piece.stretch.name]

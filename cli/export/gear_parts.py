@@ -1,17 +1,20 @@
-"""A gear's outline: involute flanks and trochoidal roots as the rack tool cuts them."""
+"""Outlines of gears, rings and racks as their tools cut them."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Iterator
+from itertools import pairwise
 
 import numpy as np
 
 from gearlink.cli.export.contour import Circle, Part
 from gearlink.cli.export.sampling import Points, Reals, Stretch
 from gearlink.core.gears.internal_mesh import InternalMesh
-from gearlink.core.gears.involute import involute
 from gearlink.core.gears.pair import GearPair
+from gearlink.core.gears.rack import RackMesh
+from gearlink.core.gears.rack_profile import RackProfile, straight
+from gearlink.core.gears.ring_profile import RingProfile
 from gearlink.core.gears.tooth_profile import Curve, ToothProfile
 
 _NAMES = ("root circle", "trochoid", "involute", "tip circle")
@@ -55,86 +58,111 @@ def ring_of(mesh: GearPair | InternalMesh, rim: float, name: str, title: str, wi
     Raises
         NoSolution - where the ring's tips lie inside its base circle
     Notes
-        The flanks are involutes down to the root circle: how a cutter rounds the root depends on the cutter.
+        Without its cutter the flanks are involutes down to the root circle: how a cutter rounds the root depends on it.
     """
-    shape = _Ring.of(mesh)
+    shape = RingProfile.of(mesh)
     return Part(
         name=name,
         title=title,
-        stretches=shape.stretches(),
+        stretches=tuple(
+            _stretch(piece, curve, low, high)
+            for piece, curve, low, high in shape.pieces()
+            if _length(curve, low, high) > 1e-14 * shape.root
+        ),
         closed=True,
         teeth=shape.teeth,
         circles=(
             Circle("REFERENCE_CIRCLE", shape.reference),
             Circle("BASE_CIRCLE", shape.base),
             Circle("TIP_CIRCLE", shape.tip),
-            Circle("ROOT_CIRCLE", shape.root),
+            Circle("ROOT_CIRCLE", shape.deepest),
             Circle("RIM", rim),
         ),
-        notes=(
-            f"module {mesh.module:g} mm, ring of {shape.teeth} teeth, profile shift {shape.shift:.9g} (ISO 21771 sign)",
-            f"tip radius {shape.tip:.9g} mm, root radius {shape.root:.9g} mm, outer radius {rim:.9g} mm",
-            "involute down to the root circle; the fillet there is the cutter's, and is left out",
-            "no backlash: thin the teeth by the allowance that the drawing gives",
-            "frame: gear axis at the origin, middle of a tooth space on the x axis; the body lies outside the profile",
-        ),
+        notes=_ring_notes(mesh, shape, rim),
         width=width,
         spur=not shape.helical,
         rim=rim,
     )
 
 
-@dataclass(frozen=True)
-class _Ring:
-    """A ring in the transverse section, its radii as magnitudes [mm].
-
-    at_base : half the angle of a tooth, measured to where its flank would meet the base circle [rad]
-    low : tan of the pressure angle at the tip
-    """
-
-    teeth: int
-    shift: float
-    reference: float
-    base: float
-    tip: float
-    root: float
-    at_base: float
-    low: float
-    helical: bool
-
-    @classmethod
-    def of(cls, mesh: GearPair | InternalMesh) -> _Ring:
-        reference, base = abs(mesh.reference_radius[1]), abs(mesh.base_radius[1])
-        tip, root = abs(mesh.tip_radius[1]), abs(mesh.root_radius[1])
-        low = math.tan(mesh.tip_pressure_angle[1])
-        if isinstance(mesh, InternalMesh):
-            z, alpha = mesh.teeth[1], mesh.pressure_angle
-            return cls(z, 0.0, reference, base, tip, root, math.pi / (2.0 * z) - involute(alpha), low, False)
-        z, shift = -mesh.teeth[1], mesh.profile_shift[1]
-        half = (math.pi / 2.0 + 2.0 * shift * math.tan(mesh.pressure_angle)) / z
-        at_base = half - involute(mesh.transverse_pressure_angle)
-        return cls(z, shift, reference, base, tip, root, at_base, low, bool(mesh.helix_angle))
-
-    def stretches(self) -> tuple[Stretch, ...]:
-        """Root, flank and tip from the middle of a space to the middle of the next tooth."""
-        half, high = math.pi / self.teeth, math.sqrt((self.root / self.base - 1.0) * (self.root / self.base + 1.0))
-
-        def flank(back: Reals) -> Points:
-            out: Points = self.base * (1.0 + 1j * -back) * np.exp(1j * (half - self.at_base + back))
-            return out
-
-        def arc(radius: float) -> Curve:
-            return lambda angle: radius * np.exp(1j * angle)
-
-        at_root = half - (self.at_base + high - math.atan(high))
-        at_tip = half - (self.at_base + self.low - math.atan(self.low))
-        pieces = ((arc(self.root), 0.0, at_root), (flank, -high, -self.low), (arc(self.tip), at_tip, half))
-        names = ("root circle", "involute", "tip circle")
-        return tuple(
-            _stretch(name, curve, low, high)
-            for name, (curve, low, high) in zip(names, pieces, strict=True)
-            if _length(curve, low, high) > 1e-14 * self.root
+def _ring_notes(mesh: GearPair | InternalMesh, shape: RingProfile, rim: float) -> tuple[str, ...]:
+    section = "; transverse section" if shape.helical else ""
+    root = "involute down to the root circle; the fillet there is the cutter's, which the file does not name"
+    if shape.shaped is not None:
+        cutter = shape.shaped.cutter
+        root = (
+            f"root shaped by a pinion cutter of {cutter.teeth} teeth with a tip rounding of {cutter.rounding:.6g} "
+            f"module; involute to {shape.shaped.form_radius:.9g} mm"
         )
+    return (
+        f"module {mesh.module:g} mm, ring of {shape.teeth} teeth, profile shift {shape.shift:.9g} (ISO 21771 sign)",
+        f"tip radius {shape.tip:.9g} mm, root radius {shape.deepest:.9g} mm, outer radius {rim:.9g} mm",
+        root,
+        "no backlash: thin the teeth by the allowance that the drawing gives",
+        "frame: gear axis at the origin, middle of a tooth space on the x axis; the body lies outside the profile"
+        + section,
+    )
+
+
+def rack_of(rack: RackMesh, teeth: int, back: float, name: str, title: str, width: float | None = None) -> Part:
+    """A rack of so many teeth, from the middle of a space to the middle of a space.
+
+    Parameters
+        back : float [mm] - thickness of the body below the root line
+    Raises
+        NoSolution - for a rack that no tool leaves
+    """
+    profile, pair = rack.profile, rack.pair
+    half = [(piece, *rest) for piece, rest in zip(_RACK_NAMES, profile.pieces(), strict=True)]
+    half = [piece for piece in half if _length(*piece[1:]) > 1e-14 * profile.pitch]
+    places = [profile.pitch * (k - 0.5 * teeth) for k in range(teeth)]
+    pieces = [part for at in places for part in _one_pitch(half, at, profile.pitch)]
+    left, right, low = places[0], places[-1] + profile.pitch, profile.root - back
+    corners = [complex(right, profile.root), complex(right, low), complex(left, low), complex(left, profile.root)]
+    pieces += [_line("body", "PROFILE", *ends) for ends in pairwise(corners)]
+    lines = (("datum line", "DATUM_LINE", 0.0), ("pitch line", "PITCH_LINE", pair.profile_shift[0] * pair.module))
+    pieces += [_line(words, layer, complex(left, y), complex(right, y)) for words, layer, y in lines]
+    return Part(
+        name=name,
+        title=title,
+        stretches=tuple(pieces),
+        closed=True,
+        notes=_rack_notes(rack, profile, teeth, low),
+        width=width,
+        spur=not pair.helix_angle,
+    )
+
+
+_RACK_NAMES = ("root line", "rounding", "flank", "tip line")
+
+
+def _one_pitch(half: list[tuple[str, Curve, float, float]], at: float, pitch: float) -> Iterator[Stretch]:
+    """The stretches of a tooth, from the middle of the space at `at` to the middle of the next one."""
+    for piece, curve, low, high in half:
+        yield _stretch(piece, lambda t, curve=curve: at + curve(t), low, high)  # type: ignore[misc]
+    for piece, curve, low, high in reversed(half):
+        yield _stretch(piece, lambda t, curve=curve: at + pitch - curve(-t).conj(), -high, -low)  # type: ignore[misc]
+
+
+def _line(words: str, layer: str, start: complex, end: complex) -> Stretch:
+    curve = straight(start, end)
+    return Stretch((layer,), lambda share: curve(share)[None, :], 0.0, 1.0, words, steps=1)
+
+
+def _rack_notes(rack: RackMesh, profile: RackProfile, teeth: int, low: float) -> tuple[str, ...]:
+    pair = rack.pair
+    helix = f", helix angle {math.degrees(pair.helix_angle):.9g} deg" if pair.helix_angle else ""
+    section = "; transverse section" if pair.helix_angle else ""
+    return (
+        f"module {pair.module:g} mm, rack of {teeth} teeth, pressure angle {math.degrees(pair.pressure_angle):.9g} deg"
+        f"{helix}, pitch {profile.pitch:.9g} mm",
+        f"tip line {profile.tip:.9g} mm above the datum line, root line {-profile.root:.9g} mm below it, back "
+        f"{-low:.9g} mm below it; tooth and space equal on the datum line",
+        f"root left by a tool with a tip rounding of {profile.tool.rounding:.6g} module",
+        f"axis of the gear {rack.center_distance:.9g} mm above the datum line",
+        "no backlash: thin the teeth by the allowance that the drawing gives",
+        f"frame: datum line on the x axis, the middle of the rack at the origin, teeth up{section}",
+    )
 
 
 def _stretch(name: str, curve: Curve, low: float, high: float) -> Stretch:

@@ -70,10 +70,19 @@ def _wide_swing(design: Any) -> Makers:
 
 
 def _pair(design: Any, key: str = "") -> Makers:
-    pair = design.gear_pair
-    widths = (design.gear_data if design.kind == "flatbed-press" else design.data).face_width
-    found = _of_mesh(pair, ("gear1", "gear2"), ("gear 1", "gear 2"), key, widths=widths)
-    return {"gear1": found["gear1"]} if getattr(design.spec, "rack", False) else found
+    data = design.gear_data if design.kind == "flatbed-press" else design.data
+    widths, rim = data.face_width, data.rims[1]
+    if rim is not None:
+        rim += abs(data.pair.root_radius[1])
+    found = _of_mesh(design.gear_pair, ("gear1", "gear2"), ("gear 1", "gear 2"), key, widths=widths, rim=rim)
+    return {"gear1": found["gear1"], "rack": lambda: _rack(design)} if getattr(design.spec, "rack", False) else found
+
+
+def _rack(design: Any) -> Part:
+    from gearlink.cli.export.gear_parts import rack_of
+
+    width = design.data.face_width[1] if design.data.face_width else None
+    return rack_of(design.rack, design.rack_teeth, design.rack_back, "rack", "rack", width)
 
 
 def _three_gears(design: Any) -> Makers:
@@ -144,8 +153,9 @@ def _of_mesh(
     key: str,
     gears: Any = None,
     widths: tuple[float, float] | None = None,
+    rim: float | None = None,
 ) -> Makers:
-    """Both gears of a mesh; `gears` is the section of the file that may name the rim of a ring."""
+    """Both gears of a mesh; `gears` is the section of the file that may name the rim of a ring, or `rim` is it."""
 
     def gear(number: int) -> Part:
         from gearlink.cli.export import gear_parts
@@ -153,8 +163,8 @@ def _of_mesh(
         width = widths[number] if widths else None
         with at_key(key):
             if number == 1 and is_ring(mesh):
-                rim = _rim(mesh, getattr(gears, "rim", None))
-                return gear_parts.ring_of(mesh, rim, names[1], titles[1], width)
+                outer = _rim(mesh, getattr(gears, "rim", rim))
+                return gear_parts.ring_of(mesh, outer, names[1], titles[1], width)
             pair = _planet(mesh) if isinstance(mesh, InternalMesh) else mesh
             return gear_parts.gear_of(pair, number, names[number], titles[number], width)
 

@@ -176,6 +176,8 @@ def _stage_data(pair: GearPair, i: int) -> Iterator[tuple[str, str, Any]]:
 
 def _meshes(design: Any) -> Iterator[tuple[tuple[str, str], GearPair, tuple[float, float] | None]]:
     """Names of both gears, pair and face widths of every mesh of a design; of a pair with a ring it is gear 2."""
+    if getattr(design.spec, "rack", False):
+        raise NoSolution("the data model of REXS 1.7 has no rack: take --as dxf, svg, csv or step", key="teeth[1]")
     if design.kind in ("gear-pair", "flatbed-press"):
         if design.kind == "flatbed-press" and design.spec.input_gears is None:
             return

@@ -78,7 +78,7 @@ def section_area(contour: Contour) -> float:
 
     places, weights = np.polynomial.legendre.leggauss(3)
     total = 0.0
-    for piece in contour.pieces:
+    for piece in (piece for piece in contour.pieces if piece.stretch.layers[0] == "PROFILE"):
         control = piece.control[0]
         spline = BSpline(piece.knots, np.column_stack([control.real, control.imag]), 3)
         knots = np.unique(piece.knots)

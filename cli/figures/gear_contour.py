@@ -13,7 +13,9 @@ if TYPE_CHECKING:
     from matplotlib.lines import Line2D
 
     from gearlink.core.gears.along_path import AlongPath, Place
+    from gearlink.core.gears.contour import BlockingContour
     from gearlink.core.gears.data import GearData
+    from gearlink.core.gears.rack import RackMesh
 
 _LOOKS = (
     ("undercut", style.RED, "-", "undercut"),
@@ -32,12 +34,12 @@ _STEP = 0.15
 """Points of a line farther apart than this, in both shifts, belong to different branches."""
 
 
-def contour_plot(axes: Axes, key: Axes, data: GearData) -> None:
-    """Every line of the contour in the plane of both shifts, and the design."""
-    from gearlink.core.gears.contour import BlockingContour
-
-    contour = BlockingContour(data)
+def contour_plot(axes: Axes, key: Axes, contour: BlockingContour) -> None:
+    """Every line of the contour in the plane of both shifts, the shifts that are free, and the design."""
     panels.heading(axes, "Blocking contour")
+    for band in contour.free:
+        axes.fill(*zip(*band, strict=True), facecolor=style.GREEN, alpha=0.12, linewidth=0, label="_")
+    axes.plot([], [], color=style.GREEN, alpha=0.25, linewidth=6, label="free of all that blocks")
     named: set[str] = set()
     for name, points in contour.points.items():
         _, color, dashes, words = next(look for look in _LOOKS if name.startswith(look[0]))
@@ -46,7 +48,7 @@ def contour_plot(axes: Axes, key: Axes, data: GearData) -> None:
             named.add(words)
             xs, ys = zip(*branch, strict=True)
             axes.plot(xs, ys, color=color, linestyle=dashes, linewidth=1.1, label=label)
-    x1, x2 = data.pair.profile_shift
+    x1, x2 = contour.data.pair.profile_shift
     axes.plot([x1], [x2], "o", color="white", markeredgecolor=style.BLACK, markersize=6, label="this design", zorder=6)
     axes.set_xlim(*contour.window[0])
     axes.set_ylim(*contour.window[1])
@@ -70,19 +72,22 @@ def _key(axes: Axes, handles: Sequence[Any], columns: int) -> None:
 
 
 def _branches(points: list[tuple[float, float]]) -> list[list[tuple[float, float]]]:
-    """The points of a line sorted into branches: each continues the nearest one that is near enough."""
-    branches: list[list[tuple[float, float]]] = []
-    for point in points:
-        near = [
-            branch
-            for branch in branches
-            if branch[-1] != point and max(abs(branch[-1][k] - point[k]) for k in (0, 1)) < _STEP
-        ]
-        if near:
-            min(near, key=lambda branch: sum(abs(branch[-1][k] - point[k]) for k in (0, 1))).append(point)
-        else:
-            branches.append([point])
+    """The points of a line in the order of its branches: each goes on at both ends to what is next and near enough."""
+    left, branches = list(points), []
+    while left:
+        branch = [left.pop(0)]
+        for _ in range(2):
+            while near := [point for point in left if max(_apart(branch[-1], point)) < _STEP]:
+                following = min(near, key=lambda point: sum(d * d for d in _apart(branch[-1], point)))
+                left.remove(following)
+                branch.append(following)
+            branch.reverse()
+        branches.append(branch)
     return branches
+
+
+def _apart(one: tuple[float, float], other: tuple[float, float]) -> tuple[float, float]:
+    return abs(one[0] - other[0]), abs(one[1] - other[1])
 
 
 def path_plot(axes: Axes, key: Axes, data: GearData) -> None:
@@ -109,6 +114,20 @@ def path_plot(axes: Axes, key: Axes, data: GearData) -> None:
     for name, at in (("A", data.path.start), ("C", data.path.pitch), ("E", data.path.end)):
         axes.annotate(name, (at, 0.0), (1, 3), xycoords=_FOOT, textcoords="offset points", fontsize=7)
     _key(key, handles, 2)
+
+
+def rack_path_plot(axes: Axes, key: Axes, rack: RackMesh) -> None:
+    """Specific sliding of gear and rack from A to E."""
+    table = rack.table(120)
+    panels.heading(axes, "Along the path of contact")
+    for name, color, words in (("sliding", style.BLUE, "gear 1"), ("sliding_2", style.ORANGE, "rack")):
+        heights = [max(-6.0, value) for value in table[name]]
+        axes.plot(table["rho"], heights, color=color, linewidth=1.2, label=f"sliding, {words}")
+    axes.axhline(0.0, color=style.GREY, linewidth=0.6)
+    _named(axes, r"$\rho_1$ in mm", r"specific sliding $\zeta$")
+    for name, at in (("A", rack.start), ("C", rack.pitch), ("E", rack.end)):
+        axes.annotate(name, (at, 0.0), (1, 3), xycoords=_FOOT, textcoords="offset points", fontsize=7)
+    _key(key, list(axes.get_lines()[:2]), 2)
 
 
 def _stresses(axes: Axes, along: AlongPath, places: list[Place]) -> list[Line2D]:

@@ -21,7 +21,10 @@ _MOST_PITCHES = 36
 
 def build(design: GearPairDesign, fraction: Reals) -> Scene:
     """Positions over fractions of the loop; gear 1 drives counter-clockwise."""
-    design.require_two_gears("the picture")
+    if design.rack is not None:
+        from gearlink.cli.scenes.rack import rack_scene
+
+        return rack_scene(design.rack, design.rack_teeth, design.rack_back, fraction)
     return pair_scene(design.gear_pair, ("1", "2"), fraction)
 
 

@@ -11,8 +11,8 @@ from gearlink.cli.scenes.colors import WHITE, pale
 from gearlink.cli.scenes.scene import TURN, Body, Points, Reals, circle
 from gearlink.core.errors import NoSolution
 from gearlink.core.gears.internal_mesh import RIM_MODULES, InternalMesh
-from gearlink.core.gears.mesh_phase import ring_of, ring_outline
 from gearlink.core.gears.pair import GearPair
+from gearlink.core.gears.ring_profile import RingProfile
 
 _HOLES = (5, 4, 6, 3, 7, 8, 9, 10, 11, 12)
 _MOST_TEETH = 600
@@ -44,10 +44,10 @@ def gear(
         look, name=f"{name}, z = {pair.teeth[number]}".removeprefix(", ").replace("-", "−"), pitch=abs(radii[number])
     )
     if isinstance(pair, GearPair) and pair.teeth[number] < 0:
-        return _ring(look, teeth, ring_of(pair), -pair.root_radius[1] + RIM_MODULES * pair.module)
+        return _ring(look, teeth, RingProfile.of(pair).outline(), -pair.root_radius[1] + RIM_MODULES * pair.module)
     if isinstance(pair, InternalMesh):
         if number == 1:
-            return _ring(look, teeth, ring_outline(pair), pair.rim_radius)
+            return _ring(look, teeth, RingProfile.of(pair).outline(6), pair.rim_radius)
         pair = GearPair.from_shift(pair.module, (teeth, teeth), (0.0, 0.0), pressure_angle=pair.pressure_angle)
         number = 0
     outline = _teeth(pair, number)

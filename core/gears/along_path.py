@@ -107,8 +107,9 @@ class AlongPath:
         """Nominal root stress of a gear while it is loaded at a place [N/mm^2]."""
         root, pair = self.data.root, self.data.pair
         section, width, beta = root.sections[gear], root.bearing_width, root.helix_angle_factor
+        raised = root.raised(gear)
         force = self.data.flank.tangential_force
-        if section is None or width is None or beta is None or force is None or place.share is None:
+        if section is None or width is None or beta is None or force is None or place.share is None or raised is None:
             return None
         rho = place.rho if gear == 0 else self.data.path.line - place.rho
         radius = pair.signs[gear] * math.hypot(pair.base_radius[gear], rho)
@@ -118,7 +119,7 @@ class AlongPath:
             factor = here.form_factor * here.stress_correction_factor
         except NoSolution:
             return None
-        return place.share * force / (width[gear] * pair.module) * factor * beta
+        return place.share * force / (width[gear] * pair.module) * factor * beta * raised * root.load_distribution
 
     def table(self, steps: int = _STEPS) -> Table:
         """The table `path`."""

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
 from gearlink.core.errors import NoSolution
@@ -24,7 +25,9 @@ if TYPE_CHECKING:
     from gearlink.core.report import Column
 
 Value = Callable[[GearData], float | None]
-_DIAGONALS, _POINTS = 81, 33
+_DIAGONALS, _UPRIGHTS, _POINTS = 81, 41, 33
+_NEAR = 0.05
+"""Points that are nearer, in both shifts, tell nothing new."""
 _TIPS, _RATIOS = (0.0, 0.2, 0.4), (1.0, 1.1, 1.2)
 _ROOM, _LEAST, _MOST = 0.5, -0.8, 1.6
 
@@ -35,6 +38,7 @@ class Line(NamedTuple):
     name: str
     value: Value
     blocks: bool = True
+    limits: bool = True
 
 
 def lines_of(data: GearData) -> tuple[Line, ...]:
@@ -45,16 +49,27 @@ def lines_of(data: GearData) -> tuple[Line, ...]:
             found.append(Line(f"undercut {gear + 1}", lambda d, g=gear: _undercut(d, g)))  # type: ignore[misc]
         for level in _TIPS:
             name = f"tip {gear + 1} {level:g} m" if level else f"pointed tip {gear + 1}"
-            found.append(Line(name, lambda d, g=gear, t=level: d.pair.tip_thickness[g] / d.pair.module - t))  # type: ignore[misc]
+            value = lambda d, g=gear, t=level: d.pair.tip_thickness[g] / d.pair.module - t  # noqa: E731
+            found.append(Line(name, value, limits=not level))
         found.append(Line(f"fillet {gear + 1}", lambda d, g=gear: _fillet(d, g)))  # type: ignore[misc]
         found.append(Line(f"base circle {gear + 1}", lambda d, g=gear: d.pair.interference_margin[1 - g]))  # type: ignore[misc]
-    found += [Line(f"contact ratio {r:g}", lambda d, r=r: d.pair.contact_ratio - r) for r in _RATIOS]  # type: ignore[misc]
-    found.append(Line("equal sliding", _sliding, blocks=False))
-    found.append(Line("equal root stress", _roots, blocks=False))
+    for ratio in _RATIOS:
+        found.append(Line(f"contact ratio {ratio:g}", lambda d, r=ratio: d.pair.contact_ratio - r, limits=ratio == 1.0))  # type: ignore[misc]
+    found.append(Line("equal sliding", _sliding, blocks=False, limits=False))
+    found.append(Line("equal root stress", _roots, blocks=False, limits=False))
     if data.pair.internal:
         found.append(Line("tip fouling", lambda d: d.internal.tip_fouling_margin if d.internal else None))
-        found.append(Line("radial assembly", lambda d: d.internal.radial_assembly_margin if d.internal else None))
+        found.append(
+            Line("radial assembly", lambda d: d.internal.radial_assembly_margin if d.internal else None, limits=False)
+        )
     return tuple(found)
+
+
+def _has_mesh(data: GearData) -> bool:
+    try:
+        return data.pair.contact_ratio > 0.0
+    except NoSolution:
+        return False
 
 
 def _undercut(data: GearData, gear: int) -> float | None:
@@ -146,27 +161,77 @@ class BlockingContour:
         return _roots_of(lambda first: _value(line, at(first)), grid, [_value(line, at(first)) for first in grid])
 
     @cached_property
-    def points(self) -> dict[str, list[Pair]]:
-        """Points (x_1, x_2) of every line, along rising shift sums."""
+    def _diagonals(self) -> list[tuple[float, list[tuple[Line, float]], list[Pair]]]:
+        """For shift sums across the window: the sum, where lines cross it, and between which x_1 it is free."""
         (low1, high1), (low2, high2) = self.window
+        step = (high1 + high2 - low1 - low2) / (_DIAGONALS - 1)
+        sums = [low1 + low2 + step * k for k in range(_DIAGONALS)]
+        return [(total, *self._across(total)) for total in sums]
+
+    @cached_property
+    def points(self) -> dict[str, list[Pair]]:
+        """Points (x_1, x_2) of every line along rising shift sums, then, where it runs along them, along rising x_1."""
         found: dict[str, list[Pair]] = {line.name: [] for line in self.lines}
-        for k in range(_DIAGONALS):
-            total = low1 + low2 + (high1 + high2 - low1 - low2) * k / (_DIAGONALS - 1)
-            for name, first in self._across(total):
-                found[name].append((first, total - first))
+        for total, crossed, _ in self._diagonals:
+            for line, first in crossed:
+                found[line.name].append((first, total - first))
+        for line in self.lines:
+            known = list(found[line.name])
+            found[line.name] += [point for point in self._upright(line) if not _near(point, known)]
         return found
 
-    def _across(self, total: float) -> Iterator[tuple[str, float]]:
+    def _upright(self, line: Line) -> Iterator[Pair]:
+        """Where a limit crosses lines of constant x_1."""
+        if not line.limits or line.name.startswith("undercut"):
+            return
+        (low1, high1), (low2, high2) = self.window
+        grid = [low2 + (high2 - low2) * k / (_POINTS - 1) for k in range(_POINTS)]
+        for first in (low1 + (high1 - low1) * k / (_UPRIGHTS - 1) for k in range(_UPRIGHTS)):
+
+            def value(second: float, first: float = first) -> float:
+                try:
+                    pair = replace(self.pair, given_shift=(first, second))
+                except NoSolution:
+                    return math.nan
+                return _value(line, replace(self.data, pair=pair))
+
+            for root in _roots_of(value, grid, [value(second) for second in grid]):
+                yield first, root
+
+    @property
+    def free(self) -> Iterator[list[Pair]]:
+        """The shifts that no limit blocks, as strips between two shift sums: corners (x_1, x_2) of quadrilaterals.
+
+        Notes
+            Tip thicknesses and contact ratios above the least, and radial assembly, are wishes and block nothing.
+        """
+        for (one, _, before), (two, _, behind) in pairwise(self._diagonals):
+            for low, high in before:
+                for start, end in behind:
+                    if max(low, start - (two - one)) <= min(high, end):
+                        yield [(low, one - low), (high, one - high), (end, two - end), (start, two - start)]
+
+    def _across(self, total: float) -> tuple[list[tuple[Line, float]], list[Pair]]:
         try:
             at = self._data_on(total)
         except NoSolution:
-            return
+            return [], []
         grid = self._on(total)
         designs = [at(first) for first in grid]
+        crossed = []
         for line in self.lines:
             values = [_value(line, each) for each in designs]
-            for root in _roots_of(lambda first, line=line: _value(line, at(first)), grid, values):  # type: ignore[misc]
-                yield line.name, root
+            roots = _roots_of(lambda first, line=line: _value(line, at(first)), grid, values)  # type: ignore[misc]
+            crossed += [(line, root) for root in roots]
+        if not grid:
+            return crossed, []
+        ends = sorted({grid[0], grid[-1], *(root for line, root in crossed if line.limits)})
+        return crossed, [(low, high) for low, high in pairwise(ends) if self.is_free(at(0.5 * (low + high)))]
+
+    def is_free(self, data: GearData) -> bool:
+        """Whether nothing that limits a pair is violated."""
+        found = [_value(line, data) for line in self.lines if line.limits]
+        return all(value >= 0.0 or value != value for value in found) and _has_mesh(data)
 
     @cached_property
     def margins(self) -> dict[str, tuple[float | None, float | None]]:
@@ -205,6 +270,10 @@ class BlockingContour:
 
 def _state(line: Line, value: float) -> str:
     return "" if not line.blocks or value != value else "good" if value >= 0.0 else "blocked"
+
+
+def _near(point: Pair, known: list[Pair]) -> bool:
+    return any(abs(point[0] - one) < _NEAR and abs(point[1] - other) < _NEAR for one, other in known)
 
 
 def _value(line: Line, data: GearData) -> float:

@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from gearlink.core.gears.internal import InternalInterference
 
 Both = tuple[float | None, float | None]
+_OF_TIP_LOAD = frozenset(("tip_form_factor", "tip_stress_correction_factor", "contact_ratio_factor_bending"))
+"""Of method C: for comparison with a rating that was made by it."""
 _MAGNITUDES = frozenset(
     (
         "center_distance",
@@ -51,6 +53,8 @@ class GearData:
         materials : (Material, Material)
         edition : int - of ISO 6336
         load_share : str - "third" or "half", what a pair of flanks carries beside another
+        rims : (float or None, float or None) [mm] - rim under the tooth roots; None: solid
+        accuracy_grade : int or None - of ISO 1328
     """
 
     pair: GearPair
@@ -62,6 +66,8 @@ class GearData:
     materials: tuple[Material, Material] = (Material(), Material())
     edition: int = 2006
     load_share: str = "third"
+    rims: Both = (None, None)
+    accuracy_grade: int | None = None
 
     @cached_property
     def path(self) -> PathOfContact:
@@ -211,10 +217,14 @@ class GearData:
             load=self.load,
             materials=self.materials,
             edition=self.edition,
+            rims=self.rims,
+            accuracy_grade=self.accuracy_grade,
         )
 
     def quantity(self, name: str) -> Any:
         """A quantity by name, its radii and distances as magnitudes; None where it does not apply."""
+        if name in _OF_TIP_LOAD and self.load is None:
+            return None
         value: Any = self
         for step in PLACES[name].split("."):
             if value is None:

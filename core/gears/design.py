@@ -29,6 +29,8 @@ _ANGLE = either("pressure_angle", step=0.5)
 _LOWER = down("addendum", step=0.01)
 
 
+_RACK_BACK = 2.0
+"""Modules of a rack below its root line where the file names no rim."""
 _WIDER = (up("face_width", step=1.0), Way(("face_width[0]", "face_width[1]"), 1.0))
 _THINNER = tuple(Way((f"allowances.upper[{gear}]", f"allowances.lower[{gear}]"), -0.005) for gear in (0, 1))
 
@@ -97,6 +99,18 @@ class GearPairDesign(GearQuantities, Design):
 
         return RackMesh(self.data)
 
+    @property
+    def rack_teeth(self) -> int:
+        """Teeth of the rack that pictures and exports show."""
+        given: int | None = self.spec.rack_teeth
+        return self.gear_pair.teeth[0] if given is None else given
+
+    @property
+    def rack_back(self) -> float:
+        """Thickness of the rack below its root line [mm]."""
+        given = self.data.rims[1]
+        return _RACK_BACK * self.gear_pair.module if given is None else given
+
     def raw(self, name: str) -> Any:
         """Every quantity is the pair's."""
         with at_key(self._placed_by):
@@ -141,7 +155,9 @@ class GearPairDesign(GearQuantities, Design):
             return drawing_table(self.data, of_both)
 
     def table_path(self, samples: int | None = None) -> Table:
-        """Sliding, pressure and root stress along the path of contact."""
+        """Sliding, pressure and root stress along the path of contact; of a gear on a rack sliding alone."""
+        if self.rack is not None:
+            return self.rack.table(samples)
         from gearlink.core.gears.along_path import AlongPath
 
         with at_key(self._placed_by):

@@ -219,6 +219,13 @@ def _safety(
         yield rule.check("fail" if safety < least else "pass", text, safety, least)
 
 
+def given_factors(data: GearData) -> tuple[str, ...]:
+    """What the safeties rest on, a sentence each for flank and root."""
+    if data.load is None:
+        return ()
+    return _contact_inputs(data), _bending_inputs(data)
+
+
 def _contact_inputs(data: GearData) -> str:
     factors = data.load.factors if data.load else Factors()
     return (
@@ -242,6 +249,11 @@ def _out_of_range(data: GearData) -> Iterator[Check]:
     if data.pair.helix_angle == 0.0 and not 1.0 <= eps <= 2.0:
         text = f"contact ratio {eps:.4g}: method B of ISO 6336 covers 1 to 2, stresses are out of its range"
         yield BENDING.check("warn", text, eps)
+    for gear, factor in enumerate(data.root.rim_factor or ()):
+        if factor is None:
+            least = "1.75 modules" if data.pair.teeth[gear] < 0 else "half the height of its teeth"
+            text = f"the rim of gear {gear + 1} is too thin for ISO 6336-3: no root stress is given"
+            yield BENDING.check("warn", f"{text}; raise rim_thickness above {least}")
     for gear, section in enumerate(data.root.sections):
         if section is None:
             text = f"gear {gear + 1} has no root section that ISO 6336-3 could judge: no root stress is given"

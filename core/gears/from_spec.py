@@ -139,6 +139,8 @@ def data_of(spec: GearPairSpec | PairKeys, pair: GearPair) -> GearData:
         materials=(material_of(spec.material, 0), material_of(spec.material, 1)),
         edition=spec.edition,
         load_share=spec.load_share,
+        rims=both(spec.rim_thickness) or (None, None),
+        accuracy_grade=spec.accuracy_grade,
     )
 
 
@@ -162,7 +164,8 @@ def _distance_allowance(spec: GearPairSpec | PairKeys, pair: GearPair) -> float 
     if not isinstance(given, str):
         return given
     with at_key("center_distance_allowance"):
-        return js7(abs(pair.center_distance))
+        on_rack = pair.reference_radius[0] + pair.profile_shift[0] * pair.module
+        return js7(on_rack if getattr(spec, "rack", False) else abs(pair.center_distance))
 
 
 def load_of(given: LoadSpec | None) -> Load | None:
@@ -210,8 +213,8 @@ def as_pair(value: Any) -> Any:
     return (value[0], value[1]) if isinstance(value, list) else value
 
 
-def both(value: float | list[float] | None) -> Pair | None:
-    """A number that serves both gears, or one for each."""
+def both(value: Any) -> Any:
+    """A number that serves both gears, or one for each; None where there is none."""
     if value is None:
         return None
     return (value[0], value[1]) if isinstance(value, list) else (value, value)

@@ -12,9 +12,11 @@ from gearlink.core.gears.spec_parts import (
     HelixAngle,
     LoadSpec,
     MaterialSpec,
+    Rim,
     TipShortening,
     ToolSpec,
     TwoLengths,
+    TwoRims,
     TwoShifts,
     TwoTools,
     TwoWidths,
@@ -39,6 +41,9 @@ class PairKeys(Spec):
         None, description="full (default), none, or tip alterations k of both gears"
     )
     face_width: FaceWidth | TwoWidths | None = Field(None, description="face width of both gears, or of each")
+    rim_thickness: Rim | TwoRims | None = Field(
+        None, description="thickness of the rim under the tooth roots of both gears, or of each, for Y_B"
+    )
     tool: ToolSpec | TwoTools | None = Field(
         None, description="rack tool of both gears, or of each; left out: straight to the addendum"
     )
@@ -54,4 +59,7 @@ class PairKeys(Spec):
         "third", description="share of a flank pair beside another: third (1/3 to 2/3) or half"
     )
     material: MaterialSpec = MaterialSpec()
+    accuracy_grade: Annotated[int, Field(ge=0, le=12)] | None = Field(
+        None, description="accuracy grade of ISO 1328: 4 or better lowers the root stress of deep teeth (Y_DT)"
+    )
     edition: Literal[2006, 2019] = Field(2006, description="of ISO 6336; 2019 is not verified")

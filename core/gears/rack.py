@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from gearlink.core.gears.checks import GEAR_QUANTITIES, gear_check, gear_quantity
-from gearlink.core.gears.codes import CONTACT_RATIO, FILLET, INTERFERENCE
+from gearlink.core.gears.checks import GEAR_QUANTITIES, UNUSUAL_SLIDING, gear_check, gear_quantity
+from gearlink.core.gears.codes import BACKLASH, CONTACT_RATIO, FILLET, INTERFERENCE, SLIDING, TIP_THICKNESS
 from gearlink.core.gears.data import GearData
 from gearlink.core.gears.drawing_names import PLACES
-from gearlink.core.gears.pair import GearPair
-from gearlink.core.report import Check, Status
+from gearlink.core.gears.pair import GearPair, Pair
+from gearlink.core.gears.tools import rack_tip_width
+from gearlink.core.report import Check, Status, Table
 from gearlink.core.results import cached_property
+
+if TYPE_CHECKING:
+    from gearlink.core.gears.rack_profile import RackProfile
 
 _MATE = 10_000
 _OF_GEAR = frozenset(
@@ -27,6 +31,9 @@ _OF_GEAR = frozenset(
 """Quantities that the gear has by itself."""
 _OF_TOOTH = ("undercut", "tip-thickness", "tooth-form", "root-clearance")
 _FILLET_NOISE = 1e-4
+_NO_BACKLASH = -1e-6
+_USUAL_TIP = 0.15
+_STEPS = 40
 
 
 def beside_a_rack(pair: dict[str, Any], first: float) -> GearPair:
@@ -63,10 +70,33 @@ class RackMesh:
         """The pair whose gear 1 it is."""
         return self.data.pair
 
+    @cached_property
+    def profile(self) -> RackProfile:
+        """The teeth of the rack.
+
+        Raises
+            NoSolution - for a rack that no tool leaves
+        """
+        from gearlink.core.gears.rack_profile import RackProfile
+
+        pair = self.pair
+        return RackProfile(
+            module=pair.module,
+            tool=pair.tool(1),
+            pressure_angle=pair.pressure_angle,
+            helix_angle=pair.helix_angle,
+            height=self.height,
+        )
+
     @property
     def center_distance(self) -> float:
         """a = r_1 + x_1 m, from the axis to the datum line."""
         return self.pair.reference_radius[0] + self.pair.profile_shift[0] * self.pair.module
+
+    @property
+    def height(self) -> float:
+        """h_aR [module], of the rack's tips above its datum line: h_a* + k_2."""
+        return self.pair.addendum + self.pair.tip_alteration[1]
 
     @property
     def pitch(self) -> float:
@@ -76,7 +106,7 @@ class RackMesh:
     @property
     def start(self) -> float:
         """rho_A1 = rho_C1 - (h_aR - x_1) m/sin(alpha_t), at the tip of the rack."""
-        height = (self.pair.addendum - self.pair.profile_shift[0]) * self.pair.module
+        height = (self.height - self.pair.profile_shift[0]) * self.pair.module
         return self.pitch - height / math.sin(self.pair.transverse_pressure_angle)
 
     @property
@@ -142,6 +172,55 @@ class RackMesh:
         """c_1, from the gear's tip to the root of the rack."""
         return self.center_distance + self.pair.root_depth(1) * self.pair.module - self.pair.tip_radius[0], None
 
+    @property
+    def pitch_on_line(self) -> float:
+        """p_t = pi m/cos(beta) [mm]."""
+        return math.pi * self.pair.module / math.cos(self.pair.helix_angle)
+
+    @property
+    def end_depth(self) -> float:
+        """How far below its datum line the rack is touched at E [mm]."""
+        below = (self.end - self.pitch) * math.sin(self.pair.transverse_pressure_angle)
+        return below - self.pair.profile_shift[0] * self.pair.module
+
+    @property
+    def form_depth(self) -> float:
+        """How far below its datum line the straight flank of the rack reaches [mm]."""
+        return self.pair.tool(1).straight_end(self.pair.pressure_angle) * self.pair.module
+
+    @property
+    def tip_width(self) -> float:
+        """s_aR, width of the rack's tips in the normal section [mm]."""
+        return rack_tip_width(self.height, self.pair.pressure_angle) * self.pair.module
+
+    @cached_property
+    def backlash_circumferential(self) -> Pair | None:
+        """j_wt on the reference circle, least and greatest [mm]: -(E_1 + E_2)/cos(beta) +- 2 A_a tan(alpha_t).
+
+        Notes
+            Exact: the flank of a rack has the same direction everywhere.
+        """
+        allowances, distance = self.data.allowances, self.data.distance_allowance
+        if allowances is None and distance is None:
+            return None
+        open_ = 2.0 * (distance or 0.0) * math.tan(self.pair.transverse_pressure_angle)
+        (upper1, lower1), (upper2, lower2) = allowances or ((0.0, 0.0), (0.0, 0.0))
+        cosine = math.cos(self.pair.helix_angle)
+        return -(upper1 + upper2) / cosine - open_, -(lower1 + lower2) / cosine + open_
+
+    @property
+    def backlash_normal(self) -> Pair | None:
+        """j_bn, least and greatest [mm]: j_wt cos(alpha_t) cos(beta_b)."""
+        found = self.backlash_circumferential
+        turned = math.cos(self.pair.transverse_pressure_angle) * math.cos(self.pair.base_helix_angle)
+        return None if found is None else (found[0] * turned, found[1] * turned)
+
+    @property
+    def backlash_angle(self) -> tuple[Pair, None] | None:
+        """Free turn of the gear while the rack stands, least and greatest [rad]."""
+        found, r = self.backlash_circumferential, self.pair.reference_radius[0]
+        return None if found is None else ((found[0] / r, found[1] / r), None)
+
     def quantity(self, name: str) -> Any:
         """A quantity by name; values of the rack are None."""
         if name in _OF_GEAR:
@@ -155,22 +234,98 @@ class RackMesh:
         if name in _OF_TOOTH:
             found = list(gear_check(name, self.pair, limits, shifts=True))
             yield from (each for each in found if "gear 1" in each.message)
-        elif name == "contact-ratio":
-            eps = self.total_contact_ratio if self.pair.helix_angle and self.total_contact_ratio else self.contact_ratio
-            least = limits.contact_ratio
-            remedy = "take more teeth or less profile shift"
-            yield CONTACT_RATIO.below(eps, least, least + 0.1, "1", "the contact ratio", remedy)
-        elif name == "involute-interference":
-            yield _judged(INTERFERENCE.check, self.start, 0.0, "the rack's tip stays short of the base tangent point")
-        elif name == "fillet-interference" and self.pair.form_radius[0] is not None:
-            margin = self.used_root_radius[0] - self.pair.form_radius[0] if self.start > 0.0 else self.start
-            yield _judged(FILLET.check, margin, -_FILLET_NOISE * self.pair.module, "contact stays off the root fillet")
+        if name in _CHECKS:
+            yield from _CHECKS[name](self, limits)
+
+    def table(self, samples: int | None = None) -> Table:
+        """The table `path`: sliding from A to E."""
+        steps, r = _STEPS if samples is None else samples, self.pair.reference_radius[0]
+        named = {self.start: "A", self.pitch: "C", self.end: "E"}
+        between = [self.start + self.path_of_contact * k / steps for k in range(1, steps)]
+        rho = sorted({*between, *(at for at in named if self.start <= at <= self.end)})
+        columns: dict[str, tuple[list[Any], str]] = {
+            "rho": (rho, "mm"),
+            "place": ([named.get(at, "") for at in rho], "1"),
+            "sliding": ([1.0 - self.pitch / at if at else -math.inf for at in rho], "1"),
+            "sliding_2": ([1.0 - at / self.pitch for at in rho], "1"),
+            "sliding_factor": ([(at - self.pitch) / r for at in rho], "1"),
+        }
+        return Table.of("path", columns)
 
 
-def _judged(make: Any, margin: float, limit: float, words: str) -> Check:
+def _contact_ratio(rack: RackMesh, limits: Any) -> Iterator[Check]:
+    eps = rack.total_contact_ratio if rack.pair.helix_angle and rack.total_contact_ratio else rack.contact_ratio
+    least = limits.contact_ratio
+    remedy = "take more teeth or less profile shift"
+    yield CONTACT_RATIO.below(eps, least, least + 0.1, "1", "the contact ratio", remedy)
+
+
+def _interference(rack: RackMesh, _limits: Any) -> Iterator[Check]:
+    yield _judged(INTERFERENCE.check, rack.start, 0.0, "the rack's tip stays short of the base tangent point")
+
+
+def _fillet(rack: RackMesh, _limits: Any) -> Iterator[Check]:
+    noise = -_FILLET_NOISE * rack.pair.module
+    if rack.pair.form_radius[0] is not None:
+        margin = rack.used_root_radius[0] - rack.pair.form_radius[0] if rack.start > 0.0 else rack.start
+        yield _judged(FILLET.check, margin, noise, "contact stays off the root fillet")
+    margin = rack.form_depth - rack.end_depth
+    remedy = "lower the profile shift or the addendum of gear 1, or the rounding of the rack's tool"
+    yield _judged(FILLET.check, margin, noise, "contact stays off the root rounding of the rack", remedy)
+
+
+def _tip(rack: RackMesh, limits: Any) -> Iterator[Check]:
+    share, limit = rack.tip_width / rack.pair.module, limits.tip_thickness
+    subject = "the tip width of the rack over the module"
+    yield TIP_THICKNESS.below(share, limit, limit + _USUAL_TIP, "1", subject, "lower the addendum")
+
+
+def _sliding(rack: RackMesh, limits: Any) -> Iterator[Check]:
+    found = rack.specific_sliding
+    limit = UNUSUAL_SLIDING if limits.sliding is None else limits.sliding
+    if found is None or (limits.sliding is None and abs(found[0]) <= limit):
+        return
+    text = f"the specific sliding at the root of gear 1 is {found[0]:.5g}"
+    over = abs(found[0]) > limit
+    if over:
+        text += f", beyond the limit of {limit:g}: raise its profile shift or take more teeth"
+    yield SLIDING.check("warn" if over else "pass", text, abs(found[0]), limit)
+
+
+def _backlash(rack: RackMesh, limits: Any) -> Iterator[Check]:
+    found = rack.backlash_normal
+    if found is None:
+        return
+    status: Status = "pass"
+    text = f"the theoretical normal backlash is {found[0]:.4g} to {found[1]:.4g} mm"
+    if found[0] < _NO_BACKLASH * rack.pair.module:
+        status = "fail"
+        text += ": gear and rack do not assemble; thin the teeth (allowances) or move the axis away"
+    elif found[0] < limits.backlash:
+        status, text = "warn", f"{text}, below {limits.backlash:g} mm: thin the teeth (allowances)"
+    yield BACKLASH.check(status, text, found[0], limits.backlash, "mm")
+
+
+_CHECKS: dict[str, Callable[[RackMesh, Any], Iterator[Check]]] = {
+    "contact-ratio": _contact_ratio,
+    "involute-interference": _interference,
+    "fillet-interference": _fillet,
+    "tip-thickness": _tip,
+    "sliding": _sliding,
+    "backlash": _backlash,
+}
+
+
+def _judged(
+    make: Any,
+    margin: float,
+    limit: float,
+    words: str,
+    remedy: str = "raise the profile shift of gear 1 or take more teeth",
+) -> Check:
     status: Status = "fail" if margin < limit else "pass"
     text = f"{words} by {margin:.4g} mm"
     if status == "fail":
-        text = f"not so: {words} (by {margin:.4g} mm): raise the profile shift of gear 1 or take more teeth"
+        text = f"not so: {words} (by {margin:.4g} mm): {remedy}"
     check: Check = make(status, text, margin, limit, "mm")
     return check

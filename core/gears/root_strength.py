@@ -7,7 +7,7 @@ standard's auxiliary angle theta is the direction of the tool's normal there, so
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.gears.involute import involute
@@ -109,6 +109,17 @@ class RootSection:
         g, cosine = self._depth, math.cos(self.theta)
         return self.tool.rounding + 2.0 * g * g / (cosine * (self.virtual_teeth * cosine * cosine - 2.0 * g))
 
+    @property
+    def tip_radius(self) -> float:
+        """d_an*/2 of the virtual gear; signed."""
+        height = (self.pair.tip_radius[self.gear] - self.pair.reference_radius[self.gear]) / self.pair.module
+        return 0.5 * self.virtual_teeth + height
+
+    @cached_property
+    def loaded_at_tip(self) -> RootSection:
+        """The same section with its load at the tip, for Y_Fa and Y_Sa of method C."""
+        return replace(self, contact_radius=self.tip_radius)
+
     @cached_property
     def load_radius(self) -> float:
         """d_en*/2, where the load acts on the virtual gear; signed."""
@@ -116,8 +127,7 @@ class RootSection:
             return self.contact_radius
         z, alpha, sign = self.virtual_teeth, self.pair.pressure_angle, self.pair.signs[self.gear]
         base = 0.5 * z * math.cos(alpha)
-        height = (self.pair.tip_radius[self.gear] - self.pair.reference_radius[self.gear]) / self.pair.module
-        tip = 0.5 * z + height
+        tip = self.tip_radius
         roll = sign * math.sqrt(max(0.0, (tip - base) * (tip + base)))
         at = roll - math.pi * math.cos(alpha) * (self.virtual_contact_ratio - 1.0)
         return sign * math.hypot(at, base)

@@ -17,6 +17,8 @@ from gearlink.core.results import cached_property
 Both = tuple[float | None, float | None]
 _STRESS_CORRECTION = 2.0
 """Y_ST of the reference test gears."""
+_DEEP_GRADE = 4
+"""Deep teeth share the load from this accuracy grade on."""
 _OVERHANG = 2.0
 """Modules by which a gear may be wider than its mate and still carry with all its width."""
 
@@ -25,7 +27,7 @@ _OVERHANG = 2.0
 class RootStress:
     """Root stresses and safeties; a value that does not exist is None.
 
-    sigma_F = F_t/(b m) Y_F Y_S Y_beta K_A K_v K_Fb K_Fa,  S_F = sigma_Flim Y_ST Y_N.../sigma_F
+    sigma_F = F_t/(b m) Y_F Y_S Y_beta Y_B Y_DT K_A K_v K_Fb K_Fa,  S_F = sigma_Flim Y_ST Y_N.../sigma_F
 
     Parameters
         path : PathOfContact
@@ -35,6 +37,8 @@ class RootStress:
         load : Load or None
         materials : (Material, Material)
         edition : int - 2006, or 2019, whose Y_beta and f_eps were not compared with any published value
+        rims : (float or None, float or None) [mm] - rim under the tooth roots; None: solid
+        accuracy_grade : int or None - of ISO 1328; 4 or better lowers the stress of deep teeth
     Returns
         Properties: a pair is (gear 1, gear 2); lengths in mm, stresses in N/mm^2.
 
@@ -49,6 +53,8 @@ class RootStress:
     load: Load | None
     materials: tuple[Material, Material]
     edition: int = 2006
+    rims: Both = (None, None)
+    accuracy_grade: int | None = None
 
     @cached_property
     def sections(self) -> tuple[RootSection | None, RootSection | None]:
@@ -65,6 +71,59 @@ class RootStress:
         except NoSolution:
             return None
         return section if enough else None
+
+    @cached_property
+    def at_tip(self) -> tuple[RootSection | None, RootSection | None]:
+        """The same sections loaded at the tip (method C)."""
+        one, other = self.sections
+        return None if one is None else one.loaded_at_tip, None if other is None else other.loaded_at_tip
+
+    @property
+    def tip_form_factor(self) -> Both:
+        """Y_Fa, with the load at the tip."""
+        one, other = self.at_tip
+        return None if one is None else one.form_factor, None if other is None else other.form_factor
+
+    @property
+    def tip_stress_correction_factor(self) -> Both:
+        """Y_Sa, with the load at the tip; None where the lever is none."""
+        return _corrected(self.at_tip[0]), _corrected(self.at_tip[1])
+
+    @property
+    def contact_ratio_factor(self) -> float | None:
+        """Y_eps = 0.25 + 0.75/eps_alpha,n of method C, never beside Y_F and Y_S; None out of its range, 1 to 2."""
+        eps = self.virtual_contact_ratio
+        return 0.25 + 0.75 / eps if 1.0 <= eps <= 2.0 else None
+
+    @property
+    def virtual_contact_ratio(self) -> float:
+        """eps_alpha,n = eps_alpha/cos^2(beta_b)."""
+        return self.path.pair.contact_ratio / math.cos(self.path.pair.base_helix_angle) ** 2
+
+    @cached_property
+    def rim_factor(self) -> Both | None:
+        """Y_B of gear 1 and 2; None without rims, and of a rim that is too thin to be rated."""
+        return None if self.rims == (None, None) else (self._rim_factor(0), self._rim_factor(1))
+
+    def _rim_factor(self, gear: int) -> float | None:
+        rim, pair = self.rims[gear], self.path.pair
+        if rim is None:
+            return 1.0
+        if pair.teeth[gear] < 0:
+            return rim_factor_of_ring(rim / pair.module)
+        return rim_factor_of_gear(rim / (pair.tip_radius[gear] - pair.root_radius[gear]))
+
+    @property
+    def deep_tooth_factor(self) -> float | None:
+        """Y_DT; None where the file names no accuracy grade."""
+        grade = self.accuracy_grade
+        return None if grade is None else deep_tooth_factor(self.virtual_contact_ratio, grade)
+
+    def raised(self, gear: int) -> float | None:
+        """Y_B Y_DT of a gear, 1 where the file has no data for them; None for a rim too thin to be rated."""
+        rim = 1.0 if self.rim_factor is None else self.rim_factor[gear]
+        deep = 1.0 if self.deep_tooth_factor is None else self.deep_tooth_factor
+        return None if rim is None else rim * deep
 
     def _each(self, value: Callable[[RootSection], float]) -> Both:
         one, other = self.sections
@@ -110,7 +169,7 @@ class RootStress:
         overlap = self.path.overlap_ratio
         if self.edition == 2006 or overlap is None:
             return 1.0
-        eps = self.path.pair.contact_ratio / math.cos(self.path.pair.base_helix_angle) ** 2
+        eps = self.virtual_contact_ratio
         if overlap >= 1.0:
             return 1.0 / math.sqrt(eps)
         if overlap == 0.0:
@@ -128,16 +187,19 @@ class RootStress:
 
     @cached_property
     def nominal_stress(self) -> Both | None:
-        """sigma_F0 = F_t/(b m) Y_F Y_S Y_beta."""
+        """sigma_F0 = F_t/(b m) Y_F Y_S Y_beta Y_B Y_DT."""
         if self.load is None or self.bearing_width is None or self.helix_angle_factor is None:
             return None
         if self.path.pair.contact_ratio <= 0.0:
             return None
         force = self.load.tangential_force(self.path.pair.reference_radius[0])
         line = force / self.path.pair.module * self.helix_angle_factor * self.load_distribution
-        b1, b2 = self.bearing_width
-        one, other = self._each(lambda root: root.form_factor * root.stress_correction_factor * line)
-        return None if one is None else one / b1, None if other is None else other / b2
+        found = self._each(lambda root: root.form_factor * root.stress_correction_factor * line)
+        return self._over_width(found, 0), self._over_width(found, 1)
+
+    def _over_width(self, force: Both, gear: int) -> float | None:
+        loaded, raised, widths = force[gear], self.raised(gear), self.bearing_width
+        return None if loaded is None or raised is None or widths is None else loaded * raised / widths[gear]
 
     @cached_property
     def stress(self) -> Both | None:
@@ -158,3 +220,55 @@ class RootStress:
         if limit is None or not stress:
             return None
         return limit * _STRESS_CORRECTION * self.materials[gear].bending_factors / stress
+
+
+def _corrected(section: RootSection | None) -> float | None:
+    try:
+        return None if section is None else section.stress_correction_factor
+    except NoSolution:
+        return None
+
+
+def rim_factor_of_gear(backup: float) -> float | None:
+    """Y_B of an external gear, of the rim under its roots over the height of its teeth; None for a rim too thin.
+
+    Example
+        >>> rim_factor_of_gear(1.2), round(rim_factor_of_gear(0.8), 6), rim_factor_of_gear(0.5)
+        (1.0, 1.648819, None)
+
+    Source
+        ISO 6336-3:2006, from memory: 1 from 1.2 on, 1.6 ln(2.242 h_t/s_R) above 0.5
+    """
+    if backup >= 1.2:
+        return 1.0
+    return 1.6 * math.log(2.242 / backup) if backup > 0.5 else None
+
+
+def rim_factor_of_ring(rim: float) -> float | None:
+    """Y_B of a ring, of its rim in modules; None for a rim too thin.
+
+    Example
+        >>> rim_factor_of_ring(3.5), round(rim_factor_of_ring(2.5), 6), rim_factor_of_ring(1.75)
+        (1.0, 1.38328, None)
+
+    Source
+        ISO 6336-3:2006, from memory: 1 from 3.5 on, 1.15 ln(8.324 m/s_R) above 1.75
+    """
+    if rim >= 3.5:
+        return 1.0
+    return 1.15 * math.log(8.324 / rim) if rim > 1.75 else None
+
+
+def deep_tooth_factor(virtual_contact_ratio: float, grade: int) -> float:
+    """Y_DT: less stress where two pairs of deep, accurate teeth share the load.
+
+    Example
+        >>> [round(deep_tooth_factor(eps, 4), 4) for eps in (2.05, 2.5, 2.6)], deep_tooth_factor(2.4, 5)
+        ([1.0, 0.701, 0.7], 1.0)
+
+    Source
+        ISO 6336-3:2006: 1 up to 2.05 and for grades above 4, 2.366 - 0.666 eps_alpha,n up to 2.5, 0.7 beyond
+    """
+    if grade > _DEEP_GRADE or virtual_contact_ratio <= 2.05:
+        return 1.0
+    return 2.366 - 0.666 * virtual_contact_ratio if virtual_contact_ratio <= 2.5 else 0.7

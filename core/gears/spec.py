@@ -16,12 +16,14 @@ from gearlink.core.gears.spec_parts import (
     HelixAngle,
     LoadSpec,
     MaterialSpec,
+    Rim,
     Shift,
     SignedTeeth,
     SpanTeeth,
     TipShortening,
     ToolSpec,
     TwoLengths,
+    TwoRims,
     TwoShifts,
     TwoTools,
     TwoWidths,
@@ -70,6 +72,14 @@ class GearPairSpec(TolerancedSpec):
     )
     tip_diameter: TwoLengths | None = Field(None, description="tip diameters, in place of tip_shortening")
     face_width: FaceWidth | TwoWidths | None = Field(None, description="face width of both gears, or of each")
+    rim_thickness: Rim | TwoRims | None = Field(
+        None,
+        description="thickness of the rim under the tooth roots, of both or of each: for Y_B, and the back of a ring "
+        "or rack in exports, which left out is 2 modules",
+    )
+    rack_teeth: Annotated[int, Field(ge=1, le=10_000, json_schema_extra={"unit": "teeth"})] | None = Field(
+        None, description="teeth of the rack in pictures and exports; left out: as many as gear 1 has"
+    )
     tool: ToolSpec | TwoTools | None = Field(
         None, description="rack tool of both gears, or of each; left out: straight to the addendum"
     )
@@ -89,6 +99,9 @@ class GearPairSpec(TolerancedSpec):
         "third", description="share of a flank pair beside another: third (1/3 to 2/3) or half"
     )
     material: MaterialSpec = MaterialSpec()
+    accuracy_grade: Annotated[int, Field(ge=0, le=12)] | None = Field(
+        None, description="accuracy grade of ISO 1328: 4 or better lowers the root stress of deep teeth (Y_DT)"
+    )
     edition: Literal[2006, 2019] = Field(2006, description="of ISO 6336; 2019 is not verified")
     assembly: Literal["axial", "radial"] = Field("axial", description="how pinion and ring are put together")
     shift_split: Literal["equal", "sliding", "tip", "root", "undercut"] | Shift = Field(
@@ -146,12 +159,15 @@ class GearPairSpec(TolerancedSpec):
     def _fits_a_rack(self) -> None:
         """Refuse what a rack cannot have."""
         if not self.rack:
+            if self.rack_teeth is not None:
+                message = "rack_teeth goes with teeth: [z, rack]: leave it out"
+                raise PydanticCustomError("GL111", message, {"key": "rack_teeth"})
             return
         if self.profile_shift is not None and (self.center_distance is not None or self.profile_shift[1] != 0.0):
             message = "a rack has no shift: give profile_shift: [x1, 0], or center_distance to its datum line"
             key = "profile_shift[1]" if self.center_distance is None else "profile_shift"
             raise PydanticCustomError("GL111", message, {"key": key})
-        for key in ("load", "loads", "center_distance_allowance", "tip_diameter"):
+        for key in ("load", "loads", "tip_diameter"):
             if getattr(self, key) is not None:
                 message = "{key} is not known of a gear on a rack: leave it out"
                 raise PydanticCustomError("GL111", message, {"key": key})

@@ -15,6 +15,8 @@ Alteration = Annotated[float, Field(ge=-3, le=3, json_schema_extra={"unit": "1"}
 Protuberance = Annotated[float, Field(ge=0, le=1, json_schema_extra={"unit": "1"})]
 Rounding = Annotated[float, Field(ge=0, le=3, json_schema_extra={"unit": "1"})]
 FaceWidth = Annotated[float, Field(ge=1e-3, le=1e6, json_schema_extra={"unit": "mm"})]
+Rim = Annotated[float, Field(ge=1e-3, le=1e6, json_schema_extra={"unit": "mm"})]
+TwoRims = Annotated[list[Rim | None], Field(min_length=2, max_length=2)]
 TwoWidths = Annotated[list[FaceWidth], Field(min_length=2, max_length=2)]
 TwoShifts = Annotated[list[Shift], Field(min_length=2, max_length=2)]
 TwoLengths = Annotated[list[Length], Field(min_length=2, max_length=2)]

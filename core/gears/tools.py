@@ -81,6 +81,16 @@ def full_rounding(
     return half * f.cos(pressure_angle) / (1.0 - f.sin(pressure_angle))
 
 
+def rack_tip_width(height: float, pressure_angle: float) -> float:
+    """Width of the tips of a rack [module]: pi/2 - 2 h tan(alpha_n), negative where its flanks meet below the tip.
+
+    Example
+        >>> round(rack_tip_width(1.0, math.radians(20.0)), 6)
+        0.842856
+    """
+    return math.pi / 2.0 - 2.0 * height * math.tan(pressure_angle)
+
+
 def standard_tool(pressure_angle: float, addendum: float, clearance: float, f: Elementary = SCALARS) -> RackTool:
     """The rack tool of a profile with addendum h_a* and clearance c* that names no tool.
 

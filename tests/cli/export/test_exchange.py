@@ -196,7 +196,9 @@ def test_what_is_no_prism_is_refused(
     assert words in ended.err
 
 
-@pytest.mark.parametrize(("given", "name"), [(PAIR, "gear1"), ("two_gear_ring", "gear5"), ("ty460", "main_cam")])
+@pytest.mark.parametrize(
+    ("given", "name"), [(PAIR, "gear1"), ("two_gear_ring", "gear5"), ("ty460", "main_cam"), ("rack_drive", "rack")]
+)
 def test_a_solid_that_is_read_again_has_the_volume_of_its_section(given: Any, name: str, tmp_path: Path) -> None:
     reason = "STEP needs the extra `step` (cadquery-ocp), which is not installed"
     pytest.importorskip("OCP", reason=reason)

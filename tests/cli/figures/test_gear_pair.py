@@ -9,13 +9,14 @@ import math
 import numpy as np
 import pytest
 from factory import design
-from sheets import odd_sheets, points, sheet, tagged, words
+from sheets import odd_sheets, panel, points, sheet, tagged, words
 
 from gearlink.cli.figures.gear_mesh import Mesh, mesh_figure
 from gearlink.cli.figures.write import write_plot
 from gearlink.cli.options import Options
 from gearlink.core.gears.mesh_geometry import MeshGeometry
 from gearlink.core.gears.pair import GearPair
+from gearlink.core.gears.rack_geometry import RackGeometry
 
 DATA = {"kind": "gear-pair", "name": "pair", "module": 4.0, "teeth": [20, 31], "profile_shift": [0.3, 0.1]}
 
@@ -94,3 +95,27 @@ def test_two_meshes_stand_in_one_figure():
     assert len(figure.axes) == 5
     assert "gear 3\nsecond" in words(figure)
     assert f"{math.degrees(pairs[1].working_pressure_angle):.6g}" in words(figure)
+
+
+def test_a_rack_stands_beside_its_gear_with_its_teeth_and_tables():
+    made, figure = sheet("rack_drive", "gear")
+    (rack,) = tagged(figure, "zone-2")
+    geometry = RackGeometry(made.rack)
+    (path,) = labelled(figure.axes[1], "path of contact A–E")
+    ends = np.asarray(path.get_xdata()) + 1j * np.asarray(path.get_ydata())
+    assert ends == pytest.approx(np.array([geometry.contact_start, geometry.contact_end]), rel=1e-12)
+    assert points(rack).real.min() == pytest.approx(made.rack.center_distance - 3.0, rel=1e-12)
+    shown = words(figure)
+    for words_ in ("measure over balls, least", "axis to the datum line of the rack", "rack"):
+        assert words_ in shown
+
+
+def test_safeties_stand_with_what_they_rest_on():
+    load = {"face_width": 30, "load": {"torque": 100}, "material": {"contact_limit": 1400, "bending_limit": 400}}
+    made, figure = sheet(DATA, "gear", **load)
+    shown = words(figure)
+    assert any("K_Hb 1" in text and "given, not computed" in text for text in shown)
+    assert f"{made.quantity('safety_bending').value[0]:.6g}" in shown
+    assert "thickness allowance, upper" not in shown
+    assert "span measurement, nominal" in shown
+    assert panel(figure, "Blocking contour").patches

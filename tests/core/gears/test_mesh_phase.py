@@ -14,8 +14,9 @@ from matplotlib.path import Path
 
 from gearlink.core.gears.internal_mesh import InternalMesh
 from gearlink.core.gears.mesh_geometry import MeshGeometry
-from gearlink.core.gears.mesh_phase import driven_turn, ring_outline, ring_turn
+from gearlink.core.gears.mesh_phase import driven_turn, ring_turn
 from gearlink.core.gears.pair import GearPair
+from gearlink.core.gears.ring_profile import RingProfile
 from gearlink.core.gears.tooth_profile import ToothProfile, outline
 
 _CHORD = 1e-3
@@ -72,7 +73,7 @@ def test_teeth_in_a_ring_touch_and_do_not_cross(place: float) -> None:
     planet = mesh.center_distance * np.exp(1j * psi) + outline(ToothProfile.of(pair, 0), 2.0 * _CHORD) * np.exp(
         1j * place
     )
-    ring = ring_outline(mesh, 40)
+    ring = RingProfile.of(mesh).outline(40)
     # The tips of the ring reach below the involute that a rack tool leaves the planet, by half a percent of a module.
     assert depth(planet, ring * np.exp(1j * turn), inside=False) < 0.01 * mesh.module
     assert depth(planet, ring * np.exp(1j * (turn + 0.1 * math.pi / 37.5)), inside=False) > 0.05 * mesh.module

@@ -1,0 +1,137 @@
+"""The table beside a mesh: words, symbols, units and values of both gears."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
+
+from gearlink.cli.figures import style
+from gearlink.core.errors import NoSolution
+from gearlink.core.nomenclature import term
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+Quantity = Callable[[str], Any]
+"""A quantity of a mesh by name, of two gears a pair; None where it has none."""
+
+_OF_MESH = (
+    "center_distance",
+    "working_pressure_angle",
+    "contact_ratio",
+    "shift_sum",
+    "tip_shortening",
+)
+_OF_GEAR = (
+    "profile_shift",
+    "reference_radius",
+    "base_radius",
+    "working_radius",
+    "tip_radius",
+    "root_radius",
+    "tooth_thickness",
+    "tip_thickness",
+    "specific_sliding",
+)
+_WORDS = {
+    "reference_radius": "reference radius",
+    "tooth_thickness": "tooth thickness on the reference circle",
+    "working_radius": "working pitch radius",
+    "specific_sliding": "specific sliding at the foot of the flank",
+    "tip_shortening": "tip shortening coefficient",
+    "contact_stress": "contact stress",
+    "safety_pitting": "safety against pitting",
+    "root_stress": "root stress",
+    "safety_bending": "safety against breaking",
+}
+_GREEK = {
+    "alpha": r"\alpha",
+    "beta": r"\beta",
+    "eps": r"\varepsilon",
+    "gamma": r"\gamma",
+    "rho": r"\rho",
+    "sigma": r"\sigma",
+    "zeta": r"\zeta",
+}
+
+
+def ruled(
+    axes: Axes,
+    head: Sequence[str],
+    rows: Sequence[Sequence[str]],
+    *,
+    size: float = 7.5,
+    rows_of: int = 0,
+    at: tuple[float, float] = (0.38, 0.46),
+) -> None:
+    """Rows of text with light rules: words, symbol and unit on the left, numbers on the right.
+
+    Parameters
+        at : (float, float) - places of symbol and unit in the width
+        rows_of : int - so many rows fill the height; 0: those that there are
+    """
+    axes.set_axis_off()
+    extra = 1.0 if "\n" in head[-1] else 0.0  # a head of two lines
+    axes.set_xlim(0.0, 1.0)
+    axes.set_ylim((rows_of or len(rows)) + 1.0 + extra, 0.0)
+    numbers = len(head) - 3
+    edges = [at[1] + 0.06 + (0.94 - at[1]) * (i + 1) / numbers - 0.01 for i in range(numbers)]
+    places = [(0.0, "left"), *((place, "left") for place in at), *((edge, "right") for edge in edges)]
+    for row, line in enumerate([head, *rows]):
+        middle = row + 0.5 + (extra if row else 0.5 * extra)
+        for (x, side), text in zip(places, line, strict=True):
+            weight = "normal" if row else "bold"
+            axes.text(x, middle, text, fontsize=size, ha=side, va="center", fontweight=weight)
+        axes.axhline(row + 1.0 + extra, color=style.LIGHT if row else style.GREY, linewidth=0.6)
+
+
+def headed(name: str) -> tuple[str, str, str]:
+    """Words, symbol and unit of a quantity."""
+    entry = term(name)
+    words = _WORDS.get(name, entry.words)
+    return words, math_symbol(entry.symbol), "" if entry.unit == "1" else entry.unit.replace("^2", "²")
+
+
+def value_rows(teeth: list[str], modules: list[str], quantities: Sequence[Quantity]) -> list[list[str]]:
+    """Rows of words, symbol, unit and values: two columns for each mesh, its own values in the first of them."""
+    rows = [["teeth", "$z$", "", *teeth], ["module", "$m$", "mm", *modules]]
+    for name in _OF_GEAR:
+        rows.append([*headed(name), *(_text(quantity, name, gear) for quantity in quantities for gear in (0, 1))])
+    for name in _OF_MESH:
+        rows.append([*headed(name), *(text for quantity in quantities for text in (_text(quantity, name), ""))])
+    return rows
+
+
+def _text(quantity: Quantity, name: str, gear: int | None = None) -> str:
+    """A value to six digits; what the pair does not have is a dash."""
+    try:
+        found = quantity(name)
+    except NoSolution:
+        found = None
+    value = found[gear or 0] if isinstance(found, tuple) else found
+    if value is None:
+        return "–"
+    return style.number(math.degrees(value) if term(name).unit == "deg" else value)
+
+
+def gear_text(value: Any) -> str:
+    """A cell of a gear table: numbers to six digits, minus signs, nothing for what a gear does not have."""
+    if value is None:
+        return ""
+    return str(value) if isinstance(value, str) else style.number(value)
+
+
+def math_symbol(symbol: str) -> str:
+    """A symbol of the nomenclature as matplotlib sets it.
+
+    Example
+        >>> math_symbol("alpha_wt"), math_symbol("h_fP*"), math_symbol("x1+x2")
+        ('$\\\\alpha_{wt}$', '$h_{fP}{}^*$', '$x_1+x_2$')
+    """
+    if "+" in symbol:
+        return "+".join(f"{part[:-1]}_{part[-1]}" for part in symbol.split("+")).join("$$")
+    plain = symbol.removesuffix("*")
+    letter, _, index = plain.partition("_")
+    letter, index = _GREEK.get(letter, letter), _GREEK.get(index, index)
+    return f"${letter}{f'_{{{index}}}' if index else ''}{'{}^*' if plain != symbol else ''}$"
