@@ -51,6 +51,24 @@ def _no_local_constants() -> Constants:
 providers._get_local_constants = _no_local_constants
 
 
+# Which cases are quick
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Of a test marked `quick(count)` so many cases stay in `make test`, from the first on evenly spread."""
+    cases: dict[tuple[Path, str], list[pytest.Item]] = {}
+    for item in items:
+        if item.get_closest_marker("quick") and not item.get_closest_marker("slow"):
+            cases.setdefault((item.path, item.nodeid.partition("[")[0]), []).append(item)
+    for found in cases.values():
+        (count,) = next(mark.args for mark in [found[0].get_closest_marker("quick")] if mark)
+        kept = {i * len(found) // count for i in range(count)}
+        for i, item in enumerate(found):
+            if i not in kept:
+                item.add_marker("slow")
+
+
 # What the tests cost
 
 SHARE = 0.08

@@ -37,6 +37,7 @@ def design_of(path, command="analyze"):
     return evaluate(command, str(path), Options())[0]
 
 
+@pytest.mark.quick(5)
 @pytest.mark.parametrize(("kind", "name"), PAIRS)
 def test_worked_design(kind, name, gearlink, designs):
     ended = gearlink(*asked(name)[0].split(), designs / f"{name}.yaml", "--format", "json")
@@ -46,6 +47,7 @@ def test_worked_design(kind, name, gearlink, designs):
     assert ended.json["checks"]
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("name", [*(names[0] for names in WORKED.values()), "two_gear_standing"])
 def test_every_command_in_every_format(name, gearlink, designs):
     for command in asked(name):

@@ -120,6 +120,7 @@ def test_annotations(gearlink: Any, hostile: Path) -> None:
         assert harmless(line[2:])
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("form", mostly_slow(["table", "csv", "md"], 1))
 def test_design_commands(gearlink: Any, hostile: Path, form: str) -> None:
     for path in sorted(hostile.iterdir())[:: 1 if ALL else 5]:  # batch and check print all of them

@@ -32,6 +32,7 @@ def test_template_runs_as_it_stands(gearlink: Any, tmp_path: Path, kind: str) ->
     assert Draft7Validator(kind_schema(KINDS[kind])).is_valid(loaded.data)
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("kind", KINDS)
 def test_template_opens_with_the_line_that_editors_read(gearlink: Any, kind: str) -> None:
     first, second, *_ = gearlink("new", kind).out.splitlines()
@@ -39,6 +40,7 @@ def test_template_opens_with_the_line_that_editors_read(gearlink: Any, kind: str
     assert f"gearlink schema {kind} > {kind}.schema.json" in second
 
 
+@pytest.mark.quick(4)
 @pytest.mark.parametrize("kind", KINDS)
 def test_template_shows_every_key(gearlink: Any, kind: str) -> None:
     """Each key stands in the design or in the comments below it."""
@@ -117,6 +119,7 @@ def test_a_design_is_named_after_its_file(gearlink: Any, tmp_path: Path) -> None
     assert "name" not in yaml.safe_load(gearlink("new", "gear-pair").out)
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("kind", sorted(set(KINDS) - {"gear-train-mobility", "study"}))
 def test_every_key_that_is_there_says_unit_meaning_and_whose_choice_it_is(gearlink: Any, kind: str) -> None:
     keys = {key.path: key for key in spec_keys(KINDS[kind])}

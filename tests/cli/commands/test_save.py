@@ -39,6 +39,7 @@ def spec_of(path: Path) -> Any:
     return validate(loaded, KINDS[loaded.data["kind"]].spec_model())
 
 
+@pytest.mark.quick(4)
 @pytest.mark.parametrize(("command", "name", "quantity"), SYNTHESES)
 def test_what_a_synthesis_found_is_analysed_without_copying(
     gearlink: Any, tmp_path: Path, command: str, name: str, quantity: str
@@ -55,6 +56,7 @@ def test_what_a_synthesis_found_is_analysed_without_copying(
     assert not spec_of(path).sized_by("analyze")
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("file", mostly_slow(FILES[::3] + FILES, len(FILES[::3])), ids=lambda file: file.stem)
 def test_a_design_without_a_task_is_written_as_it_is(gearlink: Any, tmp_path: Path, file: Path) -> None:
     spec, path = spec_of(file), tmp_path / "copy.yaml"
@@ -142,6 +144,7 @@ def test_a_refused_design_writes_nothing(gearlink: Any, tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("line", ["analyze", "gear", "report", "check"])
 def test_a_file_that_asks_for_a_synthesis_serves_every_command(gearlink: Any, tmp_path: Path, line: str) -> None:
     extra = ["--out", tmp_path] if line == "report" else []

@@ -52,6 +52,7 @@ def loop(tmp_path: Path) -> Path:
     return path
 
 
+@pytest.mark.slow
 def test_loop_is_repaired_step_by_step(gearlink: Any, loop: Path) -> None:
     assert gearlink("swing", loop).status == ExitCode.FINDING
     ended = gearlink("swing", loop, "--suggest", "--format", "json")
@@ -142,6 +143,7 @@ def test_figure_is_that_of_the_repaired_design(gearlink: Any, tmp_path: Path, mo
     assert (command, value_at(spec, change["path"])) == ("gear", change["new"])
 
 
+@pytest.mark.quick(5)
 @pytest.mark.parametrize("command", COMMANDS)
 def test_every_command_on_a_design_has_the_option(gearlink: Any, designs: Path, command: str) -> None:
     name, path = next(

@@ -179,6 +179,7 @@ def test_shares_of_a_worker_that_ends_are_computed_here(capsys: pytest.CaptureFi
     assert "killed" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_the_page_of_a_file_with_a_register_shows_its_budget(gearlink: Any, spec: Path, tmp_path: Path) -> None:
     ended = gearlink("report", str(spec), "--set", "register.tolerance=0.5", "--out", str(tmp_path))
     page = (tmp_path / "feed.html").read_text()

@@ -112,6 +112,7 @@ def alive(group: int) -> bool:
     return True
 
 
+@pytest.mark.slow
 def test_interrupted_it_says_how_to_continue(study: Path, tmp_path: Path) -> None:
     store = tmp_path / "s.sqlite"
     data = {**STUDY, "variables": {**STUDY["variables"], "rod": {"from": 200, "to": 400, "step": 0.2}}}

@@ -53,6 +53,7 @@ def table(path: Path) -> list[dict[str, str]]:
     return list(csv.DictReader(line for line in path.read_text().splitlines() if not line.startswith("#")))
 
 
+@pytest.mark.quick(5)
 @pytest.mark.parametrize(
     ("design", "parts"),
     [
@@ -158,6 +159,7 @@ def test_svg_is_to_scale_and_holds_the_points_of_the_csv(gearlink: Any, tmp_path
     assert top < -max(float(row["pitch_y [mm]"]) for row in rows)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("curve", mostly_slow(["polyline", "spline"], 1))
 def test_the_same_design_gives_the_same_bytes(gearlink: Any, tmp_path: Path, curve: str) -> None:
     """In another process with another hash seed."""
@@ -216,6 +218,7 @@ def test_a_tolerance_out_of_range(gearlink: Any, tmp_path: Path, tolerance: str)
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("more", [(), ("--curve", "spline"), ("--as", "svg")])
 @pytest.mark.parametrize("teeth", mostly_slow([2000, 9000], 1))
 def test_what_a_refusal_of_too_many_points_recommends_works(

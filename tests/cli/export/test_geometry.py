@@ -112,6 +112,7 @@ DISC_CAMS = [
 ]
 
 
+@pytest.mark.quick(4)
 @pytest.mark.parametrize("form", FORMS)
 @pytest.mark.parametrize(("build", "name"), DISC_CAMS)
 def test_disc_cams_follow_the_kernel(build: Any, name: str, form: CurveForm) -> None:
@@ -127,6 +128,7 @@ def test_disc_cams_follow_the_kernel(build: Any, name: str, form: CurveForm) -> 
         assert distance(nodes, points).max() <= 2e-6  # chord error of 30,011 points on a cam of 220 mm
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(("build", "name"), DISC_CAMS)
 def test_the_reached_error_is_the_error(build: Any, name: str) -> None:
     """Not only a bound: resampling finds nearly all of it."""
@@ -140,6 +142,7 @@ def test_the_reached_error_is_the_error(build: Any, name: str) -> None:
     assert 0.98 * exported.error <= found <= exported.error
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize(("build", "name"), DISC_CAMS)
 @pytest.mark.parametrize("form", FORMS)
 def test_the_roller_touches_the_drawn_profile(build: Any, name: str, form: CurveForm) -> None:
@@ -202,6 +205,7 @@ def test_circles_touch_the_profile() -> None:
 SMOOTH = [("main_cam", press), ("return_cam", gripper), ("main_cam", lambda: swing(0)), ("gear1", pair)]
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("form", FORMS)
 @pytest.mark.parametrize(("name", "build"), SMOOTH)
 def test_a_smaller_tolerance_gives_a_smaller_error(name: str, build: Any, form: CurveForm) -> None:
@@ -259,6 +263,7 @@ SWING_CAMS = [
 ]
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("form", FORMS)
 @pytest.mark.parametrize(("build", "name"), SWING_CAMS)
 def test_swing_cams_are_open_and_follow_the_table(build: Any, name: str, form: CurveForm) -> None:
@@ -286,6 +291,7 @@ def test_the_roller_nowhere_enters_a_swing_profile(build: Any, name: str, form: 
     assert np.median(reach) == pytest.approx(roller, rel=0.0, abs=2.0 * T + AGAIN)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["contour", "return_contour"])
 def test_a_cycle_is_one_closed_contour_round_the_roller(name: str) -> None:
     design = factory.design("wide_swing_cycle", command="cam")
@@ -301,6 +307,7 @@ def test_a_cycle_is_one_closed_contour_round_the_roller(name: str) -> None:
     assert reach.max() <= design.section.roller_radius + design.section.free_clearance + 2.0 * T + AGAIN
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(("build", "name"), SWING_CAMS)
 def test_a_swing_profile_ends_on_the_roller_at_mid_swing(build: Any, name: str) -> None:
     exported = made(build(), name)
@@ -373,6 +380,7 @@ def test_tooth_thickness_on_the_reference_circle(spec: dict[str, Any], form: Cur
         assert r * width == pytest.approx(gears.tooth_thickness[number], rel=0.0, abs=2.4 * T + AGAIN)
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize(
     ("spec", "form"), [(p.values[0], CurveForm.POLYLINE) for p in PAIRS] + [({}, CurveForm.SPLINE)]
 )
@@ -455,6 +463,7 @@ DXF_PARTS = [
 ]
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(("build", "name"), DXF_PARTS)
 def test_dxf_polylines_read_back(tmp_path: Path, build: Any, name: str) -> None:
     exported, document = read_back(tmp_path, build(), name, CurveForm.POLYLINE)
@@ -466,6 +475,7 @@ def test_dxf_polylines_read_back(tmp_path: Path, build: Any, name: str) -> None:
         assert np.array_equal(read, line.nodes[:-1] if line.closed else line.nodes)
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(("build", "name"), DXF_PARTS)
 def test_dxf_splines_read_back(tmp_path: Path, build: Any, name: str) -> None:
     """Evaluated by ezdxf in the middles of knot spans, where scipy must give the same points."""

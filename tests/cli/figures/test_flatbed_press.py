@@ -216,6 +216,7 @@ def test_every_command_draws(command: str) -> None:
     assert f"TY-460: {command}" in figure.get_suptitle()
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(("name", "drawn"), odd_sheets(ODD))
 def test_odd_designs_draw_without_warnings(name: str, drawn: Any) -> None:
     keys, commands = ODD[name]

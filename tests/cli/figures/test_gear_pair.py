@@ -25,6 +25,7 @@ def labelled(axes, label):
     return [line for line in axes.lines if line.get_label() == label]
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("command", ["gear", "analyze"])
 def test_whole_gears_have_their_teeth(command):
     made, figure = sheet(DATA, command)
@@ -73,6 +74,7 @@ ODD = [
 ]
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("keys", "drawn"), odd_sheets(ODD))
 def test_odd_pairs_draw(keys, drawn):
     drawn(DATA, "gear", **keys)

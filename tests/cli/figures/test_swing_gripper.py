@@ -188,6 +188,7 @@ def test_every_command_draws(command: str) -> None:
     assert f"paper: {command}" in figure.get_suptitle()
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(("name", "drawn"), odd_sheets(ODD))
 def test_odd_designs_draw_without_warnings(name: str, drawn: Any) -> None:
     keys, commands = ODD[name]
@@ -200,6 +201,7 @@ def test_torques_are_left_out_where_the_file_has_none() -> None:
     assert not any(axes.get_title(loc="left").startswith("Torques") for axes in figure.axes)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("command", ["gripper", "analyze"])
 @pytest.mark.parametrize(
     "keys",

@@ -58,6 +58,7 @@ def test_every_command_draws(command, tmp_path):
     assert list(tmp_path.iterdir()) == [path]
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(("case", "drawn"), odd_sheets(ODD))
 @pytest.mark.parametrize("command", ["analyze", pytest.param("gear", marks=pytest.mark.slow)])
 def test_odd_designs_draw(case, command, drawn):

@@ -152,6 +152,7 @@ ODD = [
 ]
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(("name", "keys", "place"), odd_sheets(ODD))
 @pytest.mark.parametrize("command", ["swing", pytest.param("cam", marks=pytest.mark.slow)])
 def test_odd_designs_draw(name: str, keys: dict[str, Any], command: str, place: Any) -> None:

@@ -307,6 +307,7 @@ ATTACKS = {
 }
 
 
+@pytest.mark.quick(12)
 @pytest.mark.skipif(not yaml.__with_libyaml__, reason="the pure Python parser needs a minute for 1 MiB")
 @pytest.mark.parametrize("name", ATTACKS)
 def test_attacks_are_refused_at_once(name: str) -> None:

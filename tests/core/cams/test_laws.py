@@ -128,6 +128,7 @@ def moments(shares: tuple[Fraction, ...], x: float) -> list[mpmath.mpf]:
     ]
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", mostly_slow(list(SHARES), 3))
 def test_integrals_of_the_acceleration(name: str) -> None:
     shares = SHARES[name]

@@ -266,6 +266,7 @@ def test_keys_that_do_not_apply_are_refused(data: Any, keys: dict[str, Any], wor
         design(data, **keys)
 
 
+@pytest.mark.quick(4)
 @pytest.mark.parametrize(
     ("name", "keys"),
     [

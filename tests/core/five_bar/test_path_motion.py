@@ -230,6 +230,7 @@ def test_positions_are_met_on_the_real_motion(count):
     assert five_bar_for_positions(start, positions, RADIANS(40.0)) == bar
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("length", ["coupler", "output"])
 def test_a_start_with_a_link_far_too_long_is_refused(length):
     pairs = [(60.0, 60.0), (80.0, 63.75), (100.0, 75.0), (120.0, 93.75), (140.0, 120.0)]

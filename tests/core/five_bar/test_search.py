@@ -144,6 +144,7 @@ def test_a_start_that_opens_is_repaired():
     assert fit.rms < 0.6
 
 
+@pytest.mark.slow
 def test_long_periods_and_many_points():
     """Ratio 40:37 with 200 points: the work is bounded, the answer real."""
     bar = replace(BAR, ratio=Fraction(-40, 37))
@@ -153,6 +154,7 @@ def test_long_periods_and_many_points():
     assert fit.rms < 0.5 * judge(bar, 60.0 + 0j, targets).rms
 
 
+@pytest.mark.slow
 def test_winding_near_a_dead_point():
     """|BD| falls to 3e-4 of the couplers: BD swings round within a few hundredths of a degree."""
     bar = replace(BAR, frame=0.02, ratio=Fraction(-40, 37))

@@ -156,6 +156,7 @@ def press_table(design, samples):
     return design.table("main_cam", samples=samples).rows()
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", ZONES)
 @pytest.mark.parametrize("k", [1e-3, 1e3])
 def test_scale(name, k):
@@ -204,6 +205,7 @@ def test_ty460_with_quartic_and_lead_in_passes_all():
         assert status(design, name) or name == "shaft-clearance"  # no shaft is given
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("limit", [3.0, 8.0, 12.0])
 @pytest.mark.parametrize("name", ZONES)
 def test_base_radius_that_is_named_keeps_the_pressure_angle(name, limit):
@@ -235,6 +237,7 @@ def test_pressure_angle_limit_of_zero_names_no_radius():
     assert {check.status for check in found} == {"fail"}
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(("roller", "expected"), [(25.0, "pass"), (40.0, "warn"), (44.5, "fail"), (90.0, "fail")])
 def test_roller_radius_against_the_cams(roller, expected):
     check = press(sync=REPORT, transition="arc", roller_radius=roller).check("cam-undercut")[0]
@@ -307,6 +310,7 @@ def test_cams_keep_the_limit_and_touch_it(limit):
     assert design.quantity("cam_base_radius").value == design.cam_base_radius
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("cam", [{}, {"lead_in": 12.0}, {"transition": "arc"}, {"roller_radius": 40.0}])
 @pytest.mark.parametrize("limit", mostly_slow([15.0, 40.0, 5.0, 20.0], 2))
 def test_sized_cams_pass_their_own_checks(limit, cam):

@@ -329,6 +329,7 @@ def test_orders_beyond_the_asked_one_are_left_out():
     assert math.isnan(lift.evaluate(theta, 1)[0].second)
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("lead_in", [0.0, 15.0])
 @pytest.mark.parametrize("name", ZONES)
 def test_extremes_of_the_lift_against_a_fine_table(name, lead_in):

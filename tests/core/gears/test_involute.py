@@ -55,6 +55,7 @@ def test_involute_against_many_digits(low, high):
     assert max(ulps(float(v), exact(a)) for a, v in zip(angles, values, strict=True)) <= 2.2
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize(("low", "high"), DECADES)
 def test_inverse_against_many_digits(low, high):
     rng = random.Random(2)

@@ -61,6 +61,7 @@ def outside_tool(gear, points, roll):
     return distance - rho
 
 
+@pytest.mark.quick(4)
 @pytest.mark.parametrize(
     ("teeth", "shift"),
     [(12, 0.0), (17, 0.0), (18, 0.0), (8, 0.0), (7, 0.3), (40, 0.0), (30, 1.2), (40, -1.0), (9, 0.5)],
@@ -139,6 +140,7 @@ def test_scale(teeth, shift, module):
     assert np.abs(one * module - other).max() < 64 * EPS * large.tip_radius
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("error", [1e-2, 1e-3, 1e-4])
 @pytest.mark.parametrize("teeth", [12, 40])
 def test_chords_keep_their_error(teeth, error):

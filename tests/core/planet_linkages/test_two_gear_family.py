@@ -126,6 +126,7 @@ def test_each_output_gear_stands_in_one_class_of_linkage_alone() -> None:
         assert by_turnings(PlanetLinkage(linkage, ratio, "crank")) == 0
 
 
+@pytest.mark.quick(4)
 @pytest.mark.parametrize("family", list(families(12, 3)))
 def test_back_step_and_window_rise_towards_the_change_point(family: Family) -> None:
     quiet, steep = kernel.stepping(family)
@@ -147,6 +148,7 @@ def test_a_short_back_step_keeps_its_digits(family: Family) -> None:
     assert one / other == pytest.approx(10.0**1.5, rel=1e-5)
 
 
+@pytest.mark.quick(4)
 @pytest.mark.parametrize(("family", "tolerance"), [(SUN, 0.5), (SUN, 2.0), (RING, 0.5), (RING, 0.1)])
 @pytest.mark.parametrize("share", [0.6, 1.5, 0.0])
 def test_tolerance_dwell_against_a_scan(family: Family, tolerance: float, share: float) -> None:
@@ -243,6 +245,7 @@ def test_dwell_design(data: dict[str, Any]) -> None:
     assert [check.status for check in bare.check_dwell_edge()] == ["warn"]
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("data", [SUNS, RINGS])
 @pytest.mark.parametrize("tolerance", [1e-6, 0.5, 5.0])
 def test_window_as_long_as_the_limit(data: dict[str, Any], tolerance: float) -> None:

@@ -258,6 +258,7 @@ def test_a_quantity_that_the_form_has_not_is_left_to_the_classes() -> None:
     assert problem(StudySpec.model_validate_json(json.dumps(data))).axis is None
 
 
+@pytest.mark.slow
 def test_study_of_record() -> None:
     """All 396,880 designs of a grid: counts, front and rows as on record."""
     case = CASES["dwell-study-396880"]

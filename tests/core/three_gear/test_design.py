@@ -105,6 +105,7 @@ def test_example_3_as_printed_collides_and_says_why():
 # A second way
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("assembly", BOTH)
 @pytest.mark.parametrize("name", DESIGNS)
 def test_motion_table_against_the_cosine_rule(name, assembly):
@@ -124,6 +125,7 @@ def test_motion_table_against_the_cosine_rule(name, assembly):
     np.testing.assert_allclose(rows[:5, 1], np.cumsum([0.0, *(float(mp.degrees(s)) for s in steps)]), atol=1e-10)
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("assembly", BOTH)
 @pytest.mark.parametrize("name", DESIGNS)
 def test_extremes_and_standstills_against_a_search(name, assembly):
@@ -143,6 +145,7 @@ def test_extremes_and_standstills_against_a_search(name, assembly):
     assert value(found, "min_transmission_angle") == pytest.approx(float(mp.degrees(least)), rel=1e-12)
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("assembly", [1, -1])
 @pytest.mark.parametrize("name", ["example 1", "example 3"])
 def test_back_step_and_dwell_by_the_output_angle_itself(name, assembly):
@@ -220,12 +223,14 @@ def mirrored(one, other):
         assert (check.code, check.name, check.status) == (image.code, image.name, image.status)
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", DESIGNS)
 def test_mirror_image(name):
     given = DESIGNS[name] | {"dwell_tolerance": 0.5}
     mirrored(*(design(**given, assembly=s).report("analyze") for s in (1, -1)))
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("k", [1e-3, 1e3])
 @pytest.mark.parametrize("name", DESIGNS)
 def test_scale(name, k):
@@ -366,6 +371,7 @@ def test_shafts_that_the_file_does_not_name():
     )
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("assembly", BOTH)
 @pytest.mark.parametrize("name", DESIGNS)
 def test_nearest_approach_of_idler_and_input_shaft_by_a_search(name, assembly):

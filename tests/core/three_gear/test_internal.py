@@ -198,6 +198,7 @@ def brute_window(linkage: FourBar, train: GearTrain, tolerance: float) -> float:
     return best * math.tau / count
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("radii", "crank"), [((24.0, 17.0, -54.0), 22.0), ((30.0, 20.0, -70.0), 27.0)])
 def test_no_frame_has_a_longer_window(radii: tuple[float, float, float], crank: float) -> None:
     """The whole turning range of frames, by brute force."""

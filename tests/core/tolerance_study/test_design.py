@@ -190,6 +190,7 @@ def test_sizes_that_scatter_as_one_add_up_in_the_register() -> None:
     assert sum(row["share"] for row in rows(one.table_budget()) if row["torque_sign"] == 1) == pytest.approx(1.0)
 
 
+@pytest.mark.slow
 def test_correlated_samples_of_the_chain_are_the_correlated_budget() -> None:
     """A quantile of 2^15 samples of a normal error: some thousandths."""
     assert register(0.7, "mc").band == pytest.approx(register(0.7).band, rel=0.02)
@@ -211,6 +212,7 @@ def test_limits_beyond_all_machines_leave_no_mechanism() -> None:
     assert (made.no_mechanism, made.raw("yield")) == (1.0, 0.0)
 
 
+@pytest.mark.slow
 def test_indices_of_correlated_sources_are_those_of_their_group() -> None:
     """Of a nearly linear quantity: the group's share of the variance, (g1 + g2)^2 where both are one, and the rest."""
     group = [{"sources": ["centers.crank_idler", "centers.idler_output"], "rho": 1.0}]

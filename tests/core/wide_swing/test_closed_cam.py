@@ -95,6 +95,7 @@ def test_pitch_curves_are_the_rollers_paths_in_the_turning_cams(made: Any) -> No
         assert turned[0] == pytest.approx(first, abs=1e-12)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("made", [rocker(), twin(), rocker(cam__free_clearance=0)], ids=["rocker", "twin", "tight"])
 def test_roller_clears_the_contour_and_is_guided_by_it(made: Any) -> None:
     for cam in made.cycle.contours.values():
@@ -220,6 +221,7 @@ def test_large_roller_cuts_into_the_contour() -> None:
     assert status(rocker(cam__roller_radius=1.001 * roller), "profile-planes") == ["warn"]
 
 
+@pytest.mark.slow
 def test_clearance_beyond_the_bend_crosses_and_its_remedy_holds() -> None:
     made = rocker(cam__free_clearance=90)
     failed = [check for check in made.check("closed-contour") if check.status == "fail"]

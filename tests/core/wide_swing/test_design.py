@@ -274,6 +274,7 @@ def test_contradictions_of_the_file(changes: dict[str, Any], words: str) -> None
         design(**changes)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("factor", [1e-6, 1e-3, 1e6])
 def test_similar_designs(factor: float) -> None:
     """Lengths scale; angles, zones, ratios and findings stay."""

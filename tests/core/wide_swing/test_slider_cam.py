@@ -128,6 +128,7 @@ def test_design() -> None:
         _ = made.even_cam
 
 
+@pytest.mark.slow
 def test_film_turns_the_cam_under_the_roller() -> None:
     """In the scene the roller touches the drawn profile in working and return stroke."""
     from gearlink.cli.scenes.scene import Body
