@@ -100,6 +100,7 @@ KINDS: dict[str, Kind] = {
                 "analyze": "linkages.slider_crank_design:SliderCrankDesign",
                 "loads": "linkages.slider_crank_loads:SliderCrankLoads",
             },
+            "linkages.slider_crank_axis:axis",
         ),
         Kind(
             "flatbed-press",

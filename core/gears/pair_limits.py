@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.gears.elementary import SCALARS, Elementary
+from gearlink.core.gears.functions import SCALARS, GearFunctions
 from gearlink.core.report import safely_above, safely_below
 
 if TYPE_CHECKING:
@@ -18,7 +18,7 @@ _LEAST_MODULE = 1e-100
 """Squares of lengths stay finite."""
 
 
-def transverse(pressure_angle: float, helix_angle: float, f: Elementary = SCALARS) -> float:
+def transverse(pressure_angle: float, helix_angle: float, f: GearFunctions = SCALARS) -> float:
     """Pressure angle in the transverse section [rad]; to the bit the normal one where there is no helix."""
     turned = f.atan(f.tan(pressure_angle) / f.cos(helix_angle))
     return f.where(helix_angle == 0.0, pressure_angle, turned)

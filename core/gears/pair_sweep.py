@@ -1,6 +1,6 @@
 """Many external gear pairs at once: `GearPair` over arrays of its parameters.
 
-Every formula is that of the class of one pair, with the functions of `elementary_sweep`. What one pair refuses is NaN
+Every formula is that of the class of one pair, with the functions of `functions_sweep`. What one pair refuses is NaN
 here, and so is what it lacks.
 """
 
@@ -14,8 +14,8 @@ import numpy as np
 
 from gearlink.core.gears import teeth
 from gearlink.core.gears.contact import PathOfContact
-from gearlink.core.gears.elementary import Elementary
-from gearlink.core.gears.elementary_sweep import ARRAYS
+from gearlink.core.gears.functions import GearFunctions
+from gearlink.core.gears.functions_sweep import ARRAYS
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.gears.pair_limits import bound_of_shift_sum, least_distance
 from gearlink.core.gears.root_fillet import RackCutRoot
@@ -40,7 +40,7 @@ class GearPairs(GearPair):
         [1.649966, 1.738995]
     """
 
-    fn: ClassVar[Elementary] = ARRAYS
+    fn: ClassVar[GearFunctions] = ARRAYS
 
     def __post_init__(self) -> None:
         """Nothing is refused; `exist` tells."""
@@ -188,7 +188,7 @@ class PathsOfContact(PathOfContact):
 class RackCutRoots(RackCutRoot):
     """The roots of many gears, cut by tools without protuberance."""
 
-    fn: ClassVar[Elementary] = ARRAYS
+    fn: ClassVar[GearFunctions] = ARRAYS
 
     def _part(self, places: Any) -> RackCutRoots:
         def at(value: Any) -> Any:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from gearlink.core.gears import pair_limits, teeth
-from gearlink.core.gears.elementary import SCALARS, Elementary
+from gearlink.core.gears.functions import SCALARS, GearFunctions
 from gearlink.core.results import cached_property
 
 Pair = tuple[float, float]
@@ -45,7 +45,7 @@ class PitchPair:
     given_first_shift: float | None = None
     helix_angle: float = 0.0
 
-    fn: ClassVar[Elementary] = SCALARS
+    fn: ClassVar[GearFunctions] = SCALARS
     """What the formulas are made of; the class of many pairs has those for arrays."""
 
     @property

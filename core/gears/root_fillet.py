@@ -15,7 +15,7 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar
 
-from gearlink.core.gears.elementary import SCALARS, Elementary
+from gearlink.core.gears.functions import SCALARS, GearFunctions
 from gearlink.core.gears.pair_limits import transverse
 from gearlink.core.gears.tools import RackTool
 from gearlink.core.numerics.roots import bracketed_root
@@ -53,7 +53,7 @@ class RackCutRoot:
     pressure_angle: float = math.radians(20.0)
     helix_angle: float = 0.0
 
-    fn: ClassVar[Elementary] = SCALARS
+    fn: ClassVar[GearFunctions] = SCALARS
 
     @cached_property
     def _transverse(self) -> float:

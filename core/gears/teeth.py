@@ -6,13 +6,13 @@ import math
 from typing import Any
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.gears.elementary import SCALARS, Elementary
+from gearlink.core.gears.functions import SCALARS, GearFunctions
 from gearlink.core.gears.pair_limits import transverse
 from gearlink.core.report import safely_above
 
 
 def min_shift_no_undercut(
-    teeth: int, pressure_angle: float, addendum: float = 1.0, helix_angle: float = 0.0, f: Elementary = SCALARS
+    teeth: int, pressure_angle: float, addendum: float = 1.0, helix_angle: float = 0.0, f: GearFunctions = SCALARS
 ) -> float:
     """Least profile shift at which a rack cutter does not undercut the tooth root.
 
@@ -23,7 +23,7 @@ def min_shift_no_undercut(
         pressure_angle : float [rad] - of the reference profile, alpha_n
         addendum : float [module] - h, how far the cutter's straight flank reaches below its datum line; usually h_a*
         helix_angle : float [rad] - beta
-        f : Elementary - functions of numbers or of arrays
+        f : GearFunctions - functions of numbers or of arrays
     Returns
         x_min : float [module] - negative where the gear tolerates a negative shift
     Example
@@ -69,12 +69,12 @@ def pressure_angle_rise(radius: float, increase: float, pressure_angle: float, *
     return rise_between(radius, increase, pressure_angle)
 
 
-def above_base(radius: float, increase: float, pressure_angle: float, f: Elementary = SCALARS) -> float:
+def above_base(radius: float, increase: float, pressure_angle: float, f: GearFunctions = SCALARS) -> float:
     """How far a second radius lies above the base radius [mm]: r + increase - r cos(alpha)."""
     return increase + 2.0 * radius * f.sin(pressure_angle / 2.0) ** 2
 
 
-def rise_between(radius: float, increase: float, pressure_angle: float, f: Elementary = SCALARS) -> float:
+def rise_between(radius: float, increase: float, pressure_angle: float, f: GearFunctions = SCALARS) -> float:
     """The formula of `pressure_angle_rise` [rad], for radii at or above the base radius; arrays are NaN below it."""
     base, above = radius * f.cos(pressure_angle), above_base(radius, increase, pressure_angle, f)
     u = f.sqrt(above * (above + 2.0 * base))
@@ -90,7 +90,7 @@ def span_measurement(
     pressure_angle: float,
     span_teeth: int,
     helix_angle: float = 0.0,
-    f: Elementary = SCALARS,
+    f: GearFunctions = SCALARS,
 ) -> float:
     """Distance of two parallel planes that touch opposite flanks over a number of teeth (base tangent length).
 
@@ -103,7 +103,7 @@ def span_measurement(
         pressure_angle : float [rad] - alpha_n
         span_teeth : int - teeth between the planes, k >= 1
         helix_angle : float [rad] - beta
-        f : Elementary - functions of numbers or of arrays
+        f : GearFunctions - functions of numbers or of arrays
     Returns
         W_k : float [mm] - for no backlash
     Notes
@@ -122,7 +122,7 @@ def span_measurement(
 
 
 def span_contact_radius(
-    base_radius: float, span: float, base_helix_angle: float = 0.0, f: Elementary = SCALARS
+    base_radius: float, span: float, base_helix_angle: float = 0.0, f: GearFunctions = SCALARS
 ) -> float:
     """Radius on which the planes of a span measurement touch the flanks.
 
@@ -158,7 +158,7 @@ def span_teeth(teeth: int, shift: float, pressure_angle: float, helix_angle: flo
 
 
 def span_rivals(
-    teeth: int, shift: float, pressure_angle: float, helix_angle: float = 0.0, f: Elementary = SCALARS
+    teeth: int, shift: float, pressure_angle: float, helix_angle: float = 0.0, f: GearFunctions = SCALARS
 ) -> tuple[tuple[int, float], tuple[int, float]]:
     """The two numbers of `span_teeth` that compete, each with how far its contact lies from the circle r + x m."""
     base_helix = f.asin(f.sin(helix_angle) * f.cos(pressure_angle))

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.gears.elementary import SCALARS, Elementary
+from gearlink.core.gears.functions import SCALARS, GearFunctions
 from gearlink.core.report import safely_below
 
 _USUAL_ROUNDING = 0.38
@@ -33,11 +33,11 @@ class RackTool:
     rounding: float = _USUAL_ROUNDING
     residual_undercut: float = 0.0
 
-    def straight_end(self, pressure_angle: float, f: Elementary = SCALARS) -> float:
+    def straight_end(self, pressure_angle: float, f: GearFunctions = SCALARS) -> float:
         """h_fP* - rho* (1 - sin(alpha_n)) [module]: how far below the datum line the straight flank reaches."""
         return self.addendum - self.rounding * (1.0 - f.sin(pressure_angle))
 
-    def rounding_center(self, pressure_angle: float, f: Elementary = SCALARS) -> float:
+    def rounding_center(self, pressure_angle: float, f: GearFunctions = SCALARS) -> float:
         """E = pi/4 - h_fP* tan(alpha_n) + (s_pr* - rho* (1 - sin(alpha_n)))/cos(alpha_n) [module].
 
         The rounding's centre beside the middle of the tool's tooth; negative for a pointed tool.
@@ -69,7 +69,7 @@ class RackTool:
 
 
 def full_rounding(
-    pressure_angle: float, addendum: float, residual_undercut: float = 0.0, f: Elementary = SCALARS
+    pressure_angle: float, addendum: float, residual_undercut: float = 0.0, f: GearFunctions = SCALARS
 ) -> float:
     """Rounding that makes the tip of a rack tool one arc [module]: E = 0.
 
@@ -91,7 +91,7 @@ def rack_tip_width(height: float, pressure_angle: float) -> float:
     return math.pi / 2.0 - 2.0 * height * math.tan(pressure_angle)
 
 
-def standard_tool(pressure_angle: float, addendum: float, clearance: float, f: Elementary = SCALARS) -> RackTool:
+def standard_tool(pressure_angle: float, addendum: float, clearance: float, f: GearFunctions = SCALARS) -> RackTool:
     """The rack tool of a profile with addendum h_a* and clearance c* that names no tool.
 
     rho* = c*/(1 - sin(alpha_n)), where the tool's straight flank ends at h_a*; at most a full round

@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import ClassVar
 
 from gearlink.core.errors import NoSolution
+from gearlink.core.numerics.elementary import SCALARS, Elementary
 from gearlink.core.results import cached_property
 
 
@@ -33,7 +35,11 @@ def max_stroke(rod: float, offset: float = 0.0) -> float:
         own derivation: crank L - |e| in `stroke`
     """
     _check_rod(rod, offset)
-    return 2.0 * math.sqrt(rod * (rod - abs(offset)))
+    return _max_stroke(rod, offset)
+
+
+def _max_stroke(rod: float, offset: float, f: Elementary = SCALARS) -> float:
+    return 2.0 * f.sqrt(rod * (rod - abs(offset)))
 
 
 def crank_length(stroke: float, rod: float, offset: float = 0.0) -> float:
@@ -61,8 +67,12 @@ def crank_length(stroke: float, rod: float, offset: float = 0.0) -> float:
         TY-460 report 2.1; the closed form is an own derivation
     """
     _check_stroke(stroke, rod, offset)
-    numerator, denominator = _radicands(stroke, rod, offset)
-    return stroke / 2.0 * math.sqrt(numerator / denominator)
+    return _crank_length(stroke, rod, offset)
+
+
+def _crank_length(stroke: float, rod: float, offset: float, f: Elementary = SCALARS) -> float:
+    numerator, denominator = _radicands(stroke, rod, offset, f)
+    return stroke / 2.0 * f.sqrt(numerator / denominator)
 
 
 def stroke(crank: float, rod: float, offset: float = 0.0) -> float:
@@ -83,7 +93,12 @@ def stroke(crank: float, rod: float, offset: float = 0.0) -> float:
     Source
         TY-460 report 2.1
     """
-    far, near = _reaches(crank, rod, offset)
+    _check_crank(crank, rod, offset)
+    return _stroke(crank, rod, offset)
+
+
+def _stroke(crank: float, rod: float, offset: float, f: Elementary = SCALARS) -> float:
+    far, near = _reaches(crank, rod, offset, f)
     return 4.0 * rod * crank / (far + near)
 
 
@@ -105,6 +120,7 @@ def dead_center_extended(crank: float, rod: float, offset: float = 0.0) -> float
     Source
         TY-460 report 2.1
     """
+    _check_crank(crank, rod, offset)
     return math.atan2(offset, _reaches(crank, rod, offset)[0])
 
 
@@ -126,6 +142,7 @@ def dead_center_folded(crank: float, rod: float, offset: float = 0.0) -> float:
     Source
         TY-460 report 2.1
     """
+    _check_crank(crank, rod, offset)
     return math.atan2(offset, _reaches(crank, rod, offset)[1])
 
 
@@ -147,6 +164,7 @@ def quick_return_ratio(crank: float, rod: float, offset: float = 0.0) -> float:
         >>> round(quick_return_ratio(154.21159203908383, 520.0, 50.0), 9)
         1.040855858
     """
+    _check_crank(crank, rod, offset)
     return _ratio(*_reaches(crank, rod, offset), stroke(crank, rod, offset), offset)
 
 
@@ -179,6 +197,9 @@ class SliderCrank:
     rod: float
     offset: float = 0.0
 
+    fn: ClassVar[Elementary] = SCALARS
+    """What the formulas are made of; the class of many slider-cranks has those for arrays."""
+
     def __post_init__(self) -> None:
         _check_stroke(self.stroke, self.rod, self.offset)
 
@@ -192,19 +213,24 @@ class SliderCrank:
             >>> SliderCrank.of_crank(50.0, 200.0).stroke
             100.0
         """
-        made = cls(stroke(crank, rod, offset), rod, offset)
+        cls._require_turn(crank, rod, offset)
+        made = cls(_stroke(crank, rod, offset, cls.fn), rod, offset)
         vars(made)["crank_length"] = crank  # as it is given, not by way of the stroke
         return made
+
+    @classmethod
+    def _require_turn(cls, crank: float, rod: float, offset: float) -> None:
+        _check_crank(crank, rod, offset)
 
     @cached_property
     def max_stroke(self) -> float:
         """S_max = 2 sqrt(L (L - |e|)) [mm]."""
-        return max_stroke(self.rod, self.offset)
+        return _max_stroke(self.rod, self.offset, self.fn)
 
     @cached_property
     def crank_length(self) -> float:
         """r = (S/2) sqrt((4 L^2 - 4 e^2 - S^2)/(4 L^2 - S^2)) [mm]."""
-        return crank_length(self.stroke, self.rod, self.offset)
+        return _crank_length(self.stroke, self.rod, self.offset, self.fn)
 
     @cached_property
     def _far(self) -> float:
@@ -220,17 +246,17 @@ class SliderCrank:
     @cached_property
     def dead_center_extended(self) -> float:
         """asin(e/(L + r)) [rad]."""
-        return math.atan2(self.offset, self._far)
+        return self.fn.atan2(self.offset, self._far)
 
     @cached_property
     def dead_center_folded(self) -> float:
         """asin(e/(L - r)) [rad]."""
-        return math.atan2(self.offset, self._near)
+        return self.fn.atan2(self.offset, self._near)
 
     @cached_property
     def quick_return_ratio(self) -> float:
         """K = (180 + t)/(180 - t) [1], t = folded less extended dead centre."""
-        return _ratio(self._far, self._near, self.stroke, self.offset)
+        return _ratio(self._far, self._near, self.stroke, self.offset, self.fn)
 
 
 def slider(psi: float, crank: float, rod: float, offset: float = 0.0, order: int = 0) -> tuple[float, ...]:
@@ -304,17 +330,15 @@ def _check_stroke(stroke: float, rod: float, offset: float) -> None:
         )
 
 
-def _radicands(stroke: float, rod: float, offset: float) -> tuple[float, float]:
+def _radicands(stroke: float, rod: float, offset: float, f: Elementary) -> tuple[float, float]:
     """4 L^2 - 4 e^2 - S^2 and 4 L^2 - S^2, without loss of digits below max_stroke."""
     e = abs(offset)
     denominator = (2.0 * rod - stroke) * (2.0 * rod + stroke)
-    if 2.0 * e < rod:
-        return denominator - 4.0 * e * e, denominator
-    return 4.0 * (rod - e) * (rod + e) - stroke * stroke, denominator
+    short, long = denominator - 4.0 * e * e, 4.0 * (rod - e) * (rod + e) - stroke * stroke
+    return f.where(2.0 * e < rod, short, long), denominator
 
 
-def _reaches(crank: float, rod: float, offset: float) -> tuple[float, float]:
-    """P and Q: depths of the slider at the dead centres."""
+def _check_crank(crank: float, rod: float, offset: float) -> None:
     _check_rod(rod, offset)
     e, difference = abs(offset), rod - crank
     if not crank > 0.0:
@@ -324,10 +348,14 @@ def _reaches(crank: float, rod: float, offset: float) -> tuple[float, float]:
             f"crank {crank:.6g} mm cannot make a full turn with rod {rod:.6g} mm and offset {offset:.6g} mm: "
             f"it must not exceed rod less offset, {rod - e:.6g} mm"
         )
-    total = rod + crank
-    return math.sqrt((total - e) * (total + e)), math.sqrt((difference - e) * (difference + e))
 
 
-def _ratio(far: float, near: float, stroke: float, offset: float) -> float:
-    t = math.atan2(offset * stroke, far * near + offset * offset)
+def _reaches(crank: float, rod: float, offset: float, f: Elementary = SCALARS) -> tuple[float, float]:
+    """P and Q: depths of the slider at the dead centres."""
+    e, difference, total = abs(offset), rod - crank, rod + crank
+    return f.sqrt((total - e) * (total + e)), f.sqrt((difference - e) * (difference + e))
+
+
+def _ratio(far: float, near: float, stroke: float, offset: float, f: Elementary = SCALARS) -> float:
+    t = f.atan2(offset * stroke, far * near + offset * offset)
     return (math.pi + t) / (math.pi - t)

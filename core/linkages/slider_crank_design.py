@@ -129,7 +129,7 @@ class SliderCrankDesign(RealSpeed, SliderCrankQuantities, Design):
     @property
     def min_transmission_angle(self) -> float:
         """Least angle between the rod and the normal of the slide line over the turn [rad]: 90 deg less the rod's."""
-        return math.acos((self.crank_length + abs(self.spec.offset)) / self.spec.rod)
+        return self.slider_crank.fn.acos((self.crank_length + abs(self.spec.offset)) / self.spec.rod)
 
     def table_motion(self, samples: int | None = None) -> Table:
         """The slider over a turn of the crank; displacement counts from the dead centre nearest to D."""

@@ -17,7 +17,7 @@ TURN = 2.0 * math.pi
 # coupler and the rocker come near to one line.
 _HALVINGS = [math.radians(2.0) * 0.5**j for j in range(1, 15)]
 # It starts and ends where no linkage has its dead centres: a zero just at an end would be missed.
-_GRID = sorted(
+GRID = sorted(
     {math.radians(2.0 * i) for i in range(-54, 127)}
     | {math.radians(place) + side * step for place in (0, 180) for side in (1, -1) for step in _HALVINGS}
 )
@@ -62,7 +62,7 @@ def zeros_over_turn(f: Function) -> list[float]:
         [1.570796326795, 4.712388980385]
     """
     # twice: a tiny negative angle is rounded up to a whole turn by the first
-    return sorted(dict.fromkeys(root % TURN % TURN for root in roots_on(f, _GRID)))
+    return sorted(dict.fromkeys(root % TURN % TURN for root in roots_on(f, GRID)))
 
 
 def turnings(speed: Function, acceleration: Function) -> list[Turning]:

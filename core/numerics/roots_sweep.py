@@ -35,18 +35,19 @@ def bracketed_roots(f: Callable[[Reals], Reals], low: Reals, high: Reals) -> Rea
     with np.errstate(all="ignore"):
         at_a, at_b = f(a), f(b)
         b = np.where(at_a == 0.0, a, b)
-        rests = (at_a == 0.0) | (at_b == 0.0)
-        valid = rests | (np.sign(at_a) == -np.sign(at_b))
+        found = (at_a == 0.0) | (at_b == 0.0)
+        valid = found | (np.sign(at_a) == -np.sign(at_b))
+        rests = found | ~valid
         for _ in range(_STEPS):
-            c = b - at_b * (b - a) / (at_b - at_a)
+            if rests.all():
+                break
+            c = np.where(rests, b, b - at_b * (b - a) / (at_b - at_a))
             at_c = f(c)
             crosses = np.sign(at_c) != np.sign(at_b)
             shrunk = 1.0 - at_c / at_b
             at_a = np.where(crosses, at_b, at_a * np.where(shrunk > 0.0, shrunk, 0.5))
             a = np.where(crosses, b, a)
             near = np.abs(c - b) <= _REST * np.maximum(np.abs(b), np.abs(c))
-            b, at_b = np.where(rests, b, c), np.where(rests, at_b, at_c)
-            rests |= near | (at_c == 0.0) | ~valid
-            if rests.all():
-                break
+            b, at_b = c, at_c
+            rests |= near | (at_c == 0.0)
     return np.where(valid & rests, b, np.nan)

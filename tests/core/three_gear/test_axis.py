@@ -12,8 +12,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+from axes import agree, bits_stand_alone, by_path, sampled
 
-from gearlink.core.explore.chunks import chunk_of, evaluated, one_by_one, together
+from gearlink.core.explore.chunks import chunk_of, together
 from gearlink.core.explore.front import Found
 from gearlink.core.explore.preparing import problem
 from gearlink.core.explore.problem import Problem
@@ -100,70 +101,18 @@ TASKS: dict[str, tuple[str, dict[str, Any], dict[str, Any]]] = {
 
 def study(name: str, count: int) -> Problem:
     command, section, variables = TASKS[name]
-    data = {
-        "kind": "study",
-        "design": {**BASE, **section},
-        "command": command,
-        "variables": variables,
-        "minimize": {"frame_length": 1},
-        "where": [f"{quantity} > -1e9" for quantity in QUANTITIES],
-        "checks": {"must_pass": "all"},
-        "sampling": {"method": "sobol", "budget": count, "seed": 5},
-    }
-    made = problem(StudySpec.model_validate_json(json.dumps(data)))
-    assert made.axis is not None
-    return made
-
-
-def counted(found: Any, code: str, what: str, count: int) -> Any:
-    return sum((getattr(f, what).astype(int) for f in found.findings if f.code == code), np.zeros(count, dtype=int))
-
-
-def reasons(found: Any) -> list[str]:
-    return [found.reasons[i - 1] if i else "" for i in found.refused]
+    return sampled({**BASE, **section}, command, variables, QUANTITIES, count)
 
 
 @pytest.mark.parametrize("name", TASKS)
 @pytest.mark.parametrize("count", [128, pytest.param(16384, marks=pytest.mark.slow)])
 def test_refusals_statuses_and_values_are_those_of_the_classes(name: str, count: int) -> None:
-    made = study(name, count)
-    columns = made.order.columns(np.arange(made.order.count))
-    many, single = made.axis.evaluate(by_path(made, columns)), one_by_one(made, columns)
-    assert reasons(evaluated(made, columns)) == reasons(many) == reasons(single)
-    unsure = many.unsure
-    assert unsure.mean() < 0.02
-    for code in made.must_pass:
-        for what in ("fails", "warns"):
-            a, b = (counted(found, code, what, count) for found in (many, single))
-            assert (a[~unsure] == b[~unsure]).all(), (code, what, columns[:, np.flatnonzero(a != b)[:1]])
-    for quantity in made.names:
-        a, b = many.quantities[quantity].astype(float), single.quantities[quantity].astype(float)
-        assert (np.isnan(a) == np.isnan(b))[~unsure].all(), quantity
-        exists = np.isfinite(b) & ~unsure
-        away = np.abs(a - b)[exists] / np.maximum(1.0, np.abs(b[exists]))
-        assert away.max(initial=0.0) < 1e-9, quantity
-        assert not away.size or np.median(away) < 1e-12, quantity
-
-
-def by_path(made: Problem, columns: Any) -> dict[str, Any]:
-    found = {}
-    for variable, row in zip(made.variables, columns, strict=True):
-        values = np.array(variable.values, dtype=float)[row.astype(int)] if variable.values else row
-        found |= dict.fromkeys((variable.path, *variable.also), values)
-    return found
+    agree(study(name, count))
 
 
 @pytest.mark.parametrize("name", ["dwell", "back-step", "speed", "momentary", "analysis"])
 def test_no_bit_depends_on_the_neighbours(name: str) -> None:
-    made = study(name, 1024)
-    columns = made.order.columns(np.arange(1024))
-    whole = made.axis.evaluate(by_path(made, columns))
-    for share in (slice(0, 7), slice(300, 301), slice(11, 788)):
-        part = made.axis.evaluate(by_path(made, columns[:, share]))
-        for quantity in made.names:
-            assert np.array_equal(part.quantities[quantity], whole.quantities[quantity][share], equal_nan=True), (
-                quantity
-            )
+    bits_stand_alone(study(name, 1024))
 
 
 def test_designs_next_to_a_limit_are_left_to_the_class() -> None:

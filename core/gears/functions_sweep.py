@@ -1,4 +1,4 @@
-"""The functions of `gearlink.core.gears.elementary` for arrays; what one number refuses is NaN here."""
+"""The functions of `gearlink.core.gears.functions` for arrays; what one number refuses is NaN here."""
 
 from __future__ import annotations
 
@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 
 from gearlink.core.gears import involute_sweep
-from gearlink.core.gears.elementary import Elementary
+from gearlink.core.gears.functions import GearFunctions
 from gearlink.core.numerics.arrays import Reals
+from gearlink.core.numerics.elementary_sweep import FUNCTIONS
 
 
 def _involute(alpha: Any) -> Any:
@@ -39,23 +40,6 @@ def _rise_of_involute(alpha: Any, difference: Any) -> Any:
     return np.where(np.abs(rise) > 0.5 * alpha, rise, finer)
 
 
-ARRAYS = Elementary(
-    sin=np.sin,
-    cos=np.cos,
-    tan=np.tan,
-    asin=np.arcsin,
-    atan=np.arctan,
-    sqrt=np.sqrt,
-    hypot=np.hypot,
-    atan2=np.arctan2,
-    copysign=np.copysign,
-    floor=np.floor,
-    turn=lambda angle: np.exp(1j * angle),
-    phase=np.angle,
-    least=np.minimum,
-    greatest=np.maximum,
-    where=np.where,  # type: ignore[arg-type]
-    involute=_involute,
-    involute_rise=_involute_rise,
-    rise_of_involute=_rise_of_involute,
+ARRAYS = GearFunctions(
+    **FUNCTIONS, involute=_involute, involute_rise=_involute_rise, rise_of_involute=_rise_of_involute
 )
