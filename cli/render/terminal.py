@@ -121,12 +121,18 @@ def _pairs(report: Report, console: Console) -> Grid:
     """The quantities of gear 1 and gear 2 side by side."""
     grid, scale = grid_for(console), scales(report)
     for head in ("per gear", "symbol", "gear 1", "gear 2", "unit"):
-        grid.add_column(head, justify="right" if head in ("gear 1", "gear 2") else "left", overflow="fold")
+        right = "right" if head in ("gear 1", "gear 2") else "left"
+        grid.add_column(head, justify=right, overflow="fold", no_wrap=head in ("per gear", "symbol"))
     for q in filter(_per_gear, report.quantities):
         assert isinstance(q.value, list), "as _per_gear says"
-        one, other = (number(quiet(value, scale.get(q.unit, 0.0))) for value in q.value)
+        one, other = (_below_each_other(quiet(value, scale.get(q.unit, 0.0))) for value in q.value)
         grid.add_row(q.name, q.symbol, one, other, "" if q.unit == "1" else q.unit)
     return grid
+
+
+def _below_each_other(value: Any) -> Text:
+    """A number, or the two limits of one."""
+    return Text("\n".join(map(number, value)) if isinstance(value, list) else number(value))
 
 
 def _findings(checks: Sequence[Check], console: Console) -> Grid:
