@@ -107,7 +107,10 @@ OPTIONS = {
         ("--save",), "write the complete design: what was found, with --suggest what was changed", Path, "FILE"
     ),
     "round": Option(("--round",), "of --save: step in mm of the lengths that were found", float, least=1e-6, most=100),
-    "candidates": Option(("--candidates",), "show designs for the same task side by side (synth, gear)"),
+    "candidates": Option(
+        ("--candidates",),
+        "show designs for the same task side by side (where the file leaves something to be found; gears)",
+    ),
     "force": Option(("--force",), "let --save overwrite a file"),
 }
 """The options that commands share, by the field of `Options` that keeps their value."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from threading import Timer
 
 _AFTER = 1.0
 
@@ -21,6 +20,8 @@ def patience(words: str, *, quiet: bool = False) -> Iterator[None]:
     if quiet or not sys.stderr.isatty():
         yield
         return
+    from threading import Timer
+
     said = False
 
     def say() -> None:

@@ -14,6 +14,7 @@ from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.figures.chart_list import CHARTS, DesignChart
 from gearlink.cli.files import CannotWrite
 from gearlink.cli.options import Format, Options
+from gearlink.cli.patience import patience
 from gearlink.cli.reading.design_file import diagnose_no_solution
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.core.errors import NoSolution, at_key
@@ -54,7 +55,8 @@ def run_chart(asked: Asked, options: Options) -> int:
         chart = _chart_named(asked.name)
         low, high = _range(asked.range, chart)
         curves = _curves(asked.curves, chart)
-        report, marked = _report(chart, low, high, curves, asked, options)
+        with patience(f"computing {asked.name}", quiet=options.quiet):
+            report, marked = _report(chart, low, high, curves, asked, options)
         if options.plot:
             from gearlink.cli.figures.design_charts import write_chart
 

@@ -10,6 +10,7 @@ from gearlink.cli.commands.finding import Finding
 from gearlink.cli.evaluate import open_design, read_spec
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import Options
+from gearlink.cli.patience import patience
 from gearlink.cli.reading.design_file import diagnose_no_solution
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import LoadedFile, parse_path
@@ -36,7 +37,11 @@ def run_check(places: Sequence[str], options: Options, *, verbose: bool = False)
 
         show_errors(error.diagnostics, options)
         return ExitCode.WRONG_INPUT
-    found = [finding for file in files for finding in findings(file, options)]
+    found = []
+    for number, file in enumerate(files, start=1):
+        share = f" ({number} of {len(files)})" if len(files) > 1 else ""
+        with patience(f"checking {file}{share}", quiet=options.quiet):
+            found += findings(file, options)
     worst = max((finding.exit_status(strict=options.strict) for finding in found), default=ExitCode.OK)
     show_findings(found, len(files), options, ok=worst == ExitCode.OK, verbose=verbose)
     return worst

@@ -11,6 +11,7 @@ from gearlink.cli.evaluate import build, exit_status, open_design, read_spec, re
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite
 from gearlink.cli.options import Format, Options
+from gearlink.cli.patience import patience
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.errors import show_errors
 from gearlink.core.errors import NoSolution
@@ -49,7 +50,7 @@ def _run(command: str, source: str, options: Options, step: Callable[[str], Abst
             spec = read_spec(loaded, kind, source)
         with step("load the formulas"):
             kind.class_for(command, spec)
-        with step("compute"):
+        with step("compute"), patience(f"computing {spec.name}", quiet=options.quiet):
             design, report = build(loaded, kind, command, spec, options)
         if options.plot:
             with step("draw"):
@@ -93,7 +94,6 @@ def show_refusal(error: DesignFileError | CannotWrite | NoSolution, source: str,
 def plot(command: str, design: Design, options: Options, report: Report) -> None:
     """Write the design's figure, with what its report finds wrong, and say where."""
     from gearlink.cli.figures.write import write_plot
-    from gearlink.cli.patience import patience
 
     with patience(f"drawing {report.name}", quiet=options.quiet):
         path = write_plot(command, design, options, checks=report.checks)

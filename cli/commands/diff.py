@@ -13,6 +13,7 @@ from gearlink.cli.commands.result_file import incomparable, read_result
 from gearlink.cli.evaluate import open_design
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import Options
+from gearlink.cli.patience import patience
 from gearlink.cli.reading.design_file import diagnose_no_solution, validate
 from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.cli.render.json_report import as_plain
@@ -42,7 +43,8 @@ def run_diff(old: str, new: str, options: Options, tolerance: float = TOLERANCE)
     from gearlink.cli.render.errors import show_errors
 
     try:
-        found = difference(old, new, options, tolerance)
+        with patience(f"computing {old} and {new}", quiet=options.quiet):
+            found = difference(old, new, options, tolerance)
     except DesignFileError as error:
         show_errors(error.diagnostics, options)
         return ExitCode.WRONG_INPUT

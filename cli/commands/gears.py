@@ -64,10 +64,12 @@ def run_gears(wish: Wish, options: Options) -> int:
     import sys
 
     from gearlink.cli.commands.design import print_report
+    from gearlink.cli.patience import patience
     from gearlink.core.gears.search import candidates, table_of
     from gearlink.core.report import Report
 
-    found = candidates(wish)
+    with patience("searching for gears", quiet=options.quiet):
+        found = candidates(wish)
     print_report(Report(kind="gear-search", name="gears", command="gears", tables=(table_of(found),)), options)
     if found:
         return ExitCode.OK

@@ -12,6 +12,7 @@ from gearlink.cli.evaluate import open_design, read_spec
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite, safe_stem, write_atomically
 from gearlink.cli.options import Options
+from gearlink.cli.patience import patience
 from gearlink.cli.reading.design_file import diagnose_no_solution
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.core.errors import NoSolution
@@ -30,8 +31,9 @@ def run_sheet(source: str, names: Sequence[str], options: Options) -> int:
         commands = spec.commands()
         command = "analyze" if "analyze" in commands else commands[0]
         try:
-            made = sheets_of(kind.design(command, spec))
-            paths = [_write(made, name, spec, options) for name in _chosen(made, names, kind.name)]
+            with patience(f"drawing {spec.name}", quiet=options.quiet):
+                made = sheets_of(kind.design(command, spec))
+                paths = [_write(made, name, spec, options) for name in _chosen(made, names, kind.name)]
         except NoSolution as error:
             raise DesignFileError([diagnose_no_solution(loaded, error)]) from error
     except (DesignFileError, CannotWrite) as error:

@@ -14,6 +14,7 @@ from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.export import parts
 from gearlink.cli.export.options import CurveForm, Export, FileFormat
 from gearlink.cli.files import CannotWrite, safe_stem, write_atomically
+from gearlink.cli.patience import patience
 from gearlink.cli.reading.design_file import diagnose_no_solution
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import LoadedFile
@@ -35,7 +36,7 @@ def run_export(source: str, asked: Export) -> int:
         _require_profiles(loaded, kind)
         spec = read_spec(loaded, kind, source)
         design = kind.design(_command(spec), spec)
-        with _located(loaded):
+        with _located(loaded), patience(f"computing the profiles of {spec.name}", quiet=asked.options.quiet):
             contours = {curve: _contours(design, asked, curve) for curve in _curves(asked)}
             files = [file for form in asked.formats for file in _files(form, design, contours, asked)]
         for path, data, words in files:

@@ -81,6 +81,14 @@ class HypocycloidDwell(RealSpeed, SingleMesh):
         **gear_ways(Way(("gears.planet", "gears.ring"), 1, "ratio")),
     }
 
+    extra_tables = ("candidates",)
+
+    def table_candidates(self, _samples: int | None = None) -> Table:
+        """The rods of every rule side by side."""
+        from gearlink.core.dwell_gears.candidates import hypocycloid
+
+        return hypocycloid(self)
+
     @property
     def trials(self) -> int:
         """A rod that is sought takes some ms."""

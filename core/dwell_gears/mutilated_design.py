@@ -114,8 +114,17 @@ class MutilatedGearDwell(RealSpeed, SingleMesh):
         **gear_ways(*_TEETH),
     }
 
+    extra_tables = ("candidates",)
+
     def __init__(self, spec: Any) -> None:
+        self.asked = spec
         super().__init__(_with_teeth(spec))
+
+    def table_candidates(self, _samples: int | None = None) -> Table:
+        """The wanted times met by other driven gears and by more groups."""
+        from gearlink.core.dwell_gears.candidates import mutilated
+
+        return mutilated(self)
 
     @cached_property
     def mutilated(self) -> MutilatedGear:

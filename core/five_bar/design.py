@@ -241,6 +241,14 @@ class GearedFiveBar(RealSpeed, FiveBarParts):
 
     # Tables
 
+    extra_tables = ("candidates",)
+
+    def table_candidates(self, _samples: int | None = None) -> Table:
+        """The target met with other gears side by side."""
+        from gearlink.core.five_bar.candidates import five_bar
+
+        return five_bar(self)
+
     def table_names_shown(self) -> tuple[str, ...]:
         """The tables of this form."""
         if not self.is_path:
@@ -259,7 +267,7 @@ class GearedFiveBar(RealSpeed, FiveBarParts):
 
     def table(self, name: str, *, samples: int | None = None) -> Table:
         """A table of this form; the other form's is refused as one that the design does not have."""
-        if name in self.table_names() and name not in self.table_names_shown():
+        if name in self.table_names() and name not in (*self.table_names_shown(), *self.extra_tables):
             raise NoSolution(f"the form {self.form} has no table {name}: it has {', '.join(self.table_names_shown())}")
         return super().table(name, samples=samples)
 

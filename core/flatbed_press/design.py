@@ -72,7 +72,7 @@ class FlatbedPress(SliderCrankQuantities, GearQuantities, Design):
     }
 
     derived = DERIVED
-    extra_tables = ("chains", "drawing")
+    extra_tables = ("chains", "drawing", "candidates")
     trials = 30
     candidates, ways_of = remedies.candidates, remedies.ways_of
 
@@ -81,6 +81,12 @@ class FlatbedPress(SliderCrankQuantities, GearQuantities, Design):
         if self.spec.size is not None and self.spec.cam is not None and self.spec.cam.base_radius is None:
             yield Found("cam.base_radius", float(self.cams.base_radius), "found for size")
             yield Found("size", None)
+
+    def table_candidates(self, _samples: int | None = None) -> Table:
+        """Input gears of other modules side by side."""
+        from gearlink.core.flatbed_press.candidates import input_gears
+
+        return input_gears(self)
 
     # Parts
 

@@ -61,7 +61,21 @@ class SliderCrankDesign(RealSpeed, SliderCrankQuantities, Design):
         "crank": Outline(_SIZES),
         "analyze": Outline((*_SIZES, *_MOTION), ("transmission-angle",), ("motion",)),
     }
+    extra_tables = ("candidates",)
     ways = {"transmission-angle": (up("rod"), down("stroke"), down("crank"), *either("offset"))}
+
+    def table_candidates(self, _samples: int | None = None) -> Table:
+        """The stroke by other rods and offsets side by side."""
+        from gearlink.core.candidates import Sought, nothing_sought, pairs, table
+
+        if self.spec.crank is not None:
+            raise nothing_sought("give stroke in place of crank")
+        rod, offset = self.spec.rod, self.spec.offset
+        rods = [round(share * rod, 6) for share in (0.7, 0.85, 1.0, 1.2, 1.5)]
+        keys = {"rod": ("rod", "mm"), "offset": ("offset", "mm")}
+        shown = ("crank_length", "quick_return_ratio", "velocity_max", "velocity_min", "acceleration_max")
+        found = (*shown, "acceleration_min", "min_transmission_angle")
+        return table(self, Sought("analyze", keys, pairs(rods, sorted({0.0, 0.5 * offset, offset})), found))
 
     @cached_property
     def slider_crank(self) -> SliderCrank:

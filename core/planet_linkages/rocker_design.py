@@ -82,7 +82,7 @@ class GearedRocker(RealSpeed, SingleMesh):
         "gear": Outline(GEAR_QUANTITIES, GEAR_CHECKS),
     }
 
-    extra_tables = ("links",)
+    extra_tables = ("links", "candidates")
     ways = {
         "shaft-clearance": (*SHAFT_WAYS, *_LINKS, *_FEWER, *_TEETH),
         "transmission-angle": (*_LINKS, *_TEETH, *_FEWER),
@@ -99,6 +99,19 @@ class GearedRocker(RealSpeed, SingleMesh):
         if self.spec.target is not None:
             yield Found("links.crank", self.crank_length, "found for target.swing")
             yield Found("target", None)
+
+    def table_candidates(self, _samples: int | None = None) -> Table:
+        """The wanted swing by other teeth; the rocker is their centre distance."""
+        from gearlink.core.candidates import Sought, around, nothing_sought, pairs, table
+
+        if self.spec.target is None:
+            raise nothing_sought("give target: {swing} in place of links.crank")
+        keys = {"gears.coupler": ("coupler_gear_teeth", "1"), "gears.output": ("output_teeth", "1")}
+        gears = self.spec.gears
+        outputs = sorted({max(1, round(share * gears.output)) for share in (0.85, 1.0, 1.2)})
+        shown = ("crank_length", "rocker_length", "rocker_swing", "swing_multiple", "speed_ratio_max")
+        found = (*shown, "acceleration_ratio_max", "min_transmission_angle")
+        return table(self, Sought("analyze", keys, pairs(around(gears.coupler), outputs), found))
 
     # Gears and links
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 from gearlink.core.clearance.bodies import Layout
 from gearlink.core.clearance.checks import SHAFT_WAYS, shaft_checks
@@ -94,7 +94,7 @@ class TwoGearFourBar(FeedResults, SingleMesh):
         "gear": Outline(MESH_QUANTITIES, MESH_CHECKS),
     }
 
-    extra_tables = ("links",)
+    extra_tables: ClassVar[tuple[str, ...]] = ("links",)
     ways = {
         "dwell-condition": (*_TEETH, *_FEWER, *_LINKS),
         "shaft-clearance": (*SHAFT_WAYS, *_LINKS, *_FEWER, *_TEETH),

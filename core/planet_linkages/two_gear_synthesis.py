@@ -15,7 +15,7 @@ from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.planet_linkages import two_gear_family as kernel
 from gearlink.core.planet_linkages.two_gear_design import CHECKS, QUANTITIES, TwoGearFourBar
 from gearlink.core.real_speed import per_time
-from gearlink.core.report import Check, safely_above, safely_below
+from gearlink.core.report import Check, Table, safely_above, safely_below
 from gearlink.core.results import cached_property
 
 _MARGIN = 0.01
@@ -47,6 +47,22 @@ class Synthesis(TwoGearFourBar):
         synthesis = next(command for command in self.outlines if command.startswith("synth"))
         yield Found("links.frame", self.frame_length, f"found by {synthesis}")
         yield from (Found(section, None) for section in ("dwell", "back_step"))
+
+    extra_tables = (*TwoGearFourBar.extra_tables, "candidates")
+
+    def table_candidates(self, _samples: int | None = None) -> Table:
+        """The task met with other planets and other output gears."""
+        from gearlink.core.candidates import Sought, around, pairs, table
+
+        gear = "gears.ring" if self.internal else "gears.sun"
+        planet, output = self.spec.gears.planet, self.output_teeth
+        command = next(command for command in self.outlines if command.startswith("synth"))
+        keys = {"gears.planet": ("planet_teeth", "1"), gear: ("output_teeth", "1")}
+        rows = pairs(sorted({round(0.9 * planet), planet, round(1.1 * planet)}), around(output)[:4])
+        shown = ("crank_length", "frame_length", "tolerance_dwell_angle", "back_step_angle", "speed_ratio_max")
+        found = (*shown, "acceleration_ratio_max", "min_transmission_angle")
+        known = tuple(name for name in found if name in self.quantity_names())
+        return table(self, Sought(command, keys, rows, known))
 
     @property
     def trials(self) -> int:

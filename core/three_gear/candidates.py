@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+from gearlink.core.candidates import findings, modules
 from gearlink.core.errors import NoSolution
 from gearlink.core.report import Table
 from gearlink.core.spec_paths import changed
@@ -15,8 +16,6 @@ if TYPE_CHECKING:
 
 _SHARES = (1.0, 1.1, 1.25, 1.5, 1.75, 2.0)
 """Teeth of the idlers that are shown, over those of the first."""
-_MODULES = (0.5, 0.6, 0.8, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 16.0, 20.0)
-"""Series I of ISO 54 [mm]."""
 
 _COLUMNS = {
     "module": "mm",
@@ -43,18 +42,6 @@ def table(design: Synthesis, _samples: int | None = None) -> Table:
     """
     rows = [_row(design, module, idler) for module in modules(design.spec.gears.module) for idler in _idlers(design)]
     return Table.of("candidates", {name: ([row.get(name) for row in rows], unit) for name, unit in _COLUMNS.items()})
-
-
-def modules(own: float) -> list[float]:
-    """A module and the next of the series to either side.
-
-    Example
-        >>> modules(2.0), modules(2.3), modules(100.0)
-        ([1.5, 2.0, 2.5], [2.0, 2.3, 2.5], [20.0, 100.0])
-    """
-    below = [module for module in _MODULES if module < own]
-    above = [module for module in _MODULES if module > own]
-    return [*below[-1:], own, *above[:1]]
 
 
 def _idlers(design: Synthesis) -> list[int]:
@@ -89,9 +76,6 @@ def _found(trial: Synthesis) -> dict[str, Any]:
     tips = (trial.spec.gears.module * (abs(teeth) / 2.0 + 1.0) for teeth in (trial.crank_teeth, trial.output_teeth))
     dwell = trial.tolerance_dwell_angle if _within_a_tolerance(trial) else trial.dwell_angle
     command = next(name for name in trial.outlines if name.startswith("synth"))
-    checks = [found for name in trial.outline(command).checks for found in trial.check(name)]
-    worst = dict.fromkeys(f"{c.status} {c.code}" for c in checks if c.status == "fail")
-    warned = dict.fromkeys(f"{c.status} {c.code}" for c in checks if c.status == "warn")
     return {
         "length": trial.crank_length + trial.frame_length + sum(tips),
         "crank_length": trial.crank_length,
@@ -102,7 +86,7 @@ def _found(trial: Synthesis) -> dict[str, Any]:
         "acceleration_ratio_max": trial.acceleration_ratio_max,
         "transmission_angle": math.degrees(trial.min_transmission_angle),
         "gear_gap": trial.gear_gap,
-        "findings": ", ".join((*worst, *warned)) or "pass",
+        "findings": findings(trial, command),
     }
 
 

@@ -198,6 +198,10 @@ def test_a_quantity_evaluates_what_it_needs_and_no_more(command: str, design: st
 def _computed(made: object) -> set[str]:
     """Names of the results that a design and its parts have worked out."""
     parts = [each for each in vars(made).values() if hasattr(each, "spec")]
+    files = ("spec", "asked")  # as completed, and as read
     return {
-        name for each in (made, *parts) for name, value in vars(each).items() if name != "spec" and value not in parts
+        name
+        for each in (made, *parts)
+        for name, value in vars(each).items()
+        if name not in files and value not in parts
     }

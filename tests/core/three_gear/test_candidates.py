@@ -5,7 +5,7 @@ import math
 import pytest
 from factory import design
 
-from gearlink.core.three_gear.candidates import modules
+from gearlink.core.candidates import modules
 
 TASKS = [
     pytest.param("synth dwell", "standing_feed", {}, marks=pytest.mark.slow),  # a window for each row
@@ -54,6 +54,6 @@ def test_one_table_alone_is_shown(gearlink):
     assert ended.status == 0
     assert list(ended.json["tables"]) == ["candidates"]
     assert ended.json["quantities"] == {}
-    refused = gearlink("press", DESIGNS / "ty460.yaml", "--candidates")
+    refused = gearlink("gripper", DESIGNS / "swing_gripper.yaml", "--candidates")
     assert refused.status == 2
     assert "candidates" in refused.err
