@@ -29,14 +29,40 @@ _TASKS: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
     "analyze": ({"links": {"crank": 38.9, "frame": 153.5}}, {"links.frame": {"from": 120, "to": 270, "step": 10}}),
     "synth variable-speed": ({"speed": {"min": 100, "max": 300}}, {"speed.min": {"from": 0, "to": 150, "step": 10}}),
 }
+_OTHERS: dict[str, dict[str, Any]] = {
+    "gear pairs by distance": {
+        "design": {"kind": "gear-pair", "module": 2.5, "teeth": [26, 53], "center_distance": 100},
+        "variables": {
+            "teeth[0]": {"from": 20, "to": 28},
+            "teeth[1]": {"from": 46, "to": 54},
+            "center_distance": {"from": 94, "to": 103, "step": 0.1},
+            "shift_split": {"from": -0.2, "to": 0.6, "step": 0.05},
+        },
+        "minimize": {"specific_sliding[0]": 0.05},
+        "maximize": {"contact_ratio": 0.02, "tip_thickness[0]": 0.1},
+    },
+    "slider-cranks, sizes": {
+        "design": {"kind": "slider-crank", "stroke": 300, "rod": 500, "limits": {"transmission_angle": 40}},
+        "variables": {
+            "stroke": {"from": 100, "to": 700, "step": 1},
+            "rod": {"from": 300, "to": 900, "step": 5},
+            "offset": {"from": -100, "to": 100, "step": 10},
+        },
+        "minimize": {"crank_length": 1, "quick_return_ratio": 0.01},
+        "maximize": {"min_transmission_angle": 1},
+    },
+}
+_OTHERS["slider-cranks, motion"] = {**_OTHERS["slider-cranks, sizes"], "minimize": {"acceleration_max": 1}}
 _FEW = 50
 
 
 def family(quick: bool) -> Family:
     """The table of the family; the error is the greatest difference of any quantity from the design class's."""
     methods = []
-    for command in _TASKS:
-        made = _study(command)
+    studies = {command: _study(command) for command in _TASKS} | {
+        name: _problem({**given, "command": "analyze"}) for name, given in _OTHERS.items()
+    }
+    for command, made in studies.items():
         size = CHUNK // (4 if quick else 1)
         columns = made.order.columns(np.arange(size) * (made.order.count // size))
         few = columns[:, :: size // _FEW][:, :_FEW]
@@ -48,7 +74,7 @@ def family(quick: bool) -> Family:
     rows: tuple[Row, ...] = measure(methods, numpy_pass(CHUNK), CHUNK, 3)
     return Family(
         "studies",
-        "Studies of three-gear four-bars: every quantity sought and all checks of a design",
+        "Studies of three-gear four-bars, gear pairs, slider-cranks: every quantity sought and all checks of a design",
         "relative",
         "one numpy pass of sin + cos + arctan2 + sqrt over 8192 numbers",
         rows,
@@ -60,14 +86,17 @@ def _study(command: str) -> Problem:
     section, variable = _TASKS[command]
     gears = {"module": 2, "crank": 40, "idler": 72, "output": 40}
     data = {
-        "kind": "study",
         "design": {"kind": "three-gear-four-bar", "gears": gears, **section},
         "command": command,
         "variables": {**_GEARS, **variable},
         "minimize": {"frame_length": 10, "speed_ratio_max": 0.1},
         "maximize": {"min_transmission_angle": 2},
     }
-    return problem(StudySpec.model_validate_json(json.dumps(data)))
+    return _problem(data)
+
+
+def _problem(data: dict[str, Any]) -> Problem:
+    return problem(StudySpec.model_validate_json(json.dumps({"kind": "study", **data})))
 
 
 def _difference(made: Problem, columns: Any) -> float:

@@ -21,7 +21,7 @@ TEETH = ("gears.crank", "gears.idler", "gears.output")
 LIMITS = ("limits.transmission_angle", "limits.gear_gap")
 _POOR = 5.0
 _NEAR = 1e-9
-_JUDGED_HERE = {r.code for r in (GEAR_COLLISION, SHAFT_CLEARANCE, TRANSMISSION_ANGLE, BACK_STEP, DWELL_TOLERANCE)}
+_JUDGED_HERE = {r.code for r in (GEAR_COLLISION, TRANSMISSION_ANGLE, BACK_STEP, DWELL_TOLERANCE)}
 
 
 class Batch:
@@ -36,6 +36,8 @@ class Batch:
 
     keys: tuple[str, ...] = ()
     """Keys of the task."""
+    given: tuple[str, ...] = ()
+    """Links whose length the file gives: a gap of sums of such lengths is the class's to the last bit."""
 
     def __init__(
         self, spec: Any, command: str, wanted: Sequence[str], meshes: UnshiftedMeshes, columns: Mapping[str, Reals]
@@ -45,6 +47,7 @@ class Batch:
         self.count = len(next(iter(columns.values())))
         self.z1, self.z3, self.z5 = (self.key(path) for path in TEETH)
         self.module = self.key("gears.module")
+        self._at_limit = np.zeros(self.count, dtype=bool)
 
     def key(self, path: str) -> Reals:
         """A key's values; NaN where the base has none and it is not varied."""
@@ -205,15 +208,18 @@ class Batch:
         given, (crank, frame) = self.spec.limits.least_shaft, self.links
         least = LEAST_SHAFT_MODULES * self.module if given is None else np.full(self.count, given)
         dead = self.coupler - crank
-        nearest_c = np.where(dead > np.abs(self.rocker - frame), dead, self.rocker - frame)
+        by_crank = dead > np.abs(self.rocker - frame)
+        nearest_c = np.where(by_crank, dead, self.rocker - frame)
+        both = "crank" in self.given and "frame" in self.given
         gaps = (
-            (nearest_c - tips[1], least),
-            (frame - tips[2], least),
-            (np.abs(frame - crank) - tips[0], least),
-            (self.rocker - tips[1], least),
-            (frame, 2.0 * least),
+            (nearest_c - tips[1], least, both | (by_crank & ("crank" in self.given))),
+            (frame - tips[2], least, "frame" in self.given),
+            (np.abs(frame - crank) - tips[0], least, both),
+            (self.rocker - tips[1], least, True),
+            (frame, 2.0 * least, "frame" in self.given),
         )
-        for gap, limit in gaps:
+        for gap, limit, exact in gaps:
+            self._at_limit |= _near(gap, limit) & ~(exact & (gap == limit))
             yield Findings(SHAFT_CLEARANCE.code, gap, limit, self.none, gap < limit, "mm")
 
     def evaluated(self, outside: Mask) -> Evaluated:
@@ -231,11 +237,15 @@ class Batch:
         """Designs next to a limit, or where a root hangs by few digits."""
         unsure = np.zeros(self.count, dtype=bool)
         for each in findings:
-            scale = np.maximum(1.0, np.maximum(np.abs(each.value), np.abs(each.limit)))
-            near = np.abs(each.value - each.limit) <= _NEAR * scale
             if each.code in _JUDGED_HERE:
-                unsure |= near
-        return np.asarray((unsure | self.doubtful) & self.exists)
+                unsure |= _near(each.value, each.limit)
+        return np.asarray((unsure | self._at_limit | self.doubtful) & self.exists)
+
+
+def _near(value: Reals, limit: Reals) -> Mask:
+    """Where rounding might change on which side of a limit a value lies."""
+    scale = np.maximum(1.0, np.maximum(np.abs(value), np.abs(limit)))
+    return np.asarray(np.abs(value - limit) <= _NEAR * scale)
 
 
 def _without(each: Findings, gone: Mask) -> Findings:

@@ -75,6 +75,7 @@ class Momentary(General):
     """`synth momentary-dwell` with an eccentricity."""
 
     keys = ("momentary.eccentricity",)
+    given = ("crank",)
     reasons = ("momentary.eccentricity",)
 
     @cached_property
@@ -112,6 +113,7 @@ class Analysis(General):
     """`analyze` of given links."""
 
     keys = ("links.crank", "links.frame")
+    given = ("crank", "frame")
     reasons = ("links",)
 
     @cached_property

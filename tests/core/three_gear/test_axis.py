@@ -110,6 +110,40 @@ def test_refusals_statuses_and_values_are_those_of_the_classes(name: str, count:
     agree(study(name, count))
 
 
+@pytest.mark.parametrize(
+    ("command", "section", "steps"),
+    [
+        ("analyze", {"links": {"crank": 39, "frame": 153.5}}, {"links.frame": {"from": 120, "to": 270, "step": 10}}),
+        (
+            "synth momentary-dwell",
+            {"momentary": {"eccentricity": 30}},
+            {"momentary.eccentricity": {"values": [14, 20]}},
+        ),
+    ],
+)
+def test_gaps_that_stand_at_their_limit_are_judged_at_once(
+    command: str, section: dict[str, Any], steps: dict[str, Any]
+) -> None:
+    gears = {
+        "gears.crank": {"from": 20, "to": 60, "step": 2, "also": ["gears.output"]},
+        "gears.idler": {"values": [50, 72]},
+        "gears.module": {"values": [2, 4, 8]},
+    }
+    data = {
+        "kind": "study",
+        "design": {**BASE, **section},
+        "command": command,
+        "variables": {**gears, **steps},
+        "minimize": {"frame_length": 1, "min_transmission_angle": 1},
+        "checks": {"must_pass": "all"},
+    }
+    made = problem(StudySpec.model_validate_json(json.dumps(data)))
+    found = made.axis.evaluate(by_path(made, made.order.columns(np.arange(made.order.count))))
+    at_limit = sum((f.value == f.limit).astype(int) for f in found.findings if f.code == "GL302")
+    assert (at_limit > 0).sum() > 2
+    agree(made, unsure=0.001)
+
+
 @pytest.mark.parametrize("name", ["dwell", "back-step", "speed", "momentary", "analysis"])
 def test_no_bit_depends_on_the_neighbours(name: str) -> None:
     bits_stand_alone(study(name, 1024))
