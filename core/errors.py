@@ -56,3 +56,14 @@ class at_key:
         if isinstance(error, NoSolution) and not error.key:
             error.key = self._key
         return False
+
+
+class in_section(at_key):
+    """Give a NoSolution raised inside the block the section of the design file in which its key stands."""
+
+    __slots__ = ()
+
+    def __exit__(self, _kind: object, error: object, _traceback: object) -> Literal[False]:
+        if isinstance(error, NoSolution):
+            error.key = f"{self._key}.{error.key}" if error.key else self._key
+        return False

@@ -6,7 +6,7 @@ import unicodedata
 from importlib import import_module
 from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, TypeAdapter
 from pydantic_core import PydanticCustomError, core_schema
 
 
@@ -50,27 +50,33 @@ class Deferred:
     """Annotates a section whose model is imported when a file has that section, not before.
 
     Parameters
-        place : str - "module:Class", below `gearlink.core`
+        place : str - "module:Name", below `gearlink.core`, of a model, or of a type made of models
     """
 
     def __init__(self, place: str) -> None:
         self.place = place
 
-    def model(self) -> type[BaseModel]:
-        """The section's model."""
+    def model(self) -> Any:
+        """The section's model, or type."""
         module, _, name = self.place.partition(":")
-        found: type[BaseModel] = getattr(import_module(f"gearlink.core.{module}"), name)
-        return found
+        return getattr(import_module(f"gearlink.core.{module}"), name)
+
+    def _adapter(self) -> TypeAdapter[Any]:
+        model = self.model()
+        return TypeAdapter(model, config=None if isinstance(model, type) else Spec.model_config)
 
     def __get_pydantic_core_schema__(self, _source: Any, _handler: Any) -> core_schema.CoreSchema:
         return core_schema.no_info_plain_validator_function(self._validated)
 
-    def _validated(self, value: Any) -> BaseModel:
+    def _validated(self, value: Any) -> Any:
         # A design whose spec is changed and validated anew brings a section that is valid already.
-        return value if isinstance(value, self.model()) else self.model().model_validate(value)
+        model = self.model()
+        if isinstance(model, type) and isinstance(value, model):
+            return value
+        return self._adapter().validate_python(value)
 
     def __get_pydantic_json_schema__(self, _schema: Any, handler: Any) -> dict[str, Any]:
-        found: dict[str, Any] = handler(self.model().__pydantic_core_schema__)
+        found: dict[str, Any] = handler(self._adapter().core_schema)
         return found
 
 
@@ -139,6 +145,14 @@ class GearLimits(Spec):
     tip_thickness: Share = Field(0.25, description="least tip thickness over the module")
     contact_ratio: Ratio = Field(1.1, description="least transverse contact ratio")
     sliding: Ratio | None = Field(None, description="greatest specific sliding; left out: only above 8 is reported")
+
+
+class DrawingLimits(Spec):
+    """Limits of what only a drawing fixes: backlash and strength of gears."""
+
+    backlash: SignedLength = Field(0.0, description="least normal backlash; below it a warning")
+    safety_pitting: Ratio = Field(1.0, description="least safety against pitting")
+    safety_bending: Ratio = Field(1.4, description="least safety against breaking at the root")
 
 
 def require_offset_below_rod(rod: float, offset: float, key: str) -> None:

@@ -7,7 +7,8 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.errors import MissingSection, at_key
-from gearlink.core.gears.internal_mesh import RIM_MODULES, InternalMesh
+from gearlink.core.gears.internal_mesh import InternalMesh
+from gearlink.core.gears.teeth import rim_radius
 
 if TYPE_CHECKING:
     from gearlink.cli.export.contour import Part
@@ -74,7 +75,8 @@ def _pair(design: Any, key: str = "") -> Makers:
     widths, rim = data.face_width, data.rims[1]
     if rim is not None:
         rim += abs(data.pair.root_radius[1])
-    found = _of_mesh(design.gear_pair, ("gear1", "gear2"), ("gear 1", "gear 2"), key, widths=widths, rim=rim)
+    titles = ("gear 1", "gear 2")
+    found = _of_mesh(design.gear_pair, ("gear1", "gear2"), titles, key, widths_of=lambda: widths, rim=rim)
     return {"gear1": found["gear1"], "rack": lambda: _rack(design)} if getattr(design.spec, "rack", False) else found
 
 
@@ -87,31 +89,33 @@ def _rack(design: Any) -> Part:
 
 def _three_gears(design: Any) -> Makers:
     """Gears 1, 3 and 5; of a mesh with a ring the idler is the pinion."""
-    crank_idler, idler_output = design.meshes.values()
     gears = design.spec.gears
     titles = {"gear1": "gear 1, on the crank", "gear3": "gear 3, the idler", "gear5": "gear 5, the output"}
 
-    def of(mesh: Any, one: str, other: str) -> Makers:
-        return _of_mesh(mesh, (one, other), (titles[one], titles[other]), "gears", gears)
+    def of(label: str, one: str, other: str) -> Makers:
+        words = (titles[one], titles[other])
+        return _of_mesh(design.meshes[label], (one, other), words, "gears", gears, partial(design.widths_of, label))
 
-    first = of(crank_idler, *(("gear3", "gear1") if design.crank_teeth < 0 else ("gear1", "gear3")))
-    second = of(idler_output, "gear3", "gear5")
+    first = of("crank_idler", *(("gear3", "gear1") if design.crank_teeth < 0 else ("gear1", "gear3")))
+    second = of("idler_output", "gear3", "gear5")
     idler = second if design.crank_teeth < 0 else first
     return {"gear1": first["gear1"], "gear3": idler["gear3"], "gear5": second["gear5"]}
 
 
 def _two_gears(design: Any) -> Makers:
     titles = ("gear 2, on the coupler", "gear 5, the output")
-    return _of_mesh(design.mesh, ("gear2", "gear5"), titles, "gears", design.spec.gears)
+    return _of_mesh(design.mesh, ("gear2", "gear5"), titles, "gears", design.spec.gears, design.widths_of)
 
 
 def _hypocycloid(design: Any) -> Makers:
-    return _of_mesh(design.mesh, ("planet", "ring"), ("planet", "ring gear, fixed"), "gears", design.spec.gears)
+    titles = ("planet", "ring gear, fixed")
+    return _of_mesh(design.mesh, ("planet", "ring"), titles, "gears", design.spec.gears, design.widths_of)
 
 
 def _mutilated(design: Any) -> Makers:
     """The driven gear; the wheel's first and last tooth and its locking arcs are no result of the design."""
-    made = _of_mesh(design.mesh, ("wheel", "gear2"), ("wheel", "gear 2, driven"), "gears")
+    titles = ("wheel", "gear 2, driven")
+    made = _of_mesh(design.mesh, ("wheel", "gear2"), titles, "gears", widths_of=design.widths_of)
     return {"gear2": made["gear2"]}
 
 
@@ -120,7 +124,8 @@ def _five_bar(design: Any) -> Makers:
     for label, mesh in design.meshes.items():
         names = label.split("_") if label else _five_bar_gears(design, mesh)
         parts = (f"{names[0]}_gear", f"{names[1]}_gear")
-        found |= _of_mesh(mesh, parts, (f"{names[0]} gear", f"{names[1]} gear"), "gears", design.spec.gears)
+        titles = (f"{names[0]} gear", f"{names[1]} gear")
+        found |= _of_mesh(mesh, parts, titles, "gears", design.spec.gears, partial(design.widths_of, label))
     return found
 
 
@@ -152,7 +157,7 @@ def _of_mesh(
     titles: tuple[str, str],
     key: str,
     gears: Any = None,
-    widths: tuple[float, float] | None = None,
+    widths_of: Callable[[], tuple[float, float] | None] = lambda: None,
     rim: float | None = None,
 ) -> Makers:
     """Both gears of a mesh; `gears` is the section of the file that may name the rim of a ring, or `rim` is it."""
@@ -160,10 +165,11 @@ def _of_mesh(
     def gear(number: int) -> Part:
         from gearlink.cli.export import gear_parts
 
-        width = widths[number] if widths else None
         with at_key(key):
+            widths = widths_of()
+            width = widths[number] if widths else None
             if number == 1 and is_ring(mesh):
-                outer = _rim(mesh, getattr(gears, "rim", rim))
+                outer = rim_radius(mesh.root_radius[1], mesh.module, getattr(gears, "rim", rim))
                 return gear_parts.ring_of(mesh, outer, names[1], titles[1], width)
             pair = _planet(mesh) if isinstance(mesh, InternalMesh) else mesh
             return gear_parts.gear_of(pair, number, names[number], titles[number], width)
@@ -174,12 +180,6 @@ def _of_mesh(
 def is_ring(mesh: Any) -> bool:
     """Whether gear 2 of a mesh is a ring."""
     return isinstance(mesh, InternalMesh) or mesh.teeth[1] < 0
-
-
-def _rim(mesh: Any, given: float | None) -> float:
-    if given is not None:
-        return given
-    return abs(float(mesh.root_radius[1])) + RIM_MODULES * float(mesh.module)
 
 
 def _planet(mesh: Any) -> GearPair:

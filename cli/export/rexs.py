@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Iterator
+from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import Any
 from xml.sax.saxutils import escape, quoteattr
@@ -68,10 +69,9 @@ def as_rexs(design: Any) -> bytes:
     model = Model()
     unit = model.component("gear_unit", design.spec.name, iter(()))
     known: dict[str, int] = {}
-    given = getattr(design.spec, "helix_hand", None)
-    for names, pair, widths in meshes:
-        # Right-hand helices count positive; a pinion and its ring have the same hand.
-        hands = [1 if hand == "right" else -1 for hand in given or ("right", "right" if is_ring(pair) else "left")]
+    for mesh in meshes:
+        names, pair, widths = mesh.names, mesh.pair, mesh.widths
+        hands = [1 if hand == "right" else -1 for hand in mesh.hands]  # right-hand helices count positive
         stage = model.component("cylindrical_stage", f"{names[0]} - {names[1]}", _stage(pair, widths))
         gears = [_gear(model, unit, known, name, pair, i, widths, hands[i]) for i, name in enumerate(names)]
         model.relation("assembly", assembly=unit, part=stage)
@@ -174,35 +174,45 @@ def _stage_data(pair: GearPair, i: int) -> Iterator[tuple[str, str, Any]]:
     yield "tip_clearance", "mm", pair.tip_clearance[i]
 
 
-def _meshes(design: Any) -> Iterator[tuple[tuple[str, str], GearPair, tuple[float, float] | None]]:
-    """Names of both gears, pair and face widths of every mesh of a design; of a pair with a ring it is gear 2."""
+@dataclass(frozen=True)
+class _Mesh:
+    """A mesh of a design, a ring second: names, pair, face widths [mm] and hands of helix of both gears."""
+
+    names: tuple[str, str]
+    pair: GearPair
+    widths: tuple[float, float] | None
+    hands: tuple[str, str]
+
+
+def _meshes(design: Any) -> Iterator[_Mesh]:
+    """Every mesh of a design."""
     if getattr(design.spec, "rack", False):
         raise NoSolution("the data model of REXS 1.7 has no rack: take --as dxf, svg, csv or step", key="teeth[1]")
-    if design.kind in ("gear-pair", "flatbed-press"):
+    if design.kind in _PAIRS:
         if design.kind == "flatbed-press" and design.spec.input_gears is None:
             return
-        widths = (design.data if design.kind == "gear-pair" else design.gear_data).face_width
-        yield ("gear 1", "gear 2"), design.gear_pair, widths
-    elif design.kind == "three-gear-four-bar":
-        first, second = design.meshes.values()
-        yield ("gear 3", "gear 1") if design.crank_teeth < 0 else ("gear 1", "gear 3"), signed_pair(first), None
-        yield ("gear 3", "gear 5"), signed_pair(second), None
-    elif design.kind in _KINDS:
-        yield (
-            ("planet", "ring") if design.kind == "hypocycloid-dwell" else ("gear 2", "gear 5"),
-            signed_pair(design.mesh),
-            None,
-        )
+        data = design.data if design.kind == "gear-pair" else design.gear_data
+        given = getattr(design.spec, "helix_hand", None) or ("right", "right" if is_ring(data.pair) else "left")
+        yield _Mesh(("gear 1", "gear 2"), data.pair, data.face_width, (given[0], given[1]))
+    elif design.kind in _TRAINS:
+        names = _TRAINS[design.kind] or tuple(f"{name} gear" for name in design.spec.gears.gear_names())
+        hands = design.spec.gears.hands()
+        for label, place in zip(design.mesh_names, design.teeth_train.places, strict=True):
+            one, other = place.gears
+            pair = signed_pair(design.meshes[label])
+            yield _Mesh((names[one], names[other]), pair, design.widths_of(label), (hands[one], hands[other]))
 
 
-_KINDS = (
-    "gear-pair",
-    "flatbed-press",
-    "three-gear-four-bar",
-    "two-gear-four-bar",
-    "geared-rocker",
-    "hypocycloid-dwell",
-)
+_PAIRS = ("gear-pair", "flatbed-press")
+_TRAINS: dict[str, tuple[str, ...]] = {
+    "three-gear-four-bar": ("gear 1", "gear 3", "gear 5"),
+    "two-gear-four-bar": ("gear 2", "gear 5"),
+    "geared-rocker": ("gear 2", "gear 5"),
+    "hypocycloid-dwell": ("planet", "ring"),
+    "geared-five-bar": (),
+}
+"""Names of the gears of a train, in the order of the file's lists; empty: those of the file."""
+_KINDS = (*_PAIRS, *_TRAINS)
 
 
 def _text(value: Any) -> str:

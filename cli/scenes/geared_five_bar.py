@@ -27,15 +27,12 @@ from gearlink.cli.scenes.scene import (
     standing,
     track,
 )
-from gearlink.core.gears.internal_mesh import InternalMesh
 from gearlink.core.gears.mesh_phase import driven_turn, ring_turn
 from gearlink.core.linkages.dyad import close_dyad
 
 if TYPE_CHECKING:
     from gearlink.core.five_bar.design import GearedFiveBar
-    from gearlink.core.gears.pair import GearPair
-
-    AnyMesh = GearPair | InternalMesh
+    from gearlink.core.gears.meshed import AnyMesh
 
 
 def build(design: GearedFiveBar, fraction: Reals) -> Scene:
@@ -95,20 +92,20 @@ def _path_gears(design: GearedFiveBar, phi: Reals, fraction: Reals) -> list[Part
     level, turned = np.zeros_like(phi), period * float(bar.ratio)
 
     def on_input(mesh: AnyMesh, number: int) -> list[Body]:
-        return gear(mesh, number, a, phi, period, BLUE, "1", "input gear")
+        return gear(mesh, number, a, phi, period, BLUE, "1", "input gear", design.spec.gears.rim)
 
     def on_output(mesh: AnyMesh, number: int, turn: Reals) -> list[Body]:
-        return gear(mesh, number, e, turn, turned, ORANGE, "4", "output gear")
+        return gear(mesh, number, e, turn, turned, ORANGE, "4", "output gear", design.spec.gears.rim)
 
-    if isinstance(first, InternalMesh):
-        pinion, ring = first.teeth
-        if design.spec.gears.input == ring:
+    if first.internal:
+        pinion, ring = (abs(z) for z in first.teeth)
+        if design.signed_teeth[0] < 0:
             return [*on_input(first, 1), *on_output(first, 0, ring_turn((ring, pinion), level, phi))]
         return [*on_output(first, 1, ring_turn((pinion, ring), level + math.pi, phi)), *on_input(first, 0)]
     if not more:
         return [*on_input(first, 0), *on_output(first, 1, driven_turn(first.teeth, level, phi))]
-    (second,) = more
-    idler = close_dyad(0j, complex(bar.frame), first.center_distance, second.center_distance, 1)
+    (second,), (near, far) = more, design.center_distance
+    idler = close_dyad(0j, complex(bar.frame), near, far, design.spec.gears.idler_side)
     middle = driven_turn(first.teeth, level + cmath.phase(idler), phi)
     turn = driven_turn((second.teeth[0], second.teeth[1]), level + cmath.phase(bar.frame - idler), middle)
     idler_turns, place = -period * first.teeth[0] / first.teeth[1], track(idler, fraction)
@@ -153,15 +150,22 @@ def _function_scene(design: GearedFiveBar, fraction: Reals) -> Scene:
 def _function_gears(design: GearedFiveBar, phi: Reals, a: Points, b: Points) -> list[Part]:
     """The gear that is fixed to the frame, and the planet that rolls on it, or in it."""
     (mesh,) = design.meshes.values()
-    planet, fixed = mesh.teeth
-    still = np.zeros_like(phi)
-    internal = isinstance(mesh, InternalMesh)
+    planet, fixed = (abs(z) for z in mesh.teeth)
+    still, internal = np.zeros_like(phi), mesh.internal
     turn = ring_turn((fixed, planet), phi, still) if internal else driven_turn((fixed, planet), phi, still)
     there_and_back = float(abs(_input_angles(design, np.ones(1))[0] - _input_angles(design, np.zeros(1))[0]))
     turns = there_and_back / TURN * float(design.ratio)
     return [
         *gear(
-            mesh, 1, a, still, 0.0, ORANGE, "" if internal else "5", "ring gear, fixed" if internal else "sun, fixed"
+            mesh,
+            1,
+            a,
+            still,
+            0.0,
+            ORANGE,
+            "" if internal else "5",
+            "ring gear, fixed" if internal else "sun, fixed",
+            design.spec.gears.rim,
         ),
         *gear(mesh, 0, b, turn, turns, BLUE, "2", "planet on the coupler"),
     ]

@@ -10,9 +10,10 @@ import numpy as np
 from gearlink.cli.scenes.colors import WHITE, pale
 from gearlink.cli.scenes.scene import TURN, Body, Points, Reals, circle
 from gearlink.core.errors import NoSolution
-from gearlink.core.gears.internal_mesh import RIM_MODULES, InternalMesh
+from gearlink.core.gears.internal_mesh import InternalMesh
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.gears.ring_profile import RingProfile
+from gearlink.core.gears.teeth import rim_radius
 
 _HOLES = (5, 4, 6, 3, 7, 8, 9, 10, 11, 12)
 _MOST_TEETH = 600
@@ -28,6 +29,7 @@ def gear(
     color: str,
     label: str,
     name: str = "",
+    rim: float | None = None,
 ) -> list[Body]:
     """Gear 0 or 1 of a pair with its holes; a tool that leaves no such teeth leaves the tip circle.
 
@@ -36,6 +38,7 @@ def gear(
         place, turn : tracks [mm, rad] - axis, and direction of the middle of a tooth space
         loop_turns : float - turns of the gear over the loop; the holes are so many that they come to meet themselves
         label, name : words on the gear, and in a legend, where the number of teeth is added
+        rim : float or None [mm] - outer radius of a ring, where the file gives it
     """
     teeth, tip = abs(pair.teeth[number]), pair.tip_radius[number]
     look = Body(outline=np.zeros(1), place=place, turn=turn, color=color, fill=pale(color), width=1.0, label=label)
@@ -44,7 +47,8 @@ def gear(
         look, name=f"{name}, z = {pair.teeth[number]}".removeprefix(", ").replace("-", "−"), pitch=abs(radii[number])
     )
     if isinstance(pair, GearPair) and pair.teeth[number] < 0:
-        return _ring(look, teeth, RingProfile.of(pair).outline(), -pair.root_radius[1] + RIM_MODULES * pair.module)
+        outer = rim_radius(pair.root_radius[1], pair.module, rim)
+        return _ring(look, teeth, RingProfile.of(pair).outline(), outer)
     if isinstance(pair, InternalMesh):
         if number == 1:
             return _ring(look, teeth, RingProfile.of(pair).outline(6), pair.rim_radius)

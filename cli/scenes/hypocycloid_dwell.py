@@ -38,7 +38,7 @@ def build(design: HypocycloidDwell, fraction: Reals) -> Scene:
     m, inwards = _points(design, t), _inwards(design, t)
     rest = design.slider.point(0.0).real + design.slider.rod
     f = track(rest - inwards, fraction)
-    planet, ring = design.mesh.teeth
+    planet, ring = design.planet_teeth, design.ring_teeth
     turn = ring_turn((ring, planet), t, np.zeros_like(t))
     whole = _inwards(design, TURN * loop())
     size = 0.5 * design.point_radius

@@ -34,7 +34,15 @@ def build(design: ThreeGearFourBar, fraction: Reals) -> Scene:
     return Scene(
         parts=(
             *gear(
-                second, 1, at.d, output, design.mean_ratio, ORANGE, "5", f"gear 5, output {_kind(design.output_teeth)}"
+                second,
+                1,
+                at.d,
+                output,
+                design.mean_ratio,
+                ORANGE,
+                "5",
+                f"gear 5, output {_kind(design.output_teeth)}",
+                design.spec.gears.rim,
             ),
             *(crank_gear if ring else ()),
             *gear(first, 0 if ring else 1, at.c, idler, idler_turns, GREEN, "3", "gear 3, idler"),
@@ -71,13 +79,11 @@ def _kind(teeth: int) -> str:
 
 def _idler_turn(design: ThreeGearFourBar, coupler: Reals, phi: Reals) -> Reals:
     """Direction of the idler's first tooth space [rad]; a ring on the crank has a tooth where a gear has a space."""
-    first = design.meshes["crank_idler"].teeth
-    if design.crank_teeth < 0:
-        return coupler + first[1] / first[0] * (phi - coupler)
-    return driven_turn(first, coupler, phi)
+    crank, idler = design.crank_teeth, design.idler_teeth
+    return coupler - crank / idler * (phi - coupler) if crank < 0 else driven_turn((crank, idler), coupler, phi)
 
 
 def _output_turn(design: ThreeGearFourBar, rocker: Reals, idler: Reals) -> Reals:
     """Direction of the output gear's first tooth space, or of a tooth of the ring [rad]."""
-    second = design.meshes["idler_output"].teeth
+    second = design.idler_teeth, abs(design.output_teeth)
     return ring_turn(second, rocker, idler) if design.output_teeth < 0 else driven_turn(second, rocker + math.pi, idler)

@@ -23,7 +23,8 @@ def build(design: TwoGearFourBar, fraction: Reals) -> Scene:
     at = Joints.of(design.linkage, phi)
     name = "gear 5, ring gear" if design.internal else "gear 5, sun"
     planet = gear(design.mesh, 0, at.b, at.coupler, coupler_windings(design.linkage), BLUE, "2", "gear 2, planet on BC")
-    output = gear(design.mesh, 1, at.a, output_turn(design, phi), design.mean_ratio, ORANGE, "5", name)
+    rim = design.spec.gears.rim
+    output = gear(design.mesh, 1, at.a, output_turn(design, phi), design.mean_ratio, ORANGE, "5", name, rim)
     swept = np.degrees(_output(design, phi))
     curve = Curve("output", ORANGE, np.degrees(_output(design, whole_turn())), swept)
     return Scene(
@@ -37,10 +38,8 @@ def build(design: TwoGearFourBar, fraction: Reals) -> Scene:
 def output_turn(design: TwoGearFourBar, phi: Reals) -> Reals:
     """Direction of the output gear's first space, or of a tooth of the ring [rad]."""
     coupler = Joints.of(design.linkage, phi).coupler
-    teeth = design.mesh.teeth
-    if design.internal:
-        return ring_turn((teeth[0], teeth[1]), phi, coupler)
-    return driven_turn((teeth[0], teeth[1]), phi + math.pi, coupler)
+    teeth = design.planet_teeth, design.output_teeth
+    return ring_turn(teeth, phi, coupler) if design.internal else driven_turn(teeth, phi + math.pi, coupler)
 
 
 def _output(design: TwoGearFourBar, phi: Reals) -> Reals:

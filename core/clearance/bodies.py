@@ -14,10 +14,12 @@ from itertools import chain, combinations
 from typing import TYPE_CHECKING, Protocol
 
 from gearlink.core.clearance.reach import Reach
+from gearlink.core.gears.teeth import rim_radius
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
     from gearlink.core.gears.internal_mesh import InternalMesh
+    from gearlink.core.gears.pair import GearPair
 
 LEAST_SHAFT_MODULES = 2.0
 
@@ -146,9 +148,10 @@ class Layout:
         return min((pair.gap for pair in self.gear_pairs), default=None)
 
 
-def ring_gear(axis: str, mesh: InternalMesh, mates: str = "") -> Gear:
-    """The ring gear of an internal mesh, on its axis."""
-    return Gear("the ring gear", axis, mesh.rim_radius, mesh.tip_radius[1], mates)
+def ring_gear(axis: str, mesh: GearPair | InternalMesh, mates: str = "", rim: float | None = None) -> Gear:
+    """The ring gear of an internal mesh, on its axis, with the outer radius that the file gives [mm]."""
+    outer = rim_radius(mesh.root_radius[1], mesh.module, getattr(mesh, "rim", rim))
+    return Gear("the ring gear", axis, outer, abs(mesh.tip_radius[1]), mates)
 
 
 class Limits(Protocol):

@@ -18,7 +18,7 @@ def hypocycloid_layout(design: HypocycloidDwell) -> Layout:
     return Layout(
         gears=(Gear("the planet", "M", mesh.tip_radius[0], mates="O"), ring_gear("O", mesh)),
         shafts=shafts_at("O", spec.shafts),
-        reaches={"MO": constant(mesh.center_distance)},
+        reaches={"MO": constant(design.carrier_length)},
         least_shaft=least_shaft(spec.limits, spec.gears.module),
     )
 

@@ -14,9 +14,11 @@ from gearlink.core.dwell_gears.bodies import hypocycloid_layout
 from gearlink.core.dwell_gears.codes import DWELL_QUALITY
 from gearlink.core.dwell_gears.hypocycloid import HypocycloidSlider
 from gearlink.core.errors import NoSolution, at_key
-from gearlink.core.gears.checks import gear_ways
-from gearlink.core.gears.internal_mesh import InternalMesh
-from gearlink.core.gears.single_mesh import INTERNAL_QUANTITIES, MESH_CHECKS, SingleMesh
+from gearlink.core.gears.meshed import QUANTITIES as OF_MESH
+from gearlink.core.gears.meshed import Meshed
+from gearlink.core.gears.single_mesh import MESH_CHECKS
+from gearlink.core.gears.train_names import TRAIN_CHECKS
+from gearlink.core.gears.train_ways import train_ways
 from gearlink.core.linkages.checks import transmission_check
 from gearlink.core.numerics.rows import row_numbers
 from gearlink.core.real_speed import RealSpeed, per_time
@@ -28,7 +30,7 @@ if TYPE_CHECKING:
     from gearlink.core.dwell_gears.hypocycloid_spec import HypocycloidDwellSpec
 
 
-class HypocycloidDwell(RealSpeed, SingleMesh):
+class HypocycloidDwell(RealSpeed, Meshed):
     """Slider that dwells while a point of the planet runs along an arc about its centre."""
 
     kind = "hypocycloid-dwell"
@@ -72,13 +74,14 @@ class HypocycloidDwell(RealSpeed, SingleMesh):
             ("dwell-quality", "shaft-clearance", "transmission-angle", *MESH_CHECKS),
             ("motion",),
         ),
-        "gear": Outline(INTERNAL_QUANTITIES, MESH_CHECKS),
+        "gear": Outline(OF_MESH, (*MESH_CHECKS, *TRAIN_CHECKS)),
     }
+    extra_tables = ("drawing",)
 
     ways = {
         "shaft-clearance": SHAFT_WAYS,
         "transmission-angle": (up("rod.length"),),
-        **gear_ways(Way(("gears.planet", "gears.ring"), 1, "ratio")),
+        **train_ways(2, Way(("gears.planet", "gears.ring"), 1, "ratio")),
     }
 
     extra_tables = ("candidates",)
@@ -124,17 +127,20 @@ class HypocycloidDwell(RealSpeed, SingleMesh):
 
     @property
     def point_radius(self) -> float:
-        """Pitch radius of the planet, on which the point lies [mm]."""
+        """Pitch radius of the planet, on which the point lies [mm]; of shifted teeth the working one."""
+        if self.own_teeth:
+            return self.distance() * self.planet_teeth / (self.ring_teeth - self.planet_teeth)
         return self.spec.gears.module * self.planet_teeth / 2.0
 
-    carrier_length: float = placed("mesh.center_distance")
+    @property
+    def carrier_length(self) -> float:
+        """Centre distance of planet and ring gear [mm]."""
+        return self.distance()
 
-    @cached_property
-    def mesh(self) -> InternalMesh:
+    @property
+    def signed_teeth(self) -> tuple[int, ...]:
         """Planet and ring gear."""
-        gears = self.spec.gears
-        with at_key("gears"):
-            return InternalMesh(gears.module, (gears.planet, gears.ring), math.radians(gears.pressure_angle))
+        return self.planet_teeth, -self.ring_teeth
 
     @property
     def tangent_circle_length(self) -> float:

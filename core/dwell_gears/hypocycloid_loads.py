@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from gearlink.core.dwell_gears.hypocycloid_design import HypocycloidDwell
+from gearlink.core.gears.mesh_phase import signed_pair
 from gearlink.core.loads.design import LoadsDesign, loads_outline
 from gearlink.core.results import cached_property
 
@@ -55,7 +56,7 @@ class HypocycloidDwellLoads(LoadsDesign):
             "rod": Link(point, turn),
             "slider": Link(end, standing(0.0, phi)),
         }
-        tangent = math.tan(math.radians(self.spec.gears.pressure_angle))
+        tangent = math.tan(signed_pair(self.design.mesh).working_pressure_angle)
         connections: list[Connection] = [
             Pin("O", FRAME, "carrier", carrier.origin.value),
             Pin("planet", "carrier", "planet", planet.origin.value),

@@ -2,24 +2,31 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
+from gearlink.core.gears.train_keys import TrainKeys
 from gearlink.core.linkages.spec_parts import LinkageLimits
 from gearlink.core.spec import Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth
 
 CarrierAngle = Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})]
 
 
-class HypocycloidGears(Spec):
+class HypocycloidGears(TrainKeys):
     """Planet in a fixed ring gear."""
+
+    drawn: ClassVar[tuple[str, ...]] = ("planet", "ring")
 
     module: Length = Field(description="module")
     planet: Teeth = Field(description="teeth of the planet; the point lies on its pitch circle")
     ring: Teeth = Field(description="teeth of the ring gear, a whole multiple of the planet's, at least 3 times")
     pressure_angle: PressureAngle = Field(20.0, description="pressure angle of the reference profile")
+
+    def rings(self) -> tuple[bool, ...]:
+        """The second is one."""
+        return False, True
 
 
 class Rod(Spec):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 from gearlink.core.clearance.bodies import Layout
 from gearlink.core.clearance.checks import SHAFT_WAYS, shaft_checks
@@ -13,9 +13,12 @@ from gearlink.core.dwell_gears.bodies import mutilated_layout
 from gearlink.core.dwell_gears.codes import GAP, START_SHOCK
 from gearlink.core.dwell_gears.mutilated import MutilatedGear, teeth_for_times
 from gearlink.core.errors import at_key
-from gearlink.core.gears.checks import GEAR_CHECKS, gear_ways
-from gearlink.core.gears.pair import GearPair
-from gearlink.core.gears.single_mesh import MESH_CHECKS, MESH_QUANTITIES, SingleMesh
+from gearlink.core.gears.checks import GEAR_CHECKS
+from gearlink.core.gears.meshed import QUANTITIES as OF_MESH
+from gearlink.core.gears.meshed import Meshed
+from gearlink.core.gears.single_mesh import MESH_CHECKS
+from gearlink.core.gears.train_names import TRAIN_CHECKS
+from gearlink.core.gears.train_ways import train_ways
 from gearlink.core.linkages.checks import check_linkage, transmission_check
 from gearlink.core.linkages.codes import TARGET
 from gearlink.core.linkages.fourbar import FourBar, solve
@@ -29,6 +32,7 @@ from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
     from gearlink.core.dwell_gears.mutilated_spec import MutilatedGearDwellSpec
+    from gearlink.core.gears.pair import GearPair
 
 _TURN = 2.0 * math.pi
 _SHOWN_CYCLES = 100
@@ -67,7 +71,7 @@ def _with_teeth(spec: MutilatedGearDwellSpec) -> MutilatedGearDwellSpec:
     return spec.model_copy(update={"reduction": reduction, "gears": gears.model_copy(update=chosen)})
 
 
-class MutilatedGearDwell(RealSpeed, SingleMesh):
+class MutilatedGearDwell(RealSpeed, Meshed):
     """Reduction, mutilated wheel and driven gear; the crank on its shaft stands while the gap passes."""
 
     kind = "mutilated-gear-dwell"
@@ -104,14 +108,15 @@ class MutilatedGearDwell(RealSpeed, SingleMesh):
             ("target", "start-shock", "gap", "shaft-clearance", "transmission-angle", *GEAR_CHECKS),
             ("motion",),
         ),
-        "gear": Outline(MESH_QUANTITIES, MESH_CHECKS),
+        "gear": Outline(OF_MESH, (*MESH_CHECKS, *TRAIN_CHECKS)),
     }
+    extra_tables = ("drawing",)
 
     ways = {
         "gap": (down("gears.group_teeth", step=1), up("gears.full_teeth", step=1)),
         "shaft-clearance": SHAFT_WAYS,
         "transmission-angle": _LINKS,
-        **gear_ways(*_TEETH),
+        **train_ways(2, *_TEETH),
     }
 
     extra_tables = ("candidates",)
@@ -142,13 +147,15 @@ class MutilatedGearDwell(RealSpeed, SingleMesh):
     driven_speed_ratio: float = placed("mutilated.speed_ratio")
     cycles_to_repeat: int = placed("mutilated.cycles_to_repeat")
 
-    @cached_property
+    @property
     def mesh(self) -> GearPair:
         """Wheel and driven gear, where teeth meet."""
-        gears = self.spec.gears
-        alpha = math.radians(gears.pressure_angle)
-        with at_key("gears"):
-            return GearPair.from_shift(gears.module, (self.full_teeth, self.driven_teeth), pressure_angle=alpha)
+        return cast("GearPair", super().mesh)
+
+    @property
+    def signed_teeth(self) -> tuple[int, ...]:
+        """Wheel and driven gear, where teeth meet."""
+        return self.full_teeth, self.driven_teeth
 
     # The four-bar
 

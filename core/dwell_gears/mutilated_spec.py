@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import Annotated, Any, ClassVar, Literal, TypeAlias
 
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
+from gearlink.core.gears.train_keys import TrainKeys
 from gearlink.core.linkages.spec_parts import FourLinks, LinkageLimits, PivotShafts
 from gearlink.core.spec import Angle, Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth
 
@@ -14,8 +15,10 @@ Turns: TypeAlias = Annotated[float, Field(gt=0, le=1e6, json_schema_extra={"unit
 Millis: TypeAlias = Annotated[float, Field(gt=0, le=1e9, json_schema_extra={"unit": "ms"})]
 
 
-class MutilatedGears(Spec):
+class MutilatedGears(TrainKeys):
     """The mutilated wheel and the gear that it drives."""
+
+    drawn: ClassVar[tuple[str, ...]] = ("wheel", "driven")
 
     module: Length = Field(description="module of both")
     full_teeth: Teeth | None = Field(

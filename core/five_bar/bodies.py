@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.clearance.bodies import Gear, Layout, least_shaft, ring_gear, shafts_at
 from gearlink.core.clearance.reach import Reach, constant, crank_pin
-from gearlink.core.gears.internal_mesh import InternalMesh
 
 if TYPE_CHECKING:
     from gearlink.core.five_bar.design import GearedFiveBar
@@ -23,10 +22,13 @@ def _path(design: GearedFiveBar) -> tuple[tuple[Gear, ...], dict[str, Reach]]:
     """Each gear is one body with its link; the idler turns on O in the frame."""
     reaches = {"AE": constant(design.frame_length)}
     first, *more = design.meshes.values()
-    if isinstance(first, InternalMesh):
-        ring, pinion = ("A", "E") if design.spec.gears.input == first.teeth[1] else ("E", "A")
+    if first.internal:
+        ring, pinion = ("A", "E") if design.signed_teeth[0] < 0 else ("E", "A")
         name = {"A": "the input gear", "E": "the output gear"}[pinion]
-        return (ring_gear(ring, first), Gear(name, pinion, first.tip_radius[0], mates=ring)), reaches
+        return (
+            ring_gear(ring, first, rim=design.spec.gears.rim),
+            Gear(name, pinion, first.tip_radius[0], mates=ring),
+        ), reaches
     driven = more[0] if more else first
     ends = (
         Gear("the input gear", "A", first.tip_radius[0], mates="O" if more else "E"),
@@ -34,7 +36,7 @@ def _path(design: GearedFiveBar) -> tuple[tuple[Gear, ...], dict[str, Reach]]:
     )
     if not more:
         return ends, reaches
-    reaches |= {"AO": constant(first.center_distance), "EO": constant(driven.center_distance)}
+    reaches |= {"AO": constant(design.center_distance[0]), "EO": constant(design.center_distance[1])}
     return (*ends, Gear("the idler", "O", first.tip_radius[1])), reaches
 
 
@@ -42,7 +44,8 @@ def _function(design: GearedFiveBar) -> tuple[tuple[Gear, ...], dict[str, Reach]
     """The planet goes round the fixed gear as far as the range of the input takes it."""
     (mesh,), bar = design.meshes.values(), design.function_bar
     planet = Gear("the planet", "B", mesh.tip_radius[0], mates="A")
-    fixed = ring_gear("A", mesh) if isinstance(mesh, InternalMesh) else Gear("the sun", "A", mesh.tip_radius[1])
+    rim = design.spec.gears.rim
+    fixed = ring_gear("A", mesh, rim=rim) if mesh.internal else Gear("the sun", "A", mesh.tip_radius[1])
     return (planet, fixed), {
         "AB": constant(bar.input),
         "AE": constant(bar.frame),

@@ -13,9 +13,12 @@ from gearlink.core.design import Outline, placed
 from gearlink.core.errors import NoSolution
 from gearlink.core.five_bar import bodies, tables
 from gearlink.core.five_bar.codes import CLOSURE
-from gearlink.core.five_bar.parts import FiveBarParts
-from gearlink.core.gears.checks import gear_ways
-from gearlink.core.gears.single_mesh import MESH_CHECKS, mesh_checks
+from gearlink.core.five_bar.parts import MESHES, FiveBarParts
+from gearlink.core.gears.meshed import QUANTITIES as OF_MESH
+from gearlink.core.gears.meshed import named
+from gearlink.core.gears.single_mesh import MESH_CHECKS
+from gearlink.core.gears.train_names import TRAIN_CHECKS
+from gearlink.core.gears.train_ways import train_ways
 from gearlink.core.linkages.checks import target_check, transmission_check
 from gearlink.core.real_speed import RealSpeed
 from gearlink.core.remedies import down, either, up
@@ -28,6 +31,8 @@ if TYPE_CHECKING:
     from gearlink.core.numerics.extremes import Extreme
 
 _SHOWN_TURNS = 100
+_LISTS = ("center_distance", "contact_ratio")
+"""One for each mesh, whatever their number."""
 _POSITION_TOLERANCE = math.degrees(1e-9)
 
 
@@ -85,11 +90,15 @@ class GearedFiveBar(RealSpeed, FiveBarParts):
                 "input_speed",
                 "turn_time",
             ),
-            ("closure", "target", "gear-collision", "shaft-clearance", "transmission-angle", *MESH_CHECKS),
+            ("closure", "target", "gear-collision", "shaft-clearance", "transmission-angle", *MESH_CHECKS, "backlash"),
             ("path", "function", "deviations", "structural_error", "search"),
         ),
-        "gear": Outline(("center_distance", "contact_ratio"), MESH_CHECKS),
+        "gear": Outline(
+            ("center_distance", "contact_ratio", *(name for name in OF_MESH if name not in _LISTS), *named(MESHES)),
+            (*MESH_CHECKS, *TRAIN_CHECKS),
+        ),
     }
+    extra_tables = ("drawing",)
 
     input_length: float = placed("bar.input")
     coupler_length: float = placed("bar.coupler")
@@ -103,7 +112,7 @@ class GearedFiveBar(RealSpeed, FiveBarParts):
         "transmission-angle": (up("links.follower", "links.output"), *_LINKS),
         "shaft-clearance": (*SHAFT_WAYS, *_LINKS, *_FEWER, *_TEETH),
         "gear-collision": (up("links.frame"), *_FEWER, *_TEETH),
-        **gear_ways(up("gears.input", "gears.output", step=1), *_TEETH),
+        **train_ways(3, up("gears.input", "gears.output", step=1), *_TEETH),
     }
 
     @property
@@ -280,13 +289,6 @@ class GearedFiveBar(RealSpeed, FiveBarParts):
     table_function, table_structural_error = tables.function, tables.structural_error
 
     # Checks
-
-    def check(self, name: str) -> list[Check]:
-        """Gear checks run over every mesh."""
-        if name not in MESH_CHECKS:
-            return super().check(name)
-        limits = self.spec.limits
-        return [c for label, mesh in self.meshes.items() for c in mesh_checks(name, mesh, limits, label)]
 
     def check_closure(self) -> Check:
         """GL305: the dyad spans all distances; what does not close is refused before."""

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.five_bar.design import GearedFiveBar
+from gearlink.core.gears.mesh_phase import signed_pair
 from gearlink.core.loads.design import LoadsDesign, loads_outline
 from gearlink.core.results import cached_property
 
@@ -77,12 +78,13 @@ class FiveBarLoads(LoadsDesign):
             raise NoSolution(message, key="range" if self.spec.range is not None else "links") from error
         return bar
 
-    @property
-    def _tangent(self) -> float:
-        return math.tan(math.radians(self.spec.gears.pressure_angle))
-
-    def _radius(self, teeth: int | None) -> float:
-        return 0.5 * self.spec.gears.module * _MM * (teeth or 0)
+    def _rolling(self, name: str = "") -> tuple[float, float, float]:
+        """Working radii of a mesh [m], the first gear of the file's lists first, and tan of the pressure angle."""
+        pair = signed_pair(self.design.meshes[name])
+        one, other = (abs(radius) * _MM for radius in pair.working_radius)
+        if self.design.signed_teeth[0] < 0:
+            one, other = other, one
+        return one, other, math.tan(pair.working_pressure_angle)
 
     def kinematics(self, phi: Reals) -> Mechanism:
         """The links at input angles, A at 0 and E on +x."""
@@ -115,15 +117,16 @@ class FiveBarLoads(LoadsDesign):
         from gearlink.core.loads.kinematics import fixed, steady
         from gearlink.core.loads.mechanism import FRAME, Link, Mesh, Pin
 
-        gears, tangent = self.spec.gears, self._tangent
-        r1, r4 = self._radius(gears.input), self._radius(gears.output)
+        gears = self.spec.gears
         a, e = links["input"].origin.value, links["output"].origin.value
         if not self.has_idler:
+            r1, r4, tangent = self._rolling()
             if gears.mesh == "internal" and r4 > r1:
                 return [Mesh("mesh_14", "output", "input", e, -1.0 + 0j, r4, r1, tangent, True)]
             return [Mesh("mesh_14", "input", "output", a, 1.0 + 0j, r1, r4, tangent, gears.mesh == "internal")]
-        ri, frame = self._radius(gears.idler), self.design.path_bar.frame * _MM
-        near, far = r1 + ri, ri + r4
+        (r1, ri, tangent), (ri_out, r4, tangent_out) = (self._rolling(name) for name in self.design.mesh_names)
+        frame = self.design.path_bar.frame * _MM
+        near, far = r1 + ri, ri_out + r4
         along = 0.5 * (frame + (near - far) * (near + far) / frame)
         axis = cmath.rect(near, self.spec.gears.idler_side * math.acos(along / near))
         center = fixed(axis, phi)
@@ -131,7 +134,7 @@ class FiveBarLoads(LoadsDesign):
         return [
             Pin("O", FRAME, "idler", center.value),
             Mesh("mesh_1i", "input", "idler", a, axis / near, r1, ri, tangent),
-            Mesh("mesh_i4", "idler", "output", center.value, (frame - axis) / far, ri, r4, tangent),
+            Mesh("mesh_i4", "idler", "output", center.value, (frame - axis) / far, ri_out, r4, tangent_out),
         ]
 
     def _function(self, phi: Reals) -> tuple[dict[str, Link], list[Connection]]:
@@ -144,13 +147,13 @@ class FiveBarLoads(LoadsDesign):
         c, pivot = coupler.at(bar.coupler * _MM), fixed(bar.frame * _MM, phi)
         t3, t4 = dyad(c, pivot, bar.follower * _MM, bar.output * _MM, bar.assembly)
         links = {"input": first, "coupler": coupler, "follower": Link(c, t3), "output": Link(pivot, t4)}
-        r5, r2 = self._radius(gears.ring or gears.sun), self._radius(gears.planet)
+        r2, r5, tangent = self._rolling()
         return links, [
             Pin("A", FRAME, "input", first.origin.value),
             Pin("B", "input", "coupler", coupler.origin.value),
             Pin("C", "coupler", "follower", c.value),
             Pin("D", "follower", "output", links["output"].at(bar.output * _MM).value),
             Pin("E", FRAME, "output", pivot.value),
-            Mesh("mesh_25", FRAME, "coupler", first.origin.value, first.unit, r5, r2, self._tangent,
+            Mesh("mesh_25", FRAME, "coupler", first.origin.value, first.unit, r5, r2, tangent,
                  gears.ring is not None, "input"),
         ]  # fmt: skip

@@ -7,12 +7,11 @@ from collections.abc import Iterator
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from gearlink.core.design import Design, Found, placed
+from gearlink.core.design import Found, placed
 from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.five_bar.function_motion import FunctionFiveBar
 from gearlink.core.five_bar.path_motion import PathFiveBar
-from gearlink.core.gears.internal_mesh import InternalMesh
-from gearlink.core.gears.pair import GearPair
+from gearlink.core.gears.meshed import Meshed
 from gearlink.core.gears.single_mesh import mesh_quantity
 from gearlink.core.results import cached_property
 
@@ -23,11 +22,12 @@ if TYPE_CHECKING:
     from gearlink.core.five_bar.timed_fit import TimedFit
     from gearlink.core.five_bar.wanted import Wanted
 
+MESHES = ("input_idler", "idler_output")
 _TURN = 2.0 * math.pi
 _LINK_TOLERANCE = 1e-9
 
 
-class FiveBarParts(Design):
+class FiveBarParts(Meshed):
     """The five-bar of a design file, given or found, in either form."""
 
     spec: GearedFiveBarSpec
@@ -58,36 +58,35 @@ class FiveBarParts(Design):
 
     # Gears
 
-    @cached_property
-    def meshes(self) -> dict[str, GearPair | InternalMesh]:
-        """The meshes by name."""
-        gears = self.spec.gears
-        with at_key("gears"):
-            if not self.is_path:
-                planet = gears.planet or 0
-                return {"": self._mesh(planet, gears.ring or gears.sun or 0, gears.ring is not None)}
-            z1, z4 = gears.input or 0, gears.output or 0
-            if gears.idler is None:
-                return {"": self._mesh(z1, z4, gears.mesh == "internal")}
-            return {
-                "input_idler": self._mesh(z1, gears.idler, False),
-                "idler_output": self._mesh(gears.idler, z4, False),
-            }
-
-    def _mesh(self, one: int, other: int, internal: bool) -> GearPair | InternalMesh:
-        gears = self.spec.gears
-        alpha = math.radians(gears.pressure_angle)
-        if internal:
-            return InternalMesh(gears.module, (min(one, other), max(one, other)), alpha, rim=gears.rim)
-        return GearPair.from_shift(gears.module, (one, other), (0.0, 0.0), pressure_angle=alpha)
+    own_quantities = frozenset(("center_distance", "contact_ratio"))
 
     @property
-    def center_distance(self) -> list[float]:
+    def signed_teeth(self) -> tuple[int, ...]:
+        """Input, idler and output gear of a path, planet and fixed gear of a function."""
+        gears = self.spec.gears
+        teeth = [getattr(gears, name) or 0 for name in gears.gear_names()]
+        return tuple(-z if ring else z for z, ring in zip(teeth, gears.rings(), strict=True))
+
+    @property
+    def mesh_names(self) -> tuple[str, ...]:
+        """Both meshes of an idler, or the only one."""
+        return MESHES if self.spec.gears.idler is not None else ("",)
+
+    @property
+    def given_distances(self) -> tuple[float | None, ...]:
+        """Frame of a path with gears in direct mesh, input of a function, where the file gives it."""
+        links = self.spec.links
+        if self.spec.gears.idler is not None:
+            return None, None
+        return (links.frame if self.is_path else links.input,)
+
+    @property
+    def center_distance(self) -> list[float]:  # type: ignore[override]  # one for each mesh
         """Centre distance of each mesh [mm]."""
-        return [mesh.center_distance for mesh in self.meshes.values()]
+        return [abs(mesh.center_distance) for mesh in self.meshes.values()]
 
     @property
-    def contact_ratio(self) -> list[float] | None:
+    def contact_ratio(self) -> list[float] | None:  # type: ignore[override]
         """Contact ratio of each mesh; None where a ring's tips have no involute."""
         with at_key("gears"):
             found = [mesh_quantity(mesh, "contact_ratio") for mesh in self.meshes.values()]
@@ -125,7 +124,8 @@ class FiveBarParts(Design):
     def _fixed_length(self, name: str) -> float:
         """The link that is the gears' centre distance; given too, it must agree."""
         given, distance = getattr(self.spec.links, name), self.center_distance[0]
-        if given is not None and abs(given - distance) > _LINK_TOLERANCE * distance:
+        fixed = given is not None and self.spec.gears.profile_shift is None
+        if fixed and abs(given - distance) > _LINK_TOLERANCE * distance:
             raise NoSolution(
                 f"{name} {given:.9g} mm is not the centre distance of the gears, {distance:.9g} mm: leave it out, or "
                 "change module or teeth",

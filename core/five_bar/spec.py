@@ -7,13 +7,14 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
+from gearlink.core.gears.train_keys import TrainKeys
 from gearlink.core.linkages.spec_parts import InputRange, LinkageLimits, TurnAngle, require_rim
 from gearlink.core.spec import Angle, Assembly, Deferred, DrivenSpec, Length, PressureAngle, SignedLength, Spec, Teeth
 
 Plain = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "1"})]
 
 
-class FiveBarGears(Spec):
+class FiveBarGears(TrainKeys):
     """The gears: input and output for a path, planet and sun or ring for a function."""
 
     module: Length = Field(description="module")
@@ -39,9 +40,22 @@ class FiveBarGears(Spec):
         """Teeth of the ring gear of either form, where there is one."""
         return max(self.input or 0, self.output or 0) if self.mesh == "internal" else self.ring
 
+    def gear_names(self) -> tuple[str, ...]:
+        """Input, idler and output of a path; planet and sun or ring of a function."""
+        if self.planet is not None:
+            return "planet", "sun" if self.ring is None else "ring"
+        return ("input", "output") if self.idler is None else ("input", "idler", "output")
+
+    def rings(self) -> tuple[bool, ...]:
+        """Of a path in direct internal mesh the larger gear, of a function the second."""
+        if self.mesh == "internal" and self.idler is None and self.planet is None:
+            first = (self.input or 0) > (self.output or 0)
+            return first, not first
+        return tuple(name == "ring" for name in self.gear_names())
+
     @model_validator(mode="after")
     def _rim(self) -> FiveBarGears:
-        require_rim(self.rim, self.ring_teeth, self.module)
+        require_rim(self.rim, self.ring_teeth, self.module, own_teeth=self.own_teeth)
         return self
 
 

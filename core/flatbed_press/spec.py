@@ -8,13 +8,13 @@ from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.gears.pair_keys import PairKeys
-from gearlink.core.gears.spec_parts import DrawingLimits
 from gearlink.core.spec import (
     AcuteAngle,
     Angle,
     Assembly,
     Deferred,
     Distance,
+    DrawingLimits,
     GearLimits,
     Length,
     LoadLimits,

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import ClassVar
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.gears.involute import involute
+from gearlink.core.gears.teeth import rim_radius
 from gearlink.core.results import cached_property
 
 Pair = tuple[float, float]
 _MOST_TEETH = 10_000
-
-RIM_MODULES = 2.0
 
 
 @dataclass(frozen=True)
@@ -51,6 +51,9 @@ class InternalMesh:
             raise NoSolution(f"module {self.module:g} mm: it must be positive")
         if not 1 <= pinion < ring:
             raise NoSolution(f"a ring gear of {ring} teeth does not take a gear of {pinion}: it needs more teeth")
+
+    internal: ClassVar[bool] = True
+    """As of a GearPair with a ring."""
 
     @property
     def center_distance(self) -> float:
@@ -104,7 +107,7 @@ class InternalMesh:
     @property
     def rim_radius(self) -> float:
         """Outer radius of the ring gear [mm]."""
-        return self.root_radius[1] + RIM_MODULES * self.module if self.rim is None else self.rim
+        return rim_radius(self.root_radius[1], self.module, self.rim)
 
     @cached_property
     def tip_pressure_angle(self) -> Pair:

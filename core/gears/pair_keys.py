@@ -6,13 +6,11 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from gearlink.core.gears.key_types import FaceWidth, HelixAngle, Rim
 from gearlink.core.gears.spec_parts import (
     AllowanceSpec,
-    FaceWidth,
-    HelixAngle,
     LoadSpec,
     MaterialSpec,
-    Rim,
     TipShortening,
     ToolSpec,
     TwoLengths,

@@ -1,4 +1,4 @@
-"""Designs with one gear mesh: its quantities by their plain names, its checks, external or internal."""
+"""Quantities and checks of one mesh of gears, external or internal."""
 
 from __future__ import annotations
 
@@ -6,14 +6,11 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from gearlink.core.design import Design
-from gearlink.core.errors import at_key
-from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantities, gear_check, gear_quantity
+from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, gear_check, gear_quantity
 from gearlink.core.gears.codes import CONTACT_RATIO, INTERFERENCE, TIP_FOULING, UNDERCUT
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.gears.teeth import min_shift_no_undercut
 from gearlink.core.report import Check, Rule, Status
-from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
     from gearlink.core.gears.internal_mesh import InternalMesh
@@ -31,28 +28,6 @@ INTERNAL_QUANTITIES = (
 MESH_QUANTITIES = (*GEAR_QUANTITIES, "tip_fouling_margin")
 _OF_RING_TIPS = ("contact_ratio", "tip_pressure_angle", "tip_fouling_margin")
 MESH_CHECKS = (*GEAR_CHECKS, "tip-fouling")
-
-
-class SingleMesh(GearQuantities, Design):
-    """A design with one gear mesh; the gear first in its pairs is the one that the subclass names first."""
-
-    @cached_property
-    def mesh(self) -> GearPair | InternalMesh:
-        """The mesh."""
-        raise NotImplementedError
-
-    def raw(self, name: str) -> Any:
-        """The quantities of the mesh (None where this kind of mesh has none), and the design's own."""
-        if name not in MESH_QUANTITIES:
-            return super().raw(name)
-        with at_key("gears"):
-            return mesh_quantity(self.mesh, name)
-
-    def check(self, name: str) -> list[Check]:
-        """The checks of the mesh, and the design's own."""
-        if name not in MESH_CHECKS:
-            return super().check(name)
-        return mesh_checks(name, self.mesh, self.spec.limits)
 
 
 def mesh_quantity(mesh: GearPair | InternalMesh, name: str) -> Any:

@@ -7,19 +7,13 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
+from gearlink.core.gears.key_types import FaceWidth, Hand, HelixAngle, Rim, Shift, SpanTeeth
 from gearlink.core.gears.spec_parts import (
     AllowanceSpec,
     CutterSpec,
-    DrawingLimits,
-    FaceWidth,
-    Hand,
-    HelixAngle,
     LoadSpec,
     MaterialSpec,
-    Rim,
-    Shift,
     SignedTeeth,
-    SpanTeeth,
     TipShortening,
     ToolSpec,
     TwoLengths,
@@ -33,6 +27,7 @@ from gearlink.core.gears.spec_parts import (
 from gearlink.core.spec import (
     Coefficient,
     Deferred,
+    DrawingLimits,
     GearLimits,
     Length,
     LoadLimits,

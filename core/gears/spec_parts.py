@@ -7,15 +7,11 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.spec import Coefficient, Length, Ratio, SignedLength, Spec
+from gearlink.core.gears.key_types import Alteration, FaceWidth, Rim, Shift
+from gearlink.core.spec import Coefficient, Length, Spec
 
-Shift = Annotated[float, Field(ge=-5, le=5, json_schema_extra={"unit": "1"})]
-HelixAngle = Annotated[float, Field(ge=0, le=45, json_schema_extra={"unit": "deg"})]
-Alteration = Annotated[float, Field(ge=-3, le=3, json_schema_extra={"unit": "1"})]
 Protuberance = Annotated[float, Field(ge=0, le=1, json_schema_extra={"unit": "1"})]
 Rounding = Annotated[float, Field(ge=0, le=3, json_schema_extra={"unit": "1"})]
-FaceWidth = Annotated[float, Field(ge=1e-3, le=1e6, json_schema_extra={"unit": "mm"})]
-Rim = Annotated[float, Field(ge=1e-3, le=1e6, json_schema_extra={"unit": "mm"})]
 TwoRims = Annotated[list[Rim | None], Field(min_length=2, max_length=2)]
 TwoWidths = Annotated[list[FaceWidth], Field(min_length=2, max_length=2)]
 TwoShifts = Annotated[list[Shift], Field(min_length=2, max_length=2)]
@@ -23,8 +19,6 @@ TwoLengths = Annotated[list[Length], Field(min_length=2, max_length=2)]
 TwoAlterations = Annotated[list[Alteration], Field(min_length=2, max_length=2)]
 TipShortening = Literal["full", "none"] | TwoAlterations
 SignedTeeth = Annotated[int, Field(ge=-10_000, le=10_000, json_schema_extra={"unit": "teeth"})]
-SpanTeeth = Annotated[int, Field(ge=1, le=10_000, json_schema_extra={"unit": "teeth"})]
-Hand = Literal["right", "left"]
 
 
 class ToolSpec(Spec):
@@ -171,11 +165,3 @@ class MaterialSpec(Spec):
     bending_factors: Factor | Annotated[list[Factor], Field(min_length=2, max_length=2)] = Field(
         1.0, description="Y_N Y_drelT Y_RrelT Y_X as one product, given"
     )
-
-
-class DrawingLimits(Spec):
-    """Limits of what only a drawing fixes: backlash and strength."""
-
-    backlash: SignedLength = Field(0.0, description="least normal backlash; below it a warning")
-    safety_pitting: Ratio = Field(1.0, description="least safety against pitting")
-    safety_bending: Ratio = Field(1.4, description="least safety against breaking at the root")

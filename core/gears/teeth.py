@@ -1,4 +1,4 @@
-"""Teeth of one involute spur gear: undercut, pressure angle at a radius, span measurement."""
+"""Teeth of one involute gear: undercut, pressure angle at a radius, span measurement, rim of a ring."""
 
 from __future__ import annotations
 
@@ -9,6 +9,23 @@ from gearlink.core.errors import NoSolution
 from gearlink.core.gears.functions import SCALARS, GearFunctions
 from gearlink.core.gears.pair_limits import transverse
 from gearlink.core.report import safely_above
+
+RIM_MODULES = 2.0
+"""A ring's rim lies so many modules outside its root circle, where the file names none."""
+
+
+def rim_radius(root_radius: float, module: float, given: float | None = None) -> float:
+    """Outer radius of a ring gear [mm]: given, or 2 modules outside its root circle.
+
+    Parameters
+        root_radius : float [mm] - of either sign
+        module : float [mm]
+        given : float or None [mm]
+    Example
+        >>> rim_radius(-64.5, 2.0), rim_radius(-64.5, 2.0, 80.0)
+        (68.5, 80.0)
+    """
+    return abs(root_radius) + RIM_MODULES * module if given is None else given
 
 
 def min_shift_no_undercut(

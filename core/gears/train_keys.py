@@ -2,102 +2,174 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator
+from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import ConfigDict, Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.gears.spec_parts import Allowance, AllowanceSpec, FaceWidth, Series, Shift, ToolSpec
-from gearlink.core.spec import Coefficient, Length, Spec
+from gearlink.core.gears.key_types import Alteration, FaceWidth, Hand, HelixAngle, Rim, Shift, SpanTeeth
+from gearlink.core.spec import Coefficient, Deferred, Length, Spec
 
 if TYPE_CHECKING:
     from gearlink.core.gears.pair_keys import PairKeys
 
-_Shifts = Annotated[list[Shift], Field(min_length=2, max_length=4)]
-_Widths = Annotated[list[FaceWidth], Field(min_length=2, max_length=4)]
-_Lengths = Annotated[list[Length], Field(min_length=2, max_length=4)]
-_Tools = Annotated[list[ToolSpec | None], Field(min_length=2, max_length=4)]
-_Allowances = Annotated[list[Allowance], Field(min_length=2, max_length=4)]
-_Series = Annotated[list[Series], Field(min_length=2, max_length=4)]
-
-
-class TrainAllowances(Spec):
-    """Allowances of the tooth thickness of every gear: a series of DIN 3967, or limits in mm."""
-
-    series: Series | _Series | None = Field(None, description="of DIN 3967, such as 25cd; one, or one for each gear")
-    upper: _Allowances | None = Field(None, description="upper allowances E_sns of every gear, usually negative [mm]")
-    lower: _Allowances | None = Field(None, description="lower allowances E_sni of every gear [mm]")
-
-    @model_validator(mode="after")
-    def _one_way(self) -> Self:
-        pairs = [range(2)] if self.upper is None or self.lower is None else _both(len(self.upper), len(self.lower))
-        for places in pairs:
-            AllowanceSpec(**_entries(dict(self), places))  # the rules of a pair
-        return self
-
-
-def _both(one: int, other: int) -> list[range]:
-    if one != other:
-        message = "upper and lower need an entry for each gear"
-        raise PydanticCustomError("GL107", message, {"key": "lower"})
-    return [range(first, first + 2) for first in range(one - 1)]
-
-
-def _entries(values: dict[str, Any], places: Any) -> dict[str, Any]:
-    """Values of two gears, of the lists that have an entry for each."""
-    return {
-        name: [value[place] for place in places] if isinstance(value, list) else value for name, value in values.items()
-    }
+_MANY = Field(min_length=2, max_length=4)
+_LISTS = (
+    "profile_shift",
+    "helix_hand",
+    "tip_shortening",
+    "tool",
+    "face_width",
+    "rim_thickness",
+    "span_teeth",
+    "pin_diameter",
+)
+_OF_TEETH = ("tool", "helix_angle", "tip_shortening", "cutter", "span_teeth")
+RATED = ("load", "material")
 
 
 class TrainKeys(Spec):
     """The keys of a train, which a machine adds to its section `gears`."""
 
+    model_config = ConfigDict(defer_build=True)  # a machine's own section is what is built, and once
+
     drawn: ClassVar[tuple[str, ...]] = ()
     """Names of the gears, in the order of the lists."""
 
-    profile_shift: _Shifts | None = Field(
+    profile_shift: Annotated[list[Shift], _MANY] | None = Field(
         None, description="profile shift coefficients, a list with one for each gear; left out: 0"
+    )
+    helix_angle: HelixAngle = Field(0.0, description="helix angle on the reference circles, its magnitude")
+    helix_hand: Annotated[list[Hand], _MANY] | None = Field(
+        None, description="hands of helix, a list with one for each gear, for the drawing"
     )
     addendum: Coefficient = Field(1.0, description="addendum coefficient")
     clearance: Annotated[float, Field(ge=0, le=1, json_schema_extra={"unit": "1"})] = Field(
         0.25, description="clearance coefficient"
     )
-    tool: ToolSpec | _Tools | None = Field(
+    tip_shortening: Literal["full", "none"] | Annotated[list[Alteration], _MANY] | None = Field(
+        None, description="full (default of external meshes), none (of rings), or tip alterations k of all gears"
+    )
+    tool: Annotated[Any, Deferred("gears.train_parts:Tools")] | None = Field(
         None, description="rack tool of all gears, or of each; left out: straight to the addendum"
     )
-    face_width: FaceWidth | _Widths | None = Field(None, description="face width of all gears, or of each")
-    pin_diameter: Length | _Lengths | None = Field(
+    cutter: Annotated[Any, Deferred("gears.spec_parts:CutterSpec")] | None = Field(
+        None, description="pinion cutter of a ring: only then its fillets are known"
+    )
+    face_width: FaceWidth | Annotated[list[FaceWidth], _MANY] | None = Field(
+        None, description="face width of all gears, or of each"
+    )
+    rim_thickness: Rim | Annotated[list[Rim | None], _MANY] | None = Field(
+        None, description="thickness of the rim under the tooth roots of all gears, or of each, for Y_B"
+    )
+    span_teeth: Annotated[list[SpanTeeth], _MANY] | None = Field(
+        None, description="teeth that the span measurement of each gear goes over; left out: chosen"
+    )
+    pin_diameter: Length | Annotated[list[Length], _MANY] | None = Field(
         None, description="measuring balls or pins of all gears, or of each; left out: a preferred size"
     )
-    allowances: TrainAllowances | None = None
+    allowances: Annotated[Any, Deferred("gears.train_parts:TrainAllowances")] | None = Field(
+        None, description="allowances of the tooth thickness of every gear"
+    )
     center_distance_allowance: Literal["js7"] | Length | None = Field(
         None, description="plus and minus of every centre distance: js7, or a number in mm"
     )
+    assembly: Literal["axial", "radial"] | None = Field(None, description="how a gear is put into its ring")
+    load: Annotated[Any, Deferred("gears.train_parts:TrainLoad")] | None = Field(
+        None, description="load of the rating by ISO 6336; each free gear hands it on"
+    )
+    load_share: Literal["third", "half"] = Field(
+        "third", description="share of a flank pair beside another: third (1/3 to 2/3) or half"
+    )
+    material: Annotated[Any, Deferred("gears.train_parts:TrainMaterial")] | None = Field(
+        None, description="materials, for the rating"
+    )
+    edition: Literal[2006, 2019] = Field(2006, description="of ISO 6336; 2019 is not verified")
+
+    def gear_names(self) -> tuple[str, ...]:
+        """Names of the gears of this file, in the order of the lists."""
+        return self.drawn
+
+    def rings(self) -> tuple[bool, ...]:
+        """Which of them are rings."""
+        return (False,) * len(self.gear_names())
 
     @model_validator(mode="after")
     def _an_entry_for_each_gear(self) -> Self:
-        lists = {name: getattr(self, name) for name in ("profile_shift", "tool", "face_width", "pin_diameter")}
-        lists |= {f"allowances.{name}": value for name, value in (self.allowances or ())}
-        for key, value in lists.items():
-            if isinstance(value, list) and len(value) != len(self.drawn):
+        names = self.gear_names()
+        for key, value in self._lists():
+            if isinstance(value, list) and len(value) != len(names):
                 message = "{key} needs an entry for each gear ({names}), not {count}"
-                words = {"key": key, "names": ", ".join(self.drawn), "count": len(value)}
+                words = {"key": key, "names": ", ".join(names), "count": len(value)}
                 raise PydanticCustomError("GL107", message, words)
+        given = None if self.load is None else self.load.gear
+        if given is not None and given not in names:
+            message = "{key} must be one of {names}, not {given}"
+            words = {"key": "load.gear", "names": ", ".join(names), "given": given}
+            raise PydanticCustomError("GL108", message, words)
         return self
+
+    def _lists(self) -> Iterator[tuple[str, Any]]:
+        """Every key that may be a list with an entry for each gear, and its value."""
+        yield from ((key, getattr(self, key)) for key in _LISTS)
+        for section in ("allowances", "material"):
+            yield from ((f"{section}.{key}", value) for key, value in getattr(self, section) or ())
+
+    @model_validator(mode="after")
+    def _fits_its_gears(self) -> Self:
+        rings = self.rings()
+        for key in ("cutter", "assembly"):
+            if getattr(self, key) is not None and not any(rings):
+                raise PydanticCustomError("GL111", "{key} goes with a ring gear: leave it out", {"key": key})
+        if self.helix_hand is None:
+            return self
+        if self.helix_angle == 0.0:
+            message = "spur gears have no hand of helix: leave it out, or give helix_angle"
+            raise PydanticCustomError("GL111", message, {"key": "helix_hand"})
+        for (one, other), internal in zip(pairwise(self.helix_hand), map(any, pairwise(rings)), strict=True):
+            if (one == other) != internal:
+                message = "helix_hand: a gear and its ring have the same hand, two external gears opposite ones"
+                raise PydanticCustomError("GL111", message, {"key": "helix_hand"})
+        return self
+
+    def hands(self) -> list[Hand]:
+        """Hands of helix, given or as the meshes need them: of a ring its mate's, of an external gear the other."""
+        found: list[Hand] = list(self.helix_hand or ("right",))
+        for ring in list(map(any, pairwise(self.rings())))[len(found) - 1 :]:
+            found.append(found[-1] if ring else "left" if found[-1] == "right" else "right")
+        return found
 
     @property
     def own_teeth(self) -> bool:
-        """Whether the teeth are not those of the standard profile without shift."""
+        """Whether the teeth are not those of the standard spur profile without shift."""
         shifted = self.profile_shift is not None and any(self.profile_shift)
-        return shifted or self.tool is not None or (self.addendum, self.clearance) != (1.0, 0.25)
+        other = any(getattr(self, key) not in (None, 0.0) for key in _OF_TEETH)
+        return shifted or other or (self.addendum, self.clearance) != (1.0, 0.25)
+
+    @property
+    def rated(self) -> bool:
+        """Whether the file asks for the strength of its teeth."""
+        return any(getattr(self, key) is not None for key in RATED)
+
+    @property
+    def transverse_module(self) -> float:
+        """m_t = m/cos(beta) [mm]; of spur gears the module itself."""
+        module = float(getattr(self, "module"))  # noqa: B009  # each machine has its own
+        return module / math.cos(math.radians(self.helix_angle)) if self.helix_angle else module
 
     def shift(self, gear: int) -> float:
         """x of a gear by its place in the lists."""
         return 0.0 if self.profile_shift is None else self.profile_shift[gear]
 
+    def off_center(self, meshes: int) -> bool:
+        """Whether the profile shifts of one of the first meshes do not cancel, which moves its centre distance."""
+        return any(self.shift(i) + self.shift(i + 1) for i in range(meshes))
+
     def of(self, one: int, other: int, module: float, pressure_angle: float) -> PairKeys:
-        """The keys of the mesh of two gears by their places in the lists.
+        """The keys of the mesh of two gears by their places in the lists, but for the load.
 
         Parameters
             one, other : int
@@ -105,10 +177,13 @@ class TrainKeys(Spec):
             pressure_angle : float [deg]
         """
         from gearlink.core.gears.pair_keys import PairKeys
+        from gearlink.core.gears.train_parts import entries
 
-        values = {name: getattr(self, name) for name in TrainKeys.model_fields if name != "allowances"}
-        given = _entries(values, (one, other))
-        if self.allowances is not None:
-            given["allowances"] = AllowanceSpec(**_entries(dict(self.allowances), (one, other)))
+        own = PairKeys.model_fields.keys() - {"allowances", "load", "material", "module", "pressure_angle"}
+        given = entries({name: getattr(self, name) for name in own}, (one, other))
         given["profile_shift"] = [self.shift(one), self.shift(other)]
+        if self.allowances is not None:
+            given["allowances"] = self.allowances.of((one, other))
+        if self.material is not None:
+            given["material"] = self.material.of((one, other))
         return PairKeys(module=module, pressure_angle=pressure_angle, **given)

@@ -2,30 +2,11 @@
 
 from __future__ import annotations
 
-TRAIN_QUANTITIES = (
-    "transverse_pressure_angle",
-    "base_helix_angle",
-    "overlap_ratio",
-    "total_contact_ratio",
-    "usable_contact_ratio",
-    "path_of_contact",
-    "form_radius",
-    "used_root_radius",
-    "tip_clearance",
-    "specific_sliding_tip",
-    "sliding_factor",
-    "involute_margin",
-    "radial_assembly_margin",
-    "pin_diameter",
-    "measure_over_balls",
-    "measure_over_pins",
-    "chordal_thickness",
-    "chordal_height",
-    "generating_shift",
-    "span_measurement_limits",
-    "measure_limits",
-    "backlash_circumferential",
-    "backlash_normal",
-    "backlash_angle",
-)
-TRAIN_CHECKS = ("fillet-interference", "backlash")
+from gearlink.core.gears.drawing_names import PLACES
+
+_FIRST_OF_RATING = list(PLACES).index("tangential_force")
+_OF_EVERY_MESH = "tip_fouling_margin"
+RATING = frozenset(list(PLACES)[_FIRST_OF_RATING:])
+"""Strength by ISO 6336, shown where a file asks for it."""
+TRAIN_QUANTITIES = tuple(name for name in PLACES if name != _OF_EVERY_MESH)
+TRAIN_CHECKS = ("radial-assembly", "fillet-interference", "backlash", "pitting", "bending")

@@ -7,7 +7,17 @@ from typing import Annotated
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.spec import AcuteAngle, Distance, GearLimits, Length, LoadLimits, Ratio, SignedLength, Spec
+from gearlink.core.spec import (
+    AcuteAngle,
+    Distance,
+    DrawingLimits,
+    GearLimits,
+    Length,
+    LoadLimits,
+    Ratio,
+    SignedLength,
+    Spec,
+)
 
 TurnAngle = Annotated[float, Field(ge=-3600, le=3600, json_schema_extra={"unit": "deg"})]
 
@@ -19,7 +29,7 @@ class InputRange(Spec):
     end: TurnAngle = Field(description="last input angle")
 
 
-class LinkageLimits(GearLimits, LoadLimits):
+class LinkageLimits(DrawingLimits, GearLimits, LoadLimits):
     """Limits of the checks."""
 
     transmission_angle: AcuteAngle = Field(40.0, description="least transmission angle")
@@ -85,12 +95,17 @@ class FourLinks(Spec):
     frame: Length = Field(description="frame AD")
 
 
-def require_rim(rim: float | None, ring: int | None, module: float) -> None:
-    """Refuse a rim without a ring gear, and one that does not lie outside its root circle, m (z/2 + 1.25)."""
+def require_rim(rim: float | None, ring: int | None, module: float, *, own_teeth: bool = False) -> None:
+    """Refuse a rim without a ring gear, and one that does not lie outside its root circle, m (z/2 + 1.25).
+
+    Where the ring has teeth of its own, its mesh is what knows that circle.
+    """
     if rim is None:
         return
     if ring is None:
         raise PydanticCustomError("GL111", "rim goes with a ring gear: leave it out", {"key": "rim"})
+    if own_teeth:
+        return
     root = module * (0.5 * ring + 1.25)
     if rim <= root:
         raise PydanticCustomError(

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.clearance.bodies import Gear, Layout, least_shaft, ring_gear, shafts_at
 from gearlink.core.clearance.reach import constant, coupler_joint, crank_pin
-from gearlink.core.gears.internal_mesh import InternalMesh
 
 if TYPE_CHECKING:
     from gearlink.core.planet_linkages.rocker_design import GearedRocker
@@ -17,7 +16,7 @@ def two_gear_layout(design: TwoGearFourBar) -> Layout:
     """Planet on B, sun or ring gear on A."""
     links, spec, mesh = design.linkage, design.spec, design.mesh
     planet = Gear("the planet", "B", mesh.tip_radius[0], mates="A")
-    output = ring_gear("A", mesh) if isinstance(mesh, InternalMesh) else Gear("the sun", "A", mesh.tip_radius[1])
+    output = ring_gear("A", mesh, rim=spec.gears.rim) if design.internal else Gear("the sun", "A", mesh.tip_radius[1])
     return Layout(
         gears=(planet, output),
         shafts=shafts_at("AD", spec.shafts),

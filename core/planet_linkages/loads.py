@@ -6,6 +6,7 @@ import math
 from abc import abstractmethod
 from typing import TYPE_CHECKING, Any
 
+from gearlink.core.gears.mesh_phase import signed_pair
 from gearlink.core.linkages.fourbar import FourBar, solve
 from gearlink.core.linkages.fourbar_loads import MM, four_bar, four_bar_pins, full_balance
 from gearlink.core.loads.design import BALANCE, LoadsDesign, loads_outline
@@ -67,14 +68,12 @@ class PlanetLinkageLoads(LoadsDesign):
             links, [*pins, Pin(self.output_pin, FRAME, "output", pivot.value), self.mesh_of(links)], "crank"
         )
 
-    @property
-    def tangent(self) -> float:
-        """tan of the pressure angle."""
-        return math.tan(math.radians(self.spec.gears.pressure_angle))
-
-    def radius(self, teeth: int) -> float:
-        """Pitch radius [m]."""
-        return 0.5 * float(self.spec.gears.module) * MM * teeth
+    @cached_property
+    def rolling(self) -> tuple[float, float, float]:
+        """Working radii of output gear and coupler gear [m], and the tangent of their working pressure angle."""
+        pair = signed_pair(self.design.mesh)
+        r2, r5 = pair.working_radius
+        return abs(r5) * MM, r2 * MM, math.tan(pair.working_pressure_angle)
 
 
 class TwoGearLoads(PlanetLinkageLoads):
@@ -104,10 +103,10 @@ class TwoGearLoads(PlanetLinkageLoads):
         """Along the crank."""
         from gearlink.core.loads.mechanism import Mesh
 
-        design, crank = self.design, links["crank"]
-        r5, r2 = self.radius(design.output_teeth), self.radius(design.planet_teeth)
-        return Mesh("mesh_25", "output", "coupler", crank.origin.value, crank.unit, r5, r2, self.tangent,
-                    design.internal, "crank")  # fmt: skip
+        crank = links["crank"]
+        return Mesh(
+            "mesh_25", "output", "coupler", crank.origin.value, crank.unit, *self.rolling, self.design.internal, "crank"
+        )
 
 
 class GearedRockerLoads(PlanetLinkageLoads):
@@ -133,7 +132,5 @@ class GearedRockerLoads(PlanetLinkageLoads):
         """Along the rocker."""
         from gearlink.core.loads.mechanism import Mesh
 
-        design, rocker = self.design, links["rocker"]
-        r5, r2 = self.radius(design.output_teeth), self.radius(design.coupler_gear_teeth)
-        return Mesh("mesh_25", "output", "coupler", rocker.origin.value, rocker.unit, r5, r2, self.tangent,
-                    False, "rocker")  # fmt: skip
+        rocker = links["rocker"]
+        return Mesh("mesh_25", "output", "coupler", rocker.origin.value, rocker.unit, *self.rolling, False, "rocker")

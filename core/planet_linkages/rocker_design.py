@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 from gearlink.core.clearance.bodies import Layout
 from gearlink.core.clearance.checks import SHAFT_WAYS, shaft_checks
 from gearlink.core.design import Found, Outline, placed
 from gearlink.core.errors import NoSolution, at_key
-from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, gear_ways
-from gearlink.core.gears.pair import GearPair
-from gearlink.core.gears.single_mesh import SingleMesh
+from gearlink.core.gears.checks import GEAR_CHECKS
+from gearlink.core.gears.meshed import QUANTITIES as OF_MESH
+from gearlink.core.gears.meshed import Meshed
+from gearlink.core.gears.train_names import TRAIN_CHECKS
+from gearlink.core.gears.train_ways import train_ways
 from gearlink.core.linkages.checks import check_linkage, target_check, transmission_check
 from gearlink.core.linkages.fourbar import FourBar, solve
 from gearlink.core.linkages.standstills import Turning, turnings
@@ -26,6 +28,7 @@ from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
+    from gearlink.core.gears.pair import GearPair
     from gearlink.core.planet_linkages.rocker_spec import GearedRockerSpec
 
 _LINK_TOLERANCE = 1e-9
@@ -38,7 +41,7 @@ _FEWER = (down("gears.coupler", step=1), down("gears.output", step=1))
 _LINKS = either("links.crank", "links.frame", "links.coupler")
 
 
-class GearedRocker(RealSpeed, SingleMesh):
+class GearedRocker(RealSpeed, Meshed):
     """Crank-rocker with a gear on the coupler at C and the output gear on D; the rocker is their centre distance."""
 
     kind = "geared-rocker"
@@ -76,17 +79,17 @@ class GearedRocker(RealSpeed, SingleMesh):
                 "output_acceleration_max",
                 "output_acceleration_min",
             ),
-            ("target", "shaft-clearance", "transmission-angle", *GEAR_CHECKS),
+            ("target", "shaft-clearance", "transmission-angle", *GEAR_CHECKS, "backlash"),
             ("motion",),
         ),
-        "gear": Outline(GEAR_QUANTITIES, GEAR_CHECKS),
+        "gear": Outline(OF_MESH, (*GEAR_CHECKS, *TRAIN_CHECKS)),
     }
 
-    extra_tables = ("links", "candidates")
+    extra_tables = ("links", "drawing", "candidates")
     ways = {
         "shaft-clearance": (*SHAFT_WAYS, *_LINKS, *_FEWER, *_TEETH),
         "transmission-angle": (*_LINKS, *_TEETH, *_FEWER),
-        **gear_ways(*_TEETH),
+        **train_ways(2, *_TEETH),
     }
 
     @property
@@ -123,17 +126,26 @@ class GearedRocker(RealSpeed, SingleMesh):
         """Ratio i = -z2/z5."""
         return -self.coupler_gear_teeth / self.output_teeth
 
-    @cached_property
+    @property
     def mesh(self) -> GearPair:
         """Coupler gear and output gear."""
-        gears = self.spec.gears
-        alpha = math.radians(gears.pressure_angle)
-        with at_key("gears"):
-            return GearPair.from_shift(gears.module, (gears.coupler, gears.output), (0.0, 0.0), pressure_angle=alpha)
+        return cast("GearPair", super().mesh)
+
+    @property
+    def signed_teeth(self) -> tuple[int, ...]:
+        """Coupler gear and output gear."""
+        return self.coupler_gear_teeth, self.output_teeth
+
+    @property
+    def given_distances(self) -> tuple[float | None, ...]:
+        """The rocker, where the file gives it."""
+        return (self.spec.links.rocker,)
 
     @property
     def rocker_length(self) -> float:
         """Centre distance of the gears [mm]."""
+        if self.own_teeth:
+            return self.distance()
         return self.spec.gears.module * (self.coupler_gear_teeth + self.output_teeth) / 2.0
 
     coupler_length: float = placed("spec.links.coupler")
@@ -155,9 +167,10 @@ class GearedRocker(RealSpeed, SingleMesh):
     def linkage(self) -> FourBar:
         """The four-bar: a crank-rocker."""
         links, rocker = self.spec.links, self.rocker_length
-        if links.rocker is not None and abs(links.rocker - rocker) > _LINK_TOLERANCE * rocker:
+        given = rocker if links.rocker is None or self.spec.gears.profile_shift is not None else links.rocker
+        if abs(given - rocker) > _LINK_TOLERANCE * rocker:
             raise NoSolution(
-                f"rocker {links.rocker:.9g} mm is not the centre distance of the gears, {rocker:.9g} mm: leave it out, "
+                f"rocker {given:.9g} mm is not the centre distance of the gears, {rocker:.9g} mm: leave it out, "
                 "or change module or teeth",
                 key="links.rocker",
             )

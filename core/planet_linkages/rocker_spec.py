@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
+from gearlink.core.gears.train_keys import TrainKeys
 from gearlink.core.linkages.spec_parts import LinkageLimits, PivotShafts
 from gearlink.core.spec import Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth
 
 
-class RockerGears(Spec):
+class RockerGears(TrainKeys):
     """A gear fixed to the coupler at C, in mesh with the output gear on the rocker's axis."""
+
+    drawn: ClassVar[tuple[str, ...]] = ("coupler", "output")
 
     module: Length = Field(description="module")
     coupler: Teeth = Field(description="teeth z2 of the gear fixed to the coupler at C")

@@ -10,10 +10,11 @@ from gearlink.core.clearance.bodies import Layout
 from gearlink.core.clearance.checks import SHAFT_WAYS, shaft_checks
 from gearlink.core.design import Outline, placed
 from gearlink.core.errors import MissingSection, NoSolution, at_key
-from gearlink.core.gears.checks import gear_ways
-from gearlink.core.gears.internal_mesh import InternalMesh
-from gearlink.core.gears.pair import GearPair
-from gearlink.core.gears.single_mesh import MESH_CHECKS, MESH_QUANTITIES, SingleMesh
+from gearlink.core.gears.meshed import QUANTITIES as OF_MESH
+from gearlink.core.gears.meshed import Meshed
+from gearlink.core.gears.single_mesh import MESH_CHECKS
+from gearlink.core.gears.train_names import TRAIN_CHECKS
+from gearlink.core.gears.train_ways import train_ways
 from gearlink.core.linkages import standstills
 from gearlink.core.linkages.checks import check_linkage, transmission_check
 from gearlink.core.linkages.feed import FEED_QUANTITIES, FeedResults
@@ -74,7 +75,7 @@ QUANTITIES = (
     "back_step_time",
     *FEED_QUANTITIES,
 )
-CHECKS = ("dwell-condition", "shaft-clearance", "transmission-angle", *MESH_CHECKS)
+CHECKS = ("dwell-condition", "shaft-clearance", "transmission-angle", *MESH_CHECKS, "backlash")
 
 UNIDIRECTIONAL, MOMENTARY_DWELL, BACK_STEP = "unidirectional", "momentary-dwell", "back-step"
 
@@ -84,22 +85,22 @@ _FEWER = tuple(down(f"gears.{gear}", step=1) for gear in ("planet", "sun", "ring
 _LINKS = either("links.frame", "links.rocker", "links.coupler")
 
 
-class TwoGearFourBar(FeedResults, SingleMesh):
+class TwoGearFourBar(FeedResults, Meshed):
     """Planet on the coupler, sun or ring gear on the crank's axis; the crank is their centre distance."""
 
     kind = "two-gear-four-bar"
     spec: TwoGearFourBarSpec
     outlines = {
         "analyze": Outline(QUANTITIES, CHECKS, ("motion",)),
-        "gear": Outline(MESH_QUANTITIES, MESH_CHECKS),
+        "gear": Outline(OF_MESH, (*MESH_CHECKS, *TRAIN_CHECKS)),
     }
 
-    extra_tables: ClassVar[tuple[str, ...]] = ("links",)
+    extra_tables: ClassVar[tuple[str, ...]] = ("links", "drawing")
     ways = {
         "dwell-condition": (*_TEETH, *_FEWER, *_LINKS),
         "shaft-clearance": (*SHAFT_WAYS, *_LINKS, *_FEWER, *_TEETH),
         "transmission-angle": (*_LINKS, *_FEWER, *_TEETH),
-        **gear_ways(*_TEETH),
+        **train_ways(2, *_TEETH),
     }
 
     # Gears and links
@@ -122,19 +123,21 @@ class TwoGearFourBar(FeedResults, SingleMesh):
         """Ratio i of planet and output gear, negative for an external mesh."""
         return self.planet_teeth / self.output_teeth * (1.0 if self.internal else -1.0)
 
-    @cached_property
-    def mesh(self) -> GearPair | InternalMesh:
+    @property
+    def signed_teeth(self) -> tuple[int, ...]:
         """Planet and output gear."""
-        gears, teeth = self.spec.gears, (self.planet_teeth, self.output_teeth)
-        alpha = math.radians(gears.pressure_angle)
-        with at_key("gears"):
-            if self.internal:
-                return InternalMesh(gears.module, teeth, alpha, rim=gears.rim)
-            return GearPair.from_shift(gears.module, teeth, (0.0, 0.0), pressure_angle=alpha)
+        return self.planet_teeth, -self.output_teeth if self.internal else self.output_teeth
+
+    @property
+    def given_distances(self) -> tuple[float | None, ...]:
+        """The crank, where the file gives it."""
+        return (self.spec.links.crank,)
 
     @property
     def crank_length(self) -> float:
-        """Centre distance of the gears [mm], m (z2 + z5)/2 or m (z5 - z2)/2."""
+        """Centre distance of the gears [mm]; without profile shift m_t (z2 + z5)/2 or m_t (z5 - z2)/2."""
+        if self.own_teeth:
+            return self.distance()
         sign = -1 if self.internal else 1
         return self.spec.gears.module * (self.output_teeth + sign * self.planet_teeth) / 2.0
 
@@ -157,7 +160,7 @@ class TwoGearFourBar(FeedResults, SingleMesh):
     def checked_crank(self) -> float:
         """Centre distance of the gears [mm], which a crank in the file must agree with."""
         given, crank = self.spec.links.crank, self.crank_length
-        if given is not None and abs(given - crank) > _LINK_TOLERANCE * crank:
+        if given is not None and self.spec.gears.profile_shift is None and abs(given - crank) > _LINK_TOLERANCE * crank:
             raise NoSolution(
                 f"crank {given:.9g} mm is not the centre distance of the gears, {crank:.9g} mm: leave it out, or "
                 "change module or teeth",

@@ -7,11 +7,12 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
+from gearlink.core.gears.train_keys import TrainKeys
 from gearlink.core.linkages.spec_parts import DwellBand, Feed, LinkageLimits, PivotShafts, require_rim
 from gearlink.core.spec import Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth
 
 
-class PlanetGears(Spec):
+class PlanetGears(TrainKeys):
     """Planet on the coupler at B, in mesh with a sun or a ring gear free on A."""
 
     module: Length = Field(description="module")
@@ -22,6 +23,14 @@ class PlanetGears(Spec):
         None, description="outer radius of the ring gear; left out: 2 modules outside its root circle"
     )
     pressure_angle: PressureAngle = Field(20.0, description="pressure angle of the reference profile")
+
+    def gear_names(self) -> tuple[str, ...]:
+        """Planet, and sun or ring."""
+        return "planet", "sun" if self.ring is None else "ring"
+
+    def rings(self) -> tuple[bool, ...]:
+        """The output gear may be a ring."""
+        return False, self.ring is not None
 
     @model_validator(mode="after")
     def _one_output(self) -> PlanetGears:
@@ -35,7 +44,7 @@ class PlanetGears(Spec):
                 "a ring gear of {ring} teeth does not take a planet of {planet}: give it more teeth",
                 {"key": "ring", "ring": str(self.ring), "planet": str(self.planet)},
             )
-        require_rim(self.rim, self.ring, self.module)
+        require_rim(self.rim, self.ring, self.module, own_teeth=self.own_teeth)
         return self
 
 

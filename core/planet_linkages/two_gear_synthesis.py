@@ -38,6 +38,10 @@ def with_analysis(synthesis: str, outline: Outline) -> dict[str, Outline]:
 class Synthesis(TwoGearFourBar):
     """What the syntheses share: gears, coupler and rocker are given, the frame is sought."""
 
+    def __init__(self, spec: Any) -> None:
+        super().__init__(spec)
+        self.require_proportion()
+
     def sought_frame(self) -> float:
         """The frame [mm] that meets the task."""
         raise NotImplementedError

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from gearlink.core.clearance.bodies import Gear, Layout, Shaft, least_shaft
 from gearlink.core.clearance.reach import constant, coupler_joint, crank_pin
+from gearlink.core.gears.teeth import rim_radius
 from gearlink.core.linkages.codes import GEAR_COLLISION
 from gearlink.core.three_gear.motion import tip_radius
 
@@ -24,11 +25,11 @@ def layout(links: FourBar, train: GearTrain, spec: ThreeGearSpec, own: Mapping[s
         links : FourBar [mm]
         train : GearTrain
         spec : ThreeGearSpec
-        own : dict of GearPair - external meshes with teeth of their own; None: standard teeth
+        own : dict of GearPair - meshes with teeth of their own; None: standard teeth
     """
     module, shafts = spec.gears.module, spec.shafts
     gears = (
-        _own(own)
+        _own(own, train, spec.gears.rim)
         if own is not None
         else (
             _gear("the crank gear", "B", train.crank, train, module, None, "CD" if train.internal else "C"),
@@ -62,14 +63,25 @@ def _gear(name: str, axis: str, teeth: float, train: GearTrain, module: float, r
     return Gear(f"{name}, a ring,", axis, mesh.rim_radius, mesh.tip_radius[1], mates)
 
 
-def _own(meshes: Mapping[str, Any]) -> tuple[Gear, Gear, Gear]:
-    """Gears with tips of their own."""
-    (crank, idler), (_, output) = (mesh.tip_radius for mesh in meshes.values())
+def _own(meshes: Mapping[str, Any], train: GearTrain, rim: float | None) -> tuple[Gear, Gear, Gear]:
+    """Gears with tips of their own; in the pair of a ring the idler is the first."""
+    first, second = meshes.values()
+    idler = first.tip_radius[0 if first.internal else 1]
+    mates = "CD" if train.internal else "C"
+    crank = ("the crank gear, a ring,", None, mates) if first.internal else ("the crank gear", None, mates)
+    output = ("the output gear, a ring," if second.internal else "the output gear", rim, "C")
     return (
-        Gear("the crank gear", "B", crank, mates="C"),
+        _end("B", first, *crank),
         Gear("the idler", "C", idler, mates="BD"),
-        Gear("the output gear", "D", output, mates="C"),
+        _end("D", second, *output),
     )
+
+
+def _end(axis: str, pair: Any, name: str, rim: float | None, mates: str) -> Gear:
+    """Crank or output gear of its pair."""
+    if pair.internal:
+        return Gear(name, axis, rim_radius(pair.root_radius[1], pair.module, rim), -pair.tip_radius[1], mates)
+    return Gear(name, axis, pair.tip_radius[0 if axis == "B" else 1], mates=mates)
 
 
 def ring_planes(train: GearTrain) -> Check:

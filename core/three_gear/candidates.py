@@ -73,11 +73,11 @@ def _row(design: Synthesis, module: float, idler: int) -> dict[str, Any]:
 
 
 def _found(trial: Synthesis) -> dict[str, Any]:
-    tips = (trial.spec.gears.module * (abs(teeth) / 2.0 + 1.0) for teeth in (trial.crank_teeth, trial.output_teeth))
+    radii = (trial.spec.gears.transverse_module * abs(teeth) / 2.0 for teeth in (trial.crank_teeth, trial.output_teeth))
     dwell = trial.tolerance_dwell_angle if _within_a_tolerance(trial) else trial.dwell_angle
     command = next(name for name in trial.outlines if name.startswith("synth"))
     return {
-        "length": trial.crank_length + trial.frame_length + sum(tips),
+        "length": trial.crank_length + trial.frame_length + sum(radii) + trial.tip_excess,
         "crank_length": trial.crank_length,
         "frame_length": trial.frame_length,
         "dwell": None if dwell is None else math.degrees(dwell),

@@ -4,22 +4,23 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from gearlink.core.clearance.bodies import Layout
 from gearlink.core.clearance.checks import SHAFT_WAYS, collision_check, shaft_checks
-from gearlink.core.design import Design, Outline, placed
+from gearlink.core.design import Outline, placed
 from gearlink.core.errors import MissingSection, at_key
-from gearlink.core.gears.checks import gear_ways
-from gearlink.core.gears.single_mesh import MESH_CHECKS, mesh_checks, mesh_quantity
-from gearlink.core.gears.train_names import TRAIN_CHECKS, TRAIN_QUANTITIES
+from gearlink.core.gears.meshed import Meshed
+from gearlink.core.gears.single_mesh import MESH_CHECKS
+from gearlink.core.gears.train_names import TRAIN_CHECKS
+from gearlink.core.gears.train_ways import train_ways
 from gearlink.core.linkages.checks import check_linkage, dwell_window_check, transmission_check
 from gearlink.core.linkages.feed import FeedResults
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.linkages.standstills import BackStep
 from gearlink.core.linkages.swing import rocker_swing
 from gearlink.core.real_speed import per_time
-from gearlink.core.remedies import Way, down, either, up
+from gearlink.core.remedies import down, either, up
 from gearlink.core.report import Check, safely_above, safely_below
 from gearlink.core.results import cached_property
 from gearlink.core.three_gear import bodies, dwells, motion, tables
@@ -27,12 +28,9 @@ from gearlink.core.three_gear.codes import ACHIEVED, DWELL_TOLERANCE
 from gearlink.core.three_gear.idler_choice import idler_for_ratio
 from gearlink.core.three_gear.momentary_dwell import crank_with_room
 from gearlink.core.three_gear.motion import Extremes, GearTrain
-from gearlink.core.three_gear.names import CHECKS, MESH_QUANTITIES, QUANTITIES
+from gearlink.core.three_gear.names import CHECKS, MESH_QUANTITIES, MESHES, QUANTITIES
 
 if TYPE_CHECKING:
-    from gearlink.core.gears.data import GearData
-    from gearlink.core.gears.internal_mesh import InternalMesh
-    from gearlink.core.gears.pair import GearPair
     from gearlink.core.linkages.band_dwell import ToleranceDwell
     from gearlink.core.three_gear.by_roots import ByRoots
     from gearlink.core.three_gear.spec import ThreeGearSpec
@@ -57,13 +55,12 @@ WAYS = {
         *SHAFT_WAYS,
     ),
     "transmission-angle": (*_LINKS, up("gears.idler", step=1), *_TEETH, down("momentary.eccentricity")),
-    "backlash": tuple(Way((f"gears.allowances.upper[{i}]", f"gears.allowances.lower[{i}]"), -0.005) for i in range(3)),
     "dwell-tolerance": (down("dwell_tolerance", step=0.01), down("dwell_backlash", step=0.01)),
-    **gear_ways(*_TEETH),
+    **train_ways(3, *_TEETH),
 }
 
 
-class ThreeGearFourBar(FeedResults, Design):
+class ThreeGearFourBar(FeedResults, Meshed):
     """A three-gear four-bar of given links; the syntheses replace `linkage`, `idler_teeth` and closed forms."""
 
     kind = "three-gear-four-bar"
@@ -114,20 +111,31 @@ class ThreeGearFourBar(FeedResults, Design):
     def coupler_length(self) -> float:
         """Centre distance of crank gear and idler [mm]."""
         if self.off_center:
-            return self.mesh_data["crank_idler"].pair.center_distance
-        return self.spec.gears.module * abs(self.crank_teeth + self.idler_teeth) / 2.0
+            return self.distance("crank_idler")
+        return self.spec.gears.transverse_module * abs(self.crank_teeth + self.idler_teeth) / 2.0
 
     @property
     def rocker_length(self) -> float:
         """Centre distance of idler and output gear [mm]."""
         if self.off_center:
-            return self.mesh_data["idler_output"].pair.center_distance
-        return self.spec.gears.module * abs(self.idler_teeth + self.output_teeth) / 2.0
+            return self.distance("idler_output")
+        return self.spec.gears.transverse_module * abs(self.idler_teeth + self.output_teeth) / 2.0
 
     @property
     def off_center(self) -> bool:
         """Whether the profile shifts of a mesh do not cancel, which moves its centre distance."""
-        return any(self.spec.gears.shift(i) + self.spec.gears.shift(i + 1) for i in range(2))
+        return self.spec.gears.off_center(2)
+
+    @property
+    def signed_teeth(self) -> tuple[int, ...]:
+        """Crank gear, idler, output gear."""
+        return self.crank_teeth, self.idler_teeth, self.output_teeth
+
+    mesh_names = MESHES
+
+    def rim_of(self, mesh: str) -> float | None:
+        """The file's rim is the output ring's."""
+        return self.spec.gears.rim if mesh == MESHES[1] else None
 
     @cached_property
     def linkage(self) -> FourBar:
@@ -261,7 +269,7 @@ class ThreeGearFourBar(FeedResults, Design):
             from gearlink.core.three_gear.tolerance_dwell import tolerance_from_backlash
 
             return tolerance_from_backlash(
-                self.spec.dwell_backlash, self.spec.gears.module * abs(self.output_teeth) / 2.0
+                self.spec.dwell_backlash, self.spec.gears.transverse_module * abs(self.output_teeth) / 2.0
             )
         return None if self.spec.dwell_tolerance is None else math.radians(self.spec.dwell_tolerance)
 
@@ -276,58 +284,20 @@ class ThreeGearFourBar(FeedResults, Design):
     @cached_property
     def layout(self) -> Layout:
         """The bodies in the plane of the gears."""
-        own = self.meshes if self.spec.gears.own_teeth else None
-        return bodies.layout(self.linkage, self.train, self.spec, own)
+        return bodies.layout(self.linkage, self.train, self.spec, self._own_pairs if self.own_teeth else None)
 
     @cached_property
     def gear_gap(self) -> float | None:
         """Gap of the tips of gears 1 and 5 at the closest [mm]; None where one is a ring, in another plane."""
         if self.train.internal:
             return None
-        if self.spec.gears.own_teeth:
+        if self.own_teeth:
             return self.layout.gear_pairs[0].gap
         return motion.gear_gap(self.linkage, self.train, self.spec.gears.module)
 
-    @cached_property
-    def meshes(self) -> dict[str, GearPair | InternalMesh]:
-        """The two meshes; an internal one is a pair of idler and ring."""
-        from gearlink.core.three_gear.meshes import meshes
-
-        return meshes(self.spec.gears, self.idler_teeth)
-
-    @cached_property
-    def mesh_data(self) -> dict[str, GearData]:
-        """The two meshes with all that their drawing needs; in a pair the ring is the second."""
-        from gearlink.core.three_gear.mesh_data import data
-
-        return data(self.spec.gears, self.idler_teeth)
-
-    def raw(self, name: str) -> Any:
-        """Names that carry their mesh are the gear pair's, all others the design's own."""
-        mesh, _, quantity = name.rpartition(".")
-        if not mesh:
-            return super().raw(name)
-        with at_key("gears"):
-            drawn = quantity in TRAIN_QUANTITIES
-            found = self.mesh_data[mesh].quantity(quantity) if drawn else mesh_quantity(self.meshes[mesh], quantity)
-        # a ring on the crank is the first of its mesh, the second of its pair of gears
-        return found[::-1] if mesh == "crank_idler" and self.crank_teeth < 0 and isinstance(found, tuple) else found
-
-    table_motion, table_links, table_drawing = tables.motion, tables.links, tables.drawing
+    table_motion, table_links = tables.motion, tables.links
 
     # Checks
-
-    def check(self, name: str) -> list[Check]:
-        """Gear checks run over both meshes."""
-        limits = self.spec.limits
-        if name in TRAIN_CHECKS:
-            from gearlink.core.three_gear.mesh_data import drawing_checks
-
-            return drawing_checks(name, self.mesh_data, self.spec)
-        if name not in MESH_CHECKS:
-            return super().check(name)
-        shifts = self.spec.gears.profile_shift is not None
-        return [c for mesh, pair in self.meshes.items() for c in mesh_checks(name, pair, limits, mesh, shifts)]
 
     def check_gear_collision(self) -> Iterator[Check]:
         """GL301: gears 1 and 5, over the whole turn."""
@@ -342,7 +312,7 @@ class ThreeGearFourBar(FeedResults, Design):
 
     def _gap_remedy(self, missing: float) -> str:
         """What would give the gears room."""
-        module = self.spec.gears.module
+        module = self.spec.gears.transverse_module
         words = (
             f"make frame less crank {safely_above(missing)} mm longer, or the crank and output gears "
             f"{math.ceil(2.0 * missing / module)} teeth smaller together"
@@ -355,9 +325,19 @@ class ThreeGearFourBar(FeedResults, Design):
 
     def _longest_crank_with_room(self) -> float | None:
         """Longest crank of a momentary dwell with these gears that keeps gears 1 and 5 apart [mm]."""
-        module = self.spec.gears.module
-        r1, r3, r5 = (0.5 * module * teeth for teeth in (self.crank_teeth, self.idler_teeth, self.output_teeth))
-        return crank_with_room(r1, r3, r5, r1 + r5 + 2.0 * module + self.spec.limits.gear_gap)
+        module = self.spec.gears.transverse_module
+        r1, r3, r5 = (0.5 * module * teeth for teeth in self.signed_teeth)
+        return crank_with_room(r1, r3, r5, r1 + r5 + self.tip_excess + self.spec.limits.gear_gap)
+
+    @property
+    def tip_excess(self) -> float:
+        """What the tips of gears 1 and 5 reach beyond their reference circles, together [mm].
+
+        m (2 h_a* + x_1 + x_5 + k_1 + k_5); k = 0 where the shifts cancel in each mesh
+        """
+        gears = self.spec.gears
+        k = gears.tip_shortening if isinstance(gears.tip_shortening, list) else (0.0, 0.0, 0.0)
+        return gears.module * (2.0 * gears.addendum + gears.shift(0) + gears.shift(2) + k[0] + k[2])
 
     def check_shaft_clearance(self) -> Iterator[Check]:
         """GL302."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from gearlink.core.linkages.fourbar import solve
 from gearlink.core.linkages.fourbar_loads import MM, four_bar, four_bar_pins, full_balance
@@ -12,7 +12,6 @@ from gearlink.core.results import cached_property
 from gearlink.core.three_gear.design import ThreeGearFourBar
 
 if TYPE_CHECKING:
-    from gearlink.core.gears.pair import GearPair
     from gearlink.core.loads.mechanism import Mechanism
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.three_gear.loads_spec import ThreeGearLoads as Section
@@ -62,8 +61,10 @@ class ThreeGearLoads(LoadsDesign):
     def _rolling(self) -> list[tuple[float, float, float]]:
         """Working radii [m] of both meshes and the tangent of their working pressure angle."""
         design, gears = self.design, self.spec.gears
-        if design.off_center:
-            return [_rolling_of(data.pair) for data in design.mesh_data.values()]
+        if design.own_teeth:
+            crank, output = design.meshes.values()
+            (r1, r3, flank), (r3_out, r5, flank_out) = _rolling_of(crank), _rolling_of(output)
+            return [(r3, r1, flank) if r3 < 0.0 else (r1, r3, flank), (r3_out, r5, flank_out)]
         train, half = design.train, 0.5 * gears.module * MM
         tangent = math.tan(math.radians(gears.pressure_angle))
         r1, r3, r5 = (half * teeth for teeth in (train.crank, train.idler, train.output))
@@ -99,7 +100,7 @@ class ThreeGearLoads(LoadsDesign):
         return Mechanism(links, [*pins, *meshes], "crank")
 
 
-def _rolling_of(pair: GearPair) -> tuple[float, float, float]:
+def _rolling_of(pair: Any) -> tuple[float, float, float]:
     """Working radii [m] and the tangent of the working pressure angle."""
     r1, r2 = pair.working_radius
     return r1 * MM, r2 * MM, math.tan(pair.working_pressure_angle)

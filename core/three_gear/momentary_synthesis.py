@@ -50,7 +50,7 @@ class MomentaryDwellSynthesis(Synthesis):
                 "or balanced",
                 key="momentary.gap",
             )
-        distance = radii[0] + radii[2] + 2.0 * self.spec.gears.module + wish.gap
+        distance = radii[0] + radii[2] + self.tip_excess + wish.gap
         crank = crank_with_room(*radii, distance)
         if crank is None:
             raise NoSolution(
@@ -87,7 +87,7 @@ class MomentaryDwellSynthesis(Synthesis):
     def _widest_gap(self, radii: tuple[float, float, float]) -> float:
         """The gap of the shortest crank with a momentary dwell [mm]."""
         shortest = least_eccentricity(*radii)
-        return radii[1] * 2.0 - 2.0 * shortest - 2.0 * self.spec.gears.module
+        return radii[1] * 2.0 - 2.0 * shortest - self.tip_excess
 
     def depends_on_idler(self, _refusal: NoSolution) -> bool:
         """A crank not below the radius of gear 1 is too long with every idler."""

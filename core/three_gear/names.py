@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
+from gearlink.core.gears.meshed import named
 from gearlink.core.gears.single_mesh import MESH_CHECKS
-from gearlink.core.gears.single_mesh import MESH_QUANTITIES as OF_A_MESH
-from gearlink.core.gears.train_names import TRAIN_QUANTITIES
 from gearlink.core.linkages.feed import FEED_QUANTITIES
 
 QUANTITIES = (
@@ -58,4 +57,4 @@ CHECKS = (
     *MESH_CHECKS,
 )
 MESHES = ("crank_idler", "idler_output")
-MESH_QUANTITIES = tuple(f"{mesh}.{name}" for mesh in MESHES for name in (*OF_A_MESH, *TRAIN_QUANTITIES))
+MESH_QUANTITIES = named(MESHES)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import Annotated, Any, ClassVar, Literal, TypeAlias
 
 from pydantic import AfterValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
@@ -27,7 +27,7 @@ SignedTeeth: TypeAlias = Annotated[
 class Gears(TrainKeys):
     """The three gears in mesh; the idler stands on the pin of coupler and rocker."""
 
-    drawn = ("crank", "idler", "output")
+    drawn: ClassVar[tuple[str, ...]] = ("crank", "idler", "output")
 
     module: Length = Field(description="module of all three gears")
     crank: SignedTeeth = Field(description="teeth of the gear fixed to the crank; negative: a ring round the idler")
@@ -41,6 +41,10 @@ class Gears(TrainKeys):
     )
     pressure_angle: PressureAngle = Field(20.0, description="pressure angle of the reference profile")
 
+    def rings(self) -> tuple[bool, ...]:
+        """Crank and output gear may be rings."""
+        return self.crank < 0, False, self.output < 0
+
     @model_validator(mode="after")
     def _rings_are_larger(self) -> Gears:
         for key, teeth in (("crank", self.crank), ("output", self.output)):
@@ -51,12 +55,8 @@ class Gears(TrainKeys):
         if self.i3 is not None and min(self.crank, self.output) < 0:
             message = "i3 goes with external gears: give idler in place of i3"
             raise PydanticCustomError("GL111", message, {"key": "i3"})
-        if self.own_teeth and min(self.crank, self.output) < 0:
-            own = {"profile_shift": self.profile_shift, "tool": self.tool}
-            key = next((key for key, value in own.items() if value is not None), "addendum")
-            message = "a train with a ring has teeth of the standard profile without shift: leave {key} out"
-            raise PydanticCustomError("GL111", message, {"key": key})
-        require_rim(self.rim, -self.output if self.output < 0 else None, self.module)
+        ring = -self.output if self.output < 0 else None
+        require_rim(self.rim, ring, self.module, own_teeth=self.own_teeth)
         return self
 
     @model_validator(mode="after")
@@ -67,12 +67,6 @@ class Gears(TrainKeys):
             message = "i3 goes with equal crank and output teeth: set output to {crank}, or give idler in place of i3"
             raise PydanticCustomError("GL111", message, {"key": "output", "crank": self.crank})
         return self
-
-
-class ThreeGearLimits(LinkageLimits):
-    """Limits of the checks."""
-
-    backlash: SignedLength = Field(0.0, description="least normal backlash of a mesh; below it a warning")
 
 
 class Links(Spec):
@@ -195,7 +189,7 @@ class ThreeGearSpec(DrivenSpec):
         None, description="play at the output gear's reference circle, in place of dwell_tolerance"
     )
     feed: Feed | None = None
-    limits: ThreeGearLimits = ThreeGearLimits()
+    limits: LinkageLimits = LinkageLimits()
     shafts: Shafts | None = None
     register_: Annotated[Any, Deferred("tolerance.spec:Register")] | None = Field(
         None, alias="register", description="what the output may lose in its dwell, for the command register"

@@ -19,6 +19,7 @@ from gearlink.core.three_gear.design import ThreeGearFourBar
 from gearlink.core.three_gear.forms import forms_for
 from gearlink.core.three_gear.idler_choice import GREATEST_IDLER, LEAST_IDLER, smallest_idler
 from gearlink.core.three_gear.motion import Extremes, GearTrain, gear_gap
+from gearlink.core.three_gear.names import MESHES
 
 if TYPE_CHECKING:
     from gearlink.core.three_gear.families import Family
@@ -46,12 +47,12 @@ class Synthesis(ThreeGearFourBar):
 
     def __init__(self, spec: Any) -> None:
         super().__init__(spec)
-        if self.off_center:
-            raise NoSolution(
-                "a synthesis needs profile shifts that add up to 0 in each mesh, such as [x, -x, x]: links in "
-                "proportion to the teeth",
-                key="gears.profile_shift",
-            )
+        self.require_proportion()
+
+    @property
+    def _addendum(self) -> float:
+        """Half of what the tips of gears 1 and 5 reach beyond their reference circles, in transverse modules."""
+        return 0.5 * self.tip_excess / self.spec.gears.transverse_module
 
     def linkage_of(self, idler: int) -> FourBar:
         """The links that meet the task with an idler of so many teeth."""
@@ -66,7 +67,7 @@ class Synthesis(ThreeGearFourBar):
 
     def _radii(self, idler: int) -> tuple[float, float, float]:
         gears = self.spec.gears
-        return tuple(gears.module * teeth / 2.0 for teeth in (gears.crank, idler, gears.output))  # type: ignore[return-value]
+        return tuple(gears.transverse_module * teeth / 2.0 for teeth in (gears.crank, idler, gears.output))  # type: ignore[return-value]
 
     def completion(self) -> Iterator[Found]:
         """Idler and links in place of the tasks."""
@@ -89,7 +90,8 @@ class Synthesis(ThreeGearFourBar):
                 self.linkage_of,
                 gears.crank,
                 gears.output,
-                gears.module,
+                gears.transverse_module,
+                addendum=self._addendum,
                 min_transmission_angle=math.radians(limits.transmission_angle),
                 min_gear_gap=limits.gear_gap,
                 clear=self._clears_shafts,
@@ -107,7 +109,13 @@ class Synthesis(ThreeGearFourBar):
         shafts, gears = self.spec.shafts, self.spec.gears
         if shafts is None:
             return True
-        found = layout(linkage, GearTrain(gears.crank, idler, gears.output), self.spec).shaft_pairs
+        teeth = (gears.crank, idler, gears.output)
+        own = None
+        if self.own_teeth:
+            from gearlink.core.gears.train import Train
+
+            own = dict(zip(MESHES, Train(gears, teeth, (None, None)).pairs(), strict=True))
+        found = layout(linkage, GearTrain(*teeth), self.spec, own).shaft_pairs
         return all(pair.gap >= 0.0 for pair in found if not pair.bare)
 
     def depends_on_idler(self, _refusal: NoSolution) -> bool:
@@ -132,7 +140,8 @@ class Synthesis(ThreeGearFourBar):
                 linkage = self.linkage_of(idler)
             except NoSolution:
                 continue
-            if gear_gap(linkage, GearTrain(gears.crank, idler, gears.output), gears.module) >= limit:
+            train = GearTrain(gears.crank, idler, gears.output)
+            if gear_gap(linkage, train, gears.transverse_module, self._addendum) >= limit:
                 return idler
         return None
 
@@ -211,7 +220,8 @@ class SymmetricSynthesis(Synthesis):
             return self.in_family(self._family(idler), GearTrain(gears.crank, idler, gears.output))
         self._require_equal_gears()
         ratio = self.frame_ratio_at(-idler / gears.output)
-        return family.symmetric_linkage(ratio, gears.module * (gears.crank + idler) / 2.0, self.spec.assembly)
+        length = gears.transverse_module * (gears.crank + idler) / 2.0
+        return family.symmetric_linkage(ratio, length, self.spec.assembly)
 
     def depends_on_idler(self, refusal: NoSolution) -> bool:
         """Unequal gears are wrong with every idler."""

@@ -67,10 +67,3 @@ def _gears(design: ThreeGearFourBar, crank: Any, motions: dict[str, Motion]) -> 
         "idler": combined((1.0 + ratio, coupler), (-ratio, steady)),
         "output": combined((train.ratio, steady), (train.coupler_share, coupler), (train.rocker_share, rocker)),
     }
-
-
-def drawing(design: ThreeGearFourBar, _samples: int | None = None) -> Table:
-    """The gear tables of both meshes, one below the other."""
-    from gearlink.core.three_gear.mesh_data import drawings
-
-    return drawings(design.mesh_data)

@@ -62,6 +62,8 @@ class ThreeGearSamples:
                 "tolerance and register know external gears alone, not a train with a ring gear",
                 key="gears.output" if nominal.output_teeth < 0 else "gears.crank",
             )
+        if nominal.spec.gears.helix_angle:
+            raise NoSolution("tolerance and register know spur gears: leave helix_angle out", key="gears.helix_angle")
         if nominal.off_center:
             raise NoSolution(
                 "tolerance and register know meshes whose profile shifts add up to 0", key="gears.profile_shift"

@@ -84,13 +84,15 @@ _SEARCHES = {"explore", "study", "tolerance", "tolerance_study"}
 _DATA = {"gears.backlash", "gears.internal", "gears.drawing", "gears.allowances"}
 _RINGS = {"gears.internal_mesh", "gears.ring_cutter", "gears.internal", "gears.mesh_phase"}
 _TOOLS = {"gears.tools", "gears.root_fillet", "gears.data", "gears.load"}
+_TRAINS = {"gears.train", "gears.train_parts", "gears.spec_parts", "gears.pair_keys"}
 _GENERAL = {f"three_gear.{name}" for name in ("families", "internal_families", "internal_dwell", "candidates")}
 
 
 @pytest.mark.parametrize(
     ("line", "unused"),
     [
-        ("synth dwell designs/candy_feed.yaml", _RINGS | _TOOLS | _GENERAL | {"three_gear.window_dwell"}),
+        ("synth dwell designs/candy_feed.yaml", _RINGS | _TOOLS | _GENERAL | _TRAINS | {"three_gear.window_dwell"}),
+        ("analyze designs/wide_lever.yaml", _RINGS | _TOOLS | _DATA | _TRAINS),
         ("gear designs/ty460_input_gears.yaml", _RINGS | {"gears.backlash", "gears.drawing", "linkages", "cams"}),
         ("crank designs/ty460_slider_crank.yaml", _RINGS | _TOOLS | _DATA | {"gears.pair", "cams"}),
         ("press designs/ty460.yaml", _RINGS | _TOOLS | _DATA | {"gears.pair", "loads.machine"}),

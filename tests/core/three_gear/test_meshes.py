@@ -152,7 +152,12 @@ def test_a_synthesis_needs_shifts_that_cancel():
         {"allowances": {"upper": [0, 0, 0], "lower": [0, 0]}},
         {"allowances": {"upper": [0, 0, -1], "lower": [0, 0, 0]}},
         {"allowances": {}},
-        {"profile_shift": [0.1, -0.1, 0.1], "output": -118},
+        {"cutter": {"teeth": 25}},
+        {"assembly": "radial"},
+        {"helix_hand": ["right", "left", "right"]},
+        {"helix_hand": ["right", "left", "left"], "helix_angle": 10},
+        {"load": {"torque": 10, "gear": "planet"}},
+        {"material": {"bending_limit": [400, 400]}},
     ],
 )
 def test_refusals(keys):

@@ -1,0 +1,43 @@
+"""How a file may be changed where a check of the gears inside a machine fails."""
+
+from __future__ import annotations
+
+from gearlink.core.gears.checks import gear_ways
+from gearlink.core.gears.codes import BACKLASH, BENDING, FILLET, PITTING, ROOT_CLEARANCE, TIP_FOULING
+from gearlink.core.remedies import Way, down, either, shared, up
+
+_THINNER = -0.005
+
+
+def train_ways(gears: int, *teeth: Way, section: str = "gears") -> dict[str, tuple[Way, ...]]:
+    """Ways for every check of a mesh: shifts, heights and tools where the file gives them, else teeth.
+
+    Parameters
+        gears : int - as many entries have the lists of the section
+        teeth : the ways to more teeth
+        section : str - key of the section
+    """
+    shifts = [f"{section}.profile_shift[{i}]" for i in range(gears)]
+    moved = (
+        *(way for i in range(gears - 1) for way in shared(shifts[i], shifts[i + 1], step=0.01)),
+        *either(*shifts, step=0.01),
+    )
+    lower = down(f"{section}.addendum", step=0.01)
+    ways = {name: (*moved, lower, *others) for name, others in gear_ways(*teeth).items()}
+    wider = (
+        up(f"{section}.face_width", step=1.0),
+        up(*(f"{section}.face_width[{i}]" for i in range(gears)), step=1.0),
+        up(f"{section}.module", step=0.25),
+    )
+    thinner = tuple(
+        Way((f"{section}.allowances.upper[{i}]", f"{section}.allowances.lower[{i}]"), _THINNER) for i in range(gears)
+    )
+    fewer = tuple(Way(way.keys, -way.step, way.tie) for way in teeth)
+    return ways | {
+        ROOT_CLEARANCE.name: (up(f"{section}.clearance", step=0.01), up(f"{section}.tool.addendum", step=0.01)),
+        FILLET.name: (down(f"{section}.tool.rounding", step=0.01), *moved, lower, *teeth),
+        BACKLASH.name: (*thinner, down(f"{section}.center_distance_allowance", step=0.001), *moved),
+        TIP_FOULING.checks[1]: (*moved, lower, *teeth, *fewer),
+        PITTING.name: (*wider, *moved, *teeth),
+        BENDING.name: (*wider, up(f"{section}.tool.rounding", step=0.01), *moved, *teeth),
+    }
