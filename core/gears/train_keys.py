@@ -87,6 +87,9 @@ class TrainKeys(Spec):
     material: Annotated[Any, Deferred("gears.train_parts:TrainMaterial")] | None = Field(
         None, description="materials, for the rating"
     )
+    accuracy_grade: Annotated[int, Field(ge=0, le=12)] | None = Field(
+        None, description="accuracy grade of ISO 1328: 4 or better lowers the root stress of deep teeth (Y_DT)"
+    )
     edition: Literal[2006, 2019] = Field(2006, description="of ISO 6336; 2019 is not verified")
 
     def gear_names(self) -> tuple[str, ...]:
@@ -179,7 +182,8 @@ class TrainKeys(Spec):
         from gearlink.core.gears.pair_keys import PairKeys
         from gearlink.core.gears.train_parts import entries
 
-        own = PairKeys.model_fields.keys() - {"allowances", "load", "material", "module", "pressure_angle"}
+        shared = PairKeys.model_fields.keys() & TrainKeys.model_fields.keys()
+        own = shared - {"allowances", "load", "material"}
         given = entries({name: getattr(self, name) for name in own}, (one, other))
         given["profile_shift"] = [self.shift(one), self.shift(other)]
         if self.allowances is not None:

@@ -15,6 +15,8 @@ from pydantic import ValidationError
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.gears.meshed import QUANTITIES
+from gearlink.core.gears.pair_keys import PairKeys
+from gearlink.core.gears.train_keys import TrainKeys
 from gearlink.core.gears.train_names import RATING
 
 DRAWN = {
@@ -23,6 +25,8 @@ DRAWN = {
     "allowances": {"upper": [-0.05, -0.06], "lower": [-0.08, -0.1]},
     "center_distance_allowance": 0.015,
     "pin_diameter": [3.5, 4.0],
+    "rim_thickness": [7.0, 9.0],
+    "accuracy_grade": 4,
     "load": {"torque": 45.0, "factors": {"application": 1.25}},
     "material": {"contact_limit": 1400.0, "bending_limit": [430.0, 390.0], "poisson": [0.3, 0.28]},
 }
@@ -84,7 +88,7 @@ def flat(value):
 def pair_of_the_same_data(one, places, keys):
     """A gear-pair design of the numbers of a mesh with the places of its gears in the lists."""
     own = {key: value for key, value in keys.items() if key != "load"}
-    for key in ("face_width", "pin_diameter", "profile_shift"):
+    for key in ("face_width", "pin_diameter", "profile_shift", "rim_thickness"):
         own[key] = [keys[key][i] for i in places]
     own["allowances"] = {key: [values[i] for i in places] for key, values in keys["allowances"].items()}
     own["material"] = {
@@ -300,6 +304,11 @@ def test_analyze_asks_nothing_of_the_rating(name):
 
 
 # Load and hands
+
+
+def test_a_train_takes_every_key_of_a_pair():
+    of_the_machine = {"module", "pressure_angle"}
+    assert PairKeys.model_fields.keys() - of_the_machine <= TrainKeys.model_fields.keys()
 
 
 def test_one_force_goes_through_all_meshes():
