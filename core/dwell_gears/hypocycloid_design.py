@@ -76,7 +76,6 @@ class HypocycloidDwell(RealSpeed, Meshed):
         ),
         "gear": Outline(OF_MESH, (*MESH_CHECKS, *TRAIN_CHECKS)),
     }
-    extra_tables = ("drawing",)
 
     ways = {
         "shaft-clearance": SHAFT_WAYS,
@@ -84,7 +83,7 @@ class HypocycloidDwell(RealSpeed, Meshed):
         **train_ways(2, Way(("gears.planet", "gears.ring"), 1, "ratio")),
     }
 
-    extra_tables = ("candidates",)
+    extra_tables = ("drawing", "candidates")
 
     def table_candidates(self, _samples: int | None = None) -> Table:
         """The rods of every rule side by side."""

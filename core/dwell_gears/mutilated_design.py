@@ -110,7 +110,6 @@ class MutilatedGearDwell(RealSpeed, Meshed):
         ),
         "gear": Outline(OF_MESH, (*MESH_CHECKS, *TRAIN_CHECKS)),
     }
-    extra_tables = ("drawing",)
 
     ways = {
         "gap": (down("gears.group_teeth", step=1), up("gears.full_teeth", step=1)),
@@ -119,7 +118,7 @@ class MutilatedGearDwell(RealSpeed, Meshed):
         **train_ways(2, *_TEETH),
     }
 
-    extra_tables = ("candidates",)
+    extra_tables = ("drawing", "candidates")
 
     def __init__(self, spec: Any) -> None:
         self.asked = spec

@@ -98,7 +98,6 @@ class GearedFiveBar(RealSpeed, FiveBarParts):
             (*MESH_CHECKS, *TRAIN_CHECKS),
         ),
     }
-    extra_tables = ("drawing",)
 
     input_length: float = placed("bar.input")
     coupler_length: float = placed("bar.coupler")
@@ -250,7 +249,7 @@ class GearedFiveBar(RealSpeed, FiveBarParts):
 
     # Tables
 
-    extra_tables = ("candidates",)
+    extra_tables = ("drawing", "candidates")
 
     def table_candidates(self, _samples: int | None = None) -> Table:
         """The target met with other gears side by side."""
