@@ -61,8 +61,9 @@ def _speed_gap(design: FlatbedPress) -> tuple[float, float]:
     motion, cam = design.motion, design.spec.cam
     cylinder = float(motion.cylinder.travel(motion.sync_start, 1).first)
     if cam is not None and cam.lead_in > 0.0 and design.cams.follows:
-        (joint,) = (joint for joint in design.cams.follower.joints if joint.after == "sync")
-        return joint.velocity_step * float(motion.bed.cam_angle(motion.sync_start, 1).first), cylinder
+        return design.cams.follower.joint("sync").velocity_step * float(
+            motion.bed.cam_angle(motion.sync_start, 1).first
+        ), cylinder
     return float(motion.bed.travel(motion.sync_start, 1).first) - cylinder, cylinder
 
 

@@ -281,12 +281,15 @@ class Compensation:
     @cached_property
     def joints(self) -> tuple[Joint, ...]:
         """Every place where two stretches meet, with the jumps there."""
-        found = []
-        for before, after in zip((self.segments[-1], *self.segments[:-1]), self.segments, strict=True):
-            left, right = before.lift(before.end, 2), after.lift(after.start, 2)
-            steps = (right.value - left.value, right.first - left.first, right.second - left.second)
-            found.append(Joint(before.phase, after.phase, after.start, *(float(step) for step in steps)))
-        return tuple(found)
+        return tuple(self.joint(segment.phase) for segment in self.segments)
+
+    def joint(self, phase: str) -> Joint:
+        """Where a phase begins, with the jumps there."""
+        number = next(i for i, segment in enumerate(self.segments) if segment.phase == phase)
+        before, after = self.segments[number - 1], self.segments[number]
+        left, right = before.lift(before.end, 2), after.lift(after.start, 2)
+        steps = (right.value - left.value, right.first - left.first, right.second - left.second)
+        return Joint(before.phase, after.phase, after.start, *(float(step) for step in steps))
 
     @cached_property
     def lift_range(self) -> tuple[float, float]:

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.flatbed_press.chains import BedChain, CylinderChain, difference
+from gearlink.core.linkages.slider_crank import dead_center_extended, dead_center_folded
 from gearlink.core.numerics.roots import bracketed_root, maximum
 from gearlink.core.report import safely_below
 
@@ -16,25 +17,15 @@ _STEP = math.radians(3.0)
 
 
 def forward_stroke_end(bed: BedChain) -> float:
-    """Input angle at which the bed turns back [rad].
+    """Input angle at which the bed turns back [rad], where D, E and F stand in line, folded.
 
-    Notes
-        The slider's folded dead centre; found as the sign change of the bed's speed between a third of the
-        stroke's turn and the end.
+    theta_DC turns by pi + asin(e/(EF + DE)) - asin(e/(EF - DE)) from the start to there
+
+    Source
+        own derivation
     """
-    steps = 36
-
-    def speed(angle: float) -> float:
-        return float(bed.travel(angle, 1).first)
-
-    last, last_speed = _TURN / steps, speed(_TURN / steps)
-    for i in range(2, steps + 1):
-        angle = _TURN * i / steps
-        here = speed(angle)
-        if last_speed > 0.0 >= here:
-            return bracketed_root(speed, last, angle)
-        last, last_speed = angle, here
-    raise NoSolution("the bed never turns back within a turn: check stroke, rod and offset of the bed")
+    lengths = (bed.slider_crank_length, bed.rod, bed.offset)
+    return float(bed.input_angle(math.pi + dead_center_extended(*lengths) - dead_center_folded(*lengths)))
 
 
 def equal_speed_angle(bed: BedChain, cylinder: CylinderChain) -> float:
