@@ -24,6 +24,7 @@ STUDY: dict[str, Any] = {
         "rod": {"from": 200, "to": 400, "step": 0.2},
         "offset": {"values": [0, 10, 20, 30]},
         "stroke": {"values": [280, 310]},
+        "name": {"values": ["crank"]},  # a word, which no array form takes: chunks are those of design classes
     },
     "minimize": {"crank_length": "1 mm", "max_stroke": "20 mm"},
     "maximize": {"quick_return_ratio": 0.01},

@@ -25,6 +25,7 @@ STUDY: dict[str, Any] = {
         "rod": {"from": 200, "to": 400, "step": 2},
         "offset": {"values": [0, 10, 20, 30, 45, 60]},
         "stroke": {"values": [280, 310]},
+        "name": {"values": ["crank"]},  # a word, which no array form takes: chunks are those of design classes
     },
     "minimize": {"rod_length": "20 mm", "crank_length": "1 mm"},
     "maximize": {"quick_return_ratio": 0.01},
