@@ -179,6 +179,10 @@ class Design:
         """What completes the file: the links that a synthesis found in place of its task."""
         return ()
 
+    def as_found(self) -> Iterable[Found]:
+        """What completes the file for samples of the design as made: its links, and what still judges them."""
+        return self.completion()
+
     @cached_property
     def benches(self) -> dict[str, Bench]:
         """Where changes of this design are tried, for each command."""

@@ -63,10 +63,15 @@ def run_report(source: str, options: Options) -> int:
     return max(exit_status(report, strict=options.strict) for _, report in parts)
 
 
-def _budgets(kind: Kind, spec: Any) -> tuple[str, ...]:
-    """The register budget of a file that has one; samples take their time, and are asked for by their own command."""
-    given = getattr(spec, "tolerance", None) is not None and getattr(spec, "register_", None) is not None
-    return ("register",) if given and "register" in kind.commands else ()
+def _budgets(kind: Kind, spec: Any) -> Iterator[str]:
+    """Register budget and tolerance study of a file that has them; samples that take long have their own command."""
+    if getattr(spec, "tolerance", None) is None:
+        return
+    if getattr(spec, "register_", None) is not None and "register" in kind.commands:
+        yield "register"
+    study: Any = kind.design("tolerance", spec)
+    if study.is_short:
+        yield "tolerance"
 
 
 def _body(text: str, spec: Any, parts: Sequence[Part]) -> Iterator[str]:

@@ -1,4 +1,4 @@
-"""Sheet of a tolerance study: histograms with their limits, and beside each what contributes to it."""
+"""Sheet of a tolerance study: histograms with their limits, what contributes to each, and the output over the cycle."""
 
 from __future__ import annotations
 
@@ -10,17 +10,20 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from gearlink.core.tolerance_study.band import Course
     from gearlink.core.tolerance_study.design import ToleranceStudy
 
 _MOST = 4
 _BINS = 60
+_MOST_OF_A_TURN = 300.0
 
 
 def draw(study: ToleranceStudy) -> Figure:
-    """The sheet: a row for each quantity, those of the requirements first."""
-    names = study.varying[:_MOST]
-    made = panels.page(f"{study.spec.name}: tolerance", 0.12 + 0.22 * max(1, len(names)))
-    grid = made.add_gridspec(max(1, len(names)), 2, width_ratios=[1.25, 1.0])
+    """The sheet: a row for each quantity, those of the requirements first, and one for each output over the cycle."""
+    names, courses = study.varying[:_MOST], study.courses
+    height = max(1, len(names)) + len(courses)
+    made = panels.page(f"{study.spec.name}: tolerance", 0.12 + 0.22 * height)
+    grid = made.add_gridspec(height, 2, width_ratios=[1.25, 1.0])
     for row, name in enumerate(names):
         _histogram(made.add_subplot(grid[row, 0]), study, name)
         _contributions(made.add_subplot(grid[row, 1]), study, name)
@@ -28,7 +31,35 @@ def draw(study: ToleranceStudy) -> Figure:
         axes = made.add_subplot(grid[0, :])
         axes.axis("off")
         axes.text(0.5, 0.5, "nothing scatters", ha="center", va="center")
+    for i, course in enumerate(courses, start=max(1, len(names))):
+        _course(made.add_subplot(grid[i, :]), course)
     return made
+
+
+def _course(axes: Axes, course: Course) -> None:
+    """Percentiles of an output over the cycle, about that of the nominal design."""
+    low, five, middle, most, high = course.percentiles
+    over, unit = course.units
+    style.curves(
+        axes, f"{course.over.replace('_', ' ')} [{over}]", f"off nominal [{unit}]" if unit != "1" else "off nominal"
+    )
+    panels.small_ticks(axes)
+    far = bool((low == low).any())
+    if far:
+        axes.fill_between(course.places, low, high, color=style.SKY, alpha=0.35, linewidth=0, label="99.73 %")
+    axes.fill_between(course.places, five, most, color=style.SKY, alpha=0.8, linewidth=0, label="90 %")
+    axes.plot(course.places, middle, color=style.BLUE, linewidth=1.2, label="50 %")
+    for line in (low, high) if far else (five, most):
+        axes.plot(course.places, line, color=style.BLUE, linewidth=0.6)
+    if course.reference is not None:
+        axes.axvline(
+            course.reference, color=style.GREY, linewidth=1.0, linestyle=style.DOTTED, label="the dwell begins"
+        )
+    if over == "deg" and course.places[-1] > _MOST_OF_A_TURN:
+        style.full_turn(axes)
+    else:
+        axes.set_xlim(course.places[0], course.places[-1])
+    panels.legend_under_heading(axes, f"{course.output}: designs as made over the cycle", 4)
 
 
 def _histogram(axes: Axes, study: ToleranceStudy, name: str) -> None:

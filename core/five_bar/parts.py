@@ -56,6 +56,13 @@ class FiveBarParts(Meshed):
             yield Found("range", {"start": start, "end": end}, "from target" if self.spec.range is None else "")
         yield Found("target", None)
 
+    def as_found(self) -> Iterator[Found]:
+        """The links; a function that was to be generated goes on judging them."""
+        target = self.spec.target
+        for one in self.completion():
+            judged = one.path == "target" and target is not None and target.function is not None
+            yield Found("target.function.links", "given") if judged else one
+
     # Gears
 
     own_quantities = frozenset(("center_distance", "contact_ratio"))

@@ -18,6 +18,7 @@ from gearlink.core.numerics.arrays import Mask, Points, Reals
 from gearlink.core.report import Check
 from gearlink.core.results import cached_property
 from gearlink.core.spec_paths import replaced
+from gearlink.core.three_gear import motion
 from gearlink.core.three_gear.design import ThreeGearFourBar
 from gearlink.core.three_gear.toleranced import TolerancedDrive
 from gearlink.core.three_gear.toleranced_sweep import DriveSamples
@@ -93,7 +94,7 @@ class ThreeGearSamples:
         """The drives as made; one without a turning crank is refused."""
         samples = self._samples(columns)
         lengths = [np.broadcast_to(length, (samples.count,)) for length in _four(samples.links)]
-        exists = _turns(lengths, self.nominal.linkage.kind())
+        exists = _turns(lengths, self._kind)
         with np.errstate(invalid="ignore", divide="ignore"):  # of drives that do not exist
             values = {name: self._quantity(name, samples, lengths) for name in names}
             findings = list(self._findings(samples))
@@ -167,6 +168,33 @@ class ThreeGearSamples:
     def has_window(self) -> bool:
         """Whether the nominal drive dwells."""
         return self.nominal.tolerance_dwell is not None or self.nominal.dwell_angle is not None
+
+    # Over the cycle
+
+    @cached_property
+    def reference(self) -> float | None:
+        """Where the dwell begins; the outputs of drives without one count from crank angle 0."""
+        return math.degrees(self._window[0]) if self.has_window else None
+
+    def course(self, columns: Mapping[str, Reals | Points], input_angle: Reals) -> Reals:
+        """By how much the outputs lie above that of the nominal drive [rad]."""
+        samples = self._samples(columns)
+        exists = _turns([np.broadcast_to(length, (samples.count,)) for length in _four(samples.links)], self._kind)
+        with np.errstate(invalid="ignore"):
+            start = self._off(samples, self._window[0] if self.has_window else 0.0)
+            off = np.array([self._off(samples, float(phi)) - start for phi in input_angle])
+        off[:, ~exists] = np.nan
+        return off
+
+    def _off(self, samples: DriveSamples, phi: float) -> Reals:
+        """Output angle of the drives at a crank angle of the machine, less that of the nominal one."""
+        here = np.broadcast_to(phi - samples.frame_turn, (samples.count,))
+        off: Reals = samples.angle_at(here, phi) - motion.output_angle(self.nominal.linkage, self.nominal.train, phi)
+        return off
+
+    @cached_property
+    def _kind(self) -> str:
+        return self.nominal.linkage.kind()
 
     # Findings
 

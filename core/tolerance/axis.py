@@ -14,11 +14,17 @@ class ToleranceAxis(Protocol):
     """Samples of one nominal design.
 
     parts : centre distances, pins and gears that may scatter beside the keys of the file; extra : quantities that only
-    samples have
+    samples have; reference : input angle at which designs as made and nominal design are set to agree [deg], None: as
+    they are
     """
 
     parts: Parts
     extra: tuple[str, ...]
+
+    @property
+    def reference(self) -> float | None:
+        """Where the outputs are set to agree."""
+        ...
 
     def serves(self, keys: Sequence[str], names: Sequence[str]) -> bool:
         """Whether these sources and quantities can be computed over arrays."""
@@ -37,6 +43,17 @@ class ToleranceAxis(Protocol):
             names : of quantities
         Returns
             evaluated : Evaluated - findings of every check of the kind's analysis
+        """
+        ...
+
+    def course(self, columns: Mapping[str, Reals | Points], input_angle: Reals) -> Reals:
+        """By how much the outputs lie above that of the nominal design.
+
+        Parameters
+            columns : as `evaluate` takes them
+            input_angle : (K,) array [rad]
+        Returns
+            off : (K, N) array [rad] - NaN where a design does not exist
         """
         ...
 

@@ -36,8 +36,9 @@ Share = Annotated[float, Field(gt=0, lt=1, json_schema_extra={"unit": "1"})]
 Pair = Annotated[list[Deviation], Field(min_length=2, max_length=2)]
 
 
-def _wrong(code: str, text: str) -> PydanticCustomError:
-    return PydanticCustomError(code, text.replace("{", "{{").replace("}", "}}"))
+def _wrong(code: str, text: str, key: str = "") -> PydanticCustomError:
+    text = text.replace("{", "{{").replace("}", "}}")
+    return PydanticCustomError(code, text, {"key": key}) if key else PydanticCustomError(code, text)
 
 
 class ToleranceSource(Spec):
@@ -169,9 +170,15 @@ class Tolerance(Spec):
     def _known_sources(self) -> Tolerance:
         for group in self.correlated:
             if unknown := [name for name in group.sources if name not in self.sources]:
-                raise _wrong("GL176", f"{unknown[0]!r} of correlated is no source: name keys of `sources`")
+                raise _wrong(
+                    "GL176", f"{unknown[0]!r} of correlated is no source: name keys of `sources`", "correlated"
+                )
             if twice := [name for name in group.sources if group.sources.count(name) > 1]:
-                raise _wrong("GL176", f"{twice[0]!r} stands twice in one group of correlated: name different sources")
+                raise _wrong(
+                    "GL176",
+                    f"{twice[0]!r} stands twice in one group of correlated: name different sources",
+                    "correlated",
+                )
         return self
 
 

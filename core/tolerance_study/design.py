@@ -7,13 +7,15 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from gearlink.core.design import Design, Outline
-from gearlink.core.errors import MissingSection
+from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
+from gearlink.core.study.faults import WrongStudy
 from gearlink.core.tolerance.codes import NO_MECHANISM, NOT_LINEAR, TARGET_YIELD
 from gearlink.core.tolerance.correlation import pairs
 from gearlink.core.tolerance.sampling import Estimate
 from gearlink.core.tolerance_study import allocation
+from gearlink.core.tolerance_study.band import Course, columns_of, courses
 from gearlink.core.tolerance_study.problem import MOST_WITH_INDICES, Problem, no, problem
 from gearlink.core.tolerance_study.samples import evaluated
 from gearlink.core.tolerance_study.sensitivity import Indices, Slope, corners, indices, linear_shares, slopes
@@ -21,6 +23,7 @@ from gearlink.core.tolerance_study.statistics import Result, Spread, capabilitie
 
 _EXPLAINED = 0.9
 _ROUNDING = 1e-13
+_FEW = 256
 
 
 class ToleranceStudy(Design):
@@ -34,7 +37,7 @@ class ToleranceStudy(Design):
             ("quantities", "requirements", "contributions"),
         )
     }
-    extra_tables = ("corners", "allocation")
+    extra_tables = ("corners", "allocation", "band")
     advises = False
 
     def __init__(self, spec: Any) -> None:
@@ -52,6 +55,15 @@ class ToleranceStudy(Design):
             message = f"Sobol' indices take at most {MOST_WITH_INDICES} coordinates, here are {made.coordinates}"
             raise no("GL175", message, "sources")
         return made
+
+    @property
+    def is_short(self) -> bool:
+        """Whether its samples take a second or so: over arrays, or few of them; True as well where it is wrong."""
+        try:
+            made = problem(self.spec)
+            return not made.of_register_alone and (made.is_quick or made.samples <= _FEW)
+        except (WrongStudy, NoSolution):
+            return True
 
     @cached_property
     def result(self) -> Result:
@@ -170,6 +182,15 @@ class ToleranceStudy(Design):
         """The cheapest grades that reach the target yield, and which of them may be loosened for free."""
         rows = allocation.table_rows(self)
         return _table("allocation", ("source", "grade", "plus_minus", "cost", "yield_low", "one_coarser_holds"), rows)
+
+    @cached_property
+    def courses(self) -> list[Course]:
+        """The outputs over the cycle."""
+        return courses(self.problem)
+
+    def table_band(self, _samples: int | None = None) -> Table:
+        """Percentiles of the output over the cycle, less that of the nominal design."""
+        return _table("band", *columns_of(self.courses))
 
     # Checks
 

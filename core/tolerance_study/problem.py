@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from gearlink.core.design import Design
-from gearlink.core.errors import NoSolution
+from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.explore.base import Base, Refused
 from gearlink.core.explore.preparing import beyond_lists, odd_comparisons
 from gearlink.core.explore.wishes import Condition, FaultFound, Names, condition
@@ -40,26 +40,47 @@ class Problem:
         nominal : Design - of that base
         section : Tolerance
         axis : ToleranceAxis or None - of kinds that compute many designs at once
-        data : the design file without the sections about it
-        asked : str - the command that the file's samples are for
     """
 
     base: Base
     nominal: Design
     section: Tolerance
     axis: ToleranceAxis | None
-    data: Mapping[str, Any]
-    asked: str
 
     @cached_property
     def sources(self) -> tuple[Scatter, ...]:
-        """The sources whose scatter changes the design; teeth, and pins of press and gripper, count in `register`."""
-        counted = {key: one for key, one in self.section.sources.items() if not self._of_register_alone(key)}
-        parts = Parts({}) if self.axis is None else self.axis.parts
-        found = scatters(self.section.model_copy(update={"sources": counted}), self.base.spec(), parts)
-        return tuple(one for one in found if one.kind != "gear")
+        """The sources whose scatter changes the design; teeth, and pins of press and gripper, count in `register`.
 
-    def _of_register_alone(self, key: str) -> bool:
+        Raises
+            WrongStudy - GL170 where none is left, GL171 for a measured size that no design has
+        """
+        parts = Parts({}) if self.axis is None else self.axis.parts
+        given = self.section.sources
+        counted = {key: one for key, one in given.items() if not self._is_play(key)}
+        found: tuple[Scatter, ...] = ()
+        if counted or not given:
+            found = scatters(self.section.model_copy(update={"sources": counted}), self.base.spec(), parts)
+        found = tuple(one for one in found if one.kind != "gear")
+        if not found:
+            raise no("GL170", "play and runout of these parts count in `register` alone: name a size", "sources")
+        for one in found:
+            self._possible(one)
+        return found
+
+    def _possible(self, one: Scatter) -> None:
+        """Refuse a measured size that the key cannot have."""
+        if one.entry.measured is None or one.kind != "size":
+            return
+        if message := self.base.takes([(one.key, one.entry.measured)]):
+            raise no("GL171", f"measured {one.entry.measured:g}: {message}", "sources", one.key)
+
+    @property
+    def of_register_alone(self) -> bool:
+        """Whether no source changes the samples."""
+        runout = ("grade", "eccentricity")
+        return all(self._is_play(key) or one.form in runout for key, one in self.section.sources.items())
+
+    def _is_play(self, key: str) -> bool:
         """Play of pins in the machines whose register counts it, but whose analysis has no play."""
         return self.axis is None and "register" in self.base.kind.commands and key.startswith(("pins.", "bearings."))
 
@@ -221,28 +242,25 @@ def problem(spec: Any, command: str | None = None) -> Problem:
     if asked not in kind.commands or asked in _ABOUT:
         known = ", ".join(one for one in kind.commands if one not in _ABOUT)
         raise NoSolution(f"no samples for the command {asked!r} of {kind.name}: take {known}", key="tolerance.command")
-    base = _with_links(Base(data, asked))
     try:
+        base = _with_links(Base(data, asked))
         nominal = base.design()
-    except Refused as error:
-        raise NoSolution(str(error), key=error.key) from error
+    except (Refused, NoSolution) as error:
+        missing = error.code == MissingSection.code and section.command is not None
+        raise NoSolution(str(error), key="tolerance.command" if missing else error.key) from error
     place = _AXES.get(kind.name)
     axis = None
     if place is not None:
         module, _, name = place.partition(":")
         axis = getattr(import_module(f"gearlink.core.{module}"), name)(nominal)
-    return Problem(base, nominal, section, axis, data, asked)
+    return Problem(base, nominal, section, axis)
 
 
 def _with_links(base: Base) -> Base:
-    """A synthesis is done once: its links become keys of the file, which is analysed."""
-    if not base.command.startswith("synth"):
-        return base
-    try:
-        found = base.design().completion()
-    except Refused as error:
-        raise NoSolution(str(error), key=error.key) from error
-    return Base(base.changed((one.path, one.value) for one in found), "analyze")
+    """A synthesis, a search for a target or a rule is done once: what it finds becomes keys of the file."""
+    found = list(base.design().as_found())
+    command = "analyze" if base.command.startswith("synth") else base.command
+    return Base(base.changed((one.path, one.value) for one in found), command)
 
 
 def no(code: str, message: str, *place: str | int) -> WrongStudy:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -55,14 +55,27 @@ def evaluated(made: Problem, columns: Columns) -> Evaluated:
     """Designs of given sizes, over arrays where the kind has them."""
     if made.is_quick and made.axis is not None:
         return made.axis.evaluate(columns, made.quick_names)
-    count = len(next(iter(columns.values())))
-    rows = ({key: value[i].item() for key, value in columns.items()} for i in range(count))
-    return as_arrays([_single(made, row) for row in rows], made.names, list(made.base.codes))
+    return as_arrays([_single(made, row) for row in rows_of(columns)], made.names, list(made.base.codes))
+
+
+def rows_of(columns: Columns) -> Iterator[dict[str, Any]]:
+    """The sizes of each design by itself."""
+    for i in range(len(next(iter(columns.values())))):
+        yield {key: value[i].item() for key, value in columns.items()}
+
+
+def design_of(made: Problem, row: Mapping[str, Any]) -> Any:
+    """One design as made.
+
+    Raises
+        Refused, NoSolution - where there is no such mechanism
+    """
+    return made.axis.design(row) if made.axis is not None else made.base.design(row.items())
 
 
 def _single(made: Problem, row: Mapping[str, Any]) -> Single:
     try:
-        design = made.axis.design(row) if made.axis is not None else made.base.design(row.items())
+        design = design_of(made, row)
         own = _extra(made)
         values = made.base.values(design, [name for name in made.names if name not in own])
         values |= {name: in_unit(design.raw(name), term(name).unit) for name in made.names if name in own}

@@ -33,8 +33,8 @@ def _by_text(function: Callable[[Problem, int], Found], text: str, number: int) 
 def text_of(made: Problem) -> str:
     """A study as text, from which `problem_of` makes the same study anywhere."""
     section = made.section.model_dump(mode="json", exclude_unset=True, exclude_none=True, by_alias=True)
-    section["command"] = made.asked
-    return json.dumps({**made.data, "tolerance": section})
+    section["command"] = made.base.command
+    return json.dumps({**made.base.data, "tolerance": section})
 
 
 @lru_cache(maxsize=4)

@@ -180,13 +180,32 @@ def test_shares_of_a_worker_that_ends_are_computed_here(capsys: pytest.CaptureFi
 
 
 @pytest.mark.slow
-def test_the_page_of_a_file_with_a_register_shows_its_budget(gearlink: Any, spec: Path, tmp_path: Path) -> None:
+def test_the_page_of_a_file_with_tolerances_shows_budget_and_samples(gearlink: Any, spec: Path, tmp_path: Path) -> None:
     ended = gearlink("report", str(spec), "--set", "register.tolerance=0.5", "--out", str(tmp_path))
     page = (tmp_path / "feed.html").read_text()
     assert ended.status == 0
     assert "<h2>register</h2>" in page
     assert "GL520" in page
-    assert "<h2>tolerance</h2>" not in page
+    assert "<h2>tolerance</h2>" in page
+    assert "output_angle: designs as made over the cycle" in page
+
+
+@pytest.mark.parametrize(
+    ("sources", "told"),
+    [
+        ("gears.idler: {grade: 6, width: 20}", ""),  # it counts in `register` alone
+        ("links.crak: {plus_minus: 0.02}", "GL170"),
+    ],
+)
+def test_a_page_has_no_samples_where_nothing_scatters(
+    gearlink: Any, spec: Path, tmp_path: Path, sources: str, told: str
+) -> None:
+    spec.write_text(DESIGN[: DESIGN.index("tolerance:")] + f"tolerance: {{sources: {{{sources}}}}}\n")
+    ended = gearlink("report", str(spec), "--out", str(tmp_path))
+    assert ended.status == (2 if told else 0)
+    assert told in ended.err
+    if not told:
+        assert "<h2>tolerance</h2>" not in (tmp_path / "feed.html").read_text()
 
 
 @pytest.mark.parametrize("at", ["nan", "abc", "zone"])

@@ -32,6 +32,17 @@ def test_bars_are_the_linear_shares() -> None:
     assert math.fsum(wanted) == pytest.approx(1.0)
 
 
+def test_percentiles_over_the_cycle_are_those_of_the_table() -> None:
+    design, figure = sheet("candy_feed_tolerances", "tolerance", **SMALL)
+    axes = next(axes for axes in figure.axes if "over the cycle" in axes.get_title(loc="left"))
+    table = design.table_band()
+    middle = next(line for line in axes.lines if line.get_label() == "50 %")
+    assert np.asarray(middle.get_xdata()) == pytest.approx(np.asarray(table["input"]))
+    assert np.asarray(middle.get_ydata()) == pytest.approx(np.asarray(table["q50"]))
+    begins = next(line for line in axes.lines if line.get_label() == "the dwell begins")
+    assert begins.get_xdata()[0] == pytest.approx(224.849, abs=0.01)
+
+
 @pytest.mark.parametrize("name", ["candy_feed_tolerances", "ty460_register", "swing_gripper_register"])
 def test_register_sheet_shows_every_source(name: str) -> None:
     design, figure = sheet(name, "register")
