@@ -26,6 +26,7 @@ _OUTPUTS = {
     "three-gear-four-bar": ("motion", ("output_angle",)),
     "two-gear-four-bar": ("motion", ("output_angle",)),
     "geared-rocker": ("motion", ("output_angle",)),
+    "geared-six-bar": ("motion", ("output_angle",)),
     "slider-crank": ("motion", ("displacement",)),
     "mutilated-gear-dwell": ("motion", ("rocker_angle",)),
     "hypocycloid-dwell": ("motion", ("deviation",)),

@@ -30,6 +30,7 @@ STUDIES: dict[str, tuple[list[str], str]] = {
     "hypocycloid_slider": (["rod.length"], "dwell_ripple <= 9 mm"),
     "wide_swing_slider": (["slider.crank", "slider.rod"], "force >= 1 N"),
     "ty460": (["bed.rod", "cylinder.double_crank.crank"], "sync_end >= 1 deg"),
+    "geared_six_bar": (["links.output", "links.frame"], "min_transmission_angle >= 1 deg"),
     "drawn_feed": (["links.crank", "gears.profile_shift[0]"], "min_transmission_angle >= 1 deg"),
     "two_gear_drag_link": (["links.coupler", "links.frame"], "back_step_angle <= 90 deg"),
     "swing_gripper": (["links.input", "pivots.output[0]"], "min_transmission_angle[0] >= 1 deg"),
