@@ -30,10 +30,10 @@ STUDIES: dict[str, tuple[list[str], str]] = {
     "hypocycloid_slider": (["rod.length"], "dwell_ripple <= 9 mm"),
     "wide_swing_slider": (["slider.crank", "slider.rod"], "force >= 1 N"),
     "ty460": (["bed.rod", "cylinder.double_crank.crank"], "sync_end >= 1 deg"),
-    "geared_six_bar": (["links.output", "links.frame"], "min_transmission_angle >= 1 deg"),
     "drawn_feed": (["links.crank", "gears.profile_shift[0]"], "min_transmission_angle >= 1 deg"),
     "two_gear_drag_link": (["links.coupler", "links.frame"], "back_step_angle <= 90 deg"),
     "swing_gripper": (["links.input", "pivots.output[0]"], "min_transmission_angle[0] >= 1 deg"),
+    "geared_six_bar": (["links.output", "links.frame"], "min_transmission_angle >= 1 deg"),
 }
 
 
@@ -41,7 +41,7 @@ def study(name: str, **section: Any) -> Any:
     return factory.design(name, command="tolerance", tolerance=section)
 
 
-@pytest.mark.parametrize("name", mostly_slow(list(STUDIES), len(STUDIES) - 2))
+@pytest.mark.parametrize("name", mostly_slow(list(STUDIES), len(STUDIES) - 3))
 def test_samples_spread_as_the_slopes_say_and_are_the_same_from_their_text(name: str) -> None:
     keys, wish = STUDIES[name]
     made = study(name, sources=dict.fromkeys(keys, NARROW), require=[wish], samples=64)
