@@ -78,7 +78,7 @@ def _topics(name: str) -> Iterator[Topic]:
     yield from _symbols(name)
     if name in CONSTANTS:
         yield Topic("constant", name, CONSTANTS[name], {"See also": "`gearlink laws` gives it for every law"})
-    if name not in TERMS and column_words(name):
+    if (name not in TERMS or name in COLUMNS) and column_words(name):
         yield Topic("column", name, f"column of a table: {column_words(name)}", {})
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from difflib import get_close_matches
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -12,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from gearlink.cli.evaluate import open_design, read_spec
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.export import parts
-from gearlink.cli.export.options import CurveForm, Export, FileFormat
+from gearlink.cli.export.options import CONTOUR, CurveForm, Export, FileFormat
 from gearlink.cli.files import CannotWrite, safe_stem, write_atomically
 from gearlink.cli.patience import patience
 from gearlink.cli.reading.design_file import diagnose_no_solution
@@ -37,8 +38,12 @@ def run_export(source: str, asked: Export) -> int:
         spec = read_spec(loaded, kind, source)
         design = kind.design(_command(spec), spec)
         with _located(loaded), patience(f"computing the profiles of {spec.name}", quiet=asked.options.quiet):
-            contours = {curve: _contours(design, asked, curve) for curve in _curves(asked)}
-            files = [file for form in asked.formats for file in _files(form, design, contours, asked)]
+            files = list(_contour_files(design, asked))
+            profiles = _without_contour(design, asked)
+            curves = _curves(asked) if profiles else []
+            contours = {curve: _contours(design, profiles, curve) for curve in curves if profiles}
+            for form in asked.formats if profiles else ():
+                files += _files(form, design, contours, asked)
         for path, data, words in files:
             write_atomically(path, lambda stream, data=data: stream.write(data))  # type: ignore[misc]
             if not asked.options.quiet:
@@ -57,6 +62,29 @@ def run_export(source: str, asked: Export) -> int:
     for name, text in findings:
         print(f"warning: {name}: {text}", file=sys.stderr)
     return ExitCode.FINDING if findings else ExitCode.OK
+
+
+def _contour_files(design: Any, asked: Export) -> Iterator[tuple[Path, bytes, str]]:
+    """The blocking contour of a gear pair, where it is asked for."""
+    if not _asks_for_contour(design, asked):
+        return
+    from gearlink.cli.export.contour_files import contour_file
+
+    for form in asked.formats:
+        data, words = contour_file(design, form)
+        yield asked.options.out / f"{safe_stem(design.spec.name)}-{CONTOUR}.{form}", data, words
+
+
+def _asks_for_contour(design: Any, asked: Export) -> bool:
+    return CONTOUR in asked.parts and design.kind == "gear-pair"
+
+
+def _without_contour(design: Any, asked: Export) -> Export | None:
+    """What is asked for but the blocking contour; None where nothing else is."""
+    if not _asks_for_contour(design, asked):
+        return asked
+    rest = tuple(part for part in asked.parts if part != CONTOUR)
+    return replace(asked, parts=rest) if rest else None
 
 
 @contextmanager
@@ -84,7 +112,8 @@ def _contours(design: Any, asked: Export, curve: CurveForm) -> list[Contour]:
     from gearlink.cli.export.contour import contour
 
     made = parts.makers(design)
-    return [contour(made[name](), asked.tolerance, curve) for name in _names(asked.parts, tuple(made))]
+    also = (CONTOUR,) if design.kind == "gear-pair" else ()
+    return [contour(made[name](), asked.tolerance, curve) for name in _names(asked.parts, tuple(made), also)]
 
 
 def _files(
@@ -125,13 +154,13 @@ def _require_profiles(loaded: LoadedFile, kind: Kind) -> None:
     raise DesignFileError([Diagnostic("GL113", message, file=file, line=line, column=column, key="kind")])
 
 
-def _names(asked: tuple[str, ...], known: tuple[str, ...]) -> tuple[str, ...]:
-    """The parts to export: those that were asked for, each once, or all."""
+def _names(asked: tuple[str, ...], known: tuple[str, ...], also: tuple[str, ...]) -> tuple[str, ...]:
+    """The parts to export: those that were asked for, each once, or all; `also` can be asked for beside them."""
     unknown = [name for name in asked if name not in known]
     if not unknown:
         return tuple(dict.fromkeys(asked)) or known
-    near = get_close_matches(unknown[0], known, n=3, cutoff=0.5)
-    remedy = f"nearest: {', '.join(near)}" if near else f"known: {', '.join(known)}"
+    near = get_close_matches(unknown[0], (*known, *also), n=3, cutoff=0.5)
+    remedy = f"nearest: {', '.join(near)}" if near else f"known: {', '.join((*known, *also))}"
     message = f"this design has no part named {unknown[0]!r}"
     raise DesignFileError([Diagnostic("GL115", message, file="<--part>", key=unknown[0], help=remedy)])
 

@@ -11,6 +11,10 @@ LEAST_TOLERANCE = 1e-5
 MOST_TOLERANCE = 10.0
 
 
+CONTOUR = "blocking_contour"
+"""As --part takes the blocking contour of a gear pair, which is no profile: as svg or csv."""
+
+
 class FileFormat(StrEnum):
     """What is written."""
 

@@ -21,7 +21,9 @@ def _export(
     spec: Spec,
     options: Options,
     as_: Annotated[list[FileFormat], typer.Option("--as", help="format of the files (repeatable)")] = [FileFormat.DXF],  # noqa: B006 - Typer copies it
-    part: Annotated[list[str], typer.Option("--part", metavar="NAME", help="main_cam, gear1 ... (repeatable)")] = [],  # noqa: B006
+    part: Annotated[
+        list[str], typer.Option("--part", metavar="NAME", help="main_cam, gear1, blocking_contour ... (repeatable)")
+    ] = [],  # noqa: B006
     tolerance: Annotated[
         float, typer.Option(min=LEAST_TOLERANCE, max=MOST_TOLERANCE, metavar="MM", help="greatest chord error")
     ] = 0.001,

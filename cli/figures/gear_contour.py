@@ -48,12 +48,29 @@ def contour_plot(axes: Axes, key: Axes, contour: BlockingContour) -> None:
             named.add(words)
             xs, ys = zip(*branch, strict=True)
             axes.plot(xs, ys, color=color, linestyle=dashes, linewidth=1.1, label=label)
+    _margins(axes, contour)
     x1, x2 = contour.data.pair.profile_shift
     axes.plot([x1], [x2], "o", color="white", markeredgecolor=style.BLACK, markersize=6, label="this design", zorder=6)
     axes.set_xlim(*contour.window[0])
     axes.set_ylim(*contour.window[1])
     _named(axes, "$x_1$", "$x_2$")
     _key(key, axes.get_legend_handles_labels()[0], 3)
+
+
+def _margins(axes: Axes, contour: BlockingContour) -> None:
+    """The way along the diagonal to the nearest limit on either side, with its length in x_1."""
+    x1, x2 = contour.pair.profile_shift
+    for side, end in enumerate(contour.nearest_limits):
+        if end is None:
+            continue
+        name, way = end
+        axes.plot([x1, x1 + way], [x2, x2 - way], color=style.BLACK, linewidth=0.8, marker="|", markersize=5, zorder=5)
+        text = f"{style.number(way, 3)} {name}"
+        shift, align = ((-4, 3), "right") if side == 0 else ((4, -3), "left")
+        box = {"facecolor": "white", "alpha": 0.75, "edgecolor": "none", "pad": 0.4}
+        look: dict[str, Any] = {"fontsize": 6, "zorder": 7, "bbox": box, "annotation_clip": True}
+        place = (x1 + way, x2 - way)
+        axes.annotate(text, place, shift, textcoords="offset points", ha=align, va="center", **look)
 
 
 def _named(axes: Axes, across: str, up: str) -> None:

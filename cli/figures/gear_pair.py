@@ -70,7 +70,7 @@ def _sheet(
     for column, (words, (head, rows)) in enumerate((("Values", shown), ("Gear table of the drawing", drawing))):
         axes = figure.add_subplot(tables[0, column])
         panels.heading(axes, words)
-        ruled(axes, head, rows, size=6.2, rows_of=most, at=(0.46, 0.54))
+        ruled(axes, head, rows, size=6.2, rows_of=most, at=(0.48, 0.56))
     for column, plot in enumerate(plots):
         across = column if len(plots) > 1 else slice(None)
         plot(figure.add_subplot(grid[2, across]), figure.add_subplot(grid[3, across]))

@@ -18,6 +18,7 @@ from gearlink.core.gears.data import GearData
 from gearlink.core.gears.pair import GearPair, Pair
 from gearlink.core.gears.shift_split import Diagonal
 from gearlink.core.numerics.roots import bracketed_root, sign_changes
+from gearlink.core.remedies import at_least, at_most
 from gearlink.core.report import Table
 from gearlink.core.results import cached_property
 
@@ -226,7 +227,33 @@ class BlockingContour:
         if not grid:
             return crossed, []
         ends = sorted({grid[0], grid[-1], *(root for line, root in crossed if line.limits)})
-        return crossed, [(low, high) for low, high in pairwise(ends) if self.is_free(at(0.5 * (low + high)))]
+        free: list[Pair] = []
+        for low, high in pairwise(ends):
+            if self.is_free(at(0.5 * (low + high))):
+                touches = bool(free) and free[-1][1] == low  # a line that is met from inside on both sides
+                free.append((free.pop()[0] if touches else low, high))
+        return crossed, free
+
+    def shares(self, wish: str = "") -> list[float]:
+        """x_1 at the same shift sum that lie within the limits, whole hundredths, the nearest first.
+
+        Parameters
+            wish : str - name of a line to lie on as well as can be; "": the nearest x_1 inside
+        Notes
+            With each stretch that is free also what is left of it where the wishes (tips, contact ratio) are kept.
+        """
+        now, other = self.pair.profile_shift
+        crossed, free = self._across(now + other)
+        if wish:
+            found = [first for line, first in crossed if line.name == wish]
+            return sorted((round(first, 2) for first in found), key=lambda first: abs(first - now))
+        places = [first for line, first in crossed if line.blocks]
+        inside: set[float] = set()
+        for low, high in free:
+            ends = [low, *sorted(first for first in places if low < first < high), high]
+            for start, end in pairwise(ends):
+                inside |= {first for first in (at_least(start, 0.01), at_most(end, 0.01)) if start <= first <= end}
+        return sorted(inside, key=lambda first: abs(first - now))
 
     def is_free(self, data: GearData) -> bool:
         """Whether nothing that limits a pair is violated."""
@@ -243,6 +270,14 @@ class BlockingContour:
             below, above = [x - one for x in roots if x <= one], [x - one for x in roots if x > one]
             found[line.name] = max(below, default=None), min(above, default=None)
         return found
+
+    @property
+    def nearest_limits(self) -> tuple[tuple[str, float] | None, tuple[str, float] | None]:
+        """The limits that x_1 meets first when it falls, and when it rises, at the same shift sum, with the way."""
+        limits = [(line.name, self.margins[line.name]) for line in self.lines if line.limits]
+        below = [(name, ways[0]) for name, ways in limits if ways[0] is not None]
+        above = [(name, ways[1]) for name, ways in limits if ways[1] is not None]
+        return max(below, key=lambda end: end[1], default=None), min(above, key=lambda end: end[1], default=None)
 
     def table(self) -> Table:
         """The table `contour`: a row per point of a line."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.design import Design, Outline
@@ -13,7 +15,7 @@ from gearlink.core.gears.drawing_names import DERIVED, DRAWING_CHECKS, DRAWING_Q
 from gearlink.core.gears.from_spec import data_of, pair_of
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.remedies import Way, down, either, shared, up
-from gearlink.core.report import Check, Table
+from gearlink.core.report import Check, Remedy, Table
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
@@ -52,6 +54,13 @@ def _ways(*teeth: Way) -> dict[str, tuple[Way, ...]]:
     }
 
 
+_INSIDE = (
+    *("undercut", "tip-thickness", "contact-ratio", "involute-interference", "tooth-form", "fillet-interference"),
+    *("tip-fouling", "radial-assembly"),
+)
+_WISHES = dict.fromkeys(_INSIDE, "") | {"sliding": "equal sliding", "bending": "equal root stress"}
+"""For each check that a share of the shift sum may repair, the line to go to; none: within all limits."""
+_MOST_SHARES = 8
 _WAYS = _ways(up("teeth[0]", step=1), up("teeth[1]", step=1))
 _WAYS_WITH_RING = _ways(down("teeth[1]", step=1), *either("teeth[0]", step=1))
 
@@ -74,6 +83,18 @@ class GearPairDesign(GearQuantities, Design):
     def ways(self) -> dict[str, tuple[Way, ...]]:  # type: ignore[override]
         """More teeth of a ring are a smaller number."""
         return _WAYS_WITH_RING if not self.spec.rack and self.gear_pair.internal else _WAYS
+
+    def candidates(self, check: str) -> Iterator[Remedy]:
+        """The shifts moved into the blocking contour, or to its line of equal sliding or root stress."""
+        wish = _WISHES.get(check)
+        if wish is None or self.spec.rack:
+            return
+        shift = self.spec.profile_shift
+        for first in self.contour.shares(wish)[:_MOST_SHARES]:
+            if shift is None:
+                yield (("shift_split", first),)
+            else:
+                yield ("profile_shift[0]", first), ("profile_shift[1]", math.fsum((*shift, -first)))
 
     @cached_property
     def gear_pair(self) -> GearPair:

@@ -143,7 +143,7 @@ class PitchPair:
         if self.given_distance is None and self.given_shift is not None:
             return self.given_shift[0] + self.given_shift[1]
         difference = self.fn.involute_rise(self.transverse_pressure_angle, self._rise)
-        return self._teeth_sum * difference / (2.0 * self.fn.tan(self.pressure_angle))
+        return self._teeth_sum * difference / (2.0 * self.fn.tan(self.pressure_angle)) + 0.0  # never -0
 
     @cached_property
     def profile_shift(self) -> Pair:

@@ -253,3 +253,19 @@ def test_every_column_of_a_worked_design_has_words(path: Path) -> None:
         for table in made.outline(command).tables:
             columns = made.table(table, samples=2).columns
             assert [each for each in columns if not (column_words(each) or each in TERMS)] == [], table
+
+
+@pytest.mark.parametrize("name", ["ring_pair", "rack_drive"])
+def test_every_column_of_the_tables_of_a_gear_pair_has_words(name: str) -> None:
+    made = design(name, command="gear")
+    tables = made.extra_tables if made.rack is None else ("drawing", "path")
+    for table in tables:
+        columns = made.table(table).columns
+        assert [each for each in columns if not (column_words(each) or each in TERMS)] == [], table
+
+
+def test_every_column_of_the_search_for_teeth_has_words(gearlink: Any) -> None:
+    found = gearlink("gears", "--ratio", 3, "--center-distance", 120, "--format", "json").json
+    columns = found["tables"]["candidates"]["columns"] if isinstance(found["tables"], dict) else found["columns"]
+    assert "teeth1" in columns
+    assert [each for each in columns if not (column_words(each) or each in TERMS)] == []

@@ -52,3 +52,41 @@ def test_margins_lead_to_the_lines() -> None:
     _, thinner = found.margins["tip 1 0.2 m"]
     tips = replace(found.pair, given_shift=(0.3 + thinner, 0.2 - thinner)).tip_thickness
     assert tips[0] == pytest.approx(0.2, abs=1e-12)
+
+
+def test_the_free_region_is_free_and_ends_at_its_limits() -> None:
+    """The middle of every strip is inside all limits, and a little beyond its ends some limit is violated."""
+    found = contour((17, 40), (0.3, 0.2))
+    (low1, high1), (low2, high2) = found.window
+    strips = list(found.free)
+    assert len(strips) > 40
+    for strip in strips[::7]:
+        x1, x2 = (sum(corner[k] for corner in strip) / 4.0 for k in (0, 1))
+        assert found.is_free(replace(found.data, pair=replace(found.pair, given_shift=(x1, x2))))
+        (left, up), (right, down) = strip[0], strip[1]
+        for x, y, way in ((left, up, -1e-6), (right, down, 1e-6)):
+            if not (low1 < x < high1 and low2 < y < high2):
+                continue
+            pair = replace(found.pair, given_shift=(x + way, y - way))
+            assert not found.is_free(replace(found.data, pair=pair))
+
+
+def test_lines_that_run_along_the_diagonals_are_found_too() -> None:
+    """The root fillet of gear 1 goes on beyond the last diagonal that it crosses twice."""
+    found = contour((23, 71), (0.3, 0.2))
+    fillet = found.points["fillet 1"]
+    for x1, x2 in fillet:
+        value = found.line("fillet 1").value(replace(found.data, pair=replace(found.pair, given_shift=(x1, x2))))
+        assert value is not None
+        assert abs(value) < 1e-6
+    assert max(x1 for x1, _ in fillet) > found.pair.min_shift_no_undercut[0] + 0.1
+
+
+def test_the_nearest_limits_are_those_of_the_margins() -> None:
+    found = contour((17, 40), (0.3, 0.2))
+    below, above = found.nearest_limits
+    assert below == ("undercut 1", found.margins["undercut 1"][0])
+    assert above is not None
+    name, way = above
+    assert way == min(more for key, (_, more) in found.margins.items() if more is not None and found.line(key).limits)
+    assert found.line(name).limits

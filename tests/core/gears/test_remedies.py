@@ -103,3 +103,27 @@ def test_width_and_thickness_repair_strength_and_backlash(data: Any, keys: Any) 
         again = type(made)(changed(made.spec, check.remedy)).check(check.name)
         gear = [other for other in again if other.message.split()[:5] == check.message.split()[:5]]
         assert all(other.status != "fail" for other in gear), check.message
+
+
+@pytest.mark.parametrize(
+    ("keys", "path"),
+    [
+        ({"teeth": [11, 30], "profile_shift": None, "center_distance": 82.0}, ["shift_split"]),
+        ({"teeth": [12, 40], "profile_shift": [0.0, 0.4]}, ["profile_shift[0]", "profile_shift[1]"]),
+    ],
+)
+def test_a_shift_moves_into_the_contour_rounded_to_the_safe_side(keys: Any, path: list[str]) -> None:
+    before = {check.name: check.status for check in design(SHIFTED, command="gear", **keys).report("gear").checks}
+    (check, *_) = failing(**keys)
+    assert check.name == "undercut"
+    assert [key for key, _ in check.remedy] == path
+    first = check.remedy[0][1]
+    made = design(SHIFTED, command="gear", **keys)
+    least = made.gear_pair.min_shift_no_undercut[0]
+    assert least <= first < least + 0.01
+    assert first == round(first, 2)
+    again = type(made)(changed(made.spec, check.remedy))
+    after = {check.name: check.status for check in again.report("gear").checks}
+    rank = {"pass": 0, "warn": 1, "fail": 2}
+    assert after["undercut"] == "pass"
+    assert all(rank[after[name]] <= rank[before[name]] for name in before)
