@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from gearlink.core.loads.running import Running
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.numerics.extremes import Extreme
+    from gearlink.core.report import Check
 
 RPM = 2.0 * math.pi / 60.0
 _SLOWEST = 1e-6
@@ -165,6 +166,44 @@ class LoadsBase(Design):
         if name not in known:
             raise NoSolution(f"this machine has no joint {name!r}: it has {', '.join(known)}", key=key)
 
+    # Friction that locks
+
+    def raw(self, name: str) -> Any:
+        """A quantity; None where it needs the forces of a machine that locks itself."""
+        return self._unless_locked(lambda: super(LoadsBase, self).raw(name), None)
+
+    def check(self, name: str) -> list[Check]:
+        """The findings of a check; none where it needs the forces of a machine that locks itself, which one tells."""
+        found: list[Check] = self._unless_locked(lambda: super(LoadsBase, self).check(name), [])
+        return found
+
+    def _unless_locked(self, find: Callable[[], Any], otherwise: Any) -> Any:
+        if self.section.friction is None:
+            return find()
+        from gearlink.core.loads.friction import SelfLocking
+
+        try:
+            return find()
+        except SelfLocking:
+            return otherwise
+
+    @property
+    def locked(self) -> bool:
+        """Whether friction locks the machine anywhere."""
+        machine = self.machine
+        return machine.friction is not None and (machine.locks or self.locks_between)
+
+    @cached_property
+    def locks_between(self) -> bool:
+        """Whether the machine locks itself at angles between those that are looked at first."""
+        from gearlink.core.loads.friction import SelfLocking
+
+        try:
+            _ = self.torque_range
+        except SelfLocking:
+            return True
+        return False
+
     # Torque
 
     def extreme(self, f: Callable[[Reals], Reals], greatest: bool = True) -> Extreme:
@@ -172,10 +211,12 @@ class LoadsBase(Design):
         return self._extremes([(f, greatest)])[0]
 
     def _extremes(self, wanted: list[tuple[Callable[[Reals], Reals], bool]]) -> list[Extreme]:
+        from gearlink.core.loads.machine import fewest_samples
         from gearlink.core.numerics.extremes import extremes_over
 
         machine = self.machine
-        return extremes_over(wanted, 0.0, machine.period, joints=machine.breaks, samples=360 * self.turns)
+        samples, fewest = 360 * self.turns, fewest_samples(machine.breaks)
+        return extremes_over(wanted, 0.0, machine.period, joints=machine.breaks, samples=samples, fewest=fewest)
 
     @cached_property
     def _found(self) -> dict[Wanted, Extreme]:

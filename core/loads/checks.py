@@ -29,6 +29,7 @@ _AMPLIFICATION = 5.0
 _SWING_PER_BODY = 2.0 * 360.0
 _SWING_UNKNOWN = 20.0
 _NEAR_LOCKING = 0.5
+_LESS_FRICTION = "take thinner pins or less friction"
 
 
 def power_identity(design: LoadsDesign) -> Check:
@@ -163,10 +164,21 @@ def self_locking(design: LoadsDesign) -> Iterator[Check]:
     """GL615, with friction."""
     if design.machine.friction is None:
         return
-    ratio = design.machine.locking_ratio
-    text = f"a pass of the friction changes the forces by {ratio:.3g} of the pass before"
-    if ratio > _NEAR_LOCKING:
-        message = f"{text}: near self-locking; take thinner pins or less friction"
+    from gearlink.core.loads.friction import LOCKS
+
+    ratio, place = design.machine.locking
+    if place is None:
+        message = "with this friction there are no forces with which the mechanism moves: it locks itself"
+        yield codes.SELF_LOCKING.check("fail", f"{message}; {_LESS_FRICTION}", None, LOCKS)
+        return
+    text = (
+        f"a pass of the friction changes the forces by {ratio:.3g} of the pass before, at {math.degrees(place):.4g} deg"
+    )
+    if ratio > LOCKS or design.locks_between:
+        message = f"{text}: the mechanism locks itself; {_LESS_FRICTION}"
+        yield codes.SELF_LOCKING.check("fail", message, ratio, LOCKS)
+    elif ratio > _NEAR_LOCKING:
+        message = f"{text}: near self-locking; {_LESS_FRICTION}"
         yield codes.SELF_LOCKING.check("warn", message, ratio, _NEAR_LOCKING)
     else:
         yield codes.SELF_LOCKING.check("pass", text, ratio, _NEAR_LOCKING)

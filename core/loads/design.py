@@ -95,9 +95,8 @@ class LoadsDesign(LoadsBase):
         joint, dot, quantity = name.partition(".")
         if not dot:
             return super().raw(name)
-        if joint.startswith("pin_"):
-            return getattr(self.pin(joint.removeprefix("pin_")), quantity, None)
-        return getattr(self.mesh(joint), quantity, None)
+        found = self.pin(joint.removeprefix("pin_")) if joint.startswith("pin_") else self.mesh(joint)
+        return self._unless_locked(lambda: getattr(found, quantity, None), None)
 
     def rows(self, samples: int | None) -> tuple[Reals, dict[str, tuple[Any, str]]]:
         """Input angles [rad] of a table's rows, and its first columns."""

@@ -5,16 +5,17 @@ Both start from the same links; they agree to rounding at every row, which is th
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple, TypeAlias
+from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
 from gearlink.core.errors import NoSolution
+from gearlink.core.loads.blocks import Block, blocks
 from gearlink.core.loads.kinematics import Point, cross, dot
-from gearlink.core.loads.mechanism import FRAME, Column, Mechanism
+from gearlink.core.loads.mechanism import FRAME, Act, Column, Mechanism
 from gearlink.core.numerics.arrays import Points, Reals
 
 
@@ -41,10 +42,6 @@ class Torque(NamedTuple):
     on: str
     torque: Reals
 
-
-Rows: TypeAlias = npt.NDArray[np.intp]
-_ALL = slice(None)
-_BLOCK = 2048
 
 Applied = Sequence[Force | Torque]
 Masses = Mapping[str, Mass]
@@ -139,7 +136,10 @@ class Reactions:
 
 
 class System:
-    """The equations of Newton and Euler of a mechanism, three a link, and their solution."""
+    """The equations of Newton and Euler of a mechanism, three a link, and their solution.
+
+    The matrix is kept by its entries, each an array over the input angles; it is solved block by block.
+    """
 
     def __init__(self, mechanism: Mechanism, masses: Masses) -> None:
         self.mechanism = mechanism
@@ -150,47 +150,58 @@ class System:
         if mechanism.gain is None:
             place = np.zeros(mechanism.rows, dtype=np.complex128)
             self.columns.append(("drive", Column(FRAME, mechanism.drive, 0j, place, mechanism.sense)))
-        size = 3 * len(self.index)
-        if len(self.columns) != size:
-            raise AssertionError(f"{len(self.columns)} unknowns for {size} equations")
-        self.size = size
-        self.inverse: Reals | None = None
+        self.size = 3 * len(self.index)
+        if len(self.columns) != self.size:
+            raise AssertionError(f"{len(self.columns)} unknowns for {self.size} equations")
 
-    def matrix(self, rows: Rows) -> Reals:
-        """The equations of some of the input angles, (rows, n, n)."""
-        found = np.zeros((self.size, self.size, len(rows)))  # input angles last: each entry is a row in the memory
-        for k, (_, column) in enumerate(self.columns):
-            self._put(found[k], column.first, column.second, column.force, column.at, column.couple, rows)
-            for act in column.also:
-                self._put(found[k], FRAME, act.on, act.force, act.at, act.couple, rows)
-        return found.transpose(2, 1, 0)
+    @cached_property
+    def entries(self) -> list[dict[int, Reals]]:
+        """By unknown: its factor in each equation in which it occurs."""
+        return [self.factors(column) for _, column in self.columns]
 
-    def _put(
-        self,
-        entries: Reals,
-        first: str,
-        second: str,
-        force: Points | complex,
-        at: Points,
-        couple: Reals | float,
-        rows: Rows | slice = _ALL,
-    ) -> None:
-        """Add a force and a couple on the second link, and their opposites on the first, to (n, rows) equations."""
-        at = at[rows]
-        force = force[rows] if isinstance(force, np.ndarray) else force
-        couple = couple[rows] if isinstance(couple, np.ndarray) else couple
-        for name, sign in ((second, 1.0), (first, -1.0)):
-            if name != FRAME:
-                k = 3 * self.index[name]
-                entries[k] += sign * force.real
-                entries[k + 1] += sign * force.imag
-                entries[k + 2] += sign * (cross(at - self.centers[name].value[rows], force) + couple)
+    def factors(self, column: Column) -> dict[int, Reals]:
+        """What the unit of an unknown adds to each equation."""
+        found: dict[int, Reals] = {}
+        acts = [Act(column.second, column.force, column.at, column.couple), *column.also]
+        if column.first != FRAME:
+            acts.append(Act(column.first, -column.force, column.at, -column.couple))
+        for act in acts:
+            for row, value in self._act(act):
+                found[row] = found[row] + value if row in found else value
+        return found
+
+    def _act(self, act: Act) -> Iterator[tuple[int, Reals]]:
+        """What a force and a couple on a link add to its equations; zeros by structure are left out."""
+        k, force, couple = 3 * self.index[act.on], act.force, act.couple
+        one = np.ones(self.mechanism.rows)
+        if isinstance(force, np.ndarray) or force.real:
+            yield k, force.real * one
+        if isinstance(force, np.ndarray) or force.imag:
+            yield k + 1, force.imag * one
+        center = self.centers[act.on].value
+        if act.at is not center and (isinstance(force, np.ndarray) or force):
+            arm = act.at - center
+            yield k + 2, arm.real * force.imag - arm.imag * force.real + couple
+        elif isinstance(couple, np.ndarray) or couple:
+            yield k + 2, couple * one
+
+    def side(self, acts: Iterable[Act]) -> Reals:
+        """The right side that forces and couples from outside make, (n, N)."""
+        found = np.zeros((self.size, self.mechanism.rows))
+        for act in acts:
+            if act.on != FRAME:
+                for row, value in self._act(act):
+                    found[row] -= value
+        return found
 
     def right_side(
         self, applied: Applied, gravity: complex, speed: Reals | float, acceleration: Reals | float
     ) -> Reals:
         """Inertia less what is applied, (n, N)."""
-        side = np.zeros((self.size, self.mechanism.rows))
+        side = self.side(
+            Act(each.on, each.force, each.at.value, 0.0) if isinstance(each, Force) else _couple(each)
+            for each in applied
+        )
         square = np.asarray(speed) ** 2
         for name, mass in self.masses.items():
             k, center, turn = 3 * self.index[name], self.centers[name], self.mechanism.links[name].turn
@@ -198,58 +209,56 @@ class System:
             side[k] += force.real
             side[k + 1] += force.imag
             side[k + 2] += mass.inertia * (turn.second * square + turn.first * acceleration)
-        for each in applied:
-            if isinstance(each, Force):
-                self._put(side, each.on, FRAME, each.force, each.at.value, 0.0)
-            else:
-                side[3 * self.index[each.on] + 2] -= each.torque
         return side
 
-    def solve(self, side: Reals, rows: Rows | None = None) -> Reals:
-        """The unknowns, (n, N), the radial forces of the teeth included; of some rows where they are given.
+    def place(self, name: str) -> int:
+        """Number of the first unknown of a connection."""
+        return next(i for i, (each, _) in enumerate(self.columns) if each == name)
 
-        Notes
-            The radial force of a mesh acts along the link that joins its axes (or into a guide), so it changes no
-            tangential force. The answer to a unit of each is found with the same factors and added once.
+    def radials(self) -> list[Reals]:
+        """For each mesh the right side of a unit of its radial force."""
+        found = []
+        for mesh in self.mechanism.meshes:
+            force, at = mesh.radial()
+            found.append(self.side([Act(mesh.second, force, at, 0.0), Act(mesh.first, -force, at, 0.0)]))
+        return found
+
+    def solve(self, sides: Sequence[Reals]) -> Reals:
+        """The unknowns to some right sides, (sides, n, N).
+
+        Raises
+            NoSolution - where the system is singular
         """
-        meshes = self.mechanism.meshes
-        rows = np.arange(self.mechanism.rows) if rows is None else rows
-        sides = np.zeros((1 + len(meshes), self.size, len(rows)))
-        sides[0] = side[:, rows]
-        for k, mesh in enumerate(meshes, 1):
-            radial = mesh.radial()
-            self._put(sides[k], mesh.second, mesh.first, radial.force, radial.at, 0.0, rows)
-        found = self._solved(sides, rows)
-        result = found[0].copy()
-        for k, mesh in enumerate(meshes, 1):
-            place = next(i for i, (name, _) in enumerate(self.columns) if name == mesh.name)
-            result += np.abs(found[0, place]) * found[k]
-        return np.asarray(result)
-
-    def invert(self) -> None:
-        """Keep the inverse, for many solutions of few rows.
-
-        Notes
-            Relative error about eps times the condition, as of a solution; the power identity holds it.
-        """
-        if self.mechanism.rows <= _BLOCK:
-            self.inverse = np.asarray(np.linalg.inv(self.matrix(np.arange(self.mechanism.rows))))
-
-    def _solved(self, sides: Reals, rows: Rows) -> Reals:
-        """The unknowns to some right sides, (sides, n, N); a block of rows at a time, for the memory's sake."""
-        found = np.empty_like(sides)
+        left = np.stack(sides, axis=1)
+        found = np.empty_like(left)
         try:
-            for start in range(0, len(rows), _BLOCK):
-                part = slice(start, start + _BLOCK)
-                right = sides[:, :, part].transpose(2, 1, 0)
-                if self.inverse is not None and len(rows) == len(self.inverse):
-                    block: Reals = np.asarray(self.inverse @ right)
-                else:
-                    block = np.asarray(np.linalg.solve(self.matrix(rows[part]), right))
-                found[:, :, part] = block.transpose(2, 1, 0)
+            for block in blocks(tuple(tuple(entries) for entries in self.entries)):
+                self._solve_block(block, left, found)
         except np.linalg.LinAlgError:
             raise NoSolution("the joint forces are not finite: two links of the mechanism stand in line") from None
-        return found
+        return found.transpose(1, 0, 2)
+
+    def _solve_block(self, block: Block, left: Reals, found: Reals) -> None:
+        """Solve for the unknowns of a block, and take what they do off the equations that are left, (n, sides, N)."""
+        rows, columns = block
+        if len(rows) == 1:
+            factor = self.entries[columns[0]][rows[0]]
+            if not np.all(factor):
+                raise np.linalg.LinAlgError
+            np.divide(left[rows[0]], factor, out=found[columns[0]])
+        else:
+            matrix = np.zeros((self.mechanism.rows, len(rows), len(rows)))
+            place = {row: i for i, row in enumerate(rows)}
+            for j, column in enumerate(columns):
+                for row, factor in self.entries[column].items():
+                    if row in place:
+                        matrix[:, place[row], j] = factor
+            solved = np.linalg.solve(matrix, left[list(rows)].transpose(2, 0, 1))
+            found[list(columns)] = solved.transpose(1, 2, 0)
+        for column in columns:
+            for row, factor in self.entries[column].items():
+                if row not in rows:
+                    left[row] -= factor * found[column]
 
     def reactions(self, solution: Reals) -> Reactions:
         """The unknowns by connection."""
@@ -261,31 +270,8 @@ class System:
         return Reactions({name: np.array(values) for name, values in rows.items()}, torque, self.mechanism)
 
 
-def reactions(
-    mechanism: Mechanism,
-    masses: Masses,
-    applied: Applied,
-    gravity: complex,
-    speed: Reals | float,
-    acceleration: Reals | float = 0.0,
-) -> Reactions:
-    """All joint and tooth forces and the input torque, by Newton and Euler.
-
-    sum F = m (a - g),  sum (P - G) x F + sum T = J al    for every link
-
-    Parameters
-        mechanism : Mechanism - with as many unknowns as three a link
-        masses, applied, gravity : as of `reduced`
-        speed, acceleration : float or (N,) array [rad/s, rad/s^2] - of the input
-    Raises
-        NoSolution - where the system is singular
-    Notes
-        One dense system a row. Relative error of the largest force about eps/sin(transmission angle).
-    Source
-        Newton and Euler
-    """
-    system = System(mechanism, masses)
-    return system.reactions(system.solve(system.right_side(applied, gravity, speed, acceleration)))
+def _couple(torque: Torque) -> Act:
+    return Act(torque.on, 0j, np.zeros(0, dtype=np.complex128), torque.torque)
 
 
 def shaking(mechanism: Mechanism, masses: Masses, speed: Reals | float, acceleration: Reals | float = 0.0) -> tuple[

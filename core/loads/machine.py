@@ -10,15 +10,15 @@ import itertools
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any, TypeAlias
 
 import numpy as np
 
 from gearlink.core.loads.dynamics import Applied, Force, Mass, Reactions, Reduced, Torque, reduced
-from gearlink.core.loads.friction import Coefficients, passes_ratio, with_friction
+from gearlink.core.loads.friction import LOCKED, LOCKS, Coefficients, SelfLocking, passes_ratio, with_friction
 from gearlink.core.loads.kinematics import dot
-from gearlink.core.loads.mechanism import Mechanism
+from gearlink.core.loads.mechanism import Coupling, Mechanism, Pin
 from gearlink.core.loads.sources import Sources
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.together import Search, together
@@ -27,9 +27,13 @@ Kinematics: TypeAlias = Callable[[Reals], Mechanism]
 TURN = 2.0 * math.pi
 NODES = 16
 PANEL = math.radians(10.0)
+MANY = 100
+"""Breaks of a period from which on fewer nodes and samples are taken between each two."""
+_FEW_NODES, _NARROW = 6, math.radians(1.0)
 _STEPS = 150
 _KEPT = 24
-_ROWS_KEPT = 200_000
+_ROWS_KEPT = 100_000
+_BLOCK = 4096
 _FEW = 340
 """Rows at most of what a search looks at on the way; the grids that searches begin with are kept apart from it."""
 
@@ -108,11 +112,21 @@ class Machine:
         return found
 
     def reactions(self, phi: Reals) -> Reactions:
-        """All forces between the links at the constant speed."""
+        """All forces between the links at the constant speed.
+
+        Raises
+            SelfLocking - where friction locks the machine
+        """
+        if self.locks:
+            raise SelfLocking(LOCKED, key="loads.friction")
         found: Reactions = self._keep("reactions", phi, lambda: self._reactions(phi))
         return found
 
     def _reactions(self, phi: Reals) -> Reactions:
+        if phi.size > _BLOCK:  # for the memory's sake
+            parts = [self._reactions(phi[start : start + _BLOCK]) for start in range(0, phi.size, _BLOCK)]
+            unknowns = {name: np.hstack([part.unknowns[name] for part in parts]) for name in parts[0].unknowns}
+            return Reactions(unknowns, np.hstack([part.torque for part in parts]), self.at(phi))
         return with_friction(self.at(phi), self.masses, self.applied(phi), self.gravity, self.speed, self.friction)
 
     def torque(self, phi: Reals) -> Reals:
@@ -125,12 +139,25 @@ class Machine:
             return self.reduced(phi).static
         return np.asarray(self.torque(phi) - self.reduced(phi).inertial(self.speed))
 
-    @property
-    def locking_ratio(self) -> float:
-        """Change of the second pass of the friction over that of the first, over a turn."""
+    @cached_property
+    def locking(self) -> tuple[float, float | None]:
+        """How near the friction is to locking the machine, the worst of a row every 5 deg, and its input angle [rad].
+
+        Notes
+            Infinite, without an angle, where there are no forces with which it moves.
+        """
         assert self.friction is not None, "asked for only where there is friction"
         phi = np.linspace(0.0, min(TURN, self.period), 72, endpoint=False)
-        return passes_ratio(self.at(phi), self.masses, self.applied(phi), self.gravity, self.speed, self.friction)
+        try:
+            found = passes_ratio(self.at(phi), self.masses, self.applied(phi), self.gravity, self.speed, self.friction)
+        except SelfLocking:
+            return math.inf, None
+        return float(found.max()), float(phi[np.argmax(found)])
+
+    @property
+    def locks(self) -> bool:
+        """Whether friction locks the machine."""
+        return self.friction is not None and self.locking[0] > LOCKS
 
     # Places where something jumps, and integrals
 
@@ -144,7 +171,7 @@ class Machine:
         return sorted({angle for angle in found if 0.0 < angle < self.period})
 
     def _turning_back(self) -> list[float]:
-        """Where a link with resistance, or with friction two links against each other, turn back."""
+        """Where a link with resistance turns back; with friction two links against each other, or where forces do."""
         found: list[float] = []
         for places in zeros_of(self._jumping_rates(), self.period, self.turns):
             found += places
@@ -154,7 +181,13 @@ class Machine:
         rates = [self._rate_of(name) for name in self.sources.resisted]
         if self.friction is not None:
             rates += [self._between(i) for i in self.friction.rubbing(self.at(np.zeros(1)))]
+            rates += [] if self.locks else self._sides()
         return rates
+
+    def _sides(self) -> list[Callable[[Reals], Reals]]:
+        """Forces of guides, teeth and rollers, whose friction bends where they change sides."""
+        found = [each.name for each in self.at(np.zeros(1)).connections if not isinstance(each, (Pin, Coupling))]
+        return [lambda phi, name=name: self.reactions(phi).unknowns[name][0] for name in found]  # type: ignore[misc]
 
     def _rate_of(self, name: str) -> Callable[[Reals], Reals]:
         def rate(phi: Reals) -> Reals:
@@ -185,8 +218,8 @@ class Panels:
 
     Fields
         edges : (n + 1,) array
-        nodes : (n * NODES,) array - ascending
-        weights : (NODES,) array - of a panel of length 1
+        nodes : (n * order,) array - ascending
+        weights : (order,) array - of a panel of length 1
     """
 
     edges: Reals
@@ -194,34 +227,62 @@ class Panels:
     weights: Reals
 
     @classmethod
-    def over(cls, period: float, breaks: Sequence[float]) -> Panels:
-        """Panels of at most 10 deg between the breaks.
+    def over(cls, period: float, breaks: Sequence[float], width: float = PANEL) -> Panels:
+        """Panels of at most 10 deg, or another width, between the breaks.
 
         Notes
             16 Gauss nodes over 10 deg: 1e-13 for a function whose nearest singularity is 5 deg off the real axis, as
-            that of a linkage whose transmission angle falls to 5 deg.
+            that of a linkage whose transmission angle falls to 5 deg. Between many breaks, 6 nodes over 1 deg do.
         """
-        bounds = [0.0, *breaks, period]
+        many = len(breaks) > MANY
+        bounds, width = [0.0, *breaks, period], min(width, _NARROW) if many else width
         parts = [
-            np.linspace(low, high, max(1, math.ceil((high - low) / PANEL - 1e-9)) + 1)[:-1]
+            np.linspace(low, high, max(1, math.ceil((high - low) / width - 1e-9)) + 1)[:-1]
             for low, high in itertools.pairwise(bounds)
         ]
         edges = np.append(np.concatenate(parts), period)
-        x, weights = np.polynomial.legendre.leggauss(NODES)
+        x, weights = np.polynomial.legendre.leggauss(_FEW_NODES if many else NODES)
         nodes = (edges[:-1, None] + np.diff(edges)[:, None] * (0.5 * (x + 1.0))).ravel()
         return cls(edges, nodes, 0.5 * weights)
 
+    @property
+    def order(self) -> int:
+        """Nodes of a panel."""
+        return len(self.weights)
+
     def each(self, values: Reals) -> Reals:
         """Integral over each panel of a function given at the nodes."""
-        return np.asarray((values.reshape(-1, NODES) @ self.weights) * np.diff(self.edges))
+        return np.asarray((values.reshape(-1, self.order) @ self.weights) * np.diff(self.edges))
 
     def integral(self, values: Reals) -> float:
         """Integral over the whole of a function given at the nodes."""
         return math.fsum(self.each(values).tolist())
 
+    def within(self, values: Reals, phi: Reals) -> Reals:
+        """Integral from the start of its panel to each place, of the polynomials through values at the nodes."""
+        row = np.clip(np.searchsorted(self.edges, phi, side="right") - 1, 0, len(self.edges) - 2)
+        width = self.edges[row + 1] - self.edges[row]
+        series = values.reshape(-1, self.order)[row] @ to_integral(self.order)
+        place = 2.0 * (phi - self.edges[row]) / width - 1.0
+        terms = np.polynomial.legendre.legvander(place, self.order)
+        return np.asarray(width * np.sum(terms * series, axis=1))
+
     def running(self, values: Reals) -> Reals:
         """Integral from the start to each edge."""
         return np.concatenate(([0.0], np.cumsum(self.each(values))))
+
+
+def fewest_samples(breaks: Sequence[float]) -> int:
+    """Samples between two breaks in which an extreme is sought at least."""
+    return 5 if len(breaks) > MANY else 33
+
+
+@lru_cache
+def to_integral(order: int) -> Reals:
+    """From values at the Gauss nodes of a panel of length 1 to the Legendre series of their integral from its start."""
+    x, _ = np.polynomial.legendre.leggauss(order)
+    to_series = np.linalg.inv(np.polynomial.legendre.legvander(x, order - 1))
+    return np.asarray(0.5 * np.polynomial.legendre.legint(to_series, lbnd=-1.0).T)
 
 
 def zeros(f: Callable[[Reals], Reals], period: float, turns: int = 1) -> list[float]:

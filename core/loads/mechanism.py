@@ -308,7 +308,7 @@ class Mechanism:
         """The connections that have teeth."""
         return [each for each in self.connections if isinstance(each, Toothed)]
 
-    @property
+    @cached_property
     def rows(self) -> int:
         """How many input angles."""
         return len(next(iter(self.links.values())).turn.value)

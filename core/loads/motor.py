@@ -16,7 +16,7 @@ import numpy as np
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.loads.flywheel import Function
-from gearlink.core.loads.machine import NODES, Panels
+from gearlink.core.loads.machine import Panels, fewest_samples, to_integral
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.extremes import maximum_over, minimum_over
 
@@ -25,13 +25,11 @@ _STEPS = 40
 _SETTLED = 4e-15
 
 
-@lru_cache(maxsize=1)
-def _collocation() -> tuple[Reals, Reals, Reals]:
-    """Matrix of integrals from 0 to each Gauss node of [0, 1], weights of the whole, and to Legendre coefficients."""
-    x, weights = np.polynomial.legendre.leggauss(NODES)
-    to_series = np.linalg.inv(np.polynomial.legendre.legvander(x, NODES - 1))
-    integrals = 0.5 * np.polynomial.legendre.legint(to_series, lbnd=-1.0)
-    return np.polynomial.legendre.legvander(x, NODES) @ integrals, 0.5 * weights, integrals
+@lru_cache
+def _collocation(order: int) -> tuple[Reals, Reals]:
+    """Matrix of integrals from 0 to each Gauss node of [0, 1], and weights of the whole."""
+    x, weights = np.polynomial.legendre.leggauss(order)
+    return np.polynomial.legendre.legvander(x, order) @ to_integral(order).T, 0.5 * weights
 
 
 @dataclass(frozen=True)
@@ -59,19 +57,21 @@ class MotorRun:
     def _given(self) -> tuple[Reals, Reals]:
         """Load and inertia at the nodes, a row a panel."""
         nodes = self.panels.nodes
-        return self.load(nodes).reshape(-1, NODES), self.inertia(nodes).reshape(-1, NODES)
+        order = self.panels.order
+        return self.load(nodes).reshape(-1, order), self.inertia(nodes).reshape(-1, order)
 
     def _panel(self, k: int, energy: float) -> tuple[float, float, Reals] | None:
         """Energy at the end of a panel, its derivative by that at the start, and dE/dphi at the nodes; None: stalls."""
-        matrix, weights, _ = _collocation()
+        order = self.panels.order
+        matrix, weights = _collocation(order)
         load, inertia = self._given[0][k], self._given[1][k]
         h = float(self.panels.edges[k + 1] - self.panels.edges[k])
-        values = np.full(NODES, energy)
+        values = np.full(order, energy)
         for _ in range(_STEPS):
             speed = np.sqrt(2.0 * values / inertia)
             rate = self.slope * (self.no_load - speed) - load
             fall = -self.slope / (inertia * speed)
-            system = np.eye(NODES) - h * matrix * fall
+            system = np.eye(order) - h * matrix * fall
             step = np.linalg.solve(system, energy + h * (matrix @ rate) - values)
             share = 1.0
             while np.any(values + share * step <= 0.0):
@@ -84,7 +84,7 @@ class MotorRun:
         speed = np.sqrt(2.0 * values / inertia)
         rate = self.slope * (self.no_load - speed) - load
         fall = -self.slope / (inertia * speed)
-        gain = np.linalg.solve(np.eye(NODES) - h * matrix * fall, np.ones(NODES))
+        gain = np.linalg.solve(np.eye(order) - h * matrix * fall, np.ones(order))
         end = energy + h * float(weights @ rate)
         return (end, 1.0 + h * float(weights @ (fall * gain)), rate) if end > 0.0 else None
 
@@ -136,11 +136,7 @@ class MotorRun:
         edges, rates, _ = self._periodic
         bounds = self.panels.edges
         row = np.clip(np.searchsorted(bounds, phi, side="right") - 1, 0, len(bounds) - 2)
-        h = bounds[row + 1] - bounds[row]
-        place = 2.0 * (phi - bounds[row]) / h - 1.0
-        series = rates @ _collocation()[2].T
-        terms = np.polynomial.legendre.legvander(place, NODES)
-        return np.asarray(edges[row] + h * np.sum(terms * series[row], axis=1))
+        return np.asarray(edges[row] + self.panels.within(rates.ravel(), phi))
 
     def speed(self, phi: Reals) -> Reals:
         """Speed of the input [rad/s]."""
@@ -154,8 +150,9 @@ class MotorRun:
     def range(self) -> tuple[float, float]:
         """Least and greatest speed [rad/s]."""
         end, samples = float(self.panels.edges[-1]), max(360, 10 * (len(self.panels.edges) - 1))
+        fewest = fewest_samples(self.breaks)
         low, high = (
-            search(self.speed, 0.0, end, joints=self.breaks, samples=samples).value
+            search(self.speed, 0.0, end, joints=self.breaks, samples=samples, fewest=fewest).value
             for search in (minimum_over, maximum_over)
         )
         return low, high

@@ -11,10 +11,13 @@ if TYPE_CHECKING:
 
 
 def torque(design: LoadsDesign, samples: int | None = None) -> Table:
-    """Input torque and its parts, reflected inertia and power over the input angle."""
+    """Input torque and its parts, reflected inertia and power over the input angle; empty where friction locks."""
+    import numpy as np
+
     phi, columns = design.rows(samples)
     machine = design.machine
-    reduced, whole = machine.reduced(phi), machine.torque(phi)
+    reduced = machine.reduced(phi)
+    whole = np.full_like(phi, np.nan) if design.locked else machine.torque(phi)
     inertial = reduced.inertial(machine.speed)
     columns |= {
         "input_torque": (whole, "N m"),

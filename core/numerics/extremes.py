@@ -35,7 +35,13 @@ class Extreme:
 
 
 def maximum_over(
-    f: Function, start: float = 0.0, end: float = TURN, *, joints: Sequence[float] = (), samples: int = 2048
+    f: Function,
+    start: float = 0.0,
+    end: float = TURN,
+    *,
+    joints: Sequence[float] = (),
+    samples: int = 2048,
+    fewest: int = 33,
 ) -> Extreme:
     """Largest value of a function of arrays over an interval.
 
@@ -43,8 +49,8 @@ def maximum_over(
         f : function of a float64 array, returning one like it
         start, end : float - the interval, one turn by default
         joints : floats - places where the function or a derivative may jump; both one-sided values count
-        samples : int - points over the interval (at least 33 between joints); two humps closer than four
-            steps may be taken for one
+        samples : int - points over the interval; two humps closer than four steps may be taken for one
+        fewest : int - points between two joints at least
     Returns
         extreme : Extreme - value and place
     Notes
@@ -57,7 +63,7 @@ def maximum_over(
         >>> top.value, round(top.place, 6)
         (1.0, 1.0)
     """
-    return together([f], [_maximum(start, end, joints, samples)])[0]
+    return together([f], [_maximum(start, end, joints, samples, fewest)])[0]
 
 
 def extremes_over(
@@ -67,12 +73,13 @@ def extremes_over(
     *,
     joints: Sequence[float] = (),
     samples: int = 2048,
+    fewest: int = 33,
 ) -> list[Extreme]:
     """Extremes of several functions over the same interval, searched together.
 
     Parameters
         wanted : functions as of maximum_over, and whether the largest value of each is wanted or the smallest
-        start, end, joints, samples : as of maximum_over
+        start, end, joints, samples, fewest : as of maximum_over
     Returns
         extremes : those that maximum_over and minimum_over give
     Notes
@@ -82,7 +89,7 @@ def extremes_over(
         [1.0, -1.0]
     """
     functions = [f if greatest else _negative(f) for f, greatest in wanted]
-    tops = together(functions, [_maximum(start, end, joints, samples) for _ in wanted])
+    tops = together(functions, [_maximum(start, end, joints, samples, fewest) for _ in wanted])
     return [
         top if greatest else Extreme(0.0 - top.value, top.place)
         for top, (_, greatest) in zip(tops, wanted, strict=True)
@@ -93,11 +100,11 @@ def _negative(f: Function) -> Function:
     return lambda x: -f(x)
 
 
-def _maximum(start: float, end: float, joints: Sequence[float], samples: int) -> Search[Extreme]:
+def _maximum(start: float, end: float, joints: Sequence[float], samples: int, fewest: int) -> Search[Extreme]:
     """The search of maximum_over."""
     bounds = [start, *sorted(j for j in joints if start < j < end), end]
     grids = [
-        _grid(left, right, max(33, math.ceil(samples * (right - left) / (end - start)) + 1))
+        _grid(left, right, max(fewest, math.ceil(samples * (right - left) / (end - start)) + 1))
         for left, right in pairwise(bounds)
     ]
     x = np.concatenate(grids)
@@ -117,7 +124,13 @@ def _maximum(start: float, end: float, joints: Sequence[float], samples: int) ->
 
 
 def minimum_over(
-    f: Function, start: float = 0.0, end: float = TURN, *, joints: Sequence[float] = (), samples: int = 2048
+    f: Function,
+    start: float = 0.0,
+    end: float = TURN,
+    *,
+    joints: Sequence[float] = (),
+    samples: int = 2048,
+    fewest: int = 33,
 ) -> Extreme:
     """Smallest value of a function of arrays over an interval; see maximum_over.
 
@@ -125,7 +138,7 @@ def minimum_over(
         >>> minimum_over(lambda x: np.abs(x - 0.3), 0.0, 1.0)
         Extreme(value=0.0, place=0.3)
     """
-    top = maximum_over(_negative(f), start, end, joints=joints, samples=samples)
+    top = maximum_over(_negative(f), start, end, joints=joints, samples=samples, fewest=fewest)
     return Extreme(0.0 - top.value, top.place)
 
 

@@ -13,6 +13,7 @@ import pytest
 
 from gearlink.core.flatbed_press.chains import Travel
 from gearlink.core.flatbed_press.loads import PressLoads
+from gearlink.core.loads import friction
 from gearlink.core.loads.mechanism import Contact
 
 PRESS = json.loads((Path(__file__).parents[2] / "reference" / "loads.json").read_text())["press"]
@@ -29,6 +30,7 @@ def press(monkeypatch: pytest.MonkeyPatch) -> Any:
     )
     monkeypatch.setattr(PressLoads, "own_joints", [])
     monkeypatch.setattr(Contact, "sided", lambda self, _: self)
+    monkeypatch.setattr(friction, "_exchange", lambda *_: None)
     return factory.design("ty460", command="loads", loads=PRESS["loads"])
 
 

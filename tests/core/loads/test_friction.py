@@ -1,0 +1,121 @@
+"""Friction: the fixed point against plain passes, locking as a finding, and blocks of a system against the whole."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from dataclasses import replace
+from typing import Any
+
+import factory
+import numpy as np
+import pytest
+
+from gearlink.core.loads.blocks import blocks
+from gearlink.core.loads.friction import Rubbing, SelfLocking, solution_of
+
+FEED, PRESS = "loaded_feed", "loaded_press"
+RUBBING = {"pins": 0.1, "pin_radius": 10, "guides": 0.1, "meshes": 0.98}
+SLIDER = {"speed": 75, "links": {"crank": {"mass": 20, "inertia": 0.3}, "slider": {"mass": 240}}}
+PHI = np.radians(np.arange(3.0, 360.0, 17.0))
+
+
+def _solution(base: str, friction: Any) -> Any:
+    machine = factory.design(base, command="loads", loads__friction=friction).machine
+    return solution_of(
+        machine.at(PHI), machine.masses, machine.applied(PHI), machine.gravity, machine.speed, machine.friction
+    )
+
+
+@pytest.mark.parametrize("base", [FEED, PRESS])
+def test_blocks_solve_what_the_whole_system_says(base: str) -> None:
+    """LAPACK on all unknowns at once; 1e-12 of the largest, the condition is below 1e3."""
+    mechanism, system, rubbing = _solution(base, None)
+    entries = system.entries
+    assert len(blocks(tuple(tuple(each) for each in entries))) > 8
+    matrix = np.zeros((len(PHI), system.size, system.size))
+    for column, rows in enumerate(entries):
+        for row, factor in rows.items():
+            matrix[:, row, column] = factor
+    side = np.einsum("nij,jn->in", matrix, rubbing.free)
+    whole = np.linalg.solve(matrix, side.T[..., None])[..., 0].T
+    assert np.abs(whole - rubbing.free).max() <= 1e-12 * np.abs(whole).max()
+    assert mechanism.rows == len(PHI)
+
+
+@pytest.mark.parametrize("base", [FEED, PRESS])
+def test_newton_ends_where_the_passes_end(base: str) -> None:
+    """Plain passes, 200 of them, whose ratio is below 0.3."""
+    rubbing = _solution(base, RUBBING).rubbing
+    sizes = np.zeros((len(PHI), len(rubbing.shares)))
+    for _ in range(200):
+        sizes = rubbing.sizes(rubbing.forces(sizes))
+    assert rubbing.settled() == pytest.approx(sizes, rel=1e-11, abs=1e-11 * sizes.max())
+
+
+def test_ratio_is_that_of_the_last_passes() -> None:
+    """Of one joint alone the ratio is exact: sizes f = mu |a + b f| change by mu |b| a pass, up to 1 and beyond."""
+    for mu in (0.3, 0.95, 1.7):
+        rubbing = Rubbing(np.array([[5.0]]), np.array([[[0.9]]]), np.array([mu]), np.array([[0, 0]]))
+        if mu * 0.9 < 1.0:
+            sizes = rubbing.settled()
+            assert sizes[0, 0] == pytest.approx(mu * 5.0 / (1.0 - mu * 0.9), rel=1e-12)
+            assert rubbing.ratio(sizes)[0] == pytest.approx(mu * 0.9, rel=1e-12)
+        else:
+            with pytest.raises(SelfLocking):
+                rubbing.settled()
+
+
+@pytest.mark.parametrize(
+    ("base", "friction"),
+    [(FEED, {"pins": 0.9, "pin_radius": 60}), ("ty460_slider_crank", {"guides": 0.99, "pins": 0.9, "pin_radius": 200})],
+)
+def test_locking_is_a_finding(base: str, friction: Any) -> None:
+    """GL615 fails; what needs no forces is given, what needs them is left out, and the table is empty there."""
+    design = factory.design(
+        base,
+        command="loads",
+        **({"loads": SLIDER | {"friction": friction}} if "slider" in base else {"loads__friction": friction}),
+    )
+    report = design.report("loads")
+    (found,) = [check for check in report.checks if check.code == "GL615"]
+    assert found.status == "fail"
+    names = {quantity.name for quantity in report.quantities}
+    assert {"reflected_inertia_max", "shaking_force_max"} <= names
+    assert not {"input_torque_max", "power_identity", "flywheel_inertia", "pin_A.peak", "pin_D.peak"} & names
+    assert np.isnan(report.tables[0]["input_torque"]).all()
+    assert not np.isnan(report.tables[0]["inertia_part"]).any()
+
+
+def test_strong_friction_still_moves() -> None:
+    """Where hardly anything is taken off a pass the forces are found all the same, and warned of."""
+    friction = {"pins": 0.3, "pin_radius": 65, "meshes": 0.95}
+    design = factory.design(FEED, command="loads", loads__friction=friction)
+    (check,) = design.check("self-locking")
+    assert check.status == "warn"
+    assert 0.5 < check.value < 0.9
+    assert design.power_identity <= 1e-12
+
+
+@pytest.mark.parametrize("friction", [None, {"pins": 0.1, "pin_radius": 10}])
+def test_energy_from_samples_is_that_of_the_load(friction: Any) -> None:
+    design = factory.design(FEED, command="loads", loads__friction=friction)
+    sampled = design.energy
+    exact = replace(sampled, sampled=None)
+    phi = np.linspace(0.0, 2.0 * math.pi, 101)
+    size = np.abs(exact.surplus(phi)).max()
+    assert np.abs(sampled.surplus(phi) - exact.surplus(phi)).max() <= 1e-12 * size
+
+
+def test_many_zones_take_few_rows() -> None:
+    """400 zones that add up to one: the same energies as that one; 1e-12."""
+    ends = np.linspace(30.0, 150.0, 401).tolist()
+    zones = [{"from": a, "to": b, "value": -20.0} for a, b in itertools.pairwise(ends)]
+    many, one = (
+        factory.design(FEED, command="loads", loads__forces=[{"on": "output", "torque": {"zones": each}}])
+        for each in (zones, [{"from": 30.0, "to": 150.0, "value": -20.0}])
+    )
+    assert len(many.machine.panels.nodes) < 7_000
+    assert many.input_torque_rms == pytest.approx(one.input_torque_rms, rel=1e-12)
+    assert many.energy_fluctuation == pytest.approx(one.energy_fluctuation, rel=1e-12)
+    assert many.input_torque_max == pytest.approx(one.input_torque_max, rel=1e-12)
