@@ -34,6 +34,21 @@ def test_fronts_against_all_pairs(objectives: int, designs: int, values: int) ->
     assert front(drawn).tolist() == by_all_pairs(drawn)
 
 
+@pytest.mark.parametrize("objectives", [2, 3, 4, 5, 6])
+@pytest.mark.parametrize("values", [4, 12, 1000, 0])
+def test_fronts_against_moocore(objectives: int, values: int) -> None:
+    """Of whole numbers with many ties, and of real ones (0)."""
+    moocore = pytest.importorskip("moocore")
+    for designs in (1, 7, 300, 2000):
+        drawn = (
+            RNG.integers(0, values, (designs, objectives)).astype(float)
+            if values
+            else RNG.random((designs, objectives))
+        )
+        wanted = np.flatnonzero(moocore.is_nondominated(drawn, keep_weakly=True))
+        assert front(drawn).tolist() == wanted.tolist()
+
+
 def test_empty_front() -> None:
     assert front(np.empty((0, 3))).size == boxes(np.empty((0, 3))).size == 0
 
