@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.exit_codes import ExitCode
@@ -73,17 +74,29 @@ def build(
         "findings_only": findings_only,
     }
     try:
-        design = kind.design(command, spec) if made is None else made
-        report = design.report(command, **wanted)  # type: ignore[arg-type]
-    except NoSolution as error:
-        raise DesignFileError([diagnose_no_solution(loaded, error)]) from error
+        with refusals_located(loaded):
+            design = kind.design(command, spec) if made is None else made
+            report = design.report(command, **wanted)  # type: ignore[arg-type]
     except UnknownName as error:
         raise DesignFileError([_unknown_name(error)]) from error
+    return design, report
+
+
+@contextmanager
+def refusals_located(loaded: LoadedFile) -> Iterator[None]:
+    """What a mechanism or a study refuses becomes an error at its place in the file.
+
+    Raises
+        DesignFileError - in place of NoSolution and WrongStudy
+    """
+    try:
+        yield
+    except NoSolution as error:
+        raise DesignFileError([diagnose_no_solution(loaded, error)]) from error
     except _wrong_study() as error:  # its class is looked up where something is raised, not before
         from gearlink.cli.reading.base_design import located
 
         raise DesignFileError(located(loaded, error.faults)) from error
-    return design, report
 
 
 def _wrong_study() -> type[WrongStudy]:

@@ -7,16 +7,14 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.commands.finding import Finding
-from gearlink.cli.evaluate import open_design, read_spec
+from gearlink.cli.evaluate import open_design, read_spec, refusals_located
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import Options
 from gearlink.cli.patience import patience
-from gearlink.cli.reading.design_file import diagnose_no_solution
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import LoadedFile, parse_path
 from gearlink.cli.reading.places import design_files
 from gearlink.cli.texts.finding_keys import key_of
-from gearlink.core.errors import NoSolution
 from gearlink.core.report import Check
 
 if TYPE_CHECKING:
@@ -69,16 +67,17 @@ def _findings(loaded: LoadedFile, kind: Kind, spec: Any) -> Iterator[Finding]:
     for command in spec.commands():
         cls = kind.class_for(command, spec)
         try:
-            design = designs.setdefault(cls, kind.design(command, spec))
-            outline = design.outline(command)
-            design.prepare(outline.quantities)
-            names = [name for name in outline.checks if (cls, name) not in done]
-            done |= {(cls, name) for name in names}
-            for check in (check for name in names for check in design.findings(command, name)):
-                yield Finding(check.status, _place(loaded, check), command, check)
-            design.require(command)  # not every check would notice that there is no mechanism
-        except NoSolution as error:
-            yield Finding("error", diagnose_no_solution(loaded, error), command)
+            with refusals_located(loaded):
+                design = designs.setdefault(cls, kind.design(command, spec))
+                outline = design.outline(command)
+                design.prepare(outline.quantities)
+                names = [name for name in outline.checks if (cls, name) not in done]
+                done |= {(cls, name) for name in names}
+                for check in (check for name in names for check in design.findings(command, name)):
+                    yield Finding(check.status, _place(loaded, check), command, check)
+                design.require(command)  # not every check would notice that there is no mechanism
+        except DesignFileError as error:
+            yield from (Finding("error", diagnostic, command) for diagnostic in error.diagnostics)
 
 
 def _place(loaded: LoadedFile, check: Check) -> Diagnostic:

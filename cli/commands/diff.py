@@ -10,14 +10,12 @@ from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.commands.difference import Change, Difference
 from gearlink.cli.commands.result_file import incomparable, read_result
-from gearlink.cli.evaluate import open_design
+from gearlink.cli.evaluate import open_design, read_spec, refusals_located
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import Options
 from gearlink.cli.patience import patience
-from gearlink.cli.reading.design_file import diagnose_no_solution, validate
 from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.cli.render.json_report import as_plain
-from gearlink.core.errors import NoSolution
 from gearlink.core.report import Report
 
 if TYPE_CHECKING:
@@ -114,12 +112,10 @@ def _result_side(file: str, data: dict[str, Any]) -> Side:
 def _design_side(file: str, options: Options) -> Side:
     """A design file: its inputs with defaults filled in, and the results of the commands that it asks for."""
     loaded, kind = open_design(file, options)
-    spec = validate(loaded, kind.spec_model())
+    spec = read_spec(loaded, kind, "-")  # named as it stands: names of files are no difference
     designs = {cls: cls(spec) for cls in {kind.class_for(command, spec) for command in spec.commands()}}
-    try:
+    with refusals_located(loaded):
         results = {c: as_plain(_report(designs[kind.class_for(c, spec)], c)) for c in spec.commands()}
-    except NoSolution as error:
-        raise DesignFileError([diagnose_no_solution(loaded, error)]) from error
     inputs = dict(_flat("", spec.model_dump(mode="json", by_alias=True)))
     return Side(kind.name, inputs, _units(kind), results)
 

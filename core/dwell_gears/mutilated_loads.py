@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from gearlink.core.numerics.arrays import Reals
 
 _TURN = 2.0 * math.pi
-_MOST_TURNS = 1000
+_MOST_TURNS, _MOST_MOTIONS = 1000, 200
 
 
 class MutilatedGearLoads(LoadsDesign):
@@ -56,9 +56,19 @@ class MutilatedGearLoads(LoadsDesign):
 
     @cached_property
     def turns(self) -> int:
-        """Input turns until input and linkage are both back at their place."""
+        """Input turns until input and linkage are both back at their place.
+
+        Raises
+            NoSolution - where they are more, or hold more motions, than are computed
+        """
         cycles = Fraction(self.design.reduction).limit_denominator(10_000) / self.spec.gears.groups
         turns = (cycles * self.design.cycles_to_repeat).numerator
+        if not cycles or turns > _MOST_MOTIONS * cycles:
+            raise NoSolution(
+                f"the linkage starts more than {_MOST_MOTIONS} times until it and the input come home together: round "
+                "the reduction, or give a larger one",
+                key="reduction",
+            )
         if turns > _MOST_TURNS:
             raise NoSolution(
                 f"input and linkage come home together only after {turns} input turns: at most {_MOST_TURNS} are "

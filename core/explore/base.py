@@ -160,9 +160,11 @@ class Base:
 
     def nearest(self, name: str, known: Iterable[str]) -> str:
         """The nearest known names, in words."""
-        known = list(known)
+        known = sorted(known)
         near = get_close_matches(name[:100], known, n=3, cutoff=0.5)
-        return f"nearest: {', '.join(near)}" if near else f"known: {', '.join(known[:12])}"
+        shown = self.kind.design_class(self.command).outlines[self.command].quantities
+        own = [name for name in shown if name in known] or known
+        return f"nearest: {', '.join(near)}" if near else f"known: {', '.join(own[:12])}"
 
     @cached_property
     def codes(self) -> dict[str, tuple[str, ...]]:

@@ -16,6 +16,8 @@ from gearlink.core.study.faults import Fault, Place
 _AMOUNT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S.*)?")
 _CONDITION = re.compile(r"(.*?)(>=|<=|==|<|>)(.*)", re.DOTALL)
 _WORD = re.compile(r"[A-Za-z][\w-]*")
+_LEAST_RESOLUTION = 1e-12
+"""Below it the millionths of a resolution, in which objectives are counted, pass the range of numbers."""
 COMPARED: dict[str, Callable[[Any, Any], Any]] = {
     ">=": np.greater_equal,
     "<=": np.less_equal,
@@ -129,8 +131,9 @@ def objective(name: str, given: float | str, sign: float, names: Names, place: P
     expression = names.expression(name, place)
     amount = _AMOUNT.fullmatch(given) if isinstance(given, str) else None
     size = float(given) if isinstance(given, (int, float)) else float(amount[1]) if amount else 0.0
-    if not 0.0 < size < np.inf:
-        message = f"{name} needs a resolution above 0, not {given!r}: the difference that you would not pay for"
+    if not _LEAST_RESOLUTION <= size < np.inf:
+        least = "above 0" if size <= 0.0 or size == np.inf else f"of {_LEAST_RESOLUTION:g} at least"
+        message = f"{name} needs a resolution {least}, not {given!r}: the difference that you would not pay for"
         raise FaultFound(Fault("GL154", message, place, "such as 10 mm"))
     unit = _same_unit(name, expression, (amount[2] or "").strip() if amount else "", names, place)
     return Objective(name, expression, sign, size, unit)

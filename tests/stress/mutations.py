@@ -1,28 +1,28 @@
-"""Mutations of design files: what a slip of the pen, a bad export or ill will may make of one."""
+"""Mutations of design files and studies: what a slip of the pen, a bad export or ill will may make of one."""
 
 from __future__ import annotations
 
 import re
+from functools import cache
 from pathlib import Path
 from random import Random
 
+from gearlink.cli.texts.key_index import known_keys
+from gearlink.core.kinds import FILES
+
 ROOT = Path(__file__).resolve().parents[2]
-SEEDS = {path.stem: path.read_text(encoding="utf-8") for path in sorted((ROOT / "designs").glob("*.yaml"))}
-COMMANDS = {
-    "three-gear-four-bar": [
-        "analyze",
-        "gear",
-        "synth dwell",
-        "synth back-step",
-        "synth variable-speed",
-        "synth momentary-dwell",
-    ],
-    "gear-pair": ["gear", "analyze"],
-    "slider-crank": ["crank", "analyze"],
-    "flatbed-press": ["press", "cam", "gear", "crank", "analyze"],
-    "swing-gripper": ["gripper", "cam", "analyze"],
-    "wide-swing-cam": ["swing", "cam", "analyze"],
+FOLDERS = (ROOT / "designs", ROOT / "designs" / "studies", Path(__file__).parent / "seeds")
+SEEDS = {path: path.read_text(encoding="utf-8") for folder in FOLDERS for path in sorted(folder.glob("*.yaml"))}
+COMMANDS = {name: [*kind.commands] for name, kind in FILES.items()}
+MORE = {
+    "tolerance": ["--samples 16", "--samples 16 --sobol", "--samples 16 --worst-case", "--samples 16 --allocate"],
+    "register": ["", "", "--at 10", "--at dwell", "--method mc --samples 64", "--radius 1e-6", "--table cycle"],
+    "explore": ["--budget 8 -j 1", "--budget 8 -j 1 --show m1", "--budget 8 -j 1 --show 3"],
+    "loads": ["", "", "--samples 7", "--table joints --table teeth", "--table harmonics --table spectrum --samples 9"],
+    "gear": ["", "--table drawing", "--table path", "--table contour", "--table margins", "--candidates"],
+    "cam": ["", "--table cam --samples 5"],
 }
+ANY = ("", "", "", "", "", "--strict", "--samples 5", "--suggest", "--save saved.yaml --force", "--save - --round 0.1")
 NUMBER = re.compile(r"(?<![\w.])-?\d+\.?\d*(?:e-?\d+)?(?![\w.])")
 NUMBERS = (
     *("0", "-1", "1", "1e-300", "1e300", "-1e300", "1e-6", "1e6", "5e-324", ".nan", ".inf", "-.inf", "1e400"),
@@ -50,12 +50,44 @@ WORDS = (
 CHARACTERS = "\t\x00\x07\u00a0\uff1a\u2028#:-{}[]&*!|>'\"%@`,\\\r\n eE0"
 
 
+def base_of(seed: Path) -> str:
+    """The text of a seed; the file that a study is of, by its full path."""
+    return re.sub(r"(?m)^of: (.*\.yaml)$", lambda m: f"of: {(seed.parent / m[1]).resolve()}", SEEDS[seed])
+
+
 def command_of(text: str, rng: Random) -> list[str]:
-    """A command that suits the kind, or one that takes any kind."""
-    if rng.random() < 0.2:
-        return [rng.choice(("check", "batch"))]
+    """A command that suits the kind, or one that takes any kind, with options and overridden keys."""
     match = re.search(r"^kind:\s*([\w-]+)", text, re.MULTILINE)
-    return rng.choice(COMMANDS.get(match[1] if match else "", ["analyze"])).split()
+    kind = match[1] if match else ""
+    if rng.random() < 0.1:
+        return [rng.choice(("check", "batch"))]
+    if rng.random() < 0.03:
+        return ["export", "--as", rng.choice(("dxf", "svg", "csv", "rexs"))]
+    fits = [
+        name for name in COMMANDS.get(kind, ["analyze"]) if _section(name) is None or f"\n{_section(name)}:" in text
+    ]
+    command = rng.choice(fits or ["analyze"])
+    options = rng.choice(MORE.get(command, ANY)).split()
+    return [*command.split(), *options, *(_overridden(kind, rng) if rng.random() < 0.4 else ())]
+
+
+def _section(command: str) -> str | None:
+    """The section of a file without which a command has nothing to do."""
+    return {"loads": "loads", "tolerance": "tolerance", "register": "tolerance"}.get(command)
+
+
+def _overridden(kind: str, rng: Random) -> list[str]:
+    """`--set` of a key that the kind knows, with a value that may be anything."""
+    keys = _keys(kind)
+    if not keys:
+        return []
+    path = rng.choice(keys)
+    return ["--set", f"{path}={rng.choice((*NUMBERS, *NUMBERS, *WORDS, '0.3', '2', '12', '25', '60', '120'))}"]
+
+
+@cache
+def _keys(kind: str) -> list[str]:
+    return [key.path for key, kinds in known_keys() if kind in kinds]
 
 
 def mutated(text: str, rng: Random) -> bytes:
@@ -132,6 +164,11 @@ def _key(text: str, rng: Random) -> str:
 
 def _graft(text: str, rng: Random) -> str:
     other = rng.choice(list(SEEDS.values())).split("\n")
+    tops = [i for i, line in enumerate(other) if line[:1].isalpha() and not line.startswith("kind")]
+    if tops and rng.random() < 0.5:  # a whole section
+        at = rng.choice(tops)
+        end = next((i for i in range(at + 1, len(other)) if other[i][:1].strip()), len(other))
+        return text + "\n" + "\n".join(other[at:end])
     at = rng.randrange(len(other))
     return text + "\n" + "\n".join(other[at : at + rng.randrange(1, 4)])
 

@@ -1,4 +1,5 @@
-"""Mutated design files: exit status 0, 1 or 2, no traceback, each within two seconds and 200 MB more.
+"""Mutated design files: exit status 0, 1 or 2, no traceback, each within two seconds (more
+where a command computes many designs) and 200 MB more.
 
 GEARLINK_MUTATIONS=100000 make stress tries so many; 100,000 take some hours of one core.
 """
@@ -6,24 +7,29 @@ GEARLINK_MUTATIONS=100000 make stress tries so many; 100,000 take some hours of 
 from __future__ import annotations
 
 import io
+import json
 import os
+import re
 import resource
 import signal
 from collections.abc import Iterator
-from contextlib import contextmanager, redirect_stderr, redirect_stdout
+from contextlib import chdir, contextmanager, redirect_stderr, redirect_stdout
 from pathlib import Path
 from random import Random
 from time import perf_counter
 from typing import Any
 
 import pytest
-from stress.mutations import ROOT, SEEDS, command_of, mutated
+from stress.mutations import ROOT, SEEDS, base_of, command_of, mutated
 
 from gearlink.cli.main import run
 
 SECONDS = 2.0  # of processor time, so that other work on the machine does not count
+LONGER = {"loads": 3.0, "batch": 5.0, "check": 5.0, "--suggest": 5.0, "--budget": 2.0}
+"""How many times longer: whole turns of forces, all commands of a file, many designs."""
 MEGABYTES = 200.0
 FEW, MANY = 20, int(os.environ.get("GEARLINK_MUTATIONS", "6000"))
+CONTROLS = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f]")
 FORMATS = ("json", "json", "json", "table", "csv", "md")
 
 
@@ -47,16 +53,36 @@ def deadline(seconds: float) -> Iterator[None]:
 
 def verdict(arguments: list[str]) -> str:
     """What is wrong with the end of a command; empty where nothing is."""
-    talk = io.StringIO()
+    shown, talk = io.StringIO(), io.StringIO()
+    limit = SECONDS * max(LONGER.get(word, 1.0) for word in arguments)
     try:
-        with deadline(SECONDS), redirect_stdout(io.StringIO()), redirect_stderr(talk):
+        with deadline(limit), redirect_stdout(shown), redirect_stderr(talk):
             status = run(arguments)
     except TooSlow:
-        return f"longer than {SECONDS:g} s"
+        return f"longer than {limit:g} s"
     except BaseException as error:
         return f"{type(error).__name__}: {error}"
     text = talk.getvalue()
-    return "" if status in (0, 1, 2) and "Traceback" not in text else f"status {status}: {text.strip()[:300]}"
+    if status not in (0, 1, 2) or "Traceback" in text or "Warning" in text:
+        return f"status {status}: {text.strip()[:300]}"
+    return unreadable(shown.getvalue(), "json" in arguments and "--show" not in arguments)
+
+
+def unreadable(text: str, is_json: bool) -> str:
+    """What no reader of the results can bear: characters that steer a terminal, numbers that JSON has not."""
+    if found := CONTROLS.search(text):
+        return f"control character {found[0]!r} in what is shown"
+    if not is_json or not text:
+        return ""
+    try:
+        json.loads(text, parse_constant=_no_number)
+    except ValueError as error:
+        return f"no JSON: {error}"
+    return ""
+
+
+def _no_number(word: str) -> Any:
+    raise ValueError(f"{word} is no number")
 
 
 def fuzz(count: int, seed: int, folder: Path) -> list[str]:
@@ -67,13 +93,22 @@ def fuzz(count: int, seed: int, folder: Path) -> list[str]:
     for i in range(count):
         rng = Random(f"{seed}/{i}")
         name = rng.choice(names)
-        text = SEEDS[name]
+        text = base_of(name)
         data = mutated(text, rng)
         path.write_bytes(data)
-        arguments = [*command_of(text, rng), str(path), "--format", rng.choice(FORMATS), "--quiet"]
-        if wrong := verdict(arguments):
-            failures.append(f"{seed}/{i} {' '.join(arguments[:2])}: {wrong}\n{data.decode('utf-8', 'replace')}")
+        arguments = [*command_of(text, rng), str(path), "--quiet"]
+        if arguments[0] != "export":
+            arguments += ["--format", rng.choice(FORMATS)]
+        with chdir(folder):  # where exports and `--save` go
+            wrong = verdict(arguments)
+        if wrong := wrong or left_behind(folder):
+            failures.append(f"{seed}/{i} {' '.join(arguments)}: {wrong}\n{data.decode('utf-8', 'replace')}")
     return failures
+
+
+def left_behind(folder: Path) -> str:
+    hidden = [path.name for path in folder.iterdir() if path.name.startswith(".")]
+    return f"left behind: {hidden}" if hidden else ""
 
 
 def test_a_few_mutated_files(tmp_path: Path) -> None:

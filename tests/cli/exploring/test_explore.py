@@ -110,3 +110,32 @@ def test_batch_and_check_take_studies(gearlink: Any, written: Any) -> None:
     ended = gearlink("batch", study, "--format", "json")
     assert [(d["command"], d["result"]) for d in json.loads(ended.out)["designs"]] == [("explore", "pass")]
     assert gearlink("check", study).status == 0
+
+
+@pytest.mark.parametrize("command", ["check", "diff", "batch"])
+@pytest.mark.parametrize(
+    ("keys", "code"),
+    [
+        ({"where": ["frame_lenght > 2"]}, "GL152"),
+        ({"minimize": {"frame_length": "5e-324 mm"}}, "GL154"),
+        ({"variables": {"gears.cranc": {"from": 1, "to": 2}}}, "GL151"),
+    ],
+)
+def test_every_command_says_where_a_study_is_wrong(
+    gearlink: Any, written: Any, command: str, keys: dict[str, Any], code: str
+) -> None:
+    study = written(**keys)
+    ended = gearlink(command, *((study, study) if command == "diff" else (study,)))
+    assert ended.status == 2
+    assert f"{code}: " in ended.out + ended.err
+
+
+def test_differences_of_studies_whose_base_is_a_file(gearlink: Any, written: Any, designs: Path) -> None:
+    data = {name: value for name, value in STUDY.items() if name != "design"} | {"of": str(designs / "candy_feed.yaml")}
+    study, other = written(design=None), written("other.yaml", design=None)
+    study.write_text(yaml.safe_dump(data))
+    other.write_text(yaml.safe_dump(data | {"variables": {"gears.idler": {"from": 61, "to": 90}}}))
+    assert gearlink("diff", study, study).status == 0
+    ended = gearlink("diff", study, other, "--format", "json")
+    assert ended.status == 1
+    assert "designs" in ended.out

@@ -237,3 +237,18 @@ def test_wanted_times_that_cannot_be_had() -> None:
 def test_wrong_wishes(keys: dict[str, Any], words: str) -> None:
     with pytest.raises(ValidationError, match=words):
         factory.design("mutilated_gear_times", **keys)
+
+
+@pytest.mark.parametrize("reduction", [1e-6, 1e-4, 0.006])
+def test_loads_over_too_many_motions_are_refused(reduction: float) -> None:
+    """The wheel turns once in so few input turns: the memory would grow with the motions of a period."""
+    data = {
+        "kind": "mutilated-gear-dwell",
+        "reduction": reduction,
+        "gears": {"module": 3, "full_teeth": 80, "group_teeth": 10, "driven": 20, "stops": 2},
+        "links": LINKS,
+        "loads": {"speed": 60, "forces": [{"on": "rocker", "torque": -12}]},
+    }
+    with pytest.raises(NoSolution, match="more than 200 times") as refused:
+        factory.design(data, command="loads").report("loads")
+    assert refused.value.key == "reduction"
