@@ -10,6 +10,9 @@ import sys
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import leave_nothing_behind
 
+_LEAST_MEMORY = 400 << 20
+"""Below it some commands cannot load their libraries."""
+
 TYPE_CHECKING = False  # as typing has it, whose import takes longer than --version
 if TYPE_CHECKING:
     from typing import Any, TextIO
@@ -28,10 +31,12 @@ def _prepare_process() -> None:
 
     The collector would walk the modules over and over while they are loaded, and pydantic would read the metadata
     of every installed package in search of plug-ins. Pictures are drawn into files, whatever backend the user's
-    environment names, and a wrong name must not keep matplotlib from loading.
+    environment names, and a wrong name must not keep matplotlib from loading. The matrices here are too small for
+    threads, and those of OpenBLAS wait for ever where the memory of the process is limited.
     """
     gc.set_threshold(50_000, 20, 100)
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     os.environ["MPLBACKEND"] = "agg"
 
 
@@ -93,6 +98,13 @@ def _invoke(arguments: list[str]) -> int:
 
         print(f"gearlink {VERSION}")
         return ExitCode.OK
+    if (limit := _memory_limit()) < _LEAST_MEMORY:
+        print(
+            f"error: the memory of this process is limited to {limit >> 20} MB (ulimit -v): gearlink needs "
+            f"{_LEAST_MEMORY >> 20} MB",
+            file=sys.stderr,
+        )
+        return ExitCode.WRONG_INPUT
     if "_GEARLINK_COMPLETE" not in os.environ:  # else a shell asks for completions
         from gearlink.cli.quick import plain_line, run_line
 
@@ -103,11 +115,24 @@ def _invoke(arguments: list[str]) -> int:
     return invoke(arguments)
 
 
+def _memory_limit() -> int:
+    """How many bytes the process may map; libraries end it with a status of their own where these do not suffice."""
+    try:
+        import resource
+    except ImportError:  # not on this system
+        return _LEAST_MEMORY
+    limit = resource.getrlimit(resource.RLIMIT_AS)[0]
+    return _LEAST_MEMORY if limit == resource.RLIM_INFINITY else limit
+
+
 def _fault(fault: Exception) -> int:
     from gearlink.cli.printable import visible
 
     if isinstance(fault, OSError):
         print(f"error: {visible(fault.strerror or str(fault))}", file=sys.stderr)
+        return ExitCode.WRONG_INPUT
+    if isinstance(fault, MemoryError):
+        print("error: out of memory: take fewer rows, samples or processes, or raise the limit", file=sys.stderr)
         return ExitCode.WRONG_INPUT
     from gearlink.cli.files import CannotWrite
 

@@ -98,6 +98,7 @@ def check_linkage(linkage: FourBar) -> str:
     )
     raise NoSolution(
         f"crank {linkage.crank:.9g}, coupler {linkage.coupler:.9g}, rocker {linkage.rocker:.9g}, frame "
-        f"{linkage.frame:.9g} mm form a linkage that is {kind}; the drive needs a crank-rocker or a drag link: shortest "
-        f"+ longest link must be below the sum of the other two, crank or frame the shortest; {remedy}"
+        f"{linkage.frame:.9g} mm form a linkage that is {kind}; the drive needs a crank-rocker or a drag link: "
+        "shortest + longest link must be below the sum of the other two, crank or frame the shortest; "
+        f"{remedy}"
     )

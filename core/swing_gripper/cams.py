@@ -142,7 +142,7 @@ class GripperCams(DiscCams):
             center = self.center_for(0.99 * limit)
         except NoSolution:
             return f"no cam.center keeps it, the least for both rollers is {self._least_limit:.3g} deg: {longer}"
-        return f"set cam.center to [{center.real:.1f}, {center.imag:.1f}], or {longer}"
+        return f"cam.center [{center.real:.1f}, {center.imag:.1f}] keeps it for every roller, or {longer}"
 
     @cached_property
     def _least_limit(self) -> float:

@@ -315,8 +315,8 @@ class WideSwingDesign(Design):
 
     @property
     def trials(self) -> int:
-        """A slider's cam takes a quarter of a second to judge, a rocker's a fraction of that."""
-        return 6 if self.spec.slider is not None else 40
+        """A slider's cam takes a quarter of a second to judge, a contour of a whole turn a tenth, a rocker's less."""
+        return 6 if self.spec.slider is not None else 20 if self.spec.cycle is not None else 40
 
     candidates, varied = remedies.candidates, remedies.varied
 

@@ -365,3 +365,26 @@ class TestBatch:
         ended = gearlink("batch", tmp_path, "--format", "json")
         assert ended.status == ExitCode.FAULT
         assert [d["result"] for d in ended.json["designs"]] == ["fault", "pass"]
+
+
+def test_a_process_with_too_little_memory_says_so() -> None:
+    """Below the limit libraries would end the process with status 1, which says that a check failed."""
+    line = f"ulimit -v 200000; {sys.executable} -m gearlink.cli.main check {_FAILS}"
+    ended = subprocess.run(["bash", "-c", line], capture_output=True, cwd=ROOT, check=False)
+    assert (ended.returncode, ended.stdout) == (2, b"")
+    assert ended.stderr.startswith(b"error: the memory of this process is limited to 195 MB")
+
+
+def test_the_least_memory_suffices() -> None:
+    line = f"ulimit -v {400 << 10}; {sys.executable} -m gearlink.cli.main crank designs/ty460_slider_crank.yaml"
+    ended = subprocess.run(["bash", "-c", line], capture_output=True, cwd=ROOT, check=False)
+    assert (ended.returncode, ended.stderr) == (0, b"")
+
+
+def test_no_memory_is_no_fault_of_the_program(gearlink: Any, crank: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def broken(*_: object) -> None:
+        raise MemoryError
+
+    monkeypatch.setattr("gearlink.cli.commands.design.build", broken)
+    ended = gearlink("crank", crank)
+    assert (ended.status, ended.err[:20]) == (ExitCode.WRONG_INPUT, "error: out of memory")
