@@ -78,14 +78,18 @@ REAL_SPEED: dict[str, Term] = {
 }
 
 SLIDER: dict[str, Term] = {
-    "velocity_max": Term("v'_max", "mm/rad", "greatest slider velocity per input speed, outwards"),
-    "velocity_max_at": Term("", "deg", "input angle of the greatest slider velocity"),
-    "velocity_min": Term("v'_min", "mm/rad", "least slider velocity per input speed: the greatest inwards"),
-    "velocity_min_at": Term("", "deg", "input angle of the least slider velocity"),
-    "acceleration_max": Term("a'_max", "mm/rad^2", "greatest slider acceleration per square of the input speed"),
-    "acceleration_max_at": Term("", "deg", "input angle of the greatest slider acceleration"),
-    "acceleration_min": Term("a'_min", "mm/rad^2", "least slider acceleration per square of the input speed"),
-    "acceleration_min_at": Term("", "deg", "input angle of the least slider acceleration"),
+    "velocity_max": Term("v'_max", "mm/rad", "greatest velocity of slider (outwards) or point per input speed"),
+    "velocity_max_at": Term("", "deg", "input angle of the greatest velocity"),
+    "velocity_min": Term("v'_min", "mm/rad", "least velocity per input speed; of a slider the greatest inwards"),
+    "velocity_min_at": Term("", "deg", "input angle of the least velocity"),
+    "acceleration_max": Term(
+        "a'_max", "mm/rad^2", "greatest acceleration of slider or point per square of the input speed"
+    ),
+    "acceleration_max_at": Term("", "deg", "input angle of the greatest acceleration"),
+    "acceleration_min": Term(
+        "a'_min", "mm/rad^2", "least acceleration of slider or point per square of the input speed"
+    ),
+    "acceleration_min_at": Term("", "deg", "input angle of the least acceleration"),
     "forward_angle": Term("theta_F", "deg", "input angle of the slider's stroke away from the crank's axis"),
     "return_angle": Term("theta_R", "deg", "input angle of the slider's stroke towards the crank's axis"),
 }

@@ -9,6 +9,7 @@ from __future__ import annotations
 from gearlink.core.errors import GearlinkError
 from gearlink.core.gear_terms import GEAR_PAIR
 from gearlink.core.linkage_terms import GEAR_LINKAGE, REAL_SPEED, SLIDER
+from gearlink.core.motion_terms import MOTION_EXTREMES
 from gearlink.core.term import Term as Term
 
 _SLIDER_CRANK = {
@@ -314,6 +315,7 @@ TERMS: dict[str, Term] = {
     **_PLANET_LINKAGE,
     **_HYPOCYCLOID,
     **_FIVE_BAR,
+    **MOTION_EXTREMES,
     **_STUDY,
     **_TOLERANCE,
     **_REGISTER,

@@ -202,6 +202,23 @@ def _five_bar(design: Any) -> list[Course]:
     return found
 
 
+def _wide_swing(design: Any) -> list[Course]:
+    """The rocker over its working stroke, and the slider that it drives."""
+    motion = design.motion
+    law, angle, swing = motion.law, motion.cycle_angle, motion.swing
+    k = np.linspace(0.0, 1.0, 721)
+    x, speed = math.degrees(angle) * k, angle / motion.working_time
+    has_jerk = design.spec.slider is None
+    found = law.invariants(k, 3 if has_jerk else 2)
+    rates = tuple(swing * rate / angle**order for order, rate in enumerate(found))
+    shown = [Course("Rocker, working stroke", "cam angle [deg]", x, rates, "rad", speed)]
+    if not has_jerk:
+        slider = motion.slider
+        moved = tuple(slider.stroke * r / angle**order for order, r in enumerate(slider.slider_invariants(k)))
+        shown.append(Course("Slider", "cam angle [deg]", x, moved, "mm", speed))
+    return shown
+
+
 def _six_bar(design: Any) -> list[Course]:
     course = design.course
     x = np.linspace(math.degrees(course.start), math.degrees(course.end), 720 * (course.period_turns or 1) + 1)
@@ -221,6 +238,7 @@ _KINDS: dict[str, Callable[[Any], list[Course]]] = {
     "hypocycloid-dwell": _hypocycloid,
     "geared-five-bar": _five_bar,
     "geared-six-bar": _six_bar,
+    "wide-swing-cam": _wide_swing,
 }
 
 

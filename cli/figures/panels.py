@@ -157,7 +157,9 @@ def drawing(axes: Axes, title: str) -> None:
 def extreme(axes: Axes, degrees: float, value: float, *, above: bool, unit: str = "") -> None:
     """A marked extreme of a curve over a turn, with its value."""
     axes.plot([degrees], [value], "o", color=style.RED, markersize=4.0, zorder=5)
-    side = "right" if degrees > 306.0 else "left" if degrees < 54.0 else "center"
+    left, right = axes.get_xlim()
+    share = (degrees - left) / (right - left)
+    side = "right" if share > 0.85 else "left" if share < 0.15 else "center"
     look: dict[str, Any] = {"ha": side, "va": "bottom" if above else "top", "fontsize": 7.5, "zorder": 6}
     words = f"{style.number(value, 5)}{unit} at {degrees:.5g}°"
     shift = (0, 5 if above else -5)

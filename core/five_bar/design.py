@@ -20,7 +20,8 @@ from gearlink.core.gears.single_mesh import MESH_CHECKS
 from gearlink.core.gears.train_names import TRAIN_CHECKS
 from gearlink.core.gears.train_ways import train_ways
 from gearlink.core.linkages.checks import target_check, transmission_check
-from gearlink.core.real_speed import RealSpeed
+from gearlink.core.motion_extremes import WithExtremes, names
+from gearlink.core.real_speed import RealSpeed, per_time
 from gearlink.core.remedies import down, either, up
 from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
@@ -44,7 +45,11 @@ _LINKS = (
 )
 
 
-class GearedFiveBar(RealSpeed, FiveBarParts):
+_OF_PATH = names("velocity", "acceleration")
+_OF_FUNCTION = names("speed_ratio", "acceleration_ratio")
+
+
+class GearedFiveBar(WithExtremes, RealSpeed, FiveBarParts):
     """A five-bar whose gears take away one of its two freedoms."""
 
     kind = "geared-five-bar"
@@ -71,6 +76,8 @@ class GearedFiveBar(RealSpeed, FiveBarParts):
                 "span_max_at",
                 "min_transmission_angle",
                 "min_transmission_angle_at",
+                *_OF_PATH,
+                *_OF_FUNCTION,
                 "path_width",
                 "path_height",
                 "phase_step",
@@ -89,6 +96,13 @@ class GearedFiveBar(RealSpeed, FiveBarParts):
                 "contact_ratio",
                 "input_speed",
                 "turn_time",
+                "point_speed_max",
+                "point_speed_min",
+                "point_acceleration_max",
+                "output_speed_max",
+                "output_speed_min",
+                "output_acceleration_max",
+                "output_acceleration_min",
             ),
             ("closure", "target", "gear-collision", "shaft-clearance", "transmission-angle", *MESH_CHECKS, "backlash"),
             ("path", "function", "deviations", "structural_error", "search"),
@@ -106,6 +120,15 @@ class GearedFiveBar(RealSpeed, FiveBarParts):
     frame_length: float = placed("bar.frame")
     phase: float = placed("bar.phase")
     assembly: int = placed("bar.assembly")
+
+    extreme_names = (*_OF_PATH, *_OF_FUNCTION)
+    point_speed_max: float | None = per_time("velocity_max", 1)
+    point_speed_min: float | None = per_time("velocity_min", 1)
+    point_acceleration_max: float | None = per_time("acceleration_max", 2)
+    output_speed_max: float | None = per_time("speed_ratio_max", 1)
+    output_speed_min: float | None = per_time("speed_ratio_min", 1)
+    output_acceleration_max: float | None = per_time("acceleration_ratio_max", 2)
+    output_acceleration_min: float | None = per_time("acceleration_ratio_min", 2)
 
     ways = {
         "transmission-angle": (up("links.follower", "links.output"), *_LINKS),
@@ -128,6 +151,15 @@ class GearedFiveBar(RealSpeed, FiveBarParts):
     def point_across(self) -> float | None:
         """v of the coupler point [mm]."""
         return self.offset.imag if self.is_path else None
+
+    @cached_property
+    def motion_extremes(self) -> dict[str, float]:
+        """Extremes of the point's speed and acceleration [mm/rad, mm/rad^2], or of the output's, and their places."""
+        from gearlink.core.five_bar.extremes import function_extremes, path_extremes
+
+        if self.is_path:
+            return path_extremes(self.path_bar, self.offset)
+        return function_extremes(self.function_bar, *self.input_range)
 
     # Closing
 

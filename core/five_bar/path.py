@@ -57,6 +57,12 @@ def sweep(bar: PathFiveBar, phi: Reals, offset: complex) -> PathSweep:
     return PathSweep(_continuous(bar, phi), gamma, start + offset * u2, velocity, acceleration)
 
 
+def rates(bar: PathFiveBar, phi: Reals, offset: complex) -> tuple[Points, Points]:
+    """Velocity [mm/rad] and acceleration [mm/rad^2] of the coupler point; closure is not checked."""
+    start, end, u2, u3, _ = _position(bar, phi)
+    return _rates(bar, start, end, u2, u3, offset)
+
+
 def points(bar: PathFiveBar, phi: Reals, offset: complex) -> Points:
     """The coupler point alone [mm]; closure is not checked (NaN where the five-bar opens)."""
     start, _, u2, _, _ = _position(bar, phi)

@@ -14,6 +14,7 @@ from gearlink.core.flatbed_press.motion import PressMotion
 from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantities, gear_quantity
 from gearlink.core.gears.drawing_names import DERIVED, DRAWING_CHECKS, DRAWING_QUANTITIES
 from gearlink.core.linkages.slider_crank_design import SLIDER_QUANTITIES, SliderCrankQuantities
+from gearlink.core.motion_extremes import WithExtremes, names
 from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
 
@@ -39,7 +40,11 @@ _CAM = (
     "min_curvature_radius",
     "max_radius",
     "min_radius",
+    "max_pressure_angle_at",
+    "min_curvature_radius_at",
     "return_max_pressure_angle",
+    "return_max_pressure_angle_at",
+    "return_min_curvature_radius_at",
     "return_min_curvature_radius",
     "return_max_radius",
     "return_min_radius",
@@ -58,7 +63,14 @@ _CAM_TABLES = ("follower", "main_cam", "return_cam")
 _PRESS_QUANTITIES = ("crank_length", "initial_crank_angle", *_SYNC, *_CHAINS)
 
 
-class FlatbedPress(SliderCrankQuantities, GearQuantities, Design):
+_EXTREMES = (
+    "min_transmission_angle_bed_at",
+    "min_transmission_angle_cylinder_at",
+    *names("bed_velocity", "bed_acceleration", "cylinder_velocity", "cylinder_acceleration"),
+)
+
+
+class FlatbedPress(WithExtremes, SliderCrankQuantities, GearQuantities, Design):
     """A flatbed cylinder press, from its design file to every quantity that is asked for."""
 
     kind = "flatbed-press"
@@ -68,10 +80,12 @@ class FlatbedPress(SliderCrankQuantities, GearQuantities, Design):
         "cam": Outline((*_SYNC, *_CAM), _CAM_CHECKS, _CAM_TABLES),
         "crank": Outline(("crank_length", *SLIDER_QUANTITIES)),
         "gear": Outline((*GEAR_QUANTITIES, *DRAWING_QUANTITIES), (*GEAR_CHECKS, *DRAWING_CHECKS)),
-        "analyze": Outline(_PRESS_QUANTITIES, _PRESS_CHECKS, ("positions",)),
+        "analyze": Outline((*_PRESS_QUANTITIES, *_EXTREMES), _PRESS_CHECKS, ("positions",)),
     }
 
     derived = DERIVED
+    extreme_names = _EXTREMES
+    motion_extremes: dict[str, float] = placed("motion.extremes")
     extra_tables = ("chains", "drawing", "candidates")
     trials = 30
     candidates, ways_of = remedies.candidates, remedies.ways_of
@@ -157,6 +171,10 @@ class FlatbedPress(SliderCrankQuantities, GearQuantities, Design):
     return_end: float = placed("cams.follower.return_end")
     roller_center_distance: float = placed("cams.roller_center_distance")
     max_pressure_angle: float = placed("cams.main_cam.max_pressure_angle.value")
+    max_pressure_angle_at: float = placed("cams.main_cam.max_pressure_angle.place")
+    min_curvature_radius_at: float = placed("cams.main_cam.min_curvature_radius.place")
+    return_max_pressure_angle_at: float = placed("cams.return_cam.max_pressure_angle.place")
+    return_min_curvature_radius_at: float = placed("cams.return_cam.min_curvature_radius.place")
     min_curvature_radius: float = placed("cams.main_cam.min_curvature_radius.value")
     max_radius: float = placed("cams.max_radius")
     min_radius: float = placed("cams.min_radius")

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.flatbed_press.chains import BedChain, CylinderChain, difference
 from gearlink.core.flatbed_press.zone import equal_speed_angle, zone_end
+from gearlink.core.linkages.dyad import acute
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.linkages.slider_crank import SliderCrank
 from gearlink.core.report import safely_above
@@ -15,6 +16,9 @@ from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
     from gearlink.core.flatbed_press.spec import DoubleCrank, FlatbedPressSpec
+
+
+_TURN = 2.0 * math.pi
 
 
 class PressMotion:
@@ -57,6 +61,28 @@ class PressMotion:
     def min_transmission_angle_cylinder(self) -> float:
         """Least transmission angle of GHMN over the turn [rad]."""
         return self.cylinder.linkage.min_transmission_angle()
+
+    @cached_property
+    def extremes(self) -> dict[str, float]:
+        """Extremes of velocity and acceleration of bed and cylinder [mm/s, mm/s^2], and all their places [rad]."""
+        from gearlink.core.motion_extremes import extremes
+
+        speed, bed, cylinder = self.input_speed, self.bed, self.cylinder
+        curves = {
+            "bed_velocity": lambda phi: bed.travel(phi, 1).first * speed,
+            "bed_acceleration": lambda phi: bed.travel(phi, 2).second * speed**2,
+            "cylinder_velocity": lambda phi: cylinder.travel(phi, 1).first * speed,
+            "cylinder_acceleration": lambda phi: cylinder.travel(phi, 2).second * speed**2,
+        }
+        return extremes(curves, 0.0, _TURN) | self._transmission_places()
+
+    def _transmission_places(self) -> dict[str, float]:
+        """Input angles of the least transmission angles: the driving crank then lies in the line of the frame."""
+        bed, cylinder = (_crank_of_least(chain.linkage) for chain in (self.bed, self.cylinder))
+        return {
+            "min_transmission_angle_bed_at": (bed - self.bed.initial_crank_angle) % _TURN,
+            "min_transmission_angle_cylinder_at": (self.cylinder.initial_angle - cylinder) % _TURN,
+        }
 
     # The synchronous zone
 
@@ -103,6 +129,12 @@ class PressMotion:
     def cam_sync_end(self) -> float:
         """Cam angle at the end of the zone [rad]."""
         return float(self.bed.cam_angle(self.sync_end).value)
+
+
+def _crank_of_least(linkage: FourBar) -> float:
+    """Crank angle of the least transmission angle [rad], 0 or pi."""
+    folded, stretched = map(acute, linkage.transmission_extremes())
+    return 0.0 if folded <= stretched else math.pi
 
 
 def _four_bar(links: DoubleCrank) -> FourBar:

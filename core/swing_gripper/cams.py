@@ -126,6 +126,16 @@ class GripperCams(DiscCams):
         return tuple(cam.min_curvature_radius.value for cam in self.discs)
 
     @property
+    def max_pressure_angle_at(self) -> tuple[float, ...]:
+        """Cam angles of the largest pressure angles [rad]."""
+        return tuple(cam.max_pressure_angle.place for cam in self.discs)
+
+    @property
+    def min_curvature_radius_at(self) -> tuple[float, ...]:
+        """Cam angles of the least convex radii of curvature [rad]."""
+        return tuple(cam.min_curvature_radius.place for cam in self.discs)
+
+    @property
     def max_radius(self) -> tuple[float, ...]:
         """Largest radius of each profile [mm]."""
         return tuple(cam.max_radius for cam in self.discs)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from gearlink.core.design import Design, Outline, placed
 from gearlink.core.errors import NoSolution
+from gearlink.core.motion_extremes import WithExtremes, names
 from gearlink.core.report import Report
 from gearlink.core.results import cached_property
 from gearlink.core.swing_gripper import checks, remedies, tables
@@ -20,7 +21,8 @@ if TYPE_CHECKING:
     from gearlink.core.swing_gripper.linkage import GripperLinkage
     from gearlink.core.swing_gripper.spec import SwingGripperSpec
 
-_CAM = ("max_pressure_angle", "min_curvature_radius", "max_radius", "min_radius")
+_CAM_PLACES = ("max_pressure_angle_at", "min_curvature_radius_at")
+_CAM = ("max_pressure_angle", "min_curvature_radius", *_CAM_PLACES, "max_radius", "min_radius")
 _LAW = ("handover_speed", "handover_mismatch", "handover_center", "total_swing", "min_transmission_angle")
 _LOOP = ("newton_agreement", "newton_iterations", "condition_number")
 _CLOSURE = ("closing_torque", "lift_off_speed")
@@ -28,7 +30,13 @@ _LAW_CHECKS = ("transmission-angle", "conditioning", "handover", "velocity-step"
 _CAM_CHECKS = ("pressure-angle", "cam-undercut", "shaft-clearance")
 
 
-class SwingGripper(Design):
+_EXTREMES = (
+    "min_transmission_angle_at",
+    *names("input_velocity", "input_acceleration", "output_velocity", "output_acceleration"),
+)
+
+
+class SwingGripper(WithExtremes, Design):
     """A swing gripper, from its design file to every quantity that is asked for."""
 
     kind = "swing-gripper"
@@ -36,10 +44,12 @@ class SwingGripper(Design):
     outlines = {
         "gripper": Outline((*_LAW, *_LOOP), _LAW_CHECKS, ("motion",)),
         "cam": Outline(_CAM, _CAM_CHECKS, ("main_cam", "return_cam")),
-        "analyze": Outline((*_LAW, *_LOOP), _LAW_CHECKS, ("motion",)),
+        "analyze": Outline((*_LAW, *_LOOP, *_EXTREMES), _LAW_CHECKS, ("motion",)),
     }
     extra_tables = ("forces", "newton", "handover_window", "tip")
 
+    extreme_names = _EXTREMES
+    motion_extremes: dict[str, Any] = placed("motion.extremes")
     trials = 20
     candidates, ways_of = remedies.candidates, remedies.ways_of
 
@@ -84,6 +94,8 @@ class SwingGripper(Design):
     cam_center: complex = placed("cams.center")
     max_pressure_angle: tuple[float, ...] = placed("cams.max_pressure_angle")
     min_curvature_radius: tuple[float, ...] = placed("cams.min_curvature_radius")
+    max_pressure_angle_at: tuple[float, ...] = placed("cams.max_pressure_angle_at")
+    min_curvature_radius_at: tuple[float, ...] = placed("cams.min_curvature_radius_at")
     max_radius: tuple[float, ...] = placed("cams.max_radius")
     min_radius: tuple[float, ...] = placed("cams.min_radius")
     closing_torque: float = placed("closure.closing_torque")
@@ -93,7 +105,7 @@ class SwingGripper(Design):
     @classmethod
     def quantity_names(cls) -> tuple[str, ...]:
         """Every quantity, those that need an optional section included: asking for one says what is missing."""
-        return (*_LAW, *_LOOP, "cam_center", *_CAM, *_CLOSURE, "spring_torque")
+        return (*_LAW, *_LOOP, *_EXTREMES, "cam_center", *_CAM, *_CLOSURE, "spring_torque")
 
     def raw(self, name: str) -> Any:
         """The value of a quantity; a point as its two coordinates."""

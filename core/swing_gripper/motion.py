@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from gearlink.core.swing_gripper.spec import SwingGripperSpec
 
 _STATED = 1e-6
+_TURN = 2.0 * math.pi
 
 
 def require(spec: SwingGripperSpec, section: str, words: str) -> Any:
@@ -104,6 +105,34 @@ class Motion:
 
         degrees = turn_degrees(samples)
         return degrees, self.linkage.motion(degrees, 2)
+
+    @cached_property
+    def extremes(self) -> dict[str, float]:
+        """Extremes of speed and acceleration of both rockers [rad/s, rad/s^2], and all their places [rad]."""
+        import numpy as np
+
+        from gearlink.core.motion_extremes import extremes
+        from gearlink.core.numerics.extremes import minimum_over
+
+        joints = [math.radians(start) for start in self.law.starts]
+
+        def curve(name: str, order: int) -> Any:
+            scale = self.shaft_speed**order
+            return lambda theta: getattr(self.linkage.motion(np.degrees(theta), order), name) * scale
+
+        curves = {
+            f"{link}_{rate}": curve(f"{link}_{rate}", order)
+            for link in ("input", "output")
+            for order, rate in enumerate(("velocity", "acceleration"), start=1)
+        }
+        found: dict[str, Any] = dict(extremes(curves, 0.0, _TURN, joints=joints))
+
+        def angles(theta: Reals, joint: int) -> Reals:
+            beta = self.law.evaluate(np.degrees(theta), 0)[0]
+            return self.linkage.transmission(self.linkage.local_output(beta))[joint]
+
+        least = [minimum_over(lambda t, j=j: angles(t, j), 0.0, _TURN, joints=joints, samples=512) for j in (0, 1)]  # type: ignore[misc]
+        return found | {"min_transmission_angle_at": [each.place for each in least]}
 
     @cached_property
     def min_transmission_angle(self) -> tuple[float, float]:

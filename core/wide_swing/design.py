@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from gearlink.core.design import Design, Outline
 from gearlink.core.errors import MissingSection, NoSolution, at_key
 from gearlink.core.results import cached_property
-from gearlink.core.wide_swing import checks, cycle_checks, remedies, tables
+from gearlink.core.wide_swing import checks, cycle_checks, names, places, remedies, tables
 from gearlink.core.wide_swing.motion import Motion
 from gearlink.core.wide_swing.unloading import Unloading
 
@@ -21,67 +21,9 @@ if TYPE_CHECKING:
     from gearlink.core.wide_swing.cycle import WholeCycle
     from gearlink.core.wide_swing.oscillating_cam import OscillatingCam
     from gearlink.core.wide_swing.outline import AnyCam
+    from gearlink.core.wide_swing.places import Places
     from gearlink.core.wide_swing.slider_cam import SliderCam
     from gearlink.core.wide_swing.spec import SwingCam, WideSwingSpec
-
-_LAW = {
-    "energy_parameter": "motion.law.energy_parameter",
-    "velocity_peak": "motion.law.velocity_peak",
-    "acceleration_peak": "motion.law.acceleration_peak",
-    "min_pivot_ratio": "motion.min_pivot_ratio",
-    "force": "unloading.force",
-    "spring_rate": "unloading.spring_rate",
-}
-_TORQUE = {"power_peak": "unloading.power_peak", "drive_torque_peak": "unloading.drive_torque_peak"}
-_SHAFT = {
-    "dynamic_coefficient": "unloading.dynamic_coefficient",
-    "drive_balancing_ratio": "unloading.drive_balancing_ratio",
-}
-_SLIDER = {
-    "slider_stroke": "motion.slider.stroke",
-    "reference_inertia": "motion.reference_inertia",
-    "rocker_share": "motion.slider.rocker_share",
-    "middle_place": "motion.slider.middle_place",
-    "slider_velocity_peak": "motion.slider.slider_velocity_peak",
-    "slider_acceleration_peak": "motion.slider.slider_acceleration_peak",
-}
-_DRIVE = {
-    "crank_span": "motion.drive.crank_span",
-    "cam_swing": "motion.drive.swing",
-    "middle_pressure_angle": "oscillating_cam.middle_pressure_angle",
-}
-_OF_REST = ("dwell_force",)
-_OF_SLIDER_CAM = {"line_of_centers_place": "cam.middle", "roller_arm_offset": "cam.arm_offset"}
-_OF_EVEN_CAM = ("profile_correction", "largest_profile_correction", "phase_angle", "start_curvature_radius")
-_PROFILE = {
-    "rocker_radius": "cam.rocker_radius",
-    "min_radius": "cam.min_radius",
-    "max_radius": "cam.max_radius",
-    **{name: f"even_cam.{name}" for name in _OF_EVEN_CAM},
-    "start_radius_estimate": "start_radius_estimate",
-    "middle_radius_estimate": "middle_radius_estimate",
-    "transition_zone": "cam.transition_zone",
-    "contact_end": "contact_end",
-    "max_pressure_angle": "cam.max_pressure_angle",
-    "lift_off_speed": "unloading.lift_off_speed",
-    "contact_force": "contact_force",
-    "dwell_force": "dwell_force",
-}
-_CYCLE = {
-    "sectors_external": "cycle.sectors_external",
-    "sectors_internal": "cycle.sectors_internal",
-    "sectors_return": "cycle.sectors_return",
-    "longer_stroke_reserve": "cycle.longer_stroke_reserve",
-}
-_ITERATION = {
-    "iteration_energy_parameter": "unloading.iteration.energy_parameter",
-    "iteration_passes": "unloading.iteration.passes",
-    "iteration_error": "unloading.iteration_error",
-}
-_CURVATURE = {"min_curvature_radius": "cam.min_curvature_radius"}
-_PATHS = _LAW | _TORQUE | _SHAFT | _SLIDER | _DRIVE | _PROFILE | _OF_SLIDER_CAM | _CURVATURE | _CYCLE | _ITERATION
-_NEED_PROFILE = ("start_radius_estimate", "middle_radius_estimate")
-_NEED_ZONE = ("transition_zone", "max_pressure_angle", "min_curvature_radius", "contact_end", "contact_force")
 
 _CAM = ("max_pressure_angle", "min_curvature_radius", "max_radius", "min_radius")
 _LAW_CHECKS = ("unloader-turnability", "force-closure", "cycle-angles", "balancing")
@@ -95,9 +37,9 @@ class WideSwingDesign(Design):
     kind = "wide-swing-cam"
     spec: WideSwingSpec
     outlines = {
-        "swing": Outline(tuple(_LAW), _LAW_CHECKS, ("law", "balance")),
+        "swing": Outline(tuple(names.LAW), _LAW_CHECKS, ("law", "balance")),
         "cam": Outline(_CAM, _CAM_CHECKS, ("main_cam", "return_cam")),
-        "analyze": Outline(tuple(_LAW), _LAW_CHECKS, ("law", "balance")),
+        "analyze": Outline((*names.LAW, *names.MOTION), _LAW_CHECKS, ("law", "balance")),
     }
     extra_tables = ("iteration", "slider", "contact", "contour", "joints")
 
@@ -266,6 +208,21 @@ class WideSwingDesign(Design):
         )
 
     @cached_property
+    def extremes(self) -> Places:
+        """Extremes of the rocker's speed and acceleration over the working stroke, at the design speed."""
+        return places.of_motion(self)
+
+    @cached_property
+    def pressure_place(self) -> float:
+        """Cam angle of the greatest pressure angle where the roller touches the profile [rad]."""
+        return places.of_pressure(self)
+
+    @cached_property
+    def curvature_place(self) -> float | None:
+        """Cam angle of the least radius of a bulging pitch curve where the roller touches it [rad]."""
+        return places.of_curvature(self)
+
+    @cached_property
     def dwell_force(self) -> float:
         """Greatest force of a roller on its cam during the rests [N]."""
         return self.unloading.dwell_force(self.cams.values())
@@ -288,11 +245,11 @@ class WideSwingDesign(Design):
 
     def raw(self, name: str) -> Any:
         """A quantity by its place among the parts; one of a profile that does not exist says which key to change."""
-        if name in _NEED_ZONE:
+        if name in names.NEED_ZONE:
             with self._profile_key:
                 self.cam.require_profile()
-        value_of = attrgetter(_PATHS[name])
-        if "cam." not in _PATHS[name]:
+        value_of = attrgetter(names.PATHS[name])
+        if "cam." not in names.PATHS[name]:
             return value_of(self)
         with at_key("cam.roller_radius"):
             value = value_of(self)
@@ -329,39 +286,45 @@ class WideSwingDesign(Design):
         turn = ("joints",) if spec.cycle is not None else ()
         of_turn = _CYCLE_CHECKS if spec.cycle is not None else ()
         if command == "cam":
-            sectors = tuple(_CYCLE) if spec.cycle is not None else ()
+            sectors = tuple(names.CYCLE) if spec.cycle is not None else ()
             return Outline((*base.quantities, *sectors), (*base.checks, *of_turn), (*cams, *turn))
-        quantities = [*base.quantities, *(_SLIDER if spec.slider is not None else _TORQUE)]
+        quantities = [*base.quantities, *(names.SLIDER if spec.slider is not None else names.TORQUE)]
         checks, tables = [*base.checks], [*base.tables]
         if spec.shaft is not None:
-            quantities += _SHAFT
+            quantities += names.SHAFT
         if spec.slider is not None:
             tables.append("slider")
         if spec.cam is not None:
             quantities += self._profile_quantities(command)
             checks += (*(("profile-exists",) if self._is_refused else (*_CAM_CHECKS, *of_turn)), "force-reserve")
         if spec.method == "iteration":
-            quantities += _ITERATION
+            quantities += names.ITERATION
             tables.append("iteration")
         if command == "analyze" and spec.cam is not None and self._profile_exists:
             tables += (*cams, *turn)
         return Outline(tuple(quantities), tuple(checks), tuple(tables))
 
     def _profile_quantities(self, command: str) -> list[str]:
-        names = [*_PROFILE, *(_CURVATURE if command == "analyze" else ())]
+        shown = [*names.PROFILE, *((*names.CURVATURE, *names.PLACES) if command == "analyze" else ())]
         if self._is_refused:
             return ["lift_off_speed"]
         if self.spec.drive is not None:
-            names = [*_DRIVE, *(name for name in names if name not in (*_OF_EVEN_CAM, *_OF_REST, *_NEED_PROFILE))]
+            shown = [
+                *names.DRIVE,
+                *(name for name in shown if name not in (*names.OF_EVEN_CAM, *names.OF_REST, *names.NEED_PROFILE)),
+            ]
         if self.spec.slider is not None:
-            names = [*_OF_SLIDER_CAM, *(name for name in names if name not in (*_OF_EVEN_CAM, *_NEED_PROFILE))]
+            shown = [
+                *names.OF_SLIDER_CAM,
+                *(name for name in shown if name not in (*names.OF_EVEN_CAM, *names.NEED_PROFILE)),
+            ]
         if self.spec.cycle is not None and self._profile_exists:
-            names += _CYCLE
+            shown += names.CYCLE
         if not self._profile_exists:
-            names = [name for name in names if name not in (*_NEED_PROFILE, *_NEED_ZONE)]
+            shown = [name for name in shown if name not in (*names.NEED_PROFILE, *names.NEED_ZONE)]
         elif not self.has_zone(self.cam):
-            names = [name for name in names if name == "transition_zone" or name not in _NEED_ZONE]
-        return names
+            shown = [name for name in shown if name == "transition_zone" or name not in names.NEED_ZONE]
+        return shown
 
     @property
     def _is_refused(self) -> bool:
@@ -382,4 +345,4 @@ class WideSwingDesign(Design):
     @classmethod
     def quantity_names(cls) -> tuple[str, ...]:
         """Every quantity, those of an optional section included."""
-        return tuple(_PATHS)
+        return tuple(names.PATHS)
