@@ -106,10 +106,12 @@ def _invoke(arguments: list[str]) -> int:
         )
         return ExitCode.WRONG_INPUT
     if "_GEARLINK_COMPLETE" not in os.environ:  # else a shell asks for completions
-        from gearlink.cli.quick import plain_line, run_line
+        from gearlink.cli.quick import plain_line, plain_reference, run_line, run_reference
 
         if line := plain_line(arguments):
             return run_line(*line)
+        if words := plain_reference(arguments):
+            return run_reference(*words)
     from gearlink.cli.app import invoke
 
     return invoke(arguments)

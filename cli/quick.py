@@ -1,4 +1,4 @@
-"""Plain command lines of the design commands, read without Typer, whose import alone takes longer than most designs.
+"""Plain command lines of the commands that are used most, read without Typer, whose import takes longer than most.
 
 Only what is certain is taken: a design command, one design file, options spelled out with proper values. For all
 else `plain_line` gives None and Typer reads the line, so that help, abbreviations and every error are its own.
@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any, TypeAlias
 
-from gearlink.cli.options import COMMANDS, OPTIONS, Option, Options
+from gearlink.cli.options import COMMANDS, OPTIONS, Format, Option, Options
 
 Line: TypeAlias = tuple[str, str, Options]
 """Command, design file, options."""
@@ -36,6 +36,43 @@ def plain_line(arguments: list[str]) -> Line | None:
     except (LookupError, ValueError, StopIteration):
         return None
     return (command, sources[0], Options(**chosen)) if len(sources) == 1 else None
+
+
+def plain_reference(arguments: list[str]) -> tuple[str, ...] | None:
+    """Command and words of a plain line of `check`, `explain`, `new` and `schema`; None where Typer has to read it.
+
+    Example
+        >>> plain_reference(["explain", "GL301"])
+        ('explain', 'GL301')
+        >>> plain_reference(["new", "gear-pair", "--out", "pair.yaml"]) is None
+        True
+    """
+    command, *words = arguments or [""]
+    if not words or any(not word or word.startswith("-") for word in words):
+        return None
+    return (command, *words) if command == "check" or (command in REFERENCE and len(words) == 1) else None
+
+
+REFERENCE = ("explain", "new", "schema")
+
+
+def run_reference(command: str, *words: str) -> int:
+    """Run one of these commands without options, and give the exit status."""
+    if command == "check":
+        from gearlink.cli.commands.check import run_check
+
+        return run_check(words, Options())
+    if command == "explain":
+        from gearlink.cli.commands.explain import run_explain
+
+        return run_explain(words[0], Format.TABLE)
+    if command == "new":
+        from gearlink.cli.commands.new import run_new
+
+        return run_new(words[0], None)
+    from gearlink.cli.commands.schema import run_schema
+
+    return run_schema(words[0])
 
 
 def run_line(command: str, source: str, options: Options) -> int:

@@ -13,7 +13,7 @@ from pydantic_core import PydanticCustomError, core_schema
 class Spec(BaseModel):
     """A section of a design file: strict, frozen, no unknown keys, finite numbers only."""
 
-    model_config = ConfigDict(strict=True, frozen=True, extra="forbid", allow_inf_nan=False)
+    model_config = ConfigDict(strict=True, frozen=True, extra="forbid", allow_inf_nan=False, defer_build=True)
 
 
 MOST_NAME = 200

@@ -1,10 +1,10 @@
-"""Writes docs/nomenclature.md and the list of keys that `explain` reads; run by `make docs`, checked by the tests."""
+"""Writes docs/nomenclature.md and what `explain`, `schema` and `new` read; run by `make docs`, checked by the tests."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-from gearlink.cli.texts import key_index
+from gearlink.cli.texts import indexing, known
 from gearlink.core.kinds import FILES
 from gearlink.core.nomenclature import TERMS
 
@@ -44,4 +44,5 @@ def _kinds_by_quantity() -> dict[str, list[str]]:
 
 if __name__ == "__main__":
     TARGET.write_text(text())
-    key_index.FILE.write_text(key_index.text(), encoding="utf-8")
+    known.SCHEMAS.write_text(indexing.schemas_text(), encoding="utf-8")
+    known.INDEX.write_text(indexing.index_text(), encoding="utf-8")

@@ -5,13 +5,13 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Iterator
 from dataclasses import dataclass
-from difflib import get_close_matches
 from shutil import get_terminal_size
 from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import Format, Options
 from gearlink.cli.texts.columns import COLUMNS, CONSTANTS, column_words
+from gearlink.cli.texts.known import index
 
 if TYPE_CHECKING:
     from gearlink.core.kinds import Kind
@@ -73,7 +73,7 @@ def _topics(name: str) -> Iterator[Topic]:
         yield _kind(FILES[name])
     if name.rpartition(".")[2] in TERMS:
         yield _quantity(name.rpartition(".")[2])
-    if name in _laws():
+    if name in index().laws:
         yield _law(name)
     yield from _symbols(name)
     if name in CONSTANTS:
@@ -94,7 +94,7 @@ def _symbols(name: str) -> Iterator[Topic]:
 
 def _keys(name: str) -> Iterator[Topic]:
     """Keys of design files by path, `gears.module`, or by their last word; one topic where several kinds agree."""
-    from gearlink.cli.texts.key_index import known_keys
+    from gearlink.cli.texts.spec_keys import known_keys
     from gearlink.cli.texts.written_design import choice
 
     for key, kinds in known_keys():
@@ -109,7 +109,7 @@ def _keys(name: str) -> Iterator[Topic]:
 
 def names() -> tuple[str, ...]:
     """Everything that can be explained, but for the last words of keys and single symbols, which lead there too."""
-    from gearlink.cli.texts.key_index import known_keys
+    from gearlink.cli.texts.spec_keys import known_keys
 
     return tuple(dict.fromkeys([*plain_names(), *(key.path for key, _ in known_keys())]))
 
@@ -122,13 +122,7 @@ def plain_names() -> tuple[str, ...]:
 
     texts = explanations()
     checks = [check for text in texts.values() for check in text.checks]
-    return tuple(dict.fromkeys([*texts, *checks, *FILES, *TERMS, *_laws(), *COLUMNS, *CONSTANTS]))
-
-
-def _laws() -> tuple[str, ...]:
-    from gearlink.core.cams.laws import REST_TO_REST, REST_TO_SPEED
-
-    return (*REST_TO_REST, *REST_TO_SPEED, "half-345", "half-4567", "velocity-345", "velocity-4567")
+    return tuple(dict.fromkeys([*texts, *checks, *FILES, *TERMS, *index().laws, *COLUMNS, *CONSTANTS]))
 
 
 # Codes and checks
@@ -152,14 +146,8 @@ def _kinds_with_checks(checks: tuple[str, ...]) -> str:
     """Kinds whose design class makes one of the checks, whether a command always shows it or a section calls for it."""
     from gearlink.core.kinds import FILES
 
-    methods = ["check_" + check.replace("-", "_") for check in checks]
-    found = []
-    for kind in FILES.values():
-        classes = {kind.design_class(command) for command in kind.commands}
-        shown = {check for cls in classes for outline in cls.outlines.values() for check in outline.checks}
-        if shown.intersection(checks) or any(hasattr(cls, method) for cls in classes for method in methods):
-            found.append(kind.name)
-    return ", ".join(found)
+    makers = {kind for check in checks for kind in index().checks[check]}
+    return ", ".join(kind for kind in FILES if kind in makers)
 
 
 # Quantities
@@ -176,39 +164,21 @@ def _quantity(name: str) -> Topic:
         "Unit": entry.unit if entry.unit != "1" else "1 (no dimension)",
         "Formula": FORMULAS.get(name, ""),
         "Source": entry.source,
-        "Given by": "; ".join(_givers(name)),
+        "Given by": "; ".join(index().quantities[name]),
     }
     return Topic("quantity", name, entry.words, {label: words for label, words in paragraphs.items() if words})
-
-
-def _givers(name: str) -> Iterator[str]:
-    """Kinds that have the quantity and the commands that show it."""
-    from gearlink.core.kinds import FILES
-
-    for kind in FILES.values():
-        always, known = [], False
-        for command in kind.commands:
-            cls = kind.design_class(command)
-            shown = {quantity.rpartition(".")[2] for quantity in cls.outlines[command].quantities}
-            known = known or name in {q.rpartition(".")[2] for q in cls.quantity_names()}
-            if name in shown:
-                always.append(command)
-        if always:
-            yield f"{kind.name} ({', '.join(always)})"
-        elif known:
-            yield f"{kind.name} (where the file has the sections for it)"
 
 
 # Kinds and laws
 
 
 def _kind(kind: Kind) -> Topic:
+    from gearlink.cli.texts.schema import kind_schema
     from gearlink.cli.texts.spec_keys import spec_keys
 
-    model = kind.spec_model()
     keys = [key for key in spec_keys(kind) if "." not in key.path and key.path != "kind"]
     paragraphs = {
-        "What": (model.__doc__ or "").strip(),
+        "What": kind_schema(kind)["description"],
         "Commands": ", ".join(f"gearlink {command}" for command in kind.commands),
         "Needs": ", ".join(key.path for key in keys if key.required),
         "Takes": ", ".join(key.path for key in keys if not key.required),
@@ -319,6 +289,8 @@ def _index(format: Format) -> str:
 
 
 def _unknown(subject: str, format: Format) -> int:
+    from difflib import get_close_matches
+
     from gearlink.cli.reading.diagnostics import Diagnostic
     from gearlink.cli.render.errors import show_errors
     from gearlink.core.nomenclature import TERMS

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from difflib import get_close_matches
-
 from gearlink.cli.options import Options
 from gearlink.cli.reading.diagnostics import Diagnostic
 from gearlink.cli.render.errors import show_errors
@@ -14,6 +12,8 @@ def kind_named(name: str) -> Kind | None:
     """The kind, or None after the error has been shown."""
     if name in FILES:
         return FILES[name]
+    from difflib import get_close_matches
+
     near = get_close_matches(name.lower().replace("_", "-"), FILES, n=3, cutoff=0.4)
     known = f"the kinds are {', '.join(FILES)}"
     remedy = f"nearest: {', '.join(near)}; {known}" if near else known

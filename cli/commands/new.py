@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-import re
 import sys
 from functools import partial
-from importlib import resources
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
 from gearlink.cli.exit_codes import ExitCode
+from gearlink.cli.texts.known import index
+from gearlink.cli.texts.worked_designs import worked_design
 from gearlink.core.kinds import KINDS, SUMMARIES
 
 if TYPE_CHECKING:
     from gearlink.cli.texts.spec_keys import SpecKey
     from gearlink.core.kinds import Kind
-
-# Where several worked designs show a kind, the one to begin with.
-_PLAINEST = {"three-gear-four-bar": "standing_feed", "wide-swing-cam": "wide_swing_twin_cam"}
-_KIND = re.compile(r"^kind:\s*([\w-]+)", re.MULTILINE)
 
 
 def run_new(kind_name: str, out: Path | None, *, force: bool = False, quiet: bool = False) -> int:
@@ -43,7 +39,7 @@ def run_new(kind_name: str, out: Path | None, *, force: bool = False, quiet: boo
     except CannotWrite as error:
         return _refused(str(error), out)
     if not quiet:
-        print(f"wrote {out}; try: gearlink {first_command(kind, text)} {out}", file=sys.stderr)
+        print(f"wrote {out}; try: gearlink {index().first_commands[kind.name]} {out}", file=sys.stderr)
     return ExitCode.OK
 
 
@@ -81,7 +77,7 @@ def template(kind: Kind, name: str = "") -> str:
     design = worked_design(kind)
     if kind.name in KINDS:
         design = _explained(kind, design, name)
-    asked = first_command(kind, design)
+    asked = index().first_commands[kind.name]
     head = (
         f"# yaml-language-server: $schema={kind.name}.schema.json\n"
         f"# (for editors that check as you type; make it by: gearlink schema {kind.name} > {kind.name}.schema.json)\n"
@@ -90,47 +86,27 @@ def template(kind: Kind, name: str = "") -> str:
     return head + design.rstrip("\n") + "\n" + _left_out(kind, design)
 
 
-def worked_design(kind: Kind) -> str:
-    """The text of the kind's worked design: the file that bears its name, else the first by name."""
-    texts = {
-        file.name.rpartition(".")[0]: file.read_text(encoding="utf-8")
-        for folder in (resources.files("gearlink.designs"), resources.files("gearlink.designs") / "studies")
-        for file in folder.iterdir()
-        if file.name.endswith(".yaml")
-    }
-    own = {stem: text for stem, text in texts.items() if (found := _KIND.search(text)) and found[1] == kind.name}
-    if not own:
-        raise LookupError(f"no worked design of kind {kind.name} in gearlink.designs")
-    return own.get(_PLAINEST.get(kind.name, kind.name.replace("-", "_")), own[min(own)])
-
-
 def _explained(kind: Kind, text: str, name: str) -> str:
     """A worked design under another name, every key with its unit, its meaning and who chooses it."""
     from gearlink.cli.texts.written_design import written
 
-    data, _ = _read(kind, text)
+    data = _read(text)
     named = {"name": name} if name else {}
     rest = {key: value for key, value in data.items() if key not in ("kind", "name")}
     return written(kind, {"kind": kind.name, **named, **rest})
 
 
-def first_command(kind: Kind, text: str) -> str:
-    """The first command that a design file asks for."""
-    return str(_read(kind, text)[1].commands()[0])
+def _read(text: str) -> Any:
+    from gearlink.cli.reading.design_file import parse
 
-
-def _read(kind: Kind, text: str) -> tuple[dict[str, Any], Any]:
-    from gearlink.cli.reading.design_file import parse, validate
-
-    loaded = parse(text.encode(), "template")
-    return loaded.data, validate(loaded, kind.spec_model())
+    return parse(text.encode(), "template").data
 
 
 def _left_out(kind: Kind, text: str) -> str:
     """The keys that a design leaves out, as comments; nothing where it uses all."""
     from gearlink.cli.texts.spec_keys import spec_keys
 
-    data, _ = _read(kind, text)
+    data = _read(text)
     rows = []
     for key in spec_keys(kind):
         parent, _, name = key.path.rpartition(".")

@@ -9,7 +9,6 @@ import sys
 from collections.abc import Iterator, Sequence
 from contextlib import nullcontext
 from dataclasses import replace
-from difflib import get_close_matches
 from itertools import islice
 from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
 
@@ -120,6 +119,8 @@ def read_kind(loaded: LoadedFile, kinds: Sequence[str]) -> str:
     if not isinstance(kind, str):
         wrong = loaded.report("GL107", "kind must be one word of text", ("kind",), help=known)
         raise DesignFileError([*loaded.problems, wrong])
+    from difflib import get_close_matches
+
     near = get_close_matches(_spelled(kind), kinds, n=1) if len(kind) <= _LONGEST_KIND else []
     remedy = f"did you mean {near[0]}? {known}" if near else known
     shown = repr(kind if len(kind) <= _LONGEST_KIND else kind[: _LONGEST_KIND - 3] + "...")
@@ -275,6 +276,8 @@ def _unreadable(name: str, error: Exception) -> Diagnostic:
 def _missing(name: str) -> Diagnostic:
     if os.path.islink(name):
         return Diagnostic("GL101", f"a link to {os.readlink(name)}, which does not exist", name)
+    from difflib import get_close_matches
+
     near = get_close_matches(os.path.basename(name), _neighbours(name), n=1)
     remedy = f"did you mean {os.path.join(os.path.dirname(name), near[0])}?" if near else ""
     return Diagnostic("GL101", "no such file", name, help=remedy)

@@ -5,9 +5,7 @@ from __future__ import annotations
 import json
 import re
 import sys
-import textwrap
 from collections.abc import Sequence
-from shutil import get_terminal_size
 from typing import TextIO
 
 from gearlink.cli.options import Format, Options
@@ -42,6 +40,8 @@ def fitted(text: str, stream: TextIO) -> str:
     """
     if not stream.isatty():
         return text
+    from shutil import get_terminal_size
+
     width = max(_NARROWEST, get_terminal_size().columns)
     lines = text.split("\n")
     folded = [_folded(line, width) if _MESSAGE.match(line) else line for line in lines]
@@ -49,6 +49,8 @@ def fitted(text: str, stream: TextIO) -> str:
 
 
 def _folded(line: str, width: int) -> str:
+    import textwrap
+
     return "\n".join(
         textwrap.wrap(line, width, subsequent_indent="    ", break_long_words=False, break_on_hyphens=False)
     )

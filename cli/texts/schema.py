@@ -1,25 +1,21 @@
-"""The keys of the design files as JSON Schema draft-07, the dialect that editors read.
-
-pydantic writes the 2020-12 dialect. The differences that matter here: `$defs` is `definitions`, keys beside `$ref`
-are ignored, a list with a schema per place is an `items` list, and `discriminator` belongs to OpenAPI.
-"""
+"""The keys of the design files as JSON Schema draft-07, the dialect that editors read."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
+
+from gearlink.cli.texts.known import schema_parts
 
 if TYPE_CHECKING:
     from gearlink.core.kinds import Kind
 
 Node = dict[str, Any]
 DRAFT = "http://json-schema.org/draft-07/schema#"
-_LISTS = ("anyOf", "oneOf", "allOf")
-_DROPPED = ("title", "discriminator", "$defs", "description", "unit")
 
 
 def kind_schema(kind: Kind) -> Node:
     """The draft-07 schema of one kind of design file."""
-    body, definitions = _parts(kind, "")
+    body, definitions = schema_parts(kind, "")
     return {"$schema": DRAFT, "title": f"gearlink {kind.name}", **body, "definitions": definitions}
 
 
@@ -28,7 +24,7 @@ def all_kinds_schema(kinds: list[Kind]) -> Node:
     definitions: Node = {}
     branches = []
     for kind in kinds:
-        body, own = _parts(kind, f"{kind.name}.")
+        body, own = schema_parts(kind, f"{kind.name}.")
         definitions |= {kind.name: body, **own}
         chosen = {"properties": {"kind": {"const": kind.name}}, "required": ["kind"]}
         branches.append({"if": chosen, "then": {"$ref": f"#/definitions/{kind.name}"}})
@@ -42,65 +38,3 @@ def all_kinds_schema(kinds: list[Kind]) -> Node:
         "allOf": branches,
         "definitions": definitions,
     }
-
-
-def _parts(kind: Kind, prefix: str) -> tuple[Node, Node]:
-    """The schema of a kind and its definitions, whose names get a prefix."""
-    raw = kind.spec_model().model_json_schema()
-    sections = raw.get("$defs", {})
-    body = _converted(raw, sections, prefix)
-    body["properties"]["kind"]["description"] = "kind of design"
-    return body, {prefix + name: _converted(section, sections, prefix) for name, section in sections.items()}
-
-
-def _converted(node: Node, sections: Node, prefix: str) -> Node:
-    """A schema in draft-07 words; its description ends with the unit."""
-    result: Node = {}
-    if words := description_of(node, sections):
-        result["description"] = words
-    if unit := unit_of(node):
-        result["unit"] = unit
-    if "$ref" in node:
-        result["allOf"] = [_reference(node, prefix)]
-    for key, value in node.items():
-        # Editors would offer a default of null as the value to write.
-        if key not in (*_DROPPED, "$ref") and not (key == "default" and value is None):
-            result |= _keyword(key, value, sections, prefix)
-    return result
-
-
-def _keyword(key: str, value: Any, sections: Node, prefix: str) -> Node:
-    if key == "properties":
-        return {key: {name: _converted(inner, sections, prefix) for name, inner in value.items()}}
-    if key in _LISTS:
-        return {key: [_reference(i, prefix) if [*i] == ["$ref"] else _converted(i, sections, prefix) for i in value]}
-    if key == "prefixItems":
-        return {"items": [_converted(inner, sections, prefix) for inner in value], "additionalItems": False}
-    if key in ("items", "additionalProperties") and isinstance(value, dict):
-        return {key: _converted(value, sections, prefix)}
-    return {key: value}
-
-
-def _reference(node: Node, prefix: str) -> Node:
-    return {"$ref": f"#/definitions/{prefix}{_target(node)}"}
-
-
-def description_of(node: Node, sections: Node) -> str:
-    """What a key means, with its unit; a section without words of its own has those of its model."""
-    words = node.get("description", "")
-    if not words:
-        targets = [sections[_target(part)] for part in (node, *node.get("anyOf", ())) if "$ref" in part]
-        words = next((target["description"] for target in targets if "description" in target), "")
-    unit = unit_of(node)
-    return f"{words} [{unit}]" if words and unit and unit != "1" else words
-
-
-def unit_of(node: Node) -> str:
-    """The unit of a number, of an optional number, or of the numbers of a list."""
-    inner = [*node.get("anyOf", ()), *([node["items"]] if isinstance(node.get("items"), dict) else [])]
-    units = [str(node["unit"])] if "unit" in node else [unit_of(part) for part in inner]
-    return next((unit for unit in units if unit), "")
-
-
-def _target(node: Node) -> str:
-    return str(node["$ref"]).rpartition("/")[2]

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cache
 from typing import TYPE_CHECKING, Any
+
+from gearlink.cli.texts.schema import kind_schema
 
 if TYPE_CHECKING:
     from gearlink.core.kinds import Kind
@@ -40,8 +43,6 @@ class SpecKey:
 
 def spec_keys(kind: Kind) -> list[SpecKey]:
     """The keys of a kind in the order of its model, sections before what they hold, each once."""
-    from gearlink.cli.texts.schema import kind_schema
-
     schema = kind_schema(kind)
     found: dict[str, SpecKey] = {}
     for key in _keys(schema, schema["definitions"], ""):
@@ -89,3 +90,16 @@ def _range(node: Node) -> str:
         return ", ".join(bounds)
     inner = [*node.get("anyOf", ()), *([node["items"]] if isinstance(node.get("items"), dict) else [])]
     return " or ".join(words for words in map(_range, inner) if words)
+
+
+@cache
+def known_keys() -> list[tuple[SpecKey, list[str]]]:
+    """Each key of files with the kinds that have it in the same words."""
+    from gearlink.core.kinds import FILES
+
+    found: dict[tuple[str, str], tuple[SpecKey, list[str]]] = {}
+    for kind in FILES.values():
+        for key in spec_keys(kind):
+            if key.path != "kind":
+                found.setdefault((key.path, key.words), (key, []))[1].append(kind.name)
+    return list(found.values())

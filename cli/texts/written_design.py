@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
+from gearlink.cli.texts.schema import kind_schema
 from gearlink.cli.texts.spec_keys import SpecKey, spec_keys
 
 if TYPE_CHECKING:
@@ -66,7 +67,7 @@ def _lines(
 
 
 def _summary(kind: Kind) -> str:
-    return _uncapitalised((kind.spec_model().__doc__ or "").strip().partition("\n")[0])
+    return _uncapitalised(kind_schema(kind)["description"].partition("\n")[0])
 
 
 def _uncapitalised(words: str) -> str:

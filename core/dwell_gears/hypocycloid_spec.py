@@ -75,9 +75,9 @@ class HypocycloidDwellSpec(DrivenSpec):
     kind: Literal["hypocycloid-dwell"]
     gears: HypocycloidGears
     rod: Rod | None = None
-    dwell: HypocycloidDwellSection = HypocycloidDwellSection()
+    dwell: HypocycloidDwellSection = HypocycloidDwellSection.model_construct()
     target: DwellTarget | None = None
-    limits: LinkageLimits = LinkageLimits()
+    limits: LinkageLimits = LinkageLimits.model_construct()
     shafts: CarrierShaft | None = None
     loads: Annotated[Any, Deferred("dwell_gears.loads_spec:HypocycloidLoads")] | None = Field(
         None, description="masses, forces and drive, for the command loads"

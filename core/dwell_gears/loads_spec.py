@@ -22,7 +22,9 @@ class HypocycloidMasses(Spec):
 class HypocycloidLoads(Loads):
     """Masses, forces and drive of a hypocycloid dwell."""
 
-    links: HypocycloidMasses = Field(HypocycloidMasses(), description="masses of the links; what is left out has none")
+    links: HypocycloidMasses = Field(
+        HypocycloidMasses.model_construct(), description="masses of the links; what is left out has none"
+    )
 
 
 Direction = Annotated[float, Field(ge=-360, le=360, json_schema_extra={"unit": "deg"})]
@@ -43,4 +45,6 @@ class MutilatedLoads(Loads):
     wheel_direction: Direction | None = Field(
         None, description="direction from A to the wheel's axis W; left out: no bearing force at A"
     )
-    links: MutilatedMasses = Field(MutilatedMasses(), description="masses of the links; what is left out has none")
+    links: MutilatedMasses = Field(
+        MutilatedMasses.model_construct(), description="masses of the links; what is left out has none"
+    )

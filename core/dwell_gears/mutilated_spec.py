@@ -82,7 +82,7 @@ class MutilatedGearDwellSpec(DrivenSpec):
     start_angle: Angle | None = Field(
         None, description="crank angle at which the crank stands; left out: crank and coupler stretched"
     )
-    limits: LinkageLimits = LinkageLimits()
+    limits: LinkageLimits = LinkageLimits.model_construct()
     shafts: MutilatedShafts | None = None
     loads: Annotated[Any, Deferred("dwell_gears.loads_spec:MutilatedLoads")] | None = Field(
         None, description="masses, forces and drive, for the command loads"

@@ -21,4 +21,6 @@ class FiveBarMasses(Spec):
 class FiveBarLoads(Loads):
     """Masses, forces and drive of a geared five-bar."""
 
-    links: FiveBarMasses = Field(FiveBarMasses(), description="masses of the links; what is left out has none")
+    links: FiveBarMasses = Field(
+        FiveBarMasses.model_construct(), description="masses of the links; what is left out has none"
+    )

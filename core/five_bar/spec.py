@@ -177,7 +177,7 @@ class GearedFiveBarSpec(DrivenSpec):
     range: InputRange | None = Field(None, description="function: left out, one turn of the input")
     assembly: Assembly = Field(1, description="path, +1: C left of B->D; function, +1: D left of C->E")
     target: FiveBarTarget | None = None
-    limits: LinkageLimits = LinkageLimits()
+    limits: LinkageLimits = LinkageLimits.model_construct()
     shafts: FiveBarShafts | None = None
     loads: Annotated[Any, Deferred("five_bar.loads_spec:FiveBarLoads")] | None = Field(
         None, description="masses, forces and drive, for the command loads"

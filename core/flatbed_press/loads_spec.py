@@ -32,7 +32,9 @@ class PressMasses(Spec):
 class PressLoads(CommonLoads):
     """Masses, forces and drive of a flatbed press; its speed is the press's own."""
 
-    links: PressMasses = Field(PressMasses(), description="masses of the links; what is left out has none")
+    links: PressMasses = Field(
+        PressMasses.model_construct(), description="masses of the links; what is left out has none"
+    )
     gear_1_direction: Direction | None = Field(
         None, description="direction from A to G; left out: no bearing forces of gears 1 and 2"
     )

@@ -135,10 +135,10 @@ class FlatbedPressSpec(TolerancedSpec):
     input_gears: InputGears | None = None
     cylinder: Cylinder
     bed: Bed
-    sync: Sync = Sync()
+    sync: Sync = Sync.model_construct()
     cam: PressCam | None = None
     size: PressSize | None = None
-    limits: PressLimits = PressLimits()
+    limits: PressLimits = PressLimits.model_construct()
     register_: Annotated[Any, Deferred("tolerance.spec:Register")] | None = Field(
         None,
         alias="register",

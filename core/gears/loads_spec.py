@@ -18,4 +18,6 @@ class PairMasses(Spec):
 class PairLoads(Loads):
     """Masses, forces and drive of a gear pair."""
 
-    links: PairMasses = Field(PairMasses(), description="masses of the gears; what is left out has none")
+    links: PairMasses = Field(
+        PairMasses.model_construct(), description="masses of the gears; what is left out has none"
+    )

@@ -93,7 +93,7 @@ class GearPairSpec(TolerancedSpec):
     load_share: Literal["third", "half"] = Field(
         "third", description="share of a flank pair beside another: third (1/3 to 2/3) or half"
     )
-    material: MaterialSpec = MaterialSpec()
+    material: MaterialSpec = MaterialSpec.model_construct()
     accuracy_grade: Annotated[int, Field(ge=0, le=12)] | None = Field(
         None, description="accuracy grade of ISO 1328: 4 or better lowers the root stress of deep teeth (Y_DT)"
     )
@@ -102,7 +102,7 @@ class GearPairSpec(TolerancedSpec):
     shift_split: Literal["equal", "sliding", "tip", "root", "undercut"] | Shift = Field(
         "equal", description="how the shift sum is shared when center_distance alone is given: by a criterion, or x1"
     )
-    limits: PairLimits = PairLimits()
+    limits: PairLimits = PairLimits.model_construct()
     loads: Annotated[Any, Deferred("gears.loads_spec:PairLoads")] | None = Field(
         None, description="masses, forces and drive, for the command loads"
     )

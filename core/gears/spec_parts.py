@@ -129,7 +129,7 @@ class LoadSpec(Spec):
     tangential_force: Annotated[float, Field(gt=0, le=1e12, json_schema_extra={"unit": "N"})] | None = Field(
         None, description="force on the reference circle, in place of torque"
     )
-    factors: FactorSpec = FactorSpec()
+    factors: FactorSpec = FactorSpec.model_construct()
 
     @model_validator(mode="after")
     def _one_load(self) -> LoadSpec:

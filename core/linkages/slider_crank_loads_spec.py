@@ -29,5 +29,7 @@ class SliderCrankBalance(Spec):
 class SliderCrankLoads(Loads):
     """Masses, forces and drive of a slider-crank."""
 
-    links: SliderCrankMasses = Field(SliderCrankMasses(), description="masses of the links; what is left out has none")
+    links: SliderCrankMasses = Field(
+        SliderCrankMasses.model_construct(), description="masses of the links; what is left out has none"
+    )
     balance: SliderCrankBalance | None = None

@@ -34,7 +34,7 @@ class SliderCrankSpec(DrivenSpec):
     crank: Length | None = Field(None, description="crank, in place of stroke")
     rod: Length = Field(description="connecting rod")
     offset: SignedLength = Field(0.0, description="offset of the slide line from the crank's axis")
-    limits: SliderLimits = SliderLimits()
+    limits: SliderLimits = SliderLimits.model_construct()
 
     loads: Annotated[Any, Deferred("linkages.slider_crank_loads_spec:SliderCrankLoads")] | None = Field(
         None, description="masses, forces and drive, for the command loads"

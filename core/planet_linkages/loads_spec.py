@@ -20,5 +20,7 @@ class PlanetMasses(Spec):
 class PlanetLoads(Loads):
     """Masses, forces and drive of a four-bar with a gear on its coupler."""
 
-    links: PlanetMasses = Field(PlanetMasses(), description="masses of the links; what is left out has none")
+    links: PlanetMasses = Field(
+        PlanetMasses.model_construct(), description="masses of the links; what is left out has none"
+    )
     balance: Balance | None = None

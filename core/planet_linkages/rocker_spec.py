@@ -48,7 +48,7 @@ class GearedRockerSpec(DrivenSpec):
     links: RockerLinks
     assembly: Assembly = Field(1, description="+1: C left of the vector from B to D; -1: its mirror image")
     target: SwingTarget | None = None
-    limits: LinkageLimits = LinkageLimits()
+    limits: LinkageLimits = LinkageLimits.model_construct()
     shafts: PivotShafts | None = None
     loads: Annotated[Any, Deferred("planet_linkages.loads_spec:PlanetLoads")] | None = Field(
         None, description="masses, forces and drive, for the command loads"

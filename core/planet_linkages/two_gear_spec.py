@@ -94,7 +94,7 @@ class TwoGearFourBarSpec(DrivenSpec):
     dwell: StandingDwell | None = None
     back_step: BackStepAngle | None = None
     feed: Feed | None = None
-    limits: LinkageLimits = LinkageLimits()
+    limits: LinkageLimits = LinkageLimits.model_construct()
     shafts: PivotShafts | None = None
     loads: Annotated[Any, Deferred("planet_linkages.loads_spec:PlanetLoads")] | None = Field(
         None, description="masses, forces and drive, for the command loads"

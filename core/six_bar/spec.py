@@ -113,7 +113,7 @@ class GearedSixBarSpec(DrivenSpec):
     range: InputRange | None = Field(
         None, description="input angles, where the input swings; left out: it turns until all is back in place"
     )
-    limits: LinkageLimits = LinkageLimits()
+    limits: LinkageLimits = LinkageLimits.model_construct()
     shafts: SixShafts | None = None
 
     @model_validator(mode="after")

@@ -106,9 +106,9 @@ class StudySpec(DesignSpec):
     minimize: dict[str, Resolution] = Field({}, description="quantities and their resolution, as 10 mm")
     maximize: dict[str, Resolution] = Field({}, description="quantities and their resolution, as 2 deg")
     where: list[str] = Field([], description="conditions on quantities, as frame_length <= 220 mm")
-    checks: Checks = Checks()
-    sampling: Sampling = Sampling()
-    refine: Refine = Refine()
+    checks: Checks = Checks.model_construct()
+    sampling: Sampling = Sampling.model_construct()
+    refine: Refine = Refine.model_construct()
 
     @model_validator(mode="after")
     def _consistent(self) -> StudySpec:

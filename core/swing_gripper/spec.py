@@ -212,12 +212,12 @@ class SwingGripperSpec(TolerancedSpec):
     handover: Phase = Field(description="cylinder angle of the handover")
     total_swing: Phase | None = Field(None, description="stated swing: refused where law and phases give another")
     release: Release | None = None
-    laws: Laws = Laws()
+    laws: Laws = Laws.model_construct()
     cam: GripperCam | None = None
     size: Size | None = None
     inertia: Inertia | None = None
     spring: ClosingSpring | None = None
-    limits: GripperLimits = GripperLimits()
+    limits: GripperLimits = GripperLimits.model_construct()
     register_: Annotated[Any, Deferred("tolerance.spec:Register")] | None = Field(
         None,
         alias="register",

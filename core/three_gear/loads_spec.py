@@ -23,6 +23,8 @@ class ThreeGearMasses(Spec):
 class ThreeGearLoads(Loads):
     """Masses, forces and drive of a three-gear four-bar."""
 
-    links: ThreeGearMasses = Field(ThreeGearMasses(), description="masses of the links; what is left out has none")
+    links: ThreeGearMasses = Field(
+        ThreeGearMasses.model_construct(), description="masses of the links; what is left out has none"
+    )
     idler_pin: Literal["coupler", "rocker"] = Field("coupler", description="link that the pin of the idler is fixed to")
     balance: Balance | None = None

@@ -189,7 +189,7 @@ class ThreeGearSpec(DrivenSpec):
         None, description="play at the output gear's reference circle, in place of dwell_tolerance"
     )
     feed: Feed | None = None
-    limits: LinkageLimits = LinkageLimits()
+    limits: LinkageLimits = LinkageLimits.model_construct()
     shafts: Shafts | None = None
     register_: Annotated[Any, Deferred("tolerance.spec:Register")] | None = Field(
         None, alias="register", description="what the output may lose in its dwell, for the command register"

@@ -163,7 +163,7 @@ class Tolerance(Spec):
     target_yield: Share | None = Field(
         None, description="share of designs that must be good; below it the command fails"
     )
-    cost: Cost = Cost()
+    cost: Cost = Cost.model_construct()
     sobol: bool = Field(False, description="Sobol' indices in the table contributions (--sobol)")
 
     @model_validator(mode="after")

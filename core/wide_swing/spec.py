@@ -196,7 +196,7 @@ class WideSwingSpec(TolerancedSpec):
     cam: SwingCam | None = None
     slider: SwingSlider | None = None
     shaft: SwingShaft | None = None
-    limits: SwingLimits = SwingLimits()
+    limits: SwingLimits = SwingLimits.model_construct()
     loads: Annotated[Any, Deferred("wide_swing.loads_spec:SwingLoads")] | None = Field(
         None, description="roller, material and vibration, for the command loads"
     )

@@ -115,9 +115,14 @@ def test_help_imports_no_models() -> None:
     assert not {m for m in modules if m in ("yaml", "scipy", "matplotlib", "gearlink.cli.commands.design")}
 
 
-def test_an_explained_key_reads_no_schema() -> None:
-    modules = modules_of("explain", "gears.module")
-    assert not packages(modules) & {"numpy", "yaml"}  # Typer itself brings pydantic
+_ASKED = "explain GL301 + explain contact_ratio + explain gears.module + explain gear-pair + schema gear-pair"
+
+
+@pytest.mark.parametrize(("lines", "besides"), [(_ASKED, set()), ("new gear-pair", {"yaml", "_yaml"})])
+def test_what_is_known_of_files_needs_no_models(lines: str, besides: set[str]) -> None:
+    """Explanations, schemas and templates come from two files: no pydantic, no Typer, no design class."""
+    modules = modules_of(*lines.split())
+    assert installed(modules) <= {"gearlink"} | besides
     assert not {m for m in modules if m.startswith("gearlink.core.") and m.endswith((".spec", ".design"))}
 
 

@@ -14,7 +14,7 @@ import gearlink.cli.commands.design
 import gearlink.cli.commands.suggest
 from gearlink.cli import app
 from gearlink.cli.options import COMMANDS, OPTIONS, Format, Options, PlotFormat
-from gearlink.cli.quick import plain_line
+from gearlink.cli.quick import plain_line, plain_reference, run_reference
 from gearlink.core.kinds import KINDS
 
 WORDS = st.sampled_from(["x.yaml", "a b", "-", "speed=4500", "teeth[1]=20", "crank_length", "press", "."])
@@ -103,6 +103,48 @@ def test_every_common_line_is_plain(monkeypatch: pytest.MonkeyPatch) -> None:
 )
 def test_anything_else_is_left_to_typer(arguments: list[str]) -> None:
     assert plain_line(arguments) is None
+
+
+REFERENCES = [
+    ["explain", "GL301"],
+    ["explain", "no such"],
+    ["new", "gear-pair"],
+    ["new", "no-such"],
+    ["schema", "gear-pair"],
+    ["schema", "no-such"],
+    ["check", "ty460_slider_crank.yaml"],
+    ["check", "ty460_slider_crank.yaml", "no_such.yaml"],
+]
+
+
+@pytest.mark.parametrize("arguments", REFERENCES)
+def test_reference_lines_do_what_typer_does(
+    arguments: list[str], designs: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The same text on both streams, the same status."""
+    monkeypatch.chdir(designs)
+    words = plain_reference(arguments)
+    assert words is not None
+    quick = run_reference(*words), *capsys.readouterr()
+    assert quick == (app.invoke(arguments), *capsys.readouterr())
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        [],
+        ["explain"],
+        ["explain", ""],
+        ["explain", "GL301", "-f", "json"],
+        ["new", "a", "b"],
+        ["schema", "--write", "x"],
+        ["check", "-"],
+        ["check", "a.yaml", "--strict"],
+        ["diff", "a"],
+    ],
+)
+def test_other_reference_lines_are_left_to_typer(arguments: list[str]) -> None:
+    assert plain_reference(arguments) is None
 
 
 def test_every_shared_option_is_plain(monkeypatch: pytest.MonkeyPatch) -> None:

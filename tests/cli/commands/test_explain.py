@@ -85,11 +85,12 @@ def test_keys_of_the_explanations_exist_in_a_kind() -> None:
     assert missing == set()
 
 
-def test_the_list_of_keys_is_what_the_schemas_say() -> None:
-    """After a change of the specs: `make docs`."""
-    from gearlink.cli.texts import key_index
+def test_what_is_known_is_what_models_and_classes_say() -> None:
+    """After a change of specs or outlines: `make docs`."""
+    from gearlink.cli.texts import indexing, known
 
-    assert key_index.FILE.read_text(encoding="utf-8") == key_index.text()
+    assert known.SCHEMAS.read_text(encoding="utf-8") == indexing.schemas_text()
+    assert known.INDEX.read_text(encoding="utf-8") == indexing.index_text()
 
 
 def test_formulas_belong_to_quantities() -> None:

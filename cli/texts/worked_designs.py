@@ -1,0 +1,26 @@
+"""The worked design that shows a kind."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from gearlink import designs
+
+if TYPE_CHECKING:
+    from gearlink.core.kinds import Kind
+
+# Where several worked designs show a kind, the one to begin with.
+_PLAINEST = {"three-gear-four-bar": "standing_feed", "wide-swing-cam": "wide_swing_twin_cam"}
+_KIND = re.compile(r"^kind:\s*([\w-]+)", re.MULTILINE)
+
+
+def worked_design(kind: Kind) -> str:
+    """The text of the kind's worked design: the file that bears its name, else the first by name."""
+    folder = Path(str(designs.__file__)).parent
+    texts = {file.stem: file.read_text(encoding="utf-8") for file in folder.rglob("*.yaml")}
+    own = {stem: text for stem, text in texts.items() if (found := _KIND.search(text)) and found[1] == kind.name}
+    if not own:
+        raise LookupError(f"no worked design of kind {kind.name} in gearlink.designs")
+    return own.get(_PLAINEST.get(kind.name, kind.name.replace("-", "_")), own[min(own)])
