@@ -138,6 +138,10 @@ class Design:
         entry = term(name)
         return Quantity(name, in_unit(value, entry.unit), entry.unit, entry.symbol, entry.words)
 
+    def needs(self, _name: str, /) -> str:
+        """In words, what the file must give for a quantity that is None; empty where nothing is missing."""
+        return ""
+
     def table(self, name: str, *, samples: int | None = None) -> Table:
         """A table by name, in the units of the design files.
 

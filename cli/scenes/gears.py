@@ -44,7 +44,9 @@ def gear(
     look = Body(outline=np.zeros(1), place=place, turn=turn, color=color, fill=pale(color), width=1.0, label=label)
     radii = pair.reference_radius if isinstance(pair, InternalMesh) else pair.working_radius
     look = replace(
-        look, name=f"{name}, z = {pair.teeth[number]}".removeprefix(", ").replace("-", "−"), pitch=abs(radii[number])
+        look,
+        name=f"{name}, z = {teeth if 'ring gear' in name else pair.teeth[number]}".removeprefix(", ").replace("-", "−"),
+        pitch=abs(radii[number]),
     )
     if isinstance(pair, GearPair) and pair.teeth[number] < 0:
         outer = rim_radius(pair.root_radius[1], pair.module, rim)

@@ -12,7 +12,7 @@ from gearlink.core.flatbed_press import checks, remedies, tables
 from gearlink.core.flatbed_press.cams import PressCams
 from gearlink.core.flatbed_press.motion import PressMotion
 from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantities, gear_quantity
-from gearlink.core.gears.drawing_names import DERIVED, DRAWING_CHECKS, DRAWING_QUANTITIES
+from gearlink.core.gears.drawing_names import DERIVED, DRAWING_CHECKS, DRAWING_QUANTITIES, lacking
 from gearlink.core.linkages.slider_crank_design import SLIDER_QUANTITIES, SliderCrankQuantities
 from gearlink.core.motion_extremes import WithExtremes, names
 from gearlink.core.report import Check, Table
@@ -191,6 +191,10 @@ class FlatbedPress(WithExtremes, SliderCrankQuantities, GearQuantities, Design):
             return super().raw(name)
         with at_key("input_gears"):
             return self.gear_data.quantity(name)
+
+    def needs(self, name: str) -> str:
+        """The keys that the input gears lack for a quantity."""
+        return lacking(name, self.spec.input_gears, "input_gears.")
 
     @property
     def _shifts_given(self) -> bool:

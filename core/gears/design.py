@@ -11,7 +11,7 @@ from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantities, gear_quantity
 from gearlink.core.gears.data import GearData
 from gearlink.core.gears.drawing_checks import pair_check
-from gearlink.core.gears.drawing_names import DERIVED, DRAWING_CHECKS, DRAWING_QUANTITIES
+from gearlink.core.gears.drawing_names import DERIVED, DRAWING_CHECKS, DRAWING_QUANTITIES, lacking
 from gearlink.core.gears.from_spec import data_of, pair_of
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.remedies import Way, down, either, shared, up
@@ -145,6 +145,10 @@ class GearPairDesign(GearQuantities, Design):
             if self.spec.rack and self.rack is not None:
                 return list(self.rack.checks(name, self.spec.limits))
             return pair_check(name, self.data, self.spec.limits, radial=self.spec.assembly == "radial")
+
+    def needs(self, name: str) -> str:
+        """The keys that the file lacks for a quantity."""
+        return lacking(name, self.spec)
 
     def _two_gears(self, what: str) -> GearData:
         """The data of a pair of two gears.

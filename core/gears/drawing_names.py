@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 PLACES = {
     "transverse_pressure_angle": "pair.transverse_pressure_angle",
     "base_helix_angle": "pair.base_helix_angle",
@@ -53,6 +55,45 @@ PLACES = {
     "safety_bending": "root.safety",
 }
 """Where each quantity of a drawing stands in a GearData."""
+_FORCE, _WIDTH = "load (torque, power with speed, or tangential_force)", "face_width"
+_THICKNESS = "allowances"
+_NEEDED = {
+    "tangential_force": (_FORCE,),
+    "nominal_contact_stress": (_FORCE, _WIDTH),
+    "contact_stress": (_FORCE, _WIDTH),
+    "safety_pitting": (_FORCE, _WIDTH, "material.contact_limit"),
+    "nominal_root_stress": (_FORCE, _WIDTH),
+    "root_stress": (_FORCE, _WIDTH),
+    "safety_bending": (_FORCE, _WIDTH, "material.bending_limit"),
+    "generating_shift": (_THICKNESS,),
+    "span_measurement_limits": (_THICKNESS,),
+    "measure_limits": (_THICKNESS,),
+    "backlash_circumferential": (_THICKNESS,),
+    "backlash_normal": (_THICKNESS,),
+    "backlash_angle": (_THICKNESS,),
+    "overlap_ratio": (_WIDTH,),
+    "total_contact_ratio": (_WIDTH,),
+}
+
+
+def lacking(quantity: str, section: Any, prefix: str = "") -> str:
+    """What a file must give so that a quantity of a drawing is known, in words; empty where nothing is missing.
+
+    Parameters
+        quantity : str - plain name
+        section : the section with the keys of a pair or a train
+        prefix : str - of its keys, "gears."
+    """
+    missing = []
+    for words in _NEEDED.get(quantity, ()):
+        found = section
+        for step in words.partition(" ")[0].split("."):
+            found = getattr(found, step, None)
+        if found is None:
+            missing.append(prefix + words)
+    return f"give {', '.join(missing)}" if missing else ""
+
+
 DRAWING_QUANTITIES = tuple(PLACES)
 DERIVED = frozenset(DRAWING_QUANTITIES) - {"usable_contact_ratio", "span_measurement_limits", "backlash_normal"}
 """Those of them that refuse nothing: they have a value or None wherever the others, teeth and checks have one."""

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from gearlink.core.design import Design, Outline
 from gearlink.core.errors import NoSolution, at_key, in_section
 from gearlink.core.gears.checks import GEAR_QUANTITIES, GearQuantities
+from gearlink.core.gears.drawing_names import DERIVED, lacking
 from gearlink.core.gears.single_mesh import MESH_CHECKS, MESH_QUANTITIES, mesh_checks, mesh_quantity
 from gearlink.core.gears.train_names import RATING, TRAIN_CHECKS, TRAIN_QUANTITIES
 from gearlink.core.report import Check, Table
@@ -39,6 +40,7 @@ def named(meshes: tuple[str, ...]) -> tuple[str, ...]:
 class Meshed(GearQuantities, Design):
     """A design with gears in mesh, whose section `gears` has the keys of a train."""
 
+    derived = DERIVED
     own_quantities: ClassVar[frozenset[str]] = frozenset()
     """Quantities of a mesh that the design gives itself under their plain names."""
 
@@ -184,6 +186,10 @@ class Meshed(GearQuantities, Design):
         if quantity not in GEAR_QUANTITIES:
             return self.mesh_data[name].quantity(quantity)
         return None if mesh is self._own_pairs[name] else mesh_quantity(self._own_pairs[name], quantity)
+
+    def needs(self, name: str) -> str:
+        """The keys that a mesh lacks for a quantity."""
+        return lacking(name.rpartition(".")[2], self.spec.gears, "gears.")
 
     def table_drawing(self, _samples: int | None = None) -> Table:
         """The gear tables of the meshes, one below the other."""

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.gears.key_types import Alteration, FaceWidth, Rim, Shift
@@ -73,7 +74,19 @@ Allowance = Annotated[float, Field(ge=-100, le=100, json_schema_extra={"unit": "
 TwoAllowances = Annotated[list[Allowance], Field(min_length=2, max_length=2)]
 Stress = Annotated[float, Field(ge=1e-3, le=1e7, json_schema_extra={"unit": "N/mm^2"})]
 Poisson = Annotated[float, Field(ge=0, le=0.5, json_schema_extra={"unit": "1"})]
-Series = Annotated[str, Field(pattern=r"^(2[1-9]|30)(ab|a|bc|b|cd|c|d|e|f|g|h)$")]
+_SERIES = r"^(2[1-9]|30)(ab|a|bc|b|cd|c|d|e|f|g|h)$"
+
+
+def _a_series(name: str) -> str:
+    if not re.fullmatch(_SERIES, name):
+        message = (
+            "DIN 3967 has no series {name}: take a tolerance 21 to 30 and a row a, ab, b, bc, c, cd, d ... h, as 25cd"
+        )
+        raise PydanticCustomError("GL108", message, {"name": name})
+    return name
+
+
+Series = Annotated[str, AfterValidator(_a_series), Field(json_schema_extra={"pattern": _SERIES})]
 
 
 class AllowanceSpec(Spec):

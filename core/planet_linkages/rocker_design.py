@@ -209,9 +209,9 @@ class GearedRocker(RealSpeed, Meshed):
         return swing
 
     @property
-    def swing_multiple(self) -> float:
-        """Output swing over rocker swing."""
-        return self.output_swing / self.rocker_swing
+    def swing_multiple(self) -> float | None:
+        """Output swing over rocker swing; None where no number is small enough for the rocker's."""
+        return self.output_swing / self.rocker_swing if self.rocker_swing else None
 
     @property
     def naive_multiple(self) -> float:

@@ -18,6 +18,7 @@ from gearlink.core.gears.meshed import QUANTITIES
 from gearlink.core.gears.pair_keys import PairKeys
 from gearlink.core.gears.train_keys import TrainKeys
 from gearlink.core.gears.train_names import RATING
+from gearlink.core.spec_paths import changed
 
 DRAWN = {
     "tool": {"rounding": 0.3},
@@ -405,3 +406,43 @@ def test_a_ring_whose_tips_have_no_involute_still_has_its_findings():
     spec = {"kind": "two-gear-four-bar", "gears": {"module": 2, "planet": 20, "ring": 25}, "links": LINKS}
     report = design(spec, command="analyze").report("gear")
     assert {check.status for check in report.checks if check.code == "GL204"} == {"fail"}
+
+
+def test_what_a_quantity_needs_is_said():
+    one = made("ring", load={"torque": 5.0})
+    assert one.needs("safety_bending") == "give gears.face_width, gears.material.bending_limit"
+    assert one.needs("tangential_force") == ""
+    assert made("sun").needs("backlash_normal") == "give gears.allowances"
+
+
+# Remedies
+
+
+@pytest.mark.parametrize(
+    ("name", "keys", "check"),
+    [
+        ("sun", {"allowances": {"upper": [0.02, 0.0], "lower": [-0.02, -0.03]}}, "backlash"),
+        ("ring", {"allowances": {"upper": [0.02, 0.0], "lower": [-0.02, -0.03]}}, "backlash"),
+        ("rocker", {"tool": {"rounding": 0.3}, "profile_shift": [-0.8, 0.0]}, "undercut"),
+        ("path", {"clearance": 0.02}, "root-clearance"),
+        ("hypocycloid", {"load": {"torque": 90.0}, "face_width": 10.0, "material": {"bending_limit": 200.0}},
+         "bending"),
+        ("mutilated", {"load": {"torque": 90.0}, "face_width": [9.0, 9.0], "material": {"contact_limit": 500.0}},
+         "pitting"),
+        ("function", {"tool": {"rounding": 0.38}, "addendum": 1.17, "profile_shift": [-0.3, 0.3]},
+         "fillet-interference"),
+        ("ring", {"assembly": "radial"}, "radial-assembly"),
+        ("ring", {"ring": 54, "tool": {}}, "tip-fouling"),
+    ],
+)  # fmt: skip
+def test_remedies_repair_what_they_are_for(name, keys, check):
+    one = made(name, **keys)
+    found = one.findings("gear", check)
+    failing = [index for index, finding in enumerate(found) if finding.status == "fail"]
+    assert failing, [(finding.status, finding.message) for finding in found]
+    for index in failing:
+        assert found[index].remedy, found[index].message
+        mended = type(one)(changed(one.spec, found[index].remedy))
+        again = mended.check(check)
+        assert index >= len(again) or again[index].status != "fail"
+        mended.require("gear")
