@@ -145,8 +145,9 @@ class _Reading:
         """The quantities and what is defined of them."""
         known = frozenset(self.base.places)
         defined: dict[str, Expression] = {}
+        wrong: set[str] = set()
         for name, text in self.spec.define.items():
-            names = Names(self.base.unit, known, dict(defined), self.base.nearest)
+            names = Names(self.base.unit, known, dict(defined), self.base.nearest, frozenset(wrong))
             place = ("define", name)
             if not name.isidentifier() or name in known:
                 message = f"{name!r} is no new name" if name in known else f"{name!r} is no name: letters, digits and _"
@@ -155,8 +156,9 @@ class _Reading:
             try:
                 defined[name] = names.expression(text, place)
             except FaultFound as found:
-                self.faults.append(found.fault)
-        return Names(self.base.unit, known, defined, self.base.nearest)
+                wrong.add(name)
+                self.faults += found.faults
+        return Names(self.base.unit, known, defined, self.base.nearest, frozenset(wrong))
 
     def wishes(self, names: Names) -> tuple[list[Objective], list[Condition]]:
         """Objectives in the order of the file, minimised ones first, and conditions."""
@@ -169,12 +171,12 @@ class _Reading:
                 try:
                     objectives.append(objective(name, given, sign, names, (key, name)))
                 except FaultFound as found:
-                    self.faults.append(found.fault)
+                    self.faults += found.faults
         for i, text in enumerate(self.spec.where):
             try:
                 conditions.append(condition(text, names, ("where", i)))
             except FaultFound as found:
-                self.faults.append(found.fault)
+                self.faults += found.faults
         clash = contradiction(conditions)
         if clash is not None:
             first, second = (conditions[i].text for i in clash)

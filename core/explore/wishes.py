@@ -80,12 +80,14 @@ class Names:
         known : names of the quantities
         defined : expressions by name
         nearest : function - the nearest known names of one, in words
+        wrong : names that the study defines wrongly, which is a fault of their own
     """
 
     unit_of: Callable[[str], str]
     known: frozenset[str]
     defined: Mapping[str, Expression]
     nearest: Callable[[str, Any], str]
+    wrong: frozenset[str] = frozenset()
 
     def expression(self, text: str, place: Place) -> Expression:
         """An expression of quantities alone, what is defined put in.
@@ -98,6 +100,8 @@ class Names:
         except NotAnExpression as error:
             raise FaultFound(Fault("GL152", f"{text.strip()!r} cannot be read: {error}", place)) from None
         for name in found.names:
+            if name in self.wrong:
+                raise FaultFound(None)
             if name not in self.defined and name.partition("[")[0] not in self.known:
                 helps = self.nearest(name, [*self.defined, *self.known])
                 raise FaultFound(Fault("GL152", f"no quantity {name!r} of this kind of design", place, helps))
@@ -109,11 +113,11 @@ class Names:
 
 
 class FaultFound(Exception):
-    """One fault, where reading cannot go on without what is wrong."""
+    """One fault, where reading cannot go on without what is wrong; None where it is noted already."""
 
-    def __init__(self, fault: Fault) -> None:
-        super().__init__(fault.message)
-        self.fault = fault
+    def __init__(self, fault: Fault | None) -> None:
+        super().__init__("" if fault is None else fault.message)
+        self.faults = [] if fault is None else [fault]
 
 
 def _with(tree: Any, defined: Mapping[str, Expression]) -> Any:

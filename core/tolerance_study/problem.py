@@ -103,7 +103,7 @@ class Problem:
             try:
                 one = condition(text, names, ("tolerance", "require", i))
             except FaultFound as error:
-                raise WrongStudy([error.fault]) from error
+                raise WrongStudy(error.faults) from error
             self._comparable(one, i)
             found.append(one)
         return tuple(found)

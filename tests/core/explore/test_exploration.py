@@ -169,6 +169,7 @@ def test_words_are_conditions_and_quantities_of_other_commands_serve() -> None:
         ({"where": ["frame_length > 9", "frame_length < 9"]}, "GL111", ("where", 1)),
         ({"checks": {"must_pass": ["GL400"]}}, "GL152", ("checks", "must_pass", 0)),
         ({"define": {"frame_length": "2"}}, "GL152", ("define", "frame_length")),
+        ({"define": {"x": "1 + *"}, "minimize": {"x": 1}, "where": ["x > 0"]}, "GL152", ("define", "x")),
         ({"command": "press"}, "GL113", ("command",)),
         ({"design": {**FEED, "dwell": {"angle": 359}}}, "GL156", ("design", "dwell", "angle")),
         ({"sampling": {"method": "grid", "budget": 40}}, "GL155", ("sampling", "budget")),
