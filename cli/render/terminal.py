@@ -121,8 +121,8 @@ def _pairs(report: Report, console: Console) -> Grid:
     """The quantities of gear 1 and gear 2 side by side."""
     grid, scale = grid_for(console), scales(report)
     for head in ("per gear", "symbol", "gear 1", "gear 2", "unit"):
-        right = "right" if head in ("gear 1", "gear 2") else "left"
-        grid.add_column(head, justify=right, overflow="fold", no_wrap=head != "per gear")
+        numeric = head in ("gear 1", "gear 2")
+        grid.add_column(head, justify="right" if numeric else "left", overflow="fold", no_wrap=head != "per gear")
     for q in filter(_per_gear, report.quantities):
         assert isinstance(q.value, list), "as _per_gear says"
         one, other = (_below_each_other(quiet(value, scale.get(q.unit, 0.0))) for value in q.value)

@@ -13,3 +13,4 @@ FaceWidth = Annotated[float, Field(ge=1e-3, le=1e6, json_schema_extra={"unit": "
 Rim = Annotated[float, Field(ge=1e-3, le=1e6, json_schema_extra={"unit": "mm"})]
 SpanTeeth = Annotated[int, Field(ge=1, le=10_000, json_schema_extra={"unit": "teeth"})]
 Hand = Literal["right", "left"]
+AccuracyGrade = Annotated[int, Field(ge=0, le=12, json_schema_extra={"unit": "1"})]

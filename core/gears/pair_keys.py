@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from gearlink.core.gears.key_types import FaceWidth, HelixAngle, Rim
+from gearlink.core.gears.key_types import AccuracyGrade, FaceWidth, HelixAngle, Rim
 from gearlink.core.gears.spec_parts import (
     AllowanceSpec,
     LoadSpec,
@@ -57,7 +57,7 @@ class PairKeys(Spec):
         "third", description="share of a flank pair beside another: third (1/3 to 2/3) or half"
     )
     material: MaterialSpec = MaterialSpec()
-    accuracy_grade: Annotated[int, Field(ge=0, le=12)] | None = Field(
+    accuracy_grade: AccuracyGrade | None = Field(
         None, description="accuracy grade of ISO 1328: 4 or better lowers the root stress of deep teeth (Y_DT)"
     )
     edition: Literal[2006, 2019] = Field(2006, description="of ISO 6336; 2019 is not verified")

@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.gears.key_types import FaceWidth, Hand, HelixAngle, Rim, Shift, SpanTeeth
+from gearlink.core.gears.key_types import AccuracyGrade, FaceWidth, Hand, HelixAngle, Rim, Shift, SpanTeeth
 from gearlink.core.gears.spec_parts import (
     AllowanceSpec,
     CutterSpec,
@@ -94,7 +94,7 @@ class GearPairSpec(TolerancedSpec):
         "third", description="share of a flank pair beside another: third (1/3 to 2/3) or half"
     )
     material: MaterialSpec = MaterialSpec.model_construct()
-    accuracy_grade: Annotated[int, Field(ge=0, le=12)] | None = Field(
+    accuracy_grade: AccuracyGrade | None = Field(
         None, description="accuracy grade of ISO 1328: 4 or better lowers the root stress of deep teeth (Y_DT)"
     )
     edition: Literal[2006, 2019] = Field(2006, description="of ISO 6336; 2019 is not verified")

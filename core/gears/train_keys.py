@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 from pydantic import ConfigDict, Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.gears.key_types import Alteration, FaceWidth, Hand, HelixAngle, Rim, Shift, SpanTeeth
+from gearlink.core.gears.key_types import AccuracyGrade, Alteration, FaceWidth, Hand, HelixAngle, Rim, Shift, SpanTeeth
 from gearlink.core.spec import Coefficient, Deferred, Length, Spec
 
 if TYPE_CHECKING:
@@ -87,7 +87,7 @@ class TrainKeys(Spec):
     material: Annotated[Any, Deferred("gears.train_parts:TrainMaterial")] | None = Field(
         None, description="materials, for the rating"
     )
-    accuracy_grade: Annotated[int, Field(ge=0, le=12)] | None = Field(
+    accuracy_grade: AccuracyGrade | None = Field(
         None, description="accuracy grade of ISO 1328: 4 or better lowers the root stress of deep teeth (Y_DT)"
     )
     edition: Literal[2006, 2019] = Field(2006, description="of ISO 6336; 2019 is not verified")

@@ -83,6 +83,8 @@ def test_every_design_is_valid(path: Path) -> None:
 def test_an_unknown_key_anywhere_is_found(path: Path) -> None:
     data = load(str(path)).data
     for section in list(sections(data)):
+        if section[-1:] == ("backlash",):  # names of meshes, which the program judges
+            continue
         broken = copy.deepcopy(data)
         at(broken, section)["nonsense"] = 1
         assert errors(broken, ALL), section

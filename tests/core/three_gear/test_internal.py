@@ -380,6 +380,6 @@ def test_a_study_of_rings_is_left_to_the_design_classes() -> None:
     from gearlink.core.three_gear.axis import axis
 
     ring = made("analyze", dwell=None, links={"crank": 22, "frame": 53}).spec
-    assert axis(ring, "analyze", ["links.crank"], ["frame_length"]) is None
+    assert axis(ring, "analyze", ["links.crank"], ["frame_length"], []) is None
     external = made("analyze", dwell=None, gears__output=118, links={"crank": 22, "frame": 110}).spec
-    assert axis(external, "analyze", ["links.crank"], ["frame_length"]) is not None
+    assert axis(external, "analyze", ["links.crank"], ["frame_length"], []) is not None
