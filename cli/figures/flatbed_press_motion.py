@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.cli.figures import panels, scene_axes, style
+from gearlink.cli.figures import failing, panels, scene_axes, style
 from gearlink.cli.scenes.flatbed_press import LEVEL, UPRIGHT, Machine, bed_chain, build, cylinder_chain
 from gearlink.cli.scenes.scene import TURN, Chain, Scene
 
@@ -193,6 +193,7 @@ def _curves(axes: list[Axes], design: FlatbedPress) -> None:
     panels.heading(axes[1], "Speed")
     _zone(axes, start, end)
     _equal_speeds(axes[1], design)
+    _poor_transmission(axes[1], design)
     panels.legend_above(axes[0])
     panels.legend_above(axes[1])
 
@@ -203,6 +204,15 @@ def _zone(axes: list[Axes], start: float, end: float) -> None:
         for left, right in panels.Phase("sync", start, end).within_turn():
             each.axvspan(left, right, color="#CFE8F7", linewidth=0, zorder=0, label=label if each is axes[0] else None)
             label = "_"
+
+
+def _poor_transmission(axes: Axes, design: FlatbedPress) -> None:
+    """Where the least transmission angle of a chain falls below its limit."""
+    limit = design.spec.limits.transmission_angle
+    for chain in ("bed", "cylinder"):
+        least, place = (math.degrees(design.raw(f"min_transmission_angle_{chain}{end}")) for end in ("", "_at"))
+        if least < limit:
+            failing.at(axes, place, f"{chain} chain: transmission angle {least:.4g}° at {place:.4g}°")
 
 
 def _equal_speeds(axes: Axes, design: FlatbedPress) -> None:

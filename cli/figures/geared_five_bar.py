@@ -96,19 +96,16 @@ def _velocity(axes: Axes, design: GearedFiveBar) -> None:
         axes.plot(angle, values, color=color, linewidth=1.6, linestyle=line, label=f"{name}′")
     axes.axhline(0.0, color=style.GREY, linewidth=0.6)
     _period(axes, design)
+    panels.in_time(axes, design.angular_speed, 1, "mm")
     panels.legend_above(axes, 2)
 
 
 def _transmission(axes: Axes, design: GearedFiveBar) -> None:
-    data, limit = linkage.columns(design, "path"), design.spec.limits.transmission_angle
-    linkage.chart(axes, "Transmission angle", "transmission\nangle [deg]", "input angle [deg]", turn=False)
+    data = linkage.columns(design, "path")
     angle = linkage.closed(data["input_angle"], 360.0 * design.period_turns)
-    axes.plot(angle, linkage.closed(data["transmission_angle"]), color=style.GREEN, linewidth=1.6)
-    axes.axhline(limit, color=style.RED, linewidth=1.1, linestyle=style.DASHED, label=f"limit {limit:g}°")
-    axes.set_ylim(0.0, 92.0)
-    axes.set_yticks(range(0, 91, 30))
+    values = linkage.closed(data["transmission_angle"])
+    linkage.transmission(axes, design, angle, values, "input angle [deg]", turn=False)
     _period(axes, design)
-    panels.legend_above(axes, 1)
 
 
 def _function(axes: Axes, design: GearedFiveBar) -> None:

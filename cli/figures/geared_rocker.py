@@ -35,7 +35,7 @@ def draw(command: str, design: GearedRocker) -> Figure:
         from gearlink.cli.figures.gear_mesh import Mesh, mesh_figure
 
         return mesh_figure(title, [Mesh(design.mesh, "", ("2", "5"))])
-    return linkage.sheet(title, design, mechanism, _WORDS, [_angles, _speed])
+    return linkage.sheet(title, design, mechanism, _WORDS, [_angles, linkage.over_crank, _speed, _acceleration])
 
 
 def mechanism(axes: Axes, design: GearedRocker) -> None:
@@ -62,3 +62,12 @@ def _speed(axes: Axes, design: GearedRocker) -> None:
     linkage.standstills(axes, design.extreme_crank_angles)
     axes.axhline(0.0, color=style.GREY, linewidth=0.8)
     axes.plot(*linkage.over_turn(design, "speed_ratio"), color=style.ORANGE, linewidth=1.6)
+    panels.in_time(axes, design.angular_speed, 1, "rad")
+
+
+def _acceleration(axes: Axes, design: GearedRocker) -> None:
+    linkage.chart(axes, "Output acceleration", "acceleration ratio\n[1/rad]")
+    linkage.standstills(axes, design.extreme_crank_angles)
+    axes.axhline(0.0, color=style.GREY, linewidth=0.8)
+    axes.plot(*linkage.over_turn(design, "acceleration_ratio"), color=style.ORANGE, linewidth=1.6)
+    panels.in_time(axes, design.angular_speed, 2, "rad")

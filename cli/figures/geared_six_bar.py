@@ -87,13 +87,7 @@ def _ticks(axes: Axes, design: GearedSixBar) -> None:
 
 
 def _transmission(axes: Axes, design: GearedSixBar) -> None:
-    data, limit = linkage.columns(design, "motion"), design.spec.limits.transmission_angle
-    linkage.chart(axes, "Transmission angle", "transmission\nangle [deg]", "input angle [deg]", turn=False)
-    x, y = _closed(design, data, "transmission_angle")
-    axes.plot(x, y, color=style.GREEN, linewidth=1.6)
-    axes.axhline(limit, color=style.RED, linewidth=1.1, linestyle=style.DASHED, label=f"limit {limit:g}°")
-    axes.set_ylim(0.0, 92.0)
-    axes.set_yticks(range(0, 91, 30))
+    x, y = _closed(design, linkage.columns(design, "motion"), "transmission_angle")
+    linkage.transmission(axes, design, x, y, "input angle [deg]", turn=False)
     axes.set_xlim(float(x[0]), float(x[-1]))
     _ticks(axes, design)
-    panels.legend_above(axes, 1)

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.figures import panels, style
+from gearlink.cli.figures import failing, panels, style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -36,6 +36,8 @@ def sheet(
     drawing = figure.add_subplot(head[0])
     style.drawing(drawing)
     mechanism(drawing, design)
+    if (scene := scene_of(design)) is not None:
+        failing.bodies(drawing, design, scene, getattr(design, "period_turns", None) or 1)
     drawing.margins(0.05)
     drawing.autoscale_view()
     numbers(figure.add_subplot(head[1]), drawing, design, words)
@@ -44,6 +46,13 @@ def sheet(
         last_alone = i == len(charts) - 1 and i % columns == 0
         chart(figure.add_subplot(grid[i // columns, :] if last_alone else grid[i // columns, i % columns]), design)
     return figure
+
+
+def scene_of(design: Any) -> Any:
+    """The builder of a design's scene; None where the kind has none, or draws what clashes itself."""
+    from gearlink.cli.scenes.loops import builder, moves
+
+    return builder(design.kind) if moves(design.kind) and design.kind != "three-gear-four-bar" else None
 
 
 def numbers(axes: Axes, drawing: Axes, design: Any, words: Mapping[str, str]) -> None:
@@ -94,6 +103,23 @@ def closed(values: Any, gain: float = 0.0) -> Any:
 
     data = np.asarray(values, dtype=float)
     return np.append(data, data[0] + gain)
+
+
+def transmission(axes: Axes, design: Any, x: Any, y: Any, xlabel: str = "crank angle [deg]", turn: bool = True) -> None:
+    """Transmission angle over the input with its limit; red below it."""
+    limit = design.spec.limits.transmission_angle
+    chart(axes, "Transmission angle", "transmission\nangle [deg]", xlabel, turn=turn)
+    axes.plot(x, y, color=style.GREEN, linewidth=1.6, gid="transmission-angle")
+    axes.axhline(limit, color=style.RED, linewidth=1.1, linestyle=style.DASHED, label=f"limit {limit:g}°")
+    failing.past(axes, x, y, y < limit, "below the limit")
+    axes.set_ylim(0.0, 92.0)
+    axes.set_yticks(range(0, 91, 30))
+    panels.legend_above(axes, 2)
+
+
+def over_crank(axes: Axes, design: Any) -> None:
+    """The transmission angle of the motion table."""
+    transmission(axes, design, *over_turn(design, "transmission_angle"))
 
 
 def shade(axes: Axes, look: Any, start: float, width: float, label: str | None = None) -> None:

@@ -67,4 +67,5 @@ def _speeds(axes: Axes, design: MutilatedGearDwell) -> None:
     axes.step(turns, data["driven_speed_ratio"], where="post", color=style.ORANGE, linewidth=1.6, label="driven gear")
     if "rocker_speed_ratio" in data:
         axes.plot(turns, data["rocker_speed_ratio"], color=style.BLUE, linewidth=1.6, label="rocker")
+    panels.in_time(axes, design.angular_speed, 1, "rad")
     panels.legend_above(axes, 3)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.figures import style
+from gearlink.cli.figures import failing, style
 from gearlink.cli.scenes.colors import PHASE_TINTS
 
 if TYPE_CHECKING:
@@ -246,11 +246,12 @@ def pressure_angles(axes: Axes, cams: Sequence[DiscCam], limit: float, xlabel: s
         sign = math.copysign(1.0, float(np.interp(place, degrees, values)))
         label = f"{cam.name}, ≤ {math.degrees(worst.value):.4g}° at {place:.4g}°"
         axes.plot(degrees, values, color=color, linewidth=1.5, linestyle=line, label=label)
+        failing.past(axes, degrees, values, np.abs(values) > limit, "above the limit")
         axes.plot([place], [sign * math.degrees(worst.value)], "o", color=color, markersize=4.5)
     for sign in (1.0, -1.0):
         named = f"limit ±{limit:g}°" if sign > 0.0 else None
         axes.axhline(sign * limit, color=style.BLACK, linewidth=0.9, linestyle=(0, (5, 3)), label=named)
-    legend_above(axes)
+    _legend_of_cams(axes)
 
 
 def curvatures(axes: Axes, cams: Sequence[DiscCam], xlabel: str) -> None:
@@ -265,6 +266,7 @@ def curvatures(axes: Axes, cams: Sequence[DiscCam], xlabel: str) -> None:
         values = cam.curvature(np.radians(degrees))
         label = f"{cam.name}, ρ ≥ {least.value:.5g} mm"
         axes.plot(degrees, values, color=color, linewidth=1.5, linestyle=line, label=label)
+        failing.past(axes, degrees, values, values * cam.roller_radius >= 1.0, "undercut")
         if math.isfinite(least.value):
             axes.plot([math.degrees(least.place)], [1.0 / least.value], "o", color=color, markersize=4.5)
     for radius in sorted({cam.roller_radius for cam in cams}):
@@ -275,7 +277,12 @@ def curvatures(axes: Axes, cams: Sequence[DiscCam], xlabel: str) -> None:
             linestyle=(0, (5, 3)),
             label=f"undercut: 1/roller radius {radius:g} mm",
         )
-    legend_above(axes)
+    _legend_of_cams(axes)
+
+
+def _legend_of_cams(axes: Axes) -> None:
+    """A row, or two where a cam fails."""
+    legend_above(axes, 5 if len(axes.get_legend_handles_labels()[1]) < 4 else 3)
 
 
 def cam_outline(axes: Axes, cam: DiscCam, color: str, axis: complex = 0j, line: Any = "-") -> complex:

@@ -86,6 +86,7 @@ def motion(travel: Axes, velocity: Axes, design: SliderCrankDesign) -> None:
     panels.heading(velocity, "Velocity")
     velocity.plot(degrees, speed, color=style.RED, linewidth=1.7, gid="velocity")
     velocity.axhline(0.0, color=style.BLACK, linewidth=0.8)
+    panels.in_time(velocity, getattr(design, "angular_speed", None), 1, "m", 1e-3)
     for axes in (travel, velocity):
         for place, color in ((folded, style.ORANGE), (extended, style.BLUE)):
             axes.axvline(place, color=color, linewidth=0.9, linestyle=style.DASHED)

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from gearlink.cli.figures import linkage, panels, style
+from gearlink.cli.figures import failing, linkage, panels, style
 from gearlink.cli.figures.three_gear_mechanism import mechanism, words
 from gearlink.core.gears.mesh_phase import signed_pair
 from gearlink.core.three_gear.design import ThreeGearFourBar
@@ -182,6 +182,7 @@ def _speed(axes: Axes, design: ThreeGearFourBar) -> None:
     panels.extreme(axes, math.degrees(extremes.greatest_angle) % linkage.TURN, extremes.greatest, above=True)
     panels.extreme(axes, math.degrees(extremes.least_angle) % linkage.TURN, extremes.least, above=False)
     axes.margins(y=0.18)
+    panels.in_time(axes, design.angular_speed, 1, "rad")
     panels.legend_above(axes, 3)
 
 
@@ -195,6 +196,7 @@ def _acceleration(axes: Axes, design: ThreeGearFourBar) -> None:
     panels.extreme(axes, math.degrees(extremes.greatest_angle) % linkage.TURN, extremes.greatest, above=True)
     panels.extreme(axes, math.degrees(extremes.least_angle) % linkage.TURN, extremes.least, above=False)
     axes.margins(y=0.18)
+    panels.in_time(axes, design.angular_speed, 2, "rad")
 
 
 def _transmission(axes: Axes, design: ThreeGearFourBar) -> None:
@@ -203,9 +205,10 @@ def _transmission(axes: Axes, design: ThreeGearFourBar) -> None:
     x, y = linkage.over_turn(design, "transmission_angle")
     limit = design.spec.limits.transmission_angle
     axes.plot(x, y, color=style.GREEN, linewidth=1.6, gid="transmission-angle")
+    failing.past(axes, x, y, y < limit, "below the limit")
     axes.axhline(limit, color=style.RED, linewidth=1.1, linestyle=style.DASHED, label=f"limit {limit:g}°")
     least = math.degrees(design.min_transmission_angle)
     axes.axhline(least, color=style.GREY, linewidth=0.8, linestyle=style.DOTTED, label=f"least {least:.5g}°")
     axes.set_ylim(0.0, 92.0)
     axes.set_yticks(range(0, 91, 15))
-    panels.legend_above(axes, 1)
+    panels.legend_above(axes, 3)

@@ -41,9 +41,10 @@ def draw(command: str, design: TwoGearFourBar) -> Figure:
         return mesh_figure(title, [Mesh(signed_pair(design.mesh), "", ("2", "5"))])
     charts: list[linkage.Panel] = [
         _output,
+        linkage.over_crank,
         partial(_curve, title="Output speed", ylabel="speed ratio", name="speed_ratio"),
-        partial(_curve, title="Output acceleration", ylabel="acceleration ratio\n[1/rad]", name="acceleration_ratio"),
         partial(_curve, title="Coupler speed", ylabel="w2/w1", name="coupler_ratio"),
+        partial(_curve, title="Output acceleration", ylabel="acceleration ratio\n[1/rad]", name="acceleration_ratio"),
     ]
     return linkage.sheet(title, design, mechanism, _WORDS, charts)
 
@@ -72,6 +73,7 @@ def _curve(axes: Axes, design: TwoGearFourBar, title: str, ylabel: str, name: st
         stands = design.standstill_coupler_ratio
         axes.axhline(stands, color=style.RED, linewidth=0.9, linestyle=style.DASHED, label="output stands")
         panels.legend_above(axes, 1)
+    panels.in_time(axes, design.angular_speed, 2 if name == "acceleration_ratio" else 1, "rad")
 
 
 def _output(axes: Axes, design: TwoGearFourBar) -> None:

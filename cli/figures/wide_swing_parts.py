@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.figures import panels, style
+from gearlink.cli.figures import failing, panels, style
 from gearlink.core.errors import NoSolution
 
 if TYPE_CHECKING:
@@ -182,7 +182,11 @@ def pressure_panel(axes: Axes, design: WideSwingDesign) -> None:
     k = np.linspace(0.0, 1.0, 401)
     for (words, cam), color in zip(design.cams.items(), (style.BLUE, style.GREEN), strict=False):
         label = f"{words}, ≤ {math.degrees(cam.max_pressure_angle):.4g}°" if design.has_zone(cam) else words
-        axes.plot(k, np.degrees(cam.points(k).pressure_angle), color=color, linewidth=1.6, label=label)
+        angle = np.degrees(cam.points(k).pressure_angle)
+        axes.plot(k, angle, color=color, linewidth=1.6, label=label)
+        touching = np.array([any(low <= at <= high for low, high in cam.contact) for at in k.tolist()])
+        over = np.abs(angle) > design.spec.limits.pressure_angle
+        failing.past(axes, k, angle, over & touching, f"{words}, above the limit")
     _zone(axes, design)
     limit = design.spec.limits.pressure_angle
     for sign in (1.0, -1.0):
@@ -214,6 +218,7 @@ def curvature_panel(axes: Axes, design: WideSwingDesign) -> None:
             least = f", ≥ {cam.min_curvature_radius:.4g} mm"
             radius = np.where([any(low <= at <= high for low, high in cam.contact) for at in k], radius, np.nan)
         axes.plot(k, np.where(radius > 0.0, radius, np.nan), color=color, linewidth=1.6, label=words + least)
+        failing.past(axes, k, radius, (radius > 0.0) & (radius <= cam.roller_radius), f"{words}, undercut")
         if (radius < 0.0).any():
             hollow = np.where(radius < 0.0, -radius, np.nan)
             axes.plot(k, hollow, color=color, linewidth=1.2, linestyle=_DOTTED, label=f"{words}, hollow")

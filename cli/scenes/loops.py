@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from importlib import import_module
 from importlib.util import find_spec
 from typing import TYPE_CHECKING
@@ -32,6 +33,12 @@ def build(design: Design, fraction: Reals) -> Scene:
     """The scene of a design over fractions of its loop; 0 and 1 look the same."""
     scene: Scene = import_module(_module(design.kind)).build(design, fraction)
     return scene
+
+
+def builder(kind: str) -> Callable[[Design, Reals], Scene]:
+    """What builds the scenes of a kind."""
+    found: Callable[[Design, Reals], Scene] = import_module(_module(kind)).build
+    return found
 
 
 def pictures_for(scene: Scene, fps: int) -> int:
