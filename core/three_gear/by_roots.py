@@ -7,7 +7,7 @@ speed.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from gearlink.core.linkages.band_dwell import ToleranceDwell, Valley, longest_in_band
 from gearlink.core.linkages.fourbar import FourBar, solve
@@ -32,18 +32,23 @@ class ByRoots:
     linkage: FourBar
     train: motion.GearTrain
 
+    @cached_property
+    def ahead(self) -> motion.GearTrain:
+        """The train counted in the direction of its mean motion, in which turning back has its meaning."""
+        return motion.forward(self.linkage, self.train)
+
     def _speed(self, phi: float) -> float:
-        return motion.output_speed(self.linkage, self.train, phi)
+        return motion.output_speed(self.linkage, self.ahead, phi)
 
     def _angle(self, phi: float) -> float:
-        return motion.output_angle(self.linkage, self.train, phi)
+        return motion.output_angle(self.linkage, self.ahead, phi)
 
     @cached_property
     def places(self) -> list[float]:
         """Crank angles of zero output speed [rad], ascending."""
-        extremes = turnings(self._speed, lambda phi: motion.output_acceleration(self.linkage, self.train, phi))
+        extremes = turnings(self._speed, lambda phi: motion.output_acceleration(self.linkage, self.ahead, phi))
         state = solve(self.linkage, min(extremes, key=lambda one: one.speed).place, 1)
-        train = self.train
+        train = self.ahead
         terms = (train.ratio, train.coupler_share * state.coupler_velocity, train.rocker_share * state.rocker_velocity)
         return standstills(self._speed, extremes, STANDSTILL_TOLERANCE * sum(map(abs, terms)))
 
@@ -70,10 +75,13 @@ class ByRoots:
             extremes : Extremes - of the speed ratio
             mean_ratio : float
         """
-        step = self.back_step
-        first = second = extremes.least_angle
+        step, forward = self.back_step, self.train.sense * self.ahead.sense
+        least, greatest = (extremes.least_angle, extremes.greatest_angle)[::forward]
+        first = second = least
         if step is not None:
             first, second = step.start, step.start + step.crank_angle
-        after = first + (extremes.greatest_angle - first) % _TURN
+        after = first + (greatest - first) % _TURN
         low = after - _TURN
-        return longest_in_band(Valley(self._angle, self._speed, first, second, low, after, mean_ratio), tolerance)
+        valley = Valley(self._angle, self._speed, first, second, low, after, abs(mean_ratio))
+        found = longest_in_band(valley, tolerance)
+        return replace(found, output_angle=forward * found.output_angle)

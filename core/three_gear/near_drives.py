@@ -12,6 +12,8 @@ import numpy as np
 from gearlink.core.linkages import fourbar
 from gearlink.core.linkages.fourbar_lengths import Lengths, Places, solve
 from gearlink.core.numerics.arrays import Mask, Reals
+from gearlink.core.results import cached_property
+from gearlink.core.three_gear import motion
 from gearlink.core.three_gear.design import ThreeGearFourBar
 
 STEPS = 12
@@ -58,10 +60,19 @@ class NearDrives:
 
     def __init__(self, nominal: ThreeGearFourBar, links: Lengths, frame_turn: Reals | float = 0.0) -> None:
         self.nominal, self.links, self.frame_turn = nominal, links, frame_turn
-        self.train = nominal.train
+        self.train = motion.forward(nominal.linkage, nominal.train)
+        self.counted = nominal.train.sense * self.train.sense  # -1 where the file counts the output backward
         self.count = np.broadcast(links.crank, links.coupler, links.rocker, links.frame, frame_turn).size
         self.unsettled: Mask = np.zeros(self.count, dtype=bool)
         self._branches: dict[float, tuple[Branch, Branch]] = {}
+
+    @cached_property
+    def extremes(self) -> motion.Extremes:
+        """Extremes of the nominal drive's speed, the output counted in the direction of its mean motion."""
+        found = self.nominal.speed_extremes
+        if self.counted > 0:
+            return found
+        return motion.Extremes(-found.least, found.least_angle, -found.greatest, found.greatest_angle)
 
     def seen(self, phi: Reals, order: int) -> Seen:
         """The output's rates at crank angles, as many as asked for."""

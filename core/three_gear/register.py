@@ -73,7 +73,7 @@ class ThreeGearRegister(RegisterDesign):
     def drive(self) -> Drive:
         """The drive at the radius that is asked for."""
         design, gears = self.design, self.spec.gears
-        radius = self.section.radius or 0.5 * gears.module * design.output_teeth
+        radius = self.section.radius or 0.5 * gears.module * abs(design.output_teeth)
         return Drive(design.linkage, design.train, math.radians(gears.pressure_angle), radius)
 
     def stretch(self, at: str) -> tuple[float, float]:
@@ -130,7 +130,7 @@ class ThreeGearRegister(RegisterDesign):
         """The jump at the radius that is asked for [mm]."""
         if not self.backlash:
             return None
-        reference = 0.5 * self.spec.gears.module * self.design.output_teeth
+        reference = 0.5 * self.spec.gears.module * abs(self.design.output_teeth)
         return sum(self.backlash.values()) * self.drive.radius / reference
 
     @cached_property

@@ -2,7 +2,7 @@
 
 A mesh is a crossed belt over the base circles: r_b1 (th1 - beta) + r_b2 (th2 - beta) + s [(r_b1 + r_b2)(inv alpha' -
 inv alpha) + K] is constant on the flank s, with beta the direction of the line of centres and
-cos alpha' = (r_b1 + r_b2)/|C1 C2|.
+cos alpha' = |r_b1 + r_b2|/|C1 C2|. The radius of a ring is negative.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from gearlink.core.gears.involute_sweep import involute
 from gearlink.core.linkages import fourbar_sweep
 from gearlink.core.linkages.loop_gains import closed_pin
 from gearlink.core.numerics.arrays import Points, Reals
-from gearlink.core.three_gear.register_gains import Drive, gear_angles
+from gearlink.core.three_gear.register_gains import Drive, gear_angles, signs
 
 _STEPS = 12
 
@@ -62,21 +62,23 @@ def output_error(drive: Drive, crank_angle: Reals, torque_sign: int, errors: Err
     Source
         own derivation; agrees with `register_gains` to first order
     """
-    return drive.radius * _Chain(drive, crank_angle, torque_sign, errors).output()
+    return drive.train.sense * drive.radius * _Chain(drive, crank_angle, torque_sign, errors).output()
 
 
 class _Chain:
     """The two meshes, each on one flank; angles are deviations from the drive without errors, so no branch is lost."""
 
     def __init__(self, drive: Drive, crank_angle: Reals, torque_sign: int, errors: Errors) -> None:
-        self.drive, self.phi, self.flank, self.errors = drive, crank_angle, float(torque_sign), errors
+        self.drive, self.phi, self.errors = drive, crank_angle, errors
         linkage, train = drive.linkage, drive.train
         state = fourbar_sweep.solve(linkage, crank_angle)
         self.coupler_direction, self.rocker_direction = state.coupler_angle, state.rocker_angle
         self.idler, self.output_gear = gear_angles(linkage, train, crank_angle)
         cosine = math.cos(drive.pressure_angle)
-        crank_gear = linkage.coupler * train.crank / (train.crank + train.idler) * cosine
-        output_gear = linkage.rocker * train.output / (train.idler + train.output) * cosine
+        b, c, counted = signs(train)
+        self.flank = torque_sign * counted
+        crank_gear = b * linkage.coupler * train.crank / (train.crank + train.idler) * cosine
+        output_gear = c * linkage.rocker * train.output / (train.idler + train.output) * cosine
         idler = train.idler / train.crank * crank_gear
         self.base = (crank_gear, idler, output_gear)
 
@@ -112,7 +114,7 @@ class _Chain:
         for _ in range(_STEPS):
             line = pin + eccentricity * np.exp(1j * (angle + turned)) - at
             swung = np.angle(line * np.exp(-1j * direction))
-            working = np.arccos((r1 + r2) / np.abs(line))
+            working = np.arccos(abs(r1 + r2) / np.abs(line))
             slack = (r1 + r2) * (involute(working) - involute(self.drive.pressure_angle)) + self.errors[play]
             new = swung - (r1 * (first - swung) + flank * slack) / r2
             if np.array_equal(new, turned):

@@ -62,7 +62,8 @@ class RegisterGains:
 def register_gains(drive: Drive, crank_angle: Reals, torque_sign: int) -> RegisterGains:
     """Gains of all errors over crank angles, for one sign of the torque on the output.
 
-    V = conj(e2 - e3)/sin(t2 - t3);  crank Re(e1 V), frame -Re V, centre distances Re(e V) -+ tau tan(alpha)
+    V = +-conj(s_c e2 - s_b e3)/sin(t2 - t3);  crank Re(e1 V), frame -Re V, centre distances Re(e V) - tau s tan(alpha)
+    s_b = sign(z1 + z3),  s_c = sign(z3 + z5): -1 where a ring is the larger gear
 
     Parameters
         drive : Drive
@@ -73,8 +74,8 @@ def register_gains(drive: Drive, crank_angle: Reals, torque_sign: int) -> Regist
     Raises
         NoSolution - where the linkage does not close
     Notes
-        The idler is in balance, so its two meshes touch on opposite flanks. |V| = 1/cos(gamma/2), gamma the
-        transmission angle. Against the exact chain of `register_chain` the error falls a hundredfold for every
+        The idler is in balance, so its two meshes touch on opposite flanks. A ring has a negative radius; its play
+        closes as the centre distance grows. Without one |V| = 1/cos(gamma/2), gamma the transmission angle. Against the exact chain of `register_chain` the error falls a hundredfold for every
         tenfold smaller error of the parts.
     Example
         >>> linkage = FourBar(38.94178567, 112.0, 112.0, 153.53024891)
@@ -90,15 +91,16 @@ def register_gains(drive: Drive, crank_angle: Reals, torque_sign: int) -> Regist
     state = fourbar_sweep.solve(linkage, crank_angle, 1)
     e1, e2, e3 = (np.exp(1j * angle) for angle in (crank_angle, state.coupler_angle, state.rocker_angle))
     scale = drive.radius / (linkage.rocker * train.output / (train.idler + train.output))
-    v = scale * np.conj(e2 - e3) / np.sin(state.coupler_angle - state.rocker_angle)
+    b, c, counted = signs(train)
+    v = scale * counted * np.conj(c * e2 - b * e3) / np.sin(state.coupler_angle - state.rocker_angle)
     flank, tangent = float(torque_sign), math.tan(drive.pressure_angle)
-    first, second = 1j - flank * tangent, 1j + flank * tangent
+    first, second = counted * b * (1j - counted * flank * tangent), counted * c * (1j + counted * flank * tangent)
     idler_angle, output_angle = gear_angles(linkage, train, crank_angle)
     speed = train.ratio + train.coupler_share * state.coupler_velocity + train.rocker_share * state.rocker_velocity
     return RegisterGains(
         crank=(e1 * v).real,
-        crank_idler=(e2 * v).real - scale * flank * tangent,
-        idler_output=-(e3 * v).real - scale * flank * tangent,
+        crank_idler=(e2 * v).real - b * scale * flank * tangent,
+        idler_output=-(e3 * v).real - c * scale * flank * tangent,
         frame=-v.real,
         pin_a=v,
         pin_d=-v,
@@ -108,6 +110,17 @@ def register_gains(drive: Drive, crank_angle: Reals, torque_sign: int) -> Regist
         input_angle=drive.radius * speed,
         play=np.full(np.shape(crank_angle), -scale * flank / math.cos(drive.pressure_angle)),
     )
+
+
+def signs(train: GearTrain) -> tuple[float, float, float]:
+    """Signs of z1 + z3 and z3 + z5, and that of z5 in the sense in which the output is counted.
+
+    Example
+        >>> signs(GearTrain(48, 36, -118, -1))
+        (1.0, -1.0, 1.0)
+    """
+    b, c = (math.copysign(1.0, teeth + train.idler) for teeth in (train.crank, train.output))
+    return b, c, math.copysign(1.0, train.output) * train.sense
 
 
 def gear_angles(linkage: FourBar, train: GearTrain, crank_angle: Reals) -> tuple[Reals, Reals]:

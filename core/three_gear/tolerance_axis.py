@@ -42,7 +42,7 @@ _ARRAYS = (
 )
 _LENGTHS = {"crank_length": 0, "coupler_length": 1, "rocker_length": 2, "frame_length": 3}
 _SWING = "dwell_swing"
-_VARYING = ("GL301", "GL302", "GL303")
+_VARYING = {"GL301", "GL302", "GL303"}
 
 
 class ThreeGearSamples:
@@ -58,13 +58,6 @@ class ThreeGearSamples:
     extra = (_SWING,)
 
     def __init__(self, nominal: ThreeGearFourBar) -> None:
-        if nominal.train.internal:
-            raise NoSolution(
-                "tolerance and register know external gears alone, not a train with a ring gear",
-                key="gears.output" if nominal.output_teeth < 0 else "gears.crank",
-            )
-        if nominal.spec.gears.helix_angle:
-            raise NoSolution("tolerance and register know spur gears: leave helix_angle out", key="gears.helix_angle")
         if nominal.off_center:
             raise NoSolution(
                 "tolerance and register know meshes whose profile shifts add up to 0", key="gears.profile_shift"
@@ -189,7 +182,8 @@ class ThreeGearSamples:
     def _off(self, samples: DriveSamples, phi: float) -> Reals:
         """Output angle of the drives at a crank angle of the machine, less that of the nominal one."""
         here = np.broadcast_to(phi - samples.frame_turn, (samples.count,))
-        off: Reals = samples.angle_at(here, phi) - motion.output_angle(self.nominal.linkage, self.nominal.train, phi)
+        nominal = motion.output_angle(self.nominal.linkage, samples.train, phi)
+        off: Reals = samples.counted * (samples.angle_at(here, phi) - nominal)
         return off
 
     @cached_property
@@ -206,15 +200,18 @@ class ThreeGearSamples:
         yield _below("GL303", np.degrees(samples.min_transmission_angle), limit, "deg", limit + 5.0)
         for pair in self.nominal.layout.shaft_pairs:
             yield self._shaft(pair, samples)
+        varying = _VARYING if self.nominal.gear_gap is not None else _VARYING - {"GL301"}
         for name in self.nominal.outlines["analyze"].checks:
             for check in self.nominal.check(name):
-                if check.code not in _VARYING:
+                if check.code not in varying:
                     yield _same(check, count)
 
     def _shaft(self, pair: Clearance, samples: DriveSamples) -> Findings:
-        """GL302 of two bodies; their gap changes as their least distance does."""
-        ends = "".join(sorted((pair.one.axis, pair.other.axis)))
-        gap = pair.gap - pair.distance + samples.distances()[ends]
+        """GL302 of two bodies, as `gearlink.core.clearance.bodies.least_gap` has it."""
+        ends, one, other = "".join(sorted((pair.one.axis, pair.other.axis))), pair.one, pair.other
+        nearest, farthest = samples.distances()[ends]
+        within = np.maximum(one.inner - (farthest + other.outer), other.inner - (farthest + one.outer))
+        gap = np.maximum(nearest - (one.outer + other.outer), within)
         limit = self.nominal.layout.least_shaft * len(pair.bare)
         low: Mask = gap < limit
         return Findings("GL302", gap, np.full(gap.shape, limit), low & (not pair.bare), low & bool(pair.bare), "mm")

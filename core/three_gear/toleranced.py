@@ -84,7 +84,7 @@ class TolerancedDrive(ThreeGearFourBar):
     def tolerance_dwell(self) -> ToleranceDwell | None:
         """The longest dwell within the tolerance of the output, where the file gives one that has an end."""
         tolerance = self.output_tolerance
-        if tolerance is None or tolerance >= math.pi * self.mean_ratio:
+        if tolerance is None or tolerance >= math.pi * abs(self.mean_ratio):
             return None
         return self.by_roots.within(tolerance, self.speed_extremes, self.mean_ratio)
 

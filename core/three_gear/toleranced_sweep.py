@@ -47,21 +47,21 @@ class DriveSamples(NearDrives):
 
     @cached_property
     def _least(self) -> Extreme:
-        return self._extreme(self.nominal.speed_extremes.least_angle, -1.0)
+        return self._extreme(self.extremes.least_angle, -1.0)
 
     @cached_property
     def _greatest(self) -> Extreme:
-        return self._extreme(self.nominal.speed_extremes.greatest_angle, 1.0)
+        return self._extreme(self.extremes.greatest_angle, 1.0)
 
     @property
     def speed_ratio_min(self) -> Reals:
         """Least speed ratio."""
-        return self._least.speed
+        return self._least.speed if self.counted > 0 else -self._greatest.speed
 
     @property
     def speed_ratio_max(self) -> Reals:
         """Greatest speed ratio."""
-        return self._greatest.speed
+        return self._greatest.speed if self.counted > 0 else -self._least.speed
 
     def _acceleration_extreme(self, place: float) -> Reals:
         h = 1e-4
@@ -69,7 +69,7 @@ class DriveSamples(NearDrives):
         found = self.chord(lambda seen: seen.rates[2] / slope, 3, place, _CHORD_REST)
         self.unsettled |= ~(np.abs(found.place - place) < 0.5)
         _, acceleration, jerk = found.seen.rates
-        value: Reals = acceleration - 0.5 * jerk * found.step
+        value: Reals = self.counted * (acceleration - 0.5 * jerk * found.step)
         return value
 
     def _nominal_jerk(self, phi: Reals) -> Reals:
@@ -93,7 +93,7 @@ class DriveSamples(NearDrives):
     @cached_property
     def nonuniformity(self) -> Reals:
         """(max - min)/mean of the speed ratio."""
-        return (self.speed_ratio_max - self.speed_ratio_min) / self.nominal.mean_ratio
+        return (self.speed_ratio_max - self.speed_ratio_min) / abs(self.nominal.mean_ratio)
 
     # Back-step
 
@@ -125,7 +125,7 @@ class DriveSamples(NearDrives):
             spread = np.where(back, np.sqrt(deep / self._least.jerk), 0.0)
         if step is None:
             return least - spread, least + spread
-        near = self.nominal.speed_extremes.least_angle
+        near = self.extremes.least_angle
         start = near - (near - step.start) % _TURN
         short = spread < 0.5 * step.crank_angle
         return np.where(short, least - spread, start), np.where(short, least + spread, start + step.crank_angle)
@@ -139,7 +139,7 @@ class DriveSamples(NearDrives):
     @property
     def _near(self) -> float:
         """The crank angle whose branch the output angles of the dwell are counted on."""
-        return float(self.nominal.speed_extremes.least_angle)
+        return float(self.extremes.least_angle)
 
     @cached_property
     def _top_and_bottom(self) -> tuple[Reals, Reals]:
@@ -307,7 +307,7 @@ class DriveSamples(NearDrives):
         for stop in self._stops if self.turns_back.any() else ():
             turns = np.rint((stop.place - near) / _TURN)
             inside = self.turns_back & (stop.place - turns * _TURN > ends[0]) & (stop.place - turns * _TURN < ends[1])
-            angle = self.angle_of(stop, self._near) - turns * _TURN * self.nominal.mean_ratio
+            angle = self.angle_of(stop, self._near) - turns * _TURN * abs(self.nominal.mean_ratio)
             angles.append(np.where(inside, angle, angles[0]))
         swing: Reals = 0.5 * (np.max(angles, axis=0) - np.min(angles, axis=0))
         return swing
@@ -334,14 +334,14 @@ class DriveSamples(NearDrives):
             return np.full(self.count, np.nan)
         return np.abs(self.links.frame - self.links.crank) + (nominal - abs(links.frame - links.crank))
 
-    def distances(self) -> dict[str, Reals]:
-        """Least distances of the axes over the turn [mm], by their ends."""
+    def distances(self) -> dict[str, tuple[Reals, Reals]]:
+        """Least and greatest distance of the axes over the turn [mm], by their ends."""
         links, turning = self.links, self.nominal.linkage.kind()
         # Of the triangle A-B-C or A-D-C the one whose angle at the middle joint turns fully.
-        near = links.coupler - links.crank if turning == "crank-rocker" else links.rocker - links.frame
+        one, other = (links.coupler, links.crank) if turning == "crank-rocker" else (links.rocker, links.frame)
         return {
-            "AC": np.abs(near),
-            "AD": np.broadcast_to(links.frame, (self.count,)),
-            "BD": np.abs(links.frame - links.crank),
-            "CD": np.broadcast_to(links.rocker, (self.count,)),
+            "AC": (np.abs(one - other), one + other),
+            "AD": (links.frame, links.frame),
+            "BD": (np.abs(links.frame - links.crank), links.frame + links.crank),
+            "CD": (links.rocker, links.rocker),
         }

@@ -115,7 +115,7 @@ def budget(
             float(magnitude[at] * one.limit),
             float(magnitude[at] * one.sigma),
             float(square[at]) / whole if whole > 0.0 else 0.0,
-            float(mean[at]),
+            float(mean[at]) + 0.0,  # no -0
         )
         for one, magnitude, square, mean in zip(contributions, magnitudes, squares, means, strict=True)
     )

@@ -7,12 +7,14 @@ from __future__ import annotations
 
 import json
 import math
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
+from gearlink.core.linkages import fourbar_sweep
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.three_gear.motion import GearTrain
 from gearlink.core.three_gear.register_chain import Errors, output_error
@@ -35,9 +37,9 @@ NAMES = {
 
 def _drive(given: list[Any]) -> Drive:
     crank_teeth, idler, output, module, crank, frame, assembly = given
-    sides = module * (crank_teeth + idler) / 2.0, module * (idler + output) / 2.0
+    sides = module * abs(crank_teeth + idler) / 2.0, module * abs(idler + output) / 2.0
     linkage = FourBar(crank, *sides, frame, int(assembly))
-    return Drive(linkage, GearTrain(crank_teeth, idler, output), math.radians(20.0), module * output / 2.0)
+    return Drive(linkage, GearTrain(crank_teeth, idler, output), math.radians(20.0), module * abs(output) / 2.0)
 
 
 @pytest.mark.parametrize("case", GAINS, ids=lambda case: str(case["name"]))
@@ -71,6 +73,9 @@ DRIVES = [
     [40, 72, 40, 2.0, 38.94178567, 153.53024891, 1],
     [20, 20, 60, 2.5, 18.0, 121.4, -1],
     [40, 60, 50, 2.0, 160.0, 40.0, 1],
+    [48, 36, -118, 1.0, 23.539125991604145, 53.76717909237369, 1],
+    [-118, 36, 48, 1.0, 12.0, 50.0, -1],
+    [-100, 30, -90, 1.0, 12.0, 40.0, 1],
 ]
 
 
@@ -93,7 +98,41 @@ def test_gains_are_the_slopes_of_the_exact_chain(given: list[Any], sign: int) ->
 def test_a_pin_in_the_frame_gains_by_the_transmission_angle() -> None:
     drive = _drive(DRIVES[0])
     angles = np.linspace(0.0, 6.0, 13)
-    from gearlink.core.linkages import fourbar_sweep
-
     gamma = fourbar_sweep.solve(drive.linkage, angles).transmission_angle
     assert np.abs(register_gains(drive, angles, 1).pin_a) == pytest.approx(1.0 / np.cos(0.5 * gamma), rel=1e-13)
+
+
+@pytest.mark.parametrize("given", DRIVES)
+def test_a_longer_crank_moves_the_output_as_its_four_bar_does(given: list[Any]) -> None:
+    """No mesh changes its centre distance: the motion of the other four-bar itself, by large."""
+    drive, angles, longer = _drive(given), np.linspace(0.2, 6.2, 7), 0.3
+    links, train = drive.linkage, drive.train
+    other = replace(links, crank=links.crank + longer)
+    one, two = (fourbar_sweep.solve(each, angles) for each in (links, other))
+    turned = train.coupler_share * (two.coupler_angle - one.coupler_angle)
+    turned += train.rocker_share * (two.rocker_angle - one.rocker_angle)
+    found = output_error(drive, angles, 1, Errors({"crank": np.array([longer])}))
+    assert found == pytest.approx(drive.radius * turned, abs=1e-10)
+
+
+@pytest.mark.parametrize("given", DRIVES)
+def test_between_its_flanks_the_output_has_the_backlash_that_centre_distances_give(given: list[Any]) -> None:
+    """j_t = 2 (r_b1 + r_b2)(inv alpha' - inv alpha)/cos alpha, the radius of a ring negative: its play closes."""
+    drive, angles, off = _drive(given), np.array([1.0, 4.0]), 0.05
+    crank_teeth, idler, output, module, *_ = given
+    for name, teeth in (("crank_idler", crank_teeth + idler), ("idler_output", idler + output)):
+        errors = Errors({name: np.array([off])})
+        jump = np.subtract(*(output_error(drive, angles, sign, errors) for sign in (-1, 1)))
+        distance = 0.5 * module * abs(teeth)
+        working = math.acos(distance * math.cos(drive.pressure_angle) / (distance + off))
+        widened = math.tan(working) - working - math.tan(drive.pressure_angle) + drive.pressure_angle
+        assert jump == pytest.approx(module * teeth * widened, abs=1e-12), name
+
+
+def test_the_direction_in_which_the_output_is_counted_does_not_change_its_errors() -> None:
+    """Output and torque are counted backward together: the same flank carries."""
+    drive, angles = _drive(DRIVES[3]), np.linspace(0.2, 6.2, 5)
+    back = replace(drive, train=replace(drive.train, sense=-1))
+    for name in ("crank", "idler_output", "output_gear", "pin_a"):
+        one, other = (getattr(register_gains(each, angles, sign), name) for each, sign in ((drive, 1), (back, -1)))
+        assert other == pytest.approx(-one, abs=1e-13), name
