@@ -36,9 +36,9 @@ _OF_GEAR = (
 )
 _WORDS = {
     "reference_radius": "reference radius",
-    "tooth_thickness": "tooth thickness on the reference circle",
+    "tooth_thickness": "thickness, reference circle",
     "working_radius": "working pitch radius",
-    "specific_sliding": "specific sliding at the foot of the flank",
+    "specific_sliding": "specific sliding, foot of flank",
     "tip_shortening": "tip shortening coefficient",
     "contact_stress": "contact stress",
     "safety_pitting": "safety against pitting",

@@ -132,8 +132,12 @@ def _forces(axes: Axes, design: LoadsDesign) -> None:
     """Magnitude of the force of every pin."""
     _over_turn(axes, design, "Joint forces", "force [N]")
     columns = _columns(design, "joints")
-    for name, color in zip([n for n in design.pins if n in columns], cycle(_COLORS)):
-        axes.plot(_angles(columns, design), _closed(columns[name]), color=color, linewidth=1.2, label=name)
+    for i, name in enumerate(n for n in design.pins if n in columns):
+        again, color = divmod(i, len(_COLORS))
+        line = ("-", "--", ":")[again % 3]  # a machine has more pins than there are colours
+        axes.plot(
+            _angles(columns, design), _closed(columns[name]), line, color=_COLORS[color], linewidth=1.2, label=name
+        )
     axes.set_ylim(bottom=0.0)
     panels.legend_above(axes, 8)
 
