@@ -76,7 +76,7 @@ def motor_torque(design: LoadsDesign) -> Iterator[Check]:
             continue
         bound = limit / margin
         text = f"{words} of the motor's torque is {value:.5g} N m"
-        remedy = f"take a motor of {safely_above(value * margin, 4)} N m or more, or a heavier flywheel"
+        remedy = f"it needs a motor of {safely_above(value * margin, 4)} N m or more, or a heavier flywheel"
         if value > bound:
             yield codes.MOTOR_TORQUE.check("fail", f"{text}, above {bound:.5g}: {remedy}", value, bound, "N m")
         elif value > _NEAR * bound:
@@ -101,7 +101,7 @@ def speed_fluctuation(design: LoadsDesign) -> Iterator[Check]:
     text = f"the speed varies by {found:.4g} of its mean"
     if found > allowed * (1.0 + 1e-9):
         needed = safely_above(running.needed or 0.0, 4)
-        message = f"{text}, more than {allowed:g}: set loads.flywheel.inertia to {needed}"
+        message = f"{text}, more than {allowed:g}: at a constant drive torque {needed} kg m^2 would do"
         yield codes.SPEED_FLUCTUATION.check("fail", message, found, allowed)
     elif found > _NEAR * allowed and flywheel.inertia is not None:
         yield codes.SPEED_FLUCTUATION.check("warn", f"{text}, little below {allowed:g}", found, allowed)

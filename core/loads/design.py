@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import cmath
 import math
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -10,7 +9,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from gearlink.core.design import Outline
 from gearlink.core.errors import GearlinkError, MissingSection
 from gearlink.core.loads import checks, tables, vibration_checks
-from gearlink.core.loads.base import RPM, LoadsBase
+from gearlink.core.loads.balance import BalancedLoads
+from gearlink.core.loads.base import RPM
 from gearlink.core.loads.vibration_checks import VIBRATION_CHECKS
 from gearlink.core.nomenclature import term
 from gearlink.core.report import Quantity
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from gearlink.core.loads.base import Wanted
     from gearlink.core.loads.vibrating import Vibrating
     from gearlink.core.numerics.arrays import Reals
+    from gearlink.core.report import Remedy
 
 _HIGHEST = 10_000
 MOST_TURNS = 100
@@ -85,7 +86,7 @@ def loads_outline(
     return {"loads": Outline(names, (*checks.CHECKS, *more_checks, *VIBRATION_CHECKS), shown)}
 
 
-class LoadsDesign(LoadsBase):
+class LoadsDesign(BalancedLoads):
     """The loads of a design file that has the section; a subclass per machine says how its links move."""
 
     extra_tables: ClassVar[tuple[str, ...]] = TABLES[1:]
@@ -126,22 +127,6 @@ class LoadsDesign(LoadsBase):
         pin = self.pin(joint.removeprefix("pin_"))
         known = self.has(joint) if pin is None else pin.known and of_joint != "travel"
         return ((joint, True),) if known else ()
-
-    @cached_property
-    def shaking_force_max(self) -> float:
-        """Greatest shaking force [N]."""
-        return self.extreme_of("shaking_force").value
-
-    @cached_property
-    def shaking_moment_max(self) -> float:
-        """Greatest magnitude of the shaking moment about the input's pivot [N m]."""
-        return self.extreme_of("shaking_moment").value
-
-    def shaking(self, phi: Reals) -> Any:
-        """Force and moment of the masses on the frame."""
-        from gearlink.core.loads.dynamics import shaking
-
-        return shaking(self.machine.at(phi), self.masses, self.speed)
 
     # What the checks ask
 
@@ -278,66 +263,6 @@ class LoadsDesign(LoadsBase):
         top = float(np.max(found))
         return float(found[order - 1]) / top if top > 0.0 else 0.0
 
-    # Counterweights
-
-    def counterweights(self) -> dict[str, complex]:
-        """Mass moments [kg m] by link in its coordinates that balance the machine as the file asks."""
-        return {}
-
-    @cached_property
-    def balance(self) -> dict[str, complex]:
-        """The counterweights that the file asks for."""
-        asked = getattr(self.section, "balance", None)
-        if asked is None:
-            return {}
-        share = getattr(asked, "share", 1.0)
-        return {name: share * moment for name, moment in self.counterweights().items()}
-
-    def balanced_force(self, moments: dict[str, complex]) -> float:
-        """Greatest shaking force with these counterweights [N]."""
-        from gearlink.core.loads.dynamics import Mass, shaking
-
-        # On a link that turns about its origin, 1 kg at U has the mass moment U, and nothing else in the force.
-        weights = {name: Mass(1.0, 0.0, moment) for name, moment in moments.items()}
-
-        def force(phi: Reals) -> Reals:
-            added = shaking(self.machine.at(phi), weights, self.speed)[0]
-            return np_abs(self.shaking(phi)[0] + added)
-
-        return self.extreme(force).value
-
-    def _moment(self, name: str) -> complex | None:
-        return self.balance.get(name)
-
-    @property
-    def counterweight_crank(self) -> float | None:
-        """Mass moment of the crank's counterweight [kg mm]."""
-        return _size(self._moment("crank"))
-
-    @property
-    def counterweight_crank_direction(self) -> float | None:
-        """Its direction in the crank's coordinates [rad]."""
-        return _direction(self._moment("crank"))
-
-    @property
-    def counterweight_rocker(self) -> float | None:
-        """Mass moment of the rocker's counterweight [kg mm]."""
-        return _size(self._moment("rocker"))
-
-    @property
-    def counterweight_rocker_direction(self) -> float | None:
-        """Its direction in the rocker's coordinates [rad]."""
-        return _direction(self._moment("rocker"))
-
-    @cached_property
-    def balanced_force_max(self) -> float | None:
-        """Greatest shaking force with the counterweights [N]."""
-        from gearlink.core.report import without_noise
-
-        if not self.balance:
-            return None
-        return without_noise(self.balanced_force(self.balance), 64.0 * self.shaking_force_max)
-
     def has(self, name: str) -> bool:
         """Whether this design has a joint of the name."""
         return name in self._names
@@ -373,6 +298,12 @@ class LoadsDesign(LoadsBase):
 
         return {name: MeshLoad(self, name) for name in self.meshes if self.has(name)}
 
+    def candidates(self, check: str, /) -> Iterable[Remedy]:
+        """Remedies from closed forms."""
+        from gearlink.core.loads.remedies import candidates
+
+        return candidates(self, check)
+
     table_torque, table_joints = tables.torque, tables.joints
     table_teeth, table_frame, table_speed = tables.teeth, tables.frame, tables.speed
     table_spectrum, table_harmonics = tables.spectrum, tables.harmonics
@@ -383,17 +314,3 @@ class LoadsDesign(LoadsBase):
     check_rigid_model, check_resonance = vibration_checks.rigid_model, vibration_checks.resonance
     check_residual_vibration = vibration_checks.residual_vibration
     check_impact, check_self_locking = checks.impact, checks.self_locking
-
-
-def np_abs(values: Any) -> Reals:
-    """Magnitudes of plane vectors."""
-    found: Reals = abs(values)
-    return found
-
-
-def _size(moment: complex | None) -> float | None:
-    return None if moment is None else 1e3 * abs(moment)
-
-
-def _direction(moment: complex | None) -> float | None:
-    return None if moment is None else cmath.phase(moment)

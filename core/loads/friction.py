@@ -34,6 +34,7 @@ from gearlink.core.numerics.arrays import Reals
 
 _PASSES, _PLAIN, _KEPT, _POWERS = 60, 4, 5, 20
 _SETTLED, _NEARLY, _BEYOND = 1e-14, 1e-11, 1e6
+_TEETH = ("mesh", "rack")
 LOCKS = 0.9
 """A mechanism of which a pass leaves more of a change counts as self-locking."""
 LOCKED = (
@@ -57,6 +58,17 @@ class Coefficients:
     meshes: float
     pin_radius: float
     joints: Mapping[str, float]
+
+    def scaled(self, share: float) -> Coefficients:
+        """A share of all friction; what a mesh loses counts, not its efficiency."""
+
+        def of(value: float, *, lost: bool) -> float:
+            return 1.0 - share * (1.0 - value) if lost else share * value
+
+        joints = {name: of(value, lost=name.startswith(_TEETH)) for name, value in self.joints.items()}
+        return replace(
+            self, pins=share * self.pins, guides=share * self.guides, meshes=of(self.meshes, lost=True), joints=joints
+        )
 
     def of(self, connection: Connection) -> float:
         """Couple or force per force: mu r of a pin [m], mu of a guide, (1 - eta) of a mesh."""

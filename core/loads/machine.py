@@ -9,7 +9,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from typing import Any, TypeAlias
 
@@ -153,6 +153,11 @@ class Machine:
         except SelfLocking:
             return math.inf, None
         return float(found.max()), float(phi[np.argmax(found)])
+
+    def rubbing(self, share: float) -> Machine:
+        """The machine with a share of its friction."""
+        assert self.friction is not None, "asked for only where there is friction"
+        return replace(self, friction=self.friction.scaled(share), kept={}, kept_few={})
 
     @property
     def locks(self) -> bool:

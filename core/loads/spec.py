@@ -41,6 +41,12 @@ class Zone(Spec):
     end: Angle = Field(alias="to", description="input angle at which it ends")
     value: Number = Field(description="torque (N m) or force (N) in it")
 
+    @model_validator(mode="after")
+    def _some_width(self) -> Zone:
+        if self.start == self.end:
+            raise PydanticCustomError("GL111", "this zone is empty: it ends where it starts", {"key": "to"})
+        return self
+
 
 class Course(Spec):
     """A value over the input angle, repeated every 360 deg: a table of [angle, value], or zones."""
@@ -65,6 +71,9 @@ class Course(Spec):
                 raise PydanticCustomError("GL111", "the angles of a table must ascend", {"key": "table"})
             if angles[-1] - angles[0] > 360.0:
                 message = "a table covers one turn at most"
+                raise PydanticCustomError("GL111", message, {"key": "table"})
+            if angles[-1] - angles[0] == 360.0 and self.table[0][1] != self.table[-1][1]:
+                message = "a table over a whole turn ends with the value that it starts with, or without its last pair"
                 raise PydanticCustomError("GL111", message, {"key": "table"})
             if self.interpolation == "cubic" and len(angles) < 3:
                 raise PydanticCustomError("GL111", "cubic needs three pairs or more", {"key": "interpolation"})

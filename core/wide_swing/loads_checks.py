@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from gearlink.core.loads import codes, vibration_checks
-from gearlink.core.report import Check, safely_above
+from gearlink.core.report import Check
 
 if TYPE_CHECKING:
     from gearlink.core.wide_swing.loads import WideSwingLoads
@@ -22,8 +22,7 @@ def contact_pressure(design: WideSwingLoads) -> Iterator[Check]:
         return
     text = f"the roller presses with {found:.5g} N/mm^2"
     if found > allowed:
-        width = safely_above(roller.width * (found / allowed) ** 2, 4)
-        message = f"{text}, above {allowed:g}: set loads.roller.width to {width} or more"
+        message = f"{text}, above {allowed:g}: take a wider roller"
         yield codes.CONTACT_PRESSURE.check("fail", message, found, allowed, "N/mm^2")
     elif found > _NEAR * allowed:
         yield codes.CONTACT_PRESSURE.check("warn", f"{text}, little below {allowed:g}", found, allowed, "N/mm^2")

@@ -131,7 +131,9 @@ class SwingStroke:
         """Force, pressure, radius and speeds; not a number where the roller touches nothing."""
         touching = self.loads.design.touches(self.cam, k) & (k != 0.5)
         at = k[touching]
-        contact, none = self.contact(at), np.full(at.shape, np.nan)
+        none = np.full(at.shape, np.nan)
+        locked = self.loads.locked
+        contact, force = (None, none) if locked else (self.contact(at), self.force(at))
 
         def shown(values: Reals) -> Reals:
             found = np.full_like(k, np.nan)
@@ -139,7 +141,7 @@ class SwingStroke:
             return found
 
         return {
-            "force": (shown(self.force(at)), "N"),
+            "force": (shown(force), "N"),
             "pressure": (shown(none if contact is None else contact.pressure), "N/mm^2"),
             "radius": (shown(self.relative_radius(at)), "mm"),
             "roller_speed": (shown(self.roller_speed(at) * 60.0 / (2.0 * math.pi)), "1/min"),

@@ -40,7 +40,8 @@ def contact_stroke(design: WideSwingLoads, samples: int | None = None) -> Table:
         columns[f"{later}cam_angle"] = (np.degrees(stroke.angle(k)), "deg")
         columns |= {f"{stroke.name}_{name}": found[name] for name in ("force", "pressure", "radius")}
         columns |= {f"{later}{name}": found[name] for name in ("roller_speed", "entrainment")}
-        columns[f"{later}input_torque"] = (design.machine.torque(stroke.angle(k)), "N m")
+        torque = np.full_like(k, np.nan) if design.locked else design.machine.torque(stroke.angle(k))
+        columns[f"{later}input_torque"] = (torque, "N m")
     return Table.of("contact_stroke", columns)
 
 
