@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 _POOR = math.radians(3.0)
 _EDGE = 0.992  # back-step over band from which on a frame a little off may lose a quarter of the window
 _NARROW = 0.05  # mm, an interval of the frame that a workshop holds with care
-_FIT = 1e-9
+WINDOW_FIT = 1e-9
 
 
 def transmission_check(
@@ -47,7 +47,7 @@ def dwell_window_check(window: float, asked: float, tolerance: float) -> Check:
     """GL313: the crank angle over which the output stays within +- a tolerance, against the one asked for [all rad]."""
     got, wish, band = math.degrees(window), math.degrees(asked), math.degrees(tolerance)
     text = f"the output stays within +-{band:g} deg over {got:.6g} deg of the crank"
-    good = got >= wish * (1.0 - _FIT)
+    good = got >= wish * (1.0 - WINDOW_FIT)
     if not good:
         text += f", {wish:g} deg were asked for: ask for less, or allow a greater tolerance"
     return DWELL_WINDOW.check("pass" if good else "fail", text, got, wish, "deg")
@@ -64,7 +64,7 @@ def dwell_edge_check(share: float, interval: list[float] | None) -> Check:
     width = None if interval is None else interval[1] - interval[0]
     if width is not None:
         text += f"; the frame may lie within {width:.4g} mm"
-    near = _EDGE < share <= 1.0 + _FIT
+    near = _EDGE < share <= 1.0 + WINDOW_FIT
     narrow = width is not None and width < _NARROW
     if near:
         text += ": a frame a little off makes it exceed the band and costs a quarter of the window; ask for less"

@@ -1,6 +1,6 @@
 """The three-gear four-bar over arrays of designs: `core.design_axis` for its syntheses in closed form and its analysis.
 
-Whatever a study asks for beside that (a window, a tolerance, given shafts, a ratio in place of an idler, quantities of
+Whatever a study asks for beside that (a synthesis for a window, a play, given shafts, a ratio in place of an idler, quantities of
 other commands) is left to the design classes.
 """
 
@@ -30,7 +30,11 @@ _TASKS: dict[str, tuple[str, type[Batch]]] = {
     "synth momentary-dwell": ("momentary", Momentary),
     "analyze": ("links", Analysis),
 }
-_DOMAIN = {path: (1.0, float(MOST_TEETH), 20.0) for path in TEETH} | {"gears.module": (1e-6, 1e6, 1.0)}
+_DOMAIN = {path: (1.0, float(MOST_TEETH), 20.0) for path in TEETH} | {
+    "gears.module": (1e-6, 1e6, 1.0),
+    "dwell_tolerance": (1e-6, 360.0, 1.0),
+    "dwell_window": (1e-6, 360.0, 1.0),
+}
 """Least and greatest value that is computed here, not by the class, and one between that stands in for others."""
 _PLACED = ("crank", "frame", "balanced")
 _OTHERS = {
@@ -68,7 +72,7 @@ def _served(spec: Any, command: str, paths: Sequence[str]) -> bool:
         return False
     if spec.gears.own_teeth or min(spec.gears.crank, spec.gears.output) < 0:  # or a ring gear
         return False
-    if any(getattr(spec, name) is not None for name in ("dwell_tolerance", "dwell_backlash", "input_speed")):
+    if any(getattr(spec, name) is not None for name in ("dwell_backlash", "input_speed")):
         return False
     if any(getattr(section, name) is not None for name in _OTHERS[task]):
         return False

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import Any
@@ -11,17 +12,20 @@ import numpy as np
 from gearlink.core.clearance.bodies import LEAST_SHAFT_MODULES
 from gearlink.core.design_axis import Evaluated, Findings
 from gearlink.core.gears.unshifted import Mesh, UnshiftedMeshes
-from gearlink.core.linkages.codes import GEAR_COLLISION, SHAFT_CLEARANCE, TRANSMISSION_ANGLE
+from gearlink.core.linkages.checks import WINDOW_FIT
+from gearlink.core.linkages.codes import DWELL_WINDOW, GEAR_COLLISION, SHAFT_CLEARANCE, TRANSMISSION_ANGLE
 from gearlink.core.numerics.arrays import Mask, Reals
 from gearlink.core.spec_paths import number_at
+from gearlink.core.three_gear.band_many import Dwells, Valleys, longest_in_band
 from gearlink.core.three_gear.codes import BACK_STEP, DWELL_TOLERANCE
+from gearlink.core.three_gear.general_many import Drives
 from gearlink.core.three_gear.motion import tip_radius
 
 TEETH = ("gears.crank", "gears.idler", "gears.output")
-LIMITS = ("limits.transmission_angle", "limits.gear_gap")
+LIMITS = ("limits.transmission_angle", "limits.gear_gap", "dwell_tolerance", "dwell_window")
 _POOR = 5.0
 _NEAR = 1e-9
-_JUDGED_HERE = {r.code for r in (GEAR_COLLISION, TRANSMISSION_ANGLE, BACK_STEP, DWELL_TOLERANCE)}
+_JUDGED_HERE = {rule.code for rule in (GEAR_COLLISION, TRANSMISSION_ANGLE, BACK_STEP, DWELL_TOLERANCE, DWELL_WINDOW)}
 
 
 class Batch:
@@ -74,6 +78,11 @@ class Batch:
     @property
     def speeds(self) -> tuple[Reals, Reals]:
         """Greatest and least speed ratio."""
+        raise NotImplementedError
+
+    @property
+    def places_of_speeds(self) -> tuple[Reals, Reals]:
+        """Crank angles of the greatest and the least speed."""
         raise NotImplementedError
 
     @property
@@ -166,12 +175,86 @@ class Batch:
             "dwell_angle_approximate": lambda: degrees(1.5 * self.back_step[1]),
             "min_transmission_angle": lambda: degrees(self.mu),
             "gear_gap": lambda: self.gap,
+            "tolerance_dwell_start": lambda: degrees(self.band[0]),
+            "tolerance_dwell_angle": lambda: degrees(self.band[1]),
         }
 
     def _motion(self) -> Any:
         first, second = (np.isfinite(angle) for angle in self.standstills)
         words = np.where(second, "back-step", np.where(first, "momentary-dwell", "unidirectional"))
         return np.where(self.exists, words, "")
+
+    # Within a tolerance
+
+    @cached_property
+    def drives(self) -> Drives:
+        """The linkages with their gears."""
+        crank, frame = self.links
+        shares = (self.z1 / self.z5, -(self.z1 + self.z3) / self.z5, (self.z3 + self.z5) / self.z5)
+        assembly = np.full(self.count, float(self.spec.assembly))
+        return Drives(crank, self.coupler, self.rocker, frame, assembly, *shares)
+
+    @cached_property
+    def seeks_band(self) -> bool:
+        """Whether the dwell within a tolerance is asked for."""
+        named = any(name.startswith("tolerance_dwell") for name in self.wanted)
+        return named or (self.command == "analyze" and bool(np.isfinite(self.key("dwell_window")).any()))
+
+    @cached_property
+    def given_tolerance(self) -> Reals:
+        """Tolerance of the output to either side that the file names [rad]."""
+        return np.radians(self.key("dwell_tolerance"))
+
+    @property
+    def tolerance(self) -> Reals:
+        """That of the dwell."""
+        return self.given_tolerance
+
+    @cached_property
+    def _endless(self) -> Reals:
+        """Half of what the output gains in a turn of the crank [rad]."""
+        return math.pi * self.mean_ratio
+
+    @cached_property
+    def _dwells(self) -> tuple[Any, Dwells]:
+        """Places of the designs that have a dwell within the tolerance, and their dwells."""
+        places = np.flatnonzero(self.exists & (self.given_tolerance < self._endless))
+        greatest, least = self.places_of_speeds
+        width = self.back_step[1]
+        first = np.where(np.isfinite(width), self.start_of_back_step, least)
+        second = np.where(np.isfinite(width), first + width, least)
+        valleys = Valleys(self.drives, first, second, least, greatest, self.given_tolerance)
+        return places, longest_in_band(valleys.part(places))
+
+    @property
+    def start_of_back_step(self) -> Reals:
+        """phi(1), the standstill at which the output turns back."""
+        return self.standstills[0]
+
+    @cached_property
+    def band(self) -> tuple[Reals, Reals]:
+        """Start and crank angle of the dwell within the tolerance."""
+        places, dwells = self._dwells
+        start, width = np.full(self.count, np.nan), np.full(self.count, np.nan)
+        start[places], width[places] = dwells.start, dwells.crank_angle
+        return start, width
+
+    @cached_property
+    def _band_is_doubtful(self) -> Mask:
+        places, dwells = self._dwells
+        doubtful = np.zeros(self.count, dtype=bool)
+        doubtful[places] = dwells.doubtful | (dwells.tied & ("tolerance_dwell_start" in self.wanted))
+        return doubtful
+
+    def _of_band(self) -> Iterator[Findings]:
+        """GL313 where a window is asked for, GL317 where there is a tolerance."""
+        asked = self.key("dwell_window")
+        if self.command == "analyze" and np.isfinite(asked).any():
+            width = np.degrees(self.band[1])
+            got = np.where(self.given_tolerance < self._endless, width, 360.0)
+            yield Findings(DWELL_WINDOW.code, got, asked, got < asked * (1.0 - WINDOW_FIT), self.none, "deg")
+        given, limit = np.degrees(self.tolerance), np.degrees(self._endless)
+        yield Findings(DWELL_TOLERANCE.code, given, limit, given >= limit, self.none, "deg")
 
     # Meshes and checks
 
@@ -199,6 +282,7 @@ class Batch:
         warns = (mu >= limit) & (mu < limit + _POOR)
         yield Findings(TRANSMISSION_ANGLE.code, mu, limit, mu < limit, warns, "deg")
         yield from self.of_task()
+        yield from self._of_band()
         for mesh in self._meshes.values():
             yield from mesh.findings()
 
@@ -239,6 +323,8 @@ class Batch:
         for each in findings:
             if each.code in _JUDGED_HERE:
                 unsure |= _near(each.value, each.limit)
+        if self.seeks_band:
+            unsure |= self._band_is_doubtful
         return np.asarray((unsure | self._at_limit | self.doubtful) & self.exists)
 
 

@@ -36,39 +36,38 @@ class General(Batch):
         return 0.5 * self.module * self.z1, 0.5 * self.module * self.z3, 0.5 * self.module * self.z5
 
     @cached_property
-    def drives(self) -> many.Drives:
-        """The linkages with their gears."""
-        crank, frame = self.links
-        shares = (self.z1 / self.z5, -(self.z1 + self.z3) / self.z5, (self.z3 + self.z5) / self.z5)
-        assembly = np.full(self.count, float(self.spec.assembly))
-        return many.Drives(crank, self.coupler, self.rocker, frame, assembly, *shares)
-
-    @cached_property
     def mu(self) -> Reals:
         """Of the folded and the stretched place."""
         return many.transmission(self.drives)
 
     @cached_property
-    def _extremes(self) -> tuple[Reals, Reals, Mask]:
-        greatest, one = many.extreme(self.drives, 0.5 * math.pi, 1.0)
-        least, other = many.extreme(self.drives, 1.5 * math.pi, -1.0)
-        return greatest, least, one & other
+    def _extremes(self) -> tuple[tuple[Reals, Reals, Mask], tuple[Reals, Reals, Mask]]:
+        return many.extreme(self.drives, 0.5 * math.pi, 1.0), many.extreme(self.drives, 1.5 * math.pi, -1.0)
 
     @cached_property
     def speeds(self) -> tuple[Reals, Reals]:
         """Both extremes."""
-        greatest, least, _ = self._extremes
-        return greatest, least
+        greatest, least = self._extremes
+        return greatest[0], least[0]
+
+    @cached_property
+    def places_of_speeds(self) -> tuple[Reals, Reals]:
+        """Where they stand."""
+        greatest, least = self._extremes
+        return greatest[1], least[1]
 
     @cached_property
     def _seeks_speeds(self) -> bool:
-        return any(name in ("speed_ratio_max", "speed_ratio_min", "nonuniformity") for name in self.wanted)
+        return self.seeks_band or any(
+            name in ("speed_ratio_max", "speed_ratio_min", "nonuniformity") for name in self.wanted
+        )
 
     @cached_property
     def doubtful(self) -> Mask:
         """Searches that did not come to rest, poor transmission, and links next to a change point."""
         doubtful = np.asarray(many.turns(self.drives)[2] | (self.mu < 1e-3))
-        return doubtful | ~self._extremes[2] if self._seeks_speeds else doubtful
+        greatest, least = self._extremes if self._seeks_speeds else ((None, None, ~self.none),) * 2
+        return doubtful | ~(greatest[2] & least[2])
 
 
 class Momentary(General):
@@ -141,7 +140,8 @@ class Analysis(General):
     @cached_property
     def doubtful(self) -> Mask:
         """Besides: where the output just stops, links at a change point whether they turn or not."""
-        near = self._standing[2] if any(name in _OF_STANDSTILLS for name in self.wanted) else self.none
+        seeks = self.seeks_band or any(name in _OF_STANDSTILLS for name in self.wanted)
+        near = self._standing[2] if seeks else self.none
         return np.asarray(super().doubtful | near)
 
     @cached_property
@@ -153,6 +153,11 @@ class Analysis(General):
         """Start, crank angle and size of the back-steps of `_places`."""
         low, high = self.standstills
         return many.back_step(low[self._places], high[self._places], self.drives.part(self._places))
+
+    @property
+    def start_of_back_step(self) -> Reals:
+        """Of standstills in ascending order it may be the second."""
+        return self._spread(self._stepping[0])
 
     def _spread(self, values: Reals) -> Reals:
         found = np.full(self.count, np.nan)

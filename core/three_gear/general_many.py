@@ -106,8 +106,8 @@ def output_angle(phi: Reals, links: Drives) -> Reals:
     return np.asarray(links.ratio * phi + links.coupler_share * coupler + links.rocker_share * rocker)
 
 
-def extreme(links: Drives, start: float, sign: float) -> tuple[Reals, Mask]:
-    """Greatest (sign 1) or least (-1) speed ratio, and where the search came to rest on one.
+def extreme(links: Drives, start: float, sign: float) -> tuple[Reals, Reals, Mask]:
+    """Greatest (sign 1) or least (-1) speed ratio, its crank angle, and where the search came to rest on one.
 
     Notes
         Newton's method on the acceleration from s times the start, steps of 0.6 rad at most.
@@ -128,7 +128,7 @@ def extreme(links: Drives, start: float, sign: float) -> tuple[Reals, Mask]:
         live = live[~done]
         if not live.size:
             break
-    return speed(phi, links)[0], rests
+    return speed(phi, links)[0], phi, rests
 
 
 def standstills(radii: tuple[Reals, Reals, Reals], links: Drives) -> tuple[Reals, Reals, Mask]:

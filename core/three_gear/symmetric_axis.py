@@ -16,7 +16,8 @@ from gearlink.core.design_axis import Findings
 from gearlink.core.numerics.arrays import Mask, Reals
 from gearlink.core.three_gear import symmetric_many as many
 from gearlink.core.three_gear.axis_batch import Batch
-from gearlink.core.three_gear.codes import ACHIEVED, BACK_STEP, DWELL_TOLERANCE
+from gearlink.core.three_gear.codes import ACHIEVED, BACK_STEP
+from gearlink.core.three_gear.general_many import wrapped
 
 _PLAIN_TOLERANCE, _MISSED = 1.0, 0.5
 _SMALL, _STEEP = 1e-3, 1e-4
@@ -66,6 +67,12 @@ class Symmetric(Batch):
         """In closed form (thesis (4-13))."""
         swing = 2.0 * self.n * self.frame_ratio / (self.frame_ratio * self.frame_ratio + 1.0)
         return 1.0 + swing, 1.0 - swing
+
+    @cached_property
+    def places_of_speeds(self) -> tuple[Reals, Reals]:
+        """At 90 and 270 deg."""
+        quarter = np.full(self.count, 0.5 * math.pi * self.spec.assembly)
+        return quarter, quarter + math.pi
 
     @cached_property
     def mu(self) -> Reals:
@@ -132,13 +139,25 @@ class Dwells(Symmetric):
         """As asked for."""
         return np.where(self.exists, self._asked, np.nan)
 
+    @cached_property
+    def tolerance(self) -> Reals:
+        """As given, or half of the back-step."""
+        return np.where(np.isnan(self.given_tolerance), 0.5 * self.back_step[0], self.given_tolerance)
+
+    @cached_property
+    def band(self) -> tuple[Reals, Reals]:
+        """In closed form where the back-step fills the band."""
+        start, width = super().band
+        fills = np.isnan(self.given_tolerance)
+        before = self.standstills[0] - (self.dwell_angle - self.back_step[1])
+        length = 2.0 * self.dwell_angle - self.back_step[1]
+        return np.where(fills, wrapped(before), start), np.where(fills, length, width)
+
     def of_task(self) -> Iterator[Findings]:
-        """GL315 and GL317: half of the back-step."""
+        """GL315: half of the back-step."""
         half = np.degrees(0.5 * self.back_step[0])
-        limit = np.full(self.count, _PLAIN_TOLERANCE)
+        limit = np.where(np.isnan(self.given_tolerance), _PLAIN_TOLERANCE, np.degrees(self.given_tolerance))
         yield Findings(BACK_STEP.code, half, limit, self.none, half > limit, "deg")
-        endless = np.degrees(math.pi * self.mean_ratio)
-        yield Findings(DWELL_TOLERANCE.code, half, endless, half >= endless, self.none, "deg")
 
 
 class BackSteps(Symmetric):

@@ -27,6 +27,7 @@ QUANTITIES = [
     *("back_step_crank_angle", "dwell_angle", "dwell_angle_approximate", "min_transmission_angle", "gear_gap"),
     *("nonuniformity", "dwell_crank_angles[0]", "dwell_crank_angles[1]", "crank_idler.tip_radius[1]"),
     *("crank_idler.root_radius[0]", "crank_idler.tip_pressure_angle[0]", "idler_output.span_measurement[1]"),
+    "tolerance_dwell_angle",
     *("idler_output.contact_ratio", "idler_output.center_distance", "idler_output.working_pressure_angle"),
 ]
 BASE: dict[str, Any] = {"kind": "three-gear-four-bar", "gears": {"module": 2, "crank": 40, "idler": 72, "output": 40}}
@@ -91,6 +92,41 @@ TASKS: dict[str, tuple[str, dict[str, Any], dict[str, Any]]] = {
             "links.frame": {"from": 5, "to": 60},
         },
     ),
+    "analysis, band": (
+        "analyze",
+        {"links": {"crank": 20, "frame": 150}, "dwell_tolerance": 1, "dwell_window": 90},
+        {
+            "gears.crank": {"from": 8, "to": 60},
+            "gears.idler": {"from": 8, "to": 100},
+            "gears.output": {"from": 8, "to": 90},
+            "links.crank": {"from": 2, "to": 50},
+            "links.frame": {"from": 20, "to": 220},
+            "dwell_tolerance": {"from": 0.001, "to": 40, "log": True},
+            "dwell_window": {"from": 10, "to": 200},
+        },
+    ),
+    "drag links, band": (
+        "analyze",
+        {"links": {"crank": 150, "frame": 20}, "assembly": -1, "dwell_tolerance": 1},
+        {
+            "gears.crank": {"from": 20, "to": 60},
+            "gears.idler": {"from": 20, "to": 100},
+            "gears.output": {"from": 20, "to": 90},
+            "links.crank": {"from": 60, "to": 200},
+            "links.frame": {"from": 5, "to": 60},
+            "dwell_tolerance": {"from": 0.01, "to": 200, "log": True},
+        },
+    ),
+    "dwell, band": (
+        "synth dwell",
+        {"dwell": {"angle": 135}, "dwell_tolerance": 1},
+        {**GEARS, "dwell.angle": {"from": 10, "to": 300}, "dwell_tolerance": {"from": 0.01, "to": 40, "log": True}},
+    ),
+    "momentary, band": (
+        "synth momentary-dwell",
+        {"momentary": {"eccentricity": 20}, "dwell_tolerance": 1},
+        {"gears.crank": {"from": 20, "to": 40}, "dwell_tolerance": {"from": 0.01, "to": 300, "log": True}},
+    ),
     "speed": (
         "synth variable-speed",
         {"speed": {"min": 0, "max": 200}},
@@ -147,6 +183,13 @@ def test_gaps_that_stand_at_their_limit_are_judged_at_once(
 @pytest.mark.parametrize("name", ["dwell", "back-step", "speed", "momentary", "analysis"])
 def test_no_bit_depends_on_the_neighbours(name: str) -> None:
     bits_stand_alone(study(name, 1024))
+
+
+@pytest.mark.parametrize("name", ["analysis, band", "dwell, band", "dwell"])
+def test_a_start_that_is_one_of_two_is_left_to_the_class(name: str) -> None:
+    command, section, variables = TASKS[name]
+    made = sampled({**BASE, **section}, command, variables, ["tolerance_dwell_start", "tolerance_dwell_angle"], 64)
+    agree(made, unsure=1.0, median=1e-11)
 
 
 def test_designs_next_to_a_limit_are_left_to_the_class() -> None:
@@ -219,7 +262,8 @@ def test_teeth_beyond_the_form_give_what_the_class_gives(command: str) -> None:
         ({"dwell": {"window": 70, "tolerance": 0.5}}, False),
         ({"dwell": {"angle": 135, "crank": 30}}, False),
         ({"shafts": {"input_radius": 5}}, False),
-        ({"dwell_tolerance": 0.5}, False),
+        ({"dwell_tolerance": 0.5}, True),
+        ({"dwell_backlash": 0.5}, False),
         ({"input_speed": 100}, False),
     ],
 )
