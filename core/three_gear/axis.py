@@ -1,7 +1,7 @@
 """The three-gear four-bar over arrays of designs: `core.design_axis` for its syntheses in closed form and its analysis.
 
-Whatever a study asks for beside that (a synthesis for a window, a play, given shafts, a ratio in place of an idler, quantities of
-other commands) is left to the design classes.
+Whatever a study asks for beside that (a synthesis for a window, a play, given shafts, a ratio in place of an idler,
+quantities of other commands) is left to the design classes.
 """
 
 from __future__ import annotations
