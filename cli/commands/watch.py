@@ -112,7 +112,7 @@ def _make(source: str, options: Options, board: Board, unchanged: Callable[[], b
 
 
 def _pieces(board: Board, text: str, spec: Any, parts: list[tuple[Design, Report]]) -> list[Callable[[], None]]:
-    """The steps of making the page, the first picture first."""
+    """The steps of making the page: the film, all numbers, then sheet by sheet."""
     from gearlink.cli.page import sections
     from gearlink.cli.page.sheets import sheet
 
@@ -131,7 +131,8 @@ def _pieces(board: Board, text: str, spec: Any, parts: list[tuple[Design, Report
         lambda: board.begin(spec.name, order),
         lambda: board.put("head", sections.head(spec, parts)),
         lambda: board.put("film", sections.film(parts, _FIRST_PICTURES)),
-        *(lambda i=i: board.put(f"{names[i]}-sheet", drawing(i)) for i in every),
+        # Numbers take milliseconds, a sheet half a second.
         *(lambda i=i: board.put(f"{names[i]}-results", results(i)) for i in every),
         lambda: board.put("input", sections.given(text, spec)),
+        *(lambda i=i: board.put(f"{names[i]}-sheet", drawing(i)) for i in every),
     ]
