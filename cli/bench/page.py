@@ -91,24 +91,29 @@ def duration(nanoseconds: float) -> str:
 
 
 def draw(family: Family, path: Path) -> None:
-    """Work-precision diagram: error over time each, a curve for every method, both axes logarithmic."""
+    """Work-precision diagram: error over time each, both axes logarithmic; each point bears its method's number."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(9.0, 5.5), layout="constrained")
+    from gearlink.cli.figures import style
+
+    figure = style.figure(9.0, 5.5, family.title)
     FigureCanvasAgg(figure)
     axes = figure.add_subplot()
+    style.curves(axes, "time each [ns]", f"worst error [{family.unit}]")
+    axes.set(xscale="log", yscale="log")
     plotted = curves(family)
     least = min((e for points in plotted.values() for _, e in points if e > 0.0), default=1e-16)
+    colors = (style.BLUE, style.ORANGE, style.GREEN, style.RED, style.PURPLE, style.SKY, style.BLACK)
     for i, (name, points) in enumerate(plotted.items()):
         times, errors = zip(*sorted(points), strict=True)
-        marker = "osD^v<>*PX"[i % 10]
-        axes.plot(times, [max(e, 0.3 * least) for e in errors], marker=marker, label=name, linewidth=1.2)
-    axes.set(
-        xscale="log", yscale="log", xlabel="time each [ns]", ylabel=f"worst error [{family.unit}]", title=family.title
-    )
-    axes.grid(True, which="major", alpha=0.4)
-    axes.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5))
+        shown, color = [max(e, 0.3 * least) for e in errors], colors[i % len(colors)]
+        # Steps of one method follow each other; sizes are points of their own.
+        line = "-" if any(row.method.startswith(f"{name}, ") for row in family.rows) else "none"
+        look: dict[str, Any] = {"marker": "o", "markersize": 11, "markerfacecolor": "white", "linewidth": 1.0}
+        axes.plot(times, shown, color=color, linestyle=line, label=f"{i + 1}  {name}", **look, zorder=3 + i)
+        for x, y in zip(times, shown, strict=True):
+            axes.text(x, y, str(i + 1), fontsize=6.5, ha="center", va="center_baseline", zorder=3.5 + i)
+    axes.legend(fontsize=8, loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False, handlelength=1.2)
     figure.savefig(path, dpi=100, metadata={"Software": None})
 
 

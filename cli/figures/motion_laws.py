@@ -21,7 +21,7 @@ _HEADINGS = {
 }
 _AXES = ("rise s", "velocity v", "acceleration a", "jerk j")
 _COLORS = (style.BLUE, style.ORANGE, style.GREEN, style.RED, style.PURPLE, style.SKY, style.BLACK)
-_DASHES: Any = ("-", style.LONG, style.DASHED, style.CHAIN, style.DOTTED, "-", style.LONG, style.DASHED)
+_DASHES: Any = ("-", style.LONG, style.DOTTED, style.CHAIN, style.DASHED, "-", style.LONG, style.DOTTED)
 # Of all rest-to-speed laws these are drawn where none is named: the others hardly differ from one of them.
 _SHOWN = (
     "half-cycloidal",
@@ -60,7 +60,7 @@ def _column(axes: Sequence[Axes], heading: str, laws: Sequence[Law]) -> None:
         each.set_xlim(0.0, 1.0)
         each.axhline(0.0, color=style.GREY, linewidth=0.6)
     axes[-1].set_xlabel("x, fraction of the time")
-    panels.legend_below(axes[-1], 2)
+    panels.legend_below(axes[-1], 2, labelled=True)
 
 
 def _looks(count: int) -> list[dict[str, Any]]:

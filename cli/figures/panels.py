@@ -130,11 +130,11 @@ def legend_under_heading(axes: Axes, title: str, columns: int = 2) -> None:
     axes.set_title(title, loc="left", fontsize=9, fontweight="bold", pad=7.0 + 12.0 * rows)
 
 
-def legend_below(axes: Axes, columns: int = 1) -> None:
-    """The legend of a drawing below its tick labels."""
+def legend_below(axes: Axes, columns: int = 1, *, labelled: bool = False) -> None:
+    """The legend of a drawing below its tick labels, and below the label of its axis where it has one."""
     from matplotlib.transforms import ScaledTranslation
 
-    down = ScaledTranslation(0.0, -0.29, axes.figure.dpi_scale_trans)
+    down = ScaledTranslation(0.0, -0.53 if labelled else -0.29, axes.figure.dpi_scale_trans)
     axes.legend(
         loc="upper center",
         bbox_to_anchor=(0.5, 0.0),

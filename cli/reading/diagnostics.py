@@ -45,7 +45,9 @@ class Diagnostic:
 
     def as_text(self, encoding: str = "utf-8") -> str:
         """Headline, source line with a caret, help; holds only characters that the encoding can write."""
-        headline = f"{self.file}:{self.line}:{self.column}: {self.severity} {self.code}: {self.message}"
+        headline = (
+            f"{self.file or repr(self.file)}:{self.line}:{self.column}: {self.severity} {self.code}: {self.message}"
+        )
         rows = [visible(headline, encoding)]
         if self.source.strip():
             rows += _excerpt(self.source, self.column - 1, encoding)

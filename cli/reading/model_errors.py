@@ -199,7 +199,10 @@ class _Wording:
         if near := get_close_matches(plain, allowed, n=1):
             return f"did you mean '{near[0]}'? {listed}"
         sections = [path for path in self._sections() if path != parent and plain in self._keys(path)]
-        return f"it belongs to '{format_path(sections[0])}'; {listed}" if sections else listed
+        if not sections:
+            return listed
+        place = f"to '{format_path(sections[0])}'" if sections[0] else "to the top level of the file"
+        return f"it belongs {place}; {listed}"
 
     def _sections(self) -> list[KeyPath]:
         return [(), *((name,) for name in self._keys(()))]

@@ -276,10 +276,11 @@ def _symmetric(name: str, asked: str) -> FirstHalf:
         q = 1.0 - _constant_share(name)
         return scca(0.25 * q, 0.0, 0.75 * q, 1.0 - q)
     known = (*REST_TO_REST, *REST_TO_SPEED, "half-345", "half-4567", "velocity-345", "velocity-4567")
-    near = difflib.get_close_matches(asked, known, n=1, cutoff=0.0)[0]
+    near = difflib.get_close_matches(asked, known, n=1)
+    meant = f"did you mean {near[0]!r}? From" if near else "from"
     raise NoSolution(
-        f"unknown motion law {asked!r}: did you mean {near!r}? From rest to rest: {', '.join(REST_TO_REST)}; "
-        "from rest to speed: half-<law>, velocity-<law>"
+        f"unknown motion law {asked!r}: {meant} rest to rest: {', '.join(REST_TO_REST)}; from rest to speed: "
+        "half-<law>, velocity-<law>"
     )
 
 

@@ -72,8 +72,9 @@ class Motion:
         kappa = law.accelerate.kappa + short / (law.speed * self.spec.phases.accelerate)
         free = f", or laws.accelerate to {{quintic: {kappa:.9g}}}" if 0.4 <= kappa <= 0.6 else ""
         raise NoSolution(
-            f"total_swing is stated as {stated:g} deg, but laws, phases and R/l_EF give {swing:.9g} deg: change "
-            f"phases.constant by {short / law.speed:+.9g} deg (and another phase as much the other way){free}",
+            f"total_swing is stated as {stated:g} deg, but laws, phases and R/l_EF give {swing:.6g} deg: set "
+            f"arm.length to {self.spec.arm.length * swing / stated:.6g}, or change phases.constant by "
+            f"{short / law.speed:+.6g} deg (and another phase as much the other way){free}",
             key="total_swing",
         )
 
