@@ -19,7 +19,7 @@ import pytest
 
 from gearlink.core.loads.dynamics import Force
 from gearlink.core.loads.kinematics import cross
-from gearlink.core.loads.mechanism import FRAME, Guide, Mesh, Pin
+from gearlink.core.loads.mechanism import FRAME, Contact, Guide, Mesh, Pin, Rack
 
 CASES = json.loads((Path(__file__).parents[2] / "reference" / "loads.json").read_text())["cases"]
 STEP = 1e-3
@@ -30,7 +30,7 @@ class Augmented:
     """The constraints of a machine at one input angle; coordinates are (x, y, angle) of each centre of mass."""
 
     def __init__(self, design: Any, phi: float) -> None:
-        self.machine = design.machine
+        self.design, self.machine = design, design.machine
         self.phi = at = np.array([phi])
         self.mechanism, self.found = self.machine.at(at), self.machine.reactions(at)
         self.names = list(self.mechanism.links)
@@ -64,8 +64,9 @@ class Augmented:
         """Every equation that the joints and the drive put on the coordinates."""
         found: list[Any] = []
         for each in self.mechanism.connections:
-            if isinstance(each, Mesh):
-                found.append(self._teeth(each, q))
+            if isinstance(each, (Mesh, Rack, Contact)):
+                one = {Mesh: self._teeth, Rack: self._rack, Contact: self._roller}[type(each)]
+                found.append(one(each, q))  # type: ignore[operator]
                 continue
             assert isinstance(each, (Pin, Guide))
             place = complex(each.at[0])
@@ -95,6 +96,31 @@ class Augmented:
         flank = -ring * np.sign(self.found.unknowns[mesh.name][0][0])
         rolling = one * (self.angle(mesh.first, q) - psi) + two * (self.angle(mesh.second, q) - psi)
         return share * (rolling + flank * (one + two) * involute)
+
+    def _rack(self, rack: Rack, q: Any) -> Any:
+        """Distance along the flank's normal: that of the pinion's centre from the flank, and what it unrolls."""
+        share = 1.0 / np.hypot(1.0, rack.tangent)
+        flank = np.sign(self.found.unknowns[rack.name][0][0])
+        normal = share * (rack.along + flank * rack.tangent * rack.normal)
+        (x1, y1) = self.carried(rack.first, complex(rack.pitch_point[0]), q)
+        (x2, y2) = self.carried(rack.second, complex(rack.center[0]), q)
+        turning = -rack.mate_radius * share * float(cross(rack.normal, rack.along))
+        return (x2 - x1) * normal.real + (y2 - y1) * normal.imag + turning * self.angle(rack.second, q)
+
+    def _roller(self, contact: Contact, q: Any) -> Any:
+        """R - rho(t - beta): the roller's centre on the pitch curve that turns with its cam; rho by its series."""
+        main = self.found.unknowns[contact.name][0][0] > 0.0
+        at = complex((contact.at if main else contact.back[0])[0])  # type: ignore[index]
+        axis = complex(self.mechanism.links[contact.first].origin.value[0])
+        (x1, y1), (x2, y2) = self.carried(contact.first, axis, q), self.carried(contact.second, at, q)
+        turn = self.angle(contact.first, q)
+        c, s = np.cos(turn), np.sin(turn)
+        x, y = c * (x2 - x1) + s * (y2 - y1), c * (y2 - y1) - s * (x2 - x1)
+        lift, sense = self.design.lift(self.design._cam_turn(self.phi).value), 1.0 if main else -1.0
+        rho, slope, bend = abs(at - axis), 1e-3 * sense * float(lift.first[0]), 1e-3 * sense * float(lift.second[0])
+        beta = -x / y - (-x / y) ** 3 / 3.0
+        radius = rho - slope * beta + 0.5 * bend * beta * beta
+        return sense * (np.sqrt(x * x + y * y) - radius) * rho / np.hypot(rho, slope)
 
     def slope(self, q: Any, way: Any) -> Any:
         """Derivative of the constraints along a direction, by a complex step."""
@@ -140,13 +166,22 @@ def test_forces_against_the_augmented_system(case: dict[str, Any], phi: float) -
     spec = {key: value for key, value in case["spec"].items() if key != "at"}
     if spec["kind"] == "geared-five-bar":
         spec["coupler_point"] = {"along": 60.0}
-    augmented = Augmented(factory.design(spec, command="loads"), phi)
+    _compare(Augmented(factory.design(spec, command="loads"), phi))
+
+
+@pytest.mark.parametrize("degrees", [20.0, 80.0, 250.0, 310.0])
+def test_press_against_the_augmented_system(degrees: float) -> None:
+    """Twelve links with racks and a roller, main and return cam in turn: 36 equations, 36 constraints."""
+    _compare(Augmented(factory.design("loaded_press", command="loads"), np.radians(degrees)))
+
+
+def _compare(augmented: Augmented) -> None:
     bend, multipliers = augmented.solve()
     assert bend == pytest.approx(augmented.bend, abs=1e-8 * np.abs(augmented.bend).max())
     expected: list[float] = []
     for each in augmented.mechanism.connections:
         values = augmented.found.unknowns[each.name][:, 0].tolist()
-        tangent = each.tangent if isinstance(each, Mesh) else 0.0
-        expected += [-value * np.hypot(1.0, tangent) if isinstance(each, Mesh) else value for value in values]
+        normal = np.hypot(1.0, each.tangent) if isinstance(each, (Mesh, Rack)) else 1.0
+        expected += [-value * normal if isinstance(each, Mesh) else value * normal for value in values]
     expected.append(float(augmented.found.torque[0]))
     assert multipliers == pytest.approx(expected, abs=1e-8 * np.abs(expected).max())
