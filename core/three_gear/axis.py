@@ -18,7 +18,7 @@ from gearlink.core.design_axis import Evaluated, kept_inside
 from gearlink.core.gears.unshifted import MOST_TEETH, UnshiftedMeshes
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.spec_paths import number_at
-from gearlink.core.three_gear.axis_batch import LIMITS, TEETH, Batch
+from gearlink.core.three_gear.axis_batch import LIMITS, SHAFTS, TEETH, Batch
 from gearlink.core.three_gear.general_axis import Analysis, Momentary
 from gearlink.core.three_gear.names import MESHES
 from gearlink.core.three_gear.symmetric_axis import BackSteps, Dwells, Speeds
@@ -57,7 +57,7 @@ def axis(
     if command not in _TASKS or not _served(spec, command, paths):
         return None
     made = ThreeGearAxis(spec, command, tuple(quantities))
-    one = made.batch({path: np.array([number_at(spec, path)]) for path in TEETH})
+    one = made.batch({path: np.array([20.0]) for path in TEETH})
     plain = {name for name in quantities if name.rpartition(".")[0] not in MESHES}
     meshes = (name for name in quantities if name not in plain)
     served = plain <= one.plain.keys() and all(one.mesh_quantity(name) is not None for name in meshes)
@@ -68,7 +68,7 @@ def _served(spec: Any, command: str, paths: Sequence[str]) -> bool:
     """Whether the array form knows all keys that are varied, and the base asks for no more."""
     task, batch = _TASKS[command]
     section = getattr(spec, task)
-    if section is None or spec.gears.i3 is not None or spec.shafts is not None:
+    if section is None:
         return False
     if spec.gears.own_teeth or min(spec.gears.crank, spec.gears.output) < 0:  # or a ring gear
         return False
@@ -76,10 +76,13 @@ def _served(spec: Any, command: str, paths: Sequence[str]) -> bool:
         return False
     if any(getattr(section, name) is not None for name in _OTHERS[task]):
         return False
-    known = {*TEETH, "gears.module", *batch.keys, *LIMITS}
-    needed = {*TEETH, "gears.module"}
-    given = {path for path in needed if path in paths or number_at(spec, path) is not None}
-    return set(paths) <= known and given == needed
+    known = {*TEETH, "gears.module", "gears.i3", *batch.keys, *LIMITS, *SHAFTS}
+
+    def given(path: str) -> bool:
+        return path in paths or number_at(spec, path) is not None
+
+    others = given("gears.crank") and given("gears.output") and given("gears.module")
+    return set(paths) <= known and others and given("gears.idler") != given("gears.i3")
 
 
 @dataclass(frozen=True)
@@ -99,8 +102,21 @@ class ThreeGearAxis:
         """Some designs."""
         return _TASKS[self.command][1](self.spec, self.command, self.wanted, self.meshes, columns)
 
+    def _with_idlers(self, columns: Mapping[str, Reals]) -> Mapping[str, Reals]:
+        """The columns with the idlers that ratios ask for, as `idler_for_ratio` has them; gears that the model refuses
+        beside a ratio have none."""
+        ratio = columns.get("gears.i3", self.spec.gears.i3)
+        if ratio is None:
+            return columns
+        crank, output = (
+            columns.get(f"gears.{name}", number_at(self.spec, f"gears.{name}")) for name in ("crank", "output")
+        )
+        idler = np.where(crank == output, np.floor(-ratio * output + 0.5), np.nan)
+        count = len(next(iter(columns.values())))
+        return {**columns, "gears.idler": np.broadcast_to(idler, (count,))}
+
     def evaluate(self, columns: Mapping[str, Reals]) -> Evaluated:
         """As `core.design_axis.Axis`."""
-        inside, outside = kept_inside(columns, _DOMAIN)
+        inside, outside = kept_inside(self._with_idlers(columns), _DOMAIN)
         with np.errstate(all="ignore"):
             return self.batch(inside).evaluated(outside)

@@ -17,13 +17,14 @@ from gearlink.core.linkages.codes import DWELL_WINDOW, GEAR_COLLISION, SHAFT_CLE
 from gearlink.core.numerics.arrays import Mask, Reals
 from gearlink.core.spec_paths import number_at
 from gearlink.core.three_gear.band_many import Dwells, Valleys, longest_in_band
-from gearlink.core.three_gear.codes import BACK_STEP, DWELL_TOLERANCE
+from gearlink.core.three_gear.codes import ACHIEVED, BACK_STEP, DWELL_TOLERANCE
 from gearlink.core.three_gear.general_many import Drives
 from gearlink.core.three_gear.motion import tip_radius
 
 TEETH = ("gears.crank", "gears.idler", "gears.output")
 LIMITS = ("limits.transmission_angle", "limits.gear_gap", "dwell_tolerance", "dwell_window")
-_POOR = 5.0
+SHAFTS = ("shafts.input_radius", "shafts.output_radius")
+_POOR, _SAME_RATIO = 5.0, 1e-12
 _NEAR = 1e-9
 _JUDGED_HERE = {rule.code for rule in (GEAR_COLLISION, TRANSMISSION_ANGLE, BACK_STEP, DWELL_TOLERANCE, DWELL_WINDOW)}
 
@@ -283,28 +284,37 @@ class Batch:
         yield Findings(TRANSMISSION_ANGLE.code, mu, limit, mu < limit, warns, "deg")
         yield from self.of_task()
         yield from self._of_band()
+        asked = self.key("gears.i3")
+        value = -self.z3 / self.z5
+        missed = np.abs(value - asked) > _SAME_RATIO * np.abs(asked)
+        yield Findings(ACHIEVED.code, np.where(np.isnan(asked), np.nan, value), asked, self.none, missed, "1")
         for mesh in self._meshes.values():
             yield from mesh.findings()
 
     def _shafts(self) -> Iterator[Findings]:
-        """GL302 for bare axes A and D: of gears that reach them, and of the two axes."""
+        """GL302: gears that reach the shafts A and D, or their bare axes, and the two shafts; one that is given fails."""
         tips = [tip_radius(z, self.module) for z in (self.z1, self.z3, self.z5)]  # type: ignore[arg-type]
         given, (crank, frame) = self.spec.limits.least_shaft, self.links
         least = LEAST_SHAFT_MODULES * self.module if given is None else np.full(self.count, given)
+        radii = [self.key(f"shafts.{name}_radius") for name in ("input", "output")]
+        bare = [np.isnan(radius) for radius in radii]
+        radii = [np.where(none, 0.0, radius) for none, radius in zip(bare, radii, strict=True)]
         dead = self.coupler - crank
         by_crank = dead > np.abs(self.rocker - frame)
         nearest_c = np.where(by_crank, dead, self.rocker - frame)
         both = "crank" in self.given and "frame" in self.given
         gaps = (
-            (nearest_c - tips[1], least, both | (by_crank & ("crank" in self.given))),
-            (frame - tips[2], least, "frame" in self.given),
-            (np.abs(frame - crank) - tips[0], least, both),
-            (self.rocker - tips[1], least, True),
-            (frame, 2.0 * least, "frame" in self.given),
+            (nearest_c - (tips[1] + radii[0]), 1 * bare[0], both | (by_crank & ("crank" in self.given))),
+            (frame - (tips[2] + radii[0]), 1 * bare[0], "frame" in self.given),
+            (np.abs(frame - crank) - (tips[0] + radii[1]), 1 * bare[1], both),
+            (self.rocker - (tips[1] + radii[1]), 1 * bare[1], True),
+            (frame - (radii[0] + radii[1]), 1 * bare[0] + bare[1], "frame" in self.given),
         )
-        for gap, limit, exact in gaps:
+        for gap, axes, exact in gaps:
+            limit = least * axes
             self._at_limit |= _near(gap, limit) & ~(exact & (gap == limit))
-            yield Findings(SHAFT_CLEARANCE.code, gap, limit, self.none, gap < limit, "mm")
+            low = gap < limit
+            yield Findings(SHAFT_CLEARANCE.code, gap, limit, low & (axes == 0), low & (axes > 0), "mm")
 
     def evaluated(self, outside: Mask) -> Evaluated:
         """All that a study asks for; what lies outside is left to the class."""

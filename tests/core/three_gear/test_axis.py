@@ -122,6 +122,30 @@ TASKS: dict[str, tuple[str, dict[str, Any], dict[str, Any]]] = {
         {"dwell": {"angle": 135}, "dwell_tolerance": 1},
         {**GEARS, "dwell.angle": {"from": 10, "to": 300}, "dwell_tolerance": {"from": 0.01, "to": 40, "log": True}},
     ),
+    "dwell, ratio": (
+        "synth dwell",
+        {"gears": {"module": 2, "crank": 40, "i3": -1.8, "output": 40}, "dwell": {"angle": 135}},
+        {
+            "gears.crank": {"from": 8, "to": 60, "also": ["gears.output"]},
+            "gears.i3": {"from": -8, "to": -0.005},
+            "dwell.angle": {"from": 10, "to": 300},
+        },
+    ),
+    "analysis, shafts": (
+        "analyze",
+        {"links": {"crank": 20, "frame": 150}, "shafts": {"input_radius": 10}},
+        {
+            "gears.crank": {"from": 8, "to": 40},
+            "gears.idler": {"from": 8, "to": 100},
+            "links.crank": {"from": 2, "to": 50},
+            "shafts.input_radius": {"from": 1, "to": 60},
+        },
+    ),
+    "dwell, shafts": (
+        "synth dwell",
+        {"dwell": {"angle": 135}, "shafts": {"input_radius": 10, "output_radius": 20}},
+        {**GEARS, "shafts.input_radius": {"from": 1, "to": 60}, "shafts.output_radius": {"from": 1, "to": 60}},
+    ),
     "momentary, band": (
         "synth momentary-dwell",
         {"momentary": {"eccentricity": 20}, "dwell_tolerance": 1},
@@ -261,7 +285,7 @@ def test_teeth_beyond_the_form_give_what_the_class_gives(command: str) -> None:
         ({}, True),
         ({"dwell": {"window": 70, "tolerance": 0.5}}, False),
         ({"dwell": {"angle": 135, "crank": 30}}, False),
-        ({"shafts": {"input_radius": 5}}, False),
+        ({"shafts": {"input_radius": 5}}, True),
         ({"dwell_tolerance": 0.5}, True),
         ({"dwell_backlash": 0.5}, False),
         ({"input_speed": 100}, False),
