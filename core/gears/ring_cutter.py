@@ -6,9 +6,11 @@ import cmath
 import math
 from dataclasses import dataclass
 
+from gearlink.core.errors import NoSolution
 from gearlink.core.gears.pitch_pair import PitchPair
 from gearlink.core.gears.tools import PinionCutter, RackTool
 from gearlink.core.numerics.roots import bracketed_root
+from gearlink.core.report import safely_below
 from gearlink.core.results import cached_property
 
 
@@ -27,7 +29,8 @@ class ShapedRing:
     Returns
         Properties: lengths in mm; radii are magnitudes.
     Raises
-        NoSolution - where the cutter is too large for the ring, or leaves no pressure angle
+        NoSolution - where the cutter is too large for the ring, leaves no pressure angle, or its tip rounding does not
+            fit on its teeth
     Notes
         The rounding of a helical cutter is taken as a circle of the transverse section.
     Example
@@ -46,6 +49,29 @@ class ShapedRing:
     cutter: PinionCutter
     pressure_angle: float
     helix_angle: float = 0.0
+
+    def __post_init__(self) -> None:
+        if self._spare(self.cutter.rounding) >= 0.0:
+            return
+        if self._spare(0.0) < 0.0:
+            base = self.mesh.base_radius[0]
+            what, way = ("pointed", "lower") if self.cutter_tip > base else ("without an involute", "raise")
+            text = f"the teeth of the cutter are {what}: {way} its addendum or its shift"
+            raise NoSolution(text, key="cutter.addendum")
+        most = bracketed_root(self._spare, 0.0, self.cutter.rounding)
+        raise NoSolution(
+            f"tip rounding {self.cutter.rounding:.6g} does not fit on the teeth of the cutter: it must be at most "
+            f"{safely_below(most, 4)} modules",
+            key="cutter.rounding",
+        )
+
+    def _spare(self, rounding: float) -> float:
+        """Room for the tip rounding [module], negative where its centre lies inside the base circle or beyond the
+        middle of the tooth.
+        """
+        center, base = self.cutter_tip - self.module * rounding, self.mesh.base_radius[0]
+        inside = (center - base) / self.module
+        return inside if inside < 0.0 else min(inside, self._beside(center, rounding) * center / self.module)
 
     @cached_property
     def mesh(self) -> PitchPair:
@@ -130,9 +156,12 @@ class ShapedRing:
     @cached_property
     def _half_angle_of_center(self) -> float:
         """Polar angle of the rounding's centre beside the middle of the cutter's tooth [rad]."""
+        return self._beside(self._rounding_center, self.cutter.rounding)
+
+    def _beside(self, center: float, rounding: float) -> float:
         mesh, x0, z0 = self.mesh, self.cutter.shift, self.cutter.teeth
         base, alpha = mesh.base_radius[0], mesh.transverse_pressure_angle
         half = (math.pi / 2.0 + 2.0 * x0 * math.tan(self.pressure_angle)) / z0 + math.tan(alpha) - alpha
-        roll = math.sqrt(max(0.0, (self._rounding_center / base) ** 2 - 1.0))
-        offset = self.module * self.cutter.rounding / base
+        roll = math.sqrt(max(0.0, (center / base) ** 2 - 1.0))
+        offset = self.module * rounding / base
         return half - (roll - math.atan(roll)) - offset

@@ -18,6 +18,7 @@ from factory import design
 from gearlink.cli.export import parts
 from gearlink.cli.export.contour import contour
 from gearlink.cli.export.options import CurveForm
+from gearlink.core.errors import NoSolution
 from gearlink.core.gears.ring_profile import RingProfile
 
 DEEP, SHARP = 2e-6, 2e-4
@@ -117,3 +118,23 @@ def test_without_its_cutter_a_ring_has_sharp_corners_and_flanks_that_may_meet() 
     assert wide.deepest < wide.root
     (_, flank, start, _) = wide.pieces()[1]
     assert np.angle(flank(np.array([start])))[0] == pytest.approx(0.0, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("keys", "words"),
+    [
+        ({"rounding": 1.0}, r"at most 0\.3728 modules"),
+        ({"shift": 2.0}, "pointed: lower its addendum"),
+        ({"addendum": 0.1, "shift": -2.0}, "without an involute: raise its addendum"),
+    ],
+)
+def test_cutters_that_cannot_be(keys: dict[str, float], words: str) -> None:
+    with pytest.raises(NoSolution, match=words):
+        _ = design(DATA | {"cutter": {"teeth": 25} | keys}, command="gear").gear_pair.root_radius
+
+
+def test_the_greatest_rounding_fits() -> None:
+    full = design(DATA | {"cutter": {"teeth": 25, "rounding": 0.3728}}, command="gear")
+    cutter = Cutter(full)
+    assert 0.0 <= cutter.beside < 2e-4
+    assert "root circle" in [name for name, *_ in RingProfile.of(full.gear_pair).pieces()]
