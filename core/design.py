@@ -103,6 +103,11 @@ class Design:
         return self.outlines[command]
 
     @classmethod
+    def tables_of_page(cls, _command: str, _spec: Any, /) -> tuple[str, ...]:
+        """The extra tables that the page of `report` shows of a command."""
+        return cls.page_tables
+
+    @classmethod
     def quantity_names(cls) -> tuple[str, ...]:
         """Every quantity that can be asked for, each once."""
         return _quantities_of(cls)  # type: ignore[arg-type]  # mypy takes a class for unhashable

@@ -42,7 +42,7 @@ def run_report(source: str, options: Options) -> int:
         spec = read_spec(loaded, kind, source)
         with patience(f"computing {spec.name}", quiet=options.quiet):
             parts = [
-                build(loaded, kind, command, spec, replace(options, tables=kind.design_class(command).page_tables))
+                build(loaded, kind, command, spec, replace(options, tables=_tables(kind, command, spec)))
                 for command in (*spec.commands(), *_budgets(kind, spec))
             ]
         with patience(f"drawing {spec.name}", quiet=options.quiet):
@@ -61,6 +61,12 @@ def run_report(source: str, options: Options) -> int:
     if not options.quiet:
         print(f"wrote {path}", file=sys.stderr)
     return max(exit_status(report, strict=options.strict) for _, report in parts)
+
+
+def _tables(kind: Kind, command: str, spec: Any) -> tuple[str, ...]:
+    """The extra tables of a command on the page."""
+    shown: tuple[str, ...] = kind.design_class(command).tables_of_page(command, spec)
+    return shown
 
 
 def _budgets(kind: Kind, spec: Any) -> Iterator[str]:

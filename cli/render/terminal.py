@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from rich import box
@@ -36,8 +36,9 @@ def show(report: Report, options: Options) -> None:
     console.print(Text(f"{visible(' '.join(report.name.split()))}: {report.command} ({report.kind})", style="bold"))
     if report.quantities:
         console.print(_quantities(report, console))
-        if any(map(_per_gear, report.quantities)) and report.command == "gear":
-            console.print(_pairs(report, console))
+        if report.command == "gear":
+            for grid in _pairs(report, console):
+                console.print(grid)
         if console.width < _WIDE and console.is_terminal and not options.quiet:
             print(f"(terminals of {_WIDE} columns show what each quantity means; so does `gearlink explain NAME`)")
     for table in report.tables:
@@ -112,22 +113,35 @@ def _quantities(report: Report, console: Console) -> Grid:
     return grid
 
 
+_OF_MESH = {"backlash_circumferential", "backlash_normal", "sliding_factor", "center_distance", "contact_ratio"}
+"""Two values that are not of two gears: limits, ends of the path of contact, or one for each mesh."""
+
+
 def _per_gear(quantity: Quantity) -> bool:
     """Whether a quantity of a gear pair has a value for each gear."""
-    return isinstance(quantity.value, list) and len(quantity.value) == 2
+    two = isinstance(quantity.value, list) and len(quantity.value) == 2
+    return two and quantity.name.rpartition(".")[2] not in _OF_MESH
 
 
-def _pairs(report: Report, console: Console) -> Grid:
-    """The quantities of gear 1 and gear 2 side by side."""
-    grid, scale = grid_for(console), scales(report)
-    for head in ("per gear", "symbol", "gear 1", "gear 2", "unit"):
-        numeric = head in ("gear 1", "gear 2")
-        grid.add_column(head, justify="right" if numeric else "left", overflow="fold", no_wrap=head != "per gear")
+def _pairs(report: Report, console: Console) -> Iterator[Grid]:
+    """The quantities of gear 1 and gear 2 side by side, those of each mesh under its name."""
+    meshes: dict[str, list[Quantity]] = {}
     for q in filter(_per_gear, report.quantities):
-        assert isinstance(q.value, list), "as _per_gear says"
-        one, other = (_below_each_other(quiet(value, scale.get(q.unit, 0.0))) for value in q.value)
-        grid.add_row(q.name, q.symbol, one, other, "" if q.unit == "1" else q.unit)
-    return grid
+        meshes.setdefault(q.name.rpartition(".")[0], []).append(q)
+    scale = scales(report)
+    for mesh, quantities in meshes.items():
+        gears = mesh.split("_") if mesh.count("_") == 1 else ["gear 1", "gear 2"]
+        grid = grid_for(console)
+        for head in (f"{mesh}." if mesh else "per gear", "symbol"):
+            grid.add_column(head, overflow="fold", no_wrap=head == "symbol")
+        for head in gears:
+            grid.add_column(head, justify="right", overflow="fold", no_wrap=True)
+        grid.add_column("unit", overflow="fold", no_wrap=True)
+        for q in quantities:
+            assert isinstance(q.value, list), "as _per_gear says"
+            one, other = (_below_each_other(quiet(value, scale.get(q.unit, 0.0))) for value in q.value)
+            grid.add_row(q.name.rpartition(".")[2], q.symbol, one, other, "" if q.unit == "1" else q.unit)
+        yield grid
 
 
 def _below_each_other(value: Any) -> Text:
@@ -180,7 +194,11 @@ def _room(check: Check) -> float:
 
 
 def show_table(table: Table, console: Console, most: int = _MOST_ROWS) -> None:
-    """Print a table, thinned to so many rows and folded to the width."""
+    """Print a table, thinned to so many rows and folded to the width; one of several meshes in parts."""
+    if table.columns[:1] == ("mesh",):
+        for part in _by_mesh(table):
+            show_table(part, console, most)
+        return
     in_words = table.length > 0 and isinstance(table.data[0][0], str)  # every row of such a table says something else
     step = 1 if in_words else max(1, math.ceil(table.length / most))
     if step > 1:
@@ -200,6 +218,15 @@ def show_table(table: Table, console: Console, most: int = _MOST_ROWS) -> None:
         for row in cells:
             grid.add_row(*(row[i] for i in columns))
         console.print(grid)
+
+
+def _by_mesh(table: Table) -> Iterator[Table]:
+    """The rows of each mesh as a table of its own."""
+    meshes = list(table.data[0])
+    for mesh in dict.fromkeys(meshes):
+        rows = [i for i, each in enumerate(meshes) if each == mesh]
+        data = tuple([column[i] for i in rows] for column in table.data[1:])
+        yield Table(f"{table.name} of {mesh}", table.columns[1:], table.units[1:], data)
 
 
 def _with_intervals(table: Table, cells: list[list[str]]) -> tuple[Table, list[list[str]]]:

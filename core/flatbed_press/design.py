@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.design import Design, Found, Outline, placed
-from gearlink.core.errors import MissingSection, NoSolution, at_key
+from gearlink.core.errors import MissingSection, NoSolution, at_key, in_section
 from gearlink.core.flatbed_press import checks, remedies, tables
 from gearlink.core.flatbed_press.cams import PressCams
 from gearlink.core.flatbed_press.motion import PressMotion
@@ -132,7 +132,7 @@ class FlatbedPress(WithExtremes, SliderCrankQuantities, GearQuantities, Design):
                 f"module {gears.module:g} mm leaves no tooth at the centre distance {distance:.6g} mm: make it smaller",
                 key="input_gears.module",
             )
-        with at_key("input_gears"):
+        with in_section("input_gears"):
             return pair_at(gears, (teeth, teeth), distance)
 
     @cached_property
@@ -142,7 +142,7 @@ class FlatbedPress(WithExtremes, SliderCrankQuantities, GearQuantities, Design):
 
         pair = self.gear_pair
         assert self.spec.input_gears is not None, "the pair asks for it"
-        with at_key("input_gears"):
+        with in_section("input_gears"):
             return data_of(self.spec.input_gears, pair)
 
     input_speed: float = placed("motion.input_speed")

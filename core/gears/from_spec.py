@@ -72,6 +72,8 @@ def pair_at(given: PairKeys, teeth: tuple[int, int], distance: float | None = No
         NoSolution - where the teeth cannot mesh
     """
     shift = as_pair(given.profile_shift)
+    with at_key("tool"):
+        tools = tools_of(given)
     pair = GearPair(
         module=given.module,
         teeth=teeth,
@@ -80,7 +82,7 @@ def pair_at(given: PairKeys, teeth: tuple[int, int], distance: float | None = No
         addendum=given.addendum,
         clearance=given.clearance,
         tip=as_pair(given.tip_shortening),
-        tools=tools_of(given),
+        tools=tools,
         given_shift=shift,
         given_distance=distance,
     )

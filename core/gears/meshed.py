@@ -66,6 +66,11 @@ class Meshed(GearQuantities, Design):
         found: float | None = getattr(self.spec.gears, "rim", None)
         return found
 
+    @classmethod
+    def tables_of_page(cls, command: str, spec: Any) -> tuple[str, ...]:
+        """The gear tables, where the file has keys of a drawing."""
+        return ("drawing",) if command == "gear" and spec.gears.drawing else ()
+
     # The meshes
 
     @cached_property

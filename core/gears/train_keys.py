@@ -153,6 +153,11 @@ class TrainKeys(Spec):
         return shifted or other or (self.addendum, self.clearance) != (1.0, 0.25)
 
     @property
+    def drawing(self) -> bool:
+        """Whether the file gives keys of a train: then it asks for its gears too."""
+        return not self.model_fields_set.isdisjoint(TrainKeys.model_fields)
+
+    @property
     def rated(self) -> bool:
         """Whether the file asks for the strength of its teeth."""
         return any(getattr(self, key) is not None for key in RATED)

@@ -234,7 +234,8 @@ class ThreeGearSpec(DrivenSpec):
         """What the file asks for: a synthesis per section, an analysis where the links are given."""
         asked = {"analyze": self.links, "loads": self.loads if self.links is not None else None}
         analysis = [command for command, section in asked.items() if section is not None]
-        return (*self.syntheses(), *analysis) or ("analyze",)
+        gears = ("gear",) if self.gears.drawing else ()
+        return (*((*self.syntheses(), *analysis) or ("analyze",)), *gears)
 
     def sized_by(self, command: str) -> str:
         """The one synthesis of the file, where it leaves out what an analysis or the gears need."""

@@ -393,7 +393,7 @@ def test_refusals_of_the_file(name, keys):
         ("ring", {"cutter": {"teeth": 62}}, "gears.cutter.teeth"),
         ("ring", {"rim": 65.0, "addendum": 1.6}, "gears.rim"),
         ("path", {"allowances": {"series": "25cd"}, "module": 2000.0}, "gears.allowances.series"),
-        ("path", {"tool": {"addendum": 2.9}}, "gears"),
+        ("path", {"tool": {"addendum": 2.9}}, "gears.tool"),
     ],
 )
 def test_refusals_name_their_key(name, keys, key):

@@ -1,0 +1,98 @@
+"""Gears inside linkages at the command line: errors at their place, what is missing, tables in 80 columns, the page.
+
+Tolerances: none of its own.
+"""
+
+import pytest
+from factory import worked
+
+LEVER = """kind: geared-rocker
+gears:
+  module: 2
+  coupler: 28
+  output: 20
+  {key}
+links: {{crank: 20, coupler: 60, frame: 62}}
+"""
+
+
+@pytest.fixture
+def lever(tmp_path):
+    def write(key):
+        path = tmp_path / "lever.yaml"
+        path.write_text(LEVER.format(key=key))
+        return path
+
+    return write
+
+
+@pytest.mark.parametrize(
+    ("key", "place", "words"),
+    [
+        ("profile_shift: [0.1, oops]", "6:24", "must be a number"),
+        ("profile_shift: [0.1, 5.5]", "6:24", "at most 5"),
+        ("profile_shift: [0.1]", "6:3", "2 entries"),
+        ("load: {torque: -3}", "6:10", "greater than 0"),
+        ("load: {torque: 3, gear: outptu}", "6:21", "must be one of coupler, output"),
+        ("load: {}", "6:3", "give torque"),
+        ("allowances: {series: 25zz}", "6:16", "DIN 3967 has no series 25zz"),
+        ("tool: [{rounding: 0.3}, {roundingg: 2}]", "6:28", "did you mean 'rounding'"),
+        ("material: {bending_limit: [400, x]}", "6:35", "must be a number"),
+        ("span_teeth: [3, 21]", "6:19", "a gear of 20 teeth has no span over 21"),
+        ("cutter: {teeth: 20}", "6:3", "goes with a ring"),
+        ("helix_hand: [right, left]", "6:3", "give helix_angle"),
+        ("tool: {rounding: 3}", "6:3", "full round"),
+        ("profle_shift: [0, 0]", "6:3", "did you mean 'profile_shift'"),
+    ],
+)
+def test_errors_stand_at_their_place(lever, gearlink, key, place, words):
+    ended = gearlink("gear", lever(key))
+    assert ended.status == 2
+    assert f"lever.yaml:{place}: error" in ended.err
+    assert words in ended.err
+    assert "^" in ended.err
+
+
+def test_a_quantity_without_a_value_names_the_keys_it_needs(lever, gearlink):
+    ended = gearlink(
+        "gear", lever("load: {torque: 5}"), "--quantity", "safety_bending", "--quantity", "center_distance"
+    )
+    assert ended.status == 0
+    assert ended.out.split()[0] == "48.0"
+    assert ended.err.strip() == (
+        "safety_bending: not known of this design; give gears.face_width, gears.material.bending_limit"
+    )
+    assert gearlink("gear", lever("load: {torque: 5}"), "--quantity", "safety_bending", "--quiet").err == ""
+
+
+def test_each_mesh_has_its_columns_in_a_narrow_terminal(gearlink, designs, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "80")
+    ended = gearlink("gear", designs / "drawn_feed.yaml", "--table", "drawing")
+    lines = ended.out.splitlines()
+    heads = [line.split() for line in lines if line.startswith(("crank_idler. ", "idler_output. "))]
+    assert [head[0] for head in heads] == ["crank_idler.", "idler_output."]
+    assert heads[0][2:] == ["crank", "idler", "unit"]
+    assert any(line.split()[:2] == ["crank_idler.backlash_normal", "j_bn"] for line in lines)
+    assert [line for line in lines if line.startswith("drawing of ")] == [
+        "drawing of crank_idler",
+        "drawing of idler_output",
+    ]
+    assert max(map(len, lines)) <= 80
+
+
+@pytest.mark.parametrize("name", ["drawn_ring", "drawn_feed", "drawn_lever"])
+def test_worked_gears_pass_and_are_asked_for_by_their_file(gearlink, designs, name):
+    ended = gearlink("check", designs / f"{name}.yaml")
+    assert ended.status == 0
+    assert "fail" not in ended.out
+    from gearlink.core.kinds import KINDS
+
+    data = worked(name)
+    assert "gear" in KINDS[data["kind"]].spec_model().model_validate(data).commands()
+
+
+def test_the_page_shows_the_gear_tables(gearlink, designs, tmp_path):
+    ended = gearlink("report", designs / "drawn_lever.yaml", "--out", tmp_path, "--quiet")
+    assert ended.status == 0
+    page = (tmp_path / "drawn-lever.html").read_text()
+    assert "span measurement, greatest" in page
