@@ -1,7 +1,7 @@
 """The three-gear four-bar over arrays of designs: `core.design_axis` for its syntheses in closed form and its analysis.
 
-Whatever a study asks for beside that (a synthesis for a window, a play, given shafts, a ratio in place of an idler,
-quantities of other commands) is left to the design classes.
+Whatever a study asks for beside that (an idler left out, a synthesis for a window, a play, rings, gears with teeth of
+their own, quantities of other commands) is left to the design classes.
 """
 
 from __future__ import annotations
@@ -103,14 +103,11 @@ class ThreeGearAxis:
         return _TASKS[self.command][1](self.spec, self.command, self.wanted, self.meshes, columns)
 
     def _with_idlers(self, columns: Mapping[str, Reals]) -> Mapping[str, Reals]:
-        """The columns with the idlers that ratios ask for, as `idler_for_ratio` has them; gears that the model refuses
-        beside a ratio have none."""
+        """With the idlers that ratios ask for, as `idler_for_ratio`; none where the model refuses gears beside one."""
         ratio = columns.get("gears.i3", self.spec.gears.i3)
         if ratio is None:
             return columns
-        crank, output = (
-            columns.get(f"gears.{name}", number_at(self.spec, f"gears.{name}")) for name in ("crank", "output")
-        )
+        crank, _, output = (columns.get(path, number_at(self.spec, path)) for path in TEETH)
         idler = np.where(crank == output, np.floor(-ratio * output + 0.5), np.nan)
         count = len(next(iter(columns.values())))
         return {**columns, "gears.idler": np.broadcast_to(idler, (count,))}

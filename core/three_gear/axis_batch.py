@@ -292,7 +292,7 @@ class Batch:
             yield from mesh.findings()
 
     def _shafts(self) -> Iterator[Findings]:
-        """GL302: gears that reach the shafts A and D, or their bare axes, and the two shafts; one that is given fails."""
+        """GL302: gears that reach the shafts A and D, and the two shafts; at a bare axis no more than a warning."""
         tips = [tip_radius(z, self.module) for z in (self.z1, self.z3, self.z5)]  # type: ignore[arg-type]
         given, (crank, frame) = self.spec.limits.least_shaft, self.links
         least = LEAST_SHAFT_MODULES * self.module if given is None else np.full(self.count, given)
