@@ -158,6 +158,7 @@ def goals(wide_vectors: bool) -> list[Goal]:
             "ns",
             _row("press", "chains, zone, both cams", "nanoseconds"),
         ),
+        Goal("loads of a press, 360 positions", 5e6, "ns", _row("loads", "flatbed-press: all forces", "nanoseconds")),
         Goal(
             "cam profile, N = 1e6, over a numpy pass",
             1.5,

@@ -22,6 +22,7 @@ FAMILIES = {
     "parallel": "start_up:parallel",
     "studies": "studies:family",
     "samples": "samples:family",
+    "loads": "loads:family",
 }
 
 

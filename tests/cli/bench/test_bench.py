@@ -45,6 +45,21 @@ def test_unloading_family_shows_the_errors_of_its_methods(
     assert 1e-4 < error["the dissertation's iteration, 20 steps"] < 1e-3  # the figure of its docstring: 8e-4
 
 
+def test_loads_family_shows_what_the_textbook_leaves_out(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(timing, "interleaved", lambda runs, _: [1.0] * len(runs))
+    monkeypatch.setattr("gearlink.cli.bench.loads.KINDS", ("loaded_feed",))
+    assert run(["bench", "loads", "--quick", "--format", "json", "--quiet"]) == 0
+    (family,) = json.loads(capsys.readouterr().out)["families"]
+    error = {row["method"]: row["error"] for row in family["rows"]}
+    exact = ("three-gear-four-bar: all forces", "flywheel, exact with J(phi)", "motor, periodic by Newton")
+    assert all(error[name] < 1e-13 for name in exact)
+    assert error["residual after a cycloid"] < 1e-12
+    assert error["flywheel, textbook"] > 0.05
+    assert 1e-6 < error["three-gear-four-bar: torque, J' by differences"] < 1e-3
+
+
 def test_wrong_family_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["bench", "five-bar"]) == 2
     assert "the families are four-bar" in capsys.readouterr().err
