@@ -113,10 +113,17 @@ def _hypocycloid(design: Any) -> Makers:
 
 
 def _mutilated(design: Any) -> Makers:
-    """The driven gear; the wheel's first and last tooth and its locking arcs are no result of the design."""
-    titles = ("wheel", "gear 2, driven")
-    made = _of_mesh(design.mesh, ("wheel", "gear2"), titles, "gears", widths_of=design.widths_of)
-    return {"gear2": made["gear2"]}
+    """The wheel as it is drawn, without its locking arcs, which are no result of the design; the driven gear."""
+    made = _of_mesh(design.mesh, ("", "gear2"), ("", "gear 2, driven"), "gears", widths_of=design.widths_of)
+
+    def wheel() -> Part:
+        from gearlink.cli.export.wheel_parts import wheel_of
+
+        with at_key("gears"):
+            widths = design.widths_of()
+            return wheel_of(design, widths[0] if widths else None)
+
+    return {"wheel": wheel, "gear2": made["gear2"]}
 
 
 def _five_bar(design: Any) -> Makers:

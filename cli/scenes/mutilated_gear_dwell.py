@@ -12,6 +12,7 @@ from gearlink.cli.scenes.colors import BLUE, ORANGE, pale
 from gearlink.cli.scenes.gears import gear
 from gearlink.cli.scenes.linkages import Joints
 from gearlink.cli.scenes.scene import TURN, Band, Body, Chart, Curve, Mark, Points, Readout, Reals, Scene, loop, track
+from gearlink.core.dwell_gears.wheel import free_radius
 from gearlink.core.errors import NoSolution
 
 if TYPE_CHECKING:
@@ -82,7 +83,7 @@ def _wheel(design: MutilatedGearDwell, center: Points, turn: Reals) -> Body:
         space = mesh.tip_radius[0] * np.exp(1j * np.linspace(-0.5 * step, 0.5 * step, 5))
     half = space[np.angle(space) >= 0.0]
     tooth = np.concatenate([half, half[::-1].conj() * np.exp(1j * step)])
-    cut = tooth * np.minimum(1.0, max(root, _free_radius(design)) / np.abs(tooth))
+    cut = tooth * np.minimum(1.0, max(root, free_radius(mesh)) / np.abs(tooth))
     # A wheel with one tooth in a group has a single cut tooth.
     teeth = [cut if k in (0, design.group_teeth - 1) else tooth for k in range(design.group_teeth)]
     group = np.concatenate([each * np.exp(1j * step * k) for k, each in enumerate(teeth)])
@@ -100,17 +101,3 @@ def _wheel(design: MutilatedGearDwell, center: Points, turn: Reals) -> Body:
         name=f"wheel, {gears.groups} × {design.group_teeth} of {design.full_teeth} teeth",
         pitch=mesh.working_radius[0],
     )
-
-
-def _free_radius(design: MutilatedGearDwell) -> float:
-    """How far from the wheel's axis the resting gear leaves room, but for the tooth that stands in the gap [mm]."""
-    from gearlink.core.gears.tooth_profile import ToothProfile, outline
-
-    mesh, half_pitch = design.mesh, math.pi / design.mesh.teeth[1]
-    try:
-        teeth = outline(ToothProfile.of(mesh, 1), 0.012 * mesh.module)
-    except NoSolution:
-        return mesh.reference_radius[0]
-    from_tooth = teeth * np.exp(-1j * half_pitch)
-    others = from_tooth[np.abs(np.angle(from_tooth)) > half_pitch]
-    return float(np.abs(mesh.center_distance - others).min())
