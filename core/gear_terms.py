@@ -47,6 +47,9 @@ GEAR_PAIR = {
     "backlash_circumferential": Term("j_wt", "mm", "backlash on the working circles, least and greatest", "DIN 3967"),
     "backlash_normal": Term("j_bn", "mm", "backlash between the flanks, least and greatest", "DIN 3967"),
     "backlash_angle": Term("j_phi", "deg", "free turn of each gear, least and greatest"),
+    "output_play": Term(
+        "j_out", "deg", "free turn of the output gear while the input stands, of all teeth; least and greatest"
+    ),
     "tangential_force": Term("F_t", "N", "force on the reference circle", "ISO 6336-1"),
     "zone_factor": Term("Z_H", "1", "zone factor", "ISO 6336-2"),
     "elasticity_factor": Term("Z_E", "1", "elasticity factor, in sqrt(N/mm^2)", "ISO 6336-2"),

@@ -113,7 +113,9 @@ def _quantities(report: Report, console: Console) -> Grid:
     return grid
 
 
-_OF_MESH = {"backlash_circumferential", "backlash_normal", "sliding_factor", "center_distance", "contact_ratio"}
+_OF_MESH = {
+    "backlash_circumferential", "backlash_normal", "output_play", "sliding_factor", "center_distance", "contact_ratio",
+}  # fmt: skip
 """Two values that are not of two gears: limits, ends of the path of contact, or one for each mesh."""
 
 

@@ -12,7 +12,12 @@ if TYPE_CHECKING:
     from gearlink.core.kinds import Kind
 
 # Where several worked designs show a kind, the one to begin with.
-_PLAINEST = {"three-gear-four-bar": "standing_feed", "wide-swing-cam": "wide_swing_twin_cam"}
+_PLAINEST = {
+    "three-gear-four-bar": "standing_feed",
+    "two-gear-four-bar": "two_gear_drag_link",
+    "geared-rocker": "wide_lever",
+    "wide-swing-cam": "wide_swing_twin_cam",
+}
 _KIND = re.compile(r"^kind:\s*([\w-]+)", re.MULTILINE)
 
 

@@ -108,7 +108,7 @@ class MutilatedGearDwell(RealSpeed, Meshed):
             ("target", "start-shock", "gap", "shaft-clearance", "transmission-angle", *GEAR_CHECKS),
             ("motion",),
         ),
-        "gear": Outline(OF_MESH, (*MESH_CHECKS, *TRAIN_CHECKS)),
+        "gear": Outline((*OF_MESH, "output_play"), (*MESH_CHECKS, *TRAIN_CHECKS)),
     }
 
     ways = {

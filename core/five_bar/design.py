@@ -108,7 +108,13 @@ class GearedFiveBar(WithExtremes, RealSpeed, FiveBarParts):
             ("path", "function", "deviations", "structural_error", "search"),
         ),
         "gear": Outline(
-            ("center_distance", "contact_ratio", *(name for name in OF_MESH if name not in _LISTS), *named(MESHES)),
+            (
+                "center_distance",
+                "contact_ratio",
+                *(name for name in OF_MESH if name not in _LISTS),
+                *named(MESHES),
+                "output_play",
+            ),
             (*MESH_CHECKS, *TRAIN_CHECKS),
         ),
     }

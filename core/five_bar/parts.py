@@ -75,6 +75,11 @@ class FiveBarParts(Meshed):
         return tuple(-z if ring else z for z, ring in zip(teeth, gears.rings(), strict=True))
 
     @property
+    def output_play(self) -> tuple[float, float] | None:
+        """Free turn of the output gear of a path [rad]; the output of a function is a link."""
+        return super().output_play if self.is_path else None
+
+    @property
     def mesh_names(self) -> tuple[str, ...]:
         """Both meshes of an idler, or the only one."""
         return MESHES if self.spec.gears.idler is not None else ("",)

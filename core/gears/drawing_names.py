@@ -71,6 +71,7 @@ _NEEDED = {
     "backlash_circumferential": (_THICKNESS,),
     "backlash_normal": (_THICKNESS,),
     "backlash_angle": (_THICKNESS,),
+    "output_play": (_THICKNESS,),
     "overlap_ratio": (_WIDTH,),
     "total_contact_ratio": (_WIDTH,),
 }

@@ -40,7 +40,7 @@ def named(meshes: tuple[str, ...]) -> tuple[str, ...]:
 class Meshed(GearQuantities, Design):
     """A design with gears in mesh, whose section `gears` has the keys of a train."""
 
-    derived = DERIVED
+    derived = DERIVED | {"output_play"}
     own_quantities: ClassVar[frozenset[str]] = frozenset()
     """Quantities of a mesh that the design gives itself under their plain names."""
 
@@ -191,6 +191,25 @@ class Meshed(GearQuantities, Design):
         if quantity not in GEAR_QUANTITIES:
             return self.mesh_data[name].quantity(quantity)
         return None if mesh is self._own_pairs[name] else mesh_quantity(self._own_pairs[name], quantity)
+
+    @property
+    def output_play(self) -> tuple[float, float] | None:
+        """Free turn of the last gear while the first and all links stand [rad], least and greatest.
+
+        sum over the meshes of j_phi z/z_last, j_phi the free turn of the second gear of a mesh, z its teeth
+
+        Source
+            own derivation: plays of a train add up at the pitch circles
+        """
+        data, teeth = self.mesh_data, self.signed_teeth
+        if any(each.backlash is None for each in data.values()):
+            return None
+        turns = [self.raw(f"{name}.backlash_angle" if name else "backlash_angle")[1] for name in data]
+        shares = [abs(z / teeth[-1]) for z in teeth[1:]]
+        least, greatest = (
+            math.fsum(turn[end] * share for turn, share in zip(turns, shares, strict=True)) for end in (0, 1)
+        )
+        return least, greatest
 
     def needs(self, name: str) -> str:
         """The keys that a mesh lacks for a quantity."""

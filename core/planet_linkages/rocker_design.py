@@ -82,7 +82,7 @@ class GearedRocker(RealSpeed, Meshed):
             ("target", "shaft-clearance", "transmission-angle", *GEAR_CHECKS, "backlash"),
             ("motion",),
         ),
-        "gear": Outline(OF_MESH, (*GEAR_CHECKS, *TRAIN_CHECKS)),
+        "gear": Outline((*OF_MESH, "output_play"), (*GEAR_CHECKS, *TRAIN_CHECKS)),
     }
 
     extra_tables = ("links", "drawing", "candidates")

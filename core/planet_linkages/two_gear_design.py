@@ -92,7 +92,7 @@ class TwoGearFourBar(FeedResults, Meshed):
     spec: TwoGearFourBarSpec
     outlines = {
         "analyze": Outline(QUANTITIES, CHECKS, ("motion",)),
-        "gear": Outline(OF_MESH, (*MESH_CHECKS, *TRAIN_CHECKS)),
+        "gear": Outline((*OF_MESH, "output_play"), (*MESH_CHECKS, *TRAIN_CHECKS)),
     }
 
     extra_tables: ClassVar[tuple[str, ...]] = ("links", "drawing")

@@ -67,7 +67,7 @@ class ThreeGearFourBar(FeedResults, Meshed):
     spec: ThreeGearSpec
     outlines = {
         "analyze": Outline(QUANTITIES, ("dwell-window", *CHECKS), ("motion",)),
-        "gear": Outline(MESH_QUANTITIES, (*MESH_CHECKS, *TRAIN_CHECKS)),
+        "gear": Outline((*MESH_QUANTITIES, "output_play"), (*MESH_CHECKS, *TRAIN_CHECKS)),
     }
     extra_tables: ClassVar[tuple[str, ...]] = ("motion", "links", "drawing")
     ways = WAYS

@@ -243,6 +243,20 @@ def test_backlash_is_what_turned_teeth_leave(name, helix):
         assert one.raw("backlash_angle")[1][end] == pytest.approx(turned, abs=1e-9)
 
 
+def test_play_of_an_output_behind_an_idler():
+    """Plays add up at the pitch circles: the idler's free turn carries the output along by its teeth."""
+    allowances = {"upper": [-0.05, -0.06, -0.07], "lower": [-0.08, -0.1, -0.12]}
+    one = design(THREE | {"gears": THREE["gears"] | {"allowances": allowances}}, command="analyze")
+    first, second = (one.raw(f"{mesh}.backlash_circumferential") for mesh in one.mesh_names)
+    radius = one.raw("idler_output.working_radius")[1]
+    assert one.output_play == pytest.approx([(a + b) / radius for a, b in zip(first, second, strict=True)], rel=1e-13)
+    assert (
+        made("rocker", allowances=DRAWN["allowances"]).output_play
+        == made("rocker", allowances=DRAWN["allowances"]).raw("backlash_angle")[1]
+    )
+    assert made("rocker").output_play is None
+
+
 # Links of the file beside shifts
 
 
@@ -446,3 +460,31 @@ def test_remedies_repair_what_they_are_for(name, keys, check):
         again = mended.check(check)
         assert index >= len(again) or again[index].status != "fail"
         mended.require("gear")
+
+
+# Loads
+
+
+def loaded(name, **gears):
+    base = KINDS[name]
+    loads = {"speed": 60.0, "forces": [{"on": "output", "torque": -5.0}]}
+    return design(base | {"loads": loads, "gears": base["gears"] | gears}, command="loads")
+
+
+@pytest.mark.parametrize("name", ["sun", "ring", "rocker", "path", "path in a ring", "function", "function in a ring"])
+def test_loads_roll_on_the_working_circles(name):
+    machine = loaded(name, profile_shift=[0.1, 0.17], helix_angle=14.0)
+    (mesh,) = machine.kinematics(np.linspace(0.0, 6.0, 4)).meshes
+    distance = mesh.radius - mesh.mate_radius if mesh.internal else mesh.radius + mesh.mate_radius
+    assert 1e3 * distance == pytest.approx(machine.design.distance(), rel=1e-14)
+    radii = {round(1e3 * radius, 9) for radius in (mesh.radius, mesh.mate_radius)}
+    assert radii == {round(radius, 9) for radius in machine.design.raw("working_radius")}
+    assert math.atan(mesh.tangent) == pytest.approx(machine.design.raw("working_pressure_angle"), rel=1e-14)
+
+
+@pytest.mark.parametrize("name", ["sun", "ring", "rocker"])
+def test_input_torque_of_shifted_gears_by_virtual_work(name):
+    machine = loaded(name, profile_shift=[0.1, 0.17], helix_angle=14.0)
+    for end in ("max", "min"):
+        wanted = 5.0 * machine.design.raw(f"speed_ratio_{end}")
+        assert machine.raw(f"input_torque_{end}") == pytest.approx(wanted, rel=1e-6, abs=1e-9)
