@@ -85,11 +85,21 @@ def estimate(values: Reals) -> Estimate:
     Source
         W. S. Gosset (Student), Biometrika 6 (1908) 1
     """
-    from scipy.special import stdtrit
-
     count = len(values)
     spread = float(np.std(values, ddof=1)) if count > 1 else float("nan")
-    return Estimate(float(np.mean(values)), float(stdtrit(count - 1, _CONFIDENCE)) * spread / count**0.5)
+    return Estimate(float(np.mean(values)), student(count) * spread / count**0.5)
+
+
+def student(count: int) -> float:
+    """Student's t of a two-sided 95 % interval by so many replications.
+
+    Example
+        >>> round(student(16), 6)
+        2.13145
+    """
+    from scipy.special import stdtrit
+
+    return float(stdtrit(count - 1, _CONFIDENCE))
 
 
 def share_estimate(shares: Reals, samples: int) -> tuple[float, float, float]:

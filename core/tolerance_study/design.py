@@ -264,7 +264,9 @@ def _scatters(spread: Spread) -> bool:
 
 
 def _pm(one: Estimate | None) -> tuple[float | None, float | None]:
-    return (None, None) if one is None else (one.value, one.half_width)
+    if one is None:
+        return None, None
+    return one.value, None if math.isnan(one.half_width) else one.half_width
 
 
 def _table(name: str, columns: Sequence[str], rows: Sequence[Sequence[Any]]) -> Table:

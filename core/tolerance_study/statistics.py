@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gearlink.core.numerics.arrays import Reals
+from gearlink.core.tolerance.quantiles import Quantile, Window, quantile, window
 from gearlink.core.tolerance.sampling import Estimate, estimate, share_estimate
 from gearlink.core.tolerance_study.problem import Problem
 from gearlink.core.tolerance_study.samples import judged_replication
@@ -33,7 +34,22 @@ class Spread:
 
     mean: Estimate
     sigma: Estimate
-    quantiles: tuple[Estimate, Estimate, Estimate]
+    places: tuple[Quantile, Quantile, Quantile]
+
+    @property
+    def quantiles(self) -> tuple[Estimate, Estimate, Estimate]:
+        """The quantiles with their intervals."""
+        low, middle, high = (place.estimate for place in self.places)
+        return low, middle, high
+
+
+@dataclass(frozen=True)
+class Numbers:
+    """Mean, deviation and the values about the quantiles of one replication; None where a quantity does not apply."""
+
+    mean: float
+    sigma: float
+    windows: tuple[Window, ...]
 
 
 @dataclass(frozen=True)
@@ -65,7 +81,7 @@ class Counted:
         count : int
         good, missing : float - shares
         passes : share by code and by requirement
-        numbers : mean, deviation and order statistics by quantity
+        numbers : Numbers by quantity, None where it does not apply
         values : (N,) arrays by quantity - of the first replications
     """
 
@@ -73,7 +89,7 @@ class Counted:
     good: float
     missing: float
     passes: Mapping[str, float]
-    numbers: Mapping[str, tuple[float, ...]]
+    numbers: Mapping[str, Numbers | None]
     values: Mapping[str, Reals]
 
 
@@ -111,19 +127,27 @@ def _yield(shares: list[float], count: int) -> Yield:
     return Yield(*share_estimate(np.array(shares), count))
 
 
-def _numbers(values: Reals) -> tuple[float, ...]:
-    """Mean, standard deviation and order statistics of one replication, without what does not apply."""
+def _numbers(values: Reals) -> Numbers | None:
+    """What is kept of a quantity, without the designs that it does not apply to."""
     there = np.sort(values[~np.isnan(values)])
     if there.size < 2:
-        return (math.nan,) * 5
-    places = [min(there.size - 1, max(0, math.ceil(share * there.size) - 1)) for share in QUANTILES]
+        return None
     # About the first value: a mean of nearly equal numbers then loses nothing.
     off = there - there[0]
-    return (float(there[0] + off.mean()), float(off.std(ddof=1)), *(float(there[place]) for place in places))
+    # Not over N - 1: the mean of scrambled points hardly scatters.
+    windows = tuple(window(there, share) for share in QUANTILES)
+    return Numbers(float(there[0] + off.mean()), float(off.std()), windows)
 
 
-def _spread(rows: list[tuple[float, ...]]) -> Spread:
-    mean, sigma, low, middle, high = (estimate(np.array(column)) for column in zip(*rows, strict=True))
+def _spread(rows: list[Numbers | None]) -> Spread:
+    """The replications together, without those where the quantity does not apply."""
+    there = [one for one in rows if one is not None]
+    if len(there) < 2:
+        nothing = Estimate(math.nan, math.nan)
+        no_place = Quantile(math.nan, np.full(2, math.nan))
+        return Spread(nothing, nothing, (no_place, no_place, no_place))
+    mean, sigma = (estimate(np.array(column)) for column in zip(*((one.mean, one.sigma) for one in there), strict=True))
+    low, middle, high = (quantile([one.windows[i] for one in there], share) for i, share in enumerate(QUANTILES))
     return Spread(mean, sigma, (low, middle, high))
 
 
@@ -138,30 +162,31 @@ def capabilities(rows: Spread, lower: float | None, upper: float | None) -> tupl
     Returns
         cp, cpk : Estimate or None - None without limits, or where nothing scatters
     Notes
-        Equal to the usual indices for a normal quantity. Intervals by the ends of the quantiles' own.
+        Equal to the usual indices for a normal quantity. Intervals by the replications: the quantiles of one move
+        together.
     Source
         ISO 22514-2, percentile method
     """
-    low, middle, high = rows.quantiles
+    low, middle, high = rows.places
     width = high.value - low.value
-    if width <= 0.0 or (lower is None and upper is None):
+    if not width > 0.0 or (lower is None and upper is None):
         return None, None
-    spread_pm = math.hypot(high.half_width, low.half_width)
     cp = None
     if lower is not None and upper is not None:
         value = (upper - lower) / width
-        cp = Estimate(value, value * spread_pm / width)
+        cp = Quantile(value, -value / width * (high.off - low.off)).estimate
     sides = []
     if upper is not None:
-        sides.append(_side(upper - middle.value, high.value - middle.value, middle.half_width, high.half_width))
+        sides.append(_side(upper - middle.value, high.value - middle.value, -middle.off, high.off - middle.off))
     if lower is not None:
-        sides.append(_side(middle.value - lower, middle.value - low.value, middle.half_width, low.half_width))
+        sides.append(_side(middle.value - lower, middle.value - low.value, middle.off, middle.off - low.off))
     there = [side for side in sides if side is not None]
     return cp, min(there, key=lambda side: side.value) if there else None
 
 
-def _side(room: float, spread: float, middle_pm: float, end_pm: float) -> Estimate | None:
-    if spread <= 0.0:
+def _side(room: float, spread: float, room_off: Reals, spread_off: Reals) -> Estimate | None:
+    """Room over spread; both differ from replication to replication."""
+    if not spread > 0.0:
         return None
     value = room / spread
-    return Estimate(value, math.hypot(middle_pm * (1.0 - value), value * end_pm) / spread)
+    return Quantile(value, (room_off - value * spread_off) / spread).estimate
