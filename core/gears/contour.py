@@ -185,19 +185,29 @@ class BlockingContour:
         """Where a limit crosses lines of constant x_1."""
         if not line.limits or line.name.startswith("undercut"):
             return
-        (low1, high1), (low2, high2) = self.window
-        grid = [low2 + (high2 - low2) * k / (_POINTS - 1) for k in range(_POINTS)]
-        for first in (low1 + (high1 - low1) * k / (_UPRIGHTS - 1) for k in range(_UPRIGHTS)):
+        for first, grid, designs in self._uprights:
 
             def value(second: float, first: float = first) -> float:
-                try:
-                    pair = replace(self.pair, given_shift=(first, second))
-                except NoSolution:
-                    return math.nan
-                return _value(line, replace(self.data, pair=pair))
+                data = self._at(first, second)
+                return math.nan if data is None else _value(line, data)
 
-            for root in _roots_of(value, grid, [value(second) for second in grid]):
+            values = [math.nan if data is None else _value(line, data) for data in designs]
+            for root in _roots_of(value, grid, values):
                 yield first, root
+
+    @cached_property
+    def _uprights(self) -> list[tuple[float, list[float], list[GearData | None]]]:
+        """For each x_1 the x_2 along it and the pairs there, which the limits share; None where there is none."""
+        (low1, high1), (low2, high2) = self.window
+        grid = [low2 + (high2 - low2) * k / (_POINTS - 1) for k in range(_POINTS)]
+        firsts = [low1 + (high1 - low1) * k / (_UPRIGHTS - 1) for k in range(_UPRIGHTS)]
+        return [(first, grid, [self._at(first, second) for second in grid]) for first in firsts]
+
+    def _at(self, first: float, second: float) -> GearData | None:
+        try:
+            return replace(self.data, pair=replace(self.pair, given_shift=(first, second)))
+        except NoSolution:
+            return None
 
     @property
     def free(self) -> Iterator[list[Pair]]:
