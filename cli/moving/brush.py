@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -50,8 +51,6 @@ def dashes(points: Points, length: float) -> list[Points]:
 
 def font_file(name: str) -> str:
     """A font that has the letters of a name, where one is installed; else the one that comes with matplotlib."""
-    import matplotlib
-
     from gearlink.cli.figures.write import families
 
     *_, last = families(name)
@@ -59,7 +58,10 @@ def font_file(name: str) -> str:
         from matplotlib.font_manager import findfont
 
         return str(findfont(last))
-    return str(Path(matplotlib.get_data_path()) / "fonts" / "ttf" / "DejaVuSans.ttf")
+    found = find_spec("matplotlib")  # where it is; to import it for that takes longer than ten pictures
+    assert found is not None, "this program needs it"
+    assert found.origin is not None, "it is a package with files"
+    return str(Path(found.origin).parent / "mpl-data" / "fonts" / "ttf" / "DejaVuSans.ttf")
 
 
 def font(size: float, name: str = "") -> Any:

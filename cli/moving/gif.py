@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import os
+import sys
+from collections import deque
 from collections.abc import Iterable, Iterator
-from itertools import pairwise
+from itertools import islice, pairwise
 from typing import IO, TYPE_CHECKING
 
 from PIL import Image
@@ -11,16 +14,20 @@ from PIL import Image
 from gearlink.cli.moving.raster import Raster
 
 if TYPE_CHECKING:
+    from concurrent.futures import Executor
+
     from PIL.Image import Image as Picture
 
 _COLORS = 64
 _ALMOST = 250
+_WORTH_PROCESSES, _SHARE = 48, 6
+"""Pictures from which on several processes pay, and how many of them one draws at a time."""
 
 
 def write_gif(stream: IO[bytes], raster: Raster, count: int, fps: int, told: Iterable[int]) -> None:
     """Write the pictures; `told` counts them and may show how far the work is."""
     palette = _with_white(raster.picture(0).quantize(_COLORS, method=Image.Quantize.MEDIANCUT))
-    made = _frames(raster, palette, told)
+    made = _frames(raster, palette, told, count)
     first = next(made)
     first.save(stream, "GIF", save_all=True, append_images=made, duration=durations(count, fps), loop=0, optimize=False)
 
@@ -33,9 +40,46 @@ def _with_white(picture: Picture) -> Picture:
     return picture
 
 
-def _frames(raster: Raster, palette: Picture, told: Iterable[int]) -> Iterator[Picture]:
-    for i in told:
-        yield raster.picture(i).quantize(palette=palette, dither=Image.Dither.NONE)
+def _frames(raster: Raster, palette: Picture, told: Iterable[int], count: int) -> Iterator[Picture]:
+    """The pictures in the colours of the palette, drawn in several processes where there are processors for them."""
+    jobs = len(os.sched_getaffinity(0)) if sys.platform == "linux" else 1
+    if jobs < 2 or count < _WORTH_PROCESSES:
+        yield from (_quantized(raster, palette, i) for i in told)
+        return
+    from gearlink.cli.workers import workers
+
+    global _drawn_from
+    _drawn_from = raster, palette  # forked processes have it without its being sent
+    blank = _quantized(raster, palette, 0)
+    try:
+        with workers(jobs) as pool:
+            for _, pixels in zip(told, _in_order(pool, count, jobs), strict=True):
+                made = blank.copy()
+                made.frombytes(pixels)
+                yield made
+    finally:
+        _drawn_from = None
+
+
+_drawn_from: tuple[Raster, Picture] | None = None
+
+
+def _in_order(pool: Executor, count: int, jobs: int) -> Iterator[bytes]:
+    """Pixels of every picture; few of them wait to be written."""
+    shares = (range(start, min(start + _SHARE, count)) for start in range(0, count, _SHARE))
+    begun = deque(pool.submit(_pixels, share) for share in islice(shares, 2 * jobs))
+    while begun:
+        yield from begun.popleft().result()
+        begun.extend(pool.submit(_pixels, share) for share in islice(shares, 1))
+
+
+def _pixels(numbers: range) -> list[bytes]:
+    assert _drawn_from is not None, "set before this process was forked"
+    return [_quantized(*_drawn_from, i).tobytes() for i in numbers]
+
+
+def _quantized(raster: Raster, palette: Picture, i: int) -> Picture:
+    return raster.picture(i).quantize(palette=palette, dither=Image.Dither.NONE)
 
 
 def durations(count: int, fps: int) -> list[int]:
