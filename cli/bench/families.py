@@ -15,6 +15,8 @@ FAMILIES = {
     "unloading": "unloading:family",
     "cam": "cam:family",
     "press": "cam:press",
+    "gear-search": "gears:search",
+    "contour": "gears:contour",
     "start-up": "start_up:family",
     "pictures": "pictures:family",
     "folders": "pictures:folders",

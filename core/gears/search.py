@@ -107,6 +107,13 @@ def _teeth(wish: Wish, total: int) -> Iterator[tuple[int, int]]:
             yield first, -second if wish.internal else second
 
 
+def pairs_of_teeth(wish: Wish, module: float) -> Iterator[tuple[int, int]]:
+    """Every (z_1, z_2) of a module whose ratio and shift sum meet the wish."""
+    for total in teeth_sums(wish, module):
+        if total <= _MOST_TEETH:
+            yield from _teeth(wish, total)
+
+
 def candidates(wish: Wish) -> list[Candidate]:
     """Every pair that meets the wish, the best first: unblocked, near the ratio, hunting teeth, large margins.
 
@@ -118,9 +125,7 @@ def candidates(wish: Wish) -> list[Candidate]:
     found = [
         each
         for module in wish.modules
-        for total in teeth_sums(wish, module)
-        if total <= _MOST_TEETH
-        for teeth in _teeth(wish, total)
+        for teeth in pairs_of_teeth(wish, module)
         if (each := _candidate(wish, module, teeth)) is not None
     ]
     return sorted(found, key=_rank)
