@@ -34,7 +34,10 @@ def _table(rows: list[Row]) -> Table:
 
 
 _OF_RACK = frozenset(
-    ("normal module", "pressure angle", "tool addendum", "tool rounding", "helix angle", "hand of helix", "face width")
+    (
+        *("normal module", "pressure angle", "tool addendum", "tool rounding", "helix angle", "hand of helix"),
+        *("face width", "thickness allowance, upper", "thickness allowance, lower", "ball diameter"),
+    )
 )
 
 
@@ -47,16 +50,39 @@ def rack_drawing(rack: RackMesh, hands: tuple[str, str] | None = None) -> Table:
     Source
         DIN 3966 for what belongs on a drawing, from memory
     """
-    data = rack.data
     rows: list[Row] = []
-    for item, symbol, gear, mate, unit in (*_teeth(data, hands), *_circles(data), *_thickness(data)):
+    for item, symbol, gear, mate, unit in (*_teeth(rack.data, hands), *_circles(rack.data), *_thickness(rack.data)):
         if item == "number of teeth":
             rows.append((item, symbol, gear, "rack", unit))
         elif gear is not None or item in _OF_RACK:
             rows.append((item, symbol, gear, mate if item in _OF_RACK else None, unit))
-    rows.append(("axis to the datum line of the rack", "a", rack.center_distance, rack.center_distance, "mm"))
-    rows.append(("contact ratio", "eps_alpha", rack.contact_ratio, rack.contact_ratio, ""))
+    rows += [*_rack_lines(rack), *_rack_mesh(rack)]
     return _table([row for row in rows if row[2] is not None or row[3] is not None])
+
+
+def _rack_lines(rack: RackMesh) -> Iterator[Row]:
+    """What the rack's own teeth are made and measured by."""
+    module, diameter = rack.pair.module, rack.data.pin_diameter[1]
+    yield "pitch of the rack", "p_t", None, rack.pitch_on_line, "mm"
+    yield "tip line above the datum line", "h_aR", None, rack.height * module, "mm"
+    yield "root line below the datum line", "h_fR", None, rack.pair.root_depth(1) * module, "mm"
+    yield "tooth thickness on the datum line", "s", None, 0.5 * math.pi * module, "mm"
+    if diameter is None:
+        return
+    allowances = ((0.0, 0.0),) * 2 if rack.data.allowances is None else rack.data.allowances
+    heights = [rack.height_over_pin(diameter, each) for each in allowances[1]]
+    names = ("nominal",) if rack.data.allowances is None else ("greatest", "least")
+    for name, height in zip(names, heights, strict=False):
+        yield f"datum line to ball top, {name}", "M_R", None, height, "mm"
+
+
+def _rack_mesh(rack: RackMesh) -> Iterator[Row]:
+    yield "axis to the datum line of the rack", "a", rack.center_distance, rack.center_distance, "mm"
+    allowance = rack.data.distance_allowance
+    yield "its allowance, plus and minus", "A_a", allowance, allowance, "mm"
+    yield "contact ratio", "eps_alpha", rack.contact_ratio, rack.contact_ratio, ""
+    for play, name in zip(rack.backlash_normal or (), ("least", "greatest"), strict=False):
+        yield f"theoretical backlash, {name}", "j_bn", play, play, "mm"
 
 
 def _rows(data: GearData, hands: tuple[str, str] | None) -> Iterator[Row]:

@@ -221,6 +221,16 @@ class RackMesh:
         found, r = self.backlash_circumferential, self.pair.reference_radius[0]
         return None if found is None else ((found[0] / r, found[1] / r), None)
 
+    def height_over_pin(self, diameter: float, allowance: float = 0.0) -> float:
+        """From the datum line to the top of a pin in a space [mm]: D/2 (1 + 1/sin(alpha_n)) - e/(2 tan(alpha_n)).
+
+        Parameters
+            diameter : float [mm] - D
+            allowance : float [mm] - E_sn of the rack; its space on the datum line is e = pi m/2 - E_sn
+        """
+        alpha, space = self.pair.pressure_angle, 0.5 * math.pi * self.pair.module - allowance
+        return 0.5 * diameter * (1.0 + 1.0 / math.sin(alpha)) - 0.5 * space / math.tan(alpha)
+
     def quantity(self, name: str) -> Any:
         """A quantity by name; values of the rack are None."""
         if name in _OF_GEAR:
@@ -261,17 +271,24 @@ def _contact_ratio(rack: RackMesh, limits: Any) -> Iterator[Check]:
 
 
 def _interference(rack: RackMesh, _limits: Any) -> Iterator[Check]:
-    yield _judged(INTERFERENCE.check, rack.start, 0.0, "the rack's tip stays short of the base tangent point")
+    good, bad = "stays {:.4g} mm short of", "goes {:.4g} mm beyond"
+    words = f"the rack's tip {bad if rack.start < 0.0 else good} the base tangent point"
+    yield _judged(INTERFERENCE.check, words, rack.start, 0.0)
 
 
 def _fillet(rack: RackMesh, _limits: Any) -> Iterator[Check]:
     noise = -_FILLET_NOISE * rack.pair.module
     if rack.pair.form_radius[0] is not None:
         margin = rack.used_root_radius[0] - rack.pair.form_radius[0] if rack.start > 0.0 else rack.start
-        yield _judged(FILLET.check, margin, noise, "contact stays off the root fillet")
+        yield _judged(FILLET.check, f"contact {_side(margin, noise)} the root fillet of gear 1", margin, noise)
     margin = rack.form_depth - rack.end_depth
+    words = f"contact {_side(margin, noise)} the root rounding of the rack"
     remedy = "lower the profile shift or the addendum of gear 1, or the rounding of the rack's tool"
-    yield _judged(FILLET.check, margin, noise, "contact stays off the root rounding of the rack", remedy)
+    yield _judged(FILLET.check, words, margin, noise, remedy)
+
+
+def _side(margin: float, noise: float) -> str:
+    return "goes {:.4g} mm into" if margin < noise else "stays {:.4g} mm off"
 
 
 def _tip(rack: RackMesh, limits: Any) -> Iterator[Check]:
@@ -318,14 +335,12 @@ _CHECKS: dict[str, Callable[[RackMesh, Any], Iterator[Check]]] = {
 
 def _judged(
     make: Any,
+    words: str,
     margin: float,
     limit: float,
-    words: str,
     remedy: str = "raise the profile shift of gear 1 or take more teeth",
 ) -> Check:
     status: Status = "fail" if margin < limit else "pass"
-    text = f"{words} by {margin:.4g} mm"
-    if status == "fail":
-        text = f"not so: {words} (by {margin:.4g} mm): {remedy}"
+    text = words.format(abs(margin)) + (f": {remedy}" if status == "fail" else "")
     check: Check = make(status, text, margin, limit, "mm")
     return check

@@ -1,5 +1,7 @@
 """The gear table of a gear on a rack: the gear's column is that of the gear alone. No tolerances: the same numbers."""
 
+import math
+
 from factory import design
 
 GEAR = {"kind": "gear-pair", "module": 3, "allowances": {"series": "25cd"}, "helix_angle": 10, "face_width": 30}
@@ -17,6 +19,23 @@ def test_a_rack_has_the_lines_of_its_teeth_alone() -> None:
     assert lines["number of teeth"] == (20, "rack")
     assert lines["normal module"] == (3.0, 3.0)
     for item in ("span measurement, least", "measure over balls, greatest", "thickness allowance, upper"):
-        assert lines[item] == (pair[(item, "mm")], None), item
+        gear = pair[(item, "mm")]
+        assert lines[item] == (gear, gear if item.startswith("thickness") else None), item  # a rack takes its gear's
     assert lines["axis to the datum line of the rack"][0] == lines["reference diameter"][0] / 2 + 0.6
     assert lines["face width"] == (30.0, 30.0)
+
+
+def test_a_rack_has_its_own_lines_to_cut_and_measure_it_by() -> None:
+    """The pin in a space of 45 deg flanks, moved to 20 deg: it touches both flanks, found by its distance from them."""
+    made = design(GEAR | {"teeth": [20, "rack"], "profile_shift": [0.2, 0], "pin_diameter": [5.5, 5.0]}, command="gear")
+    table = made.table("drawing")
+    rack = dict(zip(table.data[0], table.data[3], strict=True))
+    assert rack["pitch of the rack"] == math.pi * 3 / math.cos(math.radians(10))
+    assert (rack["tip line above the datum line"], rack["root line below the datum line"]) == (3.0, 3.75)
+    alpha, allowance = math.radians(20.0), rack["thickness allowance, upper"]
+    center = rack["datum line to ball top, greatest"] - 2.5
+    half = 0.25 * math.pi * 3 - 0.5 * allowance  # of the space on the datum line
+    to_flank = (half + center * math.tan(alpha)) * math.cos(alpha)
+    assert abs(to_flank - 2.5) < 1e-12
+    assert rack["datum line to ball top, least"] < rack["datum line to ball top, greatest"]
+    assert rack["theoretical backlash, least"] == made.quantity("backlash_normal").value[0]
