@@ -8,6 +8,7 @@ for commands.
 from __future__ import annotations
 
 import re
+from typing import Any
 
 _COMMAND = re.compile(r":(?=:)|#(?=#)")
 
@@ -36,6 +37,22 @@ def _glyph(char: str, encoding: str) -> str:
     except UnicodeEncodeError:
         return char.encode("unicode_escape").decode()
     return char if char.isprintable() else char.encode("unicode_escape").decode()
+
+
+_UNSHOWN = re.compile("[\x7f-\xa0\xad\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff\ud800-\udfff]|#(?=#)")
+
+
+def json_text(value: Any, indent: int | None = None) -> str:
+    """Plain data as JSON that can be printed: the same values, what does not show or opens a command as \\u....
+
+    Example
+        >>> print(json_text({"name": "##[x]" + chr(155)}))
+        {"name": "\\u0023#[x]\\u009b"}
+    """
+    import json
+
+    text = json.dumps(value, ensure_ascii=False, allow_nan=False, indent=indent)
+    return _UNSHOWN.sub(lambda match: f"\\u{ord(match[0]):04x}", text)
 
 
 _FORMULA = ("=", "+", "-", "@", "\uff1d", "\uff0b", "\uff0d", "\uff20")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Iterator, Sequence
 from pathlib import PurePath
@@ -10,7 +9,7 @@ from typing import Any
 from xml.sax.saxutils import escape, quoteattr
 
 from gearlink.cli.batch.outcome import Fix, Outcome
-from gearlink.cli.printable import visible
+from gearlink.cli.printable import json_text, visible
 from gearlink.cli.texts.codes import explanations
 from gearlink.core.version import VERSION
 
@@ -103,7 +102,7 @@ def as_sarif(results: Sequence[Outcome]) -> str:
     driver = {"name": "gearlink", "version": VERSION, "rules": [rules[code] for code in sorted(rules)]}
     run = {"tool": {"driver": driver}, "columnKind": "unicodeCodePoints", "results": entries}
     schema = "https://json.schemastore.org/sarif-2.1.0.json"
-    return json.dumps({"$schema": schema, "version": "2.1.0", "runs": [run]}, ensure_ascii=False, indent=1) + "\n"
+    return json_text({"$schema": schema, "version": "2.1.0", "runs": [run]}, indent=1) + "\n"
 
 
 def _sarif_fix(file: str, fix: Sequence[Fix]) -> dict[str, Any]:

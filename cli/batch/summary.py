@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Sequence
 from typing import IO, TYPE_CHECKING, Any
 
 from gearlink.cli.batch.options import BatchFormat, BatchOptions
 from gearlink.cli.batch.outcome import Outcome, summary
-from gearlink.cli.printable import visible
+from gearlink.cli.printable import json_text, visible
 from gearlink.cli.render.json_report import FORMAT, as_plain
 
 if TYPE_CHECKING:
@@ -39,11 +38,11 @@ def _entry(outcome: Outcome) -> dict[str, Any]:
 def _json(results: Sequence[Outcome]) -> str:
     worst = max((outcome.status for outcome in results), default=0)
     whole = {"gearlink": FORMAT, "command": "batch", "ok": worst == 0, "summary": summary(results)}
-    return json.dumps(whole | {"designs": [_entry(o) for o in results]}, ensure_ascii=False, allow_nan=False) + "\n"
+    return json_text(whole | {"designs": [_entry(o) for o in results]}) + "\n"
 
 
 def _jsonl(results: Sequence[Outcome]) -> str:
-    return "".join(json.dumps(_entry(o), ensure_ascii=False, allow_nan=False) + "\n" for o in results)
+    return "".join(json_text(_entry(o)) + "\n" for o in results)
 
 
 def _rows(results: Sequence[Outcome]) -> list[tuple[str, str, str, str]]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import sys
 from collections.abc import Sequence
 from dataclasses import replace
@@ -10,6 +9,7 @@ from typing import Any
 
 from gearlink.cli.commands.finding import Finding
 from gearlink.cli.options import Format, Options
+from gearlink.cli.printable import json_text
 from gearlink.cli.render.errors import fitted
 from gearlink.cli.render.json_report import FORMAT, plain_check
 
@@ -24,7 +24,7 @@ def show_findings(found: Sequence[Finding], designs: int, options: Options, *, o
     if options.format is Format.JSON:
         plain = [_plain(finding) for finding in shown]
         whole = {"gearlink": FORMAT, "command": "check", "ok": ok, "summary": {"designs": designs, **counts}}
-        print(json.dumps({**whole, "findings": plain, **_as_results(found)}, ensure_ascii=False, allow_nan=False))
+        print(json_text({**whole, "findings": plain, **_as_results(found)}))
         return
     if options.format is Format.CSV:
         from gearlink.cli.render.csv_report import write_rows

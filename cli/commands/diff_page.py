@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
@@ -10,7 +9,7 @@ from typing import Any
 
 from gearlink.cli.commands.difference import Change, Difference
 from gearlink.cli.options import Format, Options
-from gearlink.cli.printable import visible
+from gearlink.cli.printable import json_text, visible
 from gearlink.cli.render.json_report import FORMAT
 
 _PARTS = ("inputs", "quantities", "checks", "tables")
@@ -20,7 +19,7 @@ _HEADS = ("old", "new", "unit", "change", "command")
 def show_difference(found: Difference, options: Options) -> None:
     """Print the difference."""
     if options.format is Format.JSON:
-        print(json.dumps(_plain(found), ensure_ascii=False, allow_nan=False))
+        print(json_text(_plain(found)))
     elif options.format is Format.MARKDOWN:
         print(_as_markdown(found))
     else:

@@ -17,6 +17,7 @@ from gearlink.cli.evaluate import build, exit_status, open_design, read_spec, re
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite
 from gearlink.cli.options import Format, Options
+from gearlink.cli.printable import json_text
 from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.core.errors import NoSolution
 from gearlink.core.remedies import Bench
@@ -127,7 +128,7 @@ def _print(changes: Sequence[Change] | None, report: Report, options: Options) -
         from gearlink.cli.render.json_report import as_plain
 
         whole = as_plain(report) | {"suggestions": _as_plain(changes or ())}
-        print(json.dumps(whole, ensure_ascii=False, allow_nan=False))
+        print(json_text(whole))
         return
     text = _as_text(changes, options)
     if options.format is Format.TABLE and options.quantities:

@@ -11,10 +11,13 @@ import yaml
 
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import safe_stem, write_atomically
+from gearlink.cli.printable import visible
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.core.explore.front import Found
 from gearlink.core.explore.problem import Problem
 
+_NAME = 180
+"""Letters of the study's name in the names of its designs, which have their number beside it."""
 _MISS = re.compile(r"m([0-9]{1,6})")
 
 
@@ -51,9 +54,23 @@ def text_of(made: Problem, found: Found | None, index: int) -> str:
     """The file of a design."""
     changes = found.changes(index) if found is not None else made.changes_of(index)
     data: dict[str, Any] = made.base.changed(changes)
-    data["name"] = f"{made.spec.name}-{index}"
-    head = f"# Design {index} of the study {made.spec.name}; try: gearlink {made.base.command} FILE\n"
-    return head + yaml.safe_dump(data, sort_keys=False, allow_unicode=True, default_flow_style=None, width=120)
+    data["name"] = f"{made.spec.name[:_NAME]}-{index}"
+    head = f"# Design {index} of the study {visible(made.spec.name)}; try: gearlink {made.base.command} FILE\n"
+    return head + yaml.dump(
+        data, Dumper=_Dumper, sort_keys=False, allow_unicode=True, default_flow_style=None, width=120
+    )
+
+
+class _Dumper(yaml.SafeDumper):
+    """Words whose lines could open commands in the log of a CI stand in quotes."""
+
+
+def _quoted(dumper: yaml.SafeDumper, text: str) -> yaml.ScalarNode:
+    style = '"' if "\n" in text or "::" in text else None
+    return dumper.represent_scalar("tag:yaml.org,2002:str", text, style=style)
+
+
+_Dumper.add_representer(str, _quoted)
 
 
 def _put(text: str, stream: IO[bytes]) -> None:

@@ -17,7 +17,7 @@ from typing import Any, Protocol
 
 from gearlink.cli.cluster import processor
 from gearlink.core.errors import GearlinkError
-from gearlink.core.explore.chunks import Chunk
+from gearlink.core.explore.chunks import Chunk, Miss
 from gearlink.core.explore.preparing import problem_of
 from gearlink.core.explore.problem import SCHEMA, Problem
 from gearlink.core.version import VERSION
@@ -25,6 +25,9 @@ from gearlink.core.version import VERSION
 Result = tuple[int, str, bytes]
 """Number of a chunk, and what `Chunk.counts` and `Chunk.data` gave."""
 _MAGIC = b"SQLite format 3\0"
+_ODD = (ValueError, TypeError, LookupError, AttributeError, RecursionError, OverflowError)
+"""What reading a text or numbers raises that no run wrote."""
+_LONGEST_NAME = 200
 _TABLES = """
 CREATE TABLE meta (key TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID;
 CREATE TABLE chunk (id INTEGER PRIMARY KEY, counts TEXT NOT NULL, rows BLOB NOT NULL);
@@ -110,7 +113,7 @@ class Store:
 
     def results(self) -> Iterator[Result]:
         """The chunks in the order of their numbers."""
-        yield from self._connection.execute("SELECT id, counts, rows FROM chunk ORDER BY id")
+        yield from self._connection.execute("SELECT id, counts, rows FROM chunk ORDER BY id").fetchall()
 
     def refined(self) -> dict[int, tuple[bytes, bytes]]:
         """Variables and row of each refined design by its number."""
@@ -224,7 +227,10 @@ def same_study(path: Path, meta: dict[str, str], problem: Problem) -> None:
     """
     own = meta_of(problem)
     if meta.get("spec") != own["spec"]:
-        key, was, now = _difference(json.loads(meta.get("study", "{}")), problem.canonical)
+        try:
+            key, was, now = _difference(json.loads(meta.get("study", "{}")), problem.canonical)
+        except _ODD:
+            raise damaged(f"the study in {path}") from None
         message = f"{path} belongs to another study: {key} was {was}, is {now}"
         raise CannotStore("GL157", message, "give another --store")
     for name in ("gearlink", "numpy", "cpu"):
@@ -256,11 +262,61 @@ def problem_in(store: Store) -> Problem:
     if meta.get("schema") != str(SCHEMA):
         message = f"{store._path} holds no study" if not meta else f"its schema is {meta.get('schema')}, not {SCHEMA}"
         raise CannotStore("GL158" if meta else "GL159", message, "give the study file in its place")
-    made = problem_of(meta["study"])
-    return made.named(meta["name"])
+    try:
+        made = problem_of(meta["study"])
+    except (*_ODD, GearlinkError):
+        raise damaged(f"the study in {store._path}") from None
+    name = meta.get("name")
+    if made.hash != meta.get("spec") or not isinstance(name, str) or len(name) > _LONGEST_NAME:
+        raise damaged(f"the study in {store._path}")
+    return made.named(name)
 
 
 def chunks_of(kept: Kept, problem: Problem) -> Iterator[Chunk]:
-    """The finished chunks of a study."""
+    """The finished chunks of a study.
+
+    Raises
+        CannotStore - GL159 for one that no run of this study can have made
+    """
     columns = len(problem.shown)
-    return (Chunk.of(counts, data, columns) for _, counts, data in kept.results())
+    for number, counts, data in kept.results():
+        try:
+            chunk = Chunk.of(counts, data, columns)
+            sound = _is_sound(chunk, number, problem)
+        except _ODD:
+            sound = False
+        if not sound:
+            raise damaged(f"chunk {number}")
+        yield chunk
+
+
+def damaged(what: str) -> CannotStore:
+    """The refusal of a store whose content somebody has changed."""
+    return CannotStore("GL159", f"{what} is damaged", "give another --store, and compute the study again")
+
+
+def _is_sound(chunk: Chunk, number: int, problem: Problem) -> bool:
+    """Whether every field of a chunk has its type and range."""
+    import numpy as np
+
+    first = number * problem.chunk_size
+    last = min(first + problem.chunk_size, problem.order.count) - 1
+    places, objectives = chunk.rows[:, 0], chunk.rows[:, 1 : 1 + len(problem.objectives)]
+    return (
+        0 <= number < problem.chunks
+        and type(chunk.designs) is type(chunk.feasible) is int
+        and 0 <= chunk.feasible <= chunk.designs <= problem.chunk_size
+        and all(isinstance(name, str) and _is_sound_miss(miss, first, last) for name, miss in chunk.misses.items())
+        and bool(np.all((places >= first) & (places <= last) & (places == np.rint(places))))
+        and bool(np.isfinite(objectives).all())
+    )
+
+
+def _is_sound_miss(miss: Miss, first: int, last: int) -> bool:
+    amounts = (miss.value, miss.limit)
+    return (
+        all(type(count) is int and 0 <= count <= last + 1 - first for count in (miss.fails, miss.alone))
+        and all(amount is None or type(amount) in (int, float) for amount in amounts)
+        and (miss.index is None or (type(miss.index) is int and first <= miss.index <= last))
+        and isinstance(miss.unit, str)
+    )

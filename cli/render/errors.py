@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import json
 import re
 import sys
 from collections.abc import Sequence
 from typing import TextIO
 
 from gearlink.cli.options import Format, Options
+from gearlink.cli.printable import json_text
 from gearlink.cli.reading.diagnostics import Diagnostic
 from gearlink.cli.render.json_report import FORMAT
 
@@ -18,7 +18,7 @@ _MESSAGE = re.compile(r"\S.*: (error|fail|warn|pass|fault) GL\d|  help: ")  # th
 
 def errors_as_json(diagnostics: Sequence[Diagnostic]) -> str:
     """The errors in the JSON form of the results."""
-    return json.dumps({"gearlink": FORMAT, "errors": [d.as_json() for d in diagnostics]}, ensure_ascii=False)
+    return json_text({"gearlink": FORMAT, "errors": [d.as_json() for d in diagnostics]})
 
 
 def show_errors(diagnostics: Sequence[Diagnostic], options: Options) -> None:

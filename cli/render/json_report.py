@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import json
 from typing import Any
 
+from gearlink.cli.printable import json_text
 from gearlink.core.report import Check, Report
 
 FORMAT = 1
@@ -44,4 +44,4 @@ def plain_check(check: Check) -> dict[str, Any]:
 
 def as_json(report: Report) -> str:
     """The report as JSON text."""
-    return json.dumps(as_plain(report), ensure_ascii=False, allow_nan=False)
+    return json_text(as_plain(report))

@@ -166,3 +166,15 @@ def test_a_file_name_that_is_no_utf8(gearlink: Any, tmp_path: Path, line: str) -
     ended = gearlink(command, path, "--out", tmp_path / "out", *options)
     assert ended.status == 0, ended.err
     assert "\udcff" not in ended.out + ended.err
+
+
+@pytest.mark.parametrize("name", ["##vso[task.x]", "a##[error]\u202eb\u200b", "20° ###"])
+def test_json_keeps_the_name_and_shows_nothing_that_steers(gearlink: Any, designs: Path, name: str) -> None:
+    text = (designs / "ring_pair.yaml").read_text().replace("name: pinion-in-ring", f"name: {json.dumps(name)}")
+    path = Path("pair.yaml")
+    path.write_text(text)
+    for line in (("gear", path), ("check", path), ("batch", path)):
+        ended = gearlink(*line, "--format", "json")
+        assert harmless(ended.out), line
+        found = {"gear": [ended.json], "batch": ended.json.get("designs")}.get(line[0], [])
+        assert [design["name"] for design in found] == [name] * len(found)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 import os
 import random
 import signal
 import sqlite3
+import struct
 import subprocess
 import sys
 import time
@@ -234,3 +236,59 @@ def test_a_worker_that_dies_is_replaced_and_the_culprit_named(
     ended = gearlink("explore", study, "--jobs", 2)
     assert ended.status == 3
     assert "design 150 ends the process" in ended.err
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory: pytest.TempPathFactory) -> bytes:
+    """A store of a small study, whole."""
+    from gearlink.cli.main import run
+
+    folder = tmp_path_factory.mktemp("store")
+    small = {**STUDY, "variables": {"rod": {"from": 200, "to": 400, "step": 50}}}
+    (folder / "study.yaml").write_text(yaml.safe_dump(small, sort_keys=False))
+    assert run(["explore", str(folder / "study.yaml"), "--store", str(folder / "s"), "-j", "1", "-q"]) == 0
+    return (folder / "s").read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("change", "value"),
+    [
+        ("UPDATE chunk SET rows = ?", b"abc"),
+        ("UPDATE chunk SET rows = ?", struct.pack("<4d", math.nan, 1.0, 2.0, 3.0)),
+        ("UPDATE chunk SET rows = ?", struct.pack("<4d", 1e300, 1.0, 2.0, 3.0)),
+        ("UPDATE chunk SET counts = ?", "x"),
+        ("UPDATE chunk SET counts = ?", "[" * 100_000),
+        ("UPDATE chunk SET counts = ?", '["a", {}, 3]'),
+        ("UPDATE chunk SET counts = ?", '[5, 5, {"GL303": [1, 0, "far", null, 3, "1"]}]'),
+        ("UPDATE chunk SET counts = ?", "[-5, 5, {}]"),
+        ("UPDATE meta SET value = ? WHERE key = 'study'", "{"),
+        ("UPDATE meta SET value = ? WHERE key = 'study'", "[" * 100_000),
+        ("UPDATE meta SET value = ? WHERE key = 'study'", '{"schema":1}'),
+        ("UPDATE meta SET value = ? WHERE key = 'study'", None),
+        ("UPDATE meta SET value = ? WHERE key = 'spec'", "zz"),
+        ("UPDATE meta SET value = ? WHERE key = 'name'", None),
+        ("UPDATE meta SET value = ? WHERE key = 'name'", "x" * 10_000),
+    ],
+    ids=lambda value: repr(value)[-30:],
+)
+def test_a_store_whose_content_was_changed_is_refused(
+    gearlink: Any, finished: bytes, tmp_path: Path, change: str, value: Any
+) -> None:
+    store = tmp_path / "s"
+    store.write_bytes(finished)
+    connection = sqlite3.connect(store)
+    connection.execute(change, (value,))
+    connection.commit()
+    connection.close()
+    ended = gearlink("explore", store)
+    assert (ended.status, ended.out) == (2, "")
+    assert "error GL159" in ended.err
+    assert "is damaged" in ended.err
+
+
+def test_a_studys_name_opens_no_command_in_its_files(gearlink: Any, study: Path) -> None:
+    study.write_text(yaml.safe_dump({**STUDY, "name": "a\n::error::b" + 188 * "c"}, sort_keys=False))
+    shown = gearlink("explore", study, "--show", "3").out
+    assert not any(line.lstrip().startswith("::") for line in shown.splitlines())
+    study.write_text(shown)
+    assert gearlink("analyze", study, "--quantity", "stroke").status == 0
