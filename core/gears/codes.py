@@ -4,6 +4,12 @@ from __future__ import annotations
 
 from gearlink.core.report import Rule
 
+
+def _within(*keys: str) -> tuple[str, ...]:
+    """Keys as they stand in the section of gears of a machine."""
+    return tuple(f"{section}.{key}" for section in ("gears", "input_gears") for key in keys)
+
+
 _TEETH = ("profile_shift", "teeth", "gears", "input_gears")
 
 UNDERCUT = Rule(
@@ -110,7 +116,7 @@ FILLET = Rule(
     "r_Nf >= r_Ff - 1e-4 m; fails where the file names a tool or cutter, for rings and helical gears, else warns",
     "ISO 21771; form radius: own derivation, compared with a rolled tool",
     ("fillet-interference",),
-    ("tool", "cutter", *_TEETH),
+    ("tool", "cutter", "gears.tool", "gears.cutter", "input_gears.tool", *_TEETH),
 )
 BACKLASH = Rule(
     "GL208",
@@ -123,7 +129,7 @@ BACKLASH = Rule(
     "limits.backlash (0). Theoretical: temperature, bearings and deviations of the teeth are not in it",
     "DIN 3967; the form exact in the centre distance: own derivation",
     ("backlash",),
-    ("allowances", "center_distance_allowance", "center_distance", *_TEETH),
+    ("allowances", "center_distance_allowance", "center_distance", *_within("allowances"), *_TEETH),
 )
 PITTING = Rule(
     "GL210",
@@ -134,7 +140,7 @@ PITTING = Rule(
     "S_H = sigma_Hlim Z_N (Z_L Z_v Z_R Z_W Z_X)/(Z_B,D sigma_H0 sqrt(K_A K_v K_Hb K_Ha)) >= limits.safety_pitting (1)",
     "ISO 6336-2:2006, method B; K_Hb is given, not computed",
     ("pitting",),
-    ("load", "material", "face_width"),
+    ("load", "material", "face_width", *_within("load", "material", "face_width")),
 )
 BENDING = Rule(
     "GL211",
@@ -146,5 +152,5 @@ BENDING = Rule(
     "limits.safety_bending (1.4), Y_ST = 2",
     "ISO 6336-3:2006, method B; K_Fb is given, not computed; rings: no published example",
     ("bending",),
-    ("load", "material", "tool", "face_width"),
+    ("load", "material", "tool", "face_width", *_within("load", "material", "face_width")),
 )

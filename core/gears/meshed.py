@@ -179,9 +179,12 @@ class Meshed(GearQuantities, Design):
             return None
         with at_key("gears"):
             found = self._of_mesh(mesh, quantity)
-        # a ring before its mate is the first of its mesh, the second of its pair of gears
-        swapped = self.signed_teeth[self.mesh_names.index(mesh)] < 0 and quantity not in _LEAST_AND_GREATEST
+        swapped = self._swapped(mesh) and quantity not in _LEAST_AND_GREATEST
         return found[::-1] if swapped and isinstance(found, tuple) else found
+
+    def _swapped(self, mesh: str) -> bool:
+        """Whether a ring stands before its mate: the first gear of its mesh, the second of its pair."""
+        return self.signed_teeth[self.mesh_names.index(mesh)] < 0
 
     def _of_mesh(self, name: str, quantity: str) -> Any:
         mesh = self.meshes[name]
@@ -226,14 +229,22 @@ class Meshed(GearQuantities, Design):
     def check(self, name: str) -> list[Check]:
         """Gear checks run over all meshes."""
         if name in MESH_CHECKS:
-            return [check for mesh in self.mesh_names for check in self._mesh_check(name, mesh)]
+            return [self._in_order(check, mesh) for mesh in self.mesh_names for check in self._mesh_check(name, mesh)]
         if name not in TRAIN_CHECKS:
             return super().check(name)
         if not self._judged(name):
             return []
         from gearlink.core.gears.train_drawing import judgement
 
-        return judgement(name, self.mesh_data, self.spec)
+        found = judgement(name, self.mesh_data, self.spec)
+        return [self._in_order(check, mesh) for mesh, checks in found.items() for check in checks]
+
+    def _in_order(self, check: Check, mesh: str) -> Check:
+        """A finding whose gears 1 and 2 are those of the file's lists."""
+        if not self._swapped(mesh):
+            return check
+        words = check.message.replace("gear 1", "gear \0").replace("gear 2", "gear 1").replace("gear \0", "gear 2")
+        return replace(check, message=words)
 
     def _mesh_check(self, name: str, label: str) -> list[Check]:
         mesh, limits, shifts = self.meshes[label], self.spec.limits, self.spec.gears.profile_shift is not None

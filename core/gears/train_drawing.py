@@ -16,12 +16,14 @@ def drawings(found: Mapping[str, GearData], hands: Sequence[str] | None, places:
     """The gear tables of the meshes, one below the other; a single one as it is.
 
     Parameters
-        found : GearData of the meshes by name
+        found : GearData of the meshes by name, a ring second; the columns have the order of the file's lists
         hands : of helix of all gears, or None
         places : Places of the meshes
     """
     tables = {
-        mesh: drawing_table(data, None if hands is None else (hands[place.gears[0]], hands[place.gears[1]]))
+        mesh: _in_order(
+            drawing_table(data, None if hands is None else (hands[place.gears[0]], hands[place.gears[1]])), place
+        )
         for (mesh, data), place in zip(found.items(), places, strict=True)
     }
     one, *_ = tables.values()
@@ -32,8 +34,16 @@ def drawings(found: Mapping[str, GearData], hands: Sequence[str] | None, places:
     return Table("drawing", ("mesh", *one.columns), ("", *one.units), (names, *columns))
 
 
-def judgement(name: str, found: Mapping[str, GearData], spec: Any) -> list[Check]:
-    """The findings of one of TRAIN_CHECKS on all meshes.
+def _in_order(table: Table, place: Place) -> Table:
+    """The gears in the order of the file's lists, where a ring stands before its mate."""
+    if place.gears[0] < place.gears[1]:
+        return table
+    item, symbol, pinion, ring, *rest = table.data
+    return Table(table.name, table.columns, table.units, (item, symbol, ring, pinion, *rest))
+
+
+def judgement(name: str, found: Mapping[str, GearData], spec: Any) -> dict[str, list[Check]]:
+    """The findings of one of TRAIN_CHECKS on each mesh.
 
     Parameters
         name : str
@@ -41,6 +51,4 @@ def judgement(name: str, found: Mapping[str, GearData], spec: Any) -> list[Check
         spec : of the design, with sections `gears` and `limits`
     """
     radial = spec.gears.assembly == "radial"
-    return [
-        check for mesh, data in found.items() for check in pair_check(name, data, spec.limits, mesh=mesh, radial=radial)
-    ]
+    return {mesh: pair_check(name, data, spec.limits, mesh=mesh, radial=radial) for mesh, data in found.items()}

@@ -362,6 +362,17 @@ def test_rings_of_three_gears_have_teeth_of_their_own(crank, output):
     assert inner.inner < inner.outer
 
 
+def test_gears_of_a_ring_on_the_crank_stand_in_the_order_of_the_file():
+    gears = {"module": 2.0, "crank": -82, "idler": 30, "output": 24, "profile_shift": [0.1, -0.9, 0.9]}
+    one = design({"kind": THREE["kind"], "gears": gears, "links": {"crank": 8.0, "frame": 60.0}}, command="analyze")
+    table = one.table("drawing")
+    rows = list(zip(*(table.data[i] for i in (0, 1, 3, 4)), strict=True))
+    assert ("crank_idler", "number of teeth", -82, 30) in rows
+    assert ("idler_output", "number of teeth", 30, 24) in rows
+    (idler,) = [check for check in one.check("undercut") if "crank-idler" in check.message]
+    assert "gear 2 (30 teeth) has x = -0.9" in idler.message
+
+
 def test_hands_are_given_or_follow_from_the_meshes():
     gears = THREE["gears"] | {"helix_angle": 15.0}
     assert design(THREE | {"gears": gears}).spec.gears.hands() == ["right", "left", "right"]

@@ -17,6 +17,7 @@ from gearlink.core.errors import NoSolution
 from gearlink.core.gears.data import PLACES
 from gearlink.core.gears.train_names import TRAIN_QUANTITIES
 from gearlink.core.three_gear.by_roots import ByRoots
+from gearlink.core.three_gear.tolerance_axis import ThreeGearSamples
 
 GEARS = {"module": 2.5, "crank": 24, "idler": 28, "output": 60}
 DRAWN = {
@@ -177,3 +178,10 @@ def test_load_of_shifted_gears_rolls_on_their_working_circles():
 def test_names_are_those_of_a_gear_pair_without_its_rating():
     assert set(TRAIN_QUANTITIES) < set(PLACES)
     assert not [name for name in PLACES.keys() - set(TRAIN_QUANTITIES) if "backlash" in name or "limits" in name]
+
+
+@pytest.mark.parametrize("keys", [{"helix_angle": 10.0}, {"profile_shift": [0.1, 0.1, 0.0]}])
+def test_tolerances_know_spur_gears_whose_shifts_cancel(keys):
+    with pytest.raises(NoSolution) as refusal:
+        ThreeGearSamples(drive(**keys))
+    assert refusal.value.key == f"gears.{next(iter(keys))}"
