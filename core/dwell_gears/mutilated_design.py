@@ -21,6 +21,7 @@ from gearlink.core.gears.train_names import TRAIN_CHECKS
 from gearlink.core.gears.train_ways import train_ways
 from gearlink.core.linkages.checks import check_linkage, transmission_check
 from gearlink.core.linkages.codes import TARGET
+from gearlink.core.linkages.dyad import acute
 from gearlink.core.linkages.fourbar import FourBar, solve
 from gearlink.core.linkages.nearest_passes import joint_to_crank_pivot
 from gearlink.core.linkages.swing import rocker_swing
@@ -244,13 +245,20 @@ class MutilatedGearDwell(RealSpeed, Meshed):
         }
         if self.linkage is not None and self.start_crank_angle is not None:
             start = self.start_crank_angle
-            states = [solve(self.linkage, start + angle, 1) for angle in driven]
+            states = [solve(self.linkage, start + angle, 2) for angle in driven]
             columns["rocker_angle"] = ([math.degrees(state.rocker_angle) for state in states], "deg")
             rocker = [state.rocker_velocity * speed + 0.0 for state, speed in zip(states, speeds, strict=True)]
             columns["rocker_speed_ratio"] = (rocker, "1")
+            # The jump of the speed at a start has no acceleration: these are those of the motion.
+            hard = [state.rocker_acceleration * speed**2 + 0.0 for state, speed in zip(states, speeds, strict=True)]
+            columns["rocker_acceleration_ratio"] = (hard, "1")
+            columns["transmission_angle"] = ([math.degrees(acute(s.transmission_angle)) for s in states], "deg")
         rates = {"driven_speed": ("driven_speed_ratio", 1)}
         if "rocker_speed_ratio" in columns:
-            rates["rocker_speed"] = ("rocker_speed_ratio", 1)
+            rates |= {
+                "rocker_speed": ("rocker_speed_ratio", 1),
+                "rocker_acceleration": ("rocker_acceleration_ratio", 2),
+            }
         return Table.of("motion", self.timed(columns, "input_angle", rates))
 
     reduction: float = placed("spec.reduction")
