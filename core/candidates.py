@@ -53,9 +53,9 @@ def table(design: Design, sought: Sought, spec: Any = None) -> Table:
         row[sought.label] = label
     units = {sought.label: "1"} if sought.labels else {}
     units |= {name: unit for name, unit in sought.keys.values() if name}
+    units["findings"] = "1"  # before the quantities: what does not pass is looked for first
     units |= dict.fromkeys(sought.counted, "1")
     units |= {name: term(name).unit for name in sought.quantities}
-    units["findings"] = "1"
     shown = {name: unit for name, unit in units.items() if any(row.get(name) is not None for row in found)}
     return Table.of("candidates", {name: ([row.get(name) for row in found], unit) for name, unit in shown.items()})
 

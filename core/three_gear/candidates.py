@@ -20,6 +20,7 @@ _SHARES = (1.0, 1.1, 1.25, 1.5, 1.75, 2.0)
 _COLUMNS = {
     "module": "mm",
     "idler_teeth": "1",
+    "findings": "1",
     "length": "mm",
     "crank_length": "mm",
     "frame_length": "mm",
@@ -29,7 +30,6 @@ _COLUMNS = {
     "acceleration_ratio_max": "1",
     "transmission_angle": "deg",
     "gear_gap": "mm",
-    "findings": "1",
 }
 
 
