@@ -10,6 +10,7 @@ import numpy as np
 
 from gearlink.cli.export.contour import Circle, Part
 from gearlink.cli.export.sampling import Points, Reals, Stretch
+from gearlink.core.errors import NoSolution
 from gearlink.core.gears.internal_mesh import InternalMesh
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.gears.rack import RackMesh
@@ -110,8 +111,11 @@ def rack_of(rack: RackMesh, teeth: int, back: float, name: str, title: str, widt
     Parameters
         back : float [mm] - thickness of the body below the root line
     Raises
-        NoSolution - for a rack that no tool leaves
+        NoSolution - for a rack that no tool leaves, and for one of more teeth than a file should hold
     """
+    if teeth > _MOST_RACK_TEETH:
+        text = f"a file holds a rack of at most {_MOST_RACK_TEETH} teeth, not {teeth}: give rack_teeth"
+        raise NoSolution(text, key="rack_teeth")
     profile, pair = rack.profile, rack.pair
     half = [(piece, *rest) for piece, rest in zip(_RACK_NAMES, profile.pieces(), strict=True)]
     half = [piece for piece in half if _length(*piece[1:]) > 1e-14 * profile.pitch]
@@ -133,6 +137,7 @@ def rack_of(rack: RackMesh, teeth: int, back: float, name: str, title: str, widt
     )
 
 
+_MOST_RACK_TEETH = 1000
 _RACK_NAMES = ("root line", "rounding", "flank", "tip line")
 
 

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from gearlink.core.gears.spec import GearPairSpec
     from gearlink.core.gears.spec_parts import AllowanceSpec, LoadSpec, MaterialSpec, ToolSpec
 
+_MOST_SHIFT = 5.0
 _AGREE = 1e-6
 """Centre distances that differ by less, in modules, count as one."""
 
@@ -97,7 +98,15 @@ def _on_rack(spec: GearPairSpec, known: dict[str, Any]) -> GearPair:
         return beside_a_rack(known, spec.profile_shift[0])
     assert spec.center_distance is not None, "the spec asks for one of the two"
     radius = beside_a_rack(known, 0.0).reference_radius[0]
-    return beside_a_rack(known, (spec.center_distance - radius) / spec.module)
+    shift = (spec.center_distance - radius) / spec.module
+    if abs(shift) > _MOST_SHIFT:
+        low, high = (max(0.0, radius + sign * _MOST_SHIFT * spec.module) for sign in (-1.0, 1.0))
+        raise NoSolution(
+            f"centre distance {spec.center_distance:.6g} mm would be a profile shift of {shift:.4g}: the datum line of "
+            f"the rack must lie from {low:.6g} to {high:.6g} mm from the axis",
+            key="center_distance",
+        )
+    return beside_a_rack(known, shift)
 
 
 def _shared(spec: GearPairSpec, pair: GearPair, split: str) -> GearPair:

@@ -146,6 +146,14 @@ def test_racks_that_cannot_be(keys: dict[str, Any], words: str) -> None:
         RackProfile(**({"module": 2.0, "tool": RackTool()} | keys))
 
 
+def test_a_datum_line_far_from_the_gear_is_refused() -> None:
+    data = {key: value for key, value in DATA.items() if key != "profile_shift"}
+    assert design(data | {"center_distance": 29.9}).quantity("profile_shift").value[0] == pytest.approx(4.95)
+    for distance in (30.1, 9.9, 1e300):
+        with pytest.raises(NoSolution, match="from 10 to 30 mm from the axis"):
+            _ = design(data | {"center_distance": distance}).gear_pair
+
+
 def test_tips_and_roots_of_the_rack_are_judged() -> None:
     thin = gear({"profile_shift": [0.0, 0], "tip_shortening": [0.0, 0.9]})
     (_, rack) = thin.check("tip-thickness")
