@@ -24,6 +24,7 @@ FAMILIES = {
     "parallel": "start_up:parallel",
     "studies": "studies:family",
     "samples": "samples:family",
+    "yields": "yields:family",
     "loads": "loads:family",
 }
 

@@ -225,12 +225,14 @@ class ToleranceStudy(Design):
         return self._what_to_tighten()
 
     def _what_to_tighten(self) -> str:
-        """The source that adds most to the requirement that fails most."""
-        passes = {one.text: self.result.passes[one.text].value for one in self.problem.requirements}
+        """The source that adds most to the requirement that fails most, or the check that fails more than that."""
+        passes = {name: one.value for name, one in self.result.passes.items()}
         if not passes:
             return "tighten what contributes most (table contributions)"
         text = min(passes, key=lambda name: passes[name])
-        worst = next(one for one in self.problem.requirements if one.text == text)
+        worst = next((one for one in self.problem.requirements if one.text == text), None)
+        if worst is None:
+            return f"the check {text} fails most: give it more room in the design"
         name = next(iter(worst.expression.names), "")
         if name not in self.slopes:
             return f"the requirement {text} fails most"

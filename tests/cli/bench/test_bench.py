@@ -122,3 +122,16 @@ def test_errors_are_in_units_of_the_last_place() -> None:
     mp = mpmath(30)
     assert worst([1.0 + 2**-52], [mp.mpf(1)]) == 1.0
     assert worst([1e-20], [mp.mpf(0)], floor=1.0) == pytest.approx(1e-20 / 2**-52, rel=1e-12)
+
+
+def test_yields_family_shows_what_scrambled_points_are_worth(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(timing, "interleaved", lambda runs, _: [1.0] * len(runs))
+    assert run(["bench", "yields", "--quick", "--format", "json", "--quiet"]) == 0
+    (family,) = json.loads(capsys.readouterr().out)["families"]
+    error = {row["method"]: row["error"] for row in family["rows"]}
+    for name, share in (("four-branch", 0.00222), ("RP22", 0.00421)):
+        textbook = math.sqrt((1.0 - share) / (share * 2**14))
+        assert 0.5 * textbook < error[f"{name}, random points"] < 2.0 * textbook
+        assert error[f"{name}, scrambled points"] < textbook

@@ -125,11 +125,10 @@ def test_sobol_indices_cover_and_are_never_negative() -> None:
             for name in ISHIGAMI:
                 one = getattr(found, name)
                 hits[name, i] += abs(one.value - ISHIGAMI[name][i]) <= one.half_width
-    # A share of 0 is estimated from one side alone, its interval from both: it may cover more.
-    short = {
-        place: count for place, count in hits.items() if not 930 <= count <= (1000 if place == ("first", 2) else 970)
-    }
-    assert short == {}
+    # Products of two far values make the estimates of the replications long-tailed: Student's interval is then a little
+    # wide, never short. That of an index of 0, which is estimated from one side alone, may cover all.
+    most = {place: 1000 if place == ("first", 2) else 985 for place in hits}
+    assert {place: count for place, count in hits.items() if not 930 <= count <= most[place]} == {}
 
 
 def test_no_estimate_of_a_study_is_off_in_the_mean() -> None:

@@ -225,3 +225,14 @@ def test_indices_of_correlated_sources_are_those_of_their_group() -> None:
         assert row["total"] == pytest.approx(row["first"], abs=0.01)
         half = 0.5 if row["source"].startswith("centers") else 1.0  # each of the two covers half of the group's
         assert row["linear"] == pytest.approx(half * shares[row["source"]] / (crank + frame + both), rel=1e-6)
+
+
+def test_a_check_that_fails_more_than_any_requirement_is_named() -> None:
+    """The transmission angle of half of the drives lies below a limit just at the nominal one."""
+    data = CANDY | {"limits": {"transmission_angle": 61.4}}
+    nominal = factory.design(data).min_transmission_angle
+    data = CANDY | {"limits": {"transmission_angle": math.degrees(nominal) - 1e-6}}
+    made = study(data, sources=FOUR, require=["back_step_angle <= 21 deg"], samples=512, target_yield=0.9)
+    (found,) = made.check("target-yield")
+    assert found.status == "fail"
+    assert "GL303 fails most" in found.message
