@@ -22,13 +22,11 @@ _POLAR_COLUMNS = 3
 
 def draw(design: Any) -> Figure:
     """The sheet of `loads`: curves over the turn one below the other, then the loads of the pins as polar diagrams."""
-    if design.kind == "wide-swing-cam" and not design.whole:
+    if design.kind == "wide-swing-cam" and not design.whole and not design.locked:
         return loads_contact.stroke_sheet(design)
-    curves = [panel for panel, wanted in _CURVES if wanted(design)]
-    pins = [name for name in design.pins if design.has(name) and name not in design.unknown_joints]
-    cams = _cams(design)
+    curves, pins, cams = _panels_of(design)
     polar = math.ceil((len(pins) + len(cams) + 1) / _POLAR_COLUMNS)
-    heights = [1.3] + [1.0] * (len(curves) - 1) + [1.55] * polar
+    heights = [1.0 if i else 1.3 for i in range(len(curves))] + [1.55] * polar
     made = panels.page(f"{design.spec.name}: loads", min(1.6, 0.115 * sum(heights)))
     grid = made.add_gridspec(len(heights), _POLAR_COLUMNS, height_ratios=heights)
     for row, panel in enumerate(curves):
@@ -43,6 +41,15 @@ def draw(design: Any) -> Figure:
         else:
             _shaking(axes, design)
     return made
+
+
+def _panels_of(design: Any) -> tuple[list[Panel], list[str], list[str]]:
+    """Curves, pins and cams that are drawn; of a machine that friction locks, what needs no forces."""
+    if design.locked:
+        return ([] if hasattr(design, "strokes") else [_inertia]), [], []
+    curves = [panel for panel, wanted in _CURVES if wanted(design)]
+    pins = [name for name in design.pins if design.has(name) and name not in design.unknown_joints]
+    return curves, pins, _cams(design)
 
 
 def _cams(design: Any) -> list[str]:

@@ -91,7 +91,10 @@ def _keys(node: Any, path: str = "") -> Iterator[tuple[str, str]]:
     if isinstance(node, dict):
         for key, value in node.items():
             yield from _keys(value, f"{path}.{key}" if path else str(key))
-    elif node is not None:
+    elif isinstance(node, list) and node and isinstance(node[0], dict):
+        for i, item in enumerate(node):
+            yield from _keys(item, f"{path}[{i}]")
+    elif node is not None and node != []:
         yield path, str(node)
 
 

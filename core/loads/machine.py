@@ -34,6 +34,7 @@ _STEPS = 150
 _KEPT = 24
 _ROWS_KEPT = 100_000
 _BLOCK = 4096
+_APART = 64.0
 _FEW = 340
 """Rows at most of what a search looks at on the way; the grids that searches begin with are kept apart from it."""
 
@@ -173,7 +174,12 @@ class Machine:
         found = [turn * TURN + angle % TURN for angle in of_a_turn for turn in range(self.turns)]
         found += self.joints if self.joints_of_period else ()
         found += self._turning_back()
-        return sorted({angle for angle in found if 0.0 < angle < self.period})
+        apart = _APART * float(np.spacing(self.period))
+        distinct: list[float] = []
+        for angle in sorted(found):
+            if (distinct[-1] if distinct else 0.0) + apart < angle < self.period - apart:
+                distinct.append(angle)
+        return distinct
 
     def _turning_back(self) -> list[float]:
         """Where a link with resistance turns back; with friction two links against each other, or where forces do."""
@@ -268,7 +274,8 @@ class Panels:
         row = np.clip(np.searchsorted(self.edges, phi, side="right") - 1, 0, len(self.edges) - 2)
         width = self.edges[row + 1] - self.edges[row]
         series = values.reshape(-1, self.order)[row] @ to_integral(self.order)
-        place = 2.0 * (phi - self.edges[row]) / width - 1.0
+        # a panel between two breaks that are one but for rounding is narrower than the rounding of its places
+        place = np.clip(2.0 * (phi - self.edges[row]) / width - 1.0, -1.0, 1.0)
         terms = np.polynomial.legendre.legvander(place, self.order)
         return np.asarray(width * np.sum(terms * series, axis=1))
 

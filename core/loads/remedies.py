@@ -109,7 +109,7 @@ def _less_friction(design: LoadsDesign) -> Iterator[Remedy]:
     for _ in range(_HALVINGS):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if design.machine.rubbing(middle).locking[0] < _RATIO else (low, middle)
-    for less in (1.0, 0.5, 0.25, 0.1, 0.05):  # the motor must carry what is left of it
+    for less in (1.0, 0.3, 0.1):  # the motor must carry what is left of it
         found = _scaled(design, low * less)
         if found:
             yield found

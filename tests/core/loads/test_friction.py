@@ -119,3 +119,12 @@ def test_many_zones_take_few_rows() -> None:
     assert many.input_torque_rms == pytest.approx(one.input_torque_rms, rel=1e-12)
     assert many.energy_fluctuation == pytest.approx(one.energy_fluctuation, rel=1e-12)
     assert many.input_torque_max == pytest.approx(one.input_torque_max, rel=1e-12)
+
+
+def test_hardly_any_friction_changes_hardly_anything() -> None:
+    """Where forces turn as well as a zone ends, two breaks are one but for rounding; 1e-5 of the surplus."""
+    free, rubbing = (
+        factory.design(PRESS, command="loads", loads__friction=friction).energy
+        for friction in (None, {"pins": 1e-6, "pin_radius": 1})
+    )
+    assert rubbing.range == pytest.approx(free.range, rel=1e-5)

@@ -1,0 +1,68 @@
+"""Sheets of `loads`: what the panels show is what the tables say."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from sheets import sheet
+
+LOADS = {"roller": {"width": 20}, "vibration": {"frequency": 80, "damping": 0.03, "allowed_residual": 0.1}}
+
+
+def _axes(figure: Any, title: str) -> Any:
+    return next(axes for axes in figure.axes if title in (axes.get_title(loc="left"), axes.get_title()))
+
+
+def _line(axes: Any, label: str) -> Any:
+    return next(line for line in axes.lines if line.get_label() == label)
+
+
+def test_feed_shows_torque_polar_loads_and_speed() -> None:
+    design, figure = sheet("loaded_feed", "loads")
+    torque = design.table("torque")
+    line = _line(_axes(figure, "Input torque"), "whole")
+    assert np.array_equal(line.get_ydata()[:-1], torque["input_torque"])
+    polar = _axes(figure, "Pin C [N]").lines[0]
+    joints = design.table("joints")
+    assert np.array_equal(polar.get_xdata()[:-1], joints["C_x"])
+    assert np.array_equal(polar.get_ydata()[:-1], joints["C_y"])
+    speed = _axes(figure, "Speed of the input").lines[0]
+    assert np.array_equal(speed.get_ydata()[:-1], design.table("speed")["speed"])
+
+
+def test_gripper_shows_residual_over_speed_and_cams_by_pressure() -> None:
+    design, figure = sheet("loaded_gripper", "loads")
+    residual = _axes(figure, "Residual vibration over the speed").lines[0]
+    assert np.array_equal(residual.get_ydata(), design.table("spectrum")["residual"])
+    (profile,) = _axes(figure, "main cam: pressure [N/mm²]").collections
+    assert float(profile.get_array().max()) == pytest.approx(design.hertz_pressure_max[0], rel=1e-3)
+
+
+@pytest.mark.parametrize("layout", ["twin-rocker", "twin-cam"])
+def test_cycle_of_a_wide_swing_shows_both_strokes(layout: str) -> None:
+    design, figure = sheet("wide_swing_cycle", "loads", layout=layout, loads=LOADS)
+    axes = _axes(figure, "Force of the roller on its cam")
+    table = design.table("contact_stroke", samples=400)
+    for name, label in (("main", "working stroke"), ("return", "return stroke")):
+        assert np.array_equal(_line(axes, label).get_ydata(), table[f"{name}_force"], equal_nan=True)
+    for title in ("cam: pressure [N/mm²]", "return cam: pressure [N/mm²]"):
+        (profile,) = _axes(figure, title).collections
+        assert 0.0 < float(profile.get_array().max()) <= design.hertz_pressure_max * 1.001
+
+
+def test_stroke_of_a_wide_swing_leaves_out_where_nothing_touches() -> None:
+    design, figure = sheet("loaded_wide_swing", "loads")
+    line = _axes(figure, "Force of the roller on its cam").lines[0]
+    end = np.degrees(design.cam.contact[0][1] * design.cam.cycle_angle)
+    inside = (line.get_xdata() > end) & (line.get_xdata() < 120.0 - end)
+    assert np.isnan(line.get_ydata()[inside]).all()
+    assert not np.isnan(line.get_ydata()[~inside]).any()
+
+
+@pytest.mark.parametrize("name", ["loaded_feed", "loaded_wide_swing"])
+def test_a_locked_machine_has_a_sheet_of_what_is_left(name: str) -> None:
+    friction = {"pins": 0.9, "pin_radius": 900}
+    _, figure = sheet(name, "loads", loads__friction=friction)
+    assert _axes(figure, "Shaking force [N]").lines
