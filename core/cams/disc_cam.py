@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -12,11 +13,60 @@ from gearlink.core.cams import profile
 from gearlink.core.cams.profile import CamProfile, RollerPath
 from gearlink.core.cams.undercut import Undercut, undercut
 from gearlink.core.numerics.arrays import Points, Reals, turn_degrees
-from gearlink.core.numerics.extremes import Extreme, least_convex_radius, maximum_over, minimum_over
+from gearlink.core.numerics.extremes import (
+    Extreme,
+    convex_radius,
+    extremes_over,
+    least_convex_radius,
+    maximum_over,
+    minimum_over,
+)
+from gearlink.core.numerics.together import Function
 from gearlink.core.report import Table
 from gearlink.core.results import cached_property
 
 _TURN = 2.0 * math.pi
+SAMPLES = 512
+FOUND_TOGETHER = ("max_pressure_angle", "min_curvature_radius", "max_radius", "min_radius")
+
+
+def seek_together(cams: Sequence[DiscCam]) -> None:
+    """Seek pressure angle, curvature and radii of cams of one motion in common rounds; the cams keep what is found.
+
+    Notes
+        The values are those of each search alone: only the motion is computed once a round.
+    """
+    functions: list[tuple[Function, bool]] = []
+    for cam in cams:
+        near = replace(cam, path=_kept(cam.path))
+        functions += [(near.size_of_pressure_angle, True), (near.curvature, True)]
+        functions += [(near.radius, True), (near.radius, False)]
+    found = iter(extremes_over(functions, joints=cams[0].bounds, samples=SAMPLES))
+    for cam in cams:
+        angle, curvature, greatest, least = next(found), next(found), next(found), next(found)
+        extremes = angle, convex_radius(curvature), greatest.value, least.value
+        vars(cam).update(zip(FOUND_TOGETHER, extremes, strict=True))
+
+
+def largest_pressure_angles(cams: Sequence[DiscCam], start: float, end: float, samples: int) -> list[Extreme]:
+    """Pressure angle of largest magnitude of each cam between two cam angles [rad], its sign kept."""
+    near = [replace(cam, path=_kept(cam.path)) for cam in cams]
+    wanted = [(cam.pressure_angle, greatest) for cam in near for greatest in (True, False)]
+    found = iter(extremes_over(wanted, start, end, samples=samples))
+    return [max(next(found), next(found), key=lambda extreme: abs(extreme.value)) for _ in cams]
+
+
+def _kept(path: Callable[[Reals, int], RollerPath]) -> Callable[[Reals, int], RollerPath]:
+    """A path that keeps what it last gave, with both derivatives, for the very same array."""
+    last: list[Any] = [None, None]
+
+    def again(cam_angle: Reals, _order: int) -> RollerPath:
+        if cam_angle is not last[0]:
+            last[:] = cam_angle, path(cam_angle, 2)
+        found: RollerPath = last[1]
+        return found
+
+    return again
 
 
 @dataclass(frozen=True)
@@ -38,7 +88,8 @@ class DiscCam:
     joints: tuple[float, ...] = ()
 
     @cached_property
-    def _bounds(self) -> tuple[float, ...]:
+    def bounds(self) -> tuple[float, ...]:
+        """The joints within the turn."""
         return tuple(joint % _TURN for joint in self.joints)
 
     def at(self, cam_angle: Reals) -> CamProfile:
@@ -49,6 +100,10 @@ class DiscCam:
     def pressure_angle(self, cam_angle: Reals) -> Reals:
         """Signed pressure angle [rad] at cam angles."""
         return profile.pressure_angle(cam_angle, self.path(cam_angle, 1), sense=self.sense)
+
+    def size_of_pressure_angle(self, cam_angle: Reals) -> Reals:
+        """Its magnitude."""
+        return np.abs(self.pressure_angle(cam_angle))
 
     def curvature(self, cam_angle: Reals) -> Reals:
         """Curvature of the pitch curve [1/mm], convex positive, at cam angles."""
@@ -68,22 +123,22 @@ class DiscCam:
     @cached_property
     def max_pressure_angle(self) -> Extreme:
         """Greatest magnitude of the pressure angle [rad] and its place."""
-        return maximum_over(lambda phi: np.abs(self.pressure_angle(phi)), joints=self._bounds, samples=512)
+        return maximum_over(self.size_of_pressure_angle, joints=self.bounds, samples=SAMPLES)
 
     @cached_property
     def min_curvature_radius(self) -> Extreme:
         """Least convex radius of the pitch curve [mm] and its place."""
-        return least_convex_radius(self.curvature, joints=self._bounds, samples=512)
+        return least_convex_radius(self.curvature, joints=self.bounds, samples=SAMPLES)
 
     @cached_property
     def max_radius(self) -> float:
         """Largest radius of the profile [mm]."""
-        return maximum_over(self.radius, joints=self._bounds, samples=512).value
+        return maximum_over(self.radius, joints=self.bounds, samples=SAMPLES).value
 
     @cached_property
     def min_radius(self) -> float:
         """Smallest radius of the profile [mm]."""
-        return minimum_over(self.radius, joints=self._bounds, samples=512).value
+        return minimum_over(self.radius, joints=self.bounds, samples=SAMPLES).value
 
     @cached_property
     def undercut(self) -> Undercut:

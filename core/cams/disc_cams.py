@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from gearlink.core.errors import MissingSection, NoSolution
@@ -31,6 +32,14 @@ class DiscCams:
         """The refusal of a cam, with what would help where it does not say so itself."""
         return refusal
 
+    def seek(self) -> None:
+        """Seek the extremes of all cams together, unless some are known; where a cam cannot be, each search says so."""
+        from gearlink.core.cams.disc_cam import FOUND_TOGETHER, seek_together
+
+        with suppress(NoSolution):
+            if not any(name in vars(cam) for cam in self.discs for name in FOUND_TOGETHER):
+                seek_together(self.discs)
+
     @cached_property
     def refusal(self) -> NoSolution | None:
         """Why there are no such cams; None where there are.
@@ -39,6 +48,7 @@ class DiscCams:
             NoSolution - where the motion itself does not exist
         """
         self.require_motion()
+        self.seek()
         try:
             for cam in self.discs:
                 _ = cam.max_pressure_angle, cam.min_curvature_radius

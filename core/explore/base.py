@@ -143,8 +143,10 @@ class Base:
         Raises
             Refused - where there is no such mechanism
         """
-        made = {self.command: design}
+        made, names = {self.command: design}, tuple(names)
         found = {}
+        plain_names = [name.partition("[")[0] for name in names]
+        design.prepare([name for name in plain_names if self.places[name] == self.command])
         for name in names:
             plain, _, index = name.partition("[")
             command = self.places[plain]

@@ -173,8 +173,17 @@ def least_convex_radius(
     Source
         own derivation: the profile's radius is rho - r_g
     """
-    top = maximum_over(curvature, start, end, joints=joints, samples=samples)
-    return Extreme(1.0 / top.value if top.value > 0.0 else math.inf, top.place)
+    return convex_radius(maximum_over(curvature, start, end, joints=joints, samples=samples))
+
+
+def convex_radius(curvature: Extreme) -> Extreme:
+    """The radius of a greatest curvature, inf where it is convex nowhere.
+
+    Example
+        >>> convex_radius(Extreme(0.025, 1.0))
+        Extreme(value=40.0, place=1.0)
+    """
+    return Extreme(1.0 / curvature.value if curvature.value > 0.0 else math.inf, curvature.place)
 
 
 def _grid(left: float, right: float, samples: int) -> Reals:

@@ -100,7 +100,6 @@ class GripperCams(DiscCams):
         return (self.main_cam,) if self.return_cam is None else (self.main_cam, self.return_cam)
 
     def _disc_cam(self, name: str, roller: Roller, from_input: float) -> DiscCam:
-        import numpy as np
 
         from gearlink.core.cams.disc_cam import DiscCam
         from gearlink.core.cams.profile import oscillating
@@ -108,7 +107,7 @@ class GripperCams(DiscCams):
         pivot, shift = -self.from_pivot, math.radians(from_input)
 
         def path(theta: Reals, order: int) -> RollerPath:
-            motion = self.motion.linkage.motion(np.degrees(theta), order)
+            motion = self.motion.linkage.kept_motion(theta, order)
             second = motion.input_acceleration if order > 1 else 0.0
             return oscillating(pivot, roller.arm, motion.input_angle + shift, motion.input_velocity, second)
 

@@ -205,11 +205,10 @@ def pressure_angle(design: SwingGripper) -> Iterator[Check]:
 
 
 def _accelerating(design: SwingGripper, limit: float) -> Iterator[Check]:
-    from gearlink.core.numerics.extremes import largest_magnitude
+    from gearlink.core.cams.disc_cam import largest_pressure_angles
 
-    for cam in design.cams.discs:
-        end = math.radians(design.motion.law.starts[1])
-        worst = largest_magnitude(cam.pressure_angle, 0.0, end, samples=128)
+    cams, end = design.cams.discs, math.radians(design.motion.law.starts[1])
+    for cam, worst in zip(cams, largest_pressure_angles(cams, 0.0, end, 128), strict=True):
         value = math.degrees(abs(worst.value))
         status: Status = "warn" if value > limit else "pass"
         text = (

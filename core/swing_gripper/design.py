@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.design import Design, Outline, placed
-from gearlink.core.errors import NoSolution
+from gearlink.core.errors import GearlinkError, NoSolution
 from gearlink.core.motion_extremes import WithExtremes, names
 from gearlink.core.report import Report
 from gearlink.core.results import cached_property
@@ -34,6 +36,9 @@ _EXTREMES = (
     "min_transmission_angle_at",
     *names("input_velocity", "input_acceleration", "output_velocity", "output_acceleration"),
 )
+
+
+_OF_CAMS = {"max_pressure_angle", "min_curvature_radius", "max_radius", "min_radius"}
 
 
 class SwingGripper(WithExtremes, Design):
@@ -106,6 +111,12 @@ class SwingGripper(WithExtremes, Design):
     def quantity_names(cls) -> tuple[str, ...]:
         """Every quantity, those that need an optional section included: asking for one says what is missing."""
         return (*_LAW, *_LOOP, *_EXTREMES, "cam_center", *_CAM, *_CLOSURE, "spring_torque")
+
+    def prepare(self, quantities: Iterable[str]) -> None:
+        """Seek the extremes of the cams together, where several are asked for."""
+        if len({*quantities} & _OF_CAMS) > 1:
+            with suppress(GearlinkError):  # it is said where the quantity is asked for
+                self.cams.seek()
 
     def raw(self, name: str) -> Any:
         """The value of a quantity; a point as its two coordinates."""

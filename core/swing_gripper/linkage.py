@@ -10,6 +10,7 @@ from __future__ import annotations
 import cmath
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -90,6 +91,18 @@ class GripperLinkage:
         """
         beta = self.law.evaluate(degrees, order)
         return self.at(degrees, beta)
+
+    def kept_motion(self, angles: Reals, order: int) -> GripperMotion:
+        """Motion of all links at cylinder angles [rad], kept for who asks next at the very same array: both cams do."""
+        last = self._last
+        if angles is not last[0] or order > last[1]:
+            last[:] = angles, order, self.motion(np.degrees(angles), order)
+        found: GripperMotion = last[2]
+        return found
+
+    @cached_property
+    def _last(self) -> list[Any]:
+        return [None, -1, None]
 
     def at(self, degrees: Reals, beta: tuple[Reals, ...]) -> GripperMotion:
         """Motion of all links where the swing angle and its derivatives are known already."""
