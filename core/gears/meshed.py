@@ -207,7 +207,10 @@ class Meshed(GearQuantities, Design):
         data, teeth = self.mesh_data, self.signed_teeth
         if any(each.backlash is None for each in data.values()):
             return None
-        turns = [self.raw(f"{name}.backlash_angle" if name else "backlash_angle")[1] for name in data]
+        found = [self.raw(f"{name}.backlash_angle" if name else "backlash_angle") for name in data]
+        turns = [each[1] for each in found if each is not None]
+        if len(turns) < len(found):  # a ring whose tips have no involute
+            return None
         shares = [abs(z / teeth[-1]) for z in teeth[1:]]
         least, greatest = (
             math.fsum(turn[end] * share for turn, share in zip(turns, shares, strict=True)) for end in (0, 1)
@@ -222,7 +225,8 @@ class Meshed(GearQuantities, Design):
         """The gear tables of the meshes, one below the other."""
         from gearlink.core.gears.train_drawing import drawings
 
-        return drawings(self.mesh_data, self.spec.gears.helix_hand, self.teeth_train.places)
+        with at_key("gears"):
+            return drawings(self.mesh_data, self.spec.gears.helix_hand, self.teeth_train.places)
 
     # Checks
 
@@ -236,7 +240,9 @@ class Meshed(GearQuantities, Design):
             return []
         from gearlink.core.gears.train_drawing import judgement
 
-        found = judgement(name, self.mesh_data, self.spec)
+        with at_key("gears"):
+            known = {mesh: data for mesh, data in self.mesh_data.items() if _has_involutes(self.meshes[mesh])}
+            found = judgement(name, known, self.spec)
         return [self._in_order(check, mesh) for mesh, checks in found.items() for check in checks]
 
     def _in_order(self, check: Check, mesh: str) -> Check:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 
-from pydantic import ConfigDict, Field, model_validator
+from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.gears.key_types import AccuracyGrade, Alteration, FaceWidth, Hand, HelixAngle, Rim, Shift, SpanTeeth
@@ -33,8 +33,6 @@ RATED = ("load", "material")
 
 class TrainKeys(Spec):
     """The keys of a train, which a machine adds to its section `gears`."""
-
-    model_config = ConfigDict(defer_build=True)  # a machine's own section is what is built, and once
 
     drawn: ClassVar[tuple[str, ...]] = ()
     """Names of the gears, in the order of the lists."""

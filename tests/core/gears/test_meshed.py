@@ -428,7 +428,8 @@ def test_refusals_name_their_key(name, keys, key):
 
 
 def test_a_ring_whose_tips_have_no_involute_still_has_its_findings():
-    spec = {"kind": "two-gear-four-bar", "gears": {"module": 2, "planet": 20, "ring": 25}, "links": LINKS}
+    gears = {"module": 2, "planet": 20, "ring": 25, "center_distance_allowance": "js7", "load": {"torque": 5.0}}
+    spec = {"kind": "two-gear-four-bar", "gears": gears, "links": LINKS}
     report = design(spec, command="analyze").report("gear")
     assert {check.status for check in report.checks if check.code == "GL204"} == {"fail"}
 

@@ -366,16 +366,6 @@ def test_tooth_force_accelerates_the_output(gears: Any, links: Any, radius: floa
     assert [check.status for check in found.check("power-identity")] == ["pass"]
 
 
-@pytest.mark.parametrize("command", ["tolerance", "register"])
-def test_tolerances_of_a_ring_are_refused_plainly(command: str, gearlink: Any, tmp_path: Path) -> None:
-    sources = {"links.crank": {"limits": [-0.02, 0.02]}}
-    data = changed(worked("ring_feed"), dwell=None, links={"crank": 22, "frame": 53}, tolerance={"sources": sources})
-    path = tmp_path / "ring.yaml"
-    path.write_text(json.dumps(data))
-    ended = gearlink(command, path, "--format", "json")
-    assert (ended.status, ended.json["errors"][0]["key"]) == (2, "gears.output")
-
-
 def test_a_study_of_rings_is_left_to_the_design_classes() -> None:
     from gearlink.core.three_gear.axis import axis
 
