@@ -275,9 +275,10 @@ class Bench:
         return grade if grade > 0 and self._exists(trial) else 0
 
     def _own_grade(self, trial: Design, found: Check, index: int) -> int:
-        """What becomes of the finding itself; where findings are gone the worst of its check counts."""
+        """What becomes of the finding itself; where findings are gone or new the worst of its check counts."""
         now = _ranks(trial, found.name)
-        return _PASSES - (now[index] if index < len(now) else max(now, default=0))
+        same = len(now) == len(_ranks(self._design, found.name))
+        return _PASSES - (now[index] if same else max(now, default=0))
 
     def _against(self, trial: Design, name: str) -> int:
         """Whether a check is no worse than before; findings that are new or gone are counted by their status."""

@@ -10,7 +10,7 @@ _THINNER = -0.005
 
 
 def train_ways(gears: int, *teeth: Way, section: str = "gears") -> dict[str, tuple[Way, ...]]:
-    """Ways for every check of a mesh: shifts, heights and tools where the file gives them, else teeth.
+    """Ways for every check of a mesh: shifts and tools where the file gives them, teeth, lower teeth last.
 
     Parameters
         gears : int - as many entries have the lists of the section
@@ -23,7 +23,7 @@ def train_ways(gears: int, *teeth: Way, section: str = "gears") -> dict[str, tup
         *either(*shifts, step=0.01),
     )
     lower = down(f"{section}.addendum", step=0.01)
-    ways = {name: (*moved, lower, *others) for name, others in gear_ways(*teeth).items()}
+    ways = {name: (*moved, *others, lower) for name, others in gear_ways(*teeth).items()}
     wider = (
         up(f"{section}.face_width", step=1.0),
         up(*(f"{section}.face_width[{i}]" for i in range(gears)), step=1.0),
@@ -35,9 +35,9 @@ def train_ways(gears: int, *teeth: Way, section: str = "gears") -> dict[str, tup
     fewer = tuple(Way(way.keys, -way.step, way.tie) for way in teeth)
     return ways | {
         ROOT_CLEARANCE.name: (up(f"{section}.clearance", step=0.01), up(f"{section}.tool.addendum", step=0.01)),
-        FILLET.name: (down(f"{section}.tool.rounding", step=0.01), *moved, lower, *teeth),
+        FILLET.name: (down(f"{section}.tool.rounding", step=0.01), *moved, *teeth, lower),
         BACKLASH.name: (*thinner, down(f"{section}.center_distance_allowance", step=0.001), *moved),
-        TIP_FOULING.checks[1]: (*moved, lower, *teeth, *fewer),
+        TIP_FOULING.checks[1]: (*moved, *teeth, *fewer, lower),
         PITTING.name: (*wider, *moved, *teeth),
         BENDING.name: (*wider, up(f"{section}.tool.rounding", step=0.01), *moved, *teeth),
     }

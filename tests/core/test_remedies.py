@@ -155,3 +155,16 @@ def test_a_kind_without_shifts_hears_nothing_of_them(gearlink: Any, tmp_path: An
     ended = gearlink("analyze", path, "--format", "json")
     assert ended.status == 1
     assert "shift" not in " ".join(check["message"] for check in ended.json["checks"] if check["status"] == "fail")
+
+
+def test_findings_that_are_new_count_with_the_check() -> None:
+    """With a height of the teeth in the file each gear of a mesh is judged for itself: one finding becomes two."""
+    data: Data = {
+        "kind": "two-gear-four-bar",
+        "gears": {"module": 2, "planet": 17, "ring": 75},
+        "links": {"coupler": 190.87, "rocker": 193.89, "frame": 196.06},
+    }
+    made = design(data, "analyze")
+    (check,) = (found for found in made.findings("analyze", "involute-interference") if found.status == "fail")
+    assert check.remedy
+    assert not {name for name, _ in failing(with_values(data, check.remedy), "analyze") or ()} & {check.name}
