@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.loop_gains import LoopGains, loop_gains
+from gearlink.core.linkages.loop_gains import LoopGains, closed_pin, loop_gains
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.results import cached_property
 from gearlink.core.swing_gripper.design import SwingGripper
@@ -22,7 +23,12 @@ if TYPE_CHECKING:
 
 _LINKS = {"links.input": "crank", "links.coupler": "coupler", "links.output": "rocker"}
 _PINS = ("A", "C", "D", "E")
-_PIVOTS = {"pivots.input[0]": 1.0, "pivots.input[1]": 1j, "pivots.output[0]": -1.0, "pivots.output[1]": -1j}
+_PIVOTS = {
+    "pivots.input[0]": ("A", 1.0),
+    "pivots.input[1]": ("A", 1j),
+    "pivots.output[0]": ("E", 1.0),
+    "pivots.output[1]": ("E", 1j),
+}
 
 
 class GripperRegister(RegisterDesign):
@@ -53,8 +59,7 @@ class GripperRegister(RegisterDesign):
         """Every source of the file, and the cam's own error."""
         motion = self.design.linkage.motion(np.degrees(input_angle), 0)
         gains = self._loop(motion)
-        arm = self.spec.arm.length
-        found = [contribution(source, arm * self._turn(source, gains)) for source in self.sources]
+        found = [contribution(source, self._gain(source, gains, motion)) for source in self.sources]
         if self.section.cam_error is not None:
             found.append(self._cam(motion, input_angle))
         return found
@@ -63,16 +68,56 @@ class GripperRegister(RegisterDesign):
         """Turn of the gripper per error of its loop; directions from +x, as the file's pivots are."""
         return loop_gains(motion.input_angle, motion.coupler_angle, motion.output_angle, self.spec.links.output)
 
-    def _turn(self, source: Scatter, gains: LoopGains) -> Any:
-        name = source.key.partition(".")[2]
+    def _along(self, motion: GripperMotion) -> Any:
+        """Direction in which the tip turns."""
+        lead = math.radians(self.spec.arm.direction - self.spec.output_direction)
+        return 1j * np.exp(1j * (motion.output_angle + lead))
+
+    def _gain(self, source: Scatter, gains: LoopGains, motion: GripperMotion) -> Any:
+        """Gain of a source: the gripper turns, and the axis E takes the tip along."""
+        arm, name = self.spec.arm.length, source.key.partition(".")[2]
+        at_e = np.conj(self._along(motion)) - arm * gains.pin
         if source.kind == "pin":
-            return -gains.pin if name == "E" else gains.pin
+            return at_e if name == "E" else arm * gains.pin
         if source.key in _LINKS:
-            return getattr(gains, _LINKS[source.key])
+            return arm * getattr(gains, _LINKS[source.key])
         if source.key in _PIVOTS:
-            return (gains.pin * _PIVOTS[source.key]).real
+            pivot, way = _PIVOTS[source.key]
+            return ((at_e if pivot == "E" else arm * gains.pin) * way).real
+        if source.key == "arm.direction":
+            return np.full(np.shape(motion.output_angle), math.radians(arm))
         message = f"{source.key} does not move the tip along the cylinder: leave it out of a register"
         raise NoSolution(message, key="tolerance.sources")
+
+    # Samples of the exact chain
+
+    def sampled_errors(self, input_angle: Reals, _torque_sign: int, parts: Mapping[str, Any]) -> Reals:
+        """Errors of the tip along the cylinder, the loop closed anew."""
+        links, off = self.spec.links, self._by_part(parts)
+        motion = self.design.linkage.motion(np.degrees(input_angle), 0)
+        first, last = motion.input_angle[:, None], motion.output_angle[:, None]
+        a, e = (complex(*pivot) for pivot in (self.spec.pivots.input, self.spec.pivots.output))
+        pin, joint = a + links.input * np.exp(1j * first), e + links.output * np.exp(1j * last)
+        side = int(np.sign(((joint - pin) / (e - pin)).imag[0, 0]))
+        start = pin + off["links.input"] * np.exp(1j * first) + off["A"] + off["C"] + off["D"]
+        coupler, output = links.coupler + off["links.coupler"], links.output + off["links.output"]
+        moved = closed_pin(start, e + off["E"], coupler, output, side) - e - off["E"]
+        turned = np.angle(moved * np.exp(-1j * last)) + np.radians(off["arm.direction"])
+        along = (off["E"] * np.conj(self._along(motion)[:, None])).real
+        error: Reals = along + self.spec.arm.length * np.sin(turned)
+        return error
+
+    def _by_part(self, parts: Mapping[str, Any]) -> dict[str, Any]:
+        """Errors by link, and by pin as vectors, those of its pivot added."""
+        off: dict[str, Any] = dict.fromkeys((*_LINKS, *_PINS, "arm.direction"), 0.0)
+        for source in self.sources:
+            name, error = source.key, parts[source.key]
+            if source.kind == "pin":
+                name = source.key.partition(".")[2]
+            elif source.key in _PIVOTS:
+                name, error = _PIVOTS[source.key][0], error * _PIVOTS[source.key][1]
+            off[name] = off[name] + error
+        return off
 
     def _cam(self, motion: GripperMotion, input_angle: Reals) -> Contribution:
         """Profile error of the main cam: it turns the cam rocker, and that the gripper."""
