@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import BrokenExecutor, Executor, wait
 from contextlib import contextmanager
 from time import perf_counter
 from typing import Any
+
+from gearlink.cli.processors import processors
 
 _WORTH_SECONDS = 1.0
 
@@ -50,7 +51,7 @@ def _in_processes(function: Callable[[int], Any], numbers: Sequence[int], jobs: 
     if jobs == 0:
         start = perf_counter()
         found = _here(function, numbers[:1], told)
-        jobs = _processors() if (perf_counter() - start) * (len(numbers) - 1) > _WORTH_SECONDS else 1
+        jobs = processors() if (perf_counter() - start) * (len(numbers) - 1) > _WORTH_SECONDS else 1
     rest = numbers[len(found) :]
     if jobs == 1:
         return found + _here(function, rest, told)
@@ -91,11 +92,6 @@ def _given(pool: Executor, function: Callable[[int], Any], numbers: Sequence[int
     missing = [number for number in numbers if number not in found]
     found.update(zip(missing, _here(function, missing, told), strict=True))
     return [found[number] for number in numbers]
-
-
-def _processors() -> int:
-    affinity = getattr(os, "sched_getaffinity", None)
-    return len(affinity(0)) if affinity else os.cpu_count() or 1
 
 
 class _Told:

@@ -41,12 +41,11 @@ def extremes(
         >>> found["speed_min"], round(found["speed_min_at"], 6)
         (0.0, 3.141593)
     """
-    from gearlink.core.numerics.extremes import maximum_over, minimum_over
+    from gearlink.core.numerics.extremes import extremes_over
 
     found: dict[str, float] = {}
     for name, curve in curves.items():
-        top = maximum_over(curve, start, end, joints=joints, samples=samples)
-        low = minimum_over(curve, start, end, joints=joints, samples=samples)
+        top, low = extremes_over([(curve, True), (curve, False)], start, end, joints=joints, samples=samples)
         found |= {f"{name}_max": top.value, f"{name}_max_at": top.place}
         found |= {f"{name}_min": low.value, f"{name}_min_at": low.place}
     return found

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import BrokenExecutor, Future, as_completed
@@ -16,6 +15,7 @@ from gearlink.cli.batch.options import BatchOptions
 from gearlink.cli.batch.outcome import Outcome
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import stem_of
+from gearlink.cli.processors import processors
 from gearlink.cli.reading.diagnostics import Diagnostic
 from gearlink.cli.workers import workers
 
@@ -66,8 +66,7 @@ def _jobs(options: BatchOptions, rest: Sequence[Path], seconds_each: float) -> i
         return min(options.jobs, max(1, len(rest)))
     if seconds_each * len(rest) < _WORTH_SECONDS:
         return 1
-    affinity = getattr(os, "sched_getaffinity", None)
-    return len(affinity(0)) if affinity else os.cpu_count() or 1
+    return processors()
 
 
 def _chunks(files: Sequence[Path], jobs: int, seconds_each: float) -> list[Sequence[Path]]:

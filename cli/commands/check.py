@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from itertools import repeat
+from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.commands.finding import Finding
@@ -11,6 +13,7 @@ from gearlink.cli.evaluate import open_design, read_spec, refusals_located
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import Options
 from gearlink.cli.patience import patience
+from gearlink.cli.processors import processors
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import LoadedFile, parse_path
 from gearlink.cli.reading.places import design_files
@@ -20,6 +23,9 @@ from gearlink.core.report import Check
 if TYPE_CHECKING:
     from gearlink.core.design import Design
     from gearlink.core.kinds import Kind
+
+# Starting processes costs some hundredths of a second.
+_WORTH_SECONDS = 0.15
 
 
 def run_check(places: Sequence[str], options: Options, *, verbose: bool = False) -> int:
@@ -35,14 +41,41 @@ def run_check(places: Sequence[str], options: Options, *, verbose: bool = False)
 
         show_errors(error.diagnostics, options)
         return ExitCode.WRONG_INPUT
-    found = []
+    found, of_files = [], _of_all(files, options)
     for number, file in enumerate(files, start=1):
         share = f" ({number} of {len(files)})" if len(files) > 1 else ""
         with patience(f"checking {file}{share}", quiet=options.quiet):
-            found += findings(file, options)
+            found += next(of_files)
     worst = max((finding.exit_status(strict=options.strict) for finding in found), default=ExitCode.OK)
     show_findings(found, len(files), options, ok=worst == ExitCode.OK, verbose=verbose)
     return worst
+
+
+def _of_all(files: Sequence[str], options: Options) -> Iterator[list[Finding]]:
+    """The findings of each file, in their order; by several processes as soon as the files take their time."""
+    start = perf_counter()
+    for k, file in enumerate(files):
+        yield findings(file, options)
+        left = files[k + 1 :]
+        if len(left) > 1 and perf_counter() - start > _WORTH_SECONDS and (jobs := processors()) > 1:
+            yield from _in_processes(left, options, jobs)
+            return
+
+
+def _in_processes(files: Sequence[str], options: Options, jobs: int) -> Iterator[list[Finding]]:
+    """What no process gives, for the system has none or one died, is found here."""
+    from concurrent.futures import BrokenExecutor
+
+    from gearlink.cli.workers import workers
+
+    done = 0
+    try:
+        with workers(min(jobs, len(files))) as pool:
+            for of_file in pool.map(findings, files, repeat(options)):
+                done += 1
+                yield of_file
+    except (BrokenExecutor, OSError):
+        yield from (findings(file, options) for file in files[done:])
 
 
 def findings(file: str, options: Options) -> list[Finding]:

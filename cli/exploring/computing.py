@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import signal
 import sys
 import threading
@@ -14,6 +13,7 @@ from time import perf_counter
 from typing import Any
 
 from gearlink.cli.exploring.store import Kept, Result
+from gearlink.cli.processors import processors
 from gearlink.cli.workers import workers
 from gearlink.core.explore.chunks import computed, designs_of
 from gearlink.core.explore.problem import Problem
@@ -53,7 +53,7 @@ def compute(problem: Problem, todo: Sequence[int], keep: Opened, means: Means, a
     with _calm() as asked:
         if means.executor is None and means.jobs != 1:
             left, seconds = _first(problem, left, keep, advance)
-            jobs = means.jobs or (_processors() if seconds * len(left) > _WORTH_SECONDS else 1)
+            jobs = means.jobs or (processors() if seconds * len(left) > _WORTH_SECONDS else 1)
         else:
             jobs = 1
         jobs = min(jobs, max(1, len(left)))
@@ -76,11 +76,6 @@ def _calm() -> Iterator[Callable[[], bool]]:
         yield lambda: bool(heard)
     finally:
         signal.signal(signal.SIGINT, before)
-
-
-def _processors() -> int:
-    affinity = getattr(os, "sched_getaffinity", None)
-    return len(affinity(0)) if affinity else os.cpu_count() or 1
 
 
 def _first(problem: Problem, left: list[int], keep: Opened, advance: Advance) -> tuple[list[int], float]:

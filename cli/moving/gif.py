@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from collections import deque
 from collections.abc import Iterable, Iterator
@@ -12,6 +11,7 @@ from typing import IO, TYPE_CHECKING
 from PIL import Image
 
 from gearlink.cli.moving.raster import Raster
+from gearlink.cli.processors import processors
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -42,7 +42,7 @@ def _with_white(picture: Picture) -> Picture:
 
 def _frames(raster: Raster, palette: Picture, told: Iterable[int], count: int) -> Iterator[Picture]:
     """The pictures in the colours of the palette, drawn in several processes where there are processors for them."""
-    jobs = len(os.sched_getaffinity(0)) if sys.platform == "linux" else 1
+    jobs = processors() if sys.platform == "linux" else 1  # elsewhere a process does not begin with what this one has
     if jobs < 2 or count < _WORTH_PROCESSES:
         yield from (_quantized(raster, palette, i) for i in told)
         return

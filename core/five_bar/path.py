@@ -10,7 +10,7 @@ import numpy as np
 from gearlink.core.five_bar.family import near_places
 from gearlink.core.five_bar.path_motion import PathFiveBar
 from gearlink.core.numerics.arrays import Points, Reals
-from gearlink.core.numerics.extremes import Extreme, maximum_over, minimum_over
+from gearlink.core.numerics.extremes import Extreme, extremes_over
 
 _PER_TURN, _FEW_TURNS, _PER_WAVE = 720, 4, 48
 # So many branches of a path that crosses itself are tried for each point.
@@ -151,7 +151,8 @@ def extent(bar: PathFiveBar, offset: complex) -> tuple[Extreme, Extreme, Extreme
         def along(phi: Reals) -> Reals:
             return np.asarray((points(bar, phi, offset) * np.conj(direction)).real)
 
-        return minimum_over(along, 0.0, end, samples=count), maximum_over(along, 0.0, end, samples=count)
+        least, greatest = extremes_over([(along, False), (along, True)], 0.0, end, samples=count)
+        return least, greatest
 
     return (*part(1.0 + 0j), *part(1j))
 

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -88,12 +89,28 @@ def extremes_over(
         >>> [round(each.value, 12) for each in extremes_over([(np.sin, True), (np.cos, False)])]
         [1.0, -1.0]
     """
-    functions = [f if greatest else _negative(f) for f, greatest in wanted]
+    shared = {f: _once(f) for f, _ in wanted}
+    functions = [shared[f] if greatest else _negative(shared[f]) for f, greatest in wanted]
     tops = together(functions, [_maximum(start, end, joints, samples, fewest) for _ in wanted])
     return [
         top if greatest else Extreme(0.0 - top.value, top.place)
         for top, (_, greatest) in zip(tops, wanted, strict=True)
     ]
+
+
+def _once(f: Function) -> Function:
+    """The function, its values kept as long as it is asked for the same array."""
+    places: Reals | None = None
+    values: Any = None
+
+    def kept(x: Reals) -> Reals:
+        nonlocal places, values
+        if x is not places:
+            places, values = x, f(x)
+        found: Reals = values
+        return found
+
+    return kept
 
 
 def _negative(f: Function) -> Function:
@@ -151,8 +168,7 @@ def largest_magnitude(
         >>> largest_magnitude(lambda x: np.sin(x) - 0.5).value
         -1.5
     """
-    top = maximum_over(f, start, end, joints=joints, samples=samples)
-    bottom = minimum_over(f, start, end, joints=joints, samples=samples)
+    top, bottom = extremes_over([(f, True), (f, False)], start, end, joints=joints, samples=samples)
     return top if abs(top.value) >= abs(bottom.value) else bottom
 
 
