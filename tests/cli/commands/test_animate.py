@@ -26,6 +26,7 @@ from sweeps import mostly_slow
 
 from gearlink.cli.commands.animate import _command
 from gearlink.cli.evaluate import open_design, read_spec
+from gearlink.cli.moving import gif
 from gearlink.cli.moving.page import page, player_stage
 from gearlink.cli.moving.raster import Raster
 from gearlink.cli.moving.stage import Stage
@@ -328,6 +329,18 @@ def test_the_same_design_gives_the_same_bytes(gearlink: Any, designs: Path, tmp_
         command = ("animate", designs / "ty460.yaml", "--format", form, "--out", tmp_path / folder, *QUICK)
         assert gearlink(*command).status == 0
     first, second = (tmp_path / folder / f"TY-460-motion.{form}" for folder in ("a", "b"))
+    assert first.read_bytes() == second.read_bytes()
+
+
+def test_pictures_of_several_processes_are_those_of_one(
+    gearlink: Any, designs: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(gif, "_WORTH_PROCESSES", 2)
+    for jobs in (1, 2):
+        monkeypatch.setattr(gif, "processors", lambda jobs=jobs: jobs)
+        command = ("animate", designs / "ty460.yaml", "--out", tmp_path / str(jobs), *QUICK)
+        assert gearlink(*command).status == 0
+    first, second = (tmp_path / folder / "TY-460-motion.gif" for folder in ("1", "2"))
     assert first.read_bytes() == second.read_bytes()
 
 

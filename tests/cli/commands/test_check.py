@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 from sweeps import ALL
 
+from gearlink.cli.commands import check
 from gearlink.cli.texts.finding_keys import key_of
 from gearlink.core.design import Design
 from gearlink.core.report import Check
@@ -32,6 +33,21 @@ def write(folder: Path, **texts: str) -> Path:
     for stem, text in texts.items():
         (folder / f"{stem}.yaml").write_text(text)
     return folder
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_processes_find_what_one_finds(
+    gearlink: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, jobs: int
+) -> None:
+    """In the order of the files, whoever reads them; one that cannot be read is among them."""
+    write(tmp_path, a=WARNED, b=COLLIDING, c="kind: gear-pair\nmodule: x\n", d=PAIR, e=COLLIDING)
+    monkeypatch.setattr(check, "_WORTH_SECONDS", 0.0)
+    monkeypatch.setattr(check, "processors", lambda: jobs)
+    ended = gearlink("check", tmp_path)
+    places = [line.partition(".yaml")[0][-1] for line in (ended.out + ended.err).splitlines() if ".yaml:" in line]
+    assert ended.status == 2
+    assert set(places) == set("abce")
+    assert places[: places.index("e")].count("b") == places.count("b") == places.count("e")
 
 
 def test_a_design_that_passes_is_quiet(gearlink: Any, tmp_path: Path) -> None:
