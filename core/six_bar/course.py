@@ -175,8 +175,13 @@ class Course:
         if self.range is not None:
             return self._angles(phi)
         periods = np.floor(phi / self.end)
+        return self._angles(phi - periods * self.end) + periods * self._gain
+
+    @cached_property
+    def _gain(self) -> Reals:
+        """What the directions gain in a period; (4, 1) array [rad]."""
         ends = self._angles(np.array([0.0, self.end]))
-        return self._angles(phi - periods * self.end) + periods * (ends[:, 1:] - ends[:, :1])
+        return np.asarray(ends[:, 1:] - ends[:, :1])
 
     def _angles(self, phi: Reals) -> Reals:
         places = self._followed[0]
