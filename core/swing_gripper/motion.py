@@ -73,8 +73,8 @@ class Motion:
         free = f", or laws.accelerate to {{quintic: {kappa:.9g}}}" if 0.4 <= kappa <= 0.6 else ""
         raise NoSolution(
             f"total_swing is stated as {stated:g} deg, but laws, phases and R/l_EF give {swing:.6g} deg: set "
-            f"arm.length to {self.spec.arm.length * swing / stated:.6g}, or change phases.constant by "
-            f"{short / law.speed:+.6g} deg (and another phase as much the other way){free}",
+            f"arm.length to {self.spec.arm.length * swing / stated:.9g}, or change phases.constant by "
+            f"{short / law.speed:+.9g} deg (and another phase as much the other way){free}",
             key="total_swing",
         )
 

@@ -304,6 +304,9 @@ def test_the_constant_phase_that_is_recommended_gives_the_swing(stated: float) -
         phases__constant=12.0 + change, phases__near_dwell=70.0 - change, total_swing=stated, handover=101.0
     )
     assert math.degrees(repaired.law.total_swing) == pytest.approx(stated, rel=0.0, abs=1e-6)
+    length = float(re.search(r"arm\.length to (\S+),", refused.value.message)[1])
+    longer = machine(arm__length=length, total_swing=stated)
+    assert math.degrees(longer.law.total_swing) == pytest.approx(stated, rel=0.0, abs=1e-6)
 
 
 def test_kappa_that_is_recommended_gives_the_swing() -> None:
