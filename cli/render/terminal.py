@@ -201,7 +201,9 @@ def show_table(table: Table, console: Console, most: int = _MOST_ROWS) -> None:
         for part in _by_mesh(table):
             show_table(part, console, most)
         return
-    in_words = table.length > 0 and isinstance(table.data[0][0], str)  # every row of such a table says something else
+    # Every row of a table that begins with a word says something else; a list that holds one is read whole.
+    words = [isinstance(column[0], str) for column in table.data] if table.length else [False]
+    in_words = words[0] or (any(words) and table.length <= 4 * most)
     step = 1 if in_words else max(1, math.ceil(table.length / most))
     if step > 1:
         step = next((s for s in (2, 5, 10, 15, 30) if s >= step), step)
@@ -265,17 +267,20 @@ def _interval(cell: str, half: float | None) -> str:
 
 
 def _folds(table: Table, cells: Sequence[Sequence[str]], width: int) -> list[list[int]]:
-    """Groups of columns that fit the width; the first column opens each group."""
+    """Groups of columns that fit the width; the first column opens each group, and one of words that follows it."""
     need = [
         max(len(part) for part in [*head.split("_"), unit, *(row[i] for row in cells)]) + 3
         for i, (head, unit) in enumerate(zip(table.columns, table.units, strict=True))
     ]
-    folds: list[list[int]] = [[0]]
-    used = need[0]
-    for i in range(1, len(need)):
-        if used + need[i] > width and len(folds[-1]) > 1:
-            folds.append([0])
-            used = need[0]
+    named = len(need) > 1 and table.length > 0 and isinstance(table.data[1][0], str) and need[0] + need[1] < width / 2
+    first = [0, 1] if named else [0]
+    opening = sum(need[i] for i in first)
+    folds: list[list[int]] = [first[:]]
+    used = opening
+    for i in range(len(first), len(need)):
+        if used + need[i] > width and len(folds[-1]) > len(first):
+            folds.append(first[:])
+            used = opening
         folds[-1].append(i)
         used += need[i]
     return folds
