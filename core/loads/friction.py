@@ -162,7 +162,8 @@ class Rubbing:
     def forces(self, sizes: Reals) -> Reals:
         """Parts of the joint forces at sizes (N, m), as (N, m, 2); of one unknown the second part is 0."""
         base, response = self._read
-        flat = response.reshape(len(sizes), -1, len(self.shares))
+        count = len(self.shares)
+        flat = response.reshape(len(sizes), 2 * count, count)  # none where friction vanishes in rounding
         found = base + (flat @ sizes[..., None]).reshape(base.shape)
         found[:, self._single, 1] = 0.0
         return np.asarray(found)

@@ -94,3 +94,13 @@ def test_wide_swing_refuses_such_a_frequency_too() -> None:
     with pytest.raises(GearlinkError, match="6e\\+05 times") as caught:
         factory.design("loaded_wide_swing", command="loads", loads__vibration__frequency=1e6).report("loads")
     assert caught.value.key == "loads.vibration.frequency"
+
+
+def test_friction_that_vanishes_in_rounding_is_none() -> None:
+    data = {"kind": "slider-crank", "stroke": 310.0, "rod": 520.0, "offset": 50.0, "input_speed": 60.0}
+    section = {"links": {"rod": {"mass": 12.0}}, "forces": [{"on": "slider", "resistance": 200.0}]}
+    found = [
+        factory.design(data | {"loads": section | extra}, command="loads").table("torque", samples=36)
+        for extra in ({"friction": {"pins": 1e-17}}, {})
+    ]
+    assert list(found[0]["input_torque"]) == pytest.approx(list(found[1]["input_torque"]), rel=1e-12)
