@@ -88,6 +88,7 @@ _TRAINS = {"gears.train", "gears.train_parts", "gears.spec_parts", "gears.pair_k
 _GENERAL = {f"three_gear.{name}" for name in ("families", "internal_families", "internal_dwell", "candidates")}
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize(
     ("line", "unused"),
     [

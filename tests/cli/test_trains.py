@@ -91,6 +91,7 @@ def test_worked_gears_pass_and_are_asked_for_by_their_file(gearlink, designs, na
     assert "gear" in KINDS[data["kind"]].spec_model().model_validate(data).commands()
 
 
+@pytest.mark.slow
 def test_the_page_shows_the_gear_tables(gearlink, designs, tmp_path):
     ended = gearlink("report", designs / "drawn_lever.yaml", "--out", tmp_path, "--quiet")
     assert ended.status == 0

@@ -124,6 +124,7 @@ def test_errors_are_in_units_of_the_last_place() -> None:
     assert worst([1e-20], [mp.mpf(0)], floor=1.0) == pytest.approx(1e-20 / 2**-52, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_yields_family_shows_what_scrambled_points_are_worth(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

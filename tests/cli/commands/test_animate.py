@@ -373,16 +373,16 @@ def test_page_and_picture_place_parts_alike(designs: Path) -> None:
         assert np.abs(there - stage.pixels(placed(body, 2))).max() < 0.05
 
 
-def test_all_that_moves_stays_on_the_picture() -> None:
-    for path in MOVING:
-        stage = Stage(build(design_of(path), np.arange(24) / 24.0), path.stem, 640, 480)
-        for body in bodies(stage.scene):
-            for i in range(0, 24, 5):
-                points = stage.pixels(placed(body, i))
-                assert points.real.min() > 0.0
-                assert points.real.max() < 640.0
-                assert points.imag.min() > stage.head
-                assert points.imag.max() < 480.0
+@each_design
+def test_all_that_moves_stays_on_the_picture(path: Path) -> None:
+    stage = Stage(build(design_of(path), np.arange(24) / 24.0), path.stem, 640, 480)
+    for body in bodies(stage.scene):
+        for i in range(0, 24, 5):
+            points = stage.pixels(placed(body, i))
+            assert points.real.min() > 0.0
+            assert points.real.max() < 640.0
+            assert points.imag.min() > stage.head
+            assert points.imag.max() < 480.0
 
 
 def test_mp4_without_ffmpeg_says_so(

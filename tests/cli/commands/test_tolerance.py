@@ -190,6 +190,7 @@ def test_the_page_of_a_file_with_tolerances_shows_budget_and_samples(gearlink: A
     assert "output_angle: designs as made over the cycle" in page
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("sources", "told"),
     [

@@ -29,6 +29,7 @@ def test_csv_has_every_point_and_every_margin(gearlink: Any, designs: Path, tmp_
     assert f"# margin of fillet 1: {less!r} to none in x1 at the same shift sum" in margins
 
 
+@pytest.mark.slow
 def test_svg_has_the_design_its_free_region_and_margins(gearlink: Any, designs: Path, tmp_path: Path) -> None:
     options = ("--part", "blocking_contour", "--part", "gear1", "--as", "svg", "--out", tmp_path)
     assert gearlink("export", designs / "ring_pair.yaml", *options).status == 0

@@ -80,6 +80,7 @@ def test_odd_pairs_draw(keys, drawn):
     drawn(DATA, "gear", **keys)
 
 
+@pytest.mark.slow
 def test_a_picture_is_written(tmp_path):
     write_plot("gear", design(DATA, command="gear"), Options(out=tmp_path))
     assert [path.name for path in tmp_path.iterdir()] == ["pair-gear.png"]

@@ -227,6 +227,7 @@ PUSHED = [
 ]
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("teeth", "shift", "goes"), PUSHED)
 def test_a_pinion_that_is_pushed_into_its_ring_fits_as_the_margin_says(
     teeth: tuple[int, int], shift: tuple[float, float], goes: bool

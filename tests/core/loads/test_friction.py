@@ -66,6 +66,7 @@ def test_ratio_is_that_of_the_last_passes() -> None:
                 rubbing.settled()
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("base", "friction"),
     [(FEED, {"pins": 0.9, "pin_radius": 60}), ("ty460_slider_crank", {"guides": 0.99, "pins": 0.9, "pin_radius": 200})],

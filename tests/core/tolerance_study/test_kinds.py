@@ -63,6 +63,7 @@ def test_every_kind_that_has_the_command_is_tried() -> None:
     assert tried == {name for name, kind in KINDS.items() if "tolerance" in kind.commands}
 
 
+@pytest.mark.slow
 def test_a_search_is_done_once_and_its_function_goes_on_judging() -> None:
     """The found links scatter: the error of the search itself, 0.0002 deg, grows to some thousandths."""
     sources = {key: {"plus_minus": 0.02} for key in ("links.coupler", "links.frame")}

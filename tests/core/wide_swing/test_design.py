@@ -301,6 +301,7 @@ def test_similar_designs(factor: float) -> None:
 class TestLoops:
     """A profile that does not exist is a finding of its own; nothing else is said of it."""
 
+    @pytest.mark.slow
     def test_finding(self) -> None:
         made = looped()
         report = made.report("swing")
