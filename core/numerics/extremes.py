@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -89,28 +89,31 @@ def extremes_over(
         >>> [round(each.value, 12) for each in extremes_over([(np.sin, True), (np.cos, False)])]
         [1.0, -1.0]
     """
-    shared = {f: _once(f) for f, _ in wanted}
-    functions = [shared[f] if greatest else _negative(shared[f]) for f, greatest in wanted]
-    tops = together(functions, [_maximum(start, end, joints, samples, fewest) for _ in wanted])
+    signs = [1.0 if greatest else -1.0 for _, greatest in wanted]
+    functions = list(dict.fromkeys(f for f, _ in wanted))
+    of = [functions.index(f) for f, _ in wanted]
+
+    def answered(asked: _Asked) -> Reals:
+        flat = asked.places.ravel()
+        values = {k: functions[k](flat) for k in dict.fromkeys(of[search] for search, _ in asked.parts)}
+        if asked.places.ndim == 1:
+            return np.array([values[k] * sign for k, sign in zip(of, signs, strict=True)])
+        answer = np.empty(asked.places.shape)
+        for search, part in asked.parts:
+            np.multiply(values[of[search]].reshape(answer.shape)[part], signs[search], out=answer[part])
+        return answer
+
+    search = _maxima(len(wanted), start, end, joints, samples, fewest)
+    try:
+        asked = next(search)
+        while True:
+            asked = search.send(answered(asked))
+    except StopIteration as found:
+        tops: list[Extreme] = found.value
     return [
         top if greatest else Extreme(0.0 - top.value, top.place)
         for top, (_, greatest) in zip(tops, wanted, strict=True)
     ]
-
-
-def _once(f: Function) -> Function:
-    """The function, its values kept as long as it is asked for the same array."""
-    places: Reals | None = None
-    values: Any = None
-
-    def kept(x: Reals) -> Reals:
-        nonlocal places, values
-        if x is not places:
-            places, values = x, f(x)
-        found: Reals = values
-        return found
-
-    return kept
 
 
 def _negative(f: Function) -> Function:
@@ -119,25 +122,37 @@ def _negative(f: Function) -> Function:
 
 def _maximum(start: float, end: float, joints: Sequence[float], samples: int, fewest: int) -> Search[Extreme]:
     """The search of maximum_over."""
-    bounds = [start, *sorted(j for j in joints if start < j < end), end]
-    grids = [
-        _grid(left, right, max(fewest, math.ceil(samples * (right - left) / (end - start)) + 1))
-        for left, right in pairwise(bounds)
-    ]
-    x = np.concatenate(grids)
-    v = yield x
-    ends = dict(_ends(grids, bounds))
-    top = int(np.argmax(v))
-    best = Extreme(float(v[top]), ends.get(top, float(x[top])))
-    lefts, rights, offset = [], [], 0
-    for grid in grids:
-        part = v[offset : offset + grid.size]
-        for i in _promising(part, best.value):
-            lefts.append(float(grid[max(i - 1, 0)]))
-            rights.append(float(grid[min(i + 1, grid.size - 1)]))
-        offset += grid.size
+    search = _maxima(1, start, end, joints, samples, fewest)
+    try:
+        asked = next(search)
+        while True:
+            shape = (-1, asked.places.shape[-1])
+            asked = search.send((yield asked.places.ravel()).reshape(shape))
+    except StopIteration as found:
+        top: Extreme = found.value[0]
+        return top
+
+
+@dataclass(frozen=True, slots=True)
+class _Asked:
+    """Places of a round: (N,) on the grid, for every search, or (brackets, points), and each search with its own."""
+
+    places: Reals
+    parts: Sequence[tuple[int, slice]]
+
+
+def _maxima(
+    count: int, start: float, end: float, joints: Sequence[float], samples: int, fewest: int
+) -> Generator[_Asked, Reals, list[Extreme]]:
+    """Searches of maximum_over over one interval, all in the same arrays; their values are sent as rows."""
+    grid = _grid(start, end, tuple(joints), samples, fewest)
+    v = yield _Asked(grid.x, [(search, slice(None)) for search in range(count)])
+    tops = np.argmax(v, axis=1).tolist()
+    best = [Extreme(float(row[i]), grid.ends.get(i, float(grid.x[i]))) for row, i in zip(v, tops, strict=True)]
+    of, places = _promising(v, np.array([[top.value] for top in best]), grid)
     finest = 8.0 * math.ulp(max(abs(start), abs(end)))
-    return (yield from _enlarged(np.array(lefts), np.array(rights), best, finest))
+    yield from _enlarged(of, grid.left[places], grid.right[places], best, finest)
+    return best
 
 
 def minimum_over(
@@ -202,41 +217,93 @@ def convex_radius(curvature: Extreme) -> Extreme:
     return Extreme(1.0 / curvature.value if curvature.value > 0.0 else math.inf, curvature.place)
 
 
-def _grid(left: float, right: float, samples: int) -> Reals:
+@dataclass(frozen=True, slots=True)
+class _Grid:
+    """The samples between all joints.
+
+    Fields
+        x : (N,) array
+        segment : (N,) array - of each sample; `first` holds the index of each segment's first
+        before, after : (N,) arrays - index of the neighbours; at an end of a segment the one within it twice
+        left, right : (N,) arrays - places of the neighbours; at an end of a segment that end
+        ends : index of each segment's first and last sample, with the joint that it stands for
+    """
+
+    x: Reals
+    segment: NDArray[np.intp]
+    first: NDArray[np.intp]
+    before: NDArray[np.intp]
+    after: NDArray[np.intp]
+    left: Reals
+    right: Reals
+    ends: dict[int, float]
+
+
+@lru_cache(maxsize=32)
+def _grid(start: float, end: float, joints: tuple[float, ...], samples: int, fewest: int) -> _Grid:
+    """Kept, since designs of a study share it; that nobody writes to it is made sure of."""
+    bounds = [start, *sorted(j for j in joints if start < j < end), end]
+    parts = [
+        _samples(left, right, max(fewest, math.ceil(samples * (right - left) / (end - start)) + 1))
+        for left, right in pairwise(bounds)
+    ]
+    sizes = [part.size for part in parts]
+    last = np.cumsum(sizes) - 1
+    first = last + 1 - np.array(sizes)
+    x, index = np.concatenate(parts), np.arange(sum(sizes))
+    x.flags.writeable = False
+    before, after = index - 1, index + 1
+    left, right = before.copy(), after.copy()
+    before[first], after[last], left[first], right[last] = first + 1, last - 1, first, last
+    ends = dict(zip(first.tolist(), bounds[:-1], strict=True)) | dict(zip(last.tolist(), bounds[1:], strict=True))
+    return _Grid(x, np.repeat(np.arange(len(parts)), sizes), first, before, after, x[left], x[right], ends)
+
+
+def _samples(left: float, right: float, samples: int) -> Reals:
     inside = _INSIDE_ULPS * math.ulp(max(abs(left), abs(right)))
     return np.linspace(left + inside, right - inside, samples)
 
 
-def _ends(grids: Sequence[Reals], bounds: Sequence[float]) -> Iterator[tuple[int, float]]:
-    """Index of each segment's first and last sample in the whole, with the joint that it stands for."""
-    offset = 0
-    for grid, (left, right) in zip(grids, pairwise(bounds), strict=True):
-        yield offset, left
-        offset += grid.size
-        yield offset - 1, right
+def _promising(v: Reals, tops: Reals, grid: _Grid) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Samples of a segment that top their neighbours and whose parabola may reach above the best sample of all.
 
-
-def _promising(v: Reals, top: float) -> list[int]:
-    """Samples of a segment that top their neighbours and whose parabola may reach above the best sample of all."""
-    before, after = np.concatenate(([v[1]], v[:-1])), np.concatenate((v[1:], [v[-2]]))
+    Returns
+        of, places : arrays - the search and the sample, those of a segment from the highest down
+    """
+    before, after = v[:, grid.before], v[:, grid.after]
     bend = np.abs(before - 2.0 * v + after)
-    rounding = 8.0 * np.spacing(np.abs(v).max())
-    chosen = (v >= before) & (v >= after) & (bend > rounding) & (v + bend >= top)
-    order = np.flatnonzero(chosen)
-    return [int(i) for i in order[np.argsort(-v[order])][:_MOST_CANDIDATES]]
+    rounding = 8.0 * np.spacing(np.maximum.reduceat(np.abs(v), grid.first, axis=1))
+    chosen = (v >= before) & (v >= after) & (bend > rounding[:, grid.segment]) & (v + bend >= tops)
+    of, places = np.nonzero(chosen)
+    group = of * grid.first.size + grid.segment[places]
+    if not (group[1:] == group[:-1]).any():
+        return of, places
+    edges = [0, *(np.flatnonzero(np.diff(group)) + 1).tolist(), group.size]
+    kept = [low + np.argsort(-v[of[low:high], places[low:high]])[:_MOST_CANDIDATES] for low, high in pairwise(edges)]
+    order = np.concatenate(kept)
+    return of[order], places[order]
 
 
-def _enlarged(left: Reals, right: Reals, best: Extreme, finest: float) -> Search[Extreme]:
-    """The largest value within any of the brackets, or `best` where none is larger; `finest` ends a bracket."""
+def _enlarged(
+    of: NDArray[np.intp], left: Reals, right: Reals, best: list[Extreme], finest: float
+) -> Generator[_Asked, Reals, None]:
+    """Put the largest values within any of the brackets in place of `best` of their searches, where they are larger.
+
+    Parameters
+        of : the search of each bracket, ascending
+        left, right : the brackets
+        best : by search
+        finest : ends a bracket
+    """
     safe_left, safe_right = left, right
     while left.size:
         x = left[:, None] + (right - left)[:, None] * _UNIT
-        v = (yield x.ravel()).reshape(x.shape)
+        v = yield _Asked(x, _parts(of))
         rows, i = np.arange(left.size), np.argmax(v, axis=1)
         peak, place = v[rows, i], x[rows, i]
-        row = int(np.argmax(peak))
-        if peak[row] > best.value:
-            best = Extreme(float(peak[row]), float(place[row]))
+        for search, value, where in zip(of.tolist(), peak.tolist(), place.tolist(), strict=True):
+            if value > best[search].value:
+                best[search] = Extreme(value, where)
         flat = peak - v.min(axis=1) <= _FLAT_ULPS * np.spacing(np.abs(peak))
         narrow = right - left <= finest
         missed = ((i == 0) & (left > safe_left)) | ((i == _POINTS - 1) & (right < safe_right))
@@ -248,8 +315,14 @@ def _enlarged(left: Reals, right: Reals, best: Extreme, finest: float) -> Search
         left = np.where(missed, safe_left, next_left)
         right = np.where(missed, safe_right, next_right)
         going = ~(narrow | (flat & ~missed) | _is_noise(v))
-        left, right, safe_left, safe_right = (a[going] for a in (left, right, safe_left, safe_right))
-    return best
+        if not going.all():
+            of, left, right, safe_left, safe_right = (a[going] for a in (of, left, right, safe_left, safe_right))
+
+
+def _parts(of: NDArray[np.intp]) -> list[tuple[int, slice]]:
+    """Each search with the slice of its brackets."""
+    edges = [0, *(np.flatnonzero(of[1:] != of[:-1]) + 1).tolist(), of.size]
+    return [(int(of[low]), slice(low, high)) for low, high in pairwise(edges)]
 
 
 def _falls_from_its_end(v: Reals, i: NDArray[np.intp]) -> NDArray[np.bool_]:
