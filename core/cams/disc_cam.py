@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -30,6 +31,14 @@ SAMPLES = 512
 FOUND_TOGETHER = ("max_pressure_angle", "min_curvature_radius", "max_radius", "min_radius")
 
 
+@cache
+def _whole_turn() -> Reals:
+    """Close cam angles over the turn, one array for all: a motion that is kept for it serves both cams."""
+    angles = np.linspace(0.0, _TURN, 2049)
+    angles.flags.writeable = False
+    return angles
+
+
 def seek_together(cams: Sequence[DiscCam]) -> None:
     """Seek pressure angle, curvature and radii of cams of one motion in common rounds; the cams keep what is found.
 
@@ -50,19 +59,19 @@ def seek_together(cams: Sequence[DiscCam]) -> None:
 
 def largest_pressure_angles(cams: Sequence[DiscCam], start: float, end: float, samples: int) -> list[Extreme]:
     """Pressure angle of largest magnitude of each cam between two cam angles [rad], its sign kept."""
-    near = [replace(cam, path=_kept(cam.path)) for cam in cams]
+    near = [replace(cam, path=_kept(cam.path, 1)) for cam in cams]
     wanted = [(cam.pressure_angle, greatest) for cam in near for greatest in (True, False)]
     found = iter(extremes_over(wanted, start, end, samples=samples))
     return [max(next(found), next(found), key=lambda extreme: abs(extreme.value)) for _ in cams]
 
 
-def _kept(path: Callable[[Reals, int], RollerPath]) -> Callable[[Reals, int], RollerPath]:
-    """A path that keeps what it last gave, with both derivatives, for the very same array."""
+def _kept(path: Callable[[Reals, int], RollerPath], order: int = 2) -> Callable[[Reals, int], RollerPath]:
+    """A path that keeps what it last gave, with as many derivatives as any will ask for, for the very same array."""
     last: list[Any] = [None, None]
 
     def again(cam_angle: Reals, _order: int) -> RollerPath:
         if cam_angle is not last[0]:
-            last[:] = cam_angle, path(cam_angle, 2)
+            last[:] = cam_angle, path(cam_angle, order)
         found: RollerPath = last[1]
         return found
 
@@ -154,7 +163,7 @@ class DiscCam:
         return undercut(self.points, self.roller_radius)
 
     def _star_shaped(self) -> bool:
-        profile = self.points(np.linspace(0.0, _TURN, 2049))[1]
+        profile = self.points(_whole_turn())[1]
         turn = -self.sense * np.imag(np.conj(profile[:-1]) * profile[1:])
         return bool(np.all(turn > 0.0))
 

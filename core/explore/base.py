@@ -74,13 +74,21 @@ class Base:
             Refused - where the model refuses it
         """
         try:
-            made = self.kind.design(self.command, self.spec(changes))
+            spec, last = self.spec(changes), self._last.get(self.command)
+            same = type(last) is self.kind.class_for(self.command, spec)
+            made = last.varied(spec) if last is not None and same else self.kind.design(self.command, spec)
         except ValidationError as error:
             raise Refused(*_first(error)) from error
         except NoSolution as error:
             raise Refused(error.key, error.message, error.code) from error
         made.advises = False
+        self._last[self.command] = made
         return made
+
+    @cached_property
+    def _last(self) -> dict[str, Design]:
+        """The design made last, of which the next may keep what they share."""
+        return {}
 
     def takes(self, changes: Changes) -> str:
         """What the model has against other values at some paths; empty where it takes them."""

@@ -38,6 +38,7 @@ _EXTREMES = (
 )
 
 
+_NOT_OF_MOTION = {"name", "cam", "size"}
 _OF_CAMS = {"max_pressure_angle", "min_curvature_radius", "max_radius", "min_radius"}
 
 
@@ -111,6 +112,13 @@ class SwingGripper(WithExtremes, Design):
     def quantity_names(cls) -> tuple[str, ...]:
         """Every quantity, those that need an optional section included: asking for one says what is missing."""
         return (*_LAW, *_LOOP, *_EXTREMES, "cam_center", *_CAM, *_CLOSURE, "spring_torque")
+
+    def varied(self, spec: SwingGripperSpec) -> SwingGripper:
+        """The design of another file; law and linkage are kept where it differs in the cams alone."""
+        made = type(self)(spec)
+        if all(name in _NOT_OF_MOTION or value == getattr(self.spec, name) for name, value in spec):
+            made.motion = self.motion
+        return made
 
     def prepare(self, quantities: Iterable[str]) -> None:
         """Seek the extremes of the cams together, where several are asked for."""

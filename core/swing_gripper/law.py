@@ -21,6 +21,7 @@ from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.results import cached_property
 
 PHASES = ("accelerate", "constant", "decelerate", "far-dwell", "return", "near-dwell")
+_NEAR_DWELL = 5
 
 
 @dataclass(frozen=True)
@@ -111,10 +112,12 @@ class SixPhaseLaw:
         theta = np.fmod(np.atleast_1d(np.asarray(degrees, dtype=np.float64)), 360.0)
         phase = self.phase(theta)
         out = tuple(np.zeros_like(theta) for _ in range(order + 1))
-        for index in np.unique(phase):
+        for index in range(int(phase.max(initial=0)) + 1):
             inside = phase == index
+            if index == _NEAR_DWELL or not inside.any():  # that dwell rests at zero
+                continue
             local = (theta[inside] - self.starts[index]) / (self.starts[index + 1] - self.starts[index])
-            for target, values in zip(out, self.in_phase(int(index), local, order), strict=True):
+            for target, values in zip(out, self.in_phase(index, local, order), strict=True):
                 target[inside] = values
         return out
 

@@ -10,7 +10,6 @@ from __future__ import annotations
 import cmath
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -22,6 +21,8 @@ from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.extremes import Extreme
 from gearlink.core.results import cached_property
 from gearlink.core.swing_gripper.law import SixPhaseLaw
+
+_MOST_KEPT = 8  # as many arrays as the grids of a design's searches, with room
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,16 +94,23 @@ class GripperLinkage:
         return self.at(degrees, beta)
 
     def kept_motion(self, angles: Reals, order: int) -> GripperMotion:
-        """Motion of all links at cylinder angles [rad], kept for who asks next at the very same array: both cams do."""
-        last = self._last
-        if angles is not last[0] or order > last[1]:
-            last[:] = angles, order, self.motion(np.degrees(angles), order)
-        found: GripperMotion = last[2]
-        return found
+        """Motion of all links at cylinder angles [rad], kept for who asks next at the very same array: both cams do.
+
+        Notes
+            At an array that cannot be written to, a grid, it is kept for the cams of other designs too. What is kept
+            is replaced as a whole, so that threads may share a linkage.
+        """
+        place = 0 if angles.flags.writeable else id(angles)
+        last = self._kept.get(place)
+        if last is None or angles is not last[0] or order > last[1]:
+            last = angles, order, self.motion(np.degrees(angles), order)
+            if place == 0 or len(self._kept) < _MOST_KEPT:
+                self._kept[place] = last
+        return last[2]
 
     @cached_property
-    def _last(self) -> list[Any]:
-        return [None, -1, None]
+    def _kept(self) -> dict[int, tuple[Reals, int, GripperMotion]]:
+        return {}
 
     def at(self, degrees: Reals, beta: tuple[Reals, ...]) -> GripperMotion:
         """Motion of all links where the swing angle and its derivatives are known already."""
