@@ -168,7 +168,11 @@ KINDS: dict[str, Kind] = {
             "five_bar.spec:GearedFiveBarSpec",
             {"analyze": _FIVE_BAR, "gear": _FIVE_BAR, "loads": "five_bar.loads:FiveBarLoads"},
         ),
-        Kind("geared-six-bar", "six_bar.spec:GearedSixBarSpec", {"analyze": _SIX_BAR, "gear": _SIX_BAR}),
+        Kind(
+            "geared-six-bar",
+            "six_bar.spec:GearedSixBarSpec",
+            {"analyze": _SIX_BAR, "gear": _SIX_BAR, "loads": "six_bar.loads:SixBarLoads"},
+        ),
         Kind(
             "hypocycloid-dwell",
             "dwell_gears.hypocycloid_spec:HypocycloidDwellSpec",

@@ -162,10 +162,12 @@ class System:
     def factors(self, column: Column) -> dict[int, Reals]:
         """What the unit of an unknown adds to each equation."""
         found: dict[int, Reals] = {}
-        acts = [Act(column.second, column.force, column.at, column.couple), *column.also]
-        if column.first != FRAME:
-            acts.append(Act(column.first, -column.force, column.at, -column.couple))
-        for act in acts:
+        acts = [
+            Act(column.second, column.force, column.at, column.couple),
+            *column.also,
+            Act(column.first, -column.force, column.at, -column.couple),
+        ]
+        for act in (act for act in acts if act.on != FRAME):
             for row, value in self._act(act):
                 found[row] = found[row] + value if row in found else value
         return found

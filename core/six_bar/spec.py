@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.linkages.spec_parts import InputRange, LinkageLimits, require_rim
-from gearlink.core.spec import Angle, Assembly, DrivenSpec, Length, PressureAngle, Spec
+from gearlink.core.spec import Angle, Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec
 
 PINS = "ABCDEF"
 Pin = Literal["A", "B", "C", "D", "E", "F"]
@@ -115,6 +115,9 @@ class GearedSixBarSpec(DrivenSpec):
     )
     limits: LinkageLimits = LinkageLimits.model_construct()
     shafts: SixShafts | None = None
+    loads: Annotated[Any, Deferred("six_bar.loads_spec:SixBarLoads")] | None = Field(
+        None, description="masses, forces and drive, for the command loads"
+    )
 
     @model_validator(mode="after")
     def _swing(self) -> GearedSixBarSpec:
@@ -124,7 +127,7 @@ class GearedSixBarSpec(DrivenSpec):
 
     def commands(self) -> tuple[str, ...]:
         """What the file asks for."""
-        return ("analyze", "gear")
+        return ("analyze", "gear", *(("loads",) if self.loads is not None else ()))
 
 
 def _refuse(key: str, message: str) -> None:

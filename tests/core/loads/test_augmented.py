@@ -16,6 +16,7 @@ from typing import Any
 import factory
 import numpy as np
 import pytest
+from six_bars import SIX_BARS
 
 from gearlink.core.loads.dynamics import Force
 from gearlink.core.loads.kinematics import cross
@@ -173,6 +174,12 @@ def test_forces_against_the_augmented_system(case: dict[str, Any], phi: float) -
 def test_press_against_the_augmented_system(degrees: float) -> None:
     """Twelve links with racks and a roller, main and return cam in turn: 36 equations, 36 constraints."""
     _compare(Augmented(factory.design("loaded_press", command="loads"), np.radians(degrees)))
+
+
+@pytest.mark.parametrize("name", SIX_BARS)
+def test_six_bars_against_the_augmented_system(name: str) -> None:
+    """Rings, free gears and carriers of every kind, at one input angle each."""
+    _compare(Augmented(factory.design(SIX_BARS[name], command="loads"), 0.9))
 
 
 def _compare(augmented: Augmented) -> None:

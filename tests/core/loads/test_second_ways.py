@@ -33,6 +33,7 @@ LOADS: dict[str, tuple[str, dict[str, Any]]] = {
     "two-gear-four-bar": ("two_gear_ring", {"speed": 60, "links": {"coupler": MASSES, "output": MASSES}}),
     "geared-rocker": ("wide_lever", {"speed": -60, "links": {"coupler": MASSES, "output": MASSES}}),
     "geared-five-bar": ("five_bar_path", {"speed": 60, "links": {"coupler": MASSES, "output": MASSES}}),
+    "geared-six-bar": ("six_bar_swing", {"speed": 60, "links": {"coupler_2": MASSES, "output": MASSES}}),
     "hypocycloid-dwell": ("hypocycloid_slider", {"speed": 60, "links": {"planet": MASSES, "slider": {"mass": 3}}}),
 }
 
