@@ -62,10 +62,14 @@ def roller_skid(design: CamLoadsDesign) -> Iterator[Check]:
         return
     limit = design.section.roller.friction
     for name, share in zip(design.own_rollers, found, strict=True):
+        if share is None:
+            message = f"the {name} roller leaves its cam, where nothing drives it round: press it harder"
+            yield codes.ROLLER_SKID.check("warn", message, None, limit)
+            continue
         text = f"the {name} roller needs {share:.3g} of its contact force to be driven round"
         if share > limit:
             message = f"{text}, more than the friction {limit:g}: take a lighter roller, or press it harder"
-            yield codes.ROLLER_SKID.check("warn", message, share if math.isfinite(share) else None, limit)
+            yield codes.ROLLER_SKID.check("warn", message, share, limit)
         else:
             yield codes.ROLLER_SKID.check("pass", text, share, limit)
 

@@ -209,17 +209,21 @@ class CamLoadsDesign(LoadsDesign):
         return np.where(need == 0.0, 0.0, share)
 
     @cached_property
-    def traction_needed(self) -> list[float] | None:
-        """Greatest share of the contact force that drives each roller round; None without a roller."""
+    def traction_needed(self) -> list[float | None] | None:
+        """Greatest share of the contact force that drives each roller round; None without a roller, and for one that
+        leaves its cam: then nothing drives it."""
         if self.section.roller is None:
             return None
         import numpy as np
 
         rows = np.linspace(0.0, self.machine.period, 1440 * self.turns, endpoint=False)
-        if self.on_two_sides:  # where the other roller carries, this one is not driven
-            carrying = {name: self.contact_force(name, rows) > 0.0 for name in self.own_rollers}
-            return [float(np.max(self.traction(name, rows)[carrying[name]], initial=0.0)) for name in self.own_rollers]
-        return [float(np.max(self.traction(name, rows))) for name in self.own_rollers]
+        greatest = []
+        for name in self.own_rollers:
+            share = self.traction(name, rows)
+            if self.on_two_sides:  # where the other roller carries, this one is not driven
+                share = share[self.contact_force(name, rows) > 0.0]
+            greatest.append(float(np.max(share, initial=0.0)))
+        return [share if math.isfinite(share) else None for share in greatest]
 
     def cam_torque(self, phi: Reals) -> Reals:
         """Torque that drives the cams about their axis, counter-clockwise [N m]."""

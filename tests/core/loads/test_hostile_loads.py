@@ -104,3 +104,11 @@ def test_friction_that_vanishes_in_rounding_is_none() -> None:
         for extra in ({"friction": {"pins": 1e-17}}, {})
     ]
     assert list(found[0]["input_torque"]) == pytest.approx(list(found[1]["input_torque"]), rel=1e-12)
+
+
+def test_a_roller_that_leaves_its_cam_is_driven_by_nothing(gearlink: Any, designs: Any) -> None:
+    ended = gearlink("loads", designs / "loaded_gripper.yaml", "--set", "spring.torque=180", "--format", "json")
+    assert ended.status == 1
+    assert ended.json["quantities"]["traction_needed"]["value"][0] is None
+    (skid,) = [check for check in ended.json["checks"] if check["code"] == "GL609" and check["status"] == "warn"]
+    assert "leaves its cam" in skid["message"]
