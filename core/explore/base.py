@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 import json
 import re
 from collections.abc import Iterable, Iterator
@@ -53,10 +52,14 @@ class Base:
 
     def changed(self, changes: Changes) -> dict[str, Any]:
         """The data of its file with other values at some paths; None leaves a key out."""
-        data = copy.deepcopy(self.data)
+        data: dict[str, Any] = json.loads(self._text)  # in a third of the time of a deep copy
         for path, value in changes:
             put(data, path, value)
         return data
+
+    @cached_property
+    def _text(self) -> str:
+        return json.dumps(self.data)
 
     def spec(self, changes: Changes = ()) -> Any:
         """The spec of a design with other values at some paths.

@@ -15,7 +15,11 @@ from typing import Any
 from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.linkages import fourbar, slider_crank
 from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.fourbar_loop import solve_loop
 from gearlink.core.results import cached_property
+
+_ROCKER, _ROCKER_VELOCITY = 1, 4  # of what solve_loop gives
+_BY_ANGLE = (1.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,6 +80,11 @@ class CylinderChain:
         # phi_GH falls as the input rises: the sign turns in q, and a second time in q'.
         first = scale * state.rocker_velocity
         return Travel(value, first) if order == 1 else Travel(value, first, -scale * state.rocker_acceleration)
+
+    def speed(self, input_angle: float) -> float:
+        """First derivative of `travel` [mm/rad] at one input angle, to the last bit the same and nothing else."""
+        loop = solve_loop(self.linkage.reading, self.initial_angle - input_angle, 1, _BY_ANGLE)
+        return self.radius * self.gear_ratio * loop[_ROCKER_VELOCITY]
 
     def jerk(self, input_angle: Any) -> Any:
         """Third derivative of the cylinder's travel, over an array of input angles [mm/rad^3]."""
@@ -144,6 +153,14 @@ class BedChain:
             return Travel(value)
         first = state.rocker_velocity
         return Travel(value, first) if order == 1 else Travel(value, first, state.rocker_acceleration)
+
+    def speed(self, input_angle: float) -> float:
+        """First derivative of `travel` [mm/rad] at one input angle, to the last bit the same and nothing else."""
+        loop = solve_loop(self.linkage.reading, self.initial_crank_angle + input_angle, 1, _BY_ANGLE)
+        start = self._start[0]
+        psi = start + (loop[_ROCKER] - start) - self.crank_offset_angle
+        depth = slider_crank.slider(psi, self.slider_crank_length, self.rod, self.offset, 1)
+        return float(-2.0 * depth[1] * loop[_ROCKER_VELOCITY])
 
     def jerk(self, input_angle: Any) -> Any:
         """Third derivative of the bed's travel before compensation, over an array of input angles [mm/rad^3].

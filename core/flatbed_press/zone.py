@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.flatbed_press.chains import BedChain, CylinderChain, difference
+from gearlink.core.flatbed_press.chains import BedChain, CylinderChain
 from gearlink.core.linkages.slider_crank import dead_center_extended, dead_center_folded
 from gearlink.core.numerics.roots import bracketed_root, maximum
 from gearlink.core.report import safely_below
@@ -95,7 +95,7 @@ def _equal_speeds(bed: BedChain, cylinder: CylinderChain, start: float, end: flo
     """Input angles of equal speeds in (start, end], ascending, each sought when it is asked for."""
 
     def excess(phi: float) -> float:
-        return float(difference(bed, cylinder, phi, 1).first)
+        return bed.speed(phi) - cylinder.speed(phi)
 
     count = max(8, math.ceil((end - start) / _STEP))
     grid = [start + (end - start) * i / count for i in range(count + 1)]
