@@ -89,6 +89,8 @@ def extremes_over(
         >>> [round(each.value, 12) for each in extremes_over([(np.sin, True), (np.cos, False)])]
         [1.0, -1.0]
     """
+    if not wanted:
+        return []
     signs = [1.0 if greatest else -1.0 for _, greatest in wanted]
     functions = list(dict.fromkeys(f for f, _ in wanted))
     of = [functions.index(f) for f, _ in wanted]

@@ -94,12 +94,13 @@ class GearedSixBar(RealSpeed, Design):
 
     @property
     def meshes(self) -> dict[str, GearPair | InternalMesh]:
-        """The meshes by their pins."""
-        return {
-            f"{one}{other}": mesh
-            for train, meshes in zip(self.spec.trains, self.train_meshes, strict=True)
-            for (one, other), mesh in zip(pairwise(train.pins), meshes, strict=True)
-        }
+        """The meshes by their pins, and by their train where both have one there."""
+        found: dict[str, GearPair | InternalMesh] = {}
+        for number, (train, meshes) in enumerate(zip(self.spec.trains, self.train_meshes, strict=True), start=1):
+            for (one, other), mesh in zip(pairwise(train.pins), meshes, strict=True):
+                pins = f"{one}{other}"
+                found[f"{pins} of train {number}" if pins in found else pins] = mesh
+        return found
 
     @property
     def center_distance(self) -> list[float]:

@@ -61,7 +61,7 @@ class SixBarLoads(LoadsDesign):
     @cached_property
     def turns(self) -> int:
         """Input turns until the links are home, and the free gears that are loaded in a direction of their own."""
-        homes = [self._gear_turns[name].denominator for name in self.own_links[5:] if self._is_directed(name)]
+        homes = [self._gear_turns[name].denominator for name in self.own_links[5:] if self.is_directed(name)]
         turns = self._period_turns * math.lcm(*homes)
         if turns > _MOST_TURNS:
             raise NoSolution(
@@ -70,14 +70,6 @@ class SixBarLoads(LoadsDesign):
                 key="trains",
             )
         return turns
-
-    def _is_directed(self, gear: str) -> bool:
-        """Whether a free gear has a centre of mass beside its axis, a force or a spring."""
-        body = getattr(self.section.links, gear)
-        joined = {name for spring in self.section.springs for name in spring.between}
-        return (body is not None and any(body.center or ())) or gear in joined | {
-            each.on for each in self.section.forces
-        }
 
     @cached_property
     def _gear_turns(self) -> dict[str, Fraction]:

@@ -85,7 +85,12 @@ def smallest_idler(
     reached: list[tuple[int, float, float]] = []
     refusal: NoSolution | None = None
     beside = 0
-    for idler in range(LEAST_IDLER, _greatest_idler(crank_teeth, output_teeth) + 1):
+    greatest = _greatest_idler(crank_teeth, output_teeth)
+    if greatest < LEAST_IDLER:
+        ring, key = (crank_teeth, "gears.crank") if crank_teeth < 0 else (output_teeth, "gears.output")
+        least = LEAST_IDLER + _RING_DIFFERENCE
+        raise NoSolution(f"no idler fits into a ring of {-ring} teeth: it needs {least} or more", key=key)
+    for idler in range(LEAST_IDLER, greatest + 1):
         try:
             linkage = design(idler)
         except NoSolution as error:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
+from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.fourbar import solve
 from gearlink.core.linkages.fourbar_loads import MM, four_bar, four_bar_pins, full_balance
 from gearlink.core.loads.design import BALANCE, LoadsDesign, loads_outline
@@ -19,6 +21,7 @@ if TYPE_CHECKING:
 
 _PINS = ("A", "B", "C", "C_idler", "D", "D_output")
 _MESHES = ("mesh_13", "mesh_35")
+_MOST_TURNS = 1000
 
 
 class ThreeGearLoads(LoadsDesign):
@@ -36,15 +39,36 @@ class ThreeGearLoads(LoadsDesign):
         """The geometry."""
         return ThreeGearFourBar(self.spec)
 
+    @cached_property
+    def turns(self) -> int:
+        """Crank turns until idler and output gear are home, where their directions matter."""
+        if self.design.linkage.kind() == "drag-link":  # all links and gears turn once
+            return 1
+        train = self.design.train
+        gears = {
+            "idler": Fraction(int(train.crank), int(train.idler)),
+            "output": Fraction(int(train.crank), int(train.output)),
+        }
+        turns = math.lcm(*(turn.denominator for name, turn in gears.items() if self.is_directed(name)))
+        if turns > _MOST_TURNS:
+            words = (
+                f"idler and output gear come home only after {turns} crank turns: loads are computed for at most "
+                f"{_MOST_TURNS}; balance these gears (center: [0, 0]), or choose teeth with a common factor"
+            )
+            raise NoSolution(words, key="gears.idler")
+        return turns
+
     @property
     def quiet_zones(self) -> list[tuple[float, float]]:
         """The dwell: within the tolerance where the file gives one, else the back-step and the way back."""
         dwell, design = self.design.tolerance_dwell, self.design
         if dwell is not None:
-            return [(dwell.start, dwell.crank_angle)]
-        if design.back_step is not None and design.dwell_angle is not None:
-            return [(design.back_step.start, design.dwell_angle)]
-        return []
+            zone = dwell.start, dwell.crank_angle
+        elif design.back_step is not None and design.dwell_angle is not None:
+            zone = design.back_step.start, design.dwell_angle
+        else:
+            return []
+        return [(zone[0] + 2.0 * math.pi * turn, zone[1]) for turn in range(self.turns)]
 
     def counterweights(self) -> dict[str, complex]:
         """Those of the full force balance; the idler counts at C."""

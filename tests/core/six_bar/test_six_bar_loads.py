@@ -120,3 +120,10 @@ def test_refused_with_the_key(keys: dict[str, Any], place: str) -> None:
 def test_a_negative_mass_is_refused() -> None:
     with pytest.raises(ValidationError):
         design({**worked(SWING), "loads": LOADS}, command="loads", loads__links__output__mass=-1.0)
+
+
+def test_two_trains_between_the_same_pins_are_judged_both() -> None:
+    made = design({k: v for k, v in SIX_BARS["both trains on one link, two turns"].items() if k != "loads"})
+    assert len(made.meshes) == 3
+    assert len(made.center_distance) == 3
+    assert len(made.check("contact-ratio")) == 3

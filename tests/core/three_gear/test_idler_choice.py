@@ -134,3 +134,9 @@ def test_more_teeth_on_crank_and_output_make_room_for_the_input_shaft():
     assert [key for key, _ in failed.remedy] == ["gears.crank", "gears.output"]
     assert {value for _, value in failed.remedy} == {failed.remedy[0][1]}
     assert failed.remedy[0][1] > 40
+
+
+def test_a_ring_too_small_for_any_idler_is_refused_at_its_key() -> None:
+    with pytest.raises(NoSolution, match="no idler fits into a ring of 1 teeth") as refused:
+        smallest_idler(dwell_design(2.0, 40, 1.0), 40, -1, 2.0, **LIMITS)
+    assert refused.value.key == "gears.output"
