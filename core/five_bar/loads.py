@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import cmath
 import math
+from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.five_bar.design import GearedFiveBar
 from gearlink.core.gears.mesh_phase import signed_pair
 from gearlink.core.loads.design import LoadsDesign, loads_outline
+from gearlink.core.loads.periods import homecoming, is_directed
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
@@ -60,7 +62,11 @@ class FiveBarLoads(LoadsDesign):
                 "choose teeth with a common factor",
                 key="gears",
             )
-        return turns
+        gears = self.spec.gears
+        if gears.idler is None or gears.input is None or not is_directed(self.section, "idler"):
+            return turns
+        home = (turns * Fraction(gears.input, gears.idler)).denominator
+        return homecoming(turns * home, "the idler comes home", "gears.idler")
 
     @cached_property
     def function_bar(self) -> FunctionFiveBar:

@@ -92,13 +92,6 @@ class LoadsBase(Design):
         """Input turns after which everything repeats."""
         return 1
 
-    def is_directed(self, link: str) -> bool:
-        """Whether the direction of a link matters: a centre of mass beside its axis, a spring, a force at a point."""
-        body = getattr(self.section.links, link, None)
-        joined = {name for spring in self.section.springs for name in spring.between}
-        pushed = {each.on for each in self.section.forces if each.point is not None}
-        return (body is not None and any(body.center or ())) or link in joined | pushed
-
     @property
     def shaft_inertia(self) -> float:
         """Inertia of what turns evenly with the input, reduced to it [kg m^2]."""

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 from abc import abstractmethod
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.gears.mesh_phase import signed_pair
 from gearlink.core.linkages.fourbar import FourBar, solve
 from gearlink.core.linkages.fourbar_loads import MM, four_bar, four_bar_pins, full_balance
 from gearlink.core.loads.design import BALANCE, LoadsDesign, loads_outline
+from gearlink.core.loads.periods import homecoming, is_directed
 from gearlink.core.planet_linkages.rocker_design import GearedRocker
 from gearlink.core.planet_linkages.two_gear_design import TwoGearFourBar
 from gearlink.core.results import cached_property
@@ -20,6 +22,7 @@ if TYPE_CHECKING:
     from gearlink.core.numerics.arrays import Reals
 
 _MESHES = ("mesh_25",)
+_MOST_TEETH = 10_000
 
 
 class PlanetLinkageLoads(LoadsDesign):
@@ -89,11 +92,19 @@ class TwoGearLoads(PlanetLinkageLoads):
         """The geometry."""
         return TwoGearFourBar(self.spec)
 
+    @cached_property
+    def turns(self) -> int:
+        """Crank turns until the output is home, where its direction matters."""
+        if not is_directed(self.section, "output"):
+            return 1
+        mean = Fraction(self.design.mean_ratio).limit_denominator(_MOST_TEETH)
+        return homecoming(mean.denominator, "the output comes home", "gears")
+
     @property
     def quiet_zones(self) -> list[tuple[float, float]]:
         """The back-step of the output."""
         step = self.design.back_step
-        return [] if step is None else [(step.start, step.crank_angle)]
+        return [] if step is None else [(step.start + 2.0 * math.pi * k, step.crank_angle) for k in range(self.turns)]
 
     def carrier_turn(self, links: dict[str, Link]) -> Turn:
         """The crank's."""

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.loads.design import LoadsDesign, loads_outline
+from gearlink.core.loads.periods import homecoming, is_directed
 from gearlink.core.results import cached_property
 from gearlink.core.six_bar.design import GearedSixBar
 from gearlink.core.six_bar.spec import PINS
@@ -21,7 +22,6 @@ if TYPE_CHECKING:
     from gearlink.core.six_bar.spec import GearedSixBarSpec
 
 _MM = 1e-3
-_MOST_TURNS = 1000
 _LINKS = ("frame", "input", "coupler_1", "coupler_2", "coupler_3", "output")
 _HOLDING = ("frame", *_LINKS[1:5], "frame")
 """By pin, the link that it is held in: what else turns on the pin runs against this one."""
@@ -61,15 +61,9 @@ class SixBarLoads(LoadsDesign):
     @cached_property
     def turns(self) -> int:
         """Input turns until the links are home, and the free gears that are loaded in a direction of their own."""
-        homes = [self._gear_turns[name].denominator for name in self.own_links[5:] if self.is_directed(name)]
+        homes = [self._gear_turns[name].denominator for name in self.own_links[5:] if is_directed(self.section, name)]
         turns = self._period_turns * math.lcm(*homes)
-        if turns > _MOST_TURNS:
-            raise NoSolution(
-                f"the gears inside the trains come home only after {turns} input turns: loads are computed for at most "
-                f"{_MOST_TURNS}; balance these gears (center: [0, 0]), or choose teeth with a common factor",
-                key="trains",
-            )
-        return turns
+        return homecoming(turns, "the gears inside the trains come home", "trains")
 
     @cached_property
     def _gear_turns(self) -> dict[str, Fraction]:

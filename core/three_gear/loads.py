@@ -6,10 +6,10 @@ import math
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.fourbar import solve
 from gearlink.core.linkages.fourbar_loads import MM, four_bar, four_bar_pins, full_balance
 from gearlink.core.loads.design import BALANCE, LoadsDesign, loads_outline
+from gearlink.core.loads.periods import homecoming, is_directed
 from gearlink.core.results import cached_property
 from gearlink.core.three_gear.design import ThreeGearFourBar
 
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
 
 _PINS = ("A", "B", "C", "C_idler", "D", "D_output")
 _MESHES = ("mesh_13", "mesh_35")
-_MOST_TURNS = 1000
 
 
 class ThreeGearLoads(LoadsDesign):
@@ -49,14 +48,8 @@ class ThreeGearLoads(LoadsDesign):
             "idler": Fraction(int(train.crank), int(train.idler)),
             "output": Fraction(int(train.crank), int(train.output)),
         }
-        turns = math.lcm(*(turn.denominator for name, turn in gears.items() if self.is_directed(name)))
-        if turns > _MOST_TURNS:
-            words = (
-                f"idler and output gear come home only after {turns} crank turns: loads are computed for at most "
-                f"{_MOST_TURNS}; balance these gears (center: [0, 0]), or choose teeth with a common factor"
-            )
-            raise NoSolution(words, key="gears.idler")
-        return turns
+        turns = math.lcm(*(turn.denominator for name, turn in gears.items() if is_directed(self.section, name)))
+        return homecoming(turns, "idler and output gear come home", "gears.idler")
 
     @property
     def quiet_zones(self) -> list[tuple[float, float]]:
