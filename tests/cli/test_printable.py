@@ -169,9 +169,11 @@ def test_a_file_name_that_is_no_utf8(gearlink: Any, tmp_path: Path, line: str) -
 
 
 @pytest.mark.parametrize("name", ["##vso[task.x]", "a##[error]\u202eb\u200b", "20° ###"])
-def test_json_keeps_the_name_and_shows_nothing_that_steers(gearlink: Any, designs: Path, name: str) -> None:
+def test_json_keeps_the_name_and_shows_nothing_that_steers(
+    gearlink: Any, designs: Path, tmp_path: Path, name: str
+) -> None:
     text = (designs / "ring_pair.yaml").read_text().replace("name: pinion-in-ring", f"name: {json.dumps(name)}")
-    path = Path("pair.yaml")
+    path = tmp_path / "pair.yaml"
     path.write_text(text)
     for line in (("gear", path), ("check", path), ("batch", path)):
         ended = gearlink(*line, "--format", "json")
