@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import json
 import math
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
+from textwrap import wrap
 from typing import Any
 
 from gearlink.cli.bench.timing import Family, Row
@@ -96,12 +98,13 @@ def draw(family: Family, path: Path) -> None:
 
     from gearlink.cli.figures import style
 
-    figure = style.figure(9.0, 5.5, family.title)
+    figure = style.figure(9.0, 5.5, "\n".join(wrap(family.title, 72)))
     FigureCanvasAgg(figure)
     axes = figure.add_subplot()
-    style.curves(axes, "time each [ns]", f"worst error [{family.unit}]")
-    axes.set(xscale="log", yscale="log")
     plotted = curves(family)
+    foot = "; none: at the foot" if any(e == 0.0 for points in plotted.values() for _, e in points) else ""
+    style.curves(axes, "time each [ns]", f"worst error [{family.unit}{foot}]")
+    axes.set(xscale="log", yscale="log")
     least = min((e for points in plotted.values() for _, e in points if e > 0.0), default=1e-16)
     colors = (style.BLUE, style.ORANGE, style.GREEN, style.RED, style.PURPLE, style.SKY, style.BLACK)
     for i, (name, points) in enumerate(plotted.items()):
@@ -123,9 +126,10 @@ def curves(family: Family) -> dict[str, list[tuple[float, float]]]:
     largest: dict[str, int] = {}
     for row in family.rows:
         largest[row.method] = max(row.size, largest.get(row.method, 0))
+    siblings = Counter(method.partition(", ")[0] for method in largest)
     for row in family.rows:
         name, _, step = row.method.partition(", ")
-        stepped = any(c.isdigit() for c in step)
+        stepped = siblings[name] > 1 and any(c.isdigit() for c in step)
         if math.isfinite(row.error) and (not stepped or row.size == largest[row.method]):
             found.setdefault(name if stepped else row.method, []).append((row.nanoseconds, row.error))
     return found
