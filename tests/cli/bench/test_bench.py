@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -100,7 +101,10 @@ def test_pages_hold_every_row(tmp_path: Path) -> None:
     for page in (as_text([FAMILY], machine), as_markdown([FAMILY], machine)):
         assert all(text in page for text in ("closed", "5 ns", "2 ms", "1e-15", "a note", machine["numpy"]))
     assert json.loads(as_json([FAMILY], machine))["families"][0]["rows"][2]["error"] is None
-    assert curves(FAMILY) == {"closed": [(5.0, 1e-15)], "Newton": [(9.0, 1e-4)]}
+    alone = {"closed": [(5.0, 1e-15)], "Newton, 2 steps": [(9.0, 1e-4)]}
+    assert curves(FAMILY) == alone
+    stepped = replace(FAMILY, rows=(*FAMILY.rows, Row("Newton, 3 steps", 10, 12.0, 1e-8, 2.5)))
+    assert curves(stepped) == {"closed": [(5.0, 1e-15)], "Newton": [(9.0, 1e-4), (12.0, 1e-8)]}
     said: list[str] = []
     assert write_pictures([FAMILY], tmp_path, said.append) == {"cam": "bench-cam.png"}
     assert (tmp_path / "bench-cam.png").stat().st_size > 10_000
