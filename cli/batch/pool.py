@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from concurrent.futures import BrokenExecutor, Future, as_completed
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
@@ -16,6 +15,7 @@ from gearlink.cli.batch.outcome import Outcome
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import stem_of
 from gearlink.cli.processors import processors
+from gearlink.cli.progress import progress
 from gearlink.cli.reading.diagnostics import Diagnostic
 from gearlink.cli.workers import workers
 
@@ -33,7 +33,7 @@ def run_files(files: Sequence[Path], options: BatchOptions) -> tuple[list[Outcom
         A sample from the whole list runs here; how long it takes decides whether more processes pay for the rest.
     """
     results: list[Outcome] = []
-    with _progress(len(files), options) as advance:
+    with progress(len(files), "designs", quiet=options.design.quiet) as advance:
         try:
             for done, found in _each(files, options):
                 results += found
@@ -136,17 +136,3 @@ def _alone(path: Path, options: BatchOptions) -> list[Outcome]:
         message = "fault: the process that had this file died; `gearlink check` on it alone may show why"
         wrong = Diagnostic("GL199", message, file=str(path))
         return [Outcome(str(path), "", stem_of(path), "", ExitCode.FAULT, None, (wrong,))]
-
-
-@contextmanager
-def _progress(total: int, options: BatchOptions) -> Iterator[Callable[[int], None]]:
-    """A bar on standard error where that is a terminal and the user wants talk."""
-    if options.design.quiet or total < 2 or not sys.stderr.isatty():
-        yield lambda _: None
-        return
-    from rich.console import Console
-    from rich.progress import Progress
-
-    with Progress(console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task("designs", total=total)
-        yield lambda count: bar.advance(task, count)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import IO, TYPE_CHECKING, Any
 
@@ -13,6 +12,7 @@ from gearlink.cli.evaluate import open_design, read_spec
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite, safe_stem, write_atomically
 from gearlink.cli.options import Options
+from gearlink.cli.progress import counted
 from gearlink.cli.reading.design_file import diagnose_no_solution
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import LoadedFile
@@ -116,7 +116,7 @@ def _write(stream: IO[bytes], stage: Stage, asked: Asked, options: Options) -> N
     from gearlink.cli.moving.raster import Raster
 
     raster, count = Raster(stage), stage.count
-    told = _told(count, options)
+    told = counted(range(count), "drawing", quiet=options.quiet)
     if asked.format == "mp4":
         from gearlink.cli.moving.video import write_mp4
 
@@ -125,13 +125,3 @@ def _write(stream: IO[bytes], stage: Stage, asked: Asked, options: Options) -> N
         from gearlink.cli.moving.gif import write_gif
 
         write_gif(stream, raster, count, asked.fps, told)
-
-
-def _told(count: int, options: Options) -> Iterable[int]:
-    """The numbers of the pictures, with a bar on a terminal."""
-    if options.quiet or not sys.stderr.isatty():
-        return range(count)
-    from rich.console import Console
-    from rich.progress import track
-
-    return track(range(count), "drawing", console=Console(stderr=True), transient=True)

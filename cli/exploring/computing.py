@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import signal
-import sys
 import threading
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
@@ -203,26 +202,6 @@ def _survives(problem: Problem, first: int, last: int) -> bool:
     except BrokenExecutor:
         return False
     return True
-
-
-@contextmanager
-def progress(total: int, size: int, *, quiet: bool) -> Iterator[Advance]:
-    """A bar on standard error with rate and remaining time, where that is a terminal and the user wants talk."""
-    if quiet or total < 2 or not sys.stderr.isatty():
-        yield lambda _: None
-        return
-    from rich.console import Console
-    from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
-
-    class Rate(TextColumn):
-        def render(self, task: Any) -> Any:
-            speed = task.finished_speed or task.speed or 0.0
-            return type(super().render(task))(f"{speed * size:,.0f} designs/s")
-
-    columns = (TextColumn("{task.percentage:>3.0f} %"), BarColumn(), Rate(""), TimeRemainingColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task("", total=total)
-        yield lambda count: bar.advance(task, count)
 
 
 def shared(todo: Iterable[int], shard: tuple[int, int]) -> list[int]:

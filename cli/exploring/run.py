@@ -9,7 +9,7 @@ from pathlib import Path
 
 from gearlink.cli.evaluate import exit_status, open_design, read_spec, require_command
 from gearlink.cli.exit_codes import ExitCode
-from gearlink.cli.exploring.computing import Means, Opened, compute, kept_in, progress, shared
+from gearlink.cli.exploring.computing import Means, Opened, compute, kept_in, shared
 from gearlink.cli.exploring.options import Exploring
 from gearlink.cli.exploring.store import (
     CannotStore,
@@ -24,6 +24,7 @@ from gearlink.cli.exploring.store import (
 )
 from gearlink.cli.files import CannotWrite
 from gearlink.cli.options import Format
+from gearlink.cli.progress import progress
 from gearlink.cli.reading.base_design import located
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.errors import show_errors
@@ -86,7 +87,8 @@ def _computed(made: Problem, asked: Exploring) -> int:
         done = kept.finished()
     mine = shared(range(made.chunks), asked.shard)
     todo = [number for number in mine if number not in done]
-    with _means(asked) as means, progress(len(todo), made.chunk_size, quiet=asked.options.quiet) as advance:
+    shown = progress(len(todo), "exploring", quiet=asked.options.quiet, each=made.chunk_size)
+    with _means(asked) as means, shown as advance:
         whole = compute(made, todo, keep, means, advance)
     with keep() as kept:
         if not whole:

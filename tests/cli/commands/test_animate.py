@@ -7,9 +7,7 @@ flanks in contact may cross by twice that. A cam of 720 chords lies within 0.01 
 
 from __future__ import annotations
 
-import io
 import json
-import math
 import os
 import re
 from functools import cache
@@ -463,21 +461,6 @@ def test_nothing_half_written_where_drawing_breaks(
     ended = gearlink("animate", designs / "thesis_example_1.yaml", "--out", tmp_path, *QUICK)
     assert ended.status == 2
     assert list(tmp_path.iterdir()) == []
-
-
-def test_a_bar_is_shown_on_a_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
-    from gearlink.cli.commands.animate import _told
-
-    class Terminal(io.StringIO):
-        def isatty(self) -> bool:
-            return True
-
-    screen = Terminal()
-    monkeypatch.setattr("sys.stderr", screen)
-    monkeypatch.setenv("TERM", "xterm")
-    assert list(_told(5, Options())) == [0, 1, 2, 3, 4]
-    assert "drawing" in screen.getvalue()
-    assert math.isclose(len(list(_told(5, Options(quiet=True)))), 5)
 
 
 def test_paper_is_white_in_every_picture(gearlink: Any, designs: Path, tmp_path: Path) -> None:
