@@ -34,8 +34,9 @@ demo: $(READY)
 DEMO_DWELL := idler_teeth crank_length coupler_length frame_length tolerance_dwell_angle frame_length_interval gear_gap
 DEMO_CAM := follower_stroke max_pressure_angle min_curvature_radius min_radius max_radius
 
+# A test that waits for ever ends with the stacks of all threads, and the rest goes on.
 test: $(READY)
-	$(PYTEST)
+	$(PYTEST) --timeout 200 --timeout-method thread
 
 check: lint types test
 

@@ -25,6 +25,11 @@ ROOT = Path(__file__).resolve().parents[1]
 # The collector finds little here and walks all modules, specs and figures to say so: as the program itself does.
 gc.set_threshold(50_000, 20, 100)
 
+# Commands that are run in the process of the tests fork workers. A thread of OpenBLAS that is at work just then leaves
+# its locks taken in the fork, which waits for them for ever. The program leaves them out likewise; no numpy is loaded
+# yet.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 # The same examples every time, and no verdict on the speed of drawing them (too_slow): machines that run tests are
 # shared and noisy. GEARLINK_SEEDS=random draws new examples with every run.
 settings.register_profile(
