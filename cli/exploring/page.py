@@ -71,7 +71,19 @@ def _why(study: Exploration, console: object) -> None:
         grid.add_column(head, justify="right" if head in ("designs", "alone") else "left", overflow="fold")
     for place, name, code, miss in rows:
         unit = "" if miss.unit == "1" else f" {miss.unit}"
-        near = "" if miss.value is None else f"{number(miss.value, 5)} (limit {number(miss.limit, 5)}){unit}"
+        near = "" if miss.value is None else f"{_beside(miss.value, miss.limit)}{unit}"
         grid.add_row(name, code or "", f"{miss.fails:,}", f"{miss.alone:,}", near, f"--show m{place}")
     console.print()  # type: ignore[attr-defined]
     console.print(grid)  # type: ignore[attr-defined]
+
+
+def _beside(value: float, limit: float | None) -> str:
+    """A value and its limit to five digits, or to as many as it takes to tell them apart.
+
+    Example
+        >>> _beside(44.7, 45.0), _beside(44.9999987, 45.0), _beside(45.0, 45.0)
+        ('44.7 (limit 45)', '44.999999 (limit 45)', '45 (limit 45)')
+    """
+    told = (digits for digits in range(5, 18) if number(value, digits) != number(limit, digits))
+    digits = next(told, 5)
+    return f"{number(value, digits)} (limit {number(limit, digits)})"

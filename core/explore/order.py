@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from decimal import Decimal
 from typing import Any
 
 import numpy as np
@@ -19,6 +20,8 @@ from gearlink.core.numerics.arrays import Mask, Reals
 _EDGE = 1e-9
 _MOST = 2.0**53
 _MOST_CELLS = 10_000_000
+_MOST_DECIMALS = 22
+"""Powers of ten up to this one are floats."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,7 +37,7 @@ class Variable:
         times : str - path of an earlier variable
         whole : bool - whole numbers alone
         log : bool - a continuum sampled in its logarithm
-        default : the value in the base design
+        times_decimals : int - decimals of the values of `times`
     """
 
     path: str
@@ -46,6 +49,7 @@ class Variable:
     times: str = ""
     whole: bool = False
     log: bool = False
+    times_decimals: int = 0
 
     @property
     def continuous(self) -> bool:
@@ -69,18 +73,46 @@ class Variable:
         edge = 0.0 if self.whole else _EDGE
         return np.maximum(0.0, np.floor((high - low) / self.step + edge) + 1.0)
 
+    @property
+    def decimals(self) -> int:
+        """Decimals of its values as the file writes them: of a range those of its first value and its step."""
+        if self.values:
+            return max((_decimals(value) for value in self.values if isinstance(value, float)), default=0)
+        assert self.step is not None, "a continuum has no decimals"
+        return 0 if self.whole else max(_decimals(self.low) + self.times_decimals, _decimals(self.step))
+
     def at(self, digit: Any, parent: Any = 1.0) -> Any:
-        """The values at places of the range, as floats; places in the list where it has one."""
+        """The values at places of the range, as floats; places in the list where it has one.
+
+        Example
+            >>> Variable("share", low=0.0, high=1.0, step=0.1).at(6).item(), 0.0 + 6 * 0.1
+            (0.6, 0.6000000000000001)
+        """
         if self.values:
             return digit
         assert self.step is not None, "a continuum has no places"
-        return self.ends(parent)[0] + digit * self.step
+        return _rounded(self.ends(parent)[0] + digit * self.step, self.decimals)
 
     def written(self, value: float) -> Any:
         """The value as a file has it."""
         if self.values:
             return self.values[int(value)]
         return int(value) if self.whole else float(value)
+
+
+def _decimals(value: float) -> int:
+    """Decimals of the shortest text that is read as the number."""
+    exponent = Decimal(repr(float(value))).normalize().as_tuple().exponent
+    assert isinstance(exponent, int), "a finite number"
+    return max(0, -exponent)
+
+
+def _rounded(values: Any, decimals: int) -> Any:
+    """Values to some decimals, as a file that writes so many is read; those with too many digits as they are."""
+    if decimals > _MOST_DECIMALS:
+        return values
+    scaled = np.rint(values * 10.0**decimals)
+    return np.where(np.abs(scaled) < _MOST, scaled / 10.0**decimals, values)
 
 
 class TooManyDesigns(GearlinkError):

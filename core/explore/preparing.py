@@ -101,14 +101,14 @@ class _Reading:
             message = f"{given.times!r} is no variable of numbers above {path}"
             self.faults.append(Fault("GL151", message, (*place, "times"), "list it before"))
             return None
-        made = self._made(path, given)
+        made = self._made(path, given, before)
         wrong = self._refused_value(made, before)
         if wrong is not None:
             self.faults.append(wrong)
             return None
         return made
 
-    def _made(self, path: str, given: VariableSpec) -> Variable:
+    def _made(self, path: str, given: VariableSpec, before: dict[str, Variable]) -> Variable:
         also = tuple(given.also)
         if given.values is not None:
             return Variable(path, also, tuple(given.values))
@@ -121,7 +121,8 @@ class _Reading:
         step = given.step
         if step is None and whole:
             step = 1.0
-        return Variable(path, also, (), low, high, step, given.times or "", whole, given.log)
+        decimals = _decimals_below(given.times, before)
+        return Variable(path, also, (), low, high, step, given.times or "", whole, given.log, decimals)
 
     def _refused_value(self, variable: Variable, before: dict[str, Variable]) -> Fault | None:
         """What the base has against one of a variable's values, each put in alone."""
@@ -194,6 +195,7 @@ class _Reading:
         try:
             design = self.base.design()
             values = self.base.values(design, names)
+            whole = self.base.values(design, dict.fromkeys(name.partition("[")[0] for name in names))
             failing = self._failing(design)
         except Refused as error:
             message = f"the base design cannot be computed: {error}"
@@ -201,6 +203,7 @@ class _Reading:
             self.faults.append(Fault("GL156", message, ("design", *below), "a study varies a design that exists"))
             return ()
         for wish, place in wishes:
+            self.faults += no_lists(wish.expression.names, whole, place)
             self.faults += odd_comparisons(wish, values, place)
         return self._must_pass(failing)
 
@@ -226,16 +229,20 @@ class _Reading:
         return tuple(sorted(set(asked)))
 
 
+def no_lists(names: Iterable[str], whole: dict[str, Any], place: Place) -> Iterator[Fault]:
+    """Entries that are asked of numbers and words; `whole`: the quantities without index."""
+    for name in names:
+        plain, _, index = name.partition("[")
+        if index and whole[plain] is not None and not isinstance(whole[plain], (list, tuple)):
+            yield Fault("GL152", f"{plain} is no list: it has no entry {index.rstrip(']')}", place, f"take {plain}")
+
+
 def beyond_lists(names: Iterable[str], whole: dict[str, Any], place: Place) -> Iterator[Fault]:
     """Entries that are asked of lists that do not have them; `whole`: the quantities without index."""
     for name in names:
         plain, _, index = name.partition("[")
         value = whole[plain]
-        if not index or value is None:
-            continue
-        if not isinstance(value, (list, tuple)):
-            yield Fault("GL152", f"{plain} is no list: it has no entry {index.rstrip(']')}", place, f"take {plain}")
-        elif int(index.rstrip("]")) >= len(value):
+        if index and isinstance(value, (list, tuple)) and int(index.rstrip("]")) >= len(value):
             last = f"the last is {plain}[{len(value) - 1}]" if value else "it is empty"
             yield Fault(
                 "GL152", f"{plain} is a list of {len(value)}: it has no {name}", place, f"counted from 0, {last}"
@@ -260,11 +267,18 @@ def odd_comparisons(wish: Objective | Condition, values: dict[str, Any], place: 
             yield Fault("GL152", message, place, "compare it by >= and <=")
 
 
+def _decimals_below(times: str | None, before: dict[str, Variable]) -> int:
+    """Decimals of the values of the variable that a range is a multiple of."""
+    return 0 if times is None or before[times].continuous else before[times].decimals
+
+
 def _points(low: float, high: float, count: int, *, log: bool, whole: bool) -> list[Any]:
     shares = [i / (count - 1) for i in range(count)]
     found = [low * (high / low) ** share if log else low + share * (high - low) for share in shares]
     found[-1] = high
-    return list(dict.fromkeys(round(value) for value in found)) if whole else found
+    if whole:
+        return list(dict.fromkeys(round(value) for value in found))
+    return [float(f"{value:.15g}") for value in found]  # 0.3, not 0.30000000000000004
 
 
 def _tried(variable: Variable, before: dict[str, Variable]) -> Iterator[Any]:
@@ -282,7 +296,8 @@ def _tried(variable: Variable, before: dict[str, Variable]) -> Iterator[Any]:
     count = int((high - low) / step + _EDGE) + 1
     stride = max(1, count // _TRIED_VALUES)
     for i in dict.fromkeys((0, count - 1, *range(0, count, stride))):
-        yield variable.written(low + i * step)
+        value = low + i * step if variable.continuous else variable.at(i, parents[0])
+        yield variable.written(float(value))
 
 
 def _span(variable: Variable, before: dict[str, Variable]) -> tuple[float, float]:

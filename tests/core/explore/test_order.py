@@ -69,3 +69,23 @@ def test_a_sample_is_the_same_in_any_share_and_stays_in_its_ranges() -> None:
     assert ((i >= c) & (i <= 2 * c) & (i == np.floor(i))).all()
     assert ((x >= 0.1) & (x <= 10.0)).all()
     assert np.median(x) == pytest.approx(1.0, rel=0.1)  # equal shares of the logarithm
+
+
+def test_values_of_a_range_are_what_a_file_would_write() -> None:
+    """As texts with the decimals of first value and step are read: no 0.6000000000000001 in a design's file."""
+    steps = Variable("x", low=-1.05, high=1.0, step=0.1)
+    values = steps.at(np.arange(steps.count()))
+    assert values.tolist() == [round(-1.05 + 0.1 * i, 2) for i in range(21)]
+    below = Grid(
+        [Variable("c", values=(0.1, 3)), Variable("i", low=0.7, high=2.0, step=0.1, times="c", times_decimals=1)]
+    )
+    rows = below.columns(np.arange(below.count)).T.tolist()
+    assert rows[:2] == [[0, 0.07], [0, 0.17]]
+    assert rows[2:5] == [[1, 2.1], [1, 2.2], [1, 2.3]]
+
+
+def test_values_with_more_digits_than_a_float_stay() -> None:
+    third, tiny = 1.0 / 3.0, Variable("x", low=1e-30, high=1e-29, step=1e-30)
+    large = Variable("x", low=1e12 + third, high=2e12, step=third)
+    assert tiny.at(np.arange(3)).tolist() == [1e-30, 2e-30, 1e-30 + 2 * 1e-30]
+    assert large.at(np.arange(3)).tolist() == [1e12 + third + i * third for i in range(3)]

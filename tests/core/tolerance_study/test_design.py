@@ -152,6 +152,7 @@ BAD: dict[str, tuple[dict[str, Any], str]] = {
         "GL176",
     ),
     "unknown quantity": ({"sources": {"links.crank": {"plus_minus": 0.1}}, "require": ["bakc_step <= 3 deg"]}, "GL152"),
+    "entry of a number": ({"sources": {"links.crank": {"plus_minus": 0.1}}, "require": ["i3[0] <= 3"]}, "GL152"),
 }
 
 
