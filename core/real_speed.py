@@ -82,6 +82,15 @@ class RealSpeed:
         return {**columns, **found}
 
 
+class OutputSpeed:
+    """Greatest and least speed [rad/s] and acceleration [rad/s^2] of an output, from its ratios to the input."""
+
+    output_speed_max: float | None = per_time("speed_ratio_max", 1)
+    output_speed_min: float | None = per_time("speed_ratio_min", 1)
+    output_acceleration_max: float | None = per_time("acceleration_ratio_max", 2)
+    output_acceleration_min: float | None = per_time("acceleration_ratio_min", 2)
+
+
 def _scaled(data: Any, factor: float) -> Any:
     return data * factor if hasattr(data, "dtype") else [value * factor for value in data]
 

@@ -21,7 +21,7 @@ from gearlink.core.gears.train_names import TRAIN_CHECKS
 from gearlink.core.gears.train_ways import train_ways
 from gearlink.core.linkages.checks import target_check, transmission_check
 from gearlink.core.motion_extremes import WithExtremes, names
-from gearlink.core.real_speed import RealSpeed, per_time
+from gearlink.core.real_speed import OutputSpeed, RealSpeed, per_time
 from gearlink.core.remedies import down, either, up
 from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
@@ -49,7 +49,7 @@ _OF_PATH = names("velocity", "acceleration")
 _OF_FUNCTION = names("speed_ratio", "acceleration_ratio")
 
 
-class GearedFiveBar(WithExtremes, RealSpeed, FiveBarParts):
+class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, FiveBarParts):
     """A five-bar whose gears take away one of its two freedoms."""
 
     kind = "geared-five-bar"
@@ -131,10 +131,6 @@ class GearedFiveBar(WithExtremes, RealSpeed, FiveBarParts):
     point_speed_max: float | None = per_time("velocity_max", 1)
     point_speed_min: float | None = per_time("velocity_min", 1)
     point_acceleration_max: float | None = per_time("acceleration_max", 2)
-    output_speed_max: float | None = per_time("speed_ratio_max", 1)
-    output_speed_min: float | None = per_time("speed_ratio_min", 1)
-    output_acceleration_max: float | None = per_time("acceleration_ratio_max", 2)
-    output_acceleration_min: float | None = per_time("acceleration_ratio_min", 2)
 
     ways = {
         "transmission-angle": (up("links.follower", "links.output"), *_LINKS),

@@ -122,16 +122,16 @@ class SliderCrankDesign(RealSpeed, SliderCrankQuantities, Design):
         from gearlink.core.linkages.standstills import turnings
 
         found = turnings(lambda x: self.depth(x, order), lambda x: self.depth(x, order + 1))
-        found.sort(key=lambda turning: turning.speed)
+        found.sort(key=lambda turning: turning.value)
         return [found[-1], found[0]]
 
-    velocity_max: float = placed("fastest.0.speed")
+    velocity_max: float = placed("fastest.0.value")
     velocity_max_at: float = placed("fastest.0.place")
-    velocity_min: float = placed("fastest.1.speed")
+    velocity_min: float = placed("fastest.1.value")
     velocity_min_at: float = placed("fastest.1.place")
-    acceleration_max: float = placed("hardest.0.speed")
+    acceleration_max: float = placed("hardest.0.value")
     acceleration_max_at: float = placed("hardest.0.place")
-    acceleration_min: float = placed("hardest.1.speed")
+    acceleration_min: float = placed("hardest.1.value")
     acceleration_min_at: float = placed("hardest.1.place")
     slider_velocity_max: float | None = per_time("velocity_max", 1)
     slider_velocity_min: float | None = per_time("velocity_min", 1)

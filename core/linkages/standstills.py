@@ -25,10 +25,10 @@ GRID = sorted(
 
 @dataclass(frozen=True, slots=True)
 class Turning:
-    """An extreme of the speed ratio: crank angle [rad] in [0, 2 pi) and value."""
+    """An extreme of a ratio: crank angle [rad] and value."""
 
     place: float
-    speed: float
+    value: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,32 +73,35 @@ def turnings(speed: Function, acceleration: Function) -> list[Turning]:
     Returns
         turnings : list of Turning - in the order of the crank angle
     Example
-        >>> [round(t.speed, 12) for t in turnings(lambda x: 1 + 2 * math.sin(x), lambda x: 2 * math.cos(x))]
+        >>> [round(t.value, 12) for t in turnings(lambda x: 1 + 2 * math.sin(x), lambda x: 2 * math.cos(x))]
         [3.0, -1.0]
     """
     return [Turning(place, speed(place)) for place in zeros_over_turn(acceleration)]
 
 
-def standstills(speed: Function, extremes: list[Turning], tolerance: float) -> list[float]:
+def standstills(speed: Function, extremes: list[Turning], tolerance: float, period: float | None = TURN) -> list[float]:
     """Crank angles at which the speed ratio is zero, touching zeros among them.
 
     Parameters
         speed : function of the crank angle [rad]
         extremes : list of Turning - of that speed; between two of them it runs one way, so no zero is missed
         tolerance : float - an extreme within it of zero is one momentary standstill
+        period : float [rad] - after which the speed repeats; None over a range, whose ends are among the extremes
     Returns
-        places : list of float [rad] - ascending in [0, 2 pi)
+        places : list of float [rad] - ascending, in [0, period)
     Example
         >>> f, slope = (lambda x: 1 + 2 * math.sin(x)), (lambda x: 2 * math.cos(x))
         >>> [round(math.degrees(x), 9) for x in standstills(f, turnings(f, slope), 1e-9)]
         [210.0, 330.0]
     """
-    places = [t.place for t in extremes if abs(t.speed) <= tolerance]
-    around = [*extremes, Turning(extremes[0].place + TURN, extremes[0].speed)] if extremes else []
+    places = [t.place for t in extremes if abs(t.value) <= tolerance]
+    around = extremes
+    if period is not None and extremes:
+        around = [*extremes, Turning(extremes[0].place + period, extremes[0].value)]
     for one, other in pairwise(around):
-        if min(abs(one.speed), abs(other.speed)) > tolerance and one.speed * other.speed < 0.0:
-            places.append(bracketed_root(speed, one.place, other.place) % TURN)
-    return sorted(places)
+        if min(abs(one.value), abs(other.value)) > tolerance and one.value * other.value < 0.0:
+            places.append(bracketed_root(speed, one.place, other.place))
+    return sorted(place if period is None else place % period for place in places)
 
 
 def back_steps(speed: Function, angle: Function, places: list[float]) -> list[BackStep]:

@@ -17,12 +17,13 @@ from gearlink.core.gears.train_names import TRAIN_CHECKS
 from gearlink.core.gears.train_ways import train_ways
 from gearlink.core.linkages.checks import check_linkage, target_check, transmission_check
 from gearlink.core.linkages.fourbar import FourBar, solve
+from gearlink.core.linkages.output_rates import OutputRates
 from gearlink.core.linkages.standstills import Turning, turnings
 from gearlink.core.linkages.swing import rocker_swing
 from gearlink.core.planet_linkages.bodies import rocker_layout
 from gearlink.core.planet_linkages.planet import PlanetLinkage
 from gearlink.core.planet_linkages.rocker_synthesis import crank_for_swing, extreme_crank_angles
-from gearlink.core.real_speed import RealSpeed, per_time
+from gearlink.core.real_speed import RealSpeed
 from gearlink.core.remedies import down, either, up
 from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
@@ -41,7 +42,7 @@ _FEWER = (down("gears.coupler", step=1), down("gears.output", step=1))
 _LINKS = either("links.crank", "links.frame", "links.coupler")
 
 
-class GearedRocker(RealSpeed, Meshed):
+class GearedRocker(OutputRates, RealSpeed, Meshed):
     """Crank-rocker with a gear on the coupler at C and the output gear on D; the rocker is their centre distance."""
 
     kind = "geared-rocker"
@@ -225,27 +226,14 @@ class GearedRocker(RealSpeed, Meshed):
         return None if target is None else self.output_swing - math.radians(target.swing)
 
     @cached_property
-    def fastest(self) -> tuple[Turning, Turning]:
-        """Greatest and least speed ratio and their places."""
-        return _both(turnings(self.drive.speed, self.drive.acceleration))
+    def speed_turnings(self) -> list[Turning]:
+        """Extremes of the output's speed ratio."""
+        return turnings(self.drive.speed, self.drive.acceleration)
 
     @cached_property
-    def hardest(self) -> tuple[Turning, Turning]:
-        """Greatest and least acceleration ratio and their places."""
-        return _both(turnings(self.drive.acceleration, self.drive.jerk))
-
-    speed_ratio_max: float = placed("fastest.0.speed")
-    speed_ratio_max_at: float = placed("fastest.0.place")
-    speed_ratio_min: float = placed("fastest.1.speed")
-    speed_ratio_min_at: float = placed("fastest.1.place")
-    acceleration_ratio_max: float = placed("hardest.0.speed")
-    acceleration_ratio_max_at: float = placed("hardest.0.place")
-    acceleration_ratio_min: float = placed("hardest.1.speed")
-    acceleration_ratio_min_at: float = placed("hardest.1.place")
-    output_speed_max: float | None = per_time("speed_ratio_max", 1)
-    output_speed_min: float | None = per_time("speed_ratio_min", 1)
-    output_acceleration_max: float | None = per_time("acceleration_ratio_max", 2)
-    output_acceleration_min: float | None = per_time("acceleration_ratio_min", 2)
+    def acceleration_turnings(self) -> list[Turning]:
+        """Extremes of its acceleration ratio."""
+        return turnings(self.drive.acceleration, self.drive.jerk)
 
     @property
     def min_transmission_angle(self) -> float:
@@ -315,9 +303,3 @@ class GearedRocker(RealSpeed, Meshed):
         """GL303."""
         remedy = "shorten the crank, and gain the swing by more teeth on the coupler gear"
         return transmission_check(self.min_transmission_angle, self.spec.limits.transmission_angle, remedy)
-
-
-def _both(found: list[Turning]) -> tuple[Turning, Turning]:
-    """The greatest and the least of some extremes."""
-    ranked = sorted(found, key=lambda turning: turning.speed)
-    return ranked[-1], ranked[0]

@@ -19,6 +19,7 @@ from gearlink.core.linkages import standstills
 from gearlink.core.linkages.checks import check_linkage, transmission_check
 from gearlink.core.linkages.feed import FEED_QUANTITIES, FeedResults
 from gearlink.core.linkages.fourbar import FourBar, solve
+from gearlink.core.linkages.output_rates import OutputRates
 from gearlink.core.linkages.standstills import BackStep, Turning
 from gearlink.core.linkages.swing import rocker_swing
 from gearlink.core.planet_linkages.bodies import two_gear_layout
@@ -85,7 +86,7 @@ _FEWER = tuple(down(f"gears.{gear}", step=1) for gear in ("planet", "sun", "ring
 _LINKS = either("links.frame", "links.rocker", "links.coupler")
 
 
-class TwoGearFourBar(FeedResults, Meshed):
+class TwoGearFourBar(OutputRates, FeedResults, Meshed):
     """Planet on the coupler, sun or ring gear on the crank's axis; the crank is their centre distance."""
 
     kind = "two-gear-four-bar"
@@ -198,59 +199,25 @@ class TwoGearFourBar(FeedResults, Meshed):
         )
 
     @cached_property
-    def turnings(self) -> list[Turning]:
+    def speed_turnings(self) -> list[Turning]:
         """Extremes of the speed ratio."""
         return [Turning(t.place, self.drive.speed(t.place)) for t in self.coupler_turnings]
 
     @property
     def coupler_ratio_max(self) -> float:
         """Greatest coupler speed per crank speed."""
-        return max(t.speed for t in self.coupler_turnings)
+        return max(t.value for t in self.coupler_turnings)
 
     @property
     def coupler_ratio_min(self) -> float:
         """Least coupler speed per crank speed."""
-        return min(t.speed for t in self.coupler_turnings)
-
-    @property
-    def fastest(self) -> Turning:
-        """The greatest speed ratio and its place."""
-        return max(self.turnings, key=lambda t: t.speed)
-
-    @property
-    def slowest(self) -> Turning:
-        """The least speed ratio and its place."""
-        return min(self.turnings, key=lambda t: t.speed)
-
-    speed_ratio_max: float = placed("fastest.speed")
-    speed_ratio_max_at: float = placed("fastest.place")
-    speed_ratio_min: float = placed("slowest.speed")
-    speed_ratio_min_at: float = placed("slowest.place")
+        return min(t.value for t in self.coupler_turnings)
 
     @cached_property
     def acceleration_turnings(self) -> list[Turning]:
         """Extremes of the acceleration ratio."""
         return standstills.turnings(self.drive.acceleration, self.drive.jerk)
 
-    @property
-    def hardest(self) -> Turning:
-        """The greatest acceleration ratio and its place."""
-        return max(self.acceleration_turnings, key=lambda t: t.speed)
-
-    @property
-    def hardest_back(self) -> Turning:
-        """The least acceleration ratio and its place."""
-        return min(self.acceleration_turnings, key=lambda t: t.speed)
-
-    acceleration_ratio_max: float = placed("hardest.speed")
-    acceleration_ratio_max_at: float = placed("hardest.place")
-    acceleration_ratio_min: float = placed("hardest_back.speed")
-    acceleration_ratio_min_at: float = placed("hardest_back.place")
-
-    output_speed_max: float | None = per_time("speed_ratio_max", 1)
-    output_speed_min: float | None = per_time("speed_ratio_min", 1)
-    output_acceleration_max: float | None = per_time("acceleration_ratio_max", 2)
-    output_acceleration_min: float | None = per_time("acceleration_ratio_min", 2)
     back_step_time: float | None = per_time("back_step_crank_angle", -1)
 
     @property
@@ -278,7 +245,7 @@ class TwoGearFourBar(FeedResults, Meshed):
     def dwell_crank_angles(self) -> list[float]:
         """Crank angles of zero output speed [rad], ascending."""
         tolerance = _STANDSTILL_TOLERANCE * (1.0 + 2.0 * abs(self.gear_ratio))
-        return standstills.standstills(self.drive.speed, self.turnings, tolerance)
+        return standstills.standstills(self.drive.speed, self.speed_turnings, tolerance)
 
     @cached_property
     def back_steps(self) -> list[BackStep]:

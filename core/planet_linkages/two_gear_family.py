@@ -204,7 +204,7 @@ def tolerance_dwell(drive: PlanetLinkage, tolerance: float) -> ToleranceDwell:
         See `gearlink.core.linkages.band_dwell`; the speed runs one way between the extremes beside the least one.
     """
     extremes, step = turnings(drive), back_step(drive)
-    at = min(range(len(extremes)), key=lambda i: extremes[i].speed)
+    at = min(range(len(extremes)), key=lambda i: extremes[i].value)
     least = extremes[at].place
     before, after = extremes[at - 1].place, extremes[(at + 1) % len(extremes)].place
     first = second = least
@@ -269,13 +269,13 @@ def _never(family: Family) -> str:
     limits = f"frames between {low:.9g} and {high:.9g} mm"
     teeth = abs(1.0 / family.ratio)
     if not family.ring:
-        reach = max(t.speed for t in coupler_turnings(family.drive(high - margin))) - 1.0
+        reach = max(t.value for t in coupler_turnings(family.drive(high - margin))) - 1.0
         return (
             f"with {limits} the output never stands still: z5/z2 = {teeth:.6g} must be below {safely_below(reach)} "
             "with links of these lengths; take fewer teeth on the sun or more on the planet"
         )
     reach, least = (
-        1.0 - min(t.speed for t in coupler_turnings(family.drive(d))) for d in (low + margin, high - margin)
+        1.0 - min(t.value for t in coupler_turnings(family.drive(d))) for d in (low + margin, high - margin)
     )
     if teeth < least:
         return (

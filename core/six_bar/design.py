@@ -15,18 +15,19 @@ from gearlink.core.gears.internal_mesh import InternalMesh
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.gears.single_mesh import MESH_CHECKS, mesh_checks, mesh_quantity
 from gearlink.core.linkages.checks import transmission_check
-from gearlink.core.real_speed import RealSpeed, per_time
+from gearlink.core.linkages.output_rates import OutputRates
+from gearlink.core.real_speed import RealSpeed
 from gearlink.core.remedies import down, either, up
 from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
+    from gearlink.core.linkages.standstills import Turning
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.numerics.extremes import Extreme
     from gearlink.core.six_bar.course import Course
     from gearlink.core.six_bar.loop import SixBar
     from gearlink.core.six_bar.spec import GearedSixBarSpec, SixTrain
-    from gearlink.core.six_bar.turnings import Turning
 
 _TURN = 2.0 * math.pi
 _LINK_TOLERANCE = 1e-9
@@ -36,7 +37,7 @@ _MOVED = _LINKS[2:]
 _FREE_LINKS = either(*(f"links.{name}" for name in ("coupler_2", "coupler_1", "coupler_3", "frame", "output", "input")))
 
 
-class GearedSixBar(RealSpeed, Design):
+class GearedSixBar(OutputRates, RealSpeed, Design):
     """A loop of six links that two gear trains drive by one input."""
 
     kind = "geared-six-bar"
@@ -234,31 +235,15 @@ class GearedSixBar(RealSpeed, Design):
         ends = self.period_turns is None
         return turnings(self.rate(order), self.rate(order + 1), self.course.grid, ends)
 
-    fastest = property(lambda self: max(self.speed_turnings, key=lambda t: t.value))
-    slowest = property(lambda self: min(self.speed_turnings, key=lambda t: t.value))
-    hardest = property(lambda self: max(self.acceleration_turnings, key=lambda t: t.value))
-    hardest_back = property(lambda self: min(self.acceleration_turnings, key=lambda t: t.value))
-    speed_ratio_max: float = placed("fastest.value")
-    speed_ratio_max_at: float = placed("fastest.place")
-    speed_ratio_min: float = placed("slowest.value")
-    speed_ratio_min_at: float = placed("slowest.place")
-    acceleration_ratio_max: float = placed("hardest.value")
-    acceleration_ratio_max_at: float = placed("hardest.place")
-    acceleration_ratio_min: float = placed("hardest_back.value")
-    acceleration_ratio_min_at: float = placed("hardest_back.place")
-    output_speed_max: float | None = per_time("speed_ratio_max", 1)
-    output_speed_min: float | None = per_time("speed_ratio_min", 1)
-    output_acceleration_max: float | None = per_time("acceleration_ratio_max", 2)
-    output_acceleration_min: float | None = per_time("acceleration_ratio_min", 2)
-
     @cached_property
     def dwell_crank_angles(self) -> list[float]:
         """Input angles at which the output stands [rad], ascending."""
-        from gearlink.core.six_bar.turnings import standstills
+        from gearlink.core.linkages.standstills import standstills
+        from gearlink.core.six_bar.turnings import scalar
 
         fastest = max(abs(t.value) for t in self.speed_turnings)
         period = None if self.period_turns is None else self.course.end
-        return standstills(self.rate(1), self.speed_turnings, _STANDSTILL * fastest, period)
+        return standstills(scalar(self.rate(1)), self.speed_turnings, _STANDSTILL * fastest, period)
 
     @cached_property
     def output_swing(self) -> float | None:

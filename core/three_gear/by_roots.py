@@ -47,7 +47,7 @@ class ByRoots:
     def places(self) -> list[float]:
         """Crank angles of zero output speed [rad], ascending."""
         extremes = turnings(self._speed, lambda phi: motion.output_acceleration(self.linkage, self.ahead, phi))
-        state = solve(self.linkage, min(extremes, key=lambda one: one.speed).place, 1)
+        state = solve(self.linkage, min(extremes, key=lambda one: one.value).place, 1)
         train = self.ahead
         terms = (train.ratio, train.coupler_share * state.coupler_velocity, train.rocker_share * state.rocker_velocity)
         return standstills(self._speed, extremes, STANDSTILL_TOLERANCE * sum(map(abs, terms)))

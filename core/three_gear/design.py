@@ -19,7 +19,7 @@ from gearlink.core.linkages.feed import FeedResults
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.linkages.standstills import BackStep
 from gearlink.core.linkages.swing import rocker_swing
-from gearlink.core.real_speed import per_time
+from gearlink.core.real_speed import OutputSpeed, per_time
 from gearlink.core.remedies import down, either, up
 from gearlink.core.report import Check, safely_above, safely_below
 from gearlink.core.results import cached_property
@@ -60,7 +60,7 @@ WAYS = {
 }
 
 
-class ThreeGearFourBar(FeedResults, Meshed):
+class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
     """A three-gear four-bar of given links; the syntheses replace `linkage`, `idler_teeth` and closed forms."""
 
     kind = "three-gear-four-bar"
@@ -184,10 +184,6 @@ class ThreeGearFourBar(FeedResults, Meshed):
     acceleration_ratio_min: float = placed("acceleration_extremes.least")
     acceleration_ratio_min_at: float = placed("acceleration_extremes.least_angle")
 
-    output_speed_max: float | None = per_time("speed_ratio_max", 1)
-    output_speed_min: float | None = per_time("speed_ratio_min", 1)
-    output_acceleration_max: float | None = per_time("acceleration_ratio_max", 2)
-    output_acceleration_min: float | None = per_time("acceleration_ratio_min", 2)
     back_step_time: float | None = per_time("back_step_crank_angle", -1)
     dwell_time: float | None = per_time("dwell_angle", -1)
     tolerance_dwell_time: float | None = per_time("tolerance_dwell_angle", -1)

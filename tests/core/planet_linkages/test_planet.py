@@ -63,7 +63,7 @@ def test_reference_two_gear():
     assert external.crank_length == given["a"]
     assert external.coupler_ratio_min == pytest.approx(out["w2_min"], rel=1e-13)
     assert external.coupler_ratio_max == pytest.approx(out["w2_max"], rel=1e-13)
-    places = {t.speed: math.degrees(t.place) for t in external.coupler_turnings}
+    places = {t.value: math.degrees(t.place) for t in external.coupler_turnings}
     assert places[external.coupler_ratio_min] == pytest.approx(out["phi_w2min_deg"], abs=1e-12)
     assert places[external.coupler_ratio_max] == pytest.approx(out["phi_w2max_deg"], abs=1e-12)
     assert external.drive.speed(math.radians(60.0)) == pytest.approx(out["W5_ext_z2_16_z5_12_at60"], rel=1e-13)
@@ -100,7 +100,7 @@ def test_standstills_against_the_cubic_of_the_pitch_point():
         drive = PlanetLinkage(linkage, ratio, "crank")
         extremes = turnings(drive.speed, drive.acceleration)
         places = standstills(drive.speed, extremes, 1e-9)
-        if min(abs(t.speed) for t in extremes) < 1e-3:
+        if min(abs(t.value) for t in extremes) < 1e-3:
             continue
         expected = pitch_point_standstills(linkage, ratio)
         assert places == pytest.approx(expected, abs=1e-7)  # double numbers under the cubic's own condition
@@ -115,7 +115,7 @@ def test_a_sun_never_stops_on_a_crank_rocker():
     for linkage, share in random_linkages(200, 5):
         if linkage.kind() == "crank-rocker":
             drive = PlanetLinkage(linkage, -share, "crank")
-            assert min(t.speed for t in turnings(drive.speed, drive.acceleration)) > 1.0
+            assert min(t.value for t in turnings(drive.speed, drive.acceleration)) > 1.0
 
 
 def test_drag_link_stops_twice():
@@ -162,7 +162,7 @@ def test_limit_of_teeth_is_the_momentary_dwell():
     limit = two_gear(CRANK_ROCKER, planet=48, ring=62).dwell_teeth_ratio
     linkage = two_gear(CRANK_ROCKER, planet=48, ring=62).linkage
     drive = PlanetLinkage(linkage, 1.0 / limit, "crank")
-    assert min(t.speed for t in turnings(drive.speed, drive.acceleration)) == pytest.approx(0.0, abs=1e-15)
+    assert min(t.value for t in turnings(drive.speed, drive.acceleration)) == pytest.approx(0.0, abs=1e-15)
 
 
 def test_dwell_asked_of_a_sun_on_a_crank_rocker_is_refused():
