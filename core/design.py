@@ -147,6 +147,10 @@ class Design:
         """In words, what the file must give for a quantity that is None; empty where nothing is missing."""
         return ""
 
+    def rests_on(self, _name: str, /) -> str:
+        """In words, the inputs of a quantity that a reader may take for computed; empty where there are none."""
+        return ""
+
     def table(self, name: str, *, samples: int | None = None) -> Table:
         """A table by name, in the units of the design files.
 

@@ -59,15 +59,15 @@ GEAR_PAIR = {
     ),
     "single_contact_factor": Term("Z_B, Z_D", "1", "single pair tooth contact factors", "ISO 6336-2"),
     "nominal_contact_stress": Term("sigma_H0", "N/mm^2", "nominal contact stress at the pitch point", "ISO 6336-2"),
-    "contact_stress": Term("sigma_H", "N/mm^2", "contact stress, with the given K factors", "ISO 6336-2"),
-    "safety_pitting": Term("S_H", "1", "safety against pitting; K factors given, not computed", "ISO 6336-2"),
+    "contact_stress": Term("sigma_H", "N/mm^2", "contact stress; K factors not computed, 1 unless given", "ISO 6336-2"),
+    "safety_pitting": Term("S_H", "1", "safety against pitting; K factors not computed, 1 unless given", "ISO 6336-2"),
     "root_chord": Term("s_Fn", "mm", "thickness of the root section", "ISO 6336-3"),
     "bending_moment_arm": Term("h_Fe", "mm", "lever of the load above the root section", "ISO 6336-3"),
     "root_fillet_radius": Term("rho_F", "mm", "radius of the fillet at the root section", "ISO 6336-3"),
     "form_factor": Term("Y_F", "1", "form factor", "ISO 6336-3"),
     "stress_correction_factor": Term("Y_S", "1", "stress correction factor", "ISO 6336-3"),
     "helix_angle_factor_bending": Term("Y_beta", "1", "helix angle factor of the root", "ISO 6336-3"),
-    "rim_factor": Term("Y_B", "1", "rim thickness factor", "ISO 6336-3"),
+    "rim_factor": Term("Y_B", "1", "rim thickness factor", "ISO 6336-3, from memory"),
     "deep_tooth_factor": Term("Y_DT", "1", "deep tooth factor of accurate gears", "ISO 6336-3"),
     "tip_form_factor": Term("Y_Fa", "1", "form factor for load at the tip (method C)", "ISO 6336-3:1996"),
     "tip_stress_correction_factor": Term(
@@ -77,8 +77,10 @@ GEAR_PAIR = {
         "Y_eps", "1", "contact ratio factor of method C, with Y_Fa and Y_Sa alone", "ISO 6336-3:1996"
     ),
     "nominal_root_stress": Term("sigma_F0", "N/mm^2", "nominal root stress", "ISO 6336-3"),
-    "root_stress": Term("sigma_F", "N/mm^2", "root stress, with the given K factors", "ISO 6336-3"),
-    "safety_bending": Term("S_F", "1", "safety against breaking at the root; K factors given, not computed"),
+    "root_stress": Term("sigma_F", "N/mm^2", "root stress; K factors not computed, 1 unless given", "ISO 6336-3"),
+    "safety_bending": Term(
+        "S_F", "1", "safety against breaking at the root; K factors not computed, 1 unless given", "ISO 6336-3"
+    ),
     "involute_margin": Term("rho_A1", "mm", "room of the ring's tip before the pinion's base tangent point"),
     "radial_assembly_margin": Term(
         "s_rad", "mm", "room for a pinion that goes into its ring along the line of centres"

@@ -60,17 +60,19 @@ def _run(command: str, source: str, options: Options, step: Callable[[str], Abst
         return show_refusal(error, source, options)
     with step("print"):
         print_report(report, options)
-    _name_what_is_absent(design, report, options)
+    _notes(design, report, options)
     return max(saved, exit_status(report, strict=options.strict))
 
 
-def _name_what_is_absent(design: Design, report: Report, options: Options) -> None:
-    """Say of each quantity that was asked for by name and has no value what the file would have to give."""
+def _notes(design: Design, report: Report, options: Options) -> None:
+    """Say of each quantity that was asked for by name what it rests on or, without a value, what the file must give."""
     known = {quantity.name for quantity in report.quantities}
-    for name in options.quantities:
-        if name not in known and not options.quiet:
+    for name in () if options.quiet else options.quantities:
+        if name not in known:
             needs = design.needs(name)
             print(f"{name}: not known of this design{f'; {needs}' if needs else ''}", file=sys.stderr)
+        elif inputs := design.rests_on(name):
+            print(f"{name}: {inputs}", file=sys.stderr)
 
 
 def _before(options: Options) -> None:

@@ -99,7 +99,5 @@ def _rating(design: GearPairDesign) -> list[list[str]]:
         if found is not None:
             rows.append([*headed(name), *(gear_text(value) or "–" for value in found.value)])
     if rows:
-        from gearlink.core.gears.drawing_checks import given_factors
-
-        rows += [[words, "", "", "", ""] for words in given_factors(design.data)]
+        rows += [[design.rests_on(name), "", "", "", ""] for name in ("contact_stress", "root_stress")]
     return rows

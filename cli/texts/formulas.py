@@ -102,7 +102,8 @@ _GEAR_PAIR = {
     "form_factor": "Y_F = 6 (h_Fe/m) cos(alpha_Fen)/((s_Fn/m)^2 cos(alpha))",
     "stress_correction_factor": "Y_S = (1.2 + 0.13 L) q_s^(1/(1.21 + 2.3/L)), L = s_Fn/h_Fe, q_s = s_Fn/(2 rho_F)",
     "helix_angle_factor_bending": "Y_beta = 1 - eps_beta beta/120 deg, eps_beta <= 1, beta <= 30 deg",
-    "rim_factor": "1.6 ln(2.242 h_t/s_R) for s_R < 1.2 h_t; of a ring 1.15 ln(8.324 m/s_R) for s_R < 3.5 m; else 1",
+    "rim_factor": "1 from s_R = 1.2 h_t on, 1.6 ln(2.242 h_t/s_R) above 0.5 h_t; of a ring 1 from 3.5 m on, "
+    "1.15 ln(8.324 m/s_R) above 1.75 m; none below",
     "deep_tooth_factor": "grade 4 or better: 2.366 - 0.666 eps_alpha,n from 2.05 to 2.5, 0.7 beyond; else 1",
     "tip_form_factor": "as Y_F, the load at d_an",
     "tip_stress_correction_factor": "as Y_S, the load at d_an",

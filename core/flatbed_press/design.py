@@ -196,6 +196,12 @@ class FlatbedPress(WithExtremes, SliderCrankQuantities, GearQuantities, Design):
         """The keys that the input gears lack for a quantity."""
         return lacking(name, self.spec.input_gears, "input_gears.")
 
+    def rests_on(self, name: str) -> str:
+        """The factors of the rating."""
+        from gearlink.core.gears.drawing_checks import rests_on
+
+        return rests_on(name, self.gear_data) if name in DRAWING_QUANTITIES else ""
+
     @property
     def _shifts_given(self) -> bool:
         return self.spec.input_gears is not None and self.spec.input_gears.profile_shift is not None

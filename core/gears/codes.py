@@ -134,11 +134,12 @@ BACKLASH = Rule(
 PITTING = Rule(
     "GL210",
     "safety against pitting too small",
-    "The contact stress is too near to what the material bears. K factors and life factors are inputs.",
+    "The contact stress is too near to what the material bears. K factors and life factors are inputs, 1 where the "
+    "file gives none.",
     "Flanks break out in small pits and wear away.",
     "Widen the gears, take a larger module or centre distance, or a better material.",
     "S_H = sigma_Hlim Z_N (Z_L Z_v Z_R Z_W Z_X)/(Z_B,D sigma_H0 sqrt(K_A K_v K_Hb K_Ha)) >= limits.safety_pitting (1)",
-    "ISO 6336-2:2006, method B; K_Hb is given, not computed",
+    "ISO 6336-2:2006, method B; K and life factors are not computed: 1 unless given",
     ("pitting",),
     ("load", "material", "face_width", *_within("load", "material", "face_width")),
 )
@@ -150,7 +151,8 @@ BENDING = Rule(
     "Take a larger module, wider gears, a larger rounding of the tool, or a better material.",
     "S_F = sigma_Flim Y_ST Y_N (Y_drelT Y_RrelT Y_X)/(F_t/(b m) Y_F Y_S Y_beta Y_B Y_DT K_A K_v K_Fb K_Fa) >= "
     "limits.safety_bending (1.4), Y_ST = 2",
-    "ISO 6336-3:2006, method B; K_Fb is given, not computed; rings: no published example",
+    "ISO 6336-3:2006, method B; K and life factors are not computed: 1 unless given; Y_B from memory of the standard; "
+    "rings: no published example",
     ("bending",),
     ("load", "material", "tool", "face_width", *_within("load", "material", "face_width")),
 )

@@ -10,7 +10,7 @@ from gearlink.core.design import Design, Outline
 from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantities, gear_quantity
 from gearlink.core.gears.data import GearData
-from gearlink.core.gears.drawing_checks import pair_check
+from gearlink.core.gears.drawing_checks import pair_check, rests_on
 from gearlink.core.gears.drawing_names import DERIVED, DRAWING_CHECKS, DRAWING_QUANTITIES, lacking
 from gearlink.core.gears.from_spec import data_of, pair_of
 from gearlink.core.gears.pair import GearPair
@@ -149,6 +149,10 @@ class GearPairDesign(GearQuantities, Design):
     def needs(self, name: str) -> str:
         """The keys that the file lacks for a quantity."""
         return lacking(name, self.spec)
+
+    def rests_on(self, name: str) -> str:
+        """The factors of the rating."""
+        return rests_on(name, self.data)
 
     def _two_gears(self, what: str) -> GearData:
         """The data of a pair of two gears.

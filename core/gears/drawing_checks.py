@@ -219,18 +219,18 @@ def _safety(
         yield rule.check("fail" if safety < least else "pass", text, safety, least)
 
 
-def given_factors(data: GearData) -> tuple[str, ...]:
-    """What the safeties rest on, a sentence each for flank and root."""
-    if data.load is None:
-        return ()
-    return _contact_inputs(data), _bending_inputs(data)
+def rests_on(quantity: str, data: GearData) -> str:
+    """Which inputs a stress or a safety rests on, in words; empty for other quantities."""
+    if quantity in ("contact_stress", "safety_pitting"):
+        return _contact_inputs(data)
+    return _bending_inputs(data) if quantity in ("root_stress", "safety_bending") else ""
 
 
 def _contact_inputs(data: GearData) -> str:
     factors = data.load.factors if data.load else Factors()
     return (
         f"K_A {factors.application:g}, K_v {factors.dynamic:g}, K_Hb {factors.face_contact:g}, "
-        f"K_Ha {factors.transverse_contact:g} and the life factors are given, not computed"
+        f"K_Ha {factors.transverse_contact:g} and the life factors are not computed: 1 unless given"
     )
 
 
@@ -239,7 +239,7 @@ def _bending_inputs(data: GearData) -> str:
     edition = "" if data.edition == 2006 else f"; edition {data.edition} is not verified"
     return (
         f"K_A {factors.application:g}, K_v {factors.dynamic:g}, K_Fb {factors.face_bending:g}, "
-        f"K_Fa {factors.transverse_bending:g} and the life factors are given, not computed{edition}"
+        f"K_Fa {factors.transverse_bending:g} and the life factors are not computed: 1 unless given{edition}"
     )
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, kw_only=True)
 class Factors:
-    """The K factors of ISO 6336, given and not computed.
+    """The K factors of ISO 6336: not computed, 1 unless given.
 
     Fields
         application, dynamic : K_A, K_v

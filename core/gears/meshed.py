@@ -221,6 +221,15 @@ class Meshed(GearQuantities, Design):
         """The keys that a mesh lacks for a quantity."""
         return lacking(name.rpartition(".")[2], self.spec.gears, "gears.")
 
+    def rests_on(self, name: str) -> str:
+        """The factors of the rating."""
+        mesh, _, quantity = name.rpartition(".")
+        if quantity not in RATING:
+            return ""
+        from gearlink.core.gears.drawing_checks import rests_on
+
+        return rests_on(quantity, self.mesh_data[mesh])
+
     def table_drawing(self, _samples: int | None = None) -> Table:
         """The gear tables of the meshes, one below the other."""
         from gearlink.core.gears.train_drawing import drawings

@@ -117,7 +117,7 @@ class AllowanceSpec(Spec):
 
 
 class FactorSpec(Spec):
-    """The K factors of ISO 6336: given, not computed."""
+    """The K factors of ISO 6336: not computed, 1 unless given."""
 
     application: Factor = Field(1.0, description="K_A")
     dynamic: Factor = Field(1.0, description="K_v")

@@ -65,6 +65,19 @@ def test_a_quantity_without_a_value_names_the_keys_it_needs(lever, gearlink):
     assert gearlink("gear", lever("load: {torque: 5}"), "--quantity", "safety_bending", "--quiet").err == ""
 
 
+def test_a_safety_alone_says_what_it_rests_on(lever, gearlink, designs):
+    load = "load: {torque: 5, factors: {application: 1.25}}\n  face_width: 20\n  material: {bending_limit: 400}"
+    ended = gearlink("gear", lever(load), "--quantity", "safety_bending")
+    assert float(ended.out.split()[0]) > 0.0
+    assert ended.err.strip() == (
+        "safety_bending: K_A 1.25, K_v 1, K_Fb 1, K_Fa 1 and the life factors are not computed: 1 unless given"
+    )
+    assert gearlink("gear", lever(load), "--quantity", "safety_bending", "--quiet").err == ""
+    assert gearlink("gear", lever(load), "--quantity", "root_chord").err == ""
+    for source, name in (("drawn_feed", "crank_idler.contact_stress"), ("gear_pair", "safety_pitting")):
+        assert "K_Hb" in gearlink("gear", designs / f"{source}.yaml", "--quantity", name, "-f", "json").err
+
+
 def test_each_mesh_has_its_columns_in_a_narrow_terminal(gearlink, designs, monkeypatch):
     monkeypatch.setenv("COLUMNS", "80")
     ended = gearlink("gear", designs / "drawn_feed.yaml", "--table", "drawing")

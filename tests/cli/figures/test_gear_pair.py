@@ -117,7 +117,7 @@ def test_safeties_stand_with_what_they_rest_on():
     load = {"face_width": 30, "load": {"torque": 100}, "material": {"contact_limit": 1400, "bending_limit": 400}}
     made, figure = sheet(DATA, "gear", **load)
     shown = words(figure)
-    assert any("K_Hb 1" in text and "given, not computed" in text for text in shown)
+    assert any("K_Hb 1" in text and "not computed: 1 unless given" in text for text in shown)
     assert f"{made.quantity('safety_bending').value[0]:.6g}" in shown
     assert "thickness allowance, upper" not in shown
     assert "span measurement, nominal" in shown
