@@ -33,7 +33,7 @@ class FlankStrength:
         (2.494573, 189.8117)
 
     Source
-        ISO 6336-2:2006, as public code and worked examples quote it; the standard was not opened
+        ISO 6336-2:2006, as public code, worked examples and IACS UR M56 (Rev. 4), M56.2, quote it; it was not opened
     """
 
     path: PathOfContact

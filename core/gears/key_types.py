@@ -6,6 +6,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from gearlink.core.spec import Coefficient, Spec
+
 Shift = Annotated[float, Field(ge=-5, le=5, json_schema_extra={"unit": "1"})]
 HelixAngle = Annotated[float, Field(ge=0, le=45, json_schema_extra={"unit": "deg"})]
 Alteration = Annotated[float, Field(ge=-3, le=3, json_schema_extra={"unit": "1"})]
@@ -14,3 +16,20 @@ Rim = Annotated[float, Field(ge=1e-3, le=1e6, json_schema_extra={"unit": "mm"})]
 SpanTeeth = Annotated[int, Field(ge=1, le=10_000, json_schema_extra={"unit": "teeth"})]
 Hand = Literal["right", "left"]
 AccuracyGrade = Annotated[int, Field(ge=0, le=12, json_schema_extra={"unit": "1"})]
+
+
+class ToothKeys(Spec):
+    """The keys that a pair and a train share."""
+
+    helix_angle: HelixAngle = Field(0.0, description="helix angle on the reference circle, its magnitude")
+    addendum: Coefficient = Field(1.0, description="addendum coefficient")
+    clearance: Annotated[float, Field(ge=0, le=1, json_schema_extra={"unit": "1"})] = Field(
+        0.25, description="clearance coefficient"
+    )
+    load_share: Literal["third", "half"] = Field(
+        "third", description="share of a flank pair beside another: third (1/3 to 2/3) or half"
+    )
+    accuracy_grade: AccuracyGrade | None = Field(
+        None, description="accuracy grade of ISO 1328: 4 or better lowers the root stress of deep teeth (Y_DT)"
+    )
+    edition: Literal[2006, 2019] = Field(2006, description="of ISO 6336; 2019 is not verified")

@@ -1,12 +1,12 @@
-"""Keys of a gear pair inside a machine, which fixes its centre distance: what its drawing needs beside the teeth."""
+"""Keys of a gear pair at a given centre distance, as inside a machine: what its drawing needs beside the teeth."""
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Literal
 
 from pydantic import Field
 
-from gearlink.core.gears.key_types import AccuracyGrade, FaceWidth, HelixAngle, Rim
+from gearlink.core.gears.key_types import FaceWidth, Rim, ToothKeys
 from gearlink.core.gears.spec_parts import (
     AllowanceSpec,
     LoadSpec,
@@ -19,21 +19,16 @@ from gearlink.core.gears.spec_parts import (
     TwoTools,
     TwoWidths,
 )
-from gearlink.core.spec import Coefficient, Length, PressureAngle, Spec
+from gearlink.core.spec import Length, PressureAngle
 
 
-class PairKeys(Spec):
+class PairKeys(ToothKeys):
     """The keys of a `gear-pair` that a pair at a given centre distance takes."""
 
     module: Length = Field(description="module; of helical gears the normal one")
     pressure_angle: PressureAngle = Field(20.0, description="pressure angle of the reference profile")
-    helix_angle: HelixAngle = Field(0.0, description="helix angle on the reference circle, its magnitude")
     profile_shift: TwoShifts | None = Field(
         None, description="profile shift coefficients of gear 1 and 2; what the centre distance leaves is backlash"
-    )
-    addendum: Coefficient = Field(1.0, description="addendum coefficient")
-    clearance: Annotated[float, Field(ge=0, le=1, json_schema_extra={"unit": "1"})] = Field(
-        0.25, description="clearance coefficient"
     )
     tip_shortening: TipShortening | None = Field(
         None, description="full (default), none, or tip alterations k of both gears"
@@ -53,11 +48,4 @@ class PairKeys(Spec):
         None, description="plus and minus of the centre distance: js7, or a number in mm"
     )
     load: LoadSpec | None = Field(None, description="load of the rating by ISO 6336 (loads is for forces of a drive)")
-    load_share: Literal["third", "half"] = Field(
-        "third", description="share of a flank pair beside another: third (1/3 to 2/3) or half"
-    )
-    material: MaterialSpec = MaterialSpec()
-    accuracy_grade: AccuracyGrade | None = Field(
-        None, description="accuracy grade of ISO 1328: 4 or better lowers the root stress of deep teeth (Y_DT)"
-    )
-    edition: Literal[2006, 2019] = Field(2006, description="of ISO 6336; 2019 is not verified")
+    material: MaterialSpec = MaterialSpec.model_construct()

@@ -17,6 +17,9 @@ from gearlink.core.results import cached_property
 Both = tuple[float | None, float | None]
 _STRESS_CORRECTION = 2.0
 """Y_ST of the reference test gears."""
+_GEAR_RIM = (1.2, 0.5, 1.6, 2.242)
+_RING_RIM = (3.5, 1.75, 1.15, 8.324)
+"""Of Y_B: the rim from which on it is 1, that down to which it is known, and its two constants between."""
 _DEEP_GRADE = 4
 """Deep teeth share the load from this accuracy grade on."""
 _OVERHANG = 2.0
@@ -43,7 +46,7 @@ class RootStress:
         Properties: a pair is (gear 1, gear 2); lengths in mm, stresses in N/mm^2.
 
     Source
-        ISO 6336-3:2006; the standard was not opened
+        ISO 6336-3:2006; the standard was not opened. Y_S, Y_beta, Y_B and Y_DT stand as here in IACS UR M56 (Rev. 4)
     """
 
     path: PathOfContact
@@ -109,9 +112,9 @@ class RootStress:
         rim, pair = self.rims[gear], self.path.pair
         if rim is None:
             return 1.0
-        if pair.teeth[gear] < 0:
-            return rim_factor_of_ring(rim / pair.module)
-        return rim_factor_of_gear(rim / (pair.tip_radius[gear] - pair.root_radius[gear]))
+        ring = pair.teeth[gear] < 0
+        height = pair.tip_radius[gear] - pair.root_radius[gear]
+        return rim_factor(rim / (pair.module if ring else height), ring=ring)
 
     @property
     def deep_tooth_factor(self) -> float | None:
@@ -229,34 +232,22 @@ def _corrected(section: RootSection | None) -> float | None:
         return None
 
 
-def rim_factor_of_gear(backup: float) -> float | None:
-    """Y_B of an external gear, of the rim under its roots over the height of its teeth; None for a rim too thin.
+def rim_factor(rim: float, *, ring: bool) -> float | None:
+    """Y_B of the rim under the roots: of a gear over the height of its teeth, of a ring in modules; None if too thin.
 
     Example
-        >>> rim_factor_of_gear(1.2), round(rim_factor_of_gear(0.8), 6), rim_factor_of_gear(0.5)
+        >>> rim_factor(1.2, ring=False), round(rim_factor(0.8, ring=False), 6), rim_factor(0.5, ring=False)
         (1.0, 1.648819, None)
-
-    Source
-        ISO 6336-3:2006, from memory: 1 from 1.2 on, 1.6 ln(2.242 h_t/s_R) above 0.5
-    """
-    if backup >= 1.2:
-        return 1.0
-    return 1.6 * math.log(2.242 / backup) if backup > 0.5 else None
-
-
-def rim_factor_of_ring(rim: float) -> float | None:
-    """Y_B of a ring, of its rim in modules; None for a rim too thin.
-
-    Example
-        >>> rim_factor_of_ring(3.5), round(rim_factor_of_ring(2.5), 6), rim_factor_of_ring(1.75)
+        >>> rim_factor(3.5, ring=True), round(rim_factor(2.5, ring=True), 6), rim_factor(1.75, ring=True)
         (1.0, 1.38328, None)
 
     Source
-        ISO 6336-3:2006, from memory: 1 from 3.5 on, 1.15 ln(8.324 m/s_R) above 1.75
+        ISO 6336-3, as IACS UR M56 (Rev. 4) prints it in M56.3.6
     """
-    if rim >= 3.5:
+    solid, thin, slope, scale = _RING_RIM if ring else _GEAR_RIM
+    if rim >= solid:
         return 1.0
-    return 1.15 * math.log(8.324 / rim) if rim > 1.75 else None
+    return slope * math.log(scale / rim) if rim > thin else None
 
 
 def deep_tooth_factor(virtual_contact_ratio: float, grade: int) -> float:
@@ -267,7 +258,7 @@ def deep_tooth_factor(virtual_contact_ratio: float, grade: int) -> float:
         ([1.0, 0.701, 0.7], 1.0)
 
     Source
-        ISO 6336-3:2006: 1 up to 2.05 and for grades above 4, 2.366 - 0.666 eps_alpha,n up to 2.5, 0.7 beyond
+        ISO 6336-3, as IACS UR M56 (Rev. 4) prints it in M56.3.7: 1 up to 2.05 and for grades above 4, 0.7 above 2.5
     """
     if grade > _DEEP_GRADE or virtual_contact_ratio <= 2.05:
         return 1.0

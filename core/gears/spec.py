@@ -7,31 +7,24 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.gears.key_types import AccuracyGrade, FaceWidth, Hand, HelixAngle, Rim, Shift, SpanTeeth
+from gearlink.core.gears.key_types import Hand, Rim, Shift, SpanTeeth
+from gearlink.core.gears.pair_keys import PairKeys
 from gearlink.core.gears.spec_parts import (
-    AllowanceSpec,
     CutterSpec,
-    LoadSpec,
-    MaterialSpec,
     SignedTeeth,
     TipShortening,
-    ToolSpec,
     TwoLengths,
     TwoRims,
     TwoShifts,
-    TwoTools,
-    TwoWidths,
     exclude_each_other,
     require_teeth,
 )
 from gearlink.core.spec import (
-    Coefficient,
     Deferred,
     DrawingLimits,
     GearLimits,
     Length,
     LoadLimits,
-    PressureAngle,
     TolerancedSpec,
 )
 
@@ -40,11 +33,10 @@ class PairLimits(DrawingLimits, GearLimits, LoadLimits):
     """Limits of the checks of a gear pair."""
 
 
-class GearPairSpec(TolerancedSpec):
+class GearPairSpec(TolerancedSpec, PairKeys):
     """Cylindrical gears with profile shift, spur or helical, external or internal, by centre distance or shifts."""
 
     kind: Literal["gear-pair"]
-    module: Length = Field(description="normal module")
     teeth: Annotated[list[SignedTeeth | Literal["rack"]], Field(min_length=2, max_length=2)] = Field(
         description="teeth of gear 1 and 2; a negative number is a ring, rack in place of gear 2 a rack"
     )
@@ -52,21 +44,14 @@ class GearPairSpec(TolerancedSpec):
         None, description="working centre distance; with profile_shift the difference is backlash"
     )
     profile_shift: TwoShifts | None = Field(None, description="profile shift coefficients of gear 1 and 2 (ISO signs)")
-    pressure_angle: PressureAngle = Field(20.0, description="pressure angle of the reference profile")
-    helix_angle: HelixAngle = Field(0.0, description="helix angle on the reference circle, its magnitude")
     helix_hand: Annotated[list[Hand], Field(min_length=2, max_length=2)] | None = Field(
         None, description="hands of helix of gear 1 and 2, for the drawing"
-    )
-    addendum: Coefficient = Field(1.0, description="addendum coefficient")
-    clearance: Annotated[float, Field(ge=0, le=1, json_schema_extra={"unit": "1"})] = Field(
-        0.25, description="clearance coefficient"
     )
     tip_shortening: TipShortening | None = Field(
         None,
         description="full (default of external pairs), none (of internal ones), or tip alterations k of both gears",
     )
     tip_diameter: TwoLengths | None = Field(None, description="tip diameters, in place of tip_shortening")
-    face_width: FaceWidth | TwoWidths | None = Field(None, description="face width of both gears, or of each")
     rim_thickness: Rim | TwoRims | None = Field(
         None,
         description="thickness of the rim under the tooth roots, of both or of each: for Y_B, and the back of a ring "
@@ -75,29 +60,10 @@ class GearPairSpec(TolerancedSpec):
     rack_teeth: Annotated[int, Field(ge=1, le=10_000, json_schema_extra={"unit": "teeth"})] | None = Field(
         None, description="teeth of the rack in pictures and exports; left out: as many as gear 1 has"
     )
-    tool: ToolSpec | TwoTools | None = Field(
-        None, description="rack tool of both gears, or of each; left out: straight to the addendum"
-    )
     cutter: CutterSpec | None = Field(None, description="pinion cutter of a ring: only then its fillets are known")
     span_teeth: Annotated[list[SpanTeeth], Field(min_length=2, max_length=2)] | None = Field(
         None, description="teeth that the span measurement of each gear goes over; left out: chosen"
     )
-    pin_diameter: Length | TwoLengths | None = Field(
-        None, description="measuring balls or pins of both gears, or of each; left out: a preferred size"
-    )
-    allowances: AllowanceSpec | None = None
-    center_distance_allowance: Literal["js7"] | Length | None = Field(
-        None, description="plus and minus of the centre distance: js7, or a number in mm"
-    )
-    load: LoadSpec | None = Field(None, description="load of the rating by ISO 6336 (loads is for forces of a drive)")
-    load_share: Literal["third", "half"] = Field(
-        "third", description="share of a flank pair beside another: third (1/3 to 2/3) or half"
-    )
-    material: MaterialSpec = MaterialSpec.model_construct()
-    accuracy_grade: AccuracyGrade | None = Field(
-        None, description="accuracy grade of ISO 1328: 4 or better lowers the root stress of deep teeth (Y_DT)"
-    )
-    edition: Literal[2006, 2019] = Field(2006, description="of ISO 6336; 2019 is not verified")
     assembly: Literal["axial", "radial"] = Field("axial", description="how pinion and ring are put together")
     shift_split: Literal["equal", "sliding", "tip", "root", "undercut"] | Shift = Field(
         "equal", description="how the shift sum is shared when center_distance alone is given: by a criterion, or x1"

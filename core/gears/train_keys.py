@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.gears.key_types import AccuracyGrade, Alteration, FaceWidth, Hand, HelixAngle, Rim, Shift, SpanTeeth
-from gearlink.core.spec import Coefficient, Deferred, Length, Spec
+from gearlink.core.gears.key_types import Alteration, FaceWidth, Hand, Rim, Shift, SpanTeeth, ToothKeys
+from gearlink.core.spec import Deferred, Length
 
 if TYPE_CHECKING:
     from gearlink.core.gears.pair_keys import PairKeys
@@ -31,7 +31,7 @@ _OF_TEETH = ("tool", "helix_angle", "tip_shortening", "cutter", "span_teeth")
 RATED = ("load", "material")
 
 
-class TrainKeys(Spec):
+class TrainKeys(ToothKeys):
     """The keys of a train, which a machine adds to its section `gears`."""
 
     drawn: ClassVar[tuple[str, ...]] = ()
@@ -40,13 +40,8 @@ class TrainKeys(Spec):
     profile_shift: Annotated[list[Shift], _MANY] | None = Field(
         None, description="profile shift coefficients, a list with one for each gear; left out: 0"
     )
-    helix_angle: HelixAngle = Field(0.0, description="helix angle on the reference circles, its magnitude")
     helix_hand: Annotated[list[Hand], _MANY] | None = Field(
         None, description="hands of helix, a list with one for each gear, for the drawing"
-    )
-    addendum: Coefficient = Field(1.0, description="addendum coefficient")
-    clearance: Annotated[float, Field(ge=0, le=1, json_schema_extra={"unit": "1"})] = Field(
-        0.25, description="clearance coefficient"
     )
     tip_shortening: Literal["full", "none"] | Annotated[list[Alteration], _MANY] | None = Field(
         None, description="full (default of external meshes), none (of rings), or tip alterations k of all gears"
@@ -79,16 +74,9 @@ class TrainKeys(Spec):
     load: Annotated[Any, Deferred("gears.train_parts:TrainLoad")] | None = Field(
         None, description="load of the rating by ISO 6336; each free gear hands it on"
     )
-    load_share: Literal["third", "half"] = Field(
-        "third", description="share of a flank pair beside another: third (1/3 to 2/3) or half"
-    )
     material: Annotated[Any, Deferred("gears.train_parts:TrainMaterial")] | None = Field(
         None, description="materials, for the rating"
     )
-    accuracy_grade: AccuracyGrade | None = Field(
-        None, description="accuracy grade of ISO 1328: 4 or better lowers the root stress of deep teeth (Y_DT)"
-    )
-    edition: Literal[2006, 2019] = Field(2006, description="of ISO 6336; 2019 is not verified")
 
     def gear_names(self) -> tuple[str, ...]:
         """Names of the gears of this file, in the order of the lists."""

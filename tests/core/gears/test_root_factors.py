@@ -13,7 +13,7 @@ import pytest
 from factory import design
 
 from gearlink.core.gears.root_strength import RootSection
-from gearlink.core.gears.root_stress import deep_tooth_factor, rim_factor_of_gear, rim_factor_of_ring
+from gearlink.core.gears.root_stress import deep_tooth_factor, rim_factor
 
 LOADED: dict[str, Any] = {
     "kind": "gear-pair",
@@ -60,8 +60,11 @@ def test_a_rim_too_thin_is_not_rated_and_said_so(keys: dict[str, Any]) -> None:
     assert made.quantity("safety_bending") is None or made.quantity("safety_bending").value[1] is None
 
 
-@pytest.mark.parametrize(("factor", "start", "end"), [(rim_factor_of_gear, 0.5, 1.2), (rim_factor_of_ring, 1.75, 3.5)])
-def test_rim_factors_fall_to_one_and_end_where_they_may_not_be_used(factor: Any, start: float, end: float) -> None:
+@pytest.mark.parametrize(("ring", "start", "end"), [(False, 0.5, 1.2), (True, 1.75, 3.5)])
+def test_rim_factors_fall_to_one_and_end_where_they_may_not_be_used(ring: bool, start: float, end: float) -> None:
+    def factor(rim: float) -> Any:
+        return rim_factor(rim, ring=ring)
+
     grid = [start + (end - start) * k / 50 for k in range(1, 51)]
     values = [factor(place) for place in grid]
     assert all(one >= other for one, other in pairwise(values[:-1]))
