@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from gearlink.core.design_axis import Evaluated, Findings, kept_inside
-from gearlink.core.gears.checks import GEAR_QUANTITIES, UNUSUAL_SLIDING, measured
+from gearlink.core.gears.checks import GEAR_QUANTITIES, measured, most_sliding
 from gearlink.core.gears.codes import (
     CONTACT_RATIO,
     FILLET,
@@ -25,7 +25,7 @@ from gearlink.core.gears.codes import (
     TOOTH_FORM,
     UNDERCUT,
 )
-from gearlink.core.gears.drawing_checks import FILLET_NOISE
+from gearlink.core.gears.drawing_checks import FilletMeasure, fillet_measured
 from gearlink.core.gears.drawing_names import PLACES
 from gearlink.core.gears.from_spec import both
 from gearlink.core.gears.pair_sweep import GearPairs, PathsOfContact
@@ -217,25 +217,19 @@ class _Batch:
         return Findings(found.code, value, limit, found.fails, found.warns | alone, "1")
 
     def _sliding(self, gear: int) -> Findings:
-        given = self.spec.limits.sliding
-        limit = self._spread(UNUSUAL_SLIDING if given is None else given)
+        limit = self._spread(most_sliding(self.spec.limits))
         size = np.abs(self._spread(self.pairs.specific_sliding[gear]))
         self.near |= _close(size, limit)
         return Findings(SLIDING.code, size, limit, np.zeros(size.shape, dtype=bool), size > limit, "1")
 
     def _fillet(self, gear: int) -> Findings:
         """GL207: contact below the end of the flank."""
-        form = np.abs(self._spread(self.pairs.form_radius[gear]))
-        used = np.abs(self._spread(self.paths.used_root_radius[gear]))
+        found = FilletMeasure(*map(self._spread, fillet_measured(self.pairs, self.paths, gear)))
         left = self._spread(self.pairs.interference_margin[1 - gear])
-        beyond, margin = left <= 0.0, np.where(np.isnan(form), 0.0, used - form)
-        margin = np.where(beyond, np.minimum(margin, left), margin)
-        limit = self._spread(-FILLET_NOISE * self.pairs.module)
-        known = ~np.isnan(form)
-        bad = beyond | (known & (margin < limit))
-        self.near |= known & (_close(margin, limit) | _close(left, 0.0))
-        judged = beyond | (self.pairs.helix_angle != 0.0)
-        return Findings(FILLET.code, margin, limit, bad & judged, bad & ~judged, "mm")
+        known = ~np.isnan(self._spread(self.pairs.form_radius[gear]))
+        self.near |= known & (_close(found.margin, found.limit) | _close(left, 0.0))
+        fails, warns = found.bad & found.judged, found.bad & ~found.judged
+        return Findings(FILLET.code, found.margin, found.limit, fails, warns, "mm")
 
 
 def _close(value: Any, limit: Any) -> Mask:

@@ -55,9 +55,11 @@ GEAR_CHECKS = tuple(
 )
 _USUAL_TIP = 0.15
 """So many modules above the least tip thickness a tip is no longer called thin."""
-_MORE_CONTACT = 0.1
+MORE_CONTACT = 0.1
 """So much above the least contact ratio it is no longer called little."""
-UNUSUAL_SLIDING = 8.0
+_UNUSUAL_SLIDING = 8.0
+FILLET_NOISE = 1e-4
+"""So far below the form radius contact may go, in modules: what a rounding of 0.38 for 0.37995 makes."""
 
 
 def gear_ways(*teeth: Way, angle: str = "gears.pressure_angle") -> dict[str, tuple[Way, ...]]:
@@ -181,8 +183,14 @@ class Measured(NamedTuple):
         return "fail" if self.value < self.fails_below else "warn" if self.value < self.warns_below else "pass"
 
 
+def most_sliding(limits: Any) -> float:
+    """Specific sliding beyond which GL209 warns."""
+    given: float | None = limits.sliding
+    return _UNUSUAL_SLIDING if given is None else given
+
+
 def _contact_measure(pair: GearPair, _gear: int, limits: Limits) -> Measured:
-    return Measured(pair.contact_ratio, limits.contact_ratio, limits.contact_ratio + _MORE_CONTACT)
+    return Measured(pair.contact_ratio, limits.contact_ratio, limits.contact_ratio + MORE_CONTACT)
 
 
 def _undercut_measure(pair: GearPair, gear: int, limits: Limits) -> Measured:
@@ -293,7 +301,7 @@ def _tooth_form(gear: _Gear, _limits: Limits) -> Iterator[Check]:
 
 def _sliding(gear: _Gear, limits: Limits) -> Iterator[Check]:
     found = gear_quantity(gear.pair, "specific_sliding")
-    limit = UNUSUAL_SLIDING if limits.sliding is None else limits.sliding
+    limit = most_sliding(limits)
     if found is None or (limits.sliding is None and abs(found[gear.place]) <= limit):
         return
     size = abs(found[gear.place])

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from typing import Protocol
+from typing import Any, NamedTuple, Protocol
 
-from gearlink.core.gears.checks import Limits, gear_check
+from gearlink.core.gears.checks import FILLET_NOISE, MORE_CONTACT, Limits, gear_check
 from gearlink.core.gears.codes import BACKLASH, BENDING, CONTACT_RATIO, FILLET, PITTING, TIP_FOULING
+from gearlink.core.gears.contact import PathOfContact
 from gearlink.core.gears.data import GearData
 from gearlink.core.gears.drawing_names import DRAWING_CHECKS
 from gearlink.core.gears.load import Factors
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.report import Check, Rule, Status
-
-FILLET_NOISE = 1e-4
-"""So far below the form radius contact may go, in modules: what a rounding of 0.38 for 0.37995 makes."""
 
 _NEGATIVE = -1e-6
 """Backlash below it, in modules, is none."""
@@ -90,7 +89,12 @@ def helical_contact(data: GearData, limits: DrawingLimits) -> Check | None:
         return None
     least, transverse = limits.contact_ratio, data.pair.contact_ratio
     found = CONTACT_RATIO.below(
-        total, least, least + 0.1, "1", "the total contact ratio", "take a greater width, helix angle or more teeth"
+        total,
+        least,
+        least + MORE_CONTACT,
+        "1",
+        "the total contact ratio",
+        "take a greater width, helix angle or more teeth",
     )
     if found.status != "pass" or transverse >= 1.0:
         return found
@@ -159,27 +163,56 @@ def _fillet(data: GearData, _limits: DrawingLimits) -> Iterator[Check]:
         yield from _fillet_of(data, gear)
 
 
+class FilletMeasure(NamedTuple):
+    """How far contact stays off a root fillet [mm] and the limit; whether it would lie beyond the base circle, whether
+    that is bad, and whether what is bad is a failure or, of a fillet that is not known well, a warning.
+
+    Of many pairs each is an array.
+    """
+
+    margin: Any
+    limit: Any
+    beyond: Any
+    bad: Any
+    judged: Any
+
+
+def fillet_measured(pair: GearPair, path: PathOfContact, gear: int) -> FilletMeasure:
+    """What GL207 compares, of one pair or of many over arrays.
+
+    Parameters
+        pair, path : GearPair, PathOfContact
+        gear : int - 0 or 1; a flank whose end is not known (None, or NaN) has the margin 0 of its fillet
+    """
+    form, left = pair.form_radius[gear], pair.interference_margin[1 - gear]
+    known = math.nan if form is None else form
+    margin = pair.signs[gear] * (abs(path.used_root_radius[gear]) - abs(known))
+    margin = pair.fn.where(known == known, margin, 0.0)
+    beyond, limit = left <= 0.0, -FILLET_NOISE * pair.module
+    margin = pair.fn.where(beyond, pair.fn.least(margin, left), margin)
+    tooled = pair.internal or any(pair.tools) or pair.cutter is not None
+    judged = beyond | (pair.helix_angle != 0.0) | tooled
+    return FilletMeasure(margin, limit, beyond, beyond | (margin < limit), judged)
+
+
 def _fillet_of(data: GearData, gear: int) -> Iterator[Check]:
     pair, form = data.pair, data.pair.form_radius[gear]
-    sign, form = pair.signs[gear], None if form is None else abs(form)
-    beyond = pair.interference_margin[1 - gear] <= 0.0
-    if form is None and not beyond:
+    if form is None and pair.interference_margin[1 - gear] > 0.0:
         return
-    base, used = abs(pair.base_radius[gear]), abs(data.path.used_root_radius[gear])
-    margin = sign * (used - form) if form is not None else 0.0
-    if beyond:
-        margin = min(margin, pair.interference_margin[1 - gear])
+    found = fillet_measured(pair, data.path, gear)
+    if form is None or found.beyond:
+        base = abs(pair.base_radius[gear])
         text = f"contact at the root of gear {gear + 1} would lie beyond its base circle ({base:.6g} mm)"
     else:
-        text = f"contact at the root of gear {gear + 1} begins at {used:.7g} mm, its flank at {form:.7g} mm"
+        used = abs(data.path.used_root_radius[gear])
+        text = f"contact at the root of gear {gear + 1} begins at {used:.7g} mm, its flank at {abs(form):.7g} mm"
     status: Status = "pass"
-    if beyond or margin < -FILLET_NOISE * pair.module:
-        judged = beyond or pair.internal or pair.helix_angle != 0.0 or any(pair.tools) or pair.cutter is not None
-        status = "fail" if judged else "warn"
+    if found.bad:
+        status = "fail" if found.judged else "warn"
         text += (
             f": raise its profile shift, shorten the tips of gear {2 - gear}, or take a tool with a smaller rounding"
         )
-    yield FILLET.check(status, text, margin, -FILLET_NOISE * pair.module, "mm")
+    yield FILLET.check(status, text, found.margin, found.limit, "mm")
 
 
 def _backlash(data: GearData, limits: DrawingLimits) -> Iterator[Check]:

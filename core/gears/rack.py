@@ -7,7 +7,14 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from gearlink.core.gears.checks import GEAR_QUANTITIES, UNUSUAL_SLIDING, gear_check, gear_quantity
+from gearlink.core.gears.checks import (
+    FILLET_NOISE,
+    GEAR_QUANTITIES,
+    MORE_CONTACT,
+    gear_check,
+    gear_quantity,
+    most_sliding,
+)
 from gearlink.core.gears.codes import BACKLASH, CONTACT_RATIO, FILLET, INTERFERENCE, SLIDING, TIP_THICKNESS
 from gearlink.core.gears.data import GearData
 from gearlink.core.gears.drawing_names import PLACES
@@ -30,7 +37,6 @@ _OF_GEAR = frozenset(
 )  # fmt: skip
 """Quantities that the gear has by itself."""
 _OF_TOOTH = ("undercut", "tip-thickness", "tooth-form", "root-clearance")
-_FILLET_NOISE = 1e-4
 _NO_BACKLASH = -1e-6
 _USUAL_TIP = 0.15
 _STEPS = 40
@@ -267,7 +273,7 @@ def _contact_ratio(rack: RackMesh, limits: Any) -> Iterator[Check]:
     eps = rack.total_contact_ratio if rack.pair.helix_angle and rack.total_contact_ratio else rack.contact_ratio
     least = limits.contact_ratio
     remedy = "take more teeth or less profile shift"
-    yield CONTACT_RATIO.below(eps, least, least + 0.1, "1", "the contact ratio", remedy)
+    yield CONTACT_RATIO.below(eps, least, least + MORE_CONTACT, "1", "the contact ratio", remedy)
 
 
 def _interference(rack: RackMesh, _limits: Any) -> Iterator[Check]:
@@ -277,7 +283,7 @@ def _interference(rack: RackMesh, _limits: Any) -> Iterator[Check]:
 
 
 def _fillet(rack: RackMesh, _limits: Any) -> Iterator[Check]:
-    noise = -_FILLET_NOISE * rack.pair.module
+    noise = -FILLET_NOISE * rack.pair.module
     if rack.pair.form_radius[0] is not None:
         margin = rack.used_root_radius[0] - rack.pair.form_radius[0] if rack.start > 0.0 else rack.start
         yield _judged(FILLET.check, f"contact {_side(margin, noise)} the root fillet of gear 1", margin, noise)
@@ -299,7 +305,7 @@ def _tip(rack: RackMesh, limits: Any) -> Iterator[Check]:
 
 def _sliding(rack: RackMesh, limits: Any) -> Iterator[Check]:
     found = rack.specific_sliding
-    limit = UNUSUAL_SLIDING if limits.sliding is None else limits.sliding
+    limit = most_sliding(limits)
     if found is None or (limits.sliding is None and abs(found[0]) <= limit):
         return
     text = f"the specific sliding at the root of gear 1 is {found[0]:.5g}"

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from gearlink.core.design_axis import Findings
-from gearlink.core.gears.checks import UNUSUAL_SLIDING, Limits, gear_check
+from gearlink.core.gears.checks import MORE_CONTACT, Limits, gear_check, most_sliding
 from gearlink.core.gears.codes import (
     CONTACT_RATIO,
     INTERFERENCE,
@@ -41,7 +41,6 @@ _LENGTHS = (
 _PLAIN = ("profile_shift", "min_shift_no_undercut", "span_teeth", "tip_pressure_angle")
 _OWN_CHECKS = (UNDERCUT, TIP_THICKNESS, ROOT_CLEARANCE, TOOTH_FORM)
 MOST_TEETH = 10_000
-_MORE_CONTACT = 0.1
 
 
 @dataclass(frozen=True)
@@ -166,7 +165,7 @@ class Mesh:
             yield from self._own(gear)
         ratio, least = self.contact_ratio, self.limits.contact_ratio
         fails = ratio < least
-        warns = ~fails & (ratio < least + _MORE_CONTACT)
+        warns = ~fails & (ratio < least + MORE_CONTACT)
         yield Findings(CONTACT_RATIO.code, ratio, np.full(ratio.shape, least), fails, warns, "1")
         nothing = np.zeros(ratio.shape, dtype=bool)
         scale = 0.5 * self.module * math.cos(self.pressure_angle)
@@ -184,8 +183,7 @@ class Mesh:
             yield Findings(rule.code, shown, limit, fails > 0.0, warns > 0.0, "mm" if length else "1")
 
     def _sliding(self, slides: Any, nothing: Any) -> Iterator[Findings]:
-        given = self.limits.sliding
-        limit = UNUSUAL_SLIDING if given is None else given
+        limit = most_sliding(self.limits)
         for gear in (0, 1):
             mate = self.teeth[1 - gear]
             with np.errstate(all="ignore"):

@@ -72,13 +72,18 @@ class Feed(Spec):
         return self
 
 
+LEAST_TOLERANCE = 1e-9
+"""[deg]; of a smaller one double precision leaves fewer than five digits of the dwell's crank angle."""
+DwellTolerance = Annotated[float, Field(ge=LEAST_TOLERANCE, json_schema_extra={"unit": "deg"})]
+
+
 class DwellBand(Spec):
     """A dwell within a tolerance: a crank angle, a tolerance, or both."""
 
     window: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
         None, description="crank angle over which the output stays within +-tolerance"
     )
-    tolerance: Annotated[float, Field(gt=0, lt=180, json_schema_extra={"unit": "deg"})] | None = Field(
+    tolerance: Annotated[DwellTolerance, Field(lt=180)] | None = Field(
         None, description="output tolerance +- of the window; alone: the longest window is sought"
     )
     margin: Annotated[float, Field(ge=0, lt=1, json_schema_extra={"unit": "1"})] | None = Field(

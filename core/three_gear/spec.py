@@ -8,7 +8,7 @@ from pydantic import AfterValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.gears.train_keys import TrainKeys
-from gearlink.core.linkages.spec_parts import DwellBand, Feed, LinkageLimits, require_rim
+from gearlink.core.linkages.spec_parts import DwellBand, DwellTolerance, Feed, LinkageLimits, require_rim
 from gearlink.core.real_speed import other_speed
 from gearlink.core.spec import Assembly, Deferred, DrivenSpec, Length, PressureAngle, SignedLength, Spec, Teeth
 
@@ -179,13 +179,11 @@ class ThreeGearSpec(DrivenSpec):
     back_step: BackStep | None = None
     speed: Speed | None = None
     momentary: Momentary | None = None
-    dwell_tolerance: Annotated[float, Field(gt=0, json_schema_extra={"unit": "deg"})] | None = Field(
-        None, description="output tolerance +- for the tolerance dwell"
-    )
+    dwell_tolerance: DwellTolerance | None = Field(None, description="output tolerance +- for the tolerance dwell")
     dwell_window: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
         None, description="crank angle over which the output must stay within that tolerance"
     )
-    dwell_backlash: Length | None = Field(
+    dwell_backlash: Annotated[Length, Field(ge=1e-9)] | None = Field(
         None, description="play at the output gear's reference circle, in place of dwell_tolerance"
     )
     feed: Feed | None = None

@@ -42,6 +42,12 @@ UNEQUAL = {
     "gears.output": {"from": 8, "to": 12},
     "gears.idler": {"from": 8, "to": 90},
 }
+ANY = {
+    "gears.crank": {"from": 8, "to": 60},
+    "gears.idler": {"from": 8, "to": 100},
+    "gears.output": {"from": 8, "to": 90},
+}
+FOUND = {**ANY, "links.crank": {"from": 2, "to": 50}, "links.frame": {"from": 20, "to": 220}}
 TASKS: dict[str, tuple[str, dict[str, Any], dict[str, Any]]] = {
     "dwell": ("synth dwell", {"dwell": {"angle": 135}}, {**GEARS, "dwell.angle": {"from": 1, "to": 300}}),
     "dwell, limits": ("synth dwell", {"dwell": {"angle": 150}, "assembly": -1}, {**UNEQUAL, **LIMITS}),
@@ -64,22 +70,14 @@ TASKS: dict[str, tuple[str, dict[str, Any], dict[str, Any]]] = {
         "synth momentary-dwell",
         {"momentary": {"eccentricity": 20}},
         {
-            "gears.crank": {"from": 8, "to": 60},
-            "gears.idler": {"from": 8, "to": 100},
-            "gears.output": {"from": 8, "to": 90},
+            **ANY,
             "momentary.eccentricity": {"from": 2, "to": 50},
         },
     ),
     "analysis": (
         "analyze",
         {"links": {"crank": 20, "frame": 150}},
-        {
-            "gears.crank": {"from": 8, "to": 60},
-            "gears.idler": {"from": 8, "to": 100},
-            "gears.output": {"from": 8, "to": 90},
-            "links.crank": {"from": 2, "to": 50},
-            "links.frame": {"from": 20, "to": 220},
-        },
+        FOUND,
     ),
     "analysis, drag links": (
         "analyze",
@@ -96,11 +94,7 @@ TASKS: dict[str, tuple[str, dict[str, Any], dict[str, Any]]] = {
         "analyze",
         {"links": {"crank": 20, "frame": 150}, "dwell_tolerance": 1, "dwell_window": 90},
         {
-            "gears.crank": {"from": 8, "to": 60},
-            "gears.idler": {"from": 8, "to": 100},
-            "gears.output": {"from": 8, "to": 90},
-            "links.crank": {"from": 2, "to": 50},
-            "links.frame": {"from": 20, "to": 220},
+            **FOUND,
             "dwell_tolerance": {"from": 0.001, "to": 40, "log": True},
             "dwell_window": {"from": 10, "to": 200},
         },

@@ -466,3 +466,12 @@ def test_a_tolerance_without_end_is_a_finding(key):
         assert ("tolerance_dwell_angle" in names) == (status == "pass")
         assert "speed_ratio_max" in names
     assert design(**EXAMPLE_3).check("dwell-tolerance") == []
+
+
+@pytest.mark.parametrize(
+    "keys", [{"dwell_tolerance": 1e-10}, {"dwell_backlash": 1e-10}, {"dwell": {"tolerance": 1e-10}}]
+)
+def test_tolerances_below_what_double_precision_tells_are_refused(keys):
+    with pytest.raises(ValueError, match=r"equal to 0\.000000001"):
+        design(**EXAMPLE_3, **keys)
+    assert design(**EXAMPLE_3, dwell_tolerance=1e-9).raw("tolerance_dwell_angle") > 0.0
