@@ -1,0 +1,49 @@
+"""What a design keeps for the next of a study: the same bits as designs that keep nothing, in threads too."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any
+
+import numpy as np
+import pytest
+from factory import worked
+
+from gearlink.core.explore.base import Base
+from gearlink.core.explore.one_by_one import single
+
+NAMES = ("max_radius[0]", "max_radius[1]", "max_pressure_angle[0]", "min_curvature_radius[1]")
+
+
+def base() -> Base:
+    return Base(worked("swing_gripper"), "cam")
+
+
+def changes() -> Iterator[tuple[tuple[str, Any], ...]]:
+    """Of the cams alone, and of the linkage, whose motion is then another."""
+    for arm in (150.0, 160.0, 170.0):
+        for angle in (46.0, 52.0):
+            yield (("cam.roller.arm", arm), ("cam.roller.angle", angle))
+    yield (("cam.roller.arm", 160.0), ("links.input", 151.0))
+
+
+@pytest.fixture
+def hurried() -> Iterator[None]:
+    """Threads that take turns at every chance."""
+    usual = sys.getswitchinterval()
+    sys.setswitchinterval(1e-6)
+    yield
+    sys.setswitchinterval(usual)
+
+
+def test_threads_share_what_a_gripper_keeps(hurried: None) -> None:
+    alone = [single(base(), each, NAMES, ()) for each in changes()]
+    shared = base()
+    with ThreadPoolExecutor(4) as pool:
+        together = list(pool.map(lambda each: single(shared, each, NAMES, ()), 3 * [*changes()]))
+    assert not any(one.refused for one in alone)
+    assert len({one.values["max_radius[0]"] for one in alone}) == len(alone)
+    for one, other in zip(3 * alone, together, strict=True):
+        assert np.array_equal([one.values[name] for name in NAMES], [other.values[name] for name in NAMES])
