@@ -39,10 +39,12 @@ class RegisterDesign(Design):
     turning: ClassVar[str] = "torque on the output"
     outlines: ClassVar[dict[str, Outline]] = {
         "register": Outline(
-            ("worst", "rss", "band", "dead_band", "flips"), ("register-budget", "backlash-in-dwell"), ("budget",)
+            ("worst", "rss", "band", "dead_band", "flips"),
+            ("register-budget", "backlash-in-dwell"),
+            ("budget", "cycle"),
         )
     }
-    extra_tables = ("cycle", "sources")
+    extra_tables = ("sources",)
     advises = False
 
     # What a machine gives

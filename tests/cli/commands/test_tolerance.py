@@ -96,6 +96,13 @@ def test_a_batch_runs_them_on_request_alone(gearlink: Any, spec: Path) -> None:
     assert commands(*more) == ["analyze", "register", "tolerance"]
 
 
+def test_register_gives_the_cycle_beside_the_budget(gearlink: Any, spec: Path) -> None:
+    tables = json.loads(gearlink("register", str(spec), "--samples", "24", "--format", "json").out)["tables"]
+    assert list(tables) == ["budget", "cycle"]
+    assert tables["cycle"]["columns"] == ["torque_sign", "input_angle", "worst", "band"]
+    assert len(tables["cycle"]["rows"]) == 2 * 360
+
+
 def test_register_at_an_angle_is_absolute(gearlink: Any, spec: Path) -> None:
     ended = gearlink("register", str(spec), "--at", "270", "--format", "json")
     status, out = ended.status, ended.out
