@@ -41,7 +41,7 @@ def client(address: str) -> Iterator[Any]:
     try:
         make: Any = import_module("distributed").Client
     except ImportError:
-        message = "--dask needs the package distributed: pip install 'gearlink-design[cluster]'"
+        message = "--dask needs the package distributed: pip install distributed"
         raise _refused("GL115", message, "--dask") from None
     try:
         made = make(address, timeout=_SECONDS)

@@ -36,24 +36,34 @@ def _factory(name: str) -> Any:
     module, colon, function = name.partition(":")
     sys.path.insert(0, os.getcwd())
     try:
-        made = getattr(import_module(module), function) if colon else None
-    except (ImportError, AttributeError, ValueError) as error:
-        raise _usage(f"--executor {name}: {error}", name) from None
+        with _theirs(name, "cannot be loaded"):
+            made = getattr(import_module(module), function) if colon else None
     finally:
         sys.path.pop(0)
     if not callable(made):
         raise _usage(f"--executor {name!r} is not MODULE:FACTORY, a function that makes an executor", name)
 
     def make() -> Executor:
-        try:
+        with _theirs(name, "cannot make one"):
             executor = made()
-        except Exception as error:
-            raise _usage(f"--executor {name} cannot make one: {type(error).__name__}: {error}", name) from error
         if not hasattr(executor, "submit"):
             raise _usage(f"--executor {name} makes no executor, but a {type(executor).__name__}", name)
         return executor  # type: ignore[no-any-return]
 
     return make
+
+
+@contextmanager
+def _theirs(name: str, words: str) -> Iterator[None]:
+    """Code of the user's own, which may raise anything: a wrong command line, no fault of this program.
+
+    Raises
+        DesignFileError - GL115 with what was raised as its cause
+    """
+    try:
+        yield
+    except Exception as error:
+        raise _usage(f"--executor {name} {words}: {type(error).__name__}: {error}", name) from error
 
 
 def _usage(message: str, key: str) -> DesignFileError:

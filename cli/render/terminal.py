@@ -267,13 +267,12 @@ def _interval(cell: str, half: float | None) -> str:
 
 
 def _folds(table: Table, cells: Sequence[Sequence[str]], width: int) -> list[list[int]]:
-    """Groups of columns that fit the width; the first column opens each group, and one of words that follows it."""
+    """Groups of columns that fit the width; the columns that name the rows open each group."""
     need = [
         max(len(part) for part in [*head.split("_"), unit, *(row[i] for row in cells)]) + 3
         for i, (head, unit) in enumerate(zip(table.columns, table.units, strict=True))
     ]
-    named = len(need) > 1 and table.length > 0 and isinstance(table.data[1][0], str) and need[0] + need[1] < width / 2
-    first = [0, 1] if named else [0]
+    first = list(range(_naming(cells, need, width)))
     opening = sum(need[i] for i in first)
     folds: list[list[int]] = [first[:]]
     used = opening
@@ -284,3 +283,13 @@ def _folds(table: Table, cells: Sequence[Sequence[str]], width: int) -> list[lis
         folds[-1].append(i)
         used += need[i]
     return folds
+
+
+def _naming(cells: Sequence[Sequence[str]], need: Sequence[int], width: int) -> int:
+    """How many leading columns tell each row from every other, within half the width; 1 where that takes more."""
+    for count in range(1, len(need)):
+        if count > 1 and sum(need[:count]) >= width / 2:
+            break
+        if len({tuple(row[:count]) for row in cells}) == len(cells):
+            return count
+    return 1

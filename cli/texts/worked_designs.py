@@ -13,6 +13,8 @@ if TYPE_CHECKING:
 
 # Where several worked designs show a kind, the one to begin with.
 _PLAINEST = {
+    "slider-crank": "ty460_slider_crank",
+    "flatbed-press": "ty460",
     "three-gear-four-bar": "standing_feed",
     "two-gear-four-bar": "two_gear_drag_link",
     "geared-rocker": "wide_lever",
@@ -24,8 +26,8 @@ _KIND = re.compile(r"^kind:\s*([\w-]+)", re.MULTILINE)
 def worked_design(kind: Kind) -> str:
     """The text of the kind's worked design: the file that bears its name, else the first by name."""
     folder = Path(str(designs.__file__)).parent
-    texts = {file.stem: file.read_text(encoding="utf-8") for file in folder.rglob("*.yaml")}
-    own = {stem: text for stem, text in texts.items() if (found := _KIND.search(text)) and found[1] == kind.name}
+    files = [(file.stem, file.read_text(encoding="utf-8")) for file in folder.rglob("*.yaml")]
+    own = {stem: text for stem, text in files if (found := _KIND.search(text)) and found[1] == kind.name}
     if not own:
         raise LookupError(f"no worked design of kind {kind.name} in gearlink.designs")
     return own.get(_PLAINEST.get(kind.name, kind.name.replace("-", "_")), own[min(own)])

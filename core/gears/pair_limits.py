@@ -122,6 +122,8 @@ def no_involute_at_tip(pair: GearPair, gear: int) -> NoSolution:
     """What is wrong where a tip circle lies inside its base circle."""
     base, tip = abs(pair.base_radius[gear]), abs(pair.tip_radius[gear])
     missing = (base - tip) / pair.module
+    if not pair.internal and pair.tip_radius[gear] - pair.tip_alteration[gear] * pair.module >= base:
+        return _no_tip_left(pair, gear)
     if pair.teeth[gear] > 0:
         return NoSolution(
             f"tip radius {tip:.6g} mm of gear {gear + 1} lies below its base radius {base:.6g} mm: "
@@ -135,4 +137,17 @@ def no_involute_at_tip(pair: GearPair, gear: int) -> NoSolution:
         f"tip radius {tip:.6g} mm of the ring lies inside its base radius {base:.6g} mm, where there is no involute: "
         f"{enough}lower its profile shift or its addendum by at least {missing:.3g} modules",
         key="teeth[1]",
+    )
+
+
+def _no_tip_left(pair: GearPair, gear: int) -> NoSolution:
+    """What is wrong where the centre distance takes so much from the tips that none is left outside the base circle."""
+    first, second = pair.teeth
+    distance = pair.center_distance
+    fitting = pair.module * distance / pair.reference_center_distance
+    return NoSolution(
+        f"no tip is left to gear {gear + 1}: at the centre distance {distance:.6g} mm gears of {first} and {second} "
+        f"teeth of module {pair.module:g} mm take profile shifts with the sum {pair.shift_sum:.3g}, and their tips are "
+        f"shortened by {-pair.tip_alteration[gear]:.3g} modules; bring the distance near to "
+        f"{pair.reference_center_distance:.6g} mm, or take a module near {fitting:.3g} mm or more teeth"
     )

@@ -14,6 +14,7 @@ from sweeps import mostly_slow
 from gearlink.cli.reading.design_file import load, validate
 from gearlink.cli.texts.schema import kind_schema
 from gearlink.cli.texts.spec_keys import spec_keys
+from gearlink.cli.texts.worked_designs import worked_design
 from gearlink.core.kinds import FILES as KINDS
 
 
@@ -141,3 +142,19 @@ def test_every_key_that_is_there_says_unit_meaning_and_whose_choice_it_is(gearli
 def test_the_first_wide_swing_is_the_plain_one(gearlink: Any) -> None:
     data = yaml.safe_load(gearlink("new", "wide-swing-cam").out)
     assert not {"drive", "slider", "cycle"} & set(data)
+
+
+@pytest.mark.parametrize("kind", sorted(set(KINDS) - {"study"}))
+def test_templates_begin_with_the_machine_alone(kind: str) -> None:
+    """Tolerances, loads and registers are a second step; a file of the same name elsewhere hides no design."""
+    data = yaml.safe_load(worked_design(KINDS[kind]))
+    assert data["kind"] == kind
+    assert not {"tolerance", "loads", "register"} & set(data)
+
+
+def test_the_first_gear_pair_has_two_gears() -> None:
+    assert all(isinstance(z, int) and z > 0 for z in yaml.safe_load(worked_design(KINDS["gear-pair"]))["teeth"])
+
+
+def test_the_first_slider_crank_asks_for_its_crank() -> None:
+    assert "stroke" in yaml.safe_load(worked_design(KINDS["slider-crank"]))

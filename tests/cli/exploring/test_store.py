@@ -70,6 +70,30 @@ def test_the_same_with_one_two_and_seven_processes_shares_and_any_executor(
     assert json_of(gearlink, study, "--executor", "threads:make") == alone
 
 
+@pytest.mark.parametrize(
+    ("text", "name", "words"),
+    [
+        ("1 / 0\n", "broken:make", "cannot be loaded: ZeroDivisionError"),
+        ("def make(:\n", "broken:make", "cannot be loaded: SyntaxError"),
+        ("def make():\n    raise RuntimeError('no pool')\n", "broken:make", "cannot make one: RuntimeError: no pool"),
+        ("make = dict\n", "broken:make", "makes no executor, but a dict"),
+        ("", "broken:make", "cannot be loaded: AttributeError"),
+        ("", "..broken:make", "cannot be loaded: TypeError"),
+        ("", "broken", "is not MODULE:FACTORY"),
+    ],
+)
+def test_what_a_factory_raises_is_a_wrong_command_line(
+    gearlink: Any, study: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str, name: str, words: str
+) -> None:
+    (tmp_path / "broken.py").write_text(text)
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.delitem(sys.modules, "broken", raising=False)
+    ended = gearlink("explore", study, "--executor", name)
+    assert (ended.status, ended.out) == (2, "")
+    assert "GL115" in ended.err
+    assert words in ended.err
+
+
 def begun(study: Path, store: Path) -> subprocess.Popen[bytes]:
     words = ["explore", study, "--store", store, "--resume", "--jobs", "2", "--format", "json", "-q"]
     return subprocess.Popen(

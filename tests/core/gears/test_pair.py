@@ -407,6 +407,13 @@ def test_refusals_name_the_limit(make, message):
         make()
 
 
+def test_a_distance_that_takes_the_tips_names_what_fits_it():
+    """66 teeth fill 100 mm with a module of 3.03 mm; a module of 10 um cannot, whatever the shifts."""
+    pair = GearPair.from_center_distance(1e-5, (19, 47), 100.0)
+    with pytest.raises(NoSolution, match=r"no tip is left to gear 1: .* near to 0\.00033 mm, or .* near 3\.03 mm"):
+        _ = pair.tip_pressure_angle
+
+
 def test_tip_inside_the_base_circle_is_refused_with_the_remedy():
     pair = GearPair.from_center_distance(1.0, (60, 60), 60.0, split=-3.0)
     assert pair.tip_radius[0] < pair.base_radius[0]

@@ -1,0 +1,37 @@
+"""Tables on a terminal: what is repeated where a table is folded."""
+
+from __future__ import annotations
+
+from io import StringIO
+
+from rich.console import Console
+
+from gearlink.cli.render.terminal import show_table
+from gearlink.core.report import Table
+
+
+def heads(table: Table, width: int) -> list[list[str]]:
+    """The heads of each part of a folded table."""
+    console = Console(width=width, record=True, file=StringIO())
+    show_table(table, console)
+    lines = console.export_text().splitlines()
+    return [lines[i - 1].split() for i, line in enumerate(lines) if set(line.strip()) in ({"─"}, {"-"})]
+
+
+def test_a_name_alone_opens_each_part() -> None:
+    words = ["stroke", "speed"]
+    table = Table("t", ("quantity", "unit", "mean", "sigma"), ("1",) * 4, (words, ["mm", "mm/s"], words, words))
+    assert heads(table, 30) == [["quantity", "unit", "mean"], ["quantity", "sigma"]]
+
+
+def test_what_it_takes_to_name_a_row_opens_each_part() -> None:
+    numbers = [1.0, 2.0, 3.0, 4.0]
+    data = ([1.5, 1.5, 2.0, 2.0], [44, 55, 44, 55], numbers, numbers)
+    table = Table("t", ("module", "idler", "acceleration", "transmission"), ("1",) * 4, data)
+    assert heads(table, 40) == [["module", "idler", "acceleration"], ["module", "idler", "transmission"]]
+
+
+def test_names_that_take_half_the_width_stand_once() -> None:
+    signs, sources = [1.0, 1.0], ["a bearing with a long name", "another bearing with a long name"]
+    table = Table("t", ("sign", "source", "gain", "share"), ("1",) * 4, (signs, sources, signs, signs))
+    assert heads(table, 50) == [["sign", "source", "gain"], ["sign", "share"]]
