@@ -15,6 +15,7 @@ from gearlink.core.dwell_gears.mutilated_design import MutilatedGearDwell
 from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.linkages.fourbar_loads import MM, four_bar, four_bar_pins
 from gearlink.core.loads.design import LoadsDesign, loads_outline
+from gearlink.core.loads.periods import homecoming
 from gearlink.core.loads.sources import mass_of
 from gearlink.core.loads.spec import of_body
 from gearlink.core.results import cached_property
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
     from gearlink.core.numerics.arrays import Reals
 
 _TURN = 2.0 * math.pi
-_MOST_TURNS, _MOST_MOTIONS = 1000, 200
+_MOST_MOTIONS = 200
 
 
 class MutilatedGearLoads(LoadsDesign):
@@ -69,13 +70,7 @@ class MutilatedGearLoads(LoadsDesign):
                 "the reduction, or give a larger one",
                 key="reduction",
             )
-        if turns > _MOST_TURNS:
-            raise NoSolution(
-                f"input and linkage come home together only after {turns} input turns: at most {_MOST_TURNS} are "
-                "computed; round the reduction",
-                key="reduction",
-            )
-        return turns
+        return homecoming(turns, "input and linkage come home together", "reduction", "round the reduction")
 
     @property
     def unknown_joints(self) -> tuple[str, ...]:
@@ -105,6 +100,7 @@ class MutilatedGearLoads(LoadsDesign):
         rest = np.where(cycle - rest <= 8.0 * np.spacing(np.maximum(np.abs(phi), cycle)), 0.0, rest)
         whole = np.round((phi - rest) / cycle)
         moves = np.where(rest < _TURN * gear.motion_turns, 1.0, 0.0)
+        # within a cycle the gear turns by one step, and then stands
         return np.asarray(whole * step + np.minimum(gear.speed_ratio * rest, step)), moves
 
     def kinematics(self, phi: Reals) -> Mechanism:

@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from gearlink.core.numerics.arrays import Reals
 
 _MM = 1e-3
-_MOST_TURNS = 1000
 
 
 class FiveBarLoads(LoadsDesign):
@@ -55,13 +54,7 @@ class FiveBarLoads(LoadsDesign):
     @property
     def turns(self) -> int:
         """Input turns of the whole period."""
-        turns = self.design.period_turns
-        if turns > _MOST_TURNS:
-            raise NoSolution(
-                f"the gears repeat only after {turns} input turns: loads are computed for at most {_MOST_TURNS}; "
-                "choose teeth with a common factor",
-                key="gears",
-            )
+        turns = homecoming(self.design.period_turns, "the gears repeat", "gears", "choose teeth with a common factor")
         gears = self.spec.gears
         if gears.idler is None or gears.input is None or not is_directed(self.section, "idler"):
             return turns

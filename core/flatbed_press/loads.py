@@ -218,11 +218,16 @@ class PressLoads(CamLoadsDesign):
 
         from gearlink.core.loads.cam_contact import positive_drive
 
-        net: Reals = self.machine.reactions(phi).unknowns["cam"][0]
+        net = self.side_force(phi)
         if not self._preload:
             return np.asarray(np.maximum(net if name == "main" else -net, 0.0))
         both = positive_drive(net, self._preload, self._stiffness)
         return both[0] if name == "main" else both[1]
+
+    def side_force(self, phi: Reals) -> Reals:
+        """What the cams give the follower of the rack along +y [N], less a preload."""
+        found: Reals = self.machine.reactions(phi).unknowns["cam"][0]
+        return found
 
     @property
     def _preload(self) -> float:
@@ -247,7 +252,7 @@ class PressLoads(CamLoadsDesign):
         import numpy as np
 
         share = self._stiffness[0] / sum(self._stiffness)
-        net: Reals = self.machine.reactions(phi).unknowns["cam"][0]
+        net = self.side_force(phi)
         return np.asarray(np.maximum(net * (1.0 - share), -net * share))
 
     def course(self, name: str) -> Callable[[Reals], Reals]:

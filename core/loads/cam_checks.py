@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from gearlink.core.loads import codes
+from gearlink.core.loads import checks, codes
 from gearlink.core.report import Check, safely_above
 
 if TYPE_CHECKING:
@@ -25,6 +25,11 @@ def contact_pressure(design: CamLoadsDesign) -> Iterator[Check]:
     if allowed is None or found is None:
         return
     for name, extreme in zip(design.own_rollers, found, strict=True):
+        if extreme is None:
+            text = f"the {name} roller presses where its cam is undercut, and no pressure holds"
+            message = f"{text}: enlarge the cam, or take a smaller roller"
+            yield codes.CONTACT_PRESSURE.check("fail", message, None, allowed, "N/mm^2")
+            continue
         text = f"the {name} roller presses with {extreme.value:.5g} N/mm^2 at {math.degrees(extreme.place):.5g} deg"
         if extreme.value > allowed:
             message = f"{text}, above {allowed:g}: take wider rollers"
@@ -34,6 +39,24 @@ def contact_pressure(design: CamLoadsDesign) -> Iterator[Check]:
             yield codes.CONTACT_PRESSURE.check("warn", message, extreme.value, allowed, "N/mm^2")
         else:
             yield codes.CONTACT_PRESSURE.check("pass", text, extreme.value, allowed, "N/mm^2")
+
+
+def load_reversal(design: CamLoadsDesign) -> Iterator[Check]:
+    """GL602: each mesh, and a follower between two cams that no preload holds to both."""
+    yield from checks.load_reversal(design)
+    roller = design.section.roller
+    if not design.on_two_sides or (roller is not None and roller.preload):
+        return
+    from gearlink.core.loads.reversals import places
+
+    size = max(abs(high.value) for _, high in design.force_extremes)
+    found = [math.degrees(place) for place in places(design.side_force, design.machine, size)]
+    if found:
+        text = f"the follower changes cams {len(found)} times over the period, at {checks.listed(found)} deg"
+        message = f"{text}: it strikes there; press both rollers on (loads.roller.preload)"
+        yield codes.LOAD_REVERSAL.check("warn", message, float(len(found)), 0.0)
+    else:
+        yield codes.LOAD_REVERSAL.check("pass", "the follower stays on one cam", 0.0, 0.0)
 
 
 def contact_loss(design: CamLoadsDesign) -> Iterator[Check]:

@@ -100,8 +100,9 @@ class CamLoadsDesign(LoadsDesign):
     def _of_roller(self, what: str) -> Callable[[str, Reals], Reals]:
         return {
             "contact_force": self.contact_force,
-            "hertz_pressure": self._pressure,
-            "shear_depth": self._depth,
+            "hertz_pressure": lambda name, phi: self._where_pressed(name, phi, "pressure"),
+            "shear_depth": lambda name, phi: self._where_pressed(name, phi, "shear_depth"),
+            "radius": self._radius,
             "roller_speed": lambda name, phi: abs(self.roller_speed(name, phi)),
             "roller_acceleration": lambda name, phi: abs(self.roller_acceleration(name, phi)),
             "entrainment_speed": lambda name, phi: abs(self.entrainment(name, phi)),
@@ -114,26 +115,36 @@ class CamLoadsDesign(LoadsDesign):
         course, greatest = quantity.removesuffix("_max").removesuffix("_min"), not quantity.endswith("_min")
         if course == "cam_torque":
             return ((course, greatest),)
-        if course in ("hertz_pressure", "shear_depth") and self.section.roller is None:
-            return ()
-        return [(f"{course}:{name}", greatest) for name in self.own_rollers]
+        found = [(f"{course}:{name}", greatest) for name in self.own_rollers]
+        if course in ("hertz_pressure", "shear_depth"):
+            found += [(f"radius:{name}", False) for name in self.own_rollers]
+            return found if self.section.roller is not None else ()
+        return found
 
     def _each(self, course: str, greatest: bool = True) -> list[Extreme]:
         return [self.extreme_of(f"{course}:{name}", greatest) for name in self.own_rollers]
 
-    def _pressure(self, name: str, phi: Reals) -> Reals:
+    def _where_pressed(self, name: str, phi: Reals, what: str) -> Reals:
+        """Pressure or depth of a roller that is pressed; 0 where it is not."""
         import numpy as np
 
         contact = self.contact(name, phi)
         assert contact is not None, "asked for only with a width"
-        return np.nan_to_num(contact.pressure, nan=-1.0)
+        return np.where(contact.force > 0.0, getattr(contact, what), 0.0)
 
-    def _depth(self, name: str, phi: Reals) -> Reals:
+    def _radius(self, name: str, phi: Reals) -> Reals:
+        """Relative radius of a roller that is pressed [m]; its own where it is not, by which no least is found."""
         import numpy as np
 
-        contact = self.contact(name, phi)
-        assert contact is not None, "asked for only with a width"
-        return np.nan_to_num(contact.shear_depth, nan=-1.0)
+        roller = self.roller_on_cam(name, phi)
+        return np.where(self.contact_force(name, phi) > 0.0, roller.relative_radius, roller.radius)
+
+    def _each_pressed(self, course: str) -> list[Extreme | None] | None:
+        """The greatest value of each roller; None for one that presses on an undercut, and all without a width."""
+        if self.section.roller is None:
+            return None
+        pairs = zip(self._each("radius", False), self._each(course), strict=True)
+        return [found if radius.value > 0.0 else None for radius, found in pairs]
 
     @cached_property
     def force_extremes(self) -> list[tuple[Extreme, Extreme]]:
@@ -151,20 +162,19 @@ class CamLoadsDesign(LoadsDesign):
         return [low.value for low, _ in self.force_extremes]
 
     @cached_property
-    def pressure_extremes(self) -> list[Extreme] | None:
-        """Greatest Hertzian pressure of each roller [N/mm^2]; None without a width."""
-        return None if self.section.roller is None else self._each("hertz_pressure")
+    def pressure_extremes(self) -> list[Extreme | None] | None:
+        """Greatest Hertzian pressure of each roller [N/mm^2]; None where its cam is undercut, and without a width."""
+        return self._each_pressed("hertz_pressure")
 
     @property
-    def hertz_pressure_max(self) -> list[float] | None:
+    def hertz_pressure_max(self) -> list[float | None] | None:
         """Greatest pressure of each roller and its cam [N/mm^2]."""
-        found = self.pressure_extremes
-        return None if found is None else [each.value for each in found]
+        return _values(self.pressure_extremes)
 
     @cached_property
-    def shear_depth(self) -> list[float] | None:
+    def shear_depth(self) -> list[float | None] | None:
         """Greatest depth of the greatest shear stress [mm]."""
-        return None if self.section.roller is None else [each.value for each in self._each("shear_depth")]
+        return _values(self._each_pressed("shear_depth"))
 
     def roller_speed(self, name: str, phi: Reals) -> Reals:
         """Speed of a roller that rolls [rad/s]."""
@@ -252,7 +262,16 @@ class CamLoadsDesign(LoadsDesign):
         """Least preload that keeps both rollers of a positive drive on their cams [N]; None elsewhere."""
         return None
 
+    def side_force(self, phi: Reals) -> Reals:
+        """Force of a follower between two cams [N], positive on the main cam; of those `on_two_sides`."""
+        raise NotImplementedError
+
     table_contact: Any = cam_tables.contact
 
     check_contact_pressure, check_contact_loss = cam_checks.contact_pressure, cam_checks.contact_loss
     check_roller_skid, check_preload = cam_checks.roller_skid, cam_checks.preload
+    check_load_reversal = cam_checks.load_reversal
+
+
+def _values(found: list[Extreme | None] | None) -> list[float | None] | None:
+    return None if found is None else [None if each is None else each.value for each in found]

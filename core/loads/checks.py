@@ -41,6 +41,11 @@ def power_identity(design: LoadsDesign) -> Check:
     return codes.POWER_IDENTITY.check("fail", f"{text}: the links come too near to a dead point", found, _IDENTITY)
 
 
+def listed(places: list[float]) -> str:
+    """Some places in words, the first six of them."""
+    return ", ".join(f"{place:.5g}" for place in places[:6]) + (", ..." if len(places) > 6 else "")
+
+
 def load_reversal(design: LoadsDesign) -> Iterator[Check]:
     """GL602: each mesh."""
     backlash = design.section.backlash
@@ -51,8 +56,7 @@ def load_reversal(design: LoadsDesign) -> Iterator[Check]:
             text = f"{name}: the teeth stay on one flank"
             yield codes.LOAD_REVERSAL.check("pass", text, 0.0, 0.0)
             continue
-        listed = ", ".join(f"{place:.5g}" for place in places[:6]) + (", ..." if len(places) > 6 else "")
-        text = f"{name}: the teeth change flanks {len(places)} times over the period, at {listed} deg"
+        text = f"{name}: the teeth change flanks {len(places)} times over the period, at {listed(places)} deg"
         inside = [place for place in places if design.is_quiet(math.radians(place))]
         if inside and play:
             lag = math.degrees(0.5e-3 * play / mesh.radius)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -153,7 +152,7 @@ class LoadsDesign(BalancedLoads):
 
     def is_quiet(self, place: float) -> bool:
         """Whether an input angle lies in one of them."""
-        return any((place - start) % (2.0 * math.pi) <= width for start, width in self.quiet_zones)
+        return any((place - start) % self.machine.period <= width for start, width in self.quiet_zones)
 
     @property
     def transmission_angle(self) -> float | None:

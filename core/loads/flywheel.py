@@ -84,11 +84,9 @@ class Energy:
         Notes
             Gauss from the edge of the panel on: as exact as the load torque is smooth between its breaks.
         """
-        edges = self.panels.edges
+        edges, row = self.panels.edges, self.panels.row(phi)
         if self.sampled is not None:
-            row = np.clip(np.searchsorted(edges, phi, side="right") - 1, 0, len(edges) - 2)
             return np.asarray(self.running[row] + self.panels.within(self.mean - self.sampled, phi))
-        row = np.clip(np.searchsorted(edges, phi, side="right") - 1, 0, len(edges) - 2)
         share, weights = self._gauss
         width = phi - edges[row]
         nodes = edges[row][:, None] + width[:, None] * share
@@ -189,6 +187,7 @@ class SteadyRun:
     def speed(self, phi: Reals) -> Reals:
         """Speed of the input [rad/s]."""
         inertia = self.energy.inertia(phi) + self.flywheel
+        # A run starts with an energy above the greatest deficit: below 0 it falls by rounding alone, at a standstill.
         return np.asarray(np.sqrt(2.0 * np.maximum(self.kinetic(phi), 0.0) / inertia))
 
     @cached_property

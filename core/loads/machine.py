@@ -261,6 +261,10 @@ class Panels:
         """Nodes of a panel."""
         return len(self.weights)
 
+    def row(self, phi: Reals) -> Any:
+        """Number of the panel in which each place lies; the very end belongs to the last one."""
+        return np.searchsorted(self.edges[1:-1], phi, side="right")
+
     def each(self, values: Reals) -> Reals:
         """Integral over each panel of a function given at the nodes."""
         return np.asarray((values.reshape(-1, self.order) @ self.weights) * np.diff(self.edges))
@@ -271,7 +275,7 @@ class Panels:
 
     def within(self, values: Reals, phi: Reals) -> Reals:
         """Integral from the start of its panel to each place, of the polynomials through values at the nodes."""
-        row = np.clip(np.searchsorted(self.edges, phi, side="right") - 1, 0, len(self.edges) - 2)
+        row = self.row(phi)
         width = self.edges[row + 1] - self.edges[row]
         series = values.reshape(-1, self.order)[row] @ to_integral(self.order)
         # a panel between two breaks that are one but for rounding is narrower than the rounding of its places
@@ -320,9 +324,12 @@ def _zeros(period: float, turns: int) -> Search[list[float]]:
     low, high, f_low, f_high = grid[rows], grid[rows + 1], values[rows], values[rows + 1]
     up, last = f_high > 0.0, low
     for step in range(_STEPS):
-        # Illinois' false position, halved every third time, so that a jump is found as well.
-        share = f_low / (f_low - f_high) if step % 3 else np.full_like(low, 0.5)
-        place = low + (high - low) * np.clip(np.nan_to_num(share, nan=0.5), 0.0, 1.0)
+        # Illinois' false position, halved every third time, so that a jump is found as well. One end is above 0 and the
+        # other is not, so that the share lies in [0, 1]; where halving has made both 0, the middle is taken.
+        share, apart = np.full_like(low, 0.5), f_low - f_high
+        if step % 3:
+            np.divide(f_low, apart, out=share, where=apart != 0.0)
+        place = low + (high - low) * share
         value = yield place
         after = (value > 0.0) == up
         f_high = np.where(after, value, 0.5 * f_high)

@@ -134,9 +134,7 @@ class MotorRun:
     def kinetic(self, phi: Reals) -> Reals:
         """Kinetic energy at angles within the period [J]."""
         edges, rates, _ = self._periodic
-        bounds = self.panels.edges
-        row = np.clip(np.searchsorted(bounds, phi, side="right") - 1, 0, len(bounds) - 2)
-        return np.asarray(edges[row] + self.panels.within(rates.ravel(), phi))
+        return np.asarray(edges[self.panels.row(phi)] + self.panels.within(rates.ravel(), phi))
 
     def speed(self, phi: Reals) -> Reals:
         """Speed of the input [rad/s]."""

@@ -6,7 +6,11 @@ from typing import Any
 
 from gearlink.core.errors import NoSolution
 
-_MOST_TURNS = 1000
+MOST_TURNS = 1000
+"""Input turns of a period that loads are computed for at most."""
+
+
+_BALANCE = "balance these gears (center: [0, 0]), or choose teeth with a common factor"
 
 
 def is_directed(section: Any, link: str) -> bool:
@@ -17,16 +21,13 @@ def is_directed(section: Any, link: str) -> bool:
     return (body is not None and any(body.center or ())) or link in joined | pushed
 
 
-def homecoming(turns: int, gears: str, key: str) -> int:
-    """So many input turns bring gears home that are out of balance.
+def homecoming(turns: int, gears: str, key: str, remedy: str = _BALANCE) -> int:
+    """So many input turns bring gears home.
 
     Raises
         NoSolution - for more than are computed
     """
-    if turns > _MOST_TURNS:
-        raise NoSolution(
-            f"{gears} only after {turns} input turns: loads are computed for at most {_MOST_TURNS}; balance these "
-            "gears (center: [0, 0]), or choose teeth with a common factor",
-            key=key,
-        )
+    if turns > MOST_TURNS:
+        message = f"{gears} only after {turns} input turns: loads are computed for at most {MOST_TURNS}; {remedy}"
+        raise NoSolution(message, key=key)
     return turns

@@ -32,7 +32,10 @@ def candidates(design: LoadsDesign, check: str) -> Iterator[Remedy]:
 def _wider(design: LoadsDesign) -> Iterator[Remedy]:
     """p ~ 1/sqrt(width)"""
     allowed, found = design.section.material.allowed_pressure, design.raw("hertz_pressure_max")
-    worst = max(found) if isinstance(found, list) else found
+    found = found if isinstance(found, list) else [found]
+    if None in found:  # an undercut, which no width mends
+        return
+    worst = max(found)
     yield (("loads.roller.width", at_least(design.section.roller.width * (worst / (_HOLDS * allowed)) ** 2)),)
 
 

@@ -169,7 +169,7 @@ class PeriodicResponse:
     def state(self, phi: Reals) -> Points:
         """Z at input angles within the period."""
         panels, rate = self._panels, self._rate
-        row = np.clip(np.searchsorted(panels.edges, phi, side="right") - 1, 0, len(panels.edges) - 2)
+        row = np.searchsorted(panels.edges[1:-1], phi, side="right")
         start = panels.edges[row]
         x, w = np.polynomial.legendre.leggauss(_NODES)
         width = (phi - start)[:, None]

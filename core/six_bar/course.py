@@ -185,7 +185,7 @@ class Course:
 
     def _angles(self, phi: Reals) -> Reals:
         places = self._followed[0]
-        k = np.clip(np.searchsorted(places[:, 0], phi, side="right") - 1, 0, len(places) - 1)
+        k = np.searchsorted(places[1:, 0], phi, side="right")
         nearest = np.where(phi < 0.0, np.minimum(k + 1, len(places) - 1), k)  # certified outwards from 0
         at = places[nearest]
         return self.bar.closed(phi, (at[:, 1:3] + at[:, 3:] * (phi - at[:, 0])[:, None]).T)

@@ -82,6 +82,17 @@ def test_torque_of_the_gripper_by_power_and_by_the_contacts(gripper: Any) -> Non
 # Hertz
 
 
+def test_an_undercut_cam_has_no_pressure() -> None:
+    """A roller larger than the least curvature of the pitch curve, 124 mm: the other roller keeps its pressure."""
+    whole = factory.design("loaded_gripper", command="loads")
+    undercut = factory.design("loaded_gripper", command="loads", cam__roller__radius=150.0)
+    assert undercut.hertz_pressure_max[0] is None
+    assert undercut.shear_depth[0] is None
+    assert undercut.hertz_pressure_max[1] == pytest.approx(whole.hertz_pressure_max[1], rel=1e-12)
+    assert [check.status for check in undercut.check("contact-pressure")] == ["fail", "pass"]
+    assert not list(undercut.candidates("contact-pressure"))
+
+
 def test_pressure_adds_up_to_the_force() -> None:
     """An ellipse over the contact's width, p_max at its middle: its integral is N to 1e-9."""
     contact = LineContact(np.array([1700.0]), np.array([17.0]), 24.0, plane_modulus(206_000.0, 0.3))

@@ -84,6 +84,17 @@ def test_return_cam_carries_what_pulls() -> None:
     assert design.power_identity <= 1e-12
 
 
+def test_a_follower_that_changes_cams_strikes() -> None:
+    """Each change of sign of the follower's force is one; a preload that holds both rollers leaves none."""
+    free = factory.design("loaded_press", command="loads")
+    rows = np.linspace(0.0, 2.0 * math.pi, 20_001)
+    changes = np.count_nonzero(np.diff(np.sign(free.side_force(rows))))
+    *_, found = free.check("load-reversal")
+    assert (found.status, found.value) == ("warn", changes)
+    held = factory.design("loaded_press", command="loads", loads__roller={"width": 40, "preload": 5000})
+    assert len(list(held.check("load-reversal"))) == len(held.meshes_found)
+
+
 MUTILATED = {
     "speed": 60,
     "links": {"wheel": {"inertia": 0.2}, "crank": {"inertia": 0.01}},
