@@ -10,12 +10,14 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from decimal import Decimal
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from gearlink.core.errors import GearlinkError
 from gearlink.core.numerics.arrays import Mask, Reals
+from gearlink.core.numerics.sobol import Sobol
 
 _EDGE = 1e-9
 _MOST = 2.0**53
@@ -277,13 +279,11 @@ class Sample:
         return values
 
     def _points(self, first: int, size: int) -> Reals:
-        from scipy.stats import qmc  # takes a second: only sampled studies need it
+        return self._sequence.points(first, size)
 
-        sequence = qmc.Sobol(len(self.variables), scramble=True, seed=self._seed)
-        if first:
-            sequence.fast_forward(first)
-        points: Reals = sequence.random(size)
-        return points
+    @cached_property
+    def _sequence(self) -> Sobol:
+        return Sobol(len(self.variables), np.random.default_rng(self._seed))
 
 
 def _spread(variable: Variable, u: Reals, multiple: Any) -> Reals:

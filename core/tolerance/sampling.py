@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gearlink.core.numerics.arrays import Reals
+from gearlink.core.numerics.sobol import Sobol
 
 REPLICATIONS = 16
 _CONFIDENCE = 0.975  # two-sided 95 %
@@ -39,13 +40,8 @@ def replication(coordinates: int, samples: int, seed: int, number: int) -> Reals
     Source
         A. B. Owen, Ann. Statist. 25 (1997) 1541; S. Joe, F. Y. Kuo, SIAM J. Sci. Comput. 30 (2008) 2635
     """
-    from scipy.stats.qmc import Sobol
-
-    power = (samples // REPLICATIONS).bit_length() - 1
-    points: Reals = Sobol(coordinates, scramble=True, bits=53, rng=np.random.default_rng([seed, number])).random_base2(
-        power
-    )
-    return points
+    rng = np.random.default_rng(np.random.SeedSequence([seed, number], spawn_key=(0,)))
+    return Sobol(coordinates, rng, bits=53).points(0, samples // REPLICATIONS)
 
 
 def replications(coordinates: int, samples: int, seed: int) -> Iterator[Reals]:

@@ -6,11 +6,13 @@ import itertools
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
 from gearlink.core.numerics.arrays import Reals
+from gearlink.core.numerics.sobol import MOST_DIMENSIONS, Sobol
 from gearlink.core.tolerance.iso_286 import standard_tolerance
 from gearlink.core.tolerance_study.problem import Problem, no
 from gearlink.core.tolerance_study.statistics import result
@@ -120,11 +122,13 @@ def _within(wish: Wish, sigma: float) -> float:
     return 1.0 - 0.5 * math.erfc(upper) - 0.5 * math.erfc(lower)
 
 
+@lru_cache(maxsize=2)
 def _draws(width: int) -> Reals:
+    """Normal draws, the same for all grades that are weighed."""
     from scipy.special import ndtri
-    from scipy.stats.qmc import Sobol
 
-    found: Reals = ndtri(Sobol(width, scramble=True, bits=53, rng=np.random.default_rng(0)).random(_DRAWS))
+    rng = np.random.default_rng(np.random.SeedSequence(0, spawn_key=(0,)))
+    found: Reals = ndtri(Sobol(width, rng, bits=53).points(0, _DRAWS))
     return found
 
 
@@ -167,6 +171,11 @@ def table_rows(study: Any) -> list[tuple[Any, ...]]:
     wishes = list(_wishes(study, places))
     if not wishes:
         raise no("GL171", "--allocate needs a line of require that compares one quantity with a number", "require")
+    if len(wishes) > MOST_DIMENSIONS - len(places):
+        most = MOST_DIMENSIONS - len(places)
+        raise no(
+            "GL171", f"--allocate weighs {most} quantities at most beside so many grades: ask for fewer", "require"
+        )
     ratio = made.section.cost.ratio
     found = None
     for found in itertools.islice(choices(graded, wishes, target, ratio), _TRIALS):
