@@ -55,11 +55,11 @@ _REASONS = """## Where a goal is missed, and why
 * **All worked designs.** The folder holds searches, studies and loads of a second or two each (a five-bar's function, a
   press with its joint forces, a study of gripper cams); a folder of designs that are complete takes milliseconds each.
 * **Batch.** Reading and validating a small file takes 0.1 to 0.2 ms, for libyaml and pydantic-core are compiled; the
-  results and checks take 0.1 ms (slider-crank), 0.5 ms (gear pair) and 1 ms (synthesis with its meshes, dwell and
+  results and checks take 0.1 ms (slider-crank), 0.6 ms (gear pair) and 1.6 ms (synthesis with its meshes, dwell and
   extremes) a design in Python. What cannot refuse a pair of gears, as its measures over pins, is computed where it is
   shown alone. The program takes a second process from 0.15 s of work on.
-  Two processes are 1.4 times as fast as one on such small designs and 1.6 times on presses, on a busy machine no
-  faster at all: forking, sending results back and the caches that both cores share are the rest. Where the output
+  Two processes are 1.6 to 1.7 times as fast as one, on small designs and on presses, on a busy machine no faster at
+  all: forking, sending results back and the caches that both cores share are the rest. Where the output
   shows findings alone (everything but JSON and `--out`), quantities are computed, since they tell whether there is a
   mechanism at all, but put into no words, and no table is computed.
 """
