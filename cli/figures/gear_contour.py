@@ -30,6 +30,8 @@ _LOOKS = (
     ("equal root stress", style.GREEN, style.DASHED, "equal root stress"),
 )
 _FOOT = ("data", "axes fraction")
+_SLIDING = -6.0, 1.5
+"""What is shown of the specific sliding, which is at most 1 where flanks touch."""
 _STEP = 0.15
 """Points of a line farther apart than this, in both shifts, belong to different branches."""
 
@@ -121,10 +123,9 @@ def path_plot(axes: Axes, key: Axes, data: GearData) -> None:
     panels.heading(axes, "Along the path of contact")
     rho = [place.rho for place in places]
     for gear, color in ((0, style.BLUE), (1, style.ORANGE)):
-        sliding = [max(-6.0, along.sliding(place.rho)[gear]) for place in places]
+        sliding = [along.sliding(place.rho)[gear] for place in places]
         axes.plot(rho, sliding, color=color, linewidth=1.2, label=f"sliding, gear {gear + 1}")
-    axes.axhline(0.0, color=style.GREY, linewidth=0.6)
-    _named(axes, r"$\rho_1$ in mm", r"specific sliding $\zeta$")
+    _sliding_axes(axes)
     handles = list(axes.get_lines()[:2])
     if data.load is not None and data.face_width is not None and along.single is not None:
         handles += _stresses(axes, along, places)
@@ -133,15 +134,21 @@ def path_plot(axes: Axes, key: Axes, data: GearData) -> None:
     _key(key, handles, 2)
 
 
+def _sliding_axes(axes: Axes) -> None:
+    """Names and the line of no sliding; beside a base circle, where it has no bounds, the curve leaves the panel."""
+    axes.axhline(0.0, color=style.GREY, linewidth=0.6)
+    _named(axes, r"$\rho_1$ in mm", r"specific sliding $\zeta$")
+    low, high = axes.get_ylim()
+    axes.set_ylim(max(low, _SLIDING[0]), min(high, _SLIDING[1]))
+
+
 def rack_path_plot(axes: Axes, key: Axes, rack: RackMesh) -> None:
     """Specific sliding of gear and rack from A to E."""
     table = rack.table(120)
     panels.heading(axes, "Along the path of contact")
     for name, color, words in (("sliding", style.BLUE, "gear 1"), ("sliding_2", style.ORANGE, "rack")):
-        heights = [max(-6.0, value) for value in table[name]]
-        axes.plot(table["rho"], heights, color=color, linewidth=1.2, label=f"sliding, {words}")
-    axes.axhline(0.0, color=style.GREY, linewidth=0.6)
-    _named(axes, r"$\rho_1$ in mm", r"specific sliding $\zeta$")
+        axes.plot(table["rho"], table[name], color=color, linewidth=1.2, label=f"sliding, {words}")
+    _sliding_axes(axes)
     for name, at in (("A", rack.start), ("C", rack.pitch), ("E", rack.end)):
         axes.annotate(name, (at, 0.0), (1, 3), xycoords=_FOOT, textcoords="offset points", fontsize=7)
     _key(key, list(axes.get_lines()[:2]), 2)

@@ -122,3 +122,15 @@ def test_safeties_stand_with_what_they_rest_on():
     assert "thickness allowance, upper" not in shown
     assert "span measurement, nominal" in shown
     assert panel(figure, "Blocking contour").patches
+
+
+def test_sliding_without_bounds_leaves_its_panel_and_is_not_cut_off():
+    """Beside the base circle of 12 teeth sliding grows beyond bounds: the curve stays true, the panel ends."""
+    made, figure = sheet({**DATA, "teeth": [12, 80], "profile_shift": [0.32, 0.0]}, "gear")
+    axes = next(each for each in figure.axes if "sliding" in each.get_ylabel())
+    (line,) = labelled(axes, "sliding, gear 1")
+    rho, drawn = np.asarray(line.get_xdata()), np.asarray(line.get_ydata())
+    mate = made.gear_pair.center_distance * math.sin(made.gear_pair.working_pressure_angle) - rho
+    assert drawn == pytest.approx(1.0 - mate / (80 / 12 * rho), rel=1e-9)
+    assert drawn.min() < axes.get_ylim()[0]
+    assert drawn.max() <= axes.get_ylim()[1]
