@@ -164,7 +164,7 @@ def _deflection(axes: Axes, design: LoadsDesign) -> None:
     vibrating = design.vibrating
     unit = "mm" if vibrating.slides else "deg"
     _over_turn(axes, design, "Deflection of the output, steady state", f"deflection [{unit}]")
-    phi = np.linspace(0.0, design.machine.period, 721 * design.turns)
+    phi = np.linspace(0.0, design.machine.period, max(721, vibrating.rows(design.machine.period)))
     axes.axhline(0.0, color=style.BLACK, linewidth=0.8)
     axes.plot(np.degrees(phi), vibrating.response.deflection(phi), color=style.PURPLE, linewidth=1.2)
     for start, width in vibrating.dwells:

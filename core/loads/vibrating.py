@@ -10,9 +10,12 @@ import numpy as np
 from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.loads.kinematics import dot
 from gearlink.core.loads.vibration import ASSUMED_DAMPING, Oscillator, Panelled, PeriodicResponse, bounded, speed_limit
+from gearlink.core.numerics.extremes import extremes_over
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from gearlink.core.loads.design import LoadsDesign
     from gearlink.core.numerics.arrays import Reals
 
@@ -20,6 +23,7 @@ _DEGREES = 180.0 / math.pi
 _MM = 1e3
 _MOST_PERIODS = 40.0
 _PER_UNIT = 50
+_PER_TURN, _PER_PERIOD, _MOST_ROWS = 115.0, 2.0, 20_000  # by radians: two a degree, and twelve a natural period
 
 
 class Vibrating:
@@ -145,8 +149,8 @@ class Vibrating:
     @cached_property
     def lift(self) -> float:
         """Greatest less least place over the period [deg or mm]."""
-        values = self.place(np.linspace(0.0, self.design.machine.period, 721))
-        return float(values.max() - values.min())
+        low, high = (self.design.extreme(self.place, greatest) for greatest in (False, True))
+        return high.value - low.value
 
     @cached_property
     def speed_limit(self) -> float | None:
@@ -180,19 +184,28 @@ class Vibrating:
         """Greatest deflection in the dwells in the steady state [deg or mm]; None without dwells or a steady state."""
         if not self.dwells or self.response.unbounded:
             return None
-        return max(float(np.max(np.abs(self.response.deflection(self._rows(*zone))))) for zone in self.dwells)
+        return max(self._in_dwell(lambda phi: np.abs(self.deflection(phi)), zone)[1] for zone in self.dwells)
 
     @cached_property
     def twisted_ripple(self) -> float | None:
         """Greatest less least place of the output with its deflection in a dwell [deg or mm]."""
         if not self.dwells or self.response.unbounded:
             return None
-        found = []
-        for zone in self.dwells:
-            rows = self._rows(*zone)
-            place = self.place(rows) + self.response.deflection(rows)
-            found.append(float(place.max() - place.min()))
-        return max(found)
+        ranges = [self._in_dwell(lambda phi: self.place(phi) + self.deflection(phi), zone)
+                  for zone in self.dwells]  # fmt: skip
+        return max(high - low for low, high in ranges)
 
-    def _rows(self, start: float, width: float) -> Reals:
-        return np.mod(start + width * np.linspace(0.0, 1.0, 181), self.design.machine.period)
+    def deflection(self, phi: Reals) -> Reals:
+        """Deflection in the steady state [deg or mm]."""
+        return self.response.deflection(np.mod(phi, self.design.machine.period))
+
+    def rows(self, width: float) -> int:
+        """Rows over an angle of the input [rad] in which each natural period is seen, at most 20000."""
+        return min(max(math.ceil(_PER_TURN * width), math.ceil(_PER_PERIOD * width * self.frequency_ratio)), _MOST_ROWS)
+
+    def _in_dwell(self, f: Callable[[Reals], Reals], zone: tuple[float, float]) -> tuple[float, float]:
+        """Least and greatest value in a dwell of a function of the input angle, refined."""
+        start, width = zone
+        wanted = [(f, False), (f, True)]
+        low, high = extremes_over(wanted, start, start + width, samples=self.rows(width))
+        return low.value, high.value

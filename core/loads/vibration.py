@@ -23,7 +23,7 @@ _NODES = 16
 _PHASE = 6.0
 """Phase of the vibration over a panel [rad]: 16 Gauss nodes take it to rounding."""
 _STEP = math.radians(10.0)
-_UNBOUNDED = 1e-6
+_UNBOUNDED, _STANDING, _ROUNDING = 1e-6, 1e-9, 1e-11
 _LEAST_RATIO, _MOST_RATIO = 1e-6, 1e4
 Function = Callable[[Reals], Reals]
 
@@ -150,18 +150,44 @@ class PeriodicResponse:
 
     @property
     def unbounded(self) -> bool:
-        """Whether the amplitude grows without limit."""
-        return self.gain < _UNBOUNDED
+        """Whether the amplitude grows without limit: no damping, and a harmonic at the natural frequency."""
+        if self.oscillator.damping or self.gain >= _UNBOUNDED:
+            return False
+        # the harmonics beside the natural frequency give as much as the gain
+        size = self.speed * float(np.sum(self._panels.weights * np.abs(self._panels.values)))
+        return abs(self._of_period) > (_ROUNDING + 10.0 * self.gain) * size
+
+    @cached_property
+    def _pieces(self) -> Points:
+        """What each panel adds to Z at its end."""
+        panels, rate = self._panels, self._rate
+        decay = np.exp(rate * (panels.edges[1:, None] - panels.nodes))
+        return np.asarray(self.speed * np.sum(panels.weights * panels.values * decay, axis=1))
+
+    @cached_property
+    def _of_period(self) -> complex:
+        """What a period adds to Z at its end."""
+        return complex(np.sum(self._pieces * np.exp(self._rate * (self.period - self._panels.edges[1:]))))
+
+    def _start(self) -> complex:
+        """Z at the start of the steady state, F/(1 - e^(lam T)).
+
+        Notes
+            Of a motion without the harmonic that would stand still in it, whose F is rounding, the state without that
+            harmonic: the mean of Z e^(-lam t) vanishes.
+        """
+        panels, rate = self._panels, self._rate
+        if self.oscillator.damping or self.gain >= _STANDING:
+            return self._of_period / _one_less_exp(rate * self.period)
+        left = (1.0 - panels.nodes / self.period) * np.exp(-rate * panels.nodes)
+        return complex(-self.speed * np.sum(panels.weights * panels.values * left))
 
     @cached_property
     def _states(self) -> Points:
         """Z at the edges of the panels."""
-        panels, rate = self._panels, self._rate
-        ends = panels.edges[1:, None]
-        pieces = self.speed * np.sum(panels.weights * panels.values * np.exp(rate * (ends - panels.nodes)), axis=1)
-        whole = np.sum(pieces * np.exp(rate * (self.period - panels.edges[1:])))
+        panels, rate, pieces = self._panels, self._rate, self._pieces
         states = np.empty(len(panels.edges), dtype=np.complex128)
-        states[0] = whole / _one_less_exp(rate * self.period)
+        states[0] = self._start()
         for k, decay in enumerate(np.exp(rate * np.diff(panels.edges))):
             states[k + 1] = states[k] * decay + pieces[k]
         return states

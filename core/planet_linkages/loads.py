@@ -102,9 +102,17 @@ class TwoGearLoads(PlanetLinkageLoads):
 
     @property
     def quiet_zones(self) -> list[tuple[float, float]]:
-        """The back-step of the output."""
+        """The dwell: within the tolerance of the file, else within the band that the back-step fills."""
+        from gearlink.core.planet_linkages.two_gear_family import tolerance_dwell
+
         step = self.design.back_step
-        return [] if step is None else [(step.start + 2.0 * math.pi * k, step.crank_angle) for k in range(self.turns)]
+        tolerance = None if step is None else 0.5 * step.angle
+        if self.spec.dwell is not None and self.spec.dwell.tolerance is not None:
+            tolerance = math.radians(self.spec.dwell.tolerance)
+        if tolerance is None:
+            return []
+        dwell = tolerance_dwell(self.design.drive, tolerance)
+        return [(dwell.start + 2.0 * math.pi * turn, dwell.crank_angle) for turn in range(self.turns)]
 
     def carrier_turn(self, links: dict[str, Link]) -> Turn:
         """The crank's."""

@@ -101,9 +101,47 @@ def test_periodic_state_of_a_double_dwell_cam() -> None:
 
 
 def test_undamped_resonance_is_not_finite() -> None:
-    wave = PeriodicResponse(np.cos, 2.0 * math.pi, (), Oscillator(3.0, 0.0), 1.0)
-    assert wave.unbounded
+    """For a motion that has the harmonic at the natural frequency, be it of 1e-9 of the greatest."""
+    for share in (1.0, 1e-9):
+        wave = PeriodicResponse(
+            lambda x, s=share: np.cos(x) + s * np.cos(3 * x), 2.0 * math.pi, (), Oscillator(3.0, 0.0), 1.0
+        )  # type: ignore[misc]
+        assert wave.unbounded
     assert not PeriodicResponse(np.cos, 2.0 * math.pi, (), Oscillator(3.3, 0.0), 1.0).unbounded
+
+
+def test_undamped_motion_without_the_natural_frequency_is_finite() -> None:
+    """x'' = -cos phi at twice and at next to twice its frequency: z = cos/(w_n^2 - 1), whatever the distance."""
+    phi = np.linspace(0.0, 6.2, 25)
+    for off in (0.0, 1e-13, 1e-11, 1e-8, 1e-5):
+        response = PeriodicResponse(lambda x: -np.cos(x), 2.0 * math.pi, (), Oscillator(2.0 + off, 0.0), 1.0)
+        assert not response.unbounded
+        assert response.deflection(phi) == pytest.approx(np.cos(phi) / (response.oscillator.frequency**2 - 1), abs=1e-6)
+
+
+def test_a_dwell_through_the_end_of_the_period_has_no_step() -> None:
+    """A stiff output follows its gears: what it covers in the dwell is the back-step, which spans crank angle 0."""
+    design = factory.design(
+        "two_gear_ring", command="loads", loads={"speed": 30, "links": {"output": {"inertia": 0.01}},
+                                                 "vibration": {"frequency": 600}}
+    )  # fmt: skip
+    ((start, width),) = design.vibrating.dwells
+    assert start + width > 2.0 * math.pi
+    back_step = math.degrees(design.design.back_step_angle)
+    assert design.twisted_ripple == pytest.approx(back_step, abs=2.0 * design.dwell_twist)
+    assert design.dwell_twist < 1e-2
+
+
+@pytest.mark.parametrize("damping", [0.0, 0.03])
+def test_a_gear_out_of_balance_leaves_the_vibration_of_the_output(damping: float) -> None:
+    """Its period is nine turns; the output moves as in one."""
+    idler = {"mass": 0.9, "inertia": 0.0023, "center": [1, 0]}
+    vibration = {"frequency": 61.0, "damping": damping}
+    one = factory.design("loaded_feed", command="loads", loads__vibration=vibration)
+    nine = factory.design("loaded_feed", command="loads", loads__vibration=vibration, loads__links__idler=idler)
+    assert (one.turns, nine.turns) == (1, 9)
+    for name in ("dwell_twist", "twisted_ripple", "rise_periods", "frequency_ratio"):
+        assert nine.raw(name) == pytest.approx(one.raw(name), rel=1e-9), name
 
 
 def test_harmonic_motion_has_its_closed_form() -> None:
