@@ -11,7 +11,7 @@ import numpy as np
 
 from gearlink.cli.export.contour import Circle, Part
 from gearlink.cli.export.sampling import Points, Reals, Stretch
-from gearlink.core.dwell_gears.wheel import free_radius
+from gearlink.core.dwell_gears.wheel import end_tooth_radius
 from gearlink.core.gears.tooth_profile import ToothProfile
 from gearlink.core.numerics.roots import bracketed_root
 
@@ -31,7 +31,7 @@ def wheel_of(design: MutilatedGearDwell, width: float | None = None) -> Part:
     """
     profile, mesh = ToothProfile.of(design.mesh, 0), design.mesh
     count, groups, step = design.group_teeth, design.spec.gears.groups, 2.0 * math.pi / design.full_teeth
-    cut = max(profile.root_radius, min(free_radius(mesh), profile.outer_radius))
+    cut = min(end_tooth_radius(mesh), profile.outer_radius)  # a pointed tooth ends below the tip circle
     half_gap = math.pi / groups - 0.5 * count * step
     whole = list(_half(profile))
     ends = _cut_down(whole, cut, math.pi / design.full_teeth)

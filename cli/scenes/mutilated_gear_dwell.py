@@ -12,7 +12,7 @@ from gearlink.cli.scenes.colors import BLUE, ORANGE, pale
 from gearlink.cli.scenes.gears import gear
 from gearlink.cli.scenes.linkages import Joints
 from gearlink.cli.scenes.scene import TURN, Band, Body, Chart, Curve, Mark, Points, Readout, Reals, Scene, loop, track
-from gearlink.core.dwell_gears.wheel import free_radius
+from gearlink.core.dwell_gears.wheel import end_tooth_radius
 from gearlink.core.errors import NoSolution
 
 if TYPE_CHECKING:
@@ -83,7 +83,8 @@ def _wheel(design: MutilatedGearDwell, center: Points, turn: Reals) -> Body:
         space = mesh.tip_radius[0] * np.exp(1j * np.linspace(-0.5 * step, 0.5 * step, 5))
     half = space[np.angle(space) >= 0.0]
     tooth = np.concatenate([half, half[::-1].conj() * np.exp(1j * step)])
-    cut = tooth * np.minimum(1.0, max(root, free_radius(mesh)) / np.abs(tooth))
+    reach, end = np.abs(tooth), end_tooth_radius(mesh)
+    cut = np.where(reach > end, tooth * (end / reach), tooth)
     # A wheel with one tooth in a group has a single cut tooth.
     teeth = [cut if k in (0, design.group_teeth - 1) else tooth for k in range(design.group_teeth)]
     group = np.concatenate([each * np.exp(1j * step * k) for k, each in enumerate(teeth)])

@@ -44,3 +44,22 @@ def free_radius(mesh: GearPair) -> float:
     from_tooth = teeth * np.exp(-1j * half_pitch)
     others = from_tooth[np.abs(np.angle(from_tooth)) > half_pitch]
     return float(np.abs(mesh.center_distance - others).min()) - _CHORD * mesh.module
+
+
+def end_tooth_radius(mesh: GearPair) -> float:
+    """Radius to which the first and the last tooth of a group are cut down, about the wheel's axis [mm].
+
+    The free radius; the tip radius where that leaves the tooth whole, the root radius where it leaves none.
+
+    Parameters
+        mesh : GearPair - wheel and driven gear
+    Example
+        >>> from gearlink.core.gears.pair import GearPair
+        >>> mesh = GearPair.from_shift(3.0, (80, 20))
+        >>> end_tooth_radius(mesh) == free_radius(mesh)
+        True
+
+    Source
+        own derivation
+    """
+    return max(mesh.root_radius[0], min(free_radius(mesh), mesh.tip_radius[0]))
