@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from gearlink.core.gears.along_path import AlongPath, Place
     from gearlink.core.gears.contour import BlockingContour
     from gearlink.core.gears.data import GearData
-    from gearlink.core.gears.rack import RackMesh
 
 _LOOKS = (
     ("undercut", style.RED, "-", "undercut"),
@@ -123,8 +122,8 @@ def path_plot(axes: Axes, key: Axes, data: GearData) -> None:
     panels.heading(axes, "Along the path of contact")
     rho = [place.rho for place in places]
     for gear, color in ((0, style.BLUE), (1, style.ORANGE)):
-        sliding = [along.sliding(place.rho)[gear] for place in places]
-        axes.plot(rho, sliding, color=color, linewidth=1.2, label=f"sliding, gear {gear + 1}")
+        sliding = [data.path.sliding(place.rho)[gear] for place in places]
+        axes.plot(rho, sliding, color=color, linewidth=1.2, label=f"sliding, {data.called(gear)}")
     _sliding_axes(axes)
     handles = list(axes.get_lines()[:2])
     if data.load is not None and data.face_width is not None and along.single is not None:
@@ -140,18 +139,6 @@ def _sliding_axes(axes: Axes) -> None:
     _named(axes, r"$\rho_1$ in mm", r"specific sliding $\zeta$")
     low, high = axes.get_ylim()
     axes.set_ylim(max(low, _SLIDING[0]), min(high, _SLIDING[1]))
-
-
-def rack_path_plot(axes: Axes, key: Axes, rack: RackMesh) -> None:
-    """Specific sliding of gear and rack from A to E."""
-    table = rack.table(120)
-    panels.heading(axes, "Along the path of contact")
-    for name, color, words in (("sliding", style.BLUE, "gear 1"), ("sliding_2", style.ORANGE, "rack")):
-        axes.plot(table["rho"], table[name], color=color, linewidth=1.2, label=f"sliding, {words}")
-    _sliding_axes(axes)
-    for name, at in (("A", rack.start), ("C", rack.pitch), ("E", rack.end)):
-        axes.annotate(name, (at, 0.0), (1, 3), xycoords=_FOOT, textcoords="offset points", fontsize=7)
-    _key(key, list(axes.get_lines()[:2]), 2)
 
 
 def _stresses(axes: Axes, along: AlongPath, places: list[Place]) -> list[Line2D]:
@@ -170,6 +157,6 @@ def _stresses(axes: Axes, along: AlongPath, places: list[Place]) -> list[Line2D]
     drawn([along.pressure(place) for place in places], "pressure", style.RED, "-")
     for gear, color in ((0, style.BLUE), (1, style.ORANGE)):
         stresses = [along.root_stress(place, gear) for place in places]
-        drawn(stresses, f"root stress, gear {gear + 1}", color, style.DASHED)
+        drawn(stresses, f"root stress, {along.data.called(gear)}", color, style.DASHED)
     other.set_ylim(bottom=0.0)
     return found

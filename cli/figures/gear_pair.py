@@ -30,16 +30,16 @@ def draw(command: str, design: GearPairDesign) -> Figure:
     """The figure of `gear` or `analyze` on a gear pair."""
     title = f"{design.spec.name}: {command}"
     if design.rack is not None:
-        from gearlink.cli.figures.gear_contour import rack_path_plot
+        from gearlink.cli.figures.gear_contour import path_plot
         from gearlink.cli.figures.rack import rack_and_gear, rack_zone
 
         rack = design.rack
         teeth = [gear_text(rack.pair.teeth[0]), "rack"]
         head = ["", "", "unit", "gear 1", "rack"]
         drawing = head, _drawing(design)[1]
-        rows = value_rows(teeth, [f"{rack.pair.module:g}"] * 2, [rack.quantity])
+        rows = value_rows(teeth, [f"{rack.pair.module:g}"] * 2, [rack.quantity]) + _rating(design)
         drawings = (partial(rack_and_gear, design=design), partial(rack_zone, rack=rack))
-        return _sheet(title, drawings, (head, rows), drawing, [partial(rack_path_plot, rack=rack)])
+        return _sheet(title, drawings, (head, rows), drawing, [partial(path_plot, data=design.data)])
     from gearlink.cli.figures.gear_contour import contour_plot, path_plot
 
     mesh, data = Mesh(design.gear_pair), design.data

@@ -44,7 +44,7 @@ def rack_zone(axes: Axes, rack: RackMesh) -> None:
     _rack_teeth(axes, rack, geometry, high)
     for name, x, dashes, color in (
         ("datum line", rack.center_distance, style.LONG, style.GREY),
-        ("tip line", rack.center_distance - rack.height * rack.pair.module, style.DASHED, COLORS[1]),
+        ("tip line", rack.center_distance - rack.path.height * rack.pair.module, style.DASHED, COLORS[1]),
     ):
         axes.axvline(x, color=color, linewidth=0.9, linestyle=dashes, label=name, zorder=2)
     contact_path(axes, geometry, 3.0 * (high + wide))

@@ -50,7 +50,7 @@ def rack_body(rack: RackMesh, teeth: int, back: float, place: Points) -> Body:
         outline = profile.body(_CHORD * module, teeth, back)
     except NoSolution:
         long, low = 0.5 * teeth * rack.pitch_on_line, -(rack.pair.root_depth(1) * module + back)
-        high = rack.height * module
+        high = rack.path.height * module
         corners = [complex(x, y) for x, y in ((long, high), (-long, high), (-long, low), (long, low), (long, high))]
         outline, words = np.array(corners), "2 (tip line)"
     still = np.full(place.shape, 0.5 * np.pi)

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, NamedTuple
 from gearlink.core.errors import NoSolution
 from gearlink.core.gears.data import GearData
 from gearlink.core.gears.flank_strength import hertz_pressure
-from gearlink.core.gears.root_strength import RootSection
 from gearlink.core.report import Table
 from gearlink.core.results import cached_property
 
@@ -48,7 +47,7 @@ class AlongPath:
     def single(self) -> tuple[float, float] | None:
         """rho_1 at B and D; None where one pair of flanks never carries alone, or contact breaks off."""
         path = self.data.path
-        pitch, eps = path.pair.base_pitch, path.pair.contact_ratio
+        pitch, eps = path.pair.base_pitch, path.contact_ratio
         return (path.end - pitch, path.start + pitch) if 1.0 < eps <= 2.0 else None
 
     def share(self, rho: float, *, after: bool = True) -> float | None:
@@ -78,16 +77,10 @@ class AlongPath:
             found += [Place(rho, f"{name}-", self.share(rho, after=False)), Place(rho, f"{name}+", self.share(rho))]
         return sorted(found, key=lambda place: (place.rho, place.name.endswith("+")))
 
-    def sliding(self, rho: float) -> tuple[float, float]:
-        """zeta_1 = 1 - rho_2/(u rho_1) and zeta_2 = 1 - u rho_1/rho_2; infinite on a base circle."""
-        u, mate = self.data.pair.gear_ratio, self.data.path.line - rho
-        one = 1.0 - mate / (u * rho) if rho else -math.inf
-        return one, 1.0 - u * rho / mate if mate else -math.inf
-
     def sliding_factor(self, rho: float) -> float:
         """K_g = v_g/v_t."""
-        pair = self.data.pair
-        return (rho - self.data.path.pitch) * (1.0 + 1.0 / pair.gear_ratio) / pair.working_radius[0]
+        path = self.data.path
+        return (rho - path.pitch) * (1.0 + 1.0 / path.gear_ratio) / path.pair.working_radius[0]
 
     def sliding_speed(self, rho: float) -> float | None:
         """v_g [mm/s]; None where the load names no speed."""
@@ -111,10 +104,7 @@ class AlongPath:
         force = self.data.flank.tangential_force
         if section is None or width is None or beta is None or force is None or place.share is None or raised is None:
             return None
-        rho = place.rho if gear == 0 else self.data.path.line - place.rho
-        radius = pair.signs[gear] * math.hypot(pair.base_radius[gear], rho)
-        at = 0.5 * section.virtual_teeth + (radius - pair.reference_radius[gear]) / pair.module
-        here = RootSection(pair=pair, gear=gear, tool=section.tool, shift=section.shift, contact_radius=at)
+        here = section.loaded_at(self.data.path, place.rho)
         try:
             factor = here.form_factor * here.stress_correction_factor
         except NoSolution:
@@ -124,7 +114,7 @@ class AlongPath:
     def table(self, steps: int = _STEPS) -> Table:
         """The table `path`."""
         places = self.places(steps)
-        sliding = [self.sliding(place.rho) for place in places]
+        sliding = [self.data.path.sliding(place.rho) for place in places]
         columns: dict[str, tuple[Column, str]] = {
             "rho": ([place.rho for place in places], "mm"),
             "place": ([place.name for place in places], "1"),

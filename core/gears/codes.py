@@ -151,7 +151,8 @@ BENDING = Rule(
     "Take a larger module, wider gears, a larger rounding of the tool, or a better material.",
     "S_F = sigma_Flim Y_ST Y_N (Y_drelT Y_RrelT Y_X)/(F_t/(b m) Y_F Y_S Y_beta Y_B Y_DT K_A K_v K_Fb K_Fa) >= "
     "limits.safety_bending (1.4), Y_ST = 2",
-    "ISO 6336-3:2006, method B; K and life factors are not computed: 1 unless given; rings: no published example",
+    "ISO 6336-3:2006, method B; K and life factors are not computed: 1 unless given; no published example of "
+    "rings and racks; a rack is the limit of ever larger wheels",
     ("bending",),
     ("load", "material", "tool", "face_width", *_within("load", "material", "face_width")),
 )

@@ -47,6 +47,16 @@ class PathOfContact:
         r = self.pair.base_radius
         return (r[0] + r[1]) * self.pair.fn.tan(self.pair.working_pressure_angle)
 
+    @property
+    def contact_ratio(self) -> float:
+        """eps_alpha."""
+        return self.pair.contact_ratio
+
+    @property
+    def gear_ratio(self) -> float:
+        """u = z_2/z_1, negative with a ring."""
+        return self.pair.gear_ratio
+
     @cached_property
     def start(self) -> float:
         """rho_A1, where contact begins: at the tip of gear 2."""
@@ -95,7 +105,7 @@ class PathOfContact:
     @cached_property
     def total_contact_ratio(self) -> float | None:
         """eps_gamma = eps_alpha + eps_beta."""
-        return None if self.overlap_ratio is None else self.pair.contact_ratio + self.overlap_ratio
+        return None if self.overlap_ratio is None else self.contact_ratio + self.overlap_ratio
 
     @cached_property
     def lost(self) -> Pair:
@@ -127,5 +137,16 @@ class PathOfContact:
     @cached_property
     def sliding_factor(self) -> Pair:
         """K_g = v_g/v_t at A and at E: (rho_C1 - rho_A1)(1 + 1/u)/r_w1, (rho_E1 - rho_C1)(1 + 1/u)/r_w1."""
-        share = (1.0 + 1.0 / self.pair.gear_ratio) / self.pair.working_radius[0]
+        share = (1.0 + 1.0 / self.gear_ratio) / self.pair.working_radius[0]
         return (self.pitch - self.start) * share, (self.end - self.pitch) * share
+
+    def sliding(self, rho: float) -> Pair:
+        """zeta_1 = 1 - rho_2/(u rho_1) and zeta_2 = 1 - u rho_1/rho_2 at rho_1 [mm]; infinite on a base circle."""
+        u, mate = self.gear_ratio, self.line - rho
+        one = 1.0 - mate / (u * rho) if rho else -math.inf
+        return one, 1.0 - u * rho / mate if mate else -math.inf
+
+    def curvature(self, rho: float) -> float:
+        """1/rho_1 + 1/rho_2 at rho_1 [1/mm]; infinite on a base circle."""
+        mate = self.line - rho
+        return math.inf if 0.0 in (rho, mate) else 1.0 / rho + 1.0 / mate

@@ -72,7 +72,11 @@ class GearData:
     @cached_property
     def path(self) -> PathOfContact:
         """The path of contact, with the lesser width."""
-        return PathOfContact(self.pair, None if self.face_width is None else min(self.face_width))
+        return PathOfContact(self.pair, self._common_width)
+
+    @property
+    def _common_width(self) -> float | None:
+        return None if self.face_width is None else min(self.face_width)
 
     @cached_property
     def internal(self) -> InternalInterference | None:
@@ -209,17 +213,29 @@ class GearData:
     @cached_property
     def root(self) -> RootStress:
         """Root strength, at the upper allowances."""
-        return RootStress(
-            path=self.path,
-            tools=(self.cutting_tool(0), self.cutting_tool(1)),
-            shifts=self.cut_shift,
-            widths=self.face_width,
-            load=self.load,
-            materials=self.materials,
-            edition=self.edition,
-            rims=self.rims,
-            accuracy_grade=self.accuracy_grade,
-        )
+        return RootStress(**self._of_roots)
+
+    @property
+    def _of_roots(self) -> dict[str, Any]:
+        return {
+            "path": self.path,
+            "tools": (self.cutting_tool(0), self.cutting_tool(1)),
+            "shifts": self.cut_shift,
+            "widths": self.face_width,
+            "load": self.load,
+            "materials": self.materials,
+            "edition": self.edition,
+            "rims": self.rims,
+            "accuracy_grade": self.accuracy_grade,
+        }
+
+    def called(self, gear: int) -> str:
+        """What findings call gear 0 or 1."""
+        return f"gear {gear + 1}"
+
+    def rated_with(self, _gear: int) -> str:
+        """What a root needs so that it can be rated, in words."""
+        return "take more teeth, a smaller rounding, or name the cutter of a ring"
 
     def quantity(self, name: str) -> Any:
         """A quantity by name, its radii and distances as magnitudes; None where it does not apply."""

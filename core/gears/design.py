@@ -108,7 +108,7 @@ class GearPairDesign(GearQuantities, Design):
 
     @cached_property
     def data(self) -> GearData:
-        """The pair with all that its drawing needs."""
+        """The pair, or gear and rack, with all that its drawing needs."""
         return data_of(self.spec, self.gear_pair)
 
     @cached_property
@@ -117,8 +117,11 @@ class GearPairDesign(GearQuantities, Design):
         if not self.spec.rack:
             return None
         from gearlink.core.gears.rack import RackMesh
+        from gearlink.core.gears.rack_rating import RackData
 
-        return RackMesh(self.data)
+        data = self.data
+        assert isinstance(data, RackData)
+        return RackMesh(data)
 
     @property
     def rack_teeth(self) -> int:
@@ -184,13 +187,11 @@ class GearPairDesign(GearQuantities, Design):
             return drawing_table(self.data, of_both)
 
     def table_path(self, samples: int | None = None) -> Table:
-        """Sliding, pressure and root stress along the path of contact; of a gear on a rack sliding alone."""
-        if self.rack is not None:
-            return self.rack.table(samples)
+        """Sliding, pressure and root stress along the path of contact."""
         from gearlink.core.gears.along_path import AlongPath
 
         with at_key(self._placed_by):
-            along = AlongPath(self._two_gears("path"))
+            along = AlongPath(self.data)
             return along.table() if samples is None else along.table(samples)
 
     def table_candidates(self, _samples: int | None = None) -> Table:

@@ -64,7 +64,7 @@ def _rack_lines(rack: RackMesh) -> Iterator[Row]:
     """What the rack's own teeth are made and measured by."""
     module, diameter = rack.pair.module, rack.data.pin_diameter[1]
     yield "pitch of the rack", "p_t", None, rack.pitch_on_line, "mm"
-    yield "tip line above the datum line", "h_aR", None, rack.height * module, "mm"
+    yield "tip line above the datum line", "h_aR", None, rack.path.height * module, "mm"
     yield "root line below the datum line", "h_fR", None, rack.pair.root_depth(1) * module, "mm"
     yield "tooth thickness on the datum line", "s", None, 0.5 * math.pi * module, "mm"
     if diameter is None:

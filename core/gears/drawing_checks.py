@@ -231,22 +231,24 @@ def _backlash(data: GearData, limits: DrawingLimits) -> Iterator[Check]:
 
 
 def _pitting(data: GearData, limits: DrawingLimits) -> Iterator[Check]:
-    yield from _safety(PITTING, data.flank.safety, limits.safety_pitting, "pitting", _contact_inputs(data))
+    against = "pitting", _contact_inputs(data)
+    yield from _safety(PITTING, data, data.flank.safety, limits.safety_pitting, *against)
 
 
 def _bending(data: GearData, limits: DrawingLimits) -> Iterator[Check]:
     if data.load is not None:
         yield from _out_of_range(data)
-    yield from _safety(BENDING, data.root.safety, limits.safety_bending, "breaking at the root", _bending_inputs(data))
+    against = "breaking at the root", _bending_inputs(data)
+    yield from _safety(BENDING, data, data.root.safety, limits.safety_bending, *against)
 
 
 def _safety(
-    rule: Rule, found: tuple[float | None, float | None] | None, least: float, against: str, inputs: str
+    rule: Rule, data: GearData, found: tuple[float | None, float | None] | None, least: float, against: str, inputs: str
 ) -> Iterator[Check]:
     for gear, safety in enumerate(found or ()):
         if safety is None:
             continue
-        text = f"the safety of gear {gear + 1} against {against} is {safety:.4g}, nominal: {inputs}"
+        text = f"the safety of {data.called(gear)} against {against} is {safety:.4g}, nominal: {inputs}"
         if safety < least:
             text += f"; below the limit {least:g}: widen the gears, take a larger module or a better material"
         yield rule.check("fail" if safety < least else "pass", text, safety, least)
@@ -278,22 +280,22 @@ def _bending_inputs(data: GearData) -> str:
 
 def _out_of_range(data: GearData) -> Iterator[Check]:
     """Where the formulas of the root leave the range of their standard."""
-    eps = data.pair.contact_ratio
+    eps = data.path.contact_ratio
     if data.pair.helix_angle == 0.0 and not 1.0 <= eps <= 2.0:
         text = f"contact ratio {eps:.4g}: method B of ISO 6336 covers 1 to 2, stresses are out of its range"
         yield BENDING.check("warn", text, eps)
     for gear, factor in enumerate(data.root.rim_factor or ()):
         if factor is None:
             least = "1.75 modules" if data.pair.teeth[gear] < 0 else "half the height of its teeth"
-            text = f"the rim of gear {gear + 1} is too thin for ISO 6336-3: no root stress is given"
+            text = f"the rim of {data.called(gear)} is too thin for ISO 6336-3: no root stress is given"
             yield BENDING.check("warn", f"{text}; raise rim_thickness above {least}")
     for gear, section in enumerate(data.root.sections):
         if section is None:
-            text = f"gear {gear + 1} has no root section that ISO 6336-3 could judge: no root stress is given"
-            yield BENDING.check("warn", text + "; take more teeth, a smaller rounding, or name the cutter of a ring")
+            text = f"{data.called(gear)} has no root section that ISO 6336-3 could judge: no root stress is given"
+            yield BENDING.check("warn", f"{text}; {data.rated_with(gear)}")
         elif not 1.0 <= section.notch < 8.0:
-            text = f"notch parameter q_s = {section.notch:.4g} of gear {gear + 1} is outside 1 to 8, where Y_S holds"
-            yield BENDING.check("warn", text, section.notch)
+            text = f"notch parameter q_s = {section.notch:.4g} of {data.called(gear)} is outside 1 to 8"
+            yield BENDING.check("warn", f"{text}, where Y_S holds", section.notch)
         elif data.pair.teeth[gear] < 0 and data.pair.cutter is None:
             text = "without its cutter the root of the ring is judged with the rounding of a rack tool"
             yield BENDING.check("warn", text)

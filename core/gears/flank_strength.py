@@ -56,7 +56,7 @@ class FlankStrength:
     @cached_property
     def contact_ratio_factor(self) -> float | None:
         """Z_eps; None without the width of helical gears, and for spur gears beyond eps_alpha = 4."""
-        eps, overlap = self.path.pair.contact_ratio, self.path.overlap_ratio
+        eps, overlap = self.path.contact_ratio, self.path.overlap_ratio
         if overlap is None or eps <= 0.0:
             return None
         square = (4.0 - eps) / 3.0 * (1.0 - overlap) + overlap / eps if overlap < 1.0 else 1.0 / eps
@@ -70,17 +70,14 @@ class FlankStrength:
     @cached_property
     def single_contact_ratios(self) -> tuple[float | None, float | None]:
         """M_1 and M_2: pressure at B and at D over that at the pitch point."""
-        pair, path = self.path.pair, self.path
-        first, last = path.end - pair.base_pitch, path.start + pair.base_pitch
-        at_pitch = path.pitch * (path.line - path.pitch)
+        path, pitch = self.path, self.path.pair.base_pitch
+        at_pitch = path.curvature(path.pitch)
 
         def ratio(rho: float) -> float | None:
-            curved = rho * (path.line - rho)
-            return math.sqrt(at_pitch / curved) if at_pitch / curved > 0.0 else None
+            square = path.curvature(rho) / at_pitch
+            return math.sqrt(square) if 0.0 < square < math.inf else None
 
-        if 0.0 in (first, last, first - path.line, last - path.line):
-            return None, None
-        return ratio(first), ratio(last)
+        return ratio(path.end - pitch), ratio(path.start + pitch)
 
     @cached_property
     def single_contact_factor(self) -> tuple[float | None, float | None] | None:
@@ -104,8 +101,7 @@ class FlankStrength:
         force, width, z_eps = self.tangential_force, self.path.face_width, self.contact_ratio_factor
         if force is None or width is None or z_eps is None:
             return None
-        u = self.path.pair.gear_ratio
-        line = force / (2.0 * self.path.pair.reference_radius[0] * width) * (u + 1.0) / u
+        line = force / (2.0 * self.path.pair.reference_radius[0] * width) * (1.0 + 1.0 / self.path.gear_ratio)
         return self.zone_factor * self.elasticity_factor * z_eps * self.helix_angle_factor * math.sqrt(line)
 
     @cached_property
@@ -152,10 +148,7 @@ def hertz_pressure(path: PathOfContact, rho: float, line_force: float, materials
     Returns
         p : float [N/mm^2] - infinite on a base circle
     """
-    mate = path.line - rho
-    curvature = (
-        math.inf if rho == 0.0 or mate == 0.0 else (1.0 / rho + 1.0 / mate) * math.cos(path.pair.base_helix_angle)
-    )
+    curvature = path.curvature(rho) * math.cos(path.pair.base_helix_angle)
     if not 0.0 <= curvature < math.inf:
         return math.inf
     return math.sqrt(line_force * curvature / (math.pi * (materials[0].compliance + materials[1].compliance)))

@@ -15,6 +15,7 @@ from gearlink.core.gears.tools import PinionCutter, RackTool, usual_rounding
 
 if TYPE_CHECKING:
     from gearlink.core.gears.pair_keys import PairKeys
+    from gearlink.core.gears.rack_rating import RackData
     from gearlink.core.gears.spec import GearPairSpec
     from gearlink.core.gears.spec_parts import AllowanceSpec, LoadSpec, MaterialSpec, ToolSpec
 
@@ -140,11 +141,12 @@ def data_of(spec: GearPairSpec | PairKeys, pair: GearPair) -> GearData:
     Raises
         NoSolution - for allowances beyond the tables of their standards
     """
-    return GearData(
+    rack = getattr(spec, "rack", False)
+    return (_rack_data() if rack else GearData)(
         pair=pair,
         face_width=both(spec.face_width),
         pins=both(spec.pin_diameter) or (None, None),
-        allowances=allowances_of(spec.allowances, pair, rack=getattr(spec, "rack", False)),
+        allowances=allowances_of(spec.allowances, pair, rack=rack),
         distance_allowance=_distance_allowance(spec, pair),
         load=load_of(spec.load),
         materials=(material_of(spec.material, 0), material_of(spec.material, 1)),
@@ -153,6 +155,12 @@ def data_of(spec: GearPairSpec | PairKeys, pair: GearPair) -> GearData:
         rims=both(spec.rim_thickness) or (None, None),
         accuracy_grade=spec.accuracy_grade,
     )
+
+
+def _rack_data() -> type[RackData]:
+    from gearlink.core.gears.rack_rating import RackData
+
+    return RackData
 
 
 def allowances_of(given: AllowanceSpec | None, pair: GearPair, *, rack: bool = False) -> tuple[Pair, Pair] | None:

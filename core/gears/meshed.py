@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from gearlink.core.design import Design, Outline
 from gearlink.core.errors import NoSolution, at_key, in_section
 from gearlink.core.gears.checks import GEAR_QUANTITIES, GearQuantities
-from gearlink.core.gears.drawing_names import DERIVED, lacking
+from gearlink.core.gears.drawing_names import DERIVED, RATING, lacking
 from gearlink.core.gears.single_mesh import MESH_CHECKS, MESH_QUANTITIES, mesh_checks, mesh_quantity
-from gearlink.core.gears.train_names import RATING, TRAIN_CHECKS, TRAIN_QUANTITIES
+from gearlink.core.gears.train_names import TRAIN_CHECKS, TRAIN_QUANTITIES
 from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
 

@@ -16,11 +16,12 @@ from gearlink.core.gears.checks import (
     most_sliding,
 )
 from gearlink.core.gears.codes import BACKLASH, CONTACT_RATIO, FILLET, INTERFERENCE, SLIDING, TIP_THICKNESS
-from gearlink.core.gears.data import GearData
-from gearlink.core.gears.drawing_names import PLACES
+from gearlink.core.gears.drawing_checks import drawing_check
+from gearlink.core.gears.drawing_names import RATING
 from gearlink.core.gears.pair import GearPair, Pair
+from gearlink.core.gears.rack_rating import RackData, RackPath
 from gearlink.core.gears.tools import rack_tip_width
-from gearlink.core.report import Check, Status, Table
+from gearlink.core.report import Check, Status
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
@@ -36,10 +37,24 @@ _OF_GEAR = frozenset(
     )
 )  # fmt: skip
 """Quantities that the gear has by itself."""
+_OF_MESH = frozenset(
+    (
+        "transverse_pressure_angle", "base_helix_angle", "overlap_ratio", "total_contact_ratio", "path_of_contact",
+        "sliding_factor", *RATING,
+    )
+)  # fmt: skip
+"""Quantities of the path of contact and of the rating, as a pair's."""
+_OWN = frozenset(
+    (
+        "center_distance", "working_pressure_angle", "contact_ratio", "used_root_radius", "specific_sliding",
+        "specific_sliding_tip", "tip_clearance", "backlash_circumferential", "backlash_normal", "backlash_angle",
+    )
+)  # fmt: skip
+"""Quantities that stand here under their own names."""
 _OF_TOOTH = ("undercut", "tip-thickness", "tooth-form", "root-clearance")
+_RATINGS = ("pitting", "bending")
 _NO_BACKLASH = -1e-6
 _USUAL_TIP = 0.15
-_STEPS = 40
 
 
 def beside_a_rack(pair: dict[str, Any], first: float) -> GearPair:
@@ -55,13 +70,13 @@ class RackMesh:
     eps_alpha = (rho_E1 - r_1 sin(alpha_t) + (h_aR - x_1) m/sin(alpha_t))/p_et,  a = r_1 + x_1 m
 
     Parameters
-        data : GearData - its gear 1 is the gear
+        data : RackData - its gear 1 is the gear
     Returns
         Properties: lengths in mm, angles in rad.
     Notes
         The limit of an external pair whose wheel has ever more teeth: held by the tests.
     Example
-        >>> rack = RackMesh(GearData(pair=GearPair.from_shift(2.0, (20, 10_000))))
+        >>> rack = RackMesh(RackData(pair=GearPair.from_shift(2.0, (20, 10_000))))
         >>> round(rack.contact_ratio, 6), rack.center_distance
         (1.768824, 20.0)
 
@@ -69,7 +84,12 @@ class RackMesh:
         ISO 21771
     """
 
-    data: GearData
+    data: RackData
+
+    @property
+    def path(self) -> RackPath:
+        """The path of contact."""
+        return self.data.path
 
     @property
     def pair(self) -> GearPair:
@@ -91,7 +111,7 @@ class RackMesh:
             tool=pair.tool(1),
             pressure_angle=pair.pressure_angle,
             helix_angle=pair.helix_angle,
-            height=self.height,
+            height=self.path.height,
         )
 
     @property
@@ -100,78 +120,29 @@ class RackMesh:
         return self.pair.reference_radius[0] + self.pair.profile_shift[0] * self.pair.module
 
     @property
-    def height(self) -> float:
-        """h_aR [module], of the rack's tips above its datum line: h_a* + k_2."""
-        return self.pair.addendum + self.pair.tip_alteration[1]
-
-    @property
-    def pitch(self) -> float:
-        """rho_C1 = r_1 sin(alpha_t)."""
-        return self.pair.reference_radius[0] * math.sin(self.pair.transverse_pressure_angle)
-
-    @property
-    def start(self) -> float:
-        """rho_A1 = rho_C1 - (h_aR - x_1) m/sin(alpha_t), at the tip of the rack."""
-        height = (self.height - self.pair.profile_shift[0]) * self.pair.module
-        return self.pitch - height / math.sin(self.pair.transverse_pressure_angle)
-
-    @property
-    def end(self) -> float:
-        """rho_E1, at the tip of the gear."""
-        return self.pair.base_radius[0] * math.tan(self.pair.tip_pressure_angle[0])
-
-    @property
-    def path_of_contact(self) -> float:
-        """g_alpha = rho_E1 - rho_A1."""
-        return self.end - self.start
-
-    @cached_property
-    def contact_ratio(self) -> float:
-        """eps_alpha."""
-        return self.path_of_contact / self.pair.base_pitch
-
-    @property
-    def overlap_ratio(self) -> float | None:
-        """eps_beta; None for helical gears without a width."""
-        return self.data.path.overlap_ratio
-
-    @property
-    def total_contact_ratio(self) -> float | None:
-        """eps_gamma."""
-        return None if self.overlap_ratio is None else self.contact_ratio + self.overlap_ratio
-
-    @property
-    def transverse_pressure_angle(self) -> float:
-        """alpha_t."""
+    def working_pressure_angle(self) -> float:
+        """alpha_wt = alpha_t."""
         return self.pair.transverse_pressure_angle
 
-    working_pressure_angle = transverse_pressure_angle
-
     @property
-    def base_helix_angle(self) -> float:
-        """beta_b."""
-        return self.pair.base_helix_angle
+    def contact_ratio(self) -> float:
+        """eps_alpha."""
+        return self.path.contact_ratio
 
     @property
     def used_root_radius(self) -> tuple[float, None]:
         """r_Nf of the gear."""
-        return math.hypot(self.pair.base_radius[0], self.start), None
+        return math.hypot(self.pair.base_radius[0], self.path.start), None
 
     @property
     def specific_sliding(self) -> tuple[float, None] | None:
         """zeta_A1 = 1 - rho_C1/rho_A1."""
-        return (1.0 - self.pitch / self.start, None) if self.start > 0.0 else None
+        return (1.0 - self.path.pitch / self.path.start, None) if self.path.start > 0.0 else None
 
     @property
     def specific_sliding_tip(self) -> tuple[float, None]:
         """zeta_E1 = 1 - rho_C1/rho_E1."""
-        return 1.0 - self.pitch / self.end, None
-
-    @property
-    def sliding_factor(self) -> tuple[float, float]:
-        """K_g at A and at E."""
-        r = self.pair.reference_radius[0]
-        return (self.pitch - self.start) / r, (self.end - self.pitch) / r
+        return 1.0 - self.path.pitch / self.path.end, None
 
     @property
     def tip_clearance(self) -> tuple[float, None]:
@@ -186,7 +157,7 @@ class RackMesh:
     @property
     def end_depth(self) -> float:
         """How far below its datum line the rack is touched at E [mm]."""
-        below = (self.end - self.pitch) * math.sin(self.pair.transverse_pressure_angle)
+        below = (self.path.end - self.path.pitch) * math.sin(self.pair.transverse_pressure_angle)
         return below - self.pair.profile_shift[0] * self.pair.module
 
     @property
@@ -197,7 +168,7 @@ class RackMesh:
     @property
     def tip_width(self) -> float:
         """s_aR, width of the rack's tips in the normal section [mm]."""
-        return rack_tip_width(self.height, self.pair.pressure_angle) * self.pair.module
+        return rack_tip_width(self.path.height, self.pair.pressure_angle) * self.pair.module
 
     @cached_property
     def backlash_circumferential(self) -> Pair | None:
@@ -242,8 +213,9 @@ class RackMesh:
         if name in _OF_GEAR:
             found = gear_quantity(self.pair, name) if name in GEAR_QUANTITIES else self.data.quantity(name)
             return None if found is None or found[0] is None else (found[0], None)
-        known = name in GEAR_QUANTITIES or name in PLACES
-        return getattr(self, name, None) if known else None
+        if name in _OF_MESH:
+            return self.data.quantity(name)
+        return getattr(self, name) if name in _OWN else None
 
     def checks(self, name: str, limits: Any) -> Iterator[Check]:
         """The findings of a check on gear and rack."""
@@ -252,25 +224,13 @@ class RackMesh:
             yield from (each for each in found if "gear 1" in each.message)
         if name in _CHECKS:
             yield from _CHECKS[name](self, limits)
-
-    def table(self, samples: int | None = None) -> Table:
-        """The table `path`: sliding from A to E."""
-        steps, r = _STEPS if samples is None else samples, self.pair.reference_radius[0]
-        named = {self.start: "A", self.pitch: "C", self.end: "E"}
-        between = [self.start + self.path_of_contact * k / steps for k in range(1, steps)]
-        rho = sorted({*between, *(at for at in named if self.start <= at <= self.end)})
-        columns: dict[str, tuple[list[Any], str]] = {
-            "rho": (rho, "mm"),
-            "place": ([named.get(at, "") for at in rho], "1"),
-            "sliding": ([1.0 - self.pitch / at if at else -math.inf for at in rho], "1"),
-            "sliding_2": ([1.0 - at / self.pitch for at in rho], "1"),
-            "sliding_factor": ([(at - self.pitch) / r for at in rho], "1"),
-        }
-        return Table.of("path", columns)
+        if name in _RATINGS:
+            yield from drawing_check(name, self.data, limits)
 
 
 def _contact_ratio(rack: RackMesh, limits: Any) -> Iterator[Check]:
-    eps = rack.total_contact_ratio if rack.pair.helix_angle and rack.total_contact_ratio else rack.contact_ratio
+    total = rack.path.total_contact_ratio
+    eps = total if rack.pair.helix_angle and total else rack.contact_ratio
     least = limits.contact_ratio
     remedy = "take more teeth or less profile shift"
     yield CONTACT_RATIO.below(eps, least, least + MORE_CONTACT, "1", "the contact ratio", remedy)
@@ -278,14 +238,14 @@ def _contact_ratio(rack: RackMesh, limits: Any) -> Iterator[Check]:
 
 def _interference(rack: RackMesh, _limits: Any) -> Iterator[Check]:
     good, bad = "stays {:.4g} mm short of", "goes {:.4g} mm beyond"
-    words = f"the rack's tip {bad if rack.start < 0.0 else good} the base tangent point"
-    yield _judged(INTERFERENCE.check, words, rack.start, 0.0)
+    words = f"the rack's tip {bad if rack.path.start < 0.0 else good} the base tangent point"
+    yield _judged(INTERFERENCE.check, words, rack.path.start, 0.0)
 
 
 def _fillet(rack: RackMesh, _limits: Any) -> Iterator[Check]:
     noise = -FILLET_NOISE * rack.pair.module
     if rack.pair.form_radius[0] is not None:
-        margin = rack.used_root_radius[0] - rack.pair.form_radius[0] if rack.start > 0.0 else rack.start
+        margin = rack.used_root_radius[0] - rack.pair.form_radius[0] if rack.path.start > 0.0 else rack.path.start
         yield _judged(FILLET.check, f"contact {_side(margin, noise)} the root fillet of gear 1", margin, noise)
     margin = rack.form_depth - rack.end_depth
     words = f"contact {_side(margin, noise)} the root rounding of the rack"

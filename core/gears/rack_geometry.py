@@ -23,9 +23,9 @@ class RackGeometry:
     Returns
         Properties: points in mm, angles in rad.
     Example
-        >>> from gearlink.core.gears.data import GearData
+        >>> from gearlink.core.gears.rack_rating import RackData
         >>> from gearlink.core.gears.pair import GearPair
-        >>> mesh = RackGeometry(RackMesh(GearData(pair=GearPair.from_shift(2.0, (20, 10_000)))))
+        >>> mesh = RackGeometry(RackMesh(RackData(pair=GearPair.from_shift(2.0, (20, 10_000)))))
         >>> round(abs(mesh.contact_end - mesh.contact_start) / mesh.base_pitch - mesh.rack.contact_ratio, 12)
         0.0
 
@@ -48,20 +48,20 @@ class RackGeometry:
     @cached_property
     def direction(self) -> complex:
         """Unit vector of the line of action, the way the contact moves."""
-        return 1j * cmath.exp(-1j * self.rack.transverse_pressure_angle)
+        return 1j * cmath.exp(-1j * self.rack.working_pressure_angle)
 
     def _at(self, rho: float) -> complex:
-        return self.pitch_point + (rho - self.rack.pitch) * self.direction
+        return self.pitch_point + (rho - self.rack.path.pitch) * self.direction
 
     @property
     def contact_start(self) -> complex:
         """A, on the tip line of the rack [mm]."""
-        return self._at(self.rack.start)
+        return self._at(self.rack.path.start)
 
     @property
     def contact_end(self) -> complex:
         """E, on the tip circle of the gear [mm]."""
-        return self._at(self.rack.end)
+        return self._at(self.rack.path.end)
 
     @property
     def base_pitch(self) -> float:
@@ -71,8 +71,8 @@ class RackGeometry:
     @cached_property
     def contacts(self) -> list[complex]:
         """All points where flanks touch at this moment [mm]."""
-        first = math.ceil((self.rack.start - self.rack.pitch) / self.base_pitch)
-        last = math.floor((self.rack.end - self.rack.pitch) / self.base_pitch)
+        first = math.ceil((self.rack.path.start - self.rack.path.pitch) / self.base_pitch)
+        last = math.floor((self.rack.path.end - self.rack.path.pitch) / self.base_pitch)
         return [self.pitch_point + k * self.base_pitch * self.direction for k in range(first, last + 1)]
 
     @cached_property

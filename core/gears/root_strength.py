@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.gears.involute import involute
@@ -15,6 +16,9 @@ from gearlink.core.gears.pair import GearPair
 from gearlink.core.gears.tools import RackTool
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.results import cached_property
+
+if TYPE_CHECKING:
+    from gearlink.core.gears.contact import PathOfContact
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -28,6 +32,7 @@ class RootSection:
         shift : float [module] - generating profile shift x_E
         contact_radius : float or None [module] - radius on the virtual gear where the load acts, signed; None: the
             outer point of single contact (method B)
+        contact_ratio : float or None - eps_alpha of the mesh; None: the pair's
     Returns
         Properties: lengths in modules, angles in rad.
     Raises
@@ -51,6 +56,7 @@ class RootSection:
     tool: RackTool
     shift: float
     contact_radius: float | None = None
+    contact_ratio: float | None = None
 
     @property
     def _ring(self) -> bool:
@@ -65,7 +71,8 @@ class RootSection:
     @cached_property
     def virtual_contact_ratio(self) -> float:
         """eps_alpha,n = eps_alpha/cos^2(beta_b)."""
-        return self.pair.contact_ratio / math.cos(self.pair.base_helix_angle) ** 2
+        eps = self.pair.contact_ratio if self.contact_ratio is None else self.contact_ratio
+        return eps / math.cos(self.pair.base_helix_angle) ** 2
 
     @property
     def _depth(self) -> float:
@@ -118,7 +125,18 @@ class RootSection:
     @cached_property
     def loaded_at_tip(self) -> RootSection:
         """The same section with its load at the tip, for Y_Fa and Y_Sa of method C."""
-        return replace(self, contact_radius=self.tip_radius)
+        return self.loaded(self.tip_radius)
+
+    def loaded(self, radius: float) -> RootSection:
+        """The same section with its load elsewhere on the flank, by contact_radius [module]."""
+        return replace(self, contact_radius=radius)
+
+    def loaded_at(self, path: PathOfContact, rho: float) -> RootSection:
+        """The same section, loaded at a place rho_1 [mm] on the path of contact."""
+        pair, gear = self.pair, self.gear
+        own = rho if gear == 0 else path.line - rho
+        radius = pair.signs[gear] * math.hypot(pair.base_radius[gear], own)
+        return self.loaded(0.5 * self.virtual_teeth + (radius - pair.reference_radius[gear]) / pair.module)
 
     @cached_property
     def load_radius(self) -> float:

@@ -68,12 +68,16 @@ class RootStress:
         tool, pair = self.tools[gear], self.path.pair
         if tool.rounding_center(pair.pressure_angle) < 0.0:
             return None
-        section = RootSection(pair=pair, gear=gear, tool=tool, shift=self.shifts[gear])
+        section = self._made(gear)
         try:
             enough = section.stress_correction_factor > 0.0 and section.form_factor > 0.0
         except NoSolution:
             return None
         return section if enough else None
+
+    def _made(self, gear: int) -> RootSection:
+        pair, eps = self.path.pair, self.path.contact_ratio
+        return RootSection(pair=pair, gear=gear, tool=self.tools[gear], shift=self.shifts[gear], contact_ratio=eps)
 
     @cached_property
     def at_tip(self) -> tuple[RootSection | None, RootSection | None]:
@@ -101,7 +105,7 @@ class RootStress:
     @property
     def virtual_contact_ratio(self) -> float:
         """eps_alpha,n = eps_alpha/cos^2(beta_b)."""
-        return self.path.pair.contact_ratio / math.cos(self.path.pair.base_helix_angle) ** 2
+        return self.path.contact_ratio / math.cos(self.path.pair.base_helix_angle) ** 2
 
     @cached_property
     def rim_factor(self) -> Both | None:
@@ -193,7 +197,7 @@ class RootStress:
         """sigma_F0 = F_t/(b m) Y_F Y_S Y_beta Y_B Y_DT."""
         if self.load is None or self.bearing_width is None or self.helix_angle_factor is None:
             return None
-        if self.path.pair.contact_ratio <= 0.0:
+        if self.path.contact_ratio <= 0.0:
             return None
         force = self.load.tangential_force(self.path.pair.reference_radius[0])
         line = force / self.path.pair.module * self.helix_angle_factor * self.load_distribution

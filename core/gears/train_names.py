@@ -4,9 +4,6 @@ from __future__ import annotations
 
 from gearlink.core.gears.drawing_names import PLACES
 
-_FIRST_OF_RATING = list(PLACES).index("tangential_force")
 _OF_EVERY_MESH = "tip_fouling_margin"
-RATING = frozenset(list(PLACES)[_FIRST_OF_RATING:])
-"""Strength by ISO 6336, shown where a file asks for it."""
 TRAIN_QUANTITIES = tuple(name for name in PLACES if name != _OF_EVERY_MESH)
 TRAIN_CHECKS = ("radial-assembly", "fillet-interference", "backlash", "pitting", "bending")

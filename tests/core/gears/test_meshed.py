@@ -14,10 +14,10 @@ from factory import design
 from pydantic import ValidationError
 
 from gearlink.core.errors import NoSolution
+from gearlink.core.gears.drawing_names import RATING
 from gearlink.core.gears.meshed import QUANTITIES
 from gearlink.core.gears.pair_keys import PairKeys
 from gearlink.core.gears.train_keys import TrainKeys
-from gearlink.core.gears.train_names import RATING
 from gearlink.core.spec_paths import changed
 
 DRAWN = {

@@ -63,14 +63,12 @@ def test_teeth_touch_where_the_line_of_action_says_and_never_cross(keys: dict[st
     mesh = RackGeometry(made.rack)
     for share in (0.0, 0.21, -0.37):
         teeth, rack = placed(made, share * mesh.rack.pitch_on_line)
-        moved = share * mesh.rack.pitch_on_line * math.cos(mesh.rack.transverse_pressure_angle)
+        moved = share * mesh.rack.pitch_on_line * math.cos(mesh.rack.working_pressure_angle)
         touching = np.array([point + moved * mesh.direction for point in mesh.contacts])
-        on_path = [
-            point
-            for point in touching
-            if mesh.rack.start < ((point - mesh.pitch_point) / mesh.direction).real + mesh.rack.pitch < mesh.rack.end
-        ]
-        assert on_path
+        path = mesh.rack.path
+        places = ((touching - mesh.pitch_point) / mesh.direction).real + path.pitch
+        on_path = touching[(path.start < places) & (places < path.end)]
+        assert on_path.size
         assert to_line(on_path, teeth).max() < 3.0 * CHORD
         assert to_line(on_path, rack).max() < 3.0 * CHORD
         inside = teeth[
@@ -95,9 +93,9 @@ def test_sliding_is_that_of_the_bodies_velocities(keys: dict[str, Any]) -> None:
     rack = gear(keys).rack
     mesh, r = RackGeometry(rack), rack.pair.reference_radius[0]
     along = mesh.direction * 1j
-    table = rack.table(16)
+    table = gear(keys).table("path", samples=16)
     for rho, one, other in zip(table["rho"], table["sliding"], table["sliding_2"], strict=True):
-        contact = mesh.pitch_point + (rho - rack.pitch) * mesh.direction
+        contact = mesh.pitch_point + (rho - rack.path.pitch) * mesh.direction
         speed = ((1j * contact) * along.conjugate()).real  # of the gear at 1 rad/s
         mate = ((1j * r) * along.conjugate()).real
         assert one == pytest.approx(1.0 - mate / speed, rel=1e-9, abs=1e-12)
@@ -105,7 +103,7 @@ def test_sliding_is_that_of_the_bodies_velocities(keys: dict[str, Any]) -> None:
     assert rack.contact_ratio == pytest.approx(abs(mesh.contact_end - mesh.contact_start) / mesh.base_pitch, rel=1e-12)
     assert table["place"][0] == "A"
     assert abs(mesh.contact_end) == pytest.approx(rack.pair.tip_radius[0], rel=1e-12)
-    tip_line = rack.center_distance - rack.height * rack.pair.module
+    tip_line = rack.center_distance - rack.path.height * rack.pair.module
     assert mesh.contact_start.real == pytest.approx(tip_line, rel=1e-12)
 
 
