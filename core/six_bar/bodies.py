@@ -5,21 +5,22 @@ Trains that share a pin lie in planes of their own; all others are taken to lie 
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
-from itertools import combinations
-from typing import TYPE_CHECKING
+from itertools import chain, combinations
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from gearlink.core.clearance.bodies import Gear, Layout, least_shaft, ring_gear, shafts_at
 from gearlink.core.clearance.reach import Reach, constant
 from gearlink.core.gears.internal_mesh import InternalMesh
-from gearlink.core.numerics.extremes import maximum_over, minimum_over
+from gearlink.core.numerics.extremes import extremes_over
 from gearlink.core.six_bar.loop import pins
 from gearlink.core.six_bar.spec import PINS
 
 if TYPE_CHECKING:
-    from gearlink.core.numerics.arrays import Reals
+    from gearlink.core.numerics.arrays import Points, Reals
     from gearlink.core.six_bar.design import GearedSixBar
 
 
@@ -31,7 +32,8 @@ def layouts(design: GearedSixBar) -> tuple[Layout, ...]:
     shafts = shafts_at("AF", spec.shafts)
     least = least_shaft(spec.limits, max(train.module for train in spec.trains))
     gears = [tuple(gear for i in plane for gear in _gears(design, i)) for plane in planes]
-    return tuple(Layout(each, shafts, _reaches(design, each), least) for each in gears)
+    reaches = _reaches(design, chain(*gears))
+    return tuple(Layout(each, shafts, reaches, least) for each in gears)
 
 
 def _gears(design: GearedSixBar, number: int) -> list[Gear]:
@@ -50,24 +52,38 @@ def _gears(design: GearedSixBar, number: int) -> list[Gear]:
     return found
 
 
-def _reaches(design: GearedSixBar, gears: tuple[Gear, ...]) -> dict[str, Reach]:
+def _reaches(design: GearedSixBar, gears: Iterable[Gear]) -> dict[str, Reach]:
+    """Least and greatest distances of the pins with gears, and of A and F, over the course."""
     axes = sorted({gear.axis for gear in gears} | {"A", "F"})
-    return {a + b: _reach(design, a, b) for a, b in combinations(axes, 2)}
+    found, moving = {}, []
+    for pair in combinations(axes, 2):
+        i, j = (PINS.index(pin) for pin in pair)
+        if j - i in (1, 5):  # a link, the frame among them
+            found["".join(pair)] = constant(design.bar.lengths[j if j - i == 1 else 0])
+        else:
+            moving.append(("".join(pair), i, j))
+    return found | _sought(design, moving)
 
 
-def _reach(design: GearedSixBar, one: str, other: str) -> Reach:
-    """Least and greatest distance of two pins over the course."""
-    i, j = (PINS.index(pin) for pin in (one, other))
-    if j - i == 1:
-        return constant(design.bar.lengths[j])
-    if (one, other) == (PINS[0], PINS[-1]):
-        return constant(design.bar.lengths[0])
+def _sought(design: GearedSixBar, moving: Sequence[tuple[str, int, int]]) -> dict[str, Reach]:
+    """Reaches of pins that are not on one link, searched together."""
+    last: list[Any] = [None, None]
 
-    def distance(phi: Reals) -> Reals:
-        placed = pins(design.bar, phi, design.course.angles(phi))
-        return np.asarray(np.abs(placed[i] - placed[j]))
+    def placed(phi: Reals) -> Points:
+        if phi is not last[0]:
+            last[:] = phi, pins(design.bar, phi, design.course.angles(phi))
+        found: Points = last[1]
+        return found
 
-    ends = design.course.start, design.course.end
-    near = minimum_over(distance, *ends, samples=design.course.samples)
-    far = maximum_over(distance, *ends, samples=design.course.samples)
-    return Reach(near.value, far.value, near.place, far.place)
+    def distance(i: int, j: int) -> Callable[[Reals], Reals]:
+        return lambda phi: np.asarray(np.abs(placed(phi)[i] - placed(phi)[j]))
+
+    distances = [distance(i, j) for _, i, j in moving]
+    wanted = [(each, greatest) for each in distances for greatest in (False, True)]
+    course = design.course
+    found = iter(extremes_over(wanted, course.start, course.end, samples=course.samples))
+    reaches = {}
+    for name, _, _ in moving:
+        near, far = next(found), next(found)
+        reaches[name] = Reach(near.value, far.value, near.place, far.place)
+    return reaches

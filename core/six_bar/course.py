@@ -125,7 +125,7 @@ class Course:
         bar = self.bar
         length, first, slopes, shares = bar.numbers
         angles = (first + slopes * phi + shares @ u)[:, None]
-        one, other = (complex(c[0]) for c in bar.columns(angles))
+        one, other = (complex(c[0]) for c in bar.columns(bar.links(angles)))
         determinant, total = (one.conjugate() * other).imag, abs(one) ** 2 + abs(other) ** 2
         if abs(determinant) < 1e-15 * total:
             return None
@@ -156,7 +156,7 @@ class Course:
 
     # Positions
 
-    @property
+    @cached_property
     def grid(self) -> Reals:
         """Input angles [rad] next to which functions of the motion are smooth: dense where dead centres are near."""
         places = self._followed[0][:, 0]
@@ -192,6 +192,14 @@ class Course:
 
     def rates(self, phi: Reals) -> tuple[Reals, Reals, Reals, Reals]:
         """Directions of links 2 to 5 and their first three derivatives by the input angle; (4, N) arrays."""
+        return self._on_grid if phi is self.grid else self._rates_at(phi)
+
+    @cached_property
+    def _on_grid(self) -> tuple[Reals, Reals, Reals, Reals]:
+        """On the grid all extremes are looked for among the same rates."""
+        return self._rates_at(self.grid)
+
+    def _rates_at(self, phi: Reals) -> tuple[Reals, Reals, Reals, Reals]:
         angles = self.angles(phi)
         return angles, *self.bar.rates(phi, angles)
 

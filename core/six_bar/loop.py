@@ -119,16 +119,13 @@ class SixBar:
             np.array([[float(n) for n in share] for share in self.shares]),
         )
 
-    def gap(self, phi: Reals, angles: Reals) -> Points:
-        """What the loop lacks to close [mm]; angles : (4, N) array [rad]."""
-        links = self.numbers[0][:, None] * np.exp(1j * angles)
-        return np.asarray(self.lengths[1] * np.exp(1j * phi) + links.sum(axis=0) - self.lengths[0])
+    def links(self, angles: Reals) -> Points:
+        """Links 2 to 5 as vectors [mm]; angles : (4, N) array [rad]."""
+        return np.asarray(self.numbers[0][:, None] * np.exp(1j * angles))
 
-    def columns(self, angles: Reals) -> tuple[Points, Points]:
-        """Velocities of the loop's end by the two free directions [mm/rad]; angles : (4, N) array."""
-        length, _, _, shares = self.numbers
-        moved = 1j * length[:, None] * np.exp(1j * angles)
-        one, other = shares.T @ moved
+    def columns(self, links: Points) -> tuple[Points, Points]:
+        """Velocities of the loop's end by the two free directions [mm/rad]; links : (4, N) array [mm]."""
+        one, other = self.numbers[3].T @ (1j * links)
         return one, other
 
     def closed(self, phi: Reals, near: Reals) -> Reals:
@@ -171,9 +168,12 @@ class SixBar:
         u = near.copy()
         base = first[:, None] + slopes[:, None] * phi
         finest = np.full(phi.shape, np.inf)
+        crank = self.lengths[1] * np.exp(1j * phi)
         for _ in range(_ROUNDS):
             angles: Reals = base + shares @ u
-            step = solve_pair(*self.columns(angles), -self.gap(phi, angles))
+            links = self.links(angles)
+            gap = crank + links.sum(axis=0) - self.lengths[0]
+            step = solve_pair(*self.columns(links), -gap)
             size = np.abs(step).max(axis=0)
             going = size < finest  # steps shrink until rounding is reached
             if not np.isfinite(size).all():
@@ -198,9 +198,9 @@ class SixBar:
         Notes
             The condition is 1/sin of `transmission`, infinite in a dead centre.
         """
-        length, _, slopes, shares = self.numbers
-        links, crank = length[:, None] * np.exp(1j * angles), self.lengths[1] * np.exp(1j * phi)
-        ends = self.columns(angles)
+        _, _, slopes, shares = self.numbers
+        links, crank = self.links(angles), self.lengths[1] * np.exp(1j * phi)
+        ends = self.columns(links)
         pushed = -1j * crank - 1j * (slopes[:, None] * links).sum(axis=0)
         first = slopes[:, None] + shares @ solve_pair(*ends, pushed)
         second = shares @ solve_pair(*ends, (first * first * links).sum(axis=0) + crank)
@@ -215,7 +215,7 @@ class SixBar:
         Source
             VDI 2142 for the dyad; own derivation
         """
-        one, other = self.columns(angles)
+        one, other = self.columns(self.links(angles))
         product = np.conj(one) * other
         return np.asarray(np.arctan2(np.abs(product.imag), np.abs(product.real)))
 

@@ -6,9 +6,11 @@ from collections.abc import Callable
 
 import numpy as np
 
+from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.standstills import Turning
 from gearlink.core.numerics.arrays import Reals
-from gearlink.core.numerics.roots import bracketed_root, sign_changes
+from gearlink.core.numerics.roots import sign_changes
+from gearlink.core.numerics.roots_sweep import bracketed_roots
 
 Function = Callable[[Reals], Reals]
 
@@ -21,12 +23,20 @@ def scalar(f: Function) -> Callable[[float], float]:
 def zeros(f: Function, grid: Reals) -> list[float]:
     """Zeros of a function of arrays at which its sign changes on a grid; two within one step are missed.
 
+    Raises
+        NoSolution - where the function is no number
     Example
         >>> [round(x, 12) for x in zeros(np.cos, np.linspace(0.0, 6.0, 100))]
         [1.570796326795, 4.712388980385]
     """
-    values, at = f(grid), scalar(f)
-    return [bracketed_root(at, float(grid[i]), float(grid[i + 1])) for i in sign_changes(values.tolist())]
+    places = np.array(sign_changes(f(grid).tolist()), dtype=int)
+    if not places.size:
+        return []
+    found = bracketed_roots(f, grid[places], grid[places + 1])
+    if np.isnan(found).any():
+        at = float(grid[places[np.isnan(found)][0]])
+        raise NoSolution(f"the function is no number next to {at!r}")
+    return [float(x) for x in found]
 
 
 def turnings(f: Function, slope: Function, grid: Reals, ends: bool) -> list[Turning]:

@@ -28,6 +28,12 @@ CLOSED, FOLLOWED = "geared_six_bar", "six_bar_swing"
 TURNS = np.radians(np.arange(0.0, 360.0, 7.0))
 
 
+def gap(bar: SixBar, phi: Any, angles: Any) -> Any:
+    """What the loop lacks to close, the links one after the other [mm]."""
+    directions = np.vstack([phi, angles])
+    return sum(a * np.exp(1j * t) for a, t in zip(bar.lengths[1:], directions, strict=True)) - bar.lengths[0]
+
+
 def six_bar(name: str, **keys: Any) -> Any:
     return design(name, **keys)
 
@@ -38,7 +44,7 @@ def test_the_loop_closes_and_its_gears_roll(name: str) -> None:
     phi = np.append(TURNS, 2.0 * math.pi)
     angles = machine.course.angles(phi)
     size = sum(machine.lengths)
-    assert np.abs(machine.bar.gap(phi, angles)).max() < 8.0 * EPS * size
+    assert np.abs(gap(machine.bar, phi, angles)).max() < 8.0 * EPS * size
     links = np.vstack([np.full(phi.shape, math.pi), phi, angles])
     for train in machine.spec.trains:
         gear = links[train.first_pin]
@@ -195,7 +201,7 @@ def test_any_two_trains(lengths: Any, first: Any, one: float, other: float, asse
         angles, speed, _, _ = course.rates(phi)
     except NoSolution:
         return
-    assert np.abs(bar.gap(phi, angles)).max() < 1e-11
+    assert np.abs(gap(bar, phi, angles)).max() < 1e-11
     assert np.isfinite(speed).all()
     assert np.abs(angles[:, 5] - bar.start_angles).max() < 1e-9
 
