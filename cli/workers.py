@@ -26,6 +26,7 @@ def workers(count: int) -> Iterator[Executor]:
     """
     context = get_context("fork" if sys.platform == "linux" else None)
     pool = ProcessPoolExecutor(count, mp_context=context, initializer=_begin)
+    results = pool._result_queue
     try:
         yield pool
     except BaseException:
@@ -33,6 +34,9 @@ def workers(count: int) -> Iterator[Executor]:
         pool.shutdown(wait=False, cancel_futures=True)
         for child in active_children():
             child.terminate()
+        # The thread that reads results would wait for ever for the rest of one that a worker was writing: its end comes
+        # when nobody can write any more, this process included.
+        results._writer.close()  # type: ignore[attr-defined]
         raise
     finally:
         pool.shutdown()

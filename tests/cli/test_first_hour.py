@@ -30,7 +30,7 @@ def test_first_hour(gearlink: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPat
     # what can be had, what it is, and the whole of it in a file
     table = gearlink("synth", "dwell", "feed.yaml", "--candidates")
     assert table.status == 0
-    assert re.search(r"(?m)^ *[\d.]+ +\d+ +pass ", table.out)
+    assert re.search(r"(?m)^ *[\d.]+ +\d+ +pass ", table.out)  # module, idler, findings; lengths follow
     sized = gearlink("synth", "dwell", "feed.yaml", "--save", "full.yaml", "--format", "json")
     assert sized.status == 0
     assert "try: gearlink analyze full.yaml" in sized.err

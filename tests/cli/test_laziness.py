@@ -172,7 +172,7 @@ _EVALUATED = [
     ),
     ("synth dwell", "candy_feed", "dwell_crank_angles", "idler_teeth train general crank_angle_at"),
     ("synth back-step", "thesis_example_1", "coupler_length", "idler_teeth"),
-    ("gear", "ty460_input_gears", "contact_ratio", "gear_pair rack"),  # whether it is one
+    ("gear", "ty460_input_gears", "contact_ratio", "gear_pair rack"),  # `rack` is None: no gear on a rack
     ("crank", "ty460_slider_crank", "max_stroke", "slider_crank"),
     ("press", "ty460", "crank_length", "slider_crank"),
     ("press", "ty460", "initial_crank_angle", "slider_crank bed"),
@@ -206,7 +206,7 @@ def test_a_quantity_evaluates_what_it_needs_and_no_more(command: str, design: st
 def _computed(made: object) -> set[str]:
     """Names of the results that a design and its parts have worked out."""
     parts = [each for each in vars(made).values() if hasattr(each, "spec")]
-    files = ("spec", "asked")  # as completed, and as read
+    files = ("spec", "asked")  # the file as completed and as read: given to the design, nothing that it works out
     return {
         name
         for each in (made, *parts)

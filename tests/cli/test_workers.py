@@ -83,6 +83,42 @@ def test_an_exception_in_the_block_ends_them_at_once() -> None:
     assert time.monotonic() - begun < 10.0
 
 
+# A pipe holds 64 kB: while the thread that reads results is busy with the first, the worker stands in the middle of the
+# second, a megabyte, and is ended there.
+HALF = """
+import sys, threading, time
+from pathlib import Path
+from gearlink.cli.workers import workers
+
+class Late:
+    def __reduce__(self):
+        return wait, ()
+
+def wait():
+    reads_on.wait(30.0)
+
+def large():
+    begun.touch()
+    return bytes(1 << 20)
+
+begun, reads_on = Path(sys.argv[1]), threading.Event()
+with workers(1) as pool:
+    pool.submit(Late)
+    pool.submit(large)
+    while not begun.exists():
+        time.sleep(0.01)
+    time.sleep(0.2)
+    threading.Timer(0.2, reads_on.set).start()
+    sys.exit("left")
+"""
+
+
+def test_half_a_result_is_not_waited_for(tmp_path: Path) -> None:
+    command = [sys.executable, "-c", HALF, str(tmp_path / "begun")]
+    ended = subprocess.run(command, capture_output=True, timeout=60, check=False)
+    assert (ended.returncode, ended.stderr) == (1, b"left\n")
+
+
 def test_they_do_not_answer_an_interrupt() -> None:
     with workers(1) as pool:
         process = pool.submit(os.getpid).result()

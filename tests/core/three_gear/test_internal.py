@@ -366,6 +366,25 @@ def test_tooth_force_accelerates_the_output(gears: Any, links: Any, radius: floa
     assert [check.status for check in found.check("power-identity")] == ["pass"]
 
 
+@pytest.mark.parametrize(("command", "options"), [("tolerance", ("--samples", "16")), ("register", ())])
+def test_tolerances_of_a_ring_are_answered(
+    command: str, options: tuple[str, ...], gearlink: Any, tmp_path: Path
+) -> None:
+    """By the command line; the numbers against the exact chain are those of test_toleranced.py and test_register.py."""
+    sources = {"links.crank": {"limits": [-0.02, 0.02]}}
+    data = changed(worked("ring_feed"), dwell=None, links={"crank": 22, "frame": 53}, tolerance={"sources": sources})
+    path = tmp_path / "ring.yaml"
+    path.write_text(json.dumps(data))
+    ended = gearlink(command, path, *options, "--format", "json")
+    assert ended.status == 0
+    quantities = {name: each["value"] for name, each in ended.json["quantities"].items()}
+    if command == "register":
+        assert min(quantities["worst"]) > 0.0
+        assert quantities["rss"] == pytest.approx([worst / 3.0 for worst in quantities["worst"]], rel=1e-12)  # 3 sigma
+    else:
+        assert quantities["no_mechanism"] == 0
+
+
 def test_a_study_of_rings_is_left_to_the_design_classes() -> None:
     from gearlink.core.three_gear.axis import axis
 

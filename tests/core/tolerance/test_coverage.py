@@ -125,10 +125,11 @@ def test_sobol_indices_cover_and_are_never_negative() -> None:
             for name in ISHIGAMI:
                 one = getattr(found, name)
                 hits[name, i] += abs(one.value - ISHIGAMI[name][i]) <= one.half_width
-    # Products of two far values make the estimates of the replications long-tailed: Student's interval is then a little
-    # wide, never short. That of an index of 0, which is estimated from one side alone, may cover all.
-    most = {place: 1000 if place == ("first", 2) else 985 for place in hits}
-    assert {place: count for place, count in hits.items() if not 930 <= count <= most[place]} == {}
+    # Two intervals are a little wide, none is short. The first index of a variable whose effect is all its own is
+    # estimated by products of far values, long-tailed from one replication to the next, where Student's interval covers
+    # more than it says (97.9 % here); that of an index of 0 is cut off at 0, on its one side (99.0 %).
+    most = {("first", 1): 985, ("first", 2): 1000}
+    assert {place: count for place, count in hits.items() if not 930 <= count <= most.get(place, 970)} == {}
 
 
 def test_no_estimate_of_a_study_is_off_in_the_mean() -> None:
