@@ -81,7 +81,8 @@ class InternalInterference:
         """G [rad] at the pinion's axis, -inf where the pinion is larger than the opening; None where it always fits.
 
         G = t_1 + inv(alpha_a1) - inv(alpha_wt) - |z_2|/z_1 (t_2 + inv(alpha_a2) - inv(alpha_wt)),
-        sin(t_1) = sqrt((1 - (z_1 Q/z_2)^2)/(1 - (z_1/z_2)^2)), sin(t_2) = sin(t_1)/Q, Q = |r_a2|/r_a1
+        sin(t_1) = sqrt((1 - (z_1 Q/z_2)^2)/(1 - (z_1/z_2)^2)), sin(t_2) = sin(t_1)/Q, Q = |r_a2|/r_a1; for every phase
+        of the teeth, which helical gears as wide as an axial pitch have all at once
         """
         q = self._tips[1] / self._tips[0]
         z1, z2 = self.pair.teeth[0], -self.pair.teeth[1]

@@ -77,10 +77,7 @@ class MeshGeometry:
     @cached_property
     def contacts(self) -> list[complex]:
         """All points where flanks touch at this moment, along the path of contact [mm]."""
-        before = abs(self.contact_start - self.pitch_point) / self.base_pitch
-        after = abs(self.contact_end - self.pitch_point) / self.base_pitch
-        steps = range(-math.floor(before), math.floor(after) + 1)
-        return [self.pitch_point + k * self.base_pitch * self.direction for k in steps]
+        return contact_points(self.pitch_point, self.base_pitch * self.direction, self.contact_start, self.contact_end)
 
     @cached_property
     def first_space(self) -> tuple[float, float]:
@@ -98,3 +95,14 @@ class MeshGeometry:
         tooth = pair.tooth_thickness[gear] / (2.0 * pair.reference_radius[gear] * math.cos(pair.helix_angle))
         rise = involute(pair.working_pressure_angle) - involute(pair.transverse_pressure_angle)
         return math.pi / pair.teeth[gear] - tooth + rise
+
+
+def contact_points(pitch_point: complex, step: complex, start: complex, end: complex) -> list[complex]:
+    """The pitch point and all places so many base pitches from it, as far as they lie between A and E [mm].
+
+    Parameters
+        step : complex [mm] - a base pitch along the line of action
+        start, end : complex [mm] - A and E, which may lie on one side of the pitch point
+    """
+    first, last = (((place - pitch_point) / step).real for place in (start, end))
+    return [pitch_point + k * step for k in range(math.ceil(first), math.floor(last) + 1)]

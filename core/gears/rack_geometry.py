@@ -10,6 +10,7 @@ import cmath
 import math
 from dataclasses import dataclass
 
+from gearlink.core.gears.mesh_geometry import contact_points
 from gearlink.core.gears.rack import RackMesh
 from gearlink.core.results import cached_property
 
@@ -71,9 +72,7 @@ class RackGeometry:
     @cached_property
     def contacts(self) -> list[complex]:
         """All points where flanks touch at this moment [mm]."""
-        first = math.ceil((self.rack.path.start - self.rack.path.pitch) / self.base_pitch)
-        last = math.floor((self.rack.path.end - self.rack.path.pitch) / self.base_pitch)
-        return [self.pitch_point + k * self.base_pitch * self.direction for k in range(first, last + 1)]
+        return contact_points(self.pitch_point, self.base_pitch * self.direction, self.contact_start, self.contact_end)
 
     @cached_property
     def first_space(self) -> tuple[float, float]:

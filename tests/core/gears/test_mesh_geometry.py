@@ -88,3 +88,11 @@ def test_flanks_of_a_ring_and_its_pinion_touch_and_do_not_overlap():
     opening = Path(np.column_stack([ring.real, ring.imag]))
     outside = pinion[~opening.contains_points(np.column_stack([pinion.real, pinion.imag]))]
     assert max((to_line(point, ring) for point in outside), default=0.0) < 4e-3
+
+
+def test_a_path_of_contact_behind_the_pitch_point_has_no_contact_there():
+    mesh = MeshGeometry(GearPair(module=2.0, teeth=(20, 60), given_shift=(1.2, -1.2), tip=(0.0, -0.3)))
+    ends = [((end - mesh.pitch_point) / mesh.direction).real for end in (mesh.contact_start, mesh.contact_end)]
+    assert 0.0 < ends[0] < mesh.base_pitch < ends[1]
+    (contact,) = mesh.contacts
+    assert (contact - mesh.pitch_point) / mesh.direction == pytest.approx(mesh.base_pitch, rel=1e-12)

@@ -219,32 +219,47 @@ def depth_in(points: Any, ring: Any) -> float:
 
 
 PUSHED = [
-    ((20, -60), (0.3, -0.2), True),
-    ((30, -39), (0.2, -0.4), False),
-    ((43, -60), (0.2, 0.0), False),
-    ((18, -38), (0.3, -0.1), True),
-    ((32, -48), (0.2, 0.0), False),
+    ((20, -60), (0.3, -0.2), 0.0, True),
+    ((30, -39), (0.2, -0.4), 0.0, False),
+    ((43, -60), (0.2, 0.0), 0.0, False),
+    ((18, -38), (0.3, -0.1), 0.0, True),
+    ((32, -48), (0.2, 0.0), 0.0, False),
+    ((26, -46), (0.2, 0.0), 12.0, True),
+    ((30, -48), (0.2, 0.0), 12.0, False),
+    ((30, -39), (0.2, -0.4), 25.0, True),
+    ((30, -45), (0.2, 0.0), 25.0, False),
 ]
 
 
+def turned_sections(pair: GearPair, count: int) -> list[tuple[float, float]]:
+    """How far pinion and ring are turned on [rad]: phases of a pitch, of helical gears at heights of an axial pitch."""
+    if not pair.helix_angle:
+        return [
+            (2.0 * math.pi * k / count / pair.teeth[0], -2.0 * math.pi * k / count / pair.teeth[1])
+            for k in range(count)
+        ]
+    heights = [math.pi * pair.module / math.sin(pair.helix_angle) * k / count for k in range(count)]
+    slope = math.tan(pair.helix_angle)
+    return [(slope * h / pair.reference_radius[0], -slope * h / pair.reference_radius[1]) for h in heights]
+
+
 @pytest.mark.quick(1)
-@pytest.mark.parametrize(("teeth", "shift", "goes"), PUSHED)
+@pytest.mark.parametrize(("teeth", "shift", "beta", "goes"), PUSHED)
 def test_a_pinion_that_is_pushed_into_its_ring_fits_as_the_margin_says(
-    teeth: tuple[int, int], shift: tuple[float, float], goes: bool
+    teeth: tuple[int, int], shift: tuple[float, float], beta: float, goes: bool
 ) -> None:
-    """Every phase of the teeth, every place on the way out from the middle."""
-    pair = GearPair(module=2.0, teeth=teeth, given_shift=shift)
+    """Every phase of the teeth, which helical gears have at some height each, and every place on the way out."""
+    pair = GearPair(module=2.0, teeth=teeth, given_shift=shift, helix_angle=math.radians(beta))
     angle = InternalInterference(pair).radial_assembly_angle
     assert angle is not None
     assert (angle >= 0.0) == goes
     pinion = outline(ToothProfile.of(pair, 0), 1e-3)
     pinion = pinion[np.abs(pinion) > pair.reference_radius[0]]  # its tips: corners decide
     ring = RingProfile.of(pair).outline(24)
-    z1, z2, a = teeth[0], -teeth[1], abs(pair.center_distance)
-    first = MeshGeometry(pair).first_space
+    a, first = abs(pair.center_distance), MeshGeometry(pair).first_space
     worst = 0.0
-    for phase in np.linspace(0.0, 1.0, 6, endpoint=False):
-        turned = pinion * np.exp(1j * (first[0] + phase * 2.0 * math.pi / z1))
-        still = ring * np.exp(1j * (first[1] + phase * 2.0 * math.pi / z2))
+    for one, other in turned_sections(pair, 6):
+        turned = pinion * np.exp(1j * (first[0] + one))
+        still = ring * np.exp(1j * (first[1] + other))
         worst = max(worst, *(depth_in(turned + a - back, still) for back in np.linspace(0.0, 4.5, 19)))
     assert (worst < 4e-3) == goes, worst
