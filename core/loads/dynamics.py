@@ -45,6 +45,7 @@ class Torque(NamedTuple):
 
 Applied = Sequence[Force | Torque]
 Masses = Mapping[str, Mass]
+Left = list[dict[int, Reals]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,7 +151,7 @@ class System:
         if mechanism.gain is None:
             place = np.zeros(mechanism.rows, dtype=np.complex128)
             self.columns.append(("drive", Column(FRAME, mechanism.drive, 0j, place, mechanism.sense)))
-        self.size = 3 * len(self.index)
+        self.size, self.one = 3 * len(self.index), np.ones(mechanism.rows)
         if len(self.columns) != self.size:
             raise AssertionError(f"{len(self.columns)} unknowns for {self.size} equations")
 
@@ -174,8 +175,7 @@ class System:
 
     def _act(self, act: Act) -> Iterator[tuple[int, Reals]]:
         """What a force and a couple on a link add to its equations; zeros by structure are left out."""
-        k, force, couple = 3 * self.index[act.on], act.force, act.couple
-        one = np.ones(self.mechanism.rows)
+        k, force, couple, one = 3 * self.index[act.on], act.force, act.couple, self.one
         if isinstance(force, np.ndarray) or force.real:
             yield k, force.real * one
         if isinstance(force, np.ndarray) or force.imag:
@@ -231,36 +231,58 @@ class System:
         Raises
             NoSolution - where the system is singular
         """
-        left = np.stack(sides, axis=1)
-        found = np.empty_like(left)
+        # by equation: what is left of each side that has anything in it; most of them reach few equations
+        left: Left = [{} for _ in range(self.size)]
+        for number, side in enumerate(sides):
+            for row in np.flatnonzero(side.any(axis=1)):
+                left[row][number] = side[row]
+        found = np.zeros((len(sides), self.size, self.mechanism.rows))
         try:
             for block in blocks(tuple(tuple(entries) for entries in self.entries)):
                 self._solve_block(block, left, found)
         except np.linalg.LinAlgError:
             raise NoSolution("the joint forces are not finite: two links of the mechanism stand in line") from None
-        return found.transpose(1, 0, 2)
+        return found
 
-    def _solve_block(self, block: Block, left: Reals, found: Reals) -> None:
-        """Solve for the unknowns of a block, and take what they do off the equations that are left, (n, sides, N)."""
+    def _solve_block(self, block: Block, left: Left, found: Reals) -> None:
+        """Solve for the unknowns of a block, (sides, n, N), and take what they do off the equations that are left."""
         rows, columns = block
+        sides = sorted(set().union(*(left[row] for row in rows)))
         if len(rows) == 1:
             factor = self.entries[columns[0]][rows[0]]
             if not np.all(factor):
                 raise np.linalg.LinAlgError
-            np.divide(left[rows[0]], factor, out=found[columns[0]])
+            for side in sides:
+                np.divide(left[rows[0]][side], factor, out=found[side, columns[0]])
         else:
-            matrix = np.zeros((self.mechanism.rows, len(rows), len(rows)))
-            place = {row: i for i, row in enumerate(rows)}
-            for j, column in enumerate(columns):
-                for row, factor in self.entries[column].items():
-                    if row in place:
-                        matrix[:, place[row], j] = factor
-            solved = np.linalg.solve(matrix, left[list(rows)].transpose(2, 0, 1))
-            found[list(columns)] = solved.transpose(1, 2, 0)
+            solved = np.linalg.solve(self._matrix(block), self._right(rows, sides, left))
+            for i, column in enumerate(columns):
+                found[sides, column] = solved[:, i].T
         for column in columns:
             for row, factor in self.entries[column].items():
                 if row not in rows:
-                    left[row] -= factor * found[column]
+                    for side in sides:
+                        taken = factor * found[side, column]
+                        left[row][side] = left[row][side] - taken if side in left[row] else -taken
+
+    def _matrix(self, block: Block) -> Reals:
+        """The equations of a block in its unknowns, (N, k, k)."""
+        place = {row: i for i, row in enumerate(block.rows)}
+        found = np.zeros((self.mechanism.rows, len(place), len(place)))
+        for j, column in enumerate(block.columns):
+            for row, factor in self.entries[column].items():
+                if row in place:
+                    found[:, place[row], j] = factor
+        return found
+
+    def _right(self, rows: Sequence[int], sides: Sequence[int], left: Left) -> Reals:
+        """What is left of some sides in some equations, (N, k, sides)."""
+        found = np.zeros((self.mechanism.rows, len(rows), len(sides)))
+        for i, row in enumerate(rows):
+            for j, side in enumerate(sides):
+                if side in left[row]:
+                    found[:, i, j] = left[row][side]
+        return found
 
     def reactions(self, solution: Reals) -> Reactions:
         """The unknowns by connection."""

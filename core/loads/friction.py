@@ -289,6 +289,8 @@ def _exchange(solved: Reals, new: int, place: int, whole: Reals) -> None:
     if pulled.any():
         y = solved[new]
         for k in range(new):
+            if not solved[k, place].any():
+                continue
             share = np.divide(solved[k, place], y[place], out=np.zeros_like(y[place]), where=pulled)
             solved[k] -= y * share
             solved[k, place] = np.where(pulled, share, solved[k, place])
