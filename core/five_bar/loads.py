@@ -77,6 +77,13 @@ class FiveBarLoads(LoadsDesign):
             raise NoSolution(message, key="range" if self.spec.range is not None else "links") from error
         return bar
 
+    @property
+    def transmission_angle(self) -> float:
+        """Least transmission angle over the whole period [rad], whatever the range."""
+        if self.design.is_path:
+            return self.design.min_transmission_angle
+        return self.function_bar.min_transmission_angle(0.0, 2.0 * math.pi * self.turns)[0]
+
     def _rolling(self, name: str = "") -> tuple[float, float, float]:
         """Working radii of a mesh [m], the first gear of the file's lists first, and tan of the pressure angle."""
         pair = signed_pair(self.design.meshes[name])

@@ -51,3 +51,21 @@ def test_a_gear_out_of_balance_comes_home_after_its_own_turns(name: str) -> None
 @pytest.mark.parametrize("name", LOADED)
 def test_a_balanced_gear_leaves_the_period_of_the_links(name: str) -> None:
     assert loaded(name, [0.0, 0.0]).turns == 1
+
+
+def test_a_range_does_not_narrow_what_loads_looks_at() -> None:
+    """Forces are those of the whole period, and so is the transmission angle: against rows of the links' directions."""
+    bar = {
+        "kind": "geared-five-bar",
+        "form": "function",
+        "gears": {"module": 2.0, "planet": 20, "sun": 40},
+        "links": {"coupler": 40, "follower": 150, "output": 140, "frame": 160},
+        "phase": 30,
+        "range": {"start": 0, "end": 40},
+        "loads": {"speed": 60, "links": {"output": {"inertia": 0.01}}},
+    }
+    loads = design(bar, command="loads")
+    links = loads.machine.at(np.linspace(0.0, loads.machine.period, 3601)).links
+    sine = np.sin(links["follower"].turn.value - links["output"].turn.value)
+    assert loads.transmission_angle == pytest.approx(float(np.arcsin(np.abs(sine).min())), abs=1e-5)
+    assert loads.transmission_angle < loads.design.min_transmission_angle - 0.05

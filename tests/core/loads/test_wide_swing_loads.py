@@ -114,6 +114,14 @@ def test_residual_after_the_stroke_by_another_integral(swing: Any) -> None:
     assert swing.residual_amplitude == pytest.approx(abs(whole) / w, abs=1e-8 * 120.0)
 
 
+def test_a_torque_that_ends_with_its_stroke_has_no_reversal_there() -> None:
+    """What asks on which side of an end the torque changes sign looks beyond the stroke, where the rocker rests."""
+    forces = [{"on": "rocker", "torque": -15.0}, {"on": "rocker", "resistance": 4.0}]
+    design = factory.design("wide_swing_twin_rocker", command="loads", loads={"forces": forces})
+    torque = design.machine.torque(np.linspace(0.0, design.machine.period, 4001)[1:-1])
+    assert design.raw("torque_reversals") == np.count_nonzero(np.diff(np.sign(torque)))
+
+
 def test_every_result_can_be_asked_for(swing: Any) -> None:
     report = swing.report("loads", tables=("spectrum",))
     assert {table.name for table in report.tables} == {"torque", "contact_stroke", "spectrum"}
