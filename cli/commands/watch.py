@@ -21,8 +21,9 @@ from gearlink.core.errors import NoSolution
 
 if TYPE_CHECKING:
     from gearlink.cli.page.server import Board
+    from gearlink.cli.page.sheets import Remembered
     from gearlink.core.design import Design
-    from gearlink.core.report import Report
+    from gearlink.core.report import Check, Report
 
     Stamp = tuple[int, int, int] | None
 
@@ -41,11 +42,12 @@ def run_watch(source: str, options: Options, *, port: int = 0, show: bool = Fals
     """
     from gearlink.cli.page.sections import watch_script, whole_page
     from gearlink.cli.page.server import Board, served
+    from gearlink.cli.page.sheets import Remembered
 
     if source == "-":
         error = DesignFileError([Diagnostic("GL115", "watch needs a file, not standard input", "<command line>")])
         return show_refusal(error, source, options)
-    board, path = Board(), Path(source)
+    board, path, sheets = Board(), Path(source), Remembered()
     if _stamp(path) is None:
         wrong = Diagnostic("GL101", "no such file; watch begins with one that is there", source)
         return show_refusal(DesignFileError([wrong]), source, options)
@@ -57,7 +59,7 @@ def run_watch(source: str, options: Options, *, port: int = 0, show: bool = Fals
                 import webbrowser
 
                 webbrowser.open(address)
-            _follow(path, lambda unchanged: _make(source, options, board, unchanged), options)
+            _follow(path, lambda unchanged: _make(source, options, board, sheets, unchanged), options)
     except CannotWrite as error:
         return show_refusal(error, source, options)
     return ExitCode.OK
@@ -89,13 +91,13 @@ def _stamp(path: Path) -> Stamp:
     return found.st_mtime_ns, found.st_size, found.st_ino
 
 
-def _make(source: str, options: Options, board: Board, unchanged: Callable[[], bool]) -> str:
+def _make(source: str, options: Options, board: Board, sheets: Remembered, unchanged: Callable[[], bool]) -> str:
     """Put all pieces on the board; gives a word of how it went, none where the file changed meanwhile."""
     try:
         loaded, kind = open_design(source, options)
         spec = read_spec(loaded, kind, source)
         parts = [build(loaded, kind, command, spec, options) for command in spec.commands()]
-        for put in _pieces(board, loaded.text, spec, parts):
+        for put in _pieces(board, sheets, loaded.text, spec, parts):
             if not unchanged():
                 return ""
             put()
@@ -111,10 +113,11 @@ def _make(source: str, options: Options, board: Board, unchanged: Callable[[], b
     return visible(f"{spec.name}: a check fails" if failed else f"{spec.name}: pass")
 
 
-def _pieces(board: Board, text: str, spec: Any, parts: list[tuple[Design, Report]]) -> list[Callable[[], None]]:
-    """The steps of making the page: the film, all numbers, then sheet by sheet."""
+def _pieces(
+    board: Board, sheets: Remembered, text: str, spec: Any, parts: list[tuple[Design, Report]]
+) -> list[Callable[[], None]]:
+    """The steps of making the page: the film, all numbers, then sheet by sheet, and again those whose panels moved."""
     from gearlink.cli.page import sections
-    from gearlink.cli.page.sheets import sheet
 
     names = [f"piece-{i}" for i in range(len(parts))]
     order = ["head", "film", *(name + kind for name in names for kind in ("-sheet", "-results")), "input"]
@@ -122,11 +125,13 @@ def _pieces(board: Board, text: str, spec: Any, parts: list[tuple[Design, Report
     def results(i: int) -> str:
         return sections.results(parts[i][1])
 
-    def drawing(i: int) -> str:
+    def drawing(i: int, draw: Callable[[str, Design, tuple[Check, ...]], str]) -> None:
         design, report = parts[i]
-        return f"<h2>{escape(report.command)}</h2>" + sheet(report.command, design, report.checks)
+        if html := draw(report.command, design, report.checks):
+            board.put(f"{names[i]}-sheet", f"<h2>{escape(report.command)}</h2>{html}")
 
     every = range(len(parts))
+    known = sheets.known
     return [
         lambda: board.begin(spec.name, order),
         lambda: board.put("head", sections.head(spec, parts)),
@@ -134,5 +139,6 @@ def _pieces(board: Board, text: str, spec: Any, parts: list[tuple[Design, Report
         # Numbers take milliseconds, a sheet half a second.
         *(lambda i=i: board.put(f"{names[i]}-results", results(i)) for i in every),
         lambda: board.put("input", sections.given(text, spec)),
-        *(lambda i=i: board.put(f"{names[i]}-sheet", drawing(i)) for i in every),
+        *(lambda i=i: drawing(i, sheets.at_once) for i in every),
+        *(lambda i=i: drawing(i, sheets.moved) for i in every if parts[i][1].command in known),
     ]

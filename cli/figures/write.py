@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from importlib import import_module
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, Any
+from typing import IO, TYPE_CHECKING, Any, TypeAlias
 
 from gearlink.cli.files import safe_stem, write_atomically
 from gearlink.cli.options import DPI, Options
@@ -32,15 +33,19 @@ _FIXED_STYLE = {"svg.hashsalt": "gearlink", "svg.fonttype": "none", "pdf.fonttyp
 _ASIAN_FONTS = ("Noto Sans CJK SC", "Source Han Sans SC", "WenQuanYi Zen Hei", "Microsoft YaHei", "PingFang SC")
 
 
-def draw(command: str, design: Design, checks: Sequence[Check] = ()) -> Figure:
-    """The figure of a command on a design, its panels placed; failed checks stand under its title."""
+def draw(command: str, design: Design, checks: Sequence[Check] = (), known: Places | None = None) -> Figure:
+    """The figure of a command on a design, its panels placed; failed checks stand under its title.
+
+    Parameters
+        known : where the panels stood in the figure of a like design, which leaves out the layout
+    """
     from gearlink.cli.figures import style
 
     made = panels(command, design)
     failed = dict.fromkeys(f"{check.code} {check.name}" for check in checks if check.status == "fail")
     if failed:
         style.stamp(made, "fails: " + ", ".join(failed))
-    return settled(made)
+    return settled(made, known)
 
 
 def panels(command: str, design: Design) -> Figure:
@@ -53,8 +58,9 @@ def panels(command: str, design: Design) -> Figure:
     return made
 
 
-def settled(made: Figure) -> Figure:
-    """The figure with its panels placed for good, to the hundredth of a millimetre.
+def settled(made: Figure, known: Places | None = None) -> Figure:
+    """The figure with its panels placed for good, to the hundredth of a millimetre; where they are known to stand, if
+    its title and the number of its panels are those of that time.
 
     The solver of the constrained layout leaves last digits to chance; an SVG names its clips after them, and a
     drawing to scale widens its limits by them. So the limits are those from before the layout.
@@ -62,20 +68,43 @@ def settled(made: Figure) -> Figure:
     from gearlink.cli.figures import style
 
     limits = [(axes.get_xlim(), axes.get_ylim()) for axes in made.axes]
-    if layout := made.get_layout_engine():
+    likeness, boxes = known or ("", ())
+    if likeness != _likeness(made):
+        boxes = ()
+    if (layout := made.get_layout_engine()) and not boxes:
         for axes in made.axes:
             measured_once(axes)
-        layout.execute(made)
+        with ticks_once(made):
+            layout.execute(made)
         for axes in made.axes:
             del axes.get_tightbbox  # the method of the class again
     made.set_layout_engine(None)  # "none" would have savefig draw the panels a time more, for a layout
     style.place_title(made)
-    for axes, (x, y) in zip(made.axes, limits, strict=True):
-        box = axes.get_position(original=True).bounds
-        axes.set_position(tuple(round(side, 5) for side in box))
+    for axes, (x, y), box in zip(made.axes, limits, boxes or _boxes(made), strict=True):
+        axes.set_position(box)
         axes.set_xlim(x, auto=None)
         axes.set_ylim(y, auto=None)
     return made
+
+
+Box: TypeAlias = tuple[float, float, float, float]
+Places: TypeAlias = tuple[str, tuple[Box, ...]]
+"""What tells like figures, and the boxes of their panels."""
+
+
+def places(made: Figure) -> Places:
+    """Where the panels of a settled figure stand."""
+    return _likeness(made), _boxes(made)
+
+
+def _likeness(made: Figure) -> str:
+    title = made._suptitle  # type: ignore[attr-defined]
+    return f"{len(made.axes)} panels of {title.get_text() if title is not None else ''}"
+
+
+def _boxes(made: Figure) -> tuple[Box, ...]:
+    found: Any = (axes.get_position(original=True).bounds for axes in made.axes)
+    return tuple(tuple(round(side, 5) for side in box) for box in found)
 
 
 def measured_once(axes: Axes) -> None:
@@ -99,6 +128,32 @@ def measured_once(axes: Axes) -> None:
     axes.get_tightbbox = measured  # type: ignore[method-assign]
 
 
+@contextmanager
+def ticks_once(made: Figure) -> Iterator[None]:
+    """Let every axis place its ticks once: they are asked for five times while panels are measured, three times while
+    they are drawn, and nothing moves them in between. The method is matplotlib's own affair: without it all is as ever.
+    """
+    every = [axis for axes in made.axes for axis in (axes.xaxis, axes.yaxis) if hasattr(axis, "_update_ticks")]
+    for axis in every:
+        axis._update_ticks = _once(axis._update_ticks)
+    try:
+        yield
+    finally:
+        for axis in every:
+            del axis._update_ticks
+
+
+def _once(update: Callable[[], Any]) -> Callable[[], Any]:
+    known: list[Any] = []
+
+    def updated() -> Any:
+        if not known:
+            known.append(update())
+        return known[0]
+
+    return updated
+
+
 def write_plot(command: str, design: Design, options: Options, *, stem: str = "", checks: Sequence[Check] = ()) -> Path:
     """Draw a design and write STEM-COMMAND.FORMAT into the folder of the options; the stem is its name by default.
 
@@ -120,15 +175,22 @@ def save(make: Callable[[], Figure], name: str, stream: IO[bytes], ending: str, 
 
     The same figure gives the same bytes; `dpi` counts for png alone.
     """
+    with fonts_of(name):
+        made = make()
+        made.set_dpi(dpi if ending == "png" else DPI)
+        with ticks_once(made):
+            made.savefig(stream, format=ending, metadata=_FIXED_METADATA[ending], **_PACKING.get(ending, {}))
+
+
+@contextmanager
+def fonts_of(name: str) -> Iterator[None]:
+    """Fonts that have the letters of a name, where some are installed; a script that none has is drawn as boxes."""
     import matplotlib
 
     style: Any = {**_FIXED_STYLE, "font.family": families(name)}
     with matplotlib.rc_context(style), warnings.catch_warnings():
-        # A script that no installed font has is drawn as boxes; the picture is still worth having.
         warnings.filterwarnings("ignore", message="Glyph .* missing from font")
-        made = make()
-        made.set_dpi(dpi if ending == "png" else DPI)
-        made.savefig(stream, format=ending, metadata=_FIXED_METADATA[ending], **_PACKING.get(ending, {}))
+        yield
 
 
 def families(name: str) -> list[str]:

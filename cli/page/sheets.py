@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import json
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from html import escape
 from typing import TYPE_CHECKING, Any
 
@@ -31,19 +31,54 @@ def sheet(command: str, design: Design, checks: Sequence[Check] = ()) -> str:
     Raises
         NoSolution - where the sheet shows something that the design does not have
     """
+    return _as_html(command, design.spec.name, lambda: write.draw(command, design, checks))[0]
+
+
+class Remembered:
+    """Sheets of a page that is made again and again. Placing the panels takes half the time of a sheet, and they seldom
+    move: so each is drawn at once where its panels stood the time before, and again where they have moved."""
+
+    def __init__(self) -> None:
+        self._places: dict[str, write.Places] = {}
+
+    @property
+    def known(self) -> frozenset[str]:
+        """The commands whose sheets were drawn before."""
+        return frozenset(self._places)
+
+    def at_once(self, command: str, design: Design, checks: Sequence[Check]) -> str:
+        """The sheet with its panels where they were, placed if there was none before."""
+        known = self._places.get(command)
+        html, made = _as_html(command, design.spec.name, lambda: write.draw(command, design, checks, known))
+        self._places[command] = write.places(made)
+        return html
+
+    def moved(self, command: str, design: Design, checks: Sequence[Check]) -> str:
+        """The sheet with its panels placed anew; empty where they stand as they do."""
+        with write.fonts_of(design.spec.name):
+            now = write.places(write.draw(command, design, checks))
+        if now == self._places.get(command):
+            return ""
+        self._places[command] = now
+        return self.at_once(command, design, checks)
+
+
+def _as_html(command: str, name: str, draw: Callable[[], Figure]) -> tuple[str, Figure]:
+    """A sheet inside a page, and its figure."""
     drawn: list[Figure] = []
 
     def make() -> Figure:
         """Drawn where the fonts of the name are set, and kept for its curves."""
-        drawn.append(write.draw(command, design, checks))
+        drawn.append(draw())
         return drawn[0]
 
     stream = io.BytesIO()
-    write.save(make, design.spec.name, stream, "svg")
+    write.save(make, name, stream, "svg")
     svg = _HEAD.sub("", stream.getvalue().decode(), count=1)
-    words = escape(f"{command} of {design.spec.name}", quote=True)
+    words = escape(f"{command} of {name}", quote=True)
     svg = svg.replace("<svg ", f'<svg role="img" aria-label="{words}" ', 1)
-    return f'<div class="sheet"><div class="wide">{svg}</div>{as_data(charts(drawn[0]), "charts")}</div>'
+    html = f'<div class="sheet"><div class="wide">{svg}</div>{as_data(charts(drawn[0]), "charts")}</div>'
+    return html, drawn[0]
 
 
 def as_data(value: Any, name: str) -> str:

@@ -10,11 +10,14 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from factory import design
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 from gearlink.cli.commands.watch import _make, run_watch
 from gearlink.cli.files import CannotWrite
 from gearlink.cli.options import Options
 from gearlink.cli.page.server import Board, served
+from gearlink.cli.page.sheets import Remembered, sheet
 
 
 def test_news_are_what_has_changed() -> None:
@@ -75,23 +78,37 @@ def _pieces(board: Board) -> dict[str, Any]:
 def test_a_file_becomes_pieces_and_a_wrong_one_a_caret(tmp_path: Path) -> None:
     path, board = tmp_path / "crank.yaml", Board()
     path.write_text("kind: slider-crank\nstroke: 310\nrod: 520\n")
-    assert _make(str(path), Options(), board, lambda: True) == "crank: pass"
+    assert _make(str(path), Options(), board, Remembered(), lambda: True) == "crank: pass"
     said = _pieces(board)
     assert said["order"] == ["head", "film", "piece-0-sheet", "piece-0-results", "input"]
     # The page places each by `order`; they come as they are made, pictures, which take longest, at the end.
     assert list(said["pieces"]) == ["head", "film", "piece-0-results", "input", "piece-0-sheet"]
     assert "<svg" in said["pieces"]["piece-0-sheet"]
     path.write_text("kind: slider-crank\nstroke: 310\nrot: 520\n")
-    assert "GL105" in _make(str(path), Options(), board, lambda: True)
+    assert "GL105" in _make(str(path), Options(), board, Remembered(), lambda: True)
     said = _pieces(board)
     assert "  rot: 520\n  ^" in said["problem"]
     assert said["stale"] == ["head", "film", "piece-0-results", "input", "piece-0-sheet"]  # all, as they came
 
 
+def test_a_sheet_is_drawn_where_its_panels_were_and_again_where_they_moved(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Both end with the bytes of a report; only what moves the panels is drawn twice."""
+    sheets, crank = Remembered(), {"kind": "slider-crank", "name": "crank", "stroke": 310, "rod": 520}
+    first, like, wide = (design(crank, rod=rod) for rod in (520, 521, 52000))
+    assert sheets.at_once("crank", first, ()) == sheet("crank", first)
+    with monkeypatch.context() as patch:
+        patch.setattr(ConstrainedLayoutEngine, "execute", None)  # whoever placed panels would fail
+        drawn = sheets.at_once("crank", like, ())
+    assert sheets.moved("crank", like, ()) == ""
+    assert drawn == sheet("crank", like)
+    assert sheets.at_once("crank", wide, ()) != sheet("crank", wide)
+    assert sheets.moved("crank", wide, ()) == sheet("crank", wide)
+
+
 def test_a_newer_file_ends_the_making_of_an_older_page(tmp_path: Path) -> None:
     path, board = tmp_path / "crank.yaml", Board()
     path.write_text("kind: slider-crank\nstroke: 310\nrod: 520\n")
-    assert _make(str(path), Options(), board, lambda: False) == ""
+    assert _make(str(path), Options(), board, Remembered(), lambda: False) == ""
     assert board.news(0, 0.01) is None
 
 
