@@ -236,5 +236,7 @@ def column_words(name: str) -> str:
     if found := _FORCE.fullmatch(name):
         if not found["pin"]:
             return "tangential force in that mesh, signed; of a column ..._radial the radial one"
+        if found["pin"].endswith("_sum"):
+            return f"{found['part']} component of the forces of the frame on all shafts about {found['pin'][0]}"
         return f"{found['part']} component of the force at the pin {found['pin']} on the second body named there"
     return ""

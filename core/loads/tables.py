@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from gearlink.core.report import Table
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from gearlink.core.loads.design import LoadsDesign
+    from gearlink.core.loads.mechanism import Mechanism
 
 
 def torque(design: LoadsDesign, samples: int | None = None) -> Table:
@@ -31,7 +34,7 @@ def torque(design: LoadsDesign, samples: int | None = None) -> Table:
 
 
 def joints(design: LoadsDesign, samples: int | None = None) -> Table:
-    """Every pin's force on the second link of the joint, and those of the guides."""
+    """Every pin's force on the second link of the joint, those of the guides, and sums of shafts in each other."""
     from gearlink.core.loads.mechanism import Guide, Pin
 
     phi, columns = design.rows(samples)
@@ -40,14 +43,27 @@ def joints(design: LoadsDesign, samples: int | None = None) -> Table:
         if not isinstance(each, (Pin, Guide)) or each.name in design.unknown_joints:
             continue
         force = found.force(each.name)
-        columns |= {
-            f"{each.name}_x": (force.real, "N"),
-            f"{each.name}_y": (force.imag, "N"),
-            each.name: (abs(force), "N"),
-        }
+        columns |= _force(each.name, force)
         if isinstance(each, Guide):
             columns[f"{each.name}_moment"] = (found.unknowns[each.name][1], "N m")
+    for names in _on_one_axis(design, found.mechanism):
+        columns |= _force(f"{names[0]}_sum", sum(found.force(name) for name in names))
     return Table.of("joints", columns)
+
+
+def _force(name: str, force: Any) -> dict[str, tuple[Any, str]]:
+    return {f"{name}_x": (force.real, "N"), f"{name}_y": (force.imag, "N"), name: (abs(force), "N")}
+
+
+def _on_one_axis(design: LoadsDesign, mechanism: Mechanism) -> Iterator[list[str]]:
+    """The pins of the frame about each axis that has several: shafts that run in each other load it together."""
+    from gearlink.core.loads.mechanism import FRAME, Pin
+
+    axes: dict[complex, list[str]] = {}
+    for each in mechanism.connections:
+        if isinstance(each, Pin) and each.first == FRAME and each.name not in design.unknown_joints:
+            axes.setdefault(complex(each.at[0]), []).append(each.name)
+    return (names for names in axes.values() if len(names) > 1)
 
 
 def teeth(design: LoadsDesign, samples: int | None = None) -> Table:

@@ -193,3 +193,13 @@ def test_least_transmission_angle_of_a_slider_crank_is_that_of_its_rod() -> None
     assert math.sin(design.transmission_angle) == pytest.approx(np.abs(np.sin(rod)).min(), rel=1e-8)
     (check,) = design.check("force-amplification")
     assert check.value == pytest.approx(1.0 / np.abs(np.sin(rod)).min(), rel=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("base", "axis", "other"), [("loaded_feed", "D", "D_output"), ("loaded_gripper", "A", "A_return")]
+)
+def test_shafts_in_each_other_load_the_frame_together(base: str, axis: str, other: str) -> None:
+    joints = factory.design(base, command="loads").table("joints", samples=90)
+    for part in ("_x", "_y"):
+        assert joints[f"{axis}_sum{part}"] == pytest.approx(joints[f"{axis}{part}"] + joints[f"{other}{part}"])
+    assert joints[f"{axis}_sum"] == pytest.approx(np.hypot(joints[f"{axis}_sum_x"], joints[f"{axis}_sum_y"]))
