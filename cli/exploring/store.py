@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import platform
 import sqlite3
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from datetime import UTC, datetime
 from pathlib import Path
@@ -65,7 +65,6 @@ class Memory:
 
     def __init__(self) -> None:
         self._chunks: dict[int, Result] = {}
-        self.refined: dict[int, tuple[bytes, bytes]] = {}
 
     def finished(self) -> set[int]:
         """The numbers of the chunks that are there."""
@@ -114,15 +113,6 @@ class Store:
     def results(self) -> Iterator[Result]:
         """The chunks in the order of their numbers."""
         yield from self._connection.execute("SELECT id, counts, rows FROM chunk ORDER BY id").fetchall()
-
-    def refined(self) -> dict[int, tuple[bytes, bytes]]:
-        """Variables and row of each refined design by its number."""
-        return {number: (a, b) for number, a, b in self._connection.execute("SELECT id, variables, row FROM refined")}
-
-    def add_refined(self, rows: Iterable[tuple[int, bytes, bytes]]) -> None:
-        """Keep some refined designs in one transaction."""
-        with self._transaction():
-            self._connection.executemany("INSERT OR IGNORE INTO refined VALUES (?, ?, ?)", rows)
 
     def log(self, event: str) -> None:
         """Note an event; no result depends on it."""

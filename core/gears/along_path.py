@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -128,8 +127,3 @@ class AlongPath:
             "root_stress_2": ([self.root_stress(place, 1) for place in places], "N/mm^2"),
         }
         return Table.of("path", columns)
-
-
-def named_places(along: AlongPath) -> Iterator[Place]:
-    """A, B-, B+, C, D-, D+, E."""
-    return (place for place in along.places() if place.name)

@@ -81,21 +81,6 @@ class RollerOnCam:
         """Speed of both surfaces through the contact per cam speed [m]: |D1| (1 - r_g kappa)."""
         return np.asarray(np.abs(self.rate) * (1.0 - self.radius * self.curvature))
 
-    def force_by_lever(self, torque: Reals, arm: Points) -> Reals:
-        """Contact force that gives a torque about the pivot of the roller's arm, N = T/((B - A) x n_out).
-
-        Parameters
-            torque : (N,) array [N m] - that the cam must give
-            arm : (N,) array [m] - B - A
-        Notes
-            The lever is l cos(pressure angle): it does not vanish in a dwell, where the power does.
-        """
-        return np.asarray(torque / cross(arm, self.normal))
-
-    def force_along(self, force: Reals, travel: Points | complex) -> Reals:
-        """Contact force that gives a force along the travel of a slide, N = F/(u . n_out)."""
-        return np.asarray(force / dot(travel, self.normal))
-
     def cam_torque(self, force: Reals) -> Reals:
         """Torque that drives the cam, counter-clockwise [N m]: B x N n_out."""
         push: Points = np.asarray(force * self.normal)

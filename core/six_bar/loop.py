@@ -9,7 +9,6 @@ Where the trains tie two directions to the input alone, the other two links clos
 from __future__ import annotations
 
 import cmath
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
@@ -42,6 +41,7 @@ class SixBar:
     Example
         Both trains on the input's side: t2 = 2 phi + 60 deg, the output EF turns against the input.
 
+        >>> import math
         >>> from gearlink.core.six_bar.relations import train_relation
         >>> rows = train_relation(0, (20, 20)), train_relation(5, (30, 30))
         >>> bar = SixBar((60.0, 40.0, 20.0, 60.0, 60.0, 20.0), rows, {2: math.radians(60.0), 5: math.radians(-90.0)})
@@ -238,8 +238,3 @@ def pins(bar: SixBar, phi: Reals, angles: Reals) -> Points:
     walked = np.cumsum(links, axis=0)
     ends = np.zeros((1, phi.size)), np.full((1, phi.size), bar.lengths[0])
     return np.vstack([ends[0], walked, ends[1]]).astype(np.complex128)
-
-
-def start_step(bar: SixBar) -> float:
-    """Sine of the angle at which the loop closes at the start: 0 where that is a dead centre."""
-    return math.sin(float(bar.transmission(np.array(bar.start_angles)[:, None])[0]))

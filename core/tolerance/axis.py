@@ -56,9 +56,3 @@ class ToleranceAxis(Protocol):
             off : (K, N) array [rad] - NaN where a design does not exist
         """
         ...
-
-
-class ToleranceMaker(Protocol):
-    """Makes the axis of a nominal design, which has its links."""
-
-    def __call__(self, nominal: Any) -> ToleranceAxis: ...

@@ -55,11 +55,10 @@ class Wish:
 
 @dataclass(frozen=True)
 class Choice:
-    """Grades, their cost, and the yield of the linear model."""
+    """Grades and their cost."""
 
     grades: tuple[int, ...]
     cost: float
-    linear_yield: float
 
 
 def choices(sources: Sequence[Graded], wishes: Sequence[Wish], target: float, ratio: float) -> Iterator[Choice]:
@@ -95,8 +94,8 @@ def choices(sources: Sequence[Graded], wishes: Sequence[Wish], target: float, ra
     every = math.prod(len(grades) for grades in ranges)
     table = sorted(itertools.product(*ranges), key=cost) if every <= _MOST else _greedy(ranges, cost, reached, target)
     for grades in table:
-        if (found := reached(grades)) >= target:
-            yield Choice(tuple(grades), cost(grades), found)
+        if reached(grades) >= target:
+            yield Choice(tuple(grades), cost(grades))
 
 
 def _yield(sigmas: Sequence[float], wishes: Sequence[Wish]) -> float:
