@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from functools import lru_cache
+from typing import NamedTuple
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.dyad import acute
@@ -179,8 +180,7 @@ class FourBar:
         return FourBar(self.rocker, self.coupler, self.crank, self.frame, -self.assembly)
 
 
-@dataclass(frozen=True, slots=True)
-class FourBarState:
+class FourBarState(NamedTuple):
     """Four-bar at one crank angle: angles [rad], and rates as far as their order was asked for.
 
     The rates are time derivatives for the driving velocity, acceleration and jerk given to `solve`; with its
@@ -198,8 +198,7 @@ class FourBarState:
     rocker_jerk: float = math.nan
 
 
-@dataclass(frozen=True, slots=True)
-class FourBarInverseState:
+class FourBarInverseState(NamedTuple):
     """Four-bar at one rocker angle, the rocker driving; fields and rates as in `FourBarState`.
 
     `transmission_angle` is that of this drive: the angle ABC between crank and coupler.

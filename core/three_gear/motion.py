@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.checks import check_linkage
-from gearlink.core.linkages.fourbar import FourBar, solve
+from gearlink.core.linkages.fourbar import FourBar, FourBarState, solve
 from gearlink.core.linkages.standstills import zeros_over_turn
 
 
@@ -109,7 +109,22 @@ def output_angle(linkage: FourBar, train: GearTrain, crank_angle: float) -> floa
     Source
         thesis (4-23), integrated
     """
-    state, start = solve(linkage, crank_angle), solve(linkage, 0.0)
+    return _turned(train, crank_angle, solve(linkage, crank_angle), solve(linkage, 0.0))
+
+
+def output_angles(linkage: FourBar, train: GearTrain) -> Callable[[float], float]:
+    """`output_angle` as a function of the crank angle alone, for searches: the start is computed once.
+
+    Example
+        >>> train, linkage = GearTrain(20, 20, 60), FourBar(18.0, 50.0, 100.0, 121.4)
+        >>> output_angles(linkage, train)(2.0) == output_angle(linkage, train, 2.0)
+        True
+    """
+    start = solve(linkage, 0.0)
+    return lambda crank_angle: _turned(train, crank_angle, solve(linkage, crank_angle), start)
+
+
+def _turned(train: GearTrain, crank_angle: float, state: FourBarState, start: FourBarState) -> float:
     return (
         train.ratio * crank_angle
         + train.coupler_share * (state.coupler_angle - start.coupler_angle)

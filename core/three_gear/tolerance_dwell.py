@@ -9,7 +9,7 @@ from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.band_dwell import ToleranceDwell, Valley, longest_in_band
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.three_gear.dwells import back_step, dwell_positions
-from gearlink.core.three_gear.motion import GearTrain, forward, mean_ratio, output_angle, output_speed, speed_extremes
+from gearlink.core.three_gear.motion import GearTrain, forward, mean_ratio, output_angles, output_speed, speed_extremes
 
 _TURN = 2.0 * math.pi
 
@@ -71,7 +71,7 @@ def _valley(linkage: FourBar, train: GearTrain) -> Valley:
         first, second = step.start, step.start + step.crank_angle
     after = first + (extremes.greatest_angle - first) % _TURN
     return Valley(
-        lambda phi: output_angle(linkage, train, phi),
+        output_angles(linkage, train),
         lambda phi: output_speed(linkage, train, phi),
         first,
         second,
