@@ -150,6 +150,14 @@ def designs() -> Path:
 
 
 @pytest.fixture
+def small_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pictures of commands are empty ones, where a test asks which files there are and not what they show."""
+    from matplotlib.figure import Figure
+
+    monkeypatch.setattr("gearlink.cli.figures.write.draw", lambda *_: Figure(figsize=(1, 1)))
+
+
+@pytest.fixture
 def standard_input(monkeypatch: pytest.MonkeyPatch) -> Any:
     """Put bytes where `-` reads: `standard_input(b"kind: ...")`."""
     return lambda given: monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(given)))

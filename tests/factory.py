@@ -33,6 +33,9 @@ QUICK = {
 }
 """Worked designs of `make test` where any of its kind serves: each kind, each form, none that is searched for long."""
 
+COSTLY = {"five_bar_function", "loaded_press", "loaded_swing_cycle", "wide_swing_slider_cam"}
+"""Worked designs whose results take half of the time of all: `make test` computes them once."""
+
 
 def each_kind(paths: Iterable[Path]) -> list[Any]:
     """Design files for `pytest.mark.parametrize`: those of QUICK, the others in `make check-full` alone."""

@@ -10,6 +10,7 @@ import math
 import numpy as np
 import pytest
 from factory import design
+from sweeps import mostly_slow
 
 TURN = 2.0 * math.pi
 
@@ -51,7 +52,9 @@ def test_the_point_of_a_five_bar() -> None:
     assert made.point_speed_max is None
 
 
-@pytest.mark.parametrize("name", ["wide_swing_twin_cam", "wide_swing_slider_cam", "wide_swing_oscillating_cam"])
+@pytest.mark.parametrize(
+    "name", mostly_slow(["wide_swing_twin_cam", "wide_swing_oscillating_cam", "wide_swing_slider_cam"], 2)
+)
 def test_wide_swings(name: str) -> None:
     made = design(name)
     k = np.linspace(0.0, 1.0, 20001)

@@ -86,7 +86,7 @@ class TestLinks:
         return tmp_path
 
     @pytest.mark.parametrize("plot", [(), ("--plot",)])
-    @pytest.mark.usefixtures("here")
+    @pytest.mark.usefixtures("here", "small_pictures")
     def test_a_link_below_out_is_not_followed(self, gearlink: Any, plot: tuple[str, ...]) -> None:
         os.symlink("../victim", "out/k")
         ended = gearlink("batch", "k", "free", "--out", "out", "--format", "json", *plot)
@@ -126,6 +126,7 @@ class TestLinks:
         assert "no folder" in ended.json["designs"][0]["errors"][0]["message"]
 
 
+@pytest.mark.usefixtures("small_pictures")
 def test_a_name_that_is_no_utf8(gearlink: Any, tmp_path: Path) -> None:
     (tmp_path / os.fsdecode(b"bad\xff.yaml")).write_text(CRANK.format(stroke=310))
     ended = gearlink("batch", tmp_path, "--out", tmp_path / "out", "--plot", "--format", "json")

@@ -109,6 +109,7 @@ class TestCache:
 
 
 class TestOut:
+    @pytest.mark.usefixtures("small_pictures")
     def test_reports_tables_and_plots(self, gearlink: Any, designs: Path, tmp_path: Path) -> None:
         out = tmp_path / "out"
         gearlink("batch", designs / "ty460_slider_crank.yaml", "--out", out, "--plot")

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from factory import QUICK
+from factory import COSTLY, QUICK
 from sweeps import ALL
 
 from gearlink.cli.commands import check
@@ -178,7 +178,7 @@ def test_no_table_is_computed_and_every_place_is_in_its_file(
         raise AssertionError(f"table {name} of {self.kind} was computed")
 
     monkeypatch.setattr(Design, "table", refuse)
-    paths = sorted(designs.glob("*.yaml"))
+    paths = [path for path in sorted(designs.glob("*.yaml")) if ALL or path.stem not in COSTLY]
     ended = gearlink("check", *paths, "--verbose", "--format", "json")
     assert ended.status == 1
     lines = {str(path): path.read_text().splitlines() for path in paths}

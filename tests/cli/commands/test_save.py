@@ -146,6 +146,7 @@ def test_a_refused_design_writes_nothing(gearlink: Any, tmp_path: Path) -> None:
 
 @pytest.mark.quick(2)
 @pytest.mark.parametrize("line", ["analyze", "gear", "report", "check"])
+@pytest.mark.usefixtures("small_pictures")
 def test_a_file_that_asks_for_a_synthesis_serves_every_command(gearlink: Any, tmp_path: Path, line: str) -> None:
     extra = ["--out", tmp_path] if line == "report" else []
     assert gearlink(line, DESIGNS / "standing_feed.yaml", *extra, "--quiet").status == 0

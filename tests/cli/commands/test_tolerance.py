@@ -205,6 +205,7 @@ def test_the_page_of_a_file_with_tolerances_shows_budget_and_samples(gearlink: A
         ("links.crak: {plus_minus: 0.02}", "GL170"),
     ],
 )
+@pytest.mark.usefixtures("small_pictures")
 def test_a_page_has_no_samples_where_nothing_scatters(
     gearlink: Any, spec: Path, tmp_path: Path, sources: str, told: str
 ) -> None:

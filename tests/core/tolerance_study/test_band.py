@@ -1,6 +1,6 @@
 """The output over the cycle: arrays against the class of one drive, percentiles against closed forms of linear scatter.
 
-Tolerances: arrays against the class rounding of angles, 1e-12 rad; a percentile of 16384 points some per cent of sigma.
+Tolerances: arrays against the class rounding of angles, 1e-12 rad; a percentile of 4096 points some per cent of sigma.
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ def test_a_pin_that_turns_the_frame_turns_the_crank_angles() -> None:
 
 
 def test_percentiles_of_linear_scatter_are_those_of_its_normal_law() -> None:
-    (found,) = courses(study(CANDY, sources={"links.frame": {"plus_minus": 0.002}}).problem)
+    (found,) = courses(study(CANDY, sources={"links.frame": {"plus_minus": 0.002}}, samples=4096).problem)
     assert (found.output, found.over, found.units) == ("output_angle", "crank_angle", ("deg", "deg"))
     width = np.max(np.abs(found.percentiles[4]))
     for share, times in zip(SHARES, (-3.0, -1.6448536, 0.0, 1.6448536, 3.0), strict=True):
