@@ -34,7 +34,9 @@ def draw(command: str, design: HypocycloidDwell) -> Figure:
         from gearlink.cli.figures.gear_mesh import Mesh, mesh_figure
 
         return mesh_figure(f"{design.spec.name}: {command}", [Mesh(signed_pair(design.mesh), "", ("2", "ring"))])
-    return linkage.sheet(f"{design.spec.name}: {command}", design, mechanism, _WORDS, [_turn, _magnified])
+    return linkage.sheet(
+        f"{design.spec.name}: {command}", design, mechanism, _WORDS, [_turn, _magnified, _transmission]
+    )
 
 
 def mechanism(axes: Axes, design: HypocycloidDwell) -> None:
@@ -84,3 +86,12 @@ def _magnified(axes: Axes, design: HypocycloidDwell) -> None:
         for edge, words in ((low, None), (high, f"band of ±{tolerance:g} mm")):
             axes.axhline(edge, color=style.RED, linewidth=0.9, linestyle=style.DASHED, label=words)
         panels.legend_above(axes, 1)
+
+
+def _transmission(axes: Axes, design: HypocycloidDwell) -> None:
+    """Angle between the rod and the normal of the slide line."""
+    degrees = np.arange(-360, 361) * 0.5
+    angles = [90.0 - abs(math.degrees(design.slider.rod_angle(math.radians(x)))) for x in degrees.tolist()]
+    linkage.transmission(axes, design, degrees, np.array(angles), "carrier angle [deg]", turn=False)
+    _mark(axes, design)
+    axes.set_xticks(range(-180, 181, 60))

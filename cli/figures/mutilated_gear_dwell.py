@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -31,7 +32,8 @@ def draw(command: str, design: MutilatedGearDwell) -> Figure:
         from gearlink.cli.figures.gear_mesh import Mesh, mesh_figure
 
         return mesh_figure(title, [Mesh(design.mesh, "", ("1, wheel", "2, driven"), mesh_scene(design))])
-    return linkage.sheet(title, design, mechanism, _WORDS, [_angles, _speeds], columns=1)
+    charts = [_angles, _speeds, *([] if design.linkage is None else [_transmission])]
+    return linkage.sheet(title, design, mechanism, _WORDS, charts, columns=1)
 
 
 def mechanism(axes: Axes, design: MutilatedGearDwell) -> None:
@@ -69,3 +71,15 @@ def _speeds(axes: Axes, design: MutilatedGearDwell) -> None:
         axes.plot(turns, data["rocker_speed_ratio"], color=style.BLUE, linewidth=1.6, label="rocker")
     panels.in_time(axes, design.angular_speed, 1, "rad")
     panels.legend_above(axes, 3)
+
+
+def _transmission(axes: Axes, design: MutilatedGearDwell) -> None:
+    """The four-bar over its own turn, which it passes in parts, one a cycle."""
+    from gearlink.core.linkages.dyad import acute
+    from gearlink.core.linkages.fourbar import solve
+
+    assert design.linkage is not None, "as for the chart"
+    degrees = np.arange(721) * 0.5
+    states = [solve(design.linkage, math.radians(x), 0) for x in degrees.tolist()]
+    angles = np.array([math.degrees(acute(state.transmission_angle)) for state in states])
+    linkage.transmission(axes, design, degrees, angles, "crank angle of the four-bar [deg]")

@@ -1,4 +1,4 @@
-"""Sheet of a slider-crank: both dead centres and a position between; travel and velocity over a turn of the crank."""
+"""Sheet of a slider-crank: dead centres and a position between; travel, velocity, transmission angle over a turn."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.cli.figures import panels, scene_axes, style
+from gearlink.cli.figures import linkage, panels, scene_axes, style
 from gearlink.cli.scenes.slider_crank import build
 from gearlink.core.linkages import slider_crank_sweep
 
@@ -22,11 +22,13 @@ _TURN = 2.0 * math.pi
 
 def draw(command: str, design: SliderCrankDesign) -> Figure:
     """The sheet of a command on a slider-crank."""
-    figure = panels.page(f"{design.spec.name}: {command}", 0.68)
-    grid = figure.add_gridspec(2, 2, width_ratios=[1.0, 1.15])
+    figure = panels.page(f"{design.spec.name}: {command}", 0.8)
+    grid = figure.add_gridspec(3, 2, width_ratios=[1.0, 1.15], height_ratios=[1.0, 1.0, 0.75])
     mechanism(figure.add_subplot(grid[:, 0]), design)
-    travel = figure.add_subplot(grid[0, 1])
-    motion(travel, figure.add_subplot(grid[1, 1]), design)
+    travel, velocity, transmission = (figure.add_subplot(grid[row, 1]) for row in range(3))
+    motion(travel, velocity, design)
+    table = linkage.columns(design, "motion")
+    linkage.transmission(transmission, design, table["input_angle"], table["transmission_angle"])
     return figure
 
 
@@ -82,7 +84,7 @@ def motion(travel: Axes, velocity: Axes, design: SliderCrankDesign) -> None:
     panels.turn_panel(travel, "travel of the\nslider [mm]")
     panels.heading(travel, f"Travel, quick return {design.slider_crank.quick_return_ratio:.6g}")
     travel.plot(degrees, depth - depth.min(), color=style.BLUE, linewidth=1.7, gid="travel")
-    panels.turn_panel(velocity, "velocity per crank\nspeed [mm/rad]", "crank angle [deg]")
+    panels.turn_panel(velocity, "velocity per crank\nspeed [mm/rad]")
     panels.heading(velocity, "Velocity")
     velocity.plot(degrees, speed, color=style.RED, linewidth=1.7, gid="velocity")
     velocity.axhline(0.0, color=style.BLACK, linewidth=0.8)

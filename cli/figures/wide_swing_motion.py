@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.figures import panels, style
+from gearlink.cli.figures import panels, scene_axes, style
 from gearlink.cli.figures.wide_swing_parts import (
     cam_panel,
     cams_of,
@@ -15,6 +15,8 @@ from gearlink.cli.figures.wide_swing_parts import (
     stroke_axis,
     zone_words,
 )
+from gearlink.cli.scenes.scene import Chain
+from gearlink.cli.scenes.wide_swing_cam import Cycle, build
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -29,13 +31,16 @@ _NAMES = (("displacement", "a"), ("velocity", "b"), ("acceleration", "c"))
 
 def draw(command: str, design: WideSwingDesign) -> Figure:
     """Unit diagrams over the stroke, cams to scale where the profile exists, balance over the speed."""
-    cams = design.spec.cam is not None and has_slots(design)
+    cams, moves = design.spec.cam is not None and has_slots(design), design.spec.cam is None
     title = f"{design.spec.name}: {command} ({kind_words(design)})"
-    made = panels.page(title, 0.95 if cams else 0.62)
-    grid = made.add_gridspec(3 if cams else 2, 1, height_ratios=[1.0, 1.75, 1.0] if cams else [1.0, 1.0])
+    made = panels.page(title, 0.95 if cams or moves else 0.62)
+    grid = made.add_gridspec(3 if cams else 2, 1, height_ratios=[1.0, 1.75, 1.0] if cams else [1.0, 1.0 + 1.4 * moves])
     _law_panels(made, grid[0], design)
     if cams:
         _cam_panels(made, grid[1], design)
+    if moves:
+        _moving_panels(made, grid[1], design)
+        return made
     below = grid[2 if cams else 1].subgridspec(1, 2)
     balance = made.add_subplot(below[0, 1] if cams or design.spec.slider is not None else below[0, :])
     if cams:
@@ -44,6 +49,44 @@ def draw(command: str, design: WideSwingDesign) -> Figure:
         _slider_panel(made.add_subplot(below[0, 0]), design)
     _balance_panel(balance, design)
     return made
+
+
+def _moving_panels(made: Figure, place: Any, design: WideSwingDesign) -> None:
+    """A mechanism that has no cam yet, and beside it what the slider does and the balance."""
+    slider = design.spec.slider is not None
+    panes = place.subgridspec(2 if slider else 1, 2, width_ratios=[1.0, 1.0])
+    _mechanism_panel(made.add_subplot(panes[:, 0]), design)
+    if slider:
+        _slider_panel(made.add_subplot(panes[0, 1]), design)
+    _balance_panel(made.add_subplot(panes[-1, 1]), design)
+
+
+def _mechanism_panel(axes: Axes, design: WideSwingDesign) -> None:
+    """Rocker, device and slider to scale at mid-swing; lightly at both ends of the stroke."""
+    import numpy as np
+
+    panels.drawing(axes, "Mechanism at mid-swing")
+    section = design.spec.slider
+    middle = 0.5 if section is None else design.motion.slider.middle_place
+    scene = build(design, Cycle(design, np.zeros(1)).share * np.array([middle, 0.0, 1.0]))
+    scene_axes.draw(axes, scene)
+    device = scene.parts[0]
+    assert isinstance(device, Chain), "from its pivot on the frame to its pin on the rocker"
+    style.pivot(axes, complex(device.joints[0][0]))
+    for i, color, words in ((1, style.ORANGE, "start of the stroke"), (2, style.BLUE, "end of the stroke")):
+        scene_axes.lightly(axes, scene, i, color, words)
+    axes.plot([], [], color=style.GREEN, linewidth=4.0, label="unloading device")
+    if section is not None:
+        links = scene.parts[-1]
+        assert isinstance(links, Chain), "rocker and rod, to the slider"
+        near, far = (complex(links.joints[-1][i]) for i in (1, 2))
+        aside = section.crank + 0.3 * section.rod
+        start, end = (complex(-aside, point.imag) for point in (near, far))
+        words = f"stroke {style.number(abs(far - near))} mm"
+        style.dimension(axes, start, end, words, from_points=(near, far), upright=True)
+    axes.margins(0.06)
+    axes.autoscale_view()
+    panels.legend_below(axes)
 
 
 def _law_panels(made: Figure, place: Any, design: WideSwingDesign) -> None:
@@ -124,4 +167,4 @@ def _slider_panel(axes: Axes, design: WideSwingDesign) -> None:
     axes.axvline(
         design.motion.slider.middle_place, color=style.GREY, linewidth=0.9, linestyle=_DASHED, label="mid-swing"
     )
-    panels.legend_under_heading(axes, "Slider", 4)
+    panels.legend_under_heading(axes, "Slider", 2)

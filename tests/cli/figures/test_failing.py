@@ -18,6 +18,9 @@ CASES = [
     ("analyze", "five_bar_path", {"limits__transmission_angle": 55.0}, 1),
     ("analyze", "six_bar_swing", {"limits__transmission_angle": 62.0}, 1),
     ("analyze", "candy_feed", {"limits__transmission_angle": 70.0}, 1),
+    ("crank", "ty460_slider_crank", {"limits__transmission_angle": 75.0}, 1),
+    ("analyze", "hypocycloid_slider", {"limits__transmission_angle": 75.0}, 1),
+    ("analyze", "mutilated_gear_press", {"limits__transmission_angle": 60.0}, 1),
     ("press", "ty460", {"limits__transmission_angle": 40.0}, 1),
     ("cam", "ty460", {"limits__pressure_angle": 12.0}, 2),
     ("cam", "wide_swing_twin_cam", {"limits__pressure_angle": 5.0}, 1),
@@ -35,7 +38,18 @@ def test_places_that_fail_are_red(command: str, name: str, keys: dict[str, Any],
     assert len(made) >= count
 
 
-@pytest.mark.parametrize("name", ["wide_lever", "six_bar_swing"])
+@pytest.mark.parametrize("name", ["ty460_slider_crank", "hypocycloid_slider", "mutilated_gear_press", "wide_lever"])
+def test_the_least_transmission_angle_is_the_foot_of_its_curve(name: str) -> None:
+    """Curves have a point every degree at least, and their least is a smooth minimum: 1e-2 deg."""
+    made = design(name)
+    (line,) = (
+        line for axes in panels("analyze", made).axes for line in axes.lines if line.get_gid() == "transmission-angle"
+    )
+    least = np.degrees(made.min_transmission_angle)
+    assert np.min(line.get_ydata()) == pytest.approx(least, abs=1e-2)
+
+
+@pytest.mark.parametrize("name", ["ty460_slider_crank", "hypocycloid_slider", "mutilated_gear_press", "six_bar_swing"])
 def test_a_design_that_passes_has_no_red(name: str) -> None:
     assert red(panels("analyze", design(name))) == []
 

@@ -53,6 +53,25 @@ def test_slider_is_the_table_s() -> None:
         np.testing.assert_array_equal(curves[name].get_ydata(), table.data[table.columns.index(name)])
 
 
+def test_a_mechanism_without_a_cam_is_drawn_in_three_positions() -> None:
+    """Rod and arms keep their length in each; the slider's places are its stroke apart."""
+    made, figure = drawn("slider", "swing")
+    axes, section = panel(figure, "Mechanism at mid-swing [mm]"), made.spec.slider
+    drawn_links = [line for line in axes.get_lines() if line.get_linestyle() == "-" and len(line.get_xdata()) == 3]
+    chains = [line.get_xydata() for line in drawn_links]
+    assert len(chains) == 3
+    for chain in chains:
+        assert np.hypot(*np.diff(chain, axis=0).T) == pytest.approx([section.crank, section.rod], abs=1e-9)
+    at = [chain[-1, 1] for chain in chains]
+    assert max(at) - min(at) == pytest.approx(made.quantity("slider_stroke").value, abs=1e-9)
+    assert "stroke 259.808 mm" in {text.get_text() for text in axes.texts}
+
+
+@pytest.mark.parametrize("keys", [{"slider": None}, {"slider__offset": -30.0, "unloader__pivot_ratio": 3.0}])
+def test_other_mechanisms_without_a_cam_draw(keys: dict[str, Any]) -> None:
+    assert panel(drawn("slider", "swing", **keys).figure, "Mechanism at mid-swing [mm]").get_lines()
+
+
 @pytest.mark.parametrize(
     ("name", "titles"),
     [
