@@ -35,9 +35,9 @@ def _inline(text: str) -> str:
 
 
 def text_of(value: object) -> str:
-    """A value at full precision; the members of a pair or list side by side."""
+    """A value at full precision; the members of a list side by side, one that does not exist as `-`."""
     if isinstance(value, list):
-        return " ".join(text_of(item) for item in value)
+        return " ".join("-" if item is None else text_of(item) for item in value)
     if isinstance(value, bool):
         return str(value).lower()
     return "" if value is None else repr(value) if isinstance(value, float) else str(value)

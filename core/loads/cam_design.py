@@ -103,6 +103,7 @@ class CamLoadsDesign(LoadsDesign):
             "hertz_pressure": lambda name, phi: self._where_pressed(name, phi, "pressure"),
             "shear_depth": lambda name, phi: self._where_pressed(name, phi, "shear_depth"),
             "radius": self._radius,
+            "traction": self.traction,
             "roller_speed": lambda name, phi: abs(self.roller_speed(name, phi)),
             "roller_acceleration": lambda name, phi: abs(self.roller_acceleration(name, phi)),
             "entrainment_speed": lambda name, phi: abs(self.entrainment(name, phi)),
@@ -208,32 +209,26 @@ class CamLoadsDesign(LoadsDesign):
         return [each.value for each in self._each("entrainment_speed")]
 
     def traction(self, name: str, phi: Reals) -> Reals:
-        """Share of the contact force that drives the roller round, |J_r dw/dt| and the bearing's moment."""
+        """Share of the contact force that drives a roller round that stays on its cam, |J_r dw/dt| and its bearing's
+        moment."""
         import numpy as np
 
         roller = self.section.roller
         radius = self.roller_on_cam(name, phi).radius
         need = (roller.inertia * np.abs(self.roller_acceleration(name, phi)) + roller.bearing_moment) / radius
-        force = self.contact_force(name, phi)
-        share = np.divide(need, force, out=np.full_like(force, math.inf), where=force > 0.0)
-        return np.where(need == 0.0, 0.0, share)
+        return np.asarray(need / self.contact_force(name, phi))
 
     @cached_property
     def traction_needed(self) -> list[float | None] | None:
         """Greatest share of the contact force that drives each roller round; None without a roller, and for one that
         leaves its cam: then nothing drives it."""
-        if self.section.roller is None:
+        roller = self.section.roller
+        if roller is None:
             return None
-        import numpy as np
-
-        rows = np.linspace(0.0, self.machine.period, 1440 * self.turns, endpoint=False)
-        greatest = []
-        for name in self.own_rollers:
-            share = self.traction(name, rows)
-            if self.on_two_sides:  # where the other roller carries, this one is not driven
-                share = share[self.contact_force(name, rows) > 0.0]
-            greatest.append(float(np.max(share, initial=0.0)))
-        return [share if math.isfinite(share) else None for share in greatest]
+        if not roller.inertia and not roller.bearing_moment:
+            return [0.0 for _ in self.own_rollers]
+        pairs = zip(self.own_rollers, self.force_extremes, strict=True)
+        return [self.extreme_of(f"traction:{name}").value if low.value > 0.0 else None for name, (low, _) in pairs]
 
     def cam_torque(self, phi: Reals) -> Reals:
         """Torque that drives the cams about their axis, counter-clockwise [N m]."""

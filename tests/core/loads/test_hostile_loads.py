@@ -112,3 +112,7 @@ def test_a_roller_that_leaves_its_cam_is_driven_by_nothing(gearlink: Any, design
     assert ended.json["quantities"]["traction_needed"]["value"][0] is None
     (skid,) = [check for check in ended.json["checks"] if check["code"] == "GL609" and check["status"] == "warn"]
     assert "leaves its cam" in skid["message"]
+    alone = gearlink(
+        "loads", designs / "loaded_gripper.yaml", "--set", "spring.torque=180", "--quantity", "traction_needed"
+    )
+    assert alone.out.startswith("- 0.")

@@ -95,6 +95,18 @@ def test_a_follower_that_changes_cams_strikes() -> None:
     assert len(list(held.check("load-reversal"))) == len(held.meshes_found)
 
 
+def test_a_roller_is_driven_round_where_it_is_pressed() -> None:
+    """Without a preload each roller leaves its cam; with one the greatest share is that of a fine grid."""
+    roller = {"width": 40, "inertia": 0.0012}
+    assert factory.design("loaded_press", command="loads", loads__roller=roller).traction_needed == [None, None]
+    held = factory.design("loaded_press", command="loads", loads__roller=roller | {"preload": 5000})
+    rows = np.linspace(0.0, 2.0 * math.pi, 20_001)
+    for name, found in zip(held.own_rollers, held.traction_needed, strict=True):
+        need = 0.0012 * np.abs(held.roller_acceleration(name, rows)) / 0.025 / held.contact_force(name, rows)
+        assert found == pytest.approx(float(need.max()), rel=1e-4)
+        assert found >= float(need.max())
+
+
 MUTILATED = {
     "speed": 60,
     "links": {"wheel": {"inertia": 0.2}, "crank": {"inertia": 0.01}},
