@@ -127,8 +127,8 @@ def _files(
         yield asked.options.out / f"{safe_stem(spec.name)}.rexs", as_rexs(design), "REXS 1.7"
         return
     for contour in _drawn(form, contours, asked):
-        data = _writer(form, asked)(contour, spec)
-        yield asked.options.out / f"{safe_stem(spec.name)}-{contour.part.name}.{form}", data, _words(contour, asked)
+        data, words = _writer(form, asked)(contour, spec), _words(form, contour, asked)
+        yield asked.options.out / f"{safe_stem(spec.name)}-{contour.part.name}.{form}", data, words
 
 
 def _drawn(form: FileFormat, contours: dict[CurveForm, list[Contour]], asked: Export) -> list[Contour]:
@@ -183,8 +183,12 @@ def _writer(form: FileFormat, asked: Export) -> Callable[[Contour, Any], bytes]:
     return as_csv
 
 
-def _words(contour: Contour, asked: Export) -> str:
+def _words(form: FileFormat, contour: Contour, asked: Export) -> str:
     from gearlink.cli.export.header import error_name, rounded_up
 
     error = f"{error_name(contour)} {rounded_up(contour.error)} mm (tolerance {asked.tolerance:g} mm)"
+    if form is FileFormat.STEP and contour.part.twist:
+        from gearlink.cli.export.step import helix_error
+
+        error += f", {rounded_up(helix_error(contour, asked.width))} mm more along the helix"
     return f"{contour.points} points, {error}"

@@ -51,7 +51,8 @@ class Part:
         findings : what makes the profile unfit for use
         extra_columns : heads of the columns that `Stretch.extra` gives
         width : float or None [mm] - along the axis
-        spur : bool - the same in every section across the axis
+        twist : float [rad/mm] - how far the section turns along the axis; above 0 with right-hand teeth
+        slant : float - how far the section moves along x on its way along the axis: the teeth of a helical rack
         rim : float [mm] - above 0: the body lies between the profile and this circle
     """
 
@@ -65,7 +66,8 @@ class Part:
     findings: tuple[str, ...] = ()
     extra_columns: tuple[str, ...] = ()
     width: float | None = None
-    spur: bool = True
+    twist: float = 0.0
+    slant: float = 0.0
     rim: float = 0.0
 
 

@@ -19,10 +19,14 @@ from gearlink.core.gears.ring_profile import RingProfile
 from gearlink.core.gears.tooth_profile import Curve, ToothProfile
 
 _NAMES = ("root circle", "trochoid", "involute", "tip circle")
+SENSES = {"right": 1.0, "left": -1.0}
+"""Which way teeth of a hand turn on their way up the axis."""
 
 
-def gear_of(pair: GearPair, number: int, name: str, title: str, width: float | None = None) -> Part:
-    """Gear 0 or 1 of a pair, its first tooth space on the x axis.
+def gear_of(
+    pair: GearPair, number: int, name: str, title: str, width: float | None = None, hand: str = "right"
+) -> Part:
+    """Gear 0 or 1 of a pair, its first tooth space on the x axis; helical ones of a hand.
 
     Raises
         NoSolution - where no involute is left between root and tip
@@ -47,14 +51,16 @@ def gear_of(pair: GearPair, number: int, name: str, title: str, width: float | N
             Circle("TIP_CIRCLE", profile.outer_radius),
             Circle("ROOT_CIRCLE", profile.root_radius),
         ),
-        notes=_notes(pair, number, profile),
+        notes=_notes(pair, number, profile, hand),
         width=width,
-        spur=not pair.helix_angle,
+        twist=SENSES[hand] * math.tan(pair.helix_angle) / pair.reference_radius[number],
     )
 
 
-def ring_of(mesh: GearPair | InternalMesh, rim: float, name: str, title: str, width: float | None = None) -> Part:
-    """The ring of a pair, the middle of a tooth space on the x axis, within its rim [mm].
+def ring_of(
+    mesh: GearPair | InternalMesh, rim: float, name: str, title: str, width: float | None = None, hand: str = "right"
+) -> Part:
+    """The ring of a pair, the middle of a tooth space on the x axis, within its rim [mm]; helical ones of a hand.
 
     Raises
         NoSolution - where the ring's tips lie inside its base circle
@@ -81,7 +87,7 @@ def ring_of(mesh: GearPair | InternalMesh, rim: float, name: str, title: str, wi
         ),
         notes=_ring_notes(mesh, shape, rim),
         width=width,
-        spur=not shape.helical,
+        twist=SENSES[hand] * math.tan(mesh.helix_angle) / shape.reference if isinstance(mesh, GearPair) else 0.0,
         rim=rim,
     )
 
@@ -105,8 +111,10 @@ def _ring_notes(mesh: GearPair | InternalMesh, shape: RingProfile, rim: float) -
     )
 
 
-def rack_of(rack: RackMesh, teeth: int, back: float, name: str, title: str, width: float | None = None) -> Part:
-    """A rack of so many teeth, from the middle of a space to the middle of a space.
+def rack_of(
+    rack: RackMesh, teeth: int, back: float, name: str, title: str, width: float | None = None, hand: str = "left"
+) -> Part:
+    """A rack of so many teeth, from the middle of a space to the middle of a space; helical ones of a hand.
 
     Parameters
         back : float [mm] - thickness of the body below the root line
@@ -131,9 +139,9 @@ def rack_of(rack: RackMesh, teeth: int, back: float, name: str, title: str, widt
         title=title,
         stretches=tuple(pieces),
         closed=True,
-        notes=_rack_notes(rack, profile, teeth, low),
+        notes=_rack_notes(rack, profile, teeth, low, hand),
         width=width,
-        spur=not pair.helix_angle,
+        slant=-SENSES[hand] * math.tan(pair.helix_angle),
     )
 
 
@@ -154,9 +162,9 @@ def _line(words: str, layer: str, start: complex, end: complex) -> Stretch:
     return Stretch((layer,), lambda share: curve(share)[None, :], 0.0, 1.0, words, steps=1)
 
 
-def _rack_notes(rack: RackMesh, profile: RackProfile, teeth: int, low: float) -> tuple[str, ...]:
+def _rack_notes(rack: RackMesh, profile: RackProfile, teeth: int, low: float, hand: str) -> tuple[str, ...]:
     pair = rack.pair
-    helix = f", helix angle {math.degrees(pair.helix_angle):.9g} deg" if pair.helix_angle else ""
+    helix = _helix(pair, hand)
     section = "; transverse section" if pair.helix_angle else ""
     return (
         f"module {pair.module:g} mm, rack of {teeth} teeth, pressure angle {math.degrees(pair.pressure_angle):.9g} deg"
@@ -183,8 +191,12 @@ def _length(curve: Curve, low: float, high: float) -> float:
     return float(abs(ends[1] - ends[0])) if high > low else 0.0
 
 
-def _notes(pair: GearPair, number: int, profile: ToothProfile) -> tuple[str, ...]:
-    helix = f", helix angle {math.degrees(pair.helix_angle):.9g} deg" if pair.helix_angle else ""
+def _helix(pair: GearPair, hand: str) -> str:
+    return f", helix angle {math.degrees(pair.helix_angle):.9g} deg {hand}-hand" if pair.helix_angle else ""
+
+
+def _notes(pair: GearPair, number: int, profile: ToothProfile, hand: str) -> tuple[str, ...]:
+    helix = _helix(pair, hand)
     section = "; transverse section" if pair.helix_angle else ""
     notes = [
         f"module {pair.module:g} mm, {profile.teeth} teeth, profile shift {profile.shift:.9g}, "

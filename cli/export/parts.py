@@ -76,7 +76,8 @@ def _pair(design: Any, key: str = "") -> Makers:
     if rim is not None:
         rim += abs(data.pair.root_radius[1])
     titles = ("gear 1", "gear 2")
-    found = _of_mesh(design.gear_pair, ("gear1", "gear2"), titles, key, widths_of=lambda: widths, rim=rim)
+    hands = pair_hands(design)
+    found = _of_mesh(design.gear_pair, ("gear1", "gear2"), titles, key, widths_of=lambda: widths, rim=rim, hands=hands)
     return {"gear1": found["gear1"], "rack": lambda: _rack(design)} if getattr(design.spec, "rack", False) else found
 
 
@@ -84,7 +85,23 @@ def _rack(design: Any) -> Part:
     from gearlink.cli.export.gear_parts import rack_of
 
     width = design.data.face_width[1] if design.data.face_width else None
-    return rack_of(design.rack, design.rack_teeth, design.rack_back, "rack", "rack", width)
+    hand = pair_hands(design)[1]
+    return rack_of(design.rack, design.rack_teeth, design.rack_back, "rack", "rack", width, hand)
+
+
+def pair_hands(design: Any) -> tuple[str, str]:
+    """Hands of helix of a gear pair, as given or with gear 1 right-hand."""
+    given = getattr(design.spec, "helix_hand", None)
+    if given is not None:
+        return given[0], given[1]
+    return "right", "right" if is_ring(design.gear_pair) else "left"
+
+
+def train_hands(design: Any, label: str = "") -> tuple[str, str]:
+    """Hands of helix of the gears of a mesh inside a machine, a ring second."""
+    hands = design.spec.gears.hands()
+    one, other = design.teeth_train.places[design.mesh_names.index(label)].gears
+    return hands[one], hands[other]
 
 
 def _three_gears(design: Any) -> Makers:
@@ -94,7 +111,8 @@ def _three_gears(design: Any) -> Makers:
 
     def of(label: str, one: str, other: str) -> Makers:
         words = (titles[one], titles[other])
-        return _of_mesh(design.meshes[label], (one, other), words, "gears", gears, partial(design.widths_of, label))
+        widths, hands = partial(design.widths_of, label), train_hands(design, label)
+        return _of_mesh(design.meshes[label], (one, other), words, "gears", gears, widths, hands=hands)
 
     first = of("crank_idler", *(("gear3", "gear1") if design.crank_teeth < 0 else ("gear1", "gear3")))
     second = of("idler_output", "gear3", "gear5")
@@ -103,25 +121,27 @@ def _three_gears(design: Any) -> Makers:
 
 
 def _two_gears(design: Any) -> Makers:
-    titles = ("gear 2, on the coupler", "gear 5, the output")
-    return _of_mesh(design.mesh, ("gear2", "gear5"), titles, "gears", design.spec.gears, design.widths_of)
+    titles, hands = ("gear 2, on the coupler", "gear 5, the output"), train_hands(design)
+    return _of_mesh(design.mesh, ("gear2", "gear5"), titles, "gears", design.spec.gears, design.widths_of, hands=hands)
 
 
 def _hypocycloid(design: Any) -> Makers:
-    titles = ("planet", "ring gear, fixed")
-    return _of_mesh(design.mesh, ("planet", "ring"), titles, "gears", design.spec.gears, design.widths_of)
+    titles, hands = ("planet", "ring gear, fixed"), train_hands(design)
+    return _of_mesh(design.mesh, ("planet", "ring"), titles, "gears", design.spec.gears, design.widths_of, hands=hands)
 
 
 def _mutilated(design: Any) -> Makers:
     """The wheel as it is drawn, without its locking arcs, which are no result of the design; the driven gear."""
-    made = _of_mesh(design.mesh, ("", "gear2"), ("", "gear 2, driven"), "gears", widths_of=design.widths_of)
+    hands = train_hands(design)
+    titles = ("", "gear 2, driven")
+    made = _of_mesh(design.mesh, ("", "gear2"), titles, "gears", widths_of=design.widths_of, hands=hands)
 
     def wheel() -> Part:
         from gearlink.cli.export.wheel_parts import wheel_of
 
         with at_key("gears"):
             widths = design.widths_of()
-            return wheel_of(design, widths[0] if widths else None)
+            return wheel_of(design, widths[0] if widths else None, hands[0])
 
     return {"wheel": wheel, "gear2": made["gear2"]}
 
@@ -132,7 +152,8 @@ def _five_bar(design: Any) -> Makers:
         names = label.split("_") if label else _five_bar_gears(design, mesh)
         parts = (f"{names[0]}_gear", f"{names[1]}_gear")
         titles = (f"{names[0]} gear", f"{names[1]} gear")
-        found |= _of_mesh(mesh, parts, titles, "gears", design.spec.gears, partial(design.widths_of, label))
+        widths, hands = partial(design.widths_of, label), train_hands(design, label)
+        found |= _of_mesh(mesh, parts, titles, "gears", design.spec.gears, widths, hands=hands)
     return found
 
 
@@ -166,6 +187,7 @@ def _of_mesh(
     gears: Any = None,
     widths_of: Callable[[], tuple[float, float] | None] = lambda: None,
     rim: float | None = None,
+    hands: tuple[str, str] = ("right", "left"),
 ) -> Makers:
     """Both gears of a mesh; `gears` is the section of the file that may name the rim of a ring, or `rim` is it."""
 
@@ -177,9 +199,9 @@ def _of_mesh(
             width = widths[number] if widths else None
             if number == 1 and is_ring(mesh):
                 outer = rim_radius(mesh.root_radius[1], mesh.module, getattr(gears, "rim", rim))
-                return gear_parts.ring_of(mesh, outer, names[1], titles[1], width)
+                return gear_parts.ring_of(mesh, outer, names[1], titles[1], width, hands[1])
             pair = _planet(mesh) if isinstance(mesh, InternalMesh) else mesh
-            return gear_parts.gear_of(pair, number, names[number], titles[number], width)
+            return gear_parts.gear_of(pair, number, names[number], titles[number], width, hands[number])
 
     return {name: partial(gear, number) for number, name in enumerate(names)}
 

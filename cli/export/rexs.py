@@ -14,7 +14,7 @@ from datetime import UTC, datetime
 from typing import Any
 from xml.sax.saxutils import escape, quoteattr
 
-from gearlink.cli.export.parts import is_ring
+from gearlink.cli.export.parts import is_ring, pair_hands, train_hands
 from gearlink.core.errors import NoSolution
 from gearlink.core.gears.mesh_phase import signed_pair
 from gearlink.core.gears.pair import GearPair
@@ -192,15 +192,13 @@ def _meshes(design: Any) -> Iterator[_Mesh]:
         if design.kind == "flatbed-press" and design.spec.input_gears is None:
             return
         data = design.data if design.kind == "gear-pair" else design.gear_data
-        given = getattr(design.spec, "helix_hand", None) or ("right", "right" if is_ring(data.pair) else "left")
-        yield _Mesh(("gear 1", "gear 2"), data.pair, data.face_width, (given[0], given[1]))
+        yield _Mesh(("gear 1", "gear 2"), data.pair, data.face_width, pair_hands(design))
     elif design.kind in _TRAINS:
         names = _TRAINS[design.kind] or tuple(f"{name} gear" for name in design.spec.gears.gear_names())
-        hands = design.spec.gears.hands()
         for label, place in zip(design.mesh_names, design.teeth_train.places, strict=True):
             one, other = place.gears
             pair = signed_pair(design.meshes[label])
-            yield _Mesh((names[one], names[other]), pair, design.widths_of(label), (hands[one], hands[other]))
+            yield _Mesh((names[one], names[other]), pair, design.widths_of(label), train_hands(design, label))
 
 
 _PAIRS = ("gear-pair", "flatbed-press")

@@ -1,4 +1,4 @@
-"""STEP: a part as one closed solid, its profile as cubic B-splines extruded along the axis."""
+"""STEP: a part as one closed solid, its profile as cubic B-splines extruded along the axis, or turned along it."""
 
 from __future__ import annotations
 
@@ -13,16 +13,21 @@ import numpy as np
 
 from gearlink.cli.export.contour import Contour
 from gearlink.cli.export.header import describe
+from gearlink.cli.export.helicoid import Turning, turning
 from gearlink.cli.export.options import CurveForm
 from gearlink.cli.export.sampling import Points
 from gearlink.core.errors import GearlinkError
 
 _ARRAYS = {
-    "gp_Pnt": ("TColgp", "TColgp_Array1OfPnt"),
-    "double": ("TColStd", "TColStd_Array1OfReal"),
-    "int": ("TColStd", "TColStd_Array1OfInteger"),
+    "gp_Pnt": ("TColgp", "TColgp_Array{}OfPnt"),
+    "double": ("TColStd", "TColStd_Array{}OfReal"),
+    "int": ("TColStd", "TColStd_Array{}OfInteger"),
 }
 _MOST_SPANS = 8
+_HELIX_SHARE = 0.01
+"""Of the tolerance, what the flanks of a helical gear may be off beside their section."""
+_SEWN = 1e-6
+"""Edges that lie nearer to each other [mm] are one."""
 _TIME = "1970-01-01T00:00:00"
 """The same design gives the same file."""
 
@@ -38,34 +43,55 @@ def as_step(contour: Contour, spec: Any, width: float | None = None) -> bytes:
         contour : Contour - of splines
         width : float or None [mm] - in place of the part's own
     Raises
-        NoStep - without the library, without a width, for an open profile, and for helical gears
+        NoStep - without the library, without a width, and for an open profile
+        TooLong - for helical gears that turn too often over their width
+    Notes
+        Helical flanks are within `helix_error` of the section turned along the axis; everything else is the section's.
     """
-    require_body(contour, width)
-    across = width or contour.part.width
-    assert across is not None, "required above"
+    across = width_of(contour, width)
+    part, turned = contour.part, _turning(contour, across)
     occ = _Occ()
-    solid = occ.prism(_edges(occ, contour), contour.part.rim, across)
+    if turned is None:
+        edges = [edge for control, knots in _profile(contour) for edge in occ.edges(control, knots)]
+        solid = occ.prism(occ.face(edges, part.rim), across, part.slant)
+    else:
+        solid = occ.helicoid(_profile(contour), turned, part.rim, across)
     words = describe(contour, spec)
     return occ.written(solid, f"{spec.name} {contour.part.name}", f"{words['design_sha256']}")
 
 
-def require_body(contour: Contour, width: float | None) -> None:
-    """Refuse what has no volume or another section at every height.
+def helix_error(contour: Contour, width: float | None) -> float:
+    """Greatest distance of a solid's flanks from the section turned along the axis [mm]; 0 where it does not turn."""
+    turned = _turning(contour, width_of(contour, width))
+    return 0.0 if turned is None else turned.error * _reach(contour)
+
+
+def _turning(contour: Contour, across: float) -> Turning | None:
+    if not contour.part.twist:
+        return None
+    return turning(contour.part.twist * across, _HELIX_SHARE * contour.tolerance / _reach(contour))
+
+
+def _reach(contour: Contour) -> float:
+    """Radius of the outermost point of the profile [mm]."""
+    return max(float(np.abs(piece.control).max()) for piece in contour.pieces)
+
+
+def width_of(contour: Contour, width: float | None) -> float:
+    """The width of the solid [mm].
 
     Raises
-        NoStep - saying what is missing
+        NoStep - without one, and for a profile that is open
     """
     part = contour.part
     if not part.closed or len(contour.lines) == 0 or not contour.lines[0].closed:
         raise NoStep(
             f"the profile of {part.name} is open, a solid wants a closed one: take another --part, or --as dxf"
         )
-    if not part.spur:
-        raise NoStep(
-            f"{part.name} is helical: its solid is no straight prism; take --as dxf for the transverse section"
-        )
-    if width is None and part.width is None:
+    across = part.width if width is None else width
+    if across is None:
         raise NoStep(f"a solid of {part.name} needs a width: give --width MM, or face_width in the file of a gear pair")
+    return across
 
 
 def section_area(contour: Contour) -> float:
@@ -90,14 +116,14 @@ def section_area(contour: Contour) -> float:
     return math.pi * contour.part.rim**2 - area if contour.part.rim else area
 
 
-def _edges(occ: _Occ, contour: Contour) -> list[Any]:
-    """An edge for each stretch of the profile, all round; of a hole the other way round."""
+def _profile(contour: Contour) -> list[tuple[Points, Any]]:
+    """Control points and knots of each stretch of the profile, all round; of a hole the other way round."""
     (line,) = (line for line in contour.lines if line.layer == "PROFILE")
     assert contour.form is CurveForm.SPLINE, "chosen by the command"
-    edges = [(turn * piece.control[0], piece.knots) for turn in contour.turns.tolist() for piece in line.pieces]
+    curves = [(turn * piece.control[0], piece.knots) for turn in contour.turns.tolist() for piece in line.pieces]
     if contour.part.rim:
-        edges = [(control[::-1], (knots[-1] - knots)[::-1]) for control, knots in reversed(edges)]
-    return [edge for control, knots in edges for edge in occ.edges(control, knots)]
+        return [(control[::-1], (knots[-1] - knots)[::-1]) for control, knots in reversed(curves)]
+    return curves
 
 
 class _Occ:
@@ -115,8 +141,8 @@ class _Occ:
     def __getattr__(self, name: str) -> Any:
         return import_module(f"OCP.{name}")
 
-    def edges(self, control: Points, knots: Any) -> list[Any]:
-        """A cubic B-spline from its control points and knots, as edges of few spans each.
+    def edges(self, control: Points, knots: Any, height: float = 0.0) -> list[Any]:
+        """A cubic B-spline from its control points and knots at a height, as edges of few spans each.
 
         Notes
             What measures volumes takes so many points of an edge, however long: of edges with 40 spans the volume of
@@ -125,39 +151,80 @@ class _Occ:
         places, counts = np.unique(knots, return_counts=True)
         poles = self._array("gp_Pnt", len(control))
         for i, point in enumerate(control.tolist(), 1):
-            poles.SetValue(i, self.gp.gp_Pnt(point.real, point.imag, 0.0))
+            poles.SetValue(i, self.gp.gp_Pnt(point.real, point.imag, height))
+        curve = self.Geom.Geom_BSplineCurve(poles, *self._knots(places, counts), 3)
+        make = self.BRepBuilderAPI.BRepBuilderAPI_MakeEdge
+        return [make(curve, low, high).Edge() for low, high in _few_spans(places)]
+
+    def _flanks(self, control: Points, knots: Any, turned: Turning, width: float) -> list[Any]:
+        """The faces that the edges of a cubic B-spline pass over on their way along the axis."""
+        (along, times), (up, often) = (np.unique(each, return_counts=True) for each in (knots, turned.knots))
+        poles = self._array("gp_Pnt", len(control), turned.control.size)
+        for j, (turn, share) in enumerate(zip(turned.control.tolist(), turned.heights.tolist(), strict=True), 1):
+            for i, point in enumerate((control * turn).tolist(), 1):
+                poles.SetValue(i, j, self.gp.gp_Pnt(point.real, point.imag, share * width))
+        (u, u_times), (v, v_times) = self._knots(along, times), self._knots(up, often)
+        surface = self.Geom.Geom_BSplineSurface(poles, u, v, u_times, v_times, 3, 3)
+        make = self.BRepBuilderAPI.BRepBuilderAPI_MakeFace
+        return [make(surface, low, high, 0.0, 1.0, _SEWN).Face() for low, high in _few_spans(along)]
+
+    def helicoid(self, profile: list[tuple[Points, Any]], turned: Turning, rim: float, width: float) -> Any:
+        """The solid whose section turns along the axis, within its rim where it has one.
+
+        Raises
+            NoStep - where its faces leave a gap
+        """
+        sewing = self.BRepBuilderAPI.BRepBuilderAPI_Sewing(_SEWN)
+        for control, knots in profile:
+            for flank in self._flanks(control, knots, turned, width):
+                sewing.Add(flank)
+        for turn, height in ((1.0, 0.0), (complex(turned.control[-1]), width)):
+            sewing.Add(self.face([e for c, k in profile for e in self.edges(turn * c, k, height)], rim, height))
+        if rim:
+            axes = self.gp.gp_Ax3(self.gp.gp_Pnt(0.0, 0.0, 0.0), self.gp.gp_Dir(0.0, 0.0, 1.0))
+            cylinder = self.gp.gp_Cylinder(axes, rim)
+            sewing.Add(self.BRepBuilderAPI.BRepBuilderAPI_MakeFace(cylinder, 0.0, 2.0 * math.pi, 0.0, width).Face())
+        sewing.Perform()
+        if sewing.NbFreeEdges():
+            raise NoStep(f"the faces of the solid leave {sewing.NbFreeEdges()} gaps: take a finer --tolerance")
+        shell = _static(self.TopoDS.TopoDS, "Shell")(sewing.SewedShape())
+        solid = self.BRepBuilderAPI.BRepBuilderAPI_MakeSolid(shell).Solid()
+        _static(self.BRepLib.BRepLib, "OrientClosedSolid")(solid)
+        return solid
+
+    def _knots(self, places: Any, counts: Any) -> tuple[Any, Any]:
         at, times = self._array("double", len(places)), self._array("int", len(places))
         for i, (place, count) in enumerate(zip(places.tolist(), counts.tolist(), strict=True), 1):
             at.SetValue(i, place)
             times.SetValue(i, count)
-        curve = self.Geom.Geom_BSplineCurve(poles, at, times, 3)
-        parts = -(-(len(places) - 1) // _MOST_SPANS)
-        ends = [places[round(i * (len(places) - 1) / parts)] for i in range(parts + 1)]
-        make = self.BRepBuilderAPI.BRepBuilderAPI_MakeEdge
-        return [make(curve, float(low), float(high)).Edge() for low, high in pairwise(ends)]
+        return at, times
 
-    def _array(self, of: str, length: int) -> Any:
-        """An array of Open CASCADE, whose names changed from release 7 to 8."""
+    def _array(self, of: str, *lengths: int) -> Any:
+        """An array of one or two dimensions of Open CASCADE, whose names changed from release 7 to 8."""
         module, name = _ARRAYS[of]
-        old = getattr(import_module(f"OCP.{module}"), name, None)
-        return (old or getattr(import_module("OCP.collections"), f"Array1_{of}"))(1, length)
+        rank = len(lengths)
+        old = getattr(import_module(f"OCP.{module}"), name.format(rank), None)
+        make = old or getattr(import_module("OCP.collections"), f"Array{rank}_{of}")
+        return make(*(end for length in lengths for end in (1, length)))
 
-    def prism(self, edges: list[Any], rim: float, width: float) -> Any:
-        """The solid between the profile and its rim, or within the profile."""
+    def face(self, edges: list[Any], rim: float, height: float = 0.0) -> Any:
+        """The plane between the profile and its rim, or within the profile."""
         wire = self.BRepBuilderAPI.BRepBuilderAPI_MakeWire()
         for edge in edges:
             wire.Add(edge)
         profile = wire.Wire()
         if rim:
-            axes = self.gp.gp_Ax2(self.gp.gp_Pnt(0.0, 0.0, 0.0), self.gp.gp_Dir(0.0, 0.0, 1.0))
+            axes = self.gp.gp_Ax2(self.gp.gp_Pnt(0.0, 0.0, height), self.gp.gp_Dir(0.0, 0.0, 1.0))
             circle = self.BRepBuilderAPI.BRepBuilderAPI_MakeEdge(self.gp.gp_Circ(axes, rim)).Edge()
             outer = self.BRepBuilderAPI.BRepBuilderAPI_MakeWire(circle).Wire()
             made = self.BRepBuilderAPI.BRepBuilderAPI_MakeFace(outer, True)
             made.Add(profile)
-            face = made.Face()
-        else:
-            face = self.BRepBuilderAPI.BRepBuilderAPI_MakeFace(profile, True).Face()
-        return self.BRepPrimAPI.BRepPrimAPI_MakePrism(face, self.gp.gp_Vec(0.0, 0.0, width)).Shape()
+            return made.Face()
+        return self.BRepBuilderAPI.BRepBuilderAPI_MakeFace(profile, True).Face()
+
+    def prism(self, face: Any, width: float, slant: float) -> Any:
+        """The solid over a face, straight along the axis or at a slant to it."""
+        return self.BRepPrimAPI.BRepPrimAPI_MakePrism(face, self.gp.gp_Vec(slant * width, 0.0, width)).Shape()
 
     def written(self, solid: Any, name: str, signature: str) -> bytes:
         """The bytes of a STEP file that holds one solid."""
@@ -173,6 +240,13 @@ class _Occ:
             path = Path(folder) / "part.step"
             writer.Write(str(path))
             return path.read_bytes()
+
+
+def _few_spans(places: Any) -> list[tuple[float, float]]:
+    """The range of a spline in parts of few spans each, by its knots."""
+    parts = -(-(len(places) - 1) // _MOST_SPANS)
+    ends = [float(places[round(i * (len(places) - 1) / parts)]) for i in range(parts + 1)]
+    return list(pairwise(ends))
 
 
 def _static(kind: Any, name: str) -> Any:

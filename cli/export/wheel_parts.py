@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gearlink.cli.export.contour import Circle, Part
+from gearlink.cli.export.gear_parts import SENSES
 from gearlink.cli.export.sampling import Points, Reals, Stretch
 from gearlink.core.dwell_gears.wheel import end_tooth_radius
 from gearlink.core.gears.tooth_profile import ToothProfile
@@ -23,7 +24,7 @@ _Piece = tuple[str, _Curve, float, float]
 _NAMES = ("root circle", "trochoid", "involute", "tip circle")
 
 
-def wheel_of(design: MutilatedGearDwell, width: float | None = None) -> Part:
+def wheel_of(design: MutilatedGearDwell, width: float | None = None, hand: str = "right") -> Part:
     """The wheel, the middle of a gap on the x axis; half a group and its gap, mirrored and turned, make it all.
 
     Raises
@@ -62,6 +63,7 @@ def wheel_of(design: MutilatedGearDwell, width: float | None = None) -> Part:
             "frame: wheel axis at the origin, middle of a gap on the x axis",
         ),
         width=width,
+        twist=SENSES[hand] * math.tan(mesh.helix_angle) / mesh.reference_radius[0],
     )
 
 

@@ -45,7 +45,7 @@ class GearPairSpec(TolerancedSpec, PairKeys):
     )
     profile_shift: TwoShifts | None = Field(None, description="profile shift coefficients of gear 1 and 2 (ISO signs)")
     helix_hand: Annotated[list[Hand], Field(min_length=2, max_length=2)] | None = Field(
-        None, description="hands of helix of gear 1 and 2, for the drawing"
+        None, description="hands of helix of gear 1 and 2, for drawing and exports"
     )
     tip_shortening: TipShortening | None = Field(
         None,

@@ -41,7 +41,7 @@ class TrainKeys(ToothKeys):
         None, description="profile shift coefficients, a list with one for each gear; left out: 0"
     )
     helix_hand: Annotated[list[Hand], _MANY] | None = Field(
-        None, description="hands of helix, a list with one for each gear, for the drawing"
+        None, description="hands of helix, a list with one for each gear, for drawing and exports"
     )
     tip_shortening: Literal["full", "none"] | Annotated[list[Alteration], _MANY] | None = Field(
         None, description="full (default of external meshes), none (of rings), or tip alterations k of all gears"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import sys
 import xml.etree.ElementTree as ET
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,8 @@ from gearlink.cli.export import parts, step
 from gearlink.cli.export.contour import Contour, contour
 from gearlink.cli.export.options import CurveForm
 from gearlink.cli.export.rexs import as_rexs
+from gearlink.core.gears.involute import involute
+from gearlink.core.gears.tooth_profile import ToothProfile
 
 HELICAL = """kind: gear-pair
 name: h & <b>
@@ -182,11 +185,10 @@ def test_step_is_refused_without_its_library(
     ("text", "options", "words"),
     [
         ("kind: gear-pair\nmodule: 2\nteeth: [20, 30]\nprofile_shift: [0, 0]\n", (), "--width MM"),
-        (HELICAL, (), "is helical"),
         ("wide_swing_twin_cam", ("--part", "main_cam", "--width", 20), "is open"),
     ],
 )
-def test_what_is_no_prism_is_refused(
+def test_what_is_no_solid_is_refused(
     gearlink: Any, designs: Path, tmp_path: Path, text: str, options: tuple[Any, ...], words: str
 ) -> None:
     path = tmp_path / "design.yaml"
@@ -200,24 +202,144 @@ def test_what_is_no_prism_is_refused(
     ("given", "name"), [(PAIR, "gear1"), ("two_gear_ring", "gear5"), ("ty460", "main_cam"), ("rack_drive", "rack")]
 )
 def test_a_solid_that_is_read_again_has_the_volume_of_its_section(given: Any, name: str, tmp_path: Path) -> None:
-    reason = "STEP needs the extra `step` (cadquery-ocp), which is not installed"
-    pytest.importorskip("OCP", reason=reason)
+    pytest.importorskip("OCP", reason=NO_STEP)
     from factory import worked
-    from OCP.BRepGProp import BRepGProp
-    from OCP.GProp import GProp_GProps
-    from OCP.STEPControl import STEPControl_Reader
 
     made = design(worked(given) if isinstance(given, str) else given)
     section = _spline(name, made)
-    path = tmp_path / "part.step"
-    path.write_bytes(step.as_step(section, made.spec, 12.5))
+    shape = _read_again(section, made.spec, 12.5, tmp_path)
+    assert _volume(shape) == pytest.approx(12.5 * step.section_area(section), rel=1e-6)
+
+
+NO_STEP = "STEP needs the extra `step` (cadquery-ocp), which is not installed"
+RACK = {"kind": "gear-pair", "module": 3, "teeth": [21, "rack"], "profile_shift": [0.2, 0], "helix_angle": 15}
+
+
+def _read_again(section: Contour, spec: Any, width: float, folder: Path) -> Any:
+    """The valid solid that a STEP file holds."""
+    from OCP.BRepCheck import BRepCheck_Analyzer
+    from OCP.STEPControl import STEPControl_Reader
+
+    path = folder / "part.step"
+    path.write_bytes(step.as_step(section, spec, width))
     reader = STEPControl_Reader()
     reader.ReadFile(str(path))
     reader.TransferRoots()
-    shape, found = reader.OneShape(), GProp_GProps()
+    shape = reader.OneShape()
     assert "SOLID" in str(shape.ShapeType())
+    assert BRepCheck_Analyzer(shape).IsValid()
+    return shape
+
+
+def _volume(shape: Any, found: Any = None) -> float:
+    from OCP.BRepGProp import BRepGProp
+    from OCP.GProp import GProp_GProps
+
+    found = found or GProp_GProps()
     (getattr(BRepGProp, "VolumeProperties_s", None) or BRepGProp.VolumeProperties)(shape, found)
-    assert found.Mass() == pytest.approx(12.5 * step.section_area(section), rel=1e-6)
+    return float(found.Mass())
+
+
+def _cut(shape: Any, share: float) -> Any:
+    """Points of the flanks at a share of their width, with their heights; twenty on each face that is a spline's."""
+    from OCP.BRepAdaptor import BRepAdaptor_Surface
+    from OCP.GeomAbs import GeomAbs_SurfaceType
+    from OCP.TopAbs import TopAbs_ShapeEnum
+    from OCP.TopExp import TopExp_Explorer
+    from OCP.TopoDS import TopoDS
+
+    faces, points = TopExp_Explorer(shape, TopAbs_ShapeEnum.TopAbs_FACE), []
+    while faces.More():
+        surface = BRepAdaptor_Surface((getattr(TopoDS, "Face_s", None) or TopoDS.Face)(faces.Current()))
+        faces.Next()
+        if surface.GetType() != GeomAbs_SurfaceType.GeomAbs_BSplineSurface:
+            continue
+        low, high = surface.FirstVParameter(), surface.LastVParameter()
+        for at in np.linspace(surface.FirstUParameter(), surface.LastUParameter(), 20):
+            point = surface.Value(float(at), low + share * (high - low))
+            points.append((complex(point.X(), point.Y()), point.Z()))
+    return (np.array(each) for each in zip(*points, strict=True))
+
+
+@pytest.mark.parametrize(("hand", "name"), [("right", "gear1"), ("left", "gear1"), ("left", "gear2")])
+def test_a_helical_solid_is_its_section_turned_along_the_axis(hand: str, name: str, tmp_path: Path) -> None:
+    """The volume, and in mid-face the involutes at their places, by the closed form of their thickness.
+
+    Tolerances: volumes as their program measures them, 1e-6; sections the spline error, and 1e-5 mm of the cut.
+    """
+    pytest.importorskip("OCP", reason=NO_STEP)
+    number, width = ("gear1", "gear2").index(name), 24.0
+    teeth = [13, -40] if number else [13, 27]
+    hands = [hand, hand if number else "left" if hand == "right" else "right"]
+    made = design(PAIR | {"teeth": teeth, "profile_shift": [0.3, 0.1], "helix_angle": 20, "helix_hand": hands})
+    section, pair = _spline(name, made, 1e-4), made.gear_pair
+    shape = _read_again(section, made.spec, width, tmp_path)
+    assert _volume(shape) == pytest.approx(width * step.section_area(section), rel=1e-6)
+    assert step.helix_error(section, width) < 0.01 * section.tolerance
+    twist = (1.0 if hand == "right" else -1.0) * math.tan(math.radians(20.0)) / abs(pair.reference_radius[number])
+    points, heights = _cut(shape, 0.5)
+    assert heights == pytest.approx(0.5 * width, abs=1e-9)
+    points *= np.exp(-0.5j * twist * width)
+    radius, tip = np.abs(points), abs(pair.tip_radius[number])
+    ends = (tip, abs(pair.root_radius[1])) if number else (ToothProfile.of(pair, 0).form_radius, tip)
+    flank = (radius > ends[0] + 0.01) & (radius < ends[1] - 0.01)
+    assert flank.sum() > 100
+    z, base = abs(pair.teeth[number]), abs(pair.base_radius[number])
+    inv = np.array([involute(math.acos(base / r)) for r in radius[flank].tolist()])
+    more = (-2.0 if number else 2.0) * pair.profile_shift[number] * math.tan(pair.pressure_angle)
+    half = (0.5 * math.pi + more) / z + involute(pair.transverse_pressure_angle) - inv  # of a tooth, of a ring a space
+    pitch = 2.0 * math.pi / z
+    from_space = np.abs(np.angle(points[flank]) - pitch * np.round(np.angle(points[flank]) / pitch))
+    off = from_space - (half if number else 0.5 * pitch - half)
+    assert np.abs(off * radius[flank]).max() < section.error + 1e-5
+
+
+def test_a_helical_rack_is_a_slanted_prism(tmp_path: Path) -> None:
+    pytest.importorskip("OCP", reason=NO_STEP)
+    from OCP.GProp import GProp_GProps
+
+    made = design(RACK | {"rack_teeth": 5})
+    section = _spline("rack", made, 1e-4)
+    shape, straight = (_read_again(each, made.spec, 30.0, tmp_path) for each in (section, _upright(section)))
+    assert _volume(shape) == pytest.approx(30.0 * step.section_area(section), rel=1e-7)
+    centers = []
+    for solid in (shape, straight):
+        found = GProp_GProps()
+        _volume(solid, found)
+        centers.append(found.CentreOfMass())
+    lean = 15.0 * math.tan(math.radians(15.0))
+    assert centers[0].X() - centers[1].X() == pytest.approx(lean, abs=1e-5)
+    assert centers[0].Y() == pytest.approx(centers[1].Y(), abs=1e-5)
+
+
+def _upright(section: Contour) -> Contour:
+    return replace(section, part=replace(section.part, slant=0.0))
+
+
+def test_helical_teeth_have_their_hands() -> None:
+    """Mates lean the same way where they touch: the gear above its rack, the pinion in its ring."""
+    slope = math.tan(math.radians(15.0))
+    made = parts.makers(design(RACK | {"helix_hand": ["left", "right"]}))
+    gear, rack = made["gear1"](), made["rack"]()
+    assert (gear.twist * 31.5 / math.cos(math.radians(15.0)), rack.slant) == pytest.approx((-slope, -slope), rel=1e-12)
+    assert any("15 deg left-hand" in note for note in gear.notes)
+    ring = design({"kind": "gear-pair", "module": 3, "teeth": [21, -67], "profile_shift": [0, 0], "helix_angle": 15})
+    pinion, mate = (parts.makers(ring)[name]() for name in ("gear1", "gear2"))
+    assert (21 * pinion.twist, 67 * mate.twist) == pytest.approx((42 * slope / 63 * math.cos(math.radians(15.0)),) * 2)
+    train = design({"kind": "three-gear-four-bar", "links": {"crank": 38, "frame": 158},
+                    "gears": {"module": 2, "crank": 40, "idler": 72, "output": 40, "helix_angle": 10}})  # fmt: skip
+    turns = [parts.makers(train)[name]().twist for name in ("gear1", "gear3", "gear5")]
+    assert [math.copysign(1.0, turn) for turn in turns] == [1.0, -1.0, 1.0]
+
+
+def test_a_gear_that_turns_for_ever_is_refused(gearlink: Any, tmp_path: Path) -> None:
+    pytest.importorskip("OCP", reason=NO_STEP)
+    path = tmp_path / "h.yaml"
+    path.write_text(HELICAL)
+    ended = gearlink("export", path, "--as", "step", "--width", 1e5, "--out", tmp_path / "out")
+    assert ended.status == 2
+    assert "smaller --width" in ended.err
+    assert not (tmp_path / "out").exists()
 
 
 def test_dxf_has_extents_and_circles_of_tip_and_root(gearlink: Any, designs: Path, tmp_path: Path) -> None:
