@@ -135,7 +135,7 @@ class Exploration(Design):
         """GL162 of each variable that kept designs have at an end of its range."""
         rows = self.found.rows
         for i, variable in enumerate(self.problem.variables):
-            if variable.values or variable.times or not rows:
+            if variable.values or variable.times or variable.low == variable.high or not rows:
                 continue
             values = [row.variables[i][1] for row in rows]
             for end, limit in zip(("lower", "upper"), _ends(variable), strict=True):

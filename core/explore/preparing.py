@@ -119,7 +119,7 @@ class _Reading:
         if given.points is not None:
             return Variable(path, also, tuple(_points(low, high, given.points, log=given.log, whole=whole)))
         step = given.step
-        if step is None and whole:
+        if step is None and (whole or low == high):  # a range of one value is no continuum
             step = 1.0
         decimals = _decimals_below(given.times, before)
         return Variable(path, also, (), low, high, step, given.times or "", whole, given.log, decimals)

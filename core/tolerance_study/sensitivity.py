@@ -183,9 +183,23 @@ def _indices(a: Reals, b: Reals, mixed: Reals) -> tuple[float, float]:
 
 
 def _estimated(rows: Reals) -> Indices:
-    first, total = (estimate(rows[:, i]) for i in (0, 1))
-    total = Estimate(max(0.0, total.value), total.half_width)
-    return Indices(Estimate(min(max(0.0, first.value), total.value), first.half_width), total)
+    """Indices with their intervals; where chance puts the first above the total, the less certain gives way."""
+    first, total = (_not_negative(estimate(rows[:, i])) for i in (0, 1))
+    if first.value > total.value:
+        if first.half_width <= total.half_width:
+            total = _moved(total, first)
+        else:
+            first = _moved(first, total)
+    return Indices(first, total)
+
+
+def _not_negative(one: Estimate) -> Estimate:
+    return Estimate(max(0.0, one.value), one.half_width)
+
+
+def _moved(one: Estimate, to: Estimate) -> Estimate:
+    """An estimate at the value of a more certain one; the far end of its interval stays, or is that of the other."""
+    return Estimate(to.value, max(to.half_width, one.half_width - abs(one.value - to.value)))
 
 
 def corners(

@@ -148,6 +148,12 @@ def test_words_are_conditions_and_quantities_of_other_commands_serve() -> None:
     assert (found.feasible, found.front_size) == (2, 1)
 
 
+def test_a_range_of_one_value_is_one_design() -> None:
+    found = study(variables={"gears.module": {"from": 2.5, "to": 2.5}}, minimize={"frame_length": 1})
+    assert (found.designs, found.exhaustive) == (1, True)
+    assert [check.status for check in found.report("explore").checks] == ["pass"]
+
+
 @pytest.mark.parametrize(
     ("keys", "code", "place"),
     [

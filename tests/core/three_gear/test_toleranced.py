@@ -59,7 +59,7 @@ DRIVES = {
 }
 
 
-COUNT = 12 if ALL else 4
+COUNTS = (12 if ALL else 4, pytest.param(256, marks=pytest.mark.slow))
 """Samples that are computed alone as well."""
 
 
@@ -75,12 +75,13 @@ def test_without_deviations_the_general_class_is_the_ordinary_one(name: str) -> 
 
 
 @pytest.mark.parametrize("name", DRIVES)
-def test_many_drives_at_once_are_those_computed_alone(name: str) -> None:
+@pytest.mark.parametrize("count", COUNTS)
+def test_many_drives_at_once_are_those_computed_alone(name: str, count: int) -> None:
     nominal = DRIVES[name]()
-    axis, columns = ThreeGearSamples(nominal), _columns(nominal, COUNT)
+    axis, columns = ThreeGearSamples(nominal), _columns(nominal, count)
     names = [*NAMES, "frame_length", "coupler_length", *(["dwell_swing"] if axis.has_window else [])]
     found = axis.evaluate(columns, names)
-    for i in range(COUNT):
+    for i in range(count):
         alone = axis.design({key: value[i] for key, value in columns.items()})
         for quantity in names:
             raw = alone.raw(quantity)
