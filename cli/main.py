@@ -55,7 +55,7 @@ class _Output(io.FileIO):
             os.dup2(os.open(os.devnull, os.O_WRONLY), self.fileno())  # for this and the interpreter's last flush
             if isinstance(error, self.ignored):
                 return len(data)
-            raise
+            raise OSError(error.errno, f"standard output cannot be written: {error.strerror}") from None
 
 
 def _output(stream: TextIO, ignored: type[OSError]) -> TextIO:

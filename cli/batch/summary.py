@@ -119,7 +119,7 @@ def _show(results: Sequence[Outcome], options: BatchOptions) -> None:
 def _show_table(results: Sequence[Outcome], console: Console) -> None:
     from rich.text import Text
 
-    from gearlink.cli.render.terminal import grid_for
+    from gearlink.cli.render.terminal import grid_for, show_grid
 
     grid = grid_for(console)
     grid.add_column("design", overflow="fold")
@@ -129,4 +129,4 @@ def _show_table(results: Sequence[Outcome], console: Console) -> None:
     for o in results:
         time = "cached" if o.cached else f"{1e3 * o.seconds:.0f}"
         grid.add_row(o.file, o.command, Text(o.verdict, style=_STYLE[o.verdict]), time)
-    console.print(grid)
+    show_grid(grid, console)

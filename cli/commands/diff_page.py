@@ -82,7 +82,7 @@ def _as_markdown(found: Difference) -> str:
 
 def _show(found: Difference, options: Options) -> None:
     from gearlink.cli.render.numbers import number
-    from gearlink.cli.render.terminal import console_for, grid_for
+    from gearlink.cli.render.terminal import console_for, grid_for, show_grid
 
     console = console_for(options)
     for part, rows in _parts(found, partial(number, digits=9)):
@@ -98,6 +98,6 @@ def _show(found: Difference, options: Options) -> None:
             grid.add_column(heads[i], justify="right" if number_like else "left", no_wrap=whole, overflow="fold")
         for row in rows:
             grid.add_row(*(row[i] for i in shown))
-        console.print(grid)
+        show_grid(grid, console)
         console.print()
     print(_verdict(found))

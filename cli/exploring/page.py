@@ -5,7 +5,7 @@ from __future__ import annotations
 from gearlink.cli.options import Options
 from gearlink.cli.printable import visible
 from gearlink.cli.render.numbers import number
-from gearlink.cli.render.terminal import console_for, grid_for, show_findings, show_table
+from gearlink.cli.render.terminal import console_for, grid_for, show_findings, show_grid, show_table
 from gearlink.core.explore.exploration import Exploration
 from gearlink.core.explore.front import SHOWN
 from gearlink.core.report import Report, Table
@@ -74,7 +74,7 @@ def _why(study: Exploration, console: object) -> None:
         near = "" if miss.value is None else f"{_beside(miss.value, miss.limit)}{unit}"
         grid.add_row(name, code or "", f"{miss.fails:,}", f"{miss.alone:,}", near, f"--show m{place}")
     console.print()  # type: ignore[attr-defined]
-    console.print(grid)  # type: ignore[attr-defined]
+    show_grid(grid, console)  # type: ignore[arg-type]
 
 
 def _beside(value: float, limit: float | None) -> str:

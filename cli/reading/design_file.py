@@ -156,19 +156,23 @@ def validate(loaded: LoadedFile, model: type[Model]) -> Model:
 
     wrong = list(loaded.problems)
     odd = list(_odd_values(loaded.data, _ROOT))
-    wrong += [_no_size(loaded, path, value) for path, value in odd if not isinstance(value, bool)]
+    sizes = {path for path, value in odd if not isinstance(value, bool)}
     spec: Model | None = None
+    found: list[Diagnostic] = []
     omitted = 0
     try:
         spec = model.model_validate_json(json.dumps(loaded.data))
     except ValidationError as error:
         from gearlink.cli.reading.model_errors import diagnose
+        from gearlink.cli.reading.model_shapes import takes_no_number
 
         found, omitted = diagnose(loaded, model, error)
-        seen = {diagnostic.key for diagnostic in wrong if diagnostic.code == "GL108"}
-        wrong += [diagnostic for diagnostic in found if diagnostic.key not in seen]
+        sizes = {path for path in sizes if not takes_no_number(model, path, loaded.data)}
     except NoSolution as error:
-        wrong.append(diagnose_no_solution(loaded, error))
+        found = [diagnose_no_solution(loaded, error)]
+    wrong += [_no_size(loaded, path, value) for path, value in odd if path in sizes]
+    seen = {diagnostic.key for diagnostic in wrong if diagnostic.code == "GL108"}
+    wrong += [diagnostic for diagnostic in found if diagnostic.key not in seen]
     if truths := [path for path, value in odd if isinstance(value, bool)]:
         from gearlink.cli.reading.model_errors import diagnose_truth_values
 

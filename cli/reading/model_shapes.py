@@ -44,6 +44,18 @@ def takes_truth_value(model: type[BaseModel], path: KeyPath, data: Any) -> bool:
     return not numbers or bool in shapes or Any in shapes or any(isinstance(value, bool) for value in literals)
 
 
+def takes_no_number(model: type[BaseModel], path: KeyPath, data: Any) -> bool:
+    """Whether a path is known and only words, sections or lists are welcome there."""
+    shapes = [shape for shape, _ in _shapes_at(model, path, data)[0]]
+    literals = [value for shape in shapes if get_origin(shape) is Literal for value in get_args(shape)]
+    if any(isinstance(value, (int, float)) for value in literals):
+        return False
+    return bool(shapes) and all(
+        shape in (str, type(None)) or get_origin(shape) in (Literal, list, tuple, dict) or _is_model(shape)
+        for shape in shapes
+    )
+
+
 def _shapes_at(model: type[BaseModel], path: KeyPath, data: Any) -> tuple[list[Shape], Any]:
     shapes: list[Shape] = [(model, ())]
     for step in path:

@@ -79,7 +79,7 @@ def whole_number_remedy(value: float) -> str:
     """What to write in place of a float where teeth or the like are counted."""
     if not math.isfinite(value) or abs(value) >= 2.0**53:
         return ""
-    return f"write {value:.0f}" if value == int(value) else f"write {math.floor(value)} or {math.ceil(value)}"
+    return f"write {int(value)}" if value == int(value) else f"write {math.floor(value)} or {math.ceil(value)}"
 
 
 def number_remedy(text: str) -> str:

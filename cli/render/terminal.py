@@ -9,7 +9,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from rich import box
-from rich.console import Console, RenderableType
+from rich.cells import cell_len
+from rich.console import Console, JustifyMethod, RenderableType
+from rich.table import Column
 from rich.table import Table as Grid
 from rich.text import Text
 
@@ -28,6 +30,10 @@ _COMPARED = ("GL304", "GL306")  # whose limit is what was asked for, or what the
 _NOMINAL = ", nominal: "
 """What follows it in the message of a passed check is said beside the table of passes, which has no messages."""
 _WIDTH_UNKNOWN = 80  # where COLUMNS says 0
+_SYMBOLS_FROM = 56  # columns of a terminal, below which names stand without their symbols
+_LEAST_TEXT = 24  # columns that words keep beside numbers, however narrow the terminal
+_BETWEEN = 3  # columns of a terminal between those of a table
+_TIGHT = 6
 
 
 def show(report: Report, options: Options) -> None:
@@ -35,10 +41,10 @@ def show(report: Report, options: Options) -> None:
     console = console_for(options)
     console.print(Text(f"{visible(' '.join(report.name.split()))}: {report.command} ({report.kind})", style="bold"))
     if report.quantities:
-        console.print(_quantities(report, console))
+        show_grid(_quantities(report, console), console)
         if report.command == "gear":
             for grid in _pairs(report, console):
-                console.print(grid)
+                show_grid(grid, console)
         if console.width < _WIDE and console.is_terminal and not options.quiet:
             print(f"(terminals of {_WIDE} columns show what each quantity means; so does `gearlink explain NAME`)")
     for table in report.tables:
@@ -51,11 +57,11 @@ def show_findings(report: Report, console: Console) -> None:
     findings = [c for c in report.checks if c.status != "pass"]
     if findings:
         console.print()
-        console.print(_findings(findings, console))
+        show_grid(_findings(findings, console), console)
     passes = [c for c in report.checks if c.status == "pass"]
     if passes:
         console.print()
-        console.print(_passes(passes, scales(report), console))
+        show_grid(_passes(passes, scales(report), console), console)
         for proviso in dict.fromkeys(c.message.partition(_NOMINAL)[2] for c in passes if _NOMINAL in c.message):
             console.print(Text(f"safety{_NOMINAL}{proviso}"))
     counts = {status: sum(c.status == status for c in report.checks) for status in ("fail", "warn", "pass")}
@@ -96,20 +102,39 @@ def grid_for(console: Console) -> Grid:
     )
 
 
+def show_grid(grid: Grid, console: Console) -> None:
+    """Print a table; on a terminal too narrow for it the lines run on, so that no number is cut, broken or left out."""
+    least = [_least_width(column) for column in grid.columns]
+    need = sum(least) + _BETWEEN * (len(least) - 1)
+    width = console.width
+    if need > width - _TIGHT:  # rich would share out what is missing among all columns
+        for column, each in zip(grid.columns, least, strict=True):
+            column.width = each
+        console.width = max(width, need)
+    console.print(grid)
+    console.width = width
+
+
+def _least_width(column: Column) -> int:
+    """What a column takes: words in full where they are not to be folded, numbers in full everywhere."""
+    cells = [str(cell) for cell in (column.header, *column.cells)]
+    parts = [part for cell in cells for part in (cell.split("\n") if column.no_wrap else cell.split())]
+    longest = max(map(cell_len, parts), default=0)
+    return longest if column.no_wrap or column.justify == "right" else min(longest, _LEAST_TEXT)
+
+
 def _quantities(report: Report, console: Console) -> Grid:
     grid, scale = grid_for(console), scales(report)
-    wide = console.width >= _WIDE
-    for head in ("quantity", "symbol", "value", "unit", *(["meaning"] if wide else [])):
-        grid.add_column(
-            head, justify="right" if head == "value" else "left", overflow="fold", no_wrap=head == "quantity"
-        )
+    wide, symbols = console.width >= _WIDE, console.width >= _SYMBOLS_FROM
+    for head in ("quantity", *(["symbol"] if symbols else []), "value", "unit", *(["meaning"] if wide else [])):
+        side: JustifyMethod = "right" if head == "value" else "left"
+        grid.add_column(head, justify=side, overflow="fold", no_wrap=head in ("quantity", "unit"))
     for q in report.quantities:
         if q.value == [] or (report.command == "gear" and _per_gear(q)):  # no standstill has no place
             continue
         unit = "" if q.unit == "1" else q.unit
-        grid.add_row(
-            q.name, q.symbol, number(quiet(q.value, scale.get(q.unit, 0.0))), unit, *([q.words] if wide else [])
-        )
+        value = number(quiet(q.value, scale.get(q.unit, 0.0)))
+        grid.add_row(q.name, *([q.symbol] if symbols else []), value, unit, *([q.words] if wide else []))
     return grid
 
 
@@ -166,7 +191,8 @@ def _passes(checks: Sequence[Check], scale: Mapping[str, float], console: Consol
     """Passed checks, a line per kind: how often, and the value nearest to its limit."""
     grid = grid_for(console)
     for head in ("passed", "code", "value", "limit", "unit"):
-        grid.add_column(head, justify="right" if head in ("value", "limit") else "left")
+        side: JustifyMethod = "right" if head in ("value", "limit") else "left"
+        grid.add_column(head, justify=side, overflow="fold", no_wrap=head != "passed")
     groups: dict[tuple[str, str], list[Check]] = {}
     for c in checks:
         groups.setdefault((c.name, c.code), []).append(c)
@@ -221,7 +247,7 @@ def show_table(table: Table, console: Console, most: int = _MOST_ROWS) -> None:
             )
         for row in cells:
             grid.add_row(*(row[i] for i in columns))
-        console.print(grid)
+        show_grid(grid, console)
 
 
 def _by_mesh(table: Table) -> Iterator[Table]:

@@ -218,6 +218,20 @@ def test_tables_fit_the_width(
     assert "\x1b" not in ended.out
 
 
+@pytest.mark.parametrize("width", [1, 20, 45, 60])
+def test_a_narrow_terminal_keeps_every_number(
+    gearlink: Any, designs: Path, monkeypatch: pytest.MonkeyPatch, width: int
+) -> None:
+    monkeypatch.setenv("COLUMNS", "100")
+    usual = gearlink("gear", designs / "ring_pair.yaml").out
+    monkeypatch.setenv("COLUMNS", str(width))
+    narrow = gearlink("gear", designs / "ring_pair.yaml").out
+    numbers = [word for word in usual.partition("checks:")[0].split() if word.lstrip("-").replace(".", "").isdigit()]
+    assert len(numbers) > 60
+    assert set(numbers) <= set(narrow.split())
+    assert "…" not in narrow
+
+
 def test_ascii_terminal() -> None:
     environment = {**os.environ, "PYTHONIOENCODING": "ascii", "PYTHONUTF8": "0"}
     done = shell("synth", "dwell", "designs/candy_feed.yaml", env=environment)
@@ -295,7 +309,10 @@ def test_a_full_disk_is_said_without_traceback(line: str) -> None:
     command = [sys.executable, "-m", "gearlink.cli.main", *line.split()]
     with open("/dev/full", "w") as full:
         ended = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, cwd=ROOT, check=False)
-    assert (ended.returncode, ended.stderr) == (2, b"error: No space left on device\n")
+    assert (ended.returncode, ended.stderr) == (
+        2,
+        b"error: standard output cannot be written: No space left on device\n",
+    )
 
 
 @pytest.mark.parametrize(

@@ -348,6 +348,7 @@ def test_every_error_is_told_in_one_run_in_the_order_of_the_file() -> None:
          "points[1].at[1] is missing: the list is too short", ""),
         ("split: .inf", "GL108", "split", "split is not a finite number", "give a finite number"),
         ("teeth: [20, 1e999]", "GL108", "teeth[1]", "teeth[1] is not a finite number", "give a finite number"),
+        ("phases: .nan", "GL107", "phases", "phases must be a section of keys, not nan", ""),
         ("split: 1e-300", "GL108", "split", "split is 1e-300, which is no number of a machine",
          "allowed: 0, or 1e-30 to 1e+12 in size"),
         ("teeth: [20, -1e300]", "GL108", "teeth[1]", "teeth[1] is -1e+300, which is no number of a machine",
