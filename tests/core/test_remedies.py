@@ -21,7 +21,10 @@ from gearlink.core.remedies import down, left_out, shared, up
 from gearlink.core.report import Check, Remedy, remedy_words
 from gearlink.core.spec_paths import changed, numbers_at, step_of, value_at
 
-SLOW_KINDS = ("five_bar", "hypocycloid")
+SLOW_KINDS = ("five_bar", "hypocycloid", "six_bar")
+"""Much that is wrong with them no single key repairs, and each trial follows a whole motion."""
+Failing = dict[str, list[bool]]
+"""The findings of each check, whether they fail."""
 
 
 def with_values(data: Data, remedy: Remedy) -> Data:
@@ -46,16 +49,29 @@ def design(data: Data, command: str) -> Any:
     return kind.design(command, kind.spec_model().model_validate(data))
 
 
-def failing(data: Data, command: str) -> set[tuple[str, int]] | None:
-    """What fails of a file: the name of each check, and which of its findings; None where the file is refused."""
+def failing(data: Data, command: str) -> Failing | None:
+    """Which findings of each check of a file fail; None where the file is refused."""
     try:
         made = design(data, command)
         made.advises = False
         made.require(command)
-        found = [(name, i, check) for name in made.outline(command).checks for i, check in enumerate(made.check(name))]
+        return {name: [check.status == "fail" for check in made.check(name)] for name in made.outline(command).checks}
     except (ValueError, NoSolution):
         return None
-    return {(name, i) for name, i, check in found if check.status == "fail"}
+
+
+def no_worse(now: Failing, before: Failing) -> bool:
+    """Nothing fails that did not; where a check has more or fewer findings than before, no more of them fail.
+
+    Findings come and go with what they judge: a root that no tool leaves has a warning in place of its stress.
+    """
+    pairs = ((now[name], before[name]) for name in now)
+    return all(
+        all(was or not fails for fails, was in zip(one, other, strict=True))
+        if len(one) == len(other)
+        else sum(one) <= sum(other)
+        for one, other in pairs
+    )
 
 
 def tried(kind: str, failures: int) -> tuple[int, int]:
@@ -63,12 +79,12 @@ def tried(kind: str, failures: int) -> tuple[int, int]:
     wrong = repaired = 0
     for data, command in draw(kind, 1, 100 * failures):
         before = failing(data, command)
-        if not before:
+        if before is None or not any(map(any, before.values())):
             continue
         asked = {command, *design(data, command).spec.commands()}
         stood = {each: found for each in asked if (found := failing(data, each)) is not None}
         made = design(data, command)
-        for name in dict.fromkeys(name for name, _ in before):
+        for name in (name for name, found in before.items() if any(found)):
             for i, check in enumerate(made.findings(command, name)):
                 wrong += check.status == "fail"
                 repaired += check.status == "fail" and bool(check.remedy)
@@ -81,17 +97,23 @@ def tried(kind: str, failures: int) -> tuple[int, int]:
     return wrong, repaired
 
 
-def follow(data: Data, check: Check, i: int, stood: dict[str, set[tuple[str, int]]]) -> None:
+def follow(data: Data, check: Check, i: int, stood: dict[str, Failing]) -> None:
     """Write the remedy into the file: its check passes, and nothing else fails that did not, of any command."""
     assert check.message.endswith(remedy_words(check.remedy))
     for command, before in stood.items():
         now = failing(with_values(data, check.remedy), command)
         assert now is not None, (data, check)
-        assert now <= before, (data, check)
-        assert (check.name, i) not in now, (data, check)
+        assert no_worse(now, before), (data, check)
+        if fails := now.get(check.name, []):
+            # new findings count with the check
+            assert not (fails[i] if len(fails) == len(before[check.name]) else any(fails)), (data, check)
 
 
+<<<<<<< Updated upstream
 COSTLY = {"gripper": 2, "press": 1, "wide_swing": 1, "three_gear": 4}
+=======
+COSTLY = {"gripper": 2, "press": 2, "wide_swing": 2, "three_gear": 4, "cycle": 1, "loads": 1}
+>>>>>>> Stashed changes
 """Failing designs of `make test`, where the checks of a design take tens of milliseconds."""
 
 
@@ -167,4 +189,6 @@ def test_findings_that_are_new_count_with_the_check() -> None:
     made = design(data, "analyze")
     (check,) = (found for found in made.findings("analyze", "involute-interference") if found.status == "fail")
     assert check.remedy
-    assert not {name for name, _ in failing(with_values(data, check.remedy), "analyze") or ()} & {check.name}
+    now = failing(with_values(data, check.remedy), "analyze")
+    assert now is not None
+    assert not any(now[check.name])

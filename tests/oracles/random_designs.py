@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import random
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import factory
+from six_bars import SIX_BARS
 
 Data = dict[str, Any]
 Drawn = tuple[Data, str]
@@ -28,6 +30,44 @@ def gear_pair(rng: random.Random) -> Drawn:
     if rng.random() < 0.3:
         data["addendum"] = _within(rng, 0.6, 1.4)
     return data, "gear"
+
+
+def helical(rng: random.Random) -> Drawn:
+    """Helical pairs, some in a ring, with tolerances and loads that they may not bear."""
+    first, ring = rng.randint(7, 40), rng.random() < 0.25
+    teeth = [first, -(first + rng.randint(8, 60)) if ring else rng.randint(8, 80)]
+    module, helix = rng.choice([1.5, 2, 2.5, 4]), _within(rng, 5, 35)
+    data: Data = {"kind": "gear-pair", "module": module, "teeth": teeth, "helix_angle": helix}
+    data["face_width"] = _within(rng, 4, 14) * module
+    if ring or rng.random() < 0.6:
+        data["profile_shift"] = [_within(rng, -0.6, 0.9), _within(rng, -0.6, 0.9)]
+    else:
+        near = module * sum(teeth) / 2.0 / math.cos(math.radians(helix))
+        data["center_distance"] = round(near + module * rng.uniform(-0.8, 1.2), 2)
+    if not ring and rng.random() < 0.5:
+        _loaded(rng, data)
+    return data, "gear"
+
+
+def rack(rng: random.Random) -> Drawn:
+    """Pinions of few teeth on a rack, straight and helical, with tolerances and loads."""
+    data: Data = {"kind": "gear-pair", "module": rng.choice([2, 3, 5]), "teeth": [rng.randint(6, 40), "rack"]}
+    data |= {"profile_shift": [_within(rng, -0.5, 1.0), 0], "face_width": _within(rng, 10, 60)}
+    if rng.random() < 0.4:
+        data["helix_angle"] = _within(rng, 5, 30)
+    if rng.random() < 0.4:
+        data["addendum"] = _within(rng, 0.7, 1.3)
+    if rng.random() < 0.5:
+        _loaded(rng, data)
+    return data, "gear"
+
+
+def _loaded(rng: random.Random, data: Data) -> None:
+    data["load"] = {"torque": _within(rng, 5, 400), "factors": {"application": 1.25}}
+    data["material"] = {"contact_limit": _within(rng, 600, 1500), "bending_limit": _within(rng, 150, 450)}
+    if rng.random() < 0.5:
+        data["allowances"] = {"series": rng.choice(["25cd", "24e", "27h"])}
+        data["center_distance_allowance"] = rng.choice(["js6", "js8"])
 
 
 def three_gear(rng: random.Random) -> Drawn:
@@ -171,6 +211,71 @@ def wide_swing(rng: random.Random) -> Drawn:
     return _varied(rng, f"wide_swing_{name}", changes), "swing"
 
 
+def cycle(rng: random.Random) -> Drawn:
+    """The worked whole cycle, both layouts, with other phases of the turn and other numbers."""
+    changes: list[Change] = [
+        ("layout", lambda: "twin-cam"),
+        ("swing", lambda: _within(rng, 60, 200)),
+        ("cycle", lambda: _phases(rng)),
+        ("cam.roller_radius", lambda: _within(rng, 2, 30)),
+        ("cam.center_distance", lambda: _within(rng, 90, 300)),
+        ("cam.shaft_radius", lambda: _within(rng, 10, 80)),
+        ("cam.free_clearance", lambda: _within(rng, 0, 3)),
+        ("unloader.pivot_ratio", lambda: _within(rng, 0.8, 4)),
+        ("unloader.reserve", lambda: _within(rng, 0, 0.5)),
+        ("limits.pressure_angle", lambda: _within(rng, 15, 60)),
+    ]
+    return _varied(rng, "wide_swing_cycle", changes), rng.choice(["swing", "cam"])
+
+
+def _phases(rng: random.Random) -> Data:
+    working, far, back = (rng.randint(30, 150) for _ in range(3))
+    near = 360 - working - far - back
+    return {"working": working, "far_dwell": far, "return": back, "near_dwell": max(near, 10)}
+
+
+def six_bar(rng: random.Random) -> Drawn:
+    """The worked six-bars and one for each place of a train, with other links, some with shafts."""
+    base = rng.choice([*(factory.worked(name) for name in ("geared_six_bar", "six_bar_swing")), *SIX_BARS.values()])
+    data = factory.changed(base, loads=None)
+    links = data["links"]
+    for name in rng.sample(sorted(links), rng.choice([1, 1, 2])):
+        links[name] = round(links[name] * rng.uniform(0.6, 1.5), 1)
+    if rng.random() < 0.3:
+        data["shafts"] = {"A_radius": _within(rng, 3, 15), "F_radius": _within(rng, 3, 25)}
+    return data, "analyze"
+
+
+def loads(rng: random.Random) -> Drawn:
+    """The worked machines under load with other speeds, drives, bearings and springs."""
+    feed: list[Change] = [
+        ("loads.speed", lambda: _within(rng, 30, 400)),
+        ("loads.motor.rated_torque", lambda: _within(rng, 0.5, 5)),
+        ("loads.motor.max_torque", lambda: _within(rng, 0.5, 9)),
+        ("loads.flywheel", lambda: {"inertia": _within(rng, 0.02, 5), "fluctuation": _within(rng, 0.01, 0.1)}),
+        ("loads.bearings.C.dynamic_rating", lambda: _within(rng, 500, 20000)),
+        ("loads.vibration.frequency", lambda: _within(rng, 20, 120)),
+        ("loads.vibration.damping", lambda: rng.choice([0, 0.01, 0.05])),
+        ("loads.vibration.allowed_residual", lambda: _within(rng, 0.02, 0.3)),
+        ("loads.forces", lambda: [{"on": "output", "torque": -_within(rng, 0.5, 40)}]),
+        ("loads.friction", lambda: {"pins": _within(rng, 0.02, 0.9), "pin_radius": _within(rng, 4, 60)}),
+    ]
+    gripper: list[Change] = [
+        ("spring.torque", lambda: _within(rng, 100, 500)),
+        ("loads.material.allowed_pressure", lambda: _within(rng, 200, 1500)),
+    ]
+    swing: list[Change] = [
+        ("loads.material.allowed_pressure", lambda: _within(rng, 150, 1500)),
+        ("loads.vibration.allowed_residual", lambda: _within(rng, 0.02, 0.3)),
+        ("unloader.reserve", lambda: _within(rng, 0.05, 0.5)),
+    ]
+    name, changes = rng.choice(
+        [("loaded_feed", feed), ("loaded_feed", feed), ("loaded_gripper", gripper), ("loaded_wide_swing", swing)]
+    )
+    drawn = rng.sample(changes, rng.choice([1, 1, 2]))
+    return factory.changed(factory.worked(name), **{key.replace(".", "__"): draw() for key, draw in drawn}), "loads"
+
+
 def _varied(rng: random.Random, name: str, changes: Sequence[Change]) -> Data:
     """A worked design with one to three of the changes."""
     drawn = rng.sample(changes, rng.choice([1, 1, 2, 3]))
@@ -182,6 +287,7 @@ KINDS: dict[str, Callable[[random.Random], Drawn]] = {
     for make in (
         *(gear_pair, three_gear, synthesis, two_gear, geared_rocker, five_bar, hypocycloid, mutilated),
         *(press, gripper, wide_swing),
+        *(helical, rack, cycle, six_bar, loads),
     )
 }
 

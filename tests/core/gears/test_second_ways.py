@@ -142,6 +142,21 @@ def test_a_ball_of_the_measure_touches_the_helicoid(
 
 
 @examples(40)
+@given(z1=TEETH, z2=TEETH, x1=SHIFT, x2=SHIFT, beta=HELIX, less=st.floats(0.0, 0.2))
+def test_shifts_that_a_given_distance_does_not_use_leave_backlash(
+    z1: int, z2: int, x1: float, x2: float, beta: float, less: float
+) -> None:
+    """Both given: teeth that are thinner, by 2 x m tan(alpha_n) in the normal section."""
+    assume(x1 + x2 > 0.0)
+    keys: dict[str, Any] = {"module": 3.0, "teeth": (z1, z2), "helix_angle": math.radians(beta)}
+    full = GearPair(given_shift=(x1, x2), **keys)
+    thinner = GearPair(given_shift=(x1 - less, x2), given_distance=full.center_distance, **keys)
+    thickness = -2.0 * less * 3.0 * math.tan(full.pressure_angle)
+    wanted = MeshPlay(full, 0.0, thickness)
+    assert MeshPlay(thinner, 0.0, 0.0).circumferential == pytest.approx(wanted.circumferential, abs=1e-11 * (z1 + z2))
+
+
+@examples(40)
 @given(z1=TEETH, z2=TEETH, x1=SHIFT, x2=SHIFT, beta=HELIX, off=st.floats(0.0, 0.1), thin=st.floats(-0.3, 0.0))
 def test_backlash_is_what_the_strings_of_both_flanks_leave(
     z1: int, z2: int, x1: float, x2: float, beta: float, off: float, thin: float

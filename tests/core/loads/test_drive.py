@@ -110,6 +110,27 @@ def test_energy_balance_of_the_motor() -> None:
     assert ends[1] - ends[0] == pytest.approx(work, abs=1e-10 * ends[0])
 
 
+def test_rms_torque_of_the_motor_is_over_time() -> None:
+    """The exponentials of two zones in time, k (w_0 - w) squared, integrated in closed form; the slow zone lasts."""
+    k, no_load, inertia, edge = 2.0, 20.0, 0.7, 1.2
+
+    def load(phi: Any) -> Any:
+        return np.where(phi < edge, 30.0, 3.0)
+
+    panels = Panels.over(2.0 * math.pi, [edge])
+    run = MotorRun(load, lambda phi: np.full_like(phi, inertia), panels, k, no_load, (edge,))
+    rate, squares, whole = k / inertia, 0.0, 0.0
+    for start, end, torque in ((0.0, edge, 30.0), (edge, 2.0 * math.pi - 1e-15, 3.0)):
+        first, last = (float(run.speed(np.array([place]))[0]) for place in (start, end))
+        off = first - (no_load - torque / k)  # w - w_inf = off e^(-rate t), so the torque is torque - k off e^(-rate t)
+        fall = (last - no_load + torque / k) / off
+        time = -math.log(fall) / rate
+        squares += torque**2 * time - 2.0 * torque * k * off * (1.0 - fall) / rate
+        squares += (k * off) ** 2 * (1.0 - fall**2) / (2.0 * rate)
+        whole += time
+    assert run.rms_torque == pytest.approx(math.sqrt(squares / whole), rel=1e-9)
+
+
 def test_zone_of_constant_torque_has_its_closed_form() -> None:
     """w = w_inf + (w_a - w_inf) e^(-k t/J) in each zone; constant inertia."""
     k, no_load, inertia = 2.0, 20.0, 0.7

@@ -67,6 +67,23 @@ def test_closed_form_and_newton_agree() -> None:
     assert (np.abs(newton - angles).max(axis=0) < 60.0 * EPS * condition).all()
 
 
+def test_transmission_is_the_acute_angle_of_the_dyad() -> None:
+    """By the cosine rule of its triangle; beyond a right angle it falls again, down to 0 in a dead centre."""
+    machine = six_bar(CLOSED)
+    bar = machine.bar
+    angles = machine.course.angles(TURNS)
+    one, other = (j - 2 for j in bar.free)
+    links = bar.links(angles)
+    b, c = bar.lengths[one + 2], bar.lengths[other + 2]
+    chord = np.abs(links[one] + links[other])
+    between = np.arccos((b * b + c * c - chord * chord) / (2.0 * b * c))
+    found = bar.transmission(angles)
+    assert found == pytest.approx(np.minimum(between, math.pi - between), abs=1e-13)
+    turned = angles.copy()
+    turned[other] = angles[one] + math.radians(140.0)
+    assert bar.transmission(turned) == pytest.approx(np.full(TURNS.shape, math.radians(40.0)), abs=1e-13)
+
+
 @pytest.mark.parametrize("name", [CLOSED, FOLLOWED])
 def test_rates_against_forty_digits(name: str) -> None:
     machine = six_bar(name)

@@ -183,6 +183,16 @@ class TestRefusals:
             crank_angle_for_window(-1.8, window_limit(-1.8))
 
 
+def test_frames_of_the_longest_window_are_one_up_to_rounding() -> None:
+    """There both ends of the interval are the same frame: exchanged by a last bit they would hold nothing."""
+    for i3 in (-0.1 * tenths for tenths in range(4, 61)):
+        for tolerance in map(math.radians, (0.01, 0.3, 2.0, 9.0)):
+            window = window_dwell.longest_window(i3, tolerance)
+            low, high = window_dwell.frame_ratio_interval(i3, window, tolerance)
+            assert low <= high
+            assert low == pytest.approx(high, rel=1e-6)
+
+
 @pytest.mark.slow
 def test_what_the_limits_leave_is_named_and_can_be_had() -> None:
     wish = {"kind": "three-gear-four-bar", "gears": {"module": 2.0, "crank": 40, "output": 40}}
