@@ -88,6 +88,8 @@ def _panel(axes: Axes, course: Course, order: int, *, last: bool) -> None:
     if order:
         measure, scale = ("m", 1e-3) if course.unit == "mm" else ("rad", 1.0)
         panels.in_time(axes, course.speed, order, measure, scale)
+    if last and course.speed is not None:
+        panels.in_ms(axes, 1e3 * math.radians(1.0) / course.speed)
 
 
 def _vertex(x: Reals, y: Reals, i: int) -> tuple[float, float]:

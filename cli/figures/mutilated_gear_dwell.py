@@ -70,6 +70,7 @@ def _speeds(axes: Axes, design: MutilatedGearDwell) -> None:
     if "rocker_speed_ratio" in data:
         axes.plot(turns, data["rocker_speed_ratio"], color=style.BLUE, linewidth=1.6, label="rocker")
     panels.in_time(axes, design.angular_speed, 1, "rad")
+    panels.in_ms(axes, design.turn_time)
     panels.legend_above(axes, 3)
 
 

@@ -217,6 +217,30 @@ def in_time(axes: Axes, speed: float | None, order: int, measure: str, scale: fl
     right.yaxis.get_offset_text().set_fontsize(7)
 
 
+def in_ms(axes: Axes, each: float | None) -> None:
+    """The x axis in time as well, below its own words; nothing where the speed is not known.
+
+    each : time of a unit of the x axis [ms]
+    """
+    if each is None:
+        return
+
+    def to_ms(values: Any) -> Any:
+        return values * each
+
+    def from_ms(values: Any) -> Any:
+        return values / each
+
+    below = axes.secondary_xaxis("bottom", functions=(to_ms, from_ms))
+    below.spines["bottom"].set_position(("outward", _BELOW))
+    below.set_xlabel("time [ms]", fontsize=8.5)
+    below.tick_params(labelsize=8)
+
+
+_BELOW = 38.0
+"""Points from an x axis to the one in ms: room for its numbers and words."""
+
+
 def turn_panel(axes: Axes, ylabel: str, xlabel: str = "") -> None:
     """Curves over one turn; panels above others go without a label of the x axis."""
     style.curves(axes, xlabel, ylabel)

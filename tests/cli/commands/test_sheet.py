@@ -132,3 +132,21 @@ def test_kinds_with_sheets() -> None:
         "drawing-1",
         "drawing-2",
     ]
+
+
+@pytest.mark.parametrize(("name", "keys"), [("candy_feed", {"input_speed": 90.0}), ("ty460_slider_crank", {})])
+def test_the_lowest_panel_has_the_time_beside_the_angle_where_the_speed_is_known(name: str, keys: Any) -> None:
+    made = design(name, **keys)
+    figure = motion_sheet.draw(made)
+    if keys:
+        figure.draw_without_rendering()  # until then the second axis does not know the first
+    times = [
+        (axes.get_xlim(), child.get_xlim())
+        for axes in figure.axes
+        for child in axes.child_axes
+        if child.get_xlabel() == "time [ms]"
+    ]
+    assert bool(times) == bool(keys)
+    for angles, time in times:
+        assert angles == (0.0, 360.0)
+        assert time == pytest.approx((0.0, made.turn_time), rel=1e-12)
