@@ -109,11 +109,7 @@ def follow(data: Data, check: Check, i: int, stood: dict[str, Failing]) -> None:
             assert not (fails[i] if len(fails) == len(before[check.name]) else any(fails)), (data, check)
 
 
-<<<<<<< Updated upstream
-COSTLY = {"gripper": 2, "press": 1, "wide_swing": 1, "three_gear": 4}
-=======
-COSTLY = {"gripper": 2, "press": 2, "wide_swing": 2, "three_gear": 4, "cycle": 1, "loads": 1}
->>>>>>> Stashed changes
+COSTLY = {"gripper": 2, "press": 1, "wide_swing": 1, "three_gear": 4, "cycle": 1, "loads": 1}
 """Failing designs of `make test`, where the checks of a design take tens of milliseconds."""
 
 
