@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 from pathlib import Path
 
@@ -31,3 +32,15 @@ def test_every_package_has_an_init() -> None:
 def test_no_test_package() -> None:
     """With import-mode=importlib a tests/__init__.py would give modules two names."""
     assert not list((ROOT / "tests").rglob("__init__.py"))
+
+
+def test_nobody_is_told_to_install_another_project_s_package() -> None:
+    """`gearlink` on PyPI is another program, and this one is not there under any name: it is installed from a path."""
+    files = [path for ending in ("*.md", "*.yml", "*.yaml") for path in ROOT.glob(ending)]
+    files += [path for top in ("docs", "cli", "core", ".github") for path in (ROOT / top).rglob("*.*")]
+    texts = {path: path.read_text(encoding="utf-8") for path in files if path.suffix in (".md", ".py", ".yml", ".yaml")}
+    assert len(texts) > 300
+    wrong = re.compile(r"pip install (-[-\w]+ )*['\"]?gearlink(-design)?\b(?!_)")
+    assert [path.name for path, text in texts.items() if wrong.search(text)] == []
+    assert wrong.search("pip install --quiet 'gearlink-design[step]'")
+    assert wrong.search("pip install gearlink")

@@ -5,6 +5,7 @@ The analysis of what a synthesis saved is that synthesis's result to 1e-9, the r
 
 from __future__ import annotations
 
+import json
 import re
 from pathlib import Path
 from typing import Any
@@ -61,3 +62,20 @@ def test_a_design_that_fails_is_repaired_and_saved(gearlink: Any, tmp_path: Path
     assert gearlink("analyze", failing).status == 1
     assert gearlink("analyze", failing, "--suggest", "--save", path).status == 0
     assert gearlink("check", path).status == 0
+
+
+def test_a_dwell_that_steps_back_says_so_and_the_tolerance_is_honoured(gearlink: Any, tmp_path: Path) -> None:
+    """Within 120 deg of the crank this output steps back 13.54 deg; within +-1 deg it stands 35.88 deg."""
+    path = tmp_path / "feed.yaml"
+    path.write_text(
+        "kind: three-gear-four-bar\ngears: {module: 2, crank: 40, idler: 72, output: 40}\ndwell: {angle: 120}\n"
+    )
+    ended = gearlink("check", path)
+    assert ended.status == 0
+    assert "warn GL315 back-step" in ended.out
+    assert "13.5383 deg" in ended.out
+    assert "dwell: {window: deg, tolerance: deg}" in ended.out
+    ended = gearlink("synth", "dwell", path, "--set", "dwell_tolerance=1", "--quantity", "tolerance_dwell_angle")
+    assert float(ended.out.split()[0]) == pytest.approx(35.87924612, abs=1e-8)
+    found = gearlink("synth", "dwell", path, "--set", "dwell_tolerance=1", "--format", "json").out
+    assert json.loads(found)["quantities"]["dwell_tolerance"]["value"] == pytest.approx(6.76914, abs=1e-5)
