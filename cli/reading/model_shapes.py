@@ -132,9 +132,14 @@ def _fits(model: type[BaseModel], section: Any) -> bool:
     return True
 
 
+def _as_given(value: Any) -> str:
+    """A limit that is allowed as it is printed: 16777216, not 1.67772e+07, which is beyond it."""
+    return f"{value:.15g}" if isinstance(value, (int, float)) else f"{value}"
+
+
 def _limit(constraint: Any, *sides: tuple[str, str]) -> str:
     for attribute, word in sides:
         value = getattr(constraint, attribute, None)
         if value is not None:
-            return f"{word} {value:g}" if isinstance(value, (int, float)) else f"{word} {value}"
+            return f"{word} {_as_given(value)}"
     return ""

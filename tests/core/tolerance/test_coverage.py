@@ -109,7 +109,7 @@ def _linear(points: Any) -> Any:
 _PARTS = tuple((GAINS / SIGMA) ** 2)
 WIDE: dict[str, dict[tuple[str, int], int]] = {
     "ishigami": {("first", 1): 985, ("first", 2): 1000},
-    "linear": {("first", 1): 985, ("first", 2): 985},
+    "linear": {("first", 2): 985},
 }
 """Of 1,000 intervals that many may hold the truth: a few are wide, none is short. The first index of a variable whose
 effect is all its own is estimated by products of far values, long-tailed from one replication to the next, where
