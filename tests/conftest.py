@@ -6,7 +6,7 @@ import gc
 import io
 import json
 import os
-from collections.abc import Generator
+from collections.abc import Callable, Generator
 from dataclasses import dataclass
 from functools import wraps
 from pathlib import Path
@@ -84,22 +84,40 @@ WHOLE = 4000
 
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_protocol(item: pytest.Item) -> Generator[None, object, object]:
-    item.stash[_BEGUN] = _processor_seconds()
-    return (yield)
+    begun = _processor_seconds()
+    try:
+        return (yield)
+    finally:
+        if not item.get_closest_marker("slow") and not item.get_closest_marker("stress"):
+            _taken.setdefault(item.location[0], []).append(_processor_seconds() - begun)
 
 
-@pytest.hookimpl(wrapper=True)
-def pytest_runtest_makereport(item: pytest.Item, call: pytest.CallInfo[None]) -> Generator[None, Any, Any]:
-    if call.when == "teardown" and not item.get_closest_marker("slow") and not item.get_closest_marker("stress"):
-        item.user_properties.append(("seconds", _processor_seconds() - item.stash[_BEGUN]))
-    return (yield)
+@pytest.hookimpl(trylast=True)
+def pytest_configure(config: pytest.Config) -> None:
+    """A process of xdist tells the one that counts of each test's outcome and of what did not pass, not of every step
+    of each test, unless asked for: passing those on takes longer than most tests."""
+    if config.getoption("verbose") > 0 or config.getoption("durations") is not None or config.getoption("xmlpath"):
+        return
+    for plugin in config.pluginmanager.get_plugins():
+        if type(plugin).__name__ == "WorkerInteractor":
+            plugin.sendevent = _without_steps(plugin.sendevent)
 
 
-def pytest_runtest_logreport(report: pytest.TestReport) -> None:
-    """Also of tests that ran in other processes."""
-    if report.when == "teardown":
-        for seconds in (value for name, value in report.user_properties if name == "seconds"):
-            _taken.setdefault(report.location[0], []).append(seconds)
+def _without_steps(send: Callable[..., None]) -> Callable[..., None]:
+    def told(name: str, **given: Any) -> None:
+        report = given.get("data", {})
+        step = name == "testreport" and report["outcome"] == "passed" and report["when"] != "call"
+        if not step and name not in ("logstart", "logfinish"):
+            send(name, **given)
+
+    return told
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_testnodedown(node: Any) -> None:
+    """What the tests of another process took."""
+    for path, seconds in getattr(node, "workeroutput", {}).get("taken", {}).items():
+        _taken.setdefault(path, []).extend(seconds)
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
@@ -114,6 +132,9 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
 
 @pytest.hookimpl(trylast=True)
 def pytest_sessionfinish(session: pytest.Session) -> None:
+    if hasattr(session.config, "workeroutput"):
+        session.config.workeroutput["taken"] = _taken
+        return
     if session.exitstatus != pytest.ExitCode.OK or sum(map(len, _taken.values())) < WHOLE:
         return
     whole = sum(map(sum, _taken.values()))
@@ -122,7 +143,6 @@ def pytest_sessionfinish(session: pytest.Session) -> None:
         session.exitstatus = pytest.ExitCode.TESTS_FAILED
 
 
-_BEGUN = pytest.StashKey[float]()
 _taken: dict[str, list[float]] = {}
 
 
