@@ -39,9 +39,6 @@ def teeth_for_times(
     Example
         >>> teeth_for_times(0.25, 1.0, 1, None, 200)
         (68, 17, 17, 1)
-
-    Source
-        own derivation
     """
     found = []
     for z in range(LEAST_DRIVEN, MOST_DRIVEN + 1) if driven is None else (driven,):

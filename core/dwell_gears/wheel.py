@@ -32,9 +32,6 @@ def free_radius(mesh: GearPair) -> float:
         >>> mesh = GearPair.from_shift(3.0, (80, 20))
         >>> mesh.root_radius[0] < free_radius(mesh) < mesh.tip_radius[0]
         True
-
-    Source
-        own derivation
     """
     half_pitch = math.pi / mesh.teeth[1]
     try:
@@ -58,8 +55,5 @@ def end_tooth_radius(mesh: GearPair) -> float:
         >>> mesh = GearPair.from_shift(3.0, (80, 20))
         >>> end_tooth_radius(mesh) == free_radius(mesh)
         True
-
-    Source
-        own derivation
     """
     return max(mesh.root_radius[0], min(free_radius(mesh), mesh.tip_radius[0]))

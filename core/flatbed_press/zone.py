@@ -20,9 +20,6 @@ def forward_stroke_end(bed: BedChain) -> float:
     """Input angle at which the bed turns back [rad], where D, E and F stand in line, folded.
 
     theta_DC turns by pi + asin(e/(EF + DE)) - asin(e/(EF - DE)) from the start to there
-
-    Source
-        own derivation
     """
     lengths = (bed.slider_crank_length, bed.rod, bed.offset)
     return float(bed.input_angle(math.pi + dead_center_extended(*lengths) - dead_center_folded(*lengths)))

@@ -107,9 +107,6 @@ class BlockingContour:
         >>> contour = BlockingContour(GearData(pair=GearPair.from_shift(1.0, (17, 40), (0.3, 0.2))))
         >>> contour.crossings(contour.line("undercut 1"), 0.5)[0] == contour.data.pair.min_shift_no_undercut[0]
         True
-
-    Source
-        own derivation
     """
 
     data: GearData

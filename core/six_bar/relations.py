@@ -60,9 +60,6 @@ def reduced(rows: Sequence[Row]) -> tuple[list[Row], list[int]]:
         >>> rows, pivots = reduced([train_relation(0, (20, 20)), train_relation(4, (16, 24))])
         >>> pivots, [str(r) for r in rows[0]], [str(r) for r in rows[1]]
         ([2, 4], ['1', '-2', '1', '0', '0', '0'], ['3/2', '0', '0', '0', '1', '-5/2'])
-
-    Source
-        own derivation
     """
     left: list[list[Fraction]] = [list(row) for row in rows]
     pivots: list[int] = []

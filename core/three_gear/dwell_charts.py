@@ -33,9 +33,6 @@ def window_over_ratio(i3: ArrayLike, tolerance: float) -> Reals:
     Example
         >>> np.degrees(window_over_ratio([-1.8, -2.0], math.radians(1.0))).round(6).tolist()
         [88.177957, 87.702903]
-
-    Source
-        own derivation
     """
     return _each(lambda ratio: longest_window(ratio, tolerance), i3)
 
@@ -51,9 +48,6 @@ def window_over_tolerance(tolerance: ArrayLike, i3: float) -> Reals:
     Example
         >>> np.degrees(window_over_tolerance(np.radians([0.5, 1.0]), -1.8)).round(6).tolist()
         [70.436492, 88.177957]
-
-    Source
-        own derivation
     """
     return _each(lambda band: longest_window(i3, band), tolerance)
 
@@ -72,9 +66,6 @@ def window_over_frame(frame_ratio: ArrayLike, i3: float) -> Reals:
     Example
         >>> np.degrees(window_over_frame([5.178349, 5.1783], -1.8)).round(3).tolist()
         [70.436, 52.478]
-
-    Source
-        own derivation
     """
 
     def window(ratio: float) -> float:

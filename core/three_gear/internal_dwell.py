@@ -68,9 +68,6 @@ def shape(r1: float, r3: float, r5: float) -> Shape:
         >>> found = shape(24.0, 17.0, -54.0)
         >>> found.sigma, round(found.kappa, 9)
         (-1, -5.027825753)
-
-    Source
-        own derivation
     """
     s, t = r1 + 2.0 * r3 + r5, r1 + r3 + r5
     q = 16.0 * r3 * (r3 + r5) * (r1 + r3) * t
@@ -107,9 +104,6 @@ def tangency(r1: float, r3: float, r5: float, eccentricity: float) -> Tangency |
         >>> found = tangency(24.0, 17.0, -54.0, 22.0)
         >>> round(found.frame, 12)
         49.532212051926
-
-    Source
-        own derivation
     """
     try:
         found = shape(r1, r3, r5)

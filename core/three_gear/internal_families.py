@@ -25,9 +25,6 @@ def with_crank(r1: float, r3: float, r5: float, crank: float, assembly: int = 1)
         >>> family = with_crank(24.0, 17.0, -54.0, 22.0)
         >>> round(family.low, 9), family.high
         (49.532212052, 26.0)
-
-    Source
-        own derivation
     """
     b, c = abs(r1 + r3), abs(r3 + r5)
     short, long = max(abs(b - c) + crank, crank), b + c - crank
@@ -103,9 +100,6 @@ def balanced_eccentricity(r1: float, r3: float, r5: float) -> float:
     Example
         >>> round(balanced_eccentricity(24.0, 17.0, -60.0), 9)
         22.063426867
-
-    Source
-        own derivation
     """
     found, square = shape(r1, r3, r5), (r1 + r3) ** 2 + (r3 + r5) ** 2
     crank2 = (r5 * r5 + found.kappa * r1 * r1 - square) / (found.kappa - 1.0)
@@ -124,9 +118,6 @@ def eccentricity_for_frame(r1: float, r3: float, r5: float, frame: float) -> flo
     Example
         >>> round(eccentricity_for_frame(24.0, 17.0, -54.0, 49.53221205192578), 9)
         22.0
-
-    Source
-        own derivation
     """
     found = shape(r1, r3, r5)
     square = r1 * r1 - (frame - r5) * (frame + r5) / found.kappa

@@ -66,9 +66,6 @@ class ClosedCam:
         >>> closed = ClosedCam(cam, math.radians(60), math.radians(120))
         >>> [round(math.degrees(x), 9) for x in closed.sectors]
         [62.058733486, 60.0, 157.941266514, 80.0]
-
-    Source
-        own derivation
     """
 
     cam: WideSwingCam

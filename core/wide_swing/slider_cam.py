@@ -122,9 +122,6 @@ class SliderCam:
         >>> cam = SliderCam(law, math.radians(150), 200.0, 8.0)
         >>> round(cam.middle, 9)
         0.690248221
-
-    Source
-        own derivation
     """
 
     law: SliderLaw
