@@ -40,6 +40,7 @@ def test_gripper_shows_residual_over_speed_and_cams_by_pressure() -> None:
     assert float(profile.get_array().max()) == pytest.approx(design.hertz_pressure_max[0], rel=1e-3)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("layout", ["twin-rocker", "twin-cam"])
 def test_cycle_of_a_wide_swing_shows_both_strokes(layout: str) -> None:
     design, figure = sheet("wide_swing_cycle", "loads", layout=layout, loads=LOADS)
