@@ -143,28 +143,25 @@ class LoadsBase(Design):
         if given is None:
             return None
         from gearlink.core.loads.friction import Coefficients
+        from gearlink.core.loads.mechanism import Guide, Mesh, Pin, Rack
 
-        for name in given.joints:
-            self._require_joint(name, (*self.pins, *self.guides, *self.meshes), f"loads.friction.joints.{name}")
+        self._require_joints("friction.joints", given.joints, Pin, Guide, Mesh, Rack)
         return Coefficients(given.pins, given.guides, given.meshes, given.pin_radius * 1e-3, dict(given.joints))
-
-    @property
-    def guides(self) -> tuple[str, ...]:
-        """Names of the guides."""
-        import numpy as np
-
-        from gearlink.core.loads.mechanism import Guide
-
-        return tuple(c.name for c in self.kinematics(np.zeros(1)).connections if isinstance(c, Guide))
 
     @property
     def unknown_joints(self) -> tuple[str, ...]:
         """Joints whose force depends on something that the file does not say."""
         return ()
 
-    def _require_joint(self, name: str, known: tuple[str, ...], key: str) -> None:
-        if name not in known:
-            raise NoSolution(f"this machine has no joint {name!r}: it has {', '.join(known)}", key=key)
+    def _require_joints(self, section: str, names: Iterable[str], *sorts: type) -> None:
+        """Refuse names of a section that no joint of some sorts in this design has."""
+        import numpy as np
+
+        known = [c.name for c in self.kinematics(np.zeros(1)).connections if isinstance(c, sorts)]
+        for name in names:
+            if name not in known:
+                has = f"it has {', '.join(known)}" if known else "leave it out"
+                raise NoSolution(f"this machine has no joint {name!r} there: {has}", key=f"loads.{section}.{name}")
 
     # Friction that locks
 

@@ -280,11 +280,22 @@ class LoadsDesign(BalancedLoads):
     def pins_found(self) -> dict[str, Any]:
         """The pins of this design, by name."""
         from gearlink.core.loads.joints import PinLoad
+        from gearlink.core.loads.mechanism import Pin
 
         bearings = self.section.bearings
-        for name in bearings:
-            self._require_joint(name, self.pins, f"loads.bearings.{name}")
+        self._require_joints("bearings", bearings, Pin)
+        self._require_directions(bearings)
         return {name: PinLoad(self, name, bearings.get(name)) for name in self.pins if self.has(name)}
+
+    def _require_directions(self, bearings: Iterable[str]) -> None:
+        """Refuse bearings whose force the file leaves open."""
+        section = self.section
+        for name in bearings:
+            if name in self.unknown_joints:
+                open_ = [key for key in type(section).model_fields if key.endswith("_direction")]
+                keys = " and ".join(f"loads.{key}" for key in open_ if getattr(section, key) is None)
+                message = f"the force on the bearing of {name} depends on where its neighbours stand: give {keys}"
+                raise MissingSection(message, key=f"loads.bearings.{name}")
 
     def mesh(self, name: str) -> Any:
         """Greatest tooth force and reversals of a mesh; None where this design has none of the name."""
@@ -294,7 +305,10 @@ class LoadsDesign(BalancedLoads):
     def meshes_found(self) -> dict[str, Any]:
         """The meshes of this design, by name."""
         from gearlink.core.loads.joints import MeshLoad
+        from gearlink.core.loads.mechanism import Toothed
 
+        if isinstance(self.section.backlash, dict):
+            self._require_joints("backlash", self.section.backlash, *Toothed)
         return {name: MeshLoad(self, name) for name in self.meshes if self.has(name)}
 
     def candidates(self, check: str, /) -> Iterable[Remedy]:

@@ -116,3 +116,28 @@ def test_a_roller_that_leaves_its_cam_is_driven_by_nothing(gearlink: Any, design
         "loads", designs / "loaded_gripper.yaml", "--set", "spring.torque=180", "--quantity", "traction_needed"
     )
     assert alone.out.startswith("- 0.")
+
+
+@pytest.mark.parametrize(
+    ("base", "section", "key"),
+    [
+        ("loaded_six_bar", {"friction": {"joints": {"gear_1B": 0.1}}}, "loads.friction.joints.gear_1B"),
+        (
+            "loaded_six_bar",
+            {"bearings": {"gear_2C": {"kind": "ball", "dynamic_rating": 1e4}}},
+            "loads.bearings.gear_2C",
+        ),
+        ("loaded_feed", {"backlash": {"mesh_25": 0.1}}, "loads.backlash.mesh_25"),
+        (
+            "loaded_press",
+            {"cylinder_direction": None, "bearings": {"N": {"kind": "ball", "dynamic_rating": 1e4}}},
+            "loads.bearings.N",
+        ),
+    ],
+)
+def test_what_would_have_no_effect_is_refused(base: str, section: dict[str, Any], key: str) -> None:
+    """A joint of the kind that this design has not, and a bearing whose force the file leaves open."""
+    loads = factory.design(base, command="loads", **{f"loads__{name}": value for name, value in section.items()})
+    with pytest.raises(GearlinkError) as refused:
+        loads.report("loads")
+    assert refused.value.key == key
