@@ -166,6 +166,15 @@ class Design:
             table: Table = getattr(self, f"table_{name}")(samples)
         return table
 
+    def _require_names(self, quantities: Sequence[str], tables: Sequence[str]) -> None:
+        """Refuse a name that the design does not have before a search begins."""
+        for what, names, known in (
+            ("quantity", quantities, self.quantity_names()),
+            ("table", tables, self.table_names()),
+        ):
+            if wrong := [name for name in names if name not in known]:
+                raise UnknownName(what, wrong[0], known)
+
     def table_in_parts(self, name: str, samples: int) -> Table:
         """A table by name that holds some ten thousand of its rows at a time, where they can be computed so."""
         # Two primes above the turns of any table, the length of none: one leaves a last part neither full nor empty.
@@ -262,6 +271,7 @@ class Design:
             UnknownName - for a name that the design does not have
             NoSolution - where no mechanism exists
         """
+        self._require_names(quantities, tables)
         outline = Outline(tuple(quantities)) if quantities or only else self.outline(command)
         asked = dict.fromkeys([*(() if findings_only else outline.tables), *tables])
         found: Iterable[Quantity | None] = ()

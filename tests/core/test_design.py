@@ -133,6 +133,13 @@ def test_unknown_table_names_the_known_ones(toy):
     assert refusal.value.known == ("positions", "motion")
 
 
+@pytest.mark.parametrize("names", [{"tables": ["position"]}, {"quantities": ["crank_length", "trap"]}])
+def test_an_unknown_name_is_refused_before_anything_is_computed(toy, names):
+    with pytest.raises(UnknownName):
+        toy.report("gear", **names)
+    assert set(vars(toy)) == {"spec"}
+
+
 def test_results_are_computed_when_asked_for_and_kept(toy):
     assert set(vars(toy)) == {"spec"}
     toy.quantity("crank_length")
