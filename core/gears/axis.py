@@ -50,7 +50,7 @@ _DOMAIN = {
 
 _ABSENT = (
     *("tip_diameter", "tool", "cutter", "span_teeth", "allowances", "center_distance_allowance", "load"),
-    "helix_hand",
+    *("helix_hand", "pin_diameter"),
 )
 _OF_DRAWING = (
     *("transverse_pressure_angle", "base_helix_angle", "form_radius", "tip_clearance"),

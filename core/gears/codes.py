@@ -131,6 +131,19 @@ BACKLASH = Rule(
     ("backlash",),
     ("allowances", "center_distance_allowance", "center_distance", *_within("allowances"), *_TEETH),
 )
+INSPECTION = Rule(
+    "GL213",
+    "ball does not measure the teeth",
+    "A ball or pin that the file names does not lie between the flanks: it falls through the space, touches beyond the "
+    "tips, on the fillet or on the root circle, or lies below the tips where no anvil reaches it.",
+    "The measure over balls is then not that of the drawing, and a good gear is rejected or a bad one passed.",
+    "Take the preferred size that the finding names, or leave pin_diameter out.",
+    "form circle <= d_M <= tip circle, root circle clear, M beyond the tip circle; tan(alpha_M) = tan(alpha_K) - "
+    "D cos(beta_b)/d_b",
+    "DIN 21773",
+    ("inspection",),
+    ("pin_diameter", *_within("pin_diameter")),
+)
 PITTING = Rule(
     "GL210",
     "safety against pitting too small",

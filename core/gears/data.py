@@ -229,6 +229,11 @@ class GearData:
             "accuracy_grade": self.accuracy_grade,
         }
 
+    @property
+    def measured(self) -> tuple[int, ...]:
+        """The gears that balls measure."""
+        return 0, 1
+
     def called(self, gear: int) -> str:
         """What findings call gear 0 or 1."""
         return f"gear {gear + 1}"

@@ -8,10 +8,11 @@ from dataclasses import replace
 from typing import Any, NamedTuple, Protocol
 
 from gearlink.core.gears.checks import FILLET_NOISE, MORE_CONTACT, Limits, gear_check
-from gearlink.core.gears.codes import BACKLASH, BENDING, CONTACT_RATIO, FILLET, PITTING, TIP_FOULING
+from gearlink.core.gears.codes import BACKLASH, BENDING, CONTACT_RATIO, FILLET, INSPECTION, PITTING, TIP_FOULING
 from gearlink.core.gears.contact import PathOfContact
 from gearlink.core.gears.data import GearData
 from gearlink.core.gears.drawing_names import DRAWING_CHECKS
+from gearlink.core.gears.inspection import preferred_pin
 from gearlink.core.gears.load import Factors
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.report import Check, Rule, Status
@@ -230,6 +231,32 @@ def _backlash(data: GearData, limits: DrawingLimits) -> Iterator[Check]:
     yield BACKLASH.check(status, text, least, limits.backlash, "mm")
 
 
+def _inspection(data: GearData, _limits: DrawingLimits) -> Iterator[Check]:
+    for gear in data.measured:
+        diameter = data.pins[gear]
+        found = None if diameter is None else _amiss(data, gear)
+        if found is not None:
+            best = preferred_pin(data.pair, gear)
+            remedy = f": take one of {best:g} mm (pin_diameter)" if best is not None else ""
+            yield INSPECTION.check("warn", f"a ball of {diameter:g} mm {found}{remedy}")
+
+
+def _amiss(data: GearData, gear: int) -> str | None:
+    """What keeps a ball that the file names from measuring the teeth of a gear, in words; None where nothing does."""
+    pair, name, ball = data.pair, data.called(gear), data.ball(gear)
+    if ball is None:
+        return f"falls through the spaces of {name}"
+    sign, tip, form = pair.signs[gear], abs(pair.tip_radius[gear]), pair.form_radius[gear]
+    touch, center = abs(ball.contact_radius), abs(ball.center_radius)
+    if sign * (touch - tip) > 0.0:
+        return f"would touch {name} at a radius of {touch:.5g} mm, beyond its tips at {tip:.5g} mm"
+    if ball.roll < 0.0 or (form is not None and sign * (abs(form) - touch) > 0.0):
+        return f"touches the root fillets of {name}"
+    if sign * (center - abs(pair.root_radius[gear])) < 0.5 * ball.diameter:
+        return f"touches the root of {name}"
+    return f"lies below the tips of {name}" if sign * (center - tip) + 0.5 * ball.diameter < 0.0 else None
+
+
 def _pitting(data: GearData, limits: DrawingLimits) -> Iterator[Check]:
     against = "pitting", _contact_inputs(data)
     yield from _safety(PITTING, data, data.flank.safety, limits.safety_pitting, *against)
@@ -305,6 +332,7 @@ _OF_PAIR: dict[str, Callable[[GearData, DrawingLimits], Iterator[Check]]] = {
     "tip-fouling": _tip_fouling,
     "fillet-interference": _fillet,
     "backlash": _backlash,
+    "inspection": _inspection,
     "pitting": _pitting,
     "bending": _bending,
 }

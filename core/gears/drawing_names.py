@@ -100,4 +100,12 @@ RATING = frozenset(name for name, place in PLACES.items() if place.startswith(("
 """Strength by ISO 6336."""
 DERIVED = frozenset(DRAWING_QUANTITIES) - {"usable_contact_ratio", "span_measurement_limits", "backlash_normal"}
 """Those of them that refuse nothing: they have a value or None wherever the others, teeth and checks have one."""
-DRAWING_CHECKS = ("tip-fouling", "radial-assembly", "fillet-interference", "backlash", "pitting", "bending")
+DRAWING_CHECKS = (
+    "tip-fouling",
+    "radial-assembly",
+    "fillet-interference",
+    "backlash",
+    "inspection",
+    "pitting",
+    "bending",
+)

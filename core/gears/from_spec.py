@@ -121,7 +121,12 @@ def _shared(spec: GearPairSpec, pair: GearPair, split: str) -> GearPair:
 
     diagonal = Diagonal(pair)
     with at_key("shift_split"):
-        return diagonal.at(diagonal.split(split, strength_of(data_of(spec, pair))).first)
+        try:
+            found = diagonal.split(split, strength_of(data_of(spec, pair)))
+        except NoSolution as error:
+            remedy = "take another criterion or x1 as a number (--candidates with shift_split: equal lists all)"
+            raise NoSolution(f"{error}; {remedy}") from error
+        return diagonal.at(found.first)
 
 
 def _without_difference(pair: GearPair) -> GearPair:

@@ -52,7 +52,7 @@ _OWN = frozenset(
 )  # fmt: skip
 """Quantities that stand here under their own names."""
 _OF_TOOTH = ("undercut", "tip-thickness", "tooth-form", "root-clearance")
-_RATINGS = ("pitting", "bending")
+_OF_PAIR = ("inspection", "pitting", "bending")
 _NO_BACKLASH = -1e-6
 _USUAL_TIP = 0.15
 
@@ -224,7 +224,7 @@ class RackMesh:
             yield from (each for each in found if "gear 1" in each.message)
         if name in _CHECKS:
             yield from _CHECKS[name](self, limits)
-        if name in _RATINGS:
+        if name in _OF_PAIR:
             yield from drawing_check(name, self.data, limits)
 
 

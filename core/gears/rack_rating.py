@@ -203,6 +203,11 @@ class RackData(GearData):
         """What findings call gear 1 and the rack."""
         return "the rack" if gear else "gear 1"
 
+    @property
+    def measured(self) -> tuple[int, ...]:
+        """The gear alone: a ball in a rack is what `RackMesh.height_over_pin` takes."""
+        return (0,)
+
     def rated_with(self, gear: int) -> str:
         """What a root needs so that it can be rated."""
         if gear == 0:

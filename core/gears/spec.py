@@ -128,6 +128,9 @@ class GearPairSpec(TolerancedSpec, PairKeys):
             message = "a rack has no shift: give profile_shift: [x1, 0], or center_distance to its datum line"
             key = "profile_shift[1]" if self.center_distance is None else "profile_shift"
             raise PydanticCustomError("GL111", message, {"key": key})
+        if self.shift_split != "equal":
+            message = "a rack takes no share of the shift: leave shift_split out; center_distance alone gives x1"
+            raise PydanticCustomError("GL111", message, {"key": "shift_split"})
         for key in ("loads", "tip_diameter"):
             if getattr(self, key) is not None:
                 message = "{key} is not known of a gear on a rack: leave it out"

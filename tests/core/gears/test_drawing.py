@@ -1,7 +1,9 @@
 """The gear table of a gear on a rack: the gear's column is that of the gear alone. No tolerances: the same numbers."""
 
 import math
+from typing import Any
 
+import pytest
 from factory import design
 
 GEAR = {"kind": "gear-pair", "module": 3, "allowances": {"series": "25cd"}, "helix_angle": 10, "face_width": 30}
@@ -39,3 +41,23 @@ def test_a_rack_has_its_own_lines_to_cut_and_measure_it_by() -> None:
     assert abs(to_flank - 2.5) < 1e-12
     assert rack["datum line to ball top, least"] < rack["datum line to ball top, greatest"]
     assert rack["theoretical backlash, least"] == made.quantity("backlash_normal").value[0]
+
+
+@pytest.mark.parametrize(("teeth", "pins", "words"), [
+    ([18, 57], [100.0, 4.25], "beyond its tips"),
+    ([18, 57], [0.1, 4.25], "falls through the spaces of gear 1"),
+    ([18, 57], [4.25, 3.2], "gear 2"),
+    ([18, -57], [4.25, 30.0], "gear 2"),
+    ([18, "rack"], [60.0, 4.0], "beyond its tips"),
+])  # fmt: skip
+def test_balls_that_do_not_measure_the_teeth_are_named(teeth: list[Any], pins: list[float], words: str) -> None:
+    """A ball between the flanks passes without a word, and so does every preferred one that a remedy names."""
+    known = {"kind": "gear-pair", "module": 2.5, "teeth": teeth, "profile_shift": [0.2, 0.0]}
+    made = design(known | {"pin_diameter": pins}, command="gear")
+    (found,) = made.check("inspection")
+    assert (found.code, found.status) == ("GL213", "warn")
+    assert words in found.message
+    best = float(found.message.partition("take one of ")[2].partition(" mm")[0])
+    mended = [pins[0], best] if "gear 2" in words else [best, pins[1]]
+    assert design(known | {"pin_diameter": mended}, command="gear").check("inspection") == []
+    assert design(known, command="gear").check("inspection") == []
