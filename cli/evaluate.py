@@ -116,12 +116,16 @@ def require_command(loaded: LoadedFile, kind: Kind, command: str) -> None:
     """Refuse a command that this kind of design does not understand.
 
     Raises
-        DesignFileError - naming the commands that it does understand
+        DesignFileError - naming the commands that it does understand, and the kinds that understand this one
     """
     if command in kind.commands:
         return
     message = f"`{command}` does not apply to a {kind.name}; this kind understands: {', '.join(kind.commands)}"
-    raise DesignFileError([loaded.report("GL113", message, ("kind",))])
+    from gearlink.core.kinds import FILES
+
+    serves = [name for name, other in FILES.items() if command in other.commands]
+    help = f"`{command}` serves {', '.join(serves)}; `gearlink new {serves[0]}` writes such a file" if serves else ""
+    raise DesignFileError([loaded.report("GL113", message, ("kind",), help=help)])
 
 
 def exit_status(report: Report, *, strict: bool = False) -> int:
