@@ -80,7 +80,9 @@ def _number(trial: Design, name: str) -> Any:
     """The value of a quantity; of a pair the one that both gears share, else the worse, which is the less."""
     quantity = trial.quantity(name)
     value = None if quantity is None else quantity.value
-    return min(value) if isinstance(value, list) else value
+    if not isinstance(value, list):
+        return value
+    return min((each for each in value if isinstance(each, int | float)), default=None)
 
 
 def findings(trial: Design, command: str) -> str:

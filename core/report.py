@@ -12,7 +12,8 @@ if TYPE_CHECKING:
 
     Column: TypeAlias = Sequence[Any] | NDArray[Any]
 
-Value = float | int | str | bool | list[float] | list[int]
+Value = float | int | str | bool | list[float] | list[int] | list[float | None] | list[list[float] | None]
+"""What a quantity may be: of some gears or meshes a list, with None where one has none, and a pair of limits each."""
 Status = Literal["pass", "warn", "fail"]
 Remedy: TypeAlias = tuple[tuple[str, float | str | None], ...]
 """Keys of the design file with the values that repair a finding, to be put in together; None leaves a key out."""

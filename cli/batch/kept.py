@@ -108,6 +108,12 @@ def _require_sense(outcome: Outcome) -> None:
         raise ValueError("places of other findings")
     if outcome.report is not None:
         _require_tables(outcome.report)
+        if any(isinstance(each.value, list) and not _has_some(each.value) for each in outcome.report.quantities):
+            raise ValueError("a quantity without a value")
+
+
+def _has_some(value: Sequence[Any]) -> bool:
+    return any(item is not None for item in value)
 
 
 def _is_error(error: Diagnostic) -> bool:
