@@ -155,7 +155,8 @@ class ThreeGearSamples:
         spec = self.nominal.spec
         for key in values.keys() - own.keys():
             spec = replaced(spec, key, values[key])
-        samples = self._samples({key: np.array([value]) for key, value in own.items()})
+        crank = {"links.crank": self._lengths[0]}  # of one drive, also where no length differs
+        samples = self._samples({key: np.array([value]) for key, value in (crank | own).items()})
         turned = float(np.broadcast_to(samples.frame_turn, samples.count)[0])
         return self._made(spec, samples.links.part(0), turned, self.has_window)
 

@@ -119,6 +119,14 @@ def _columns(nominal: Any, count: int) -> dict[str, Any]:
     }
 
 
+def test_a_drive_whose_lengths_are_nominal_is_the_nominal_drive_with_that_key() -> None:
+    nominal = DRIVES["candy feed"]()
+    made = ThreeGearSamples(nominal).design({"limits.transmission_angle": 47.0})
+    (check,) = made.check("transmission-angle")
+    assert (check.limit, check.value) == (47.0, pytest.approx(nominal.check("transmission-angle")[0].value, rel=1e-14))
+    assert made.raw("dwell_angle") == pytest.approx(nominal.raw("dwell_angle"), rel=1e-12)
+
+
 def test_a_drive_that_does_not_turn_is_refused_not_computed() -> None:
     nominal = DRIVES["candy feed"]()
     found = ThreeGearSamples(nominal).evaluate({"links.crank": np.array([38.9, 500.0, -1.0])}, ["speed_ratio_max"])
