@@ -307,6 +307,8 @@ def _bending_inputs(data: GearData) -> str:
 
 def _out_of_range(data: GearData) -> Iterator[Check]:
     """Where the formulas of the root leave the range of their standard."""
+    if data.face_width is None:
+        yield BENDING.check("warn", "a load without face_width gives no stress and no safety: give face_width")
     eps = data.path.contact_ratio
     if data.pair.helix_angle == 0.0 and not 1.0 <= eps <= 2.0:
         text = f"contact ratio {eps:.4g}: method B of ISO 6336 covers 1 to 2, stresses are out of its range"

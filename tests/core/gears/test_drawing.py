@@ -61,3 +61,12 @@ def test_balls_that_do_not_measure_the_teeth_are_named(teeth: list[Any], pins: l
     mended = [pins[0], best] if "gear 2" in words else [best, pins[1]]
     assert design(known | {"pin_diameter": mended}, command="gear").check("inspection") == []
     assert design(known, command="gear").check("inspection") == []
+
+
+@pytest.mark.parametrize("teeth", [[18, 57], [18, -57], [18, "rack"]])
+def test_a_load_without_a_width_is_not_left_without_a_word(teeth: list[Any]) -> None:
+    known = {"kind": "gear-pair", "module": 2.5, "teeth": teeth, "profile_shift": [0.2, 0.0], "load": {"torque": 10}}
+    said = [check for check in design(known, command="gear").check("bending") if "face_width" in check.message]
+    assert [(check.code, check.status) for check in said] == [("GL211", "warn")]
+    wide = design(known | {"face_width": 20}, command="gear").check("bending")
+    assert not [check for check in wide if "face_width" in check.message]
