@@ -108,12 +108,13 @@ def _require_sense(outcome: Outcome) -> None:
         raise ValueError("places of other findings")
     if outcome.report is not None:
         _require_tables(outcome.report)
-        if any(isinstance(each.value, list) and not _has_some(each.value) for each in outcome.report.quantities):
+        if any(_is_nothing(each.value) for each in outcome.report.quantities):
             raise ValueError("a quantity without a value")
 
 
-def _has_some(value: Sequence[Any]) -> bool:
-    return any(item is not None for item in value)
+def _is_nothing(value: Any) -> bool:
+    """Whether a value is a list of nothing; an empty one is a value: no crank angle of zero speed, say."""
+    return isinstance(value, list) and value != [] and all(item is None for item in value)
 
 
 def _is_error(error: Diagnostic) -> bool:

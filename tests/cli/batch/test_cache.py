@@ -261,6 +261,7 @@ GOOD = Outcome(
             Quantity("n", 3, "1", "n", "words"),
             Quantity("r", [None, [1.0, 2.5]], "mm", "r", "words"),
             Quantity("s", [2.5, None], "mm", "s", "words"),
+            Quantity("t", [], "deg", "t", "words"),
         ),
         (
             Check("GL301", "collision", "fail", "m", 1.0, None, "mm", (("a[0]", 2.5), ("b", None))),
@@ -307,7 +308,7 @@ def test_no_field_of_another_type_is_taken(good: Outcome) -> None:
                 continue
             taken.append((path, value))
     allowed = {(0, "cached")}  # a truth value there is one
-    values = {(0, "report", "quantities", i, "value") for i in range(4)}  # of a study one is a truth value
+    values = {(0, "report", "quantities", i, "value") for i in range(5)}  # of a study one is a truth value
     others = {path for path, value in taken if value is not True or path not in values}
     assert others <= allowed | {(0, "report", "tables", 0, "data", i) for i in (0, 1)}
 
