@@ -78,6 +78,8 @@ def write_atomically(path: Path, write: Callable[[IO[bytes]], object]) -> None:
             with open(temporary, "xb") as stream:
                 write(stream)
             os.replace(temporary, path)
+    except (FileExistsError, NotADirectoryError) as error:
+        raise CannotWrite(f"cannot write {path}: {path.parent} is no folder") from error
     except OSError as error:
         raise CannotWrite(f"cannot write {path}: {error.strerror or error}") from error
 

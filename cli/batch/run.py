@@ -9,8 +9,9 @@ import sys
 from collections.abc import Sequence
 from dataclasses import replace
 
-from gearlink.cli.batch.options import BatchOptions
+from gearlink.cli.batch.options import BatchFormat, BatchOptions
 from gearlink.cli.exit_codes import ExitCode
+from gearlink.cli.options import Format
 from gearlink.cli.printable import visible
 from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.cli.reading.places import design_files
@@ -32,18 +33,12 @@ def run_batch(places: Sequence[str], options: BatchOptions) -> int:
             require_places(files)
         files = options.share_of(files)
     except DesignFileError as error:
-        from gearlink.cli.render.errors import show_errors
-
-        show_errors(error.diagnostics, options.design)
-        return ExitCode.WRONG_INPUT
+        return _refused(error, options)
     options = _with_key(options)
     try:
         results, interrupted = run_files(files, options)
     except DesignFileError as error:  # of the cluster; those of files stand among the results
-        from gearlink.cli.render.errors import show_errors
-
-        show_errors(error.diagnostics, options.design)
-        return ExitCode.WRONG_INPUT
+        return _refused(error, options)
     results.sort(key=lambda outcome: outcome.file)
     from gearlink.cli.batch.summary import write_batch
 
@@ -53,6 +48,15 @@ def run_batch(places: Sequence[str], options: BatchOptions) -> int:
         print(f"interrupted after {len({r.file for r in results})} of {len(files)} files", file=sys.stderr)
         return ExitCode.INTERRUPTED
     return max((outcome.status for outcome in results), default=ExitCode.OK)
+
+
+def _refused(error: DesignFileError, options: BatchOptions) -> int:
+    """Say what is wrong before any file was run, in the form that the summary would have."""
+    from gearlink.cli.render.errors import show_errors
+
+    in_json = options.format in (BatchFormat.JSON, BatchFormat.JSONL)
+    show_errors(error.diagnostics, replace(options.design, format=Format.JSON if in_json else options.design.format))
+    return ExitCode.WRONG_INPUT
 
 
 def _with_key(options: BatchOptions) -> BatchOptions:

@@ -52,7 +52,14 @@ def run_bench(names: Sequence[str], form: BenchFormat, *, quick: bool, out: Path
     from gearlink.cli.bench.timing import BenchNeedsMpmath, machine, mpmath
 
     if wrong := [name for name in names if name not in NAMES]:
-        print(f"error: no family {', '.join(wrong)}; the families are {', '.join(NAMES)}", file=sys.stderr)
+        message = f"no family {', '.join(wrong)}; the families are {', '.join(NAMES)}"
+        if form is BenchFormat.JSON:
+            from gearlink.cli.reading.diagnostics import Diagnostic
+            from gearlink.cli.render.errors import errors_as_json
+
+            print(errors_as_json([Diagnostic("GL115", message, file="<command line>", key=wrong[0])]))
+        else:
+            print(f"error: {message}", file=sys.stderr)
         return ExitCode.WRONG_INPUT
 
     def say(text: str) -> None:

@@ -233,6 +233,24 @@ def test_a_narrow_terminal_keeps_every_number(
     assert "…" not in narrow
 
 
+@pytest.mark.parametrize(
+    "line", ["batch nowhere -f json", "batch nowhere -f jsonl", "check nowhere -f json", "bench nofamily --format json"]
+)
+def test_errors_before_any_file_are_in_json_too(gearlink: Any, line: str) -> None:
+    ended = gearlink(*line.split())
+    (error,) = ended.json["errors"]
+    assert ended.status == ExitCode.WRONG_INPUT
+    assert {"code", "message", "file", "line", "column", "key"} <= set(error)
+
+
+def test_a_file_for_a_folder_is_said_so(gearlink: Any, crank: Path, tmp_path: Path) -> None:
+    (tmp_path / "taken").write_text("")
+    ended = gearlink("crank", crank, "--plot", "--out", tmp_path / "taken")
+    assert ended.status == ExitCode.WRONG_INPUT
+    assert f"{tmp_path / 'taken'} is no folder" in ended.err.replace("\n", "")
+    assert (tmp_path / "taken").read_text() == ""
+
+
 def test_ascii_terminal() -> None:
     environment = {**os.environ, "PYTHONIOENCODING": "ascii", "PYTHONUTF8": "0"}
     done = shell("synth", "dwell", "designs/candy_feed.yaml", env=environment)
