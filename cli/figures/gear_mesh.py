@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING
@@ -42,12 +42,11 @@ class Mesh:
         return MeshGeometry(self.pair)
 
 
-def mesh_figure(title: str, meshes: Sequence[Mesh], beside: Sequence[Callable[[Axes, Axes], None]] = ()) -> Figure:
-    """One row per mesh, whole gears and mesh zone, over a table of their values, then two plots and their keys."""
+def mesh_figure(title: str, meshes: Sequence[Mesh]) -> Figure:
+    """One row per mesh, whole gears and mesh zone, over a table of their values."""
     rows = len(meshes)
-    figure = panels.page(title, 0.27 + 0.28 * rows + (0.38 if beside else 0.0))
-    heights = [*[1.0] * rows, 0.78, *([1.0, 0.2] if beside else [])]
-    grid = figure.add_gridspec(len(heights), 2, height_ratios=heights, width_ratios=(1.3, 1.0))
+    figure = panels.page(title, 0.27 + 0.28 * rows)
+    grid = figure.add_gridspec(rows + 1, 2, height_ratios=[*[1.0] * rows, 0.78], width_ratios=(1.3, 1.0))
     for row, mesh in enumerate(meshes):
         whole_gears(figure.add_subplot(grid[row, 0]), mesh)
         zone = figure.add_subplot(grid[row, 1])
@@ -55,8 +54,6 @@ def mesh_figure(title: str, meshes: Sequence[Mesh], beside: Sequence[Callable[[A
         if row == rows - 1:
             zone_legend(zone)
     ruled(figure.add_subplot(grid[rows, :]), *values(meshes))
-    for column, draw in enumerate(beside):
-        draw(figure.add_subplot(grid[rows + 1, column]), figure.add_subplot(grid[rows + 2, column]))
     return figure
 
 

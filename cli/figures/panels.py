@@ -166,13 +166,11 @@ def extreme(axes: Axes, degrees: float, value: float, *, above: bool, unit: str 
     axes.annotate(words, (degrees, value), shift, textcoords="offset points", path_effects=style.outlined(), **look)
 
 
-def legend_beside(axes: Axes, drawing: Axes, title: str = "") -> None:
+def legend_beside(axes: Axes, drawing: Axes) -> None:
     """The legend of a drawing in an empty panel of its own."""
     axes.set_axis_off()
     handles, labels = drawing.get_legend_handles_labels()
-    axes.legend(
-        handles, labels, loc="upper left", frameon=False, fontsize=8, title=title, borderaxespad=0.0, handlelength=2.8
-    )
+    axes.legend(handles, labels, loc="upper left", frameon=False, fontsize=8, borderaxespad=0.0, handlelength=2.8)
 
 
 def small_ticks(axes: Axes) -> None:

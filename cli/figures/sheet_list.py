@@ -10,13 +10,6 @@ if TYPE_CHECKING:
 
 Makers = dict[str, Callable[[], "Figure"]]
 
-SHEETS = {
-    "motion": "place, velocity, acceleration, jerk of every output, per angle and in time",
-    "timing": "circular timing diagram of a press or gripper",
-    "pressure": "pressure angle of the cams of a press or gripper, as polar diagram and on the profiles",
-    "drawing": "drawing of each cam with dimensions, start mark, keyway and a radius for each degree",
-}
-
 
 def sheets_of(design: Any) -> Makers:
     """The sheets that a design has, by name; a drawing for each cam (`drawing-1`, `drawing-2`).

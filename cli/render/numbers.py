@@ -73,11 +73,11 @@ def thinning(step: int, table: Table) -> str:
     return f"every {step}{ending} of {table.length} rows"
 
 
-def readable_rows(table: Table, step: int = 1, digits: int = 6) -> list[list[str]]:
+def readable_rows(table: Table, step: int = 1) -> list[list[str]]:
     """Every `step`-th row as text; values that are rounding beside their column's largest are shown as 0."""
     noise = [1e-13 * _largest(column) for column in table.data]
     rows = table.thinned(step).each_row()
-    return [[number(_quiet(x, level), digits) for x, level in zip(row, noise, strict=True)] for row in rows]
+    return [[number(_quiet(x, level), 6) for x, level in zip(row, noise, strict=True)] for row in rows]
 
 
 def _largest(column: Any) -> float:

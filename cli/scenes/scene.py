@@ -162,7 +162,7 @@ def standing(points: Points, fraction: Reals, color: str, name: str = "") -> Bod
     return Body(outline=points, place=track(0.0, fraction), turn=level, color=color, width=1.5, name=name)
 
 
-def bands(stretches: Iterable[tuple[str, float, float, str]], whole: float = 360.0) -> tuple[Band, ...]:
+def bands(stretches: Iterable[tuple[str, float, float, str]]) -> tuple[Band, ...]:
     """Stretches of a loop, name, start, end and colour each; one that passes the end of the loop is two bands.
 
     Example
@@ -171,11 +171,11 @@ def bands(stretches: Iterable[tuple[str, float, float, str]], whole: float = 360
     """
     found = []
     for name, start, end, color in stretches:
-        first = start % whole
+        first = start % 360.0
         last = first + end - start
-        found.append(Band(name, first, min(last, whole), color))
-        if last > whole:
-            found.append(Band("", 0.0, last - whole, color))
+        found.append(Band(name, first, min(last, 360.0), color))
+        if last > 360.0:
+            found.append(Band("", 0.0, last - 360.0, color))
     return tuple(found)
 
 

@@ -59,8 +59,6 @@ def smallest_cam_of_rollers(
     *,
     sense: int,
     joints: Sequence[float] = (),
-    start: float = 0.0,
-    end: float = TURN,
     refined: bool = True,
 ) -> CamCenter:
     """Cam centre nearest to the first roller at which every roller of a cam shaft keeps a pressure-angle limit.
@@ -72,7 +70,6 @@ def smallest_cam_of_rollers(
         max_pressure_angle : float [rad] - in (0, pi/2), for either sign
         sense : +1 or -1 - eps
         joints : floats [rad] - ends of the phases of the law
-        start, end : float [rad] - range of cam angles; the prime circle is the one at start
         refined : bool - False looks at 2048 cam angles alone: limits are met to about 1e-6, ten times as fast
     Returns
         best : CamCenter - two cam angles and two margins for each roller, upper limit first
@@ -95,12 +92,12 @@ def smallest_cam_of_rollers(
     slope = _checked_slope(max_pressure_angle)
     planes = [partial(_rocker_planes, roller, slope, sense, sign) for roller in rollers for sign in (1, -1)]
     first = rollers[0]
-    psi, _ = first.law(np.array([start]))
+    psi, _ = first.law(np.array([0.0]))
     target = complex(first.pivot + first.arm * np.exp(1j * psi[0]))
     if refined:
-        families = [partial(_largest_violation, family, start, end, joints) for family in planes]
+        families = [partial(_largest_violation, family, 0.0, TURN, joints) for family in planes]
     else:
-        phi = np.linspace(start, end, _PLACES)
+        phi = np.linspace(0.0, TURN, _PLACES)
         families = [partial(_largest_of, phi, *family(phi)) for family in planes]
     center, places, margins = _nearest_admissible(families, target)
     return CamCenter(center, abs(target - center), places, margins)

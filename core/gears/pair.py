@@ -331,13 +331,13 @@ class GearPair(PitchPair):
         """x_min = h - z sin^2(alpha_t)/(2 cos(beta)) [module], for a rack tool; a ring has none."""
         return self.min_shift_of(0), None if self.internal else self.min_shift_of(1)
 
-    def cut_root(self, gear: int, shift: float | None = None) -> RackCutRoot:
-        """The root of an external gear as its tool leaves it, in modules; `shift` is a generating one."""
+    def cut_root(self, gear: int) -> RackCutRoot:
+        """The root of an external gear as its tool leaves it, in modules."""
         from gearlink.core.gears.root_fillet import RackCutRoot
 
         return RackCutRoot(
             teeth=self.teeth[gear],
-            shift=self.profile_shift[gear] if shift is None else shift,
+            shift=self.profile_shift[gear],
             tool=self.tool(gear),
             pressure_angle=self.pressure_angle,
             helix_angle=self.helix_angle,

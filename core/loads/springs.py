@@ -1,4 +1,4 @@
-"""Springs that hold a translating follower on its cam: preload, preload and rate, and the speed at which it lifts off.
+"""Springs that hold a translating follower on its cam: preload, and the speed at which it lifts off.
 
 N cos(alpha) = F_0 + k s + m s'' Om^2 + F_ext: linear in Om^2, so that the worst speed is 0 or the greatest.
 """
@@ -6,7 +6,6 @@ N cos(alpha) = F_0 + k s + m s'' Om^2 + F_ext: linear in Om^2, so that the worst
 from __future__ import annotations
 
 import math
-from itertools import pairwise
 
 import numpy as np
 
@@ -53,39 +52,6 @@ def preload(
         38.0
     """
     return float(np.max(requirement(lift, acceleration, mass, speed, least, external) - rate * lift))
-
-
-def spring_lines(lift: Reals, force: Reals) -> list[tuple[float, float]]:
-    """Every pair of preload and rate whose line lies just above all points (lift, required force).
-
-    Parameters
-        lift : (N,) array [m]
-        force : (N,) array [N] - from `requirement`
-    Returns
-        pairs : (F_0 [N], k [N/m]), k ascending - the edges of the upper hull, those with k >= 0 and F_0 >= 0
-    Example
-        >>> spring_lines(np.array([0.0, 0.01, 0.02]), np.array([10.0, 40.0, 50.0]))
-        [(30.0, 1000.0), (10.0, 3000.0)]
-    """
-    order = np.lexsort((force, lift))
-    hull: list[tuple[float, float]] = []
-    for x, y in zip(lift[order].tolist(), force[order].tolist(), strict=True):
-        if hull and hull[-1][0] == x:
-            hull.pop()
-        while len(hull) > 1 and _above(hull[-2], hull[-1], (x, y)):
-            hull.pop()
-        hull.append((x, y))
-    pairs = []
-    for (x0, y0), (x1, y1) in pairwise(hull):
-        rate = (y1 - y0) / (x1 - x0)
-        if rate >= 0.0 and y0 - rate * x0 >= 0.0:
-            pairs.append((y0 - rate * x0, rate))
-    return sorted(pairs, key=lambda pair: pair[1])
-
-
-def _above(a: tuple[float, float], b: tuple[float, float], c: tuple[float, float]) -> bool:
-    """Whether b lies on or below the line from a to c."""
-    return (b[1] - a[1]) * (c[0] - a[0]) <= (c[1] - a[1]) * (b[0] - a[0])
 
 
 def lift_off_speed(

@@ -176,19 +176,6 @@ def minimum_over(
     return Extreme(0.0 - top.value, top.place)
 
 
-def largest_magnitude(
-    f: Function, start: float = 0.0, end: float = TURN, *, joints: Sequence[float] = (), samples: int = 2048
-) -> Extreme:
-    """Largest |f| over an interval, with the sign of f kept: the largest pressure angle of a cam.
-
-    Example
-        >>> largest_magnitude(lambda x: np.sin(x) - 0.5).value
-        -1.5
-    """
-    top, bottom = extremes_over([(f, True), (f, False)], start, end, joints=joints, samples=samples)
-    return top if abs(top.value) >= abs(bottom.value) else bottom
-
-
 def least_convex_radius(
     curvature: Function, start: float = 0.0, end: float = TURN, *, joints: Sequence[float] = (), samples: int = 2048
 ) -> Extreme:

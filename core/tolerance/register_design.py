@@ -352,10 +352,10 @@ def mean_square(source: Scatter) -> float:
     return sigma * sigma
 
 
-def contribution(source: Scatter, gain: Any, name: str = "") -> Contribution:
+def contribution(source: Scatter, gain: Any) -> Contribution:
     """A source with its gain; what has a direction is 0 on average."""
     mean = source.law.moments()[0] if source.coordinates == 1 else 0.0
-    return Contribution(name or source.key, np.asarray(gain), source.limit, math.sqrt(mean_square(source)), mean)
+    return Contribution(source.key, np.asarray(gain), source.limit, math.sqrt(mean_square(source)), mean)
 
 
 def no_such_place(at: str, known: Sequence[str]) -> NoSolution:

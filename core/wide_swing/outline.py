@@ -76,14 +76,13 @@ def _slot_bottom(cam: AnyCam, middle: complex, start: complex, end: complex) -> 
     return result
 
 
-def dwell_arc(cam: AnyCam, count: int = 181) -> Points:
+def dwell_arc(cam: AnyCam) -> Points:
     """The rest of the turn, from the end of the stroke back to its start, about the cam axis.
 
     Parameters
         cam : WideSwingCam or OscillatingCam
-        count : int
     Returns
-        arc : (N,) complex array [mm] - a circle's where the cam turns evenly and the rocker dwells
+        arc : (181,) complex array [mm] - a circle's where the cam turns evenly and the rocker dwells
     Raises
         NoSolution - for a profile that does not exist
     """
@@ -91,7 +90,7 @@ def dwell_arc(cam: AnyCam, count: int = 181) -> Points:
     last, first = (complex(z) for z in cam.points(np.array([end, begin])).profile)
     middle = complex(cam.points(np.array([middle_of(cam)])).pitch[0])
     start, stop = (float(np.angle(z / -middle)) for z in (last, first))
-    share: Reals = np.linspace(0.0, 1.0, count)
+    share: Reals = np.linspace(0.0, 1.0, 181)
     radius = abs(last) ** (1.0 - share) * abs(first) ** share
     result: Points = -middle / abs(middle) * radius * np.exp(1j * (start + (stop - start) * share))
     return result

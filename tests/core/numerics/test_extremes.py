@@ -15,7 +15,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sweeps import examples
 
-from gearlink.core.numerics.extremes import TURN, largest_magnitude, least_convex_radius, maximum_over, minimum_over
+from gearlink.core.numerics.extremes import TURN, least_convex_radius, maximum_over, minimum_over
 
 EPS = 2.0**-52
 PLACE = 2e-7
@@ -74,11 +74,6 @@ def test_plateau() -> None:
 def test_ends_count() -> None:
     top = maximum_over(lambda x: x * x, -1.0, 2.0)
     assert (top.value, top.place) == (pytest.approx(4.0, abs=1e-13), 2.0)
-
-
-def test_magnitude_keeps_its_sign() -> None:
-    assert largest_magnitude(lambda x: np.sin(x) - 0.5).value == pytest.approx(-1.5, abs=4 * EPS)
-    assert largest_magnitude(lambda x: np.sin(x) + 0.5).value == pytest.approx(1.5, abs=4 * EPS)
 
 
 def test_no_convex_part_has_no_least_radius() -> None:
