@@ -138,5 +138,7 @@ def _unknown_name(error: UnknownName) -> Diagnostic:
     from difflib import get_close_matches
 
     near: Sequence[str] = get_close_matches(error.name, error.known, n=3, cutoff=0.5)
-    remedy = f"nearest: {', '.join(near)}" if near else f"known: {', '.join(error.known)}"
+    plain = [name for name in error.known if "." not in name]  # those of each mesh are many, and the same again
+    listed = f"known: {', '.join(plain)}" + (", and those of a mesh as MESH.NAME" if plain != [*error.known] else "")
+    remedy = f"nearest: {', '.join(near)}" if near else listed
     return Diagnostic("GL115", str(error), file=f"<--{error.what}>", line=1, column=1, key=error.name, help=remedy)

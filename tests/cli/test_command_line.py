@@ -243,6 +243,14 @@ def test_errors_before_any_file_are_in_json_too(gearlink: Any, line: str) -> Non
     assert {"code", "message", "file", "line", "column", "key"} <= set(error)
 
 
+def test_known_quantities_are_listed_once(gearlink: Any, designs: Path) -> None:
+    ended = gearlink("analyze", designs / "candy_feed.yaml", "--quantity", "zzzzzz")
+    assert ended.status == ExitCode.WRONG_INPUT
+    assert "crank_length" in ended.err
+    assert "MESH.NAME" in ended.err
+    assert "crank_idler." not in ended.err
+
+
 def test_a_file_for_a_folder_is_said_so(gearlink: Any, crank: Path, tmp_path: Path) -> None:
     (tmp_path / "taken").write_text("")
     ended = gearlink("crank", crank, "--plot", "--out", tmp_path / "taken")
