@@ -50,8 +50,9 @@ def run_explain(subject: str | None, format: Format) -> int:
 def find(subject: str) -> list[Topic]:
     """Every topic of a name; a name written with - for _ counts where nothing bears it as it stands."""
     exact = list(_topics(subject))
-    if all(topic.about == "column" for topic in exact):  # a key says more than a column
-        exact = [*_keys(subject), *exact]
+    # A key says more than a column; a path is a key's, or that of a quantity of one mesh.
+    if "." in subject or all(topic.about == "column" for topic in exact):
+        exact = sorted([*_keys(subject), *exact], key=lambda topic: topic.name != subject)
     if exact:
         return exact
     spellings = dict.fromkeys((subject.upper(), subject.lower().replace("_", "-"), subject.lower().replace("-", "_")))

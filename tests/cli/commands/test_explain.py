@@ -108,6 +108,14 @@ def test_everything_can_be_explained(gearlink: Any, name: str) -> None:
     assert max(map(len, ended.out.splitlines())) <= 120
 
 
+@pytest.mark.parametrize("name", ["speed", "gears.tip_shortening", "margin"])
+def test_what_bears_the_name_itself_comes_first(gearlink: Any, name: str) -> None:
+    """A key of one word, the path of a key whose last word is a quantity, a column that is the last word of a key."""
+    topics = gearlink("explain", name, "--format", "json").json["topics"]
+    assert topics[0]["name"] == name
+    assert len(topics) > 1
+
+
 def test_code_says_what_why_formula_source_and_how_to_mend(gearlink: Any) -> None:
     topic = gearlink("explain", "GL301", "--format", "json").json["topics"][0]
     assert {"what", "why", "formula", "source", "how_to_mend", "checks", "kinds"} <= set(topic)
