@@ -6,7 +6,7 @@ import gc
 import io
 import json
 import os
-from collections.abc import Callable, Generator
+from collections.abc import Generator
 from dataclasses import dataclass
 from functools import wraps
 from pathlib import Path
@@ -90,27 +90,6 @@ def pytest_runtest_protocol(item: pytest.Item) -> Generator[None, object, object
     finally:
         if not item.get_closest_marker("slow") and not item.get_closest_marker("stress"):
             _taken.setdefault(item.location[0], []).append(_processor_seconds() - begun)
-
-
-@pytest.hookimpl(trylast=True)
-def pytest_configure(config: pytest.Config) -> None:
-    """A process of xdist tells the one that counts of each test's outcome and of what did not pass, not of every step
-    of each test, unless asked for: passing those on takes longer than most tests."""
-    if config.getoption("verbose") > 0 or config.getoption("durations") is not None or config.getoption("xmlpath"):
-        return
-    for plugin in config.pluginmanager.get_plugins():
-        if type(plugin).__name__ == "WorkerInteractor":
-            plugin.sendevent = _without_steps(plugin.sendevent)
-
-
-def _without_steps(send: Callable[..., None]) -> Callable[..., None]:
-    def told(name: str, **given: Any) -> None:
-        report = given.get("data", {})
-        step = name == "testreport" and report["outcome"] == "passed" and report["when"] != "call"
-        if not step and name not in ("logstart", "logfinish"):
-            send(name, **given)
-
-    return told
 
 
 @pytest.hookimpl(optionalhook=True)

@@ -57,10 +57,10 @@ class Start(NamedTuple):
 
 
 def _with_teeth(spec: MutilatedGearDwellSpec) -> MutilatedGearDwellSpec:
-    """The spec with the teeth and the reduction that wanted times ask for, and a stop where none is named."""
+    """The spec with the teeth and the reduction that wanted times ask for."""
     gears, target = spec.gears, spec.target
     if target is None or spec.reduction is not None:
-        return spec.model_copy(update={"gears": gears.model_copy(update={"stops": gears.stops or 1})})
+        return spec
     motion, dwell = spec.wanted_turns()
     with at_key("target.driven_turn"):
         share = motion / (motion + dwell)
@@ -265,7 +265,11 @@ class MutilatedGearDwell(RealSpeed, Meshed):
     full_teeth: int = placed("spec.gears.full_teeth")
     group_teeth: int = placed("spec.gears.group_teeth")
     driven_teeth: int = placed("spec.gears.driven")
-    stops: int = placed("spec.gears.stops")
+
+    @property
+    def stops(self) -> int:
+        """Locking arcs of the driven gear: one, where neither the file nor wanted times name them."""
+        return self.spec.gears.stops or 1
 
     # Checks
 

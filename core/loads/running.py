@@ -125,16 +125,16 @@ class Running:
         found: Reals = math.copysign(1.0, self.design.speed) * self.run.speed(self._own_angle(phi))
         return found
 
-    def time(self, phi: Reals) -> Reals:
-        """Time since input angle 0 at ascending input angles of the period [s], the input turning one way."""
-        from gearlink.core.loads.machine import NODES
+    @cached_property
+    def _paces(self) -> Reals:
+        """Time per angle at the nodes of the machine's panels [s]."""
+        return np.asarray(1.0 / np.abs(self.speed(self.design.machine.panels.nodes)))
 
-        x, weights = np.polynomial.legendre.leggauss(NODES)
-        bounds = np.concatenate(([0.0], phi))
-        width = np.diff(bounds)
-        nodes = bounds[:-1, None] + width[:, None] * (0.5 * (x + 1.0))
-        pieces = (1.0 / np.abs(self.speed(nodes.ravel()))).reshape(nodes.shape) @ (0.5 * weights) * width
-        return np.asarray(np.cumsum(pieces))
+    def time(self, phi: Reals) -> Reals:
+        """Time since input angle 0 at input angles of the period [s], the input turning one way; each stands alone."""
+        panels = self.design.machine.panels
+        edges = panels.running(self._paces)
+        return np.asarray(edges[panels.row(phi)] + panels.within(self._paces, phi))
 
     @cached_property
     def range(self) -> tuple[float, float]:
