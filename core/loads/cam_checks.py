@@ -17,12 +17,21 @@ _NEAR = 0.9
 _LEAST_SHARE = 0.1
 
 
+def no_width(allowed: float) -> Check:
+    """GL607 of a file that allows a pressure, and gives no width."""
+    message = "without a width there is no pressure to hold against the allowed one: give loads.roller: {width: mm}"
+    return codes.CONTACT_PRESSURE.check("warn", message, None, allowed, "N/mm^2")
+
+
 def contact_pressure(design: CamLoadsDesign) -> Iterator[Check]:
     """GL607, where the file gives an allowed pressure."""
     material = design.section.material
     allowed = None if material is None else material.allowed_pressure
     found = design.pressure_extremes
-    if allowed is None or found is None:
+    if allowed is None:
+        return
+    if found is None:
+        yield no_width(allowed)
         return
     for name, extreme in zip(design.own_rollers, found, strict=True):
         if extreme is None:

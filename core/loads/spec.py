@@ -205,6 +205,10 @@ class Bearing(Spec):
     def _complete(self) -> Bearing:
         if self.kind == "plain" and (self.width is None or self.diameter is None):
             raise PydanticCustomError("GL106", "a plain bearing needs width and diameter", {"key": "kind"})
+        rating = next((name for name in ("life", "dynamic_rating") if getattr(self, name) is not None), None)
+        if self.kind == "plain" and rating is not None:
+            message = f"a plain bearing has no rating life, only bearing_pressure: leave {rating} out"
+            raise PydanticCustomError("GL111", "{message}", {"key": rating, "message": message})
         if self.kind != "plain" and self.dynamic_rating is None:
             raise PydanticCustomError("GL106", "a rolling bearing needs dynamic_rating", {"key": "kind"})
         return self

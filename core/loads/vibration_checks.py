@@ -45,8 +45,12 @@ def residual_vibration(design: LoadsDesign) -> Iterator[Check]:
     if allowed is None:
         return
     vibrating = design.vibrating
+    if not vibrating.motions:
+        text = "the output stands nowhere, so that no vibration is held against loads.vibration.allowed_residual"
+        yield codes.RESIDUAL_VIBRATION.check("warn", f"{text}; the table harmonics has its deflection", None, allowed)
+        return
     found = vibrating.residual if vibrating.residual is not None else vibrating.twist
-    if found is None:
+    if found is None:  # resonance tells
         return
     unit = "mm" if vibrating.slides else "deg"
     text = f"the output vibrates in its dwell by {found:.4g} {unit}"

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from gearlink.core.loads import codes, vibration_checks
+from gearlink.core.loads.cam_checks import no_width
 from gearlink.core.report import Check
 
 if TYPE_CHECKING:
@@ -18,7 +19,10 @@ def contact_pressure(design: WideSwingLoads) -> Iterator[Check]:
     """GL607, where the file gives an allowed pressure."""
     allowed = None if design.section.material is None else design.section.material.allowed_pressure
     found, roller = design.hertz_pressure_max, design.section.roller
-    if allowed is None or found is None or roller is None:
+    if allowed is None:
+        return
+    if found is None or roller is None:
+        yield no_width(allowed)
         return
     text = f"the roller presses with {found:.5g} N/mm^2"
     if found > allowed:

@@ -141,3 +141,18 @@ def test_what_would_have_no_effect_is_refused(base: str, section: dict[str, Any]
     with pytest.raises(GearlinkError) as refused:
         loads.report("loads")
     assert refused.value.key == key
+
+
+@pytest.mark.parametrize(
+    ("base", "section", "check"),
+    [
+        ("loaded_six_bar", {"vibration": {"frequency": 60, "allowed_residual": 0.1}}, "residual-vibration"),
+        ("loaded_press", {"roller": None}, "contact-pressure"),
+        ("loaded_wide_swing", {"roller": None, "material": {"allowed_pressure": 500}}, "contact-pressure"),
+    ],
+)
+def test_a_limit_that_nothing_is_held_against_is_told(base: str, section: dict[str, Any], check: str) -> None:
+    """No dwell, or no width: a warning without a value."""
+    loads = factory.design(base, command="loads", **{f"loads__{name}": value for name, value in section.items()})
+    (found,) = loads.check(check)
+    assert (found.status, found.value) == ("warn", None)
