@@ -28,8 +28,9 @@ def wheel_of(design: MutilatedGearDwell, width: float | None = None, hand: str =
     """The wheel, the middle of a gap on the x axis; half a group and its gap, mirrored and turned, make it all.
 
     Raises
-        NoSolution - where no involute is left between root and tip
+        NoSolution - where the groups leave no gaps, and where no involute is left between root and tip
     """
+    _ = design.mutilated  # refuses groups that fill the wheel
     profile, mesh = ToothProfile.of(design.mesh, 0), design.mesh
     count, groups, step = design.group_teeth, design.spec.gears.groups, 2.0 * math.pi / design.full_teeth
     cut = min(end_tooth_radius(mesh), profile.outer_radius)  # a pointed tooth ends below the tip circle

@@ -86,6 +86,14 @@ class GearedSixBar(OutputRates, RealSpeed, Design):
         "shaft-clearance": (*SHAFT_WAYS, down("shafts.F_radius"), *_FREE_LINKS),
     }
 
+    @property
+    def trials(self) -> int:
+        """A motion that is followed step by step takes nearly a tenth of a second each time."""
+        try:
+            return 150 if self.bar.is_closed_form else 20
+        except NoSolution:  # findings of the gears stand without a loop
+            return 20
+
     # Gears and links
 
     @cached_property

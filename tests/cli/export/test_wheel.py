@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -57,3 +58,12 @@ def test_splines_and_a_wheel_that_passes_its_driven_gear() -> None:
     made = design("mutilated_gear_press")
     assert outline(made, CurveForm.SPLINE).size > 100
     assert free_radius(made.mesh) < made.mesh.tip_radius[0]
+
+
+@pytest.mark.parametrize("form", ["dxf", "svg", "csv"])
+def test_groups_that_fill_the_wheel_are_refused(form: str, gearlink: Any, designs: Path, tmp_path: Path) -> None:
+    """As its analysis refuses them: teeth upon teeth are no outline."""
+    spec = designs / "mutilated_gear_press.yaml"
+    ended = gearlink("export", spec, "--as", form, "--out", tmp_path, "--set", "gears.groups=10")
+    assert (ended.status, "fill the wheel" in ended.err) == (2, True)
+    assert not list(tmp_path.iterdir())

@@ -265,3 +265,9 @@ def test_gears_of_one_plane_are_judged() -> None:
     assert near.lengths[0] == 110.0
     assert changed(worked(CLOSED))["kind"] == "geared-six-bar"
     assert six_bar(CLOSED).gear_gap is None  # trains that share the pin B lie in planes of their own
+
+
+def test_a_motion_that_is_followed_is_not_followed_for_seconds_to_find_a_remedy() -> None:
+    """By counts, which do not depend on the machine: a tenth of a second each; a dyad takes a tenth of that."""
+    assert six_bar(FOLLOWED).trials <= 20 < six_bar(CLOSED).trials
+    assert six_bar(CLOSED, links__frame=5000.0).trials <= 20  # no loop at all, and the gears are judged all the same
