@@ -19,7 +19,7 @@ from gearlink.core.linkages.codes import TRANSMISSION_ANGLE
 from gearlink.core.linkages.slider_crank import SliderCrank
 from gearlink.core.linkages.slider_crank_design import SliderCrankDesign
 from gearlink.core.linkages.slider_crank_sweep import slider
-from gearlink.core.linkages.standstills import GRID, TURN, Turning
+from gearlink.core.linkages.standstills import SLIDER_GRID, TURN, Turning
 from gearlink.core.nomenclature import term
 from gearlink.core.numerics.arrays import Mask, Reals
 from gearlink.core.numerics.elementary import Elementary
@@ -182,7 +182,7 @@ class SliderCrankDesigns(SliderCrankDesign):
 
     def _brackets(self, order: int) -> tuple[Any, Any]:
         """Which designs, and steps of the grid, in which a derivative changes its sign."""
-        grid = np.array(GRID)
+        grid = np.array(SLIDER_GRID)
         found: list[tuple[Any, Any]] = [(np.empty(0, dtype=int), np.empty(0, dtype=int))]
         for first in range(0, len(self._some), _BLOCK):
             some = self._some[first : first + _BLOCK]
@@ -195,7 +195,7 @@ class SliderCrankDesigns(SliderCrankDesign):
 
     def _turnings(self, order: int) -> list[Turning]:
         rows, steps = self._brackets(order + 1)
-        grid = np.array(GRID)
+        grid = np.array(SLIDER_GRID)
         places = bracketed_roots(self._depth(rows, order + 1), grid[steps], grid[steps + 1])
         speeds, places = self._depth(rows, order)(places), places % TURN % TURN
         return [self._extreme(rows, places, speeds, sign) for sign in (1.0, -1.0)]

@@ -119,9 +119,9 @@ class SliderCrankDesign(RealSpeed, SliderCrankQuantities, Design):
         return self._turnings(2)
 
     def _turnings(self, order: int) -> list[Turning]:
-        from gearlink.core.linkages.standstills import turnings
+        from gearlink.core.linkages.standstills import SLIDER_GRID, turnings
 
-        found = turnings(lambda x: self.depth(x, order), lambda x: self.depth(x, order + 1))
+        found = turnings(lambda x: self.depth(x, order), lambda x: self.depth(x, order + 1), SLIDER_GRID)
         found.sort(key=lambda turning: turning.value)
         return [found[-1], found[0]]
 

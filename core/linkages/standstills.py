@@ -16,11 +16,17 @@ TURN = 2.0 * math.pi
 # Every 2 deg, and halving steps towards 0 and 180 deg: near a change point the rates peak there, as narrowly as the
 # coupler and the rocker come near to one line.
 _HALVINGS = [math.radians(2.0) * 0.5**j for j in range(1, 15)]
-# It starts and ends where no linkage has its dead centres: a zero just at an end would be missed.
-GRID = sorted(
-    {math.radians(2.0 * i) for i in range(-54, 127)}
-    | {math.radians(place) + side * step for place in (0, 180) for side in (1, -1) for step in _HALVINGS}
-)
+
+
+def _grid(*places: float) -> list[float]:
+    """It starts and ends where no linkage has its dead centres: a zero just at an end would be missed."""
+    near = {math.radians(place) + side * step for place in places for side in (1, -1) for step in _HALVINGS}
+    return sorted({math.radians(2.0 * i) for i in range(-54, 127)} | near)
+
+
+GRID = _grid(0.0, 180.0)
+SLIDER_GRID = _grid(-90.0, 90.0)
+"""Of a slider-crank, whose slide line is at 90 deg: near rod = 4 cranks two extremes of its acceleration part there."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,11 +53,12 @@ class BackStep:
     angle: float
 
 
-def zeros_over_turn(f: Function) -> list[float]:
+def zeros_over_turn(f: Function, grid: list[float] = GRID) -> list[float]:
     """Zeros of a periodic function at which its sign changes.
 
     Parameters
         f : function of the crank angle [rad]
+        grid : list of float [rad] - places between which signs are compared
     Returns
         zeros : list of float [rad] - ascending in [0, 2 pi)
     Notes
@@ -62,21 +69,22 @@ def zeros_over_turn(f: Function) -> list[float]:
         [1.570796326795, 4.712388980385]
     """
     # twice: a tiny negative angle is rounded up to a whole turn by the first
-    return sorted(dict.fromkeys(root % TURN % TURN for root in roots_on(f, GRID)))
+    return sorted(dict.fromkeys(root % TURN % TURN for root in roots_on(f, grid)))
 
 
-def turnings(speed: Function, acceleration: Function) -> list[Turning]:
+def turnings(speed: Function, acceleration: Function, grid: list[float] = GRID) -> list[Turning]:
     """Extremes of the speed ratio over the turn, by the zeros of its derivative.
 
     Parameters
         speed, acceleration : functions of the crank angle [rad], the second the derivative of the first
+        grid : list of float [rad] - as of `zeros_over_turn`
     Returns
         turnings : list of Turning - in the order of the crank angle
     Example
         >>> [round(t.value, 12) for t in turnings(lambda x: 1 + 2 * math.sin(x), lambda x: 2 * math.cos(x))]
         [3.0, -1.0]
     """
-    return [Turning(place, speed(place)) for place in zeros_over_turn(acceleration)]
+    return [Turning(place, speed(place)) for place in zeros_over_turn(acceleration, grid)]
 
 
 def standstills(speed: Function, extremes: list[Turning], tolerance: float, period: float | None = TURN) -> list[float]:
