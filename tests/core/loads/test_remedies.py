@@ -27,7 +27,7 @@ CASES: list[tuple[str, str, dict[str, Any]]] = [
     ("GL608", "loaded_swing_cycle", {"loads__forces": [{"on": "rocker", "torque": -6.0}]}),
     ("GL610", FEED, {"loads__vibration__allowed_residual": 0.05}),
     ("GL610", "loaded_wide_swing", {"loads__vibration__allowed_residual": 0.05}),
-    ("GL611", FEED, {"loads__vibration__damping": 0}),
+    ("GL611", FEED, {"loads__vibration": {"frequency": 26, "damping": 0, "allowed_residual": 2}}),
     ("GL615", FEED, {"loads__friction": {"pins": 0.9, "pin_radius": 60}}),
 ]
 
