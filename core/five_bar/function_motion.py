@@ -126,11 +126,16 @@ class FunctionFiveBar:
         (low, least), (high, greatest) = self.reach_squared.extremes(start, end)
         return (low, math.sqrt(max(least, 0.0))), (high, math.sqrt(greatest))
 
-    def closure(self, start: float, end: float) -> tuple[tuple[float, float], tuple[float, float]]:
+    def closure(
+        self, start: float, end: float, *, free: bool = True
+    ) -> tuple[tuple[float, float], tuple[float, float]]:
         """Refuse a five-bar whose follower and output do not reach from C to E all over a range of the input.
 
         |c - e| < |CE| < c + e
 
+        Parameters
+            start, end : float [rad]
+            free : bool - whether a narrower range is a remedy
         Returns
             least, greatest : (float, float) - the extremes of |CE|, as `reach_extremes`
         Raises
@@ -142,13 +147,13 @@ class FunctionFiveBar:
             raise NoSolution(
                 f"the five-bar opens: at input angle {math.degrees(high):.6g} deg C and E are {greatest:.9g} mm apart, "
                 f"follower and output together only {longest:.9g} mm; lengthen them by more than "
-                f"{safely_above(greatest - longest, 4)} mm together, shorten the coupler, or narrow the range"
+                f"{safely_above(greatest - longest, 4)} mm together{_or('shorten the coupler', free)}"
             )
         if least <= shortest:
             raise NoSolution(
                 f"the five-bar opens: at input angle {math.degrees(low):.6g} deg C and E are {least:.9g} mm apart, "
                 f"follower and output differ by {shortest:.9g} mm; make them more equal by more than "
-                f"{safely_above(shortest - least, 4)} mm, lengthen the frame, or narrow the range"
+                f"{safely_above(shortest - least, 4)} mm{_or('lengthen the frame', free)}"
             )
         return (low, least), (high, greatest)
 
@@ -189,3 +194,7 @@ class FunctionFiveBar:
                 value = new + 2.0 * math.pi * round((value - new) / (2.0 * math.pi))
             result.append(value)
         return result
+
+
+def _or(words: str, free: bool) -> str:
+    return f", {words}, or narrow the range" if free else f", or {words}"

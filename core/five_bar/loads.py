@@ -66,14 +66,9 @@ class FiveBarLoads(LoadsDesign):
         """The function form over its whole period."""
         bar = self.design.function_bar
         try:
-            bar.closure(0.0, 2.0 * math.pi * self.turns)
+            bar.closure(0.0, 2.0 * math.pi * self.turns, free=False)
         except NoSolution as error:
-            words = (
-                error.message.replace(", or narrow the range", "")
-                .replace("mm, lengthen", "mm, or lengthen")
-                .replace("together, shorten", "together, or shorten")
-            )
-            message = f"loads are those of the whole period, whatever the range: {words}"
+            message = f"loads are those of the whole period, whatever the range: {error.message}"
             raise NoSolution(message, key="range" if self.spec.range is not None else "links") from error
         return bar
 
