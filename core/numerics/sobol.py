@@ -1,4 +1,8 @@
-"""Scrambled Sobol' points: the numbers of `scipy.stats.qmc.Sobol`, whose import takes longer than most studies."""
+"""Scrambled Sobol' points: the numbers of `scipy.stats.qmc.Sobol`, whose import takes longer than most studies.
+
+Its scrambling and the name of its seed have changed with its versions: a store that is resumed, or a cluster whose
+machines differ, would mix two sequences.
+"""
 
 from __future__ import annotations
 
