@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.figures import panels, style
+from gearlink.cli.figures import panels, style, time_axes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -26,6 +26,7 @@ def draw(command: str, design: FlatbedPress) -> Figure:
     panels.pressure_angles(curves[3], cams, design.spec.limits.pressure_angle, "")
     panels.curvatures(curves[4], cams, "cam angle [deg]")
     panels.shade(curves, _phases(design))
+    _times(curves[4], design)
     below: Any = rows[5].subgridspec(1, 2, width_ratios=(1.55, 1.0))
     drawing = made.add_subplot(below[0])
     _cams(drawing, design)
@@ -34,6 +35,15 @@ def draw(command: str, design: FlatbedPress) -> Figure:
     panels.legend_beside(made.add_subplot(right[1]), drawing)
     made.align_ylabels(curves)
     return made
+
+
+def _times(axes: Axes, design: FlatbedPress) -> None:
+    """The cam angle in time: its link turns unevenly."""
+    import numpy as np
+
+    degrees = np.arange(0.0, 361.0)
+    inputs = np.unwrap(np.asarray(design.bed.input_angle(np.radians(degrees))))
+    time_axes.in_uneven_ms(axes, degrees, 1e3 * (inputs - inputs[0]) / design.input_speed)
 
 
 def _phases(design: FlatbedPress) -> list[panels.Phase]:

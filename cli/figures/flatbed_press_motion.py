@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.cli.figures import failing, panels, scene_axes, style
+from gearlink.cli.figures import failing, panels, scene_axes, style, time_axes
 from gearlink.cli.scenes.flatbed_press import LEVEL, UPRIGHT, Machine, bed_chain, build, cylinder_chain
 from gearlink.cli.scenes.scene import TURN, Chain, Scene
 
@@ -194,6 +194,7 @@ def _curves(axes: list[Axes], design: FlatbedPress) -> None:
     _zone(axes, start, end)
     _equal_speeds(axes[1], design)
     _poor_transmission(axes[1], design)
+    time_axes.over_input(axes[1], time_axes.turn_time(design))
     panels.legend_above(axes[0])
     panels.legend_above(axes[1])
 

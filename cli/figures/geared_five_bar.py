@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.cli.figures import linkage, panels, scene_axes, style
+from gearlink.cli.figures import linkage, panels, scene_axes, style, time_axes
 from gearlink.cli.scenes.geared_five_bar import build
 from gearlink.core.five_bar.design import GearedFiveBar
 from gearlink.core.five_bar.path_motion import PathFiveBar
@@ -96,7 +96,7 @@ def _velocity(axes: Axes, design: GearedFiveBar) -> None:
         axes.plot(angle, values, color=color, linewidth=1.6, linestyle=line, label=f"{name}′")
     axes.axhline(0.0, color=style.GREY, linewidth=0.6)
     _period(axes, design)
-    panels.in_time(axes, design.angular_speed, 1, "mm")
+    time_axes.in_time(axes, design.angular_speed, 1, "mm")
     panels.legend_above(axes, 2)
 
 

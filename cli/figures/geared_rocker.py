@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.cli.figures import linkage, panels, scene_axes, style
+from gearlink.cli.figures import linkage, panels, scene_axes, style, time_axes
 from gearlink.cli.scenes.geared_rocker import build
 from gearlink.core.planet_linkages.rocker_design import GearedRocker
 
@@ -62,7 +62,7 @@ def _speed(axes: Axes, design: GearedRocker) -> None:
     linkage.standstills(axes, design.extreme_crank_angles)
     axes.axhline(0.0, color=style.GREY, linewidth=0.8)
     axes.plot(*linkage.over_turn(design, "speed_ratio"), color=style.ORANGE, linewidth=1.6)
-    panels.in_time(axes, design.angular_speed, 1, "rad")
+    time_axes.in_time(axes, design.angular_speed, 1, "rad")
 
 
 def _acceleration(axes: Axes, design: GearedRocker) -> None:
@@ -70,4 +70,4 @@ def _acceleration(axes: Axes, design: GearedRocker) -> None:
     linkage.standstills(axes, design.extreme_crank_angles)
     axes.axhline(0.0, color=style.GREY, linewidth=0.8)
     axes.plot(*linkage.over_turn(design, "acceleration_ratio"), color=style.ORANGE, linewidth=1.6)
-    panels.in_time(axes, design.angular_speed, 2, "rad")
+    time_axes.in_time(axes, design.angular_speed, 2, "rad")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.cli.figures import linkage, panels, scene_axes, style
+from gearlink.cli.figures import linkage, panels, scene_axes, style, time_axes
 from gearlink.cli.scenes.geared_six_bar import build
 from gearlink.core.gears.mesh_phase import signed_pair
 from gearlink.core.six_bar.design import GearedSixBar
@@ -66,7 +66,7 @@ def _curve(axes: Axes, design: GearedSixBar, name: str, ylabel: str, order: int)
     axes.set_xlim(float(x[0]), float(x[-1]))
     _ticks(axes, design)
     if order:
-        panels.in_time(axes, design.angular_speed, order, "rad")
+        time_axes.in_time(axes, design.angular_speed, order, "rad")
     elif design.dwell_crank_angles:
         panels.legend_above(axes, 1)
 

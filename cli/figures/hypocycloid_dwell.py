@@ -66,16 +66,17 @@ def _deviations(design: HypocycloidDwell, half: float) -> tuple[list[float], lis
 
 
 def _turn(axes: Axes, design: HypocycloidDwell) -> None:
-    linkage.chart(axes, "Slider over a turn", "inwards from mid-dwell [mm]", "carrier angle [deg]", turn=False)
+    linkage.chart(axes, "Slider over a turn", "inwards from\nmid-dwell [mm]", "carrier angle [deg]", turn=False)
     _mark(axes, design, "dwell wanted")
     axes.plot(*_deviations(design, 180.0), color=style.BLUE, linewidth=1.6)
     panels.legend_above(axes, 1)
+    axes.set_xlim(-180.0, 180.0)
     axes.set_xticks(range(-180, 181, 60))
 
 
 def _magnified(axes: Axes, design: HypocycloidDwell) -> None:
     """The dwell and a little beside it, with the band of the tolerance."""
-    linkage.chart(axes, "Dwell, magnified", "inwards from mid-dwell [mm]", "carrier angle [deg]", turn=False)
+    linkage.chart(axes, "Dwell, magnified", "inwards from\nmid-dwell [mm]", "carrier angle [deg]", turn=False)
     _mark(axes, design)
     reach = max(design.dwell_carrier_angle, design.tolerance_carrier_angle or 0.0)
     degrees, values = _deviations(design, math.degrees(0.55 * reach))
@@ -94,4 +95,5 @@ def _transmission(axes: Axes, design: HypocycloidDwell) -> None:
     angles = [90.0 - abs(math.degrees(design.slider.rod_angle(math.radians(x)))) for x in degrees.tolist()]
     linkage.transmission(axes, design, degrees, np.array(angles), "carrier angle [deg]", turn=False)
     _mark(axes, design)
+    axes.set_xlim(-180.0, 180.0)
     axes.set_xticks(range(-180, 181, 60))

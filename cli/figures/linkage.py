@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.figures import failing, panels, style
+from gearlink.cli.figures import failing, panels, style, time_axes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -44,7 +44,9 @@ def sheet(
     grid: Any = halves[1].subgridspec(rows, columns) if charts else None
     for i, chart in enumerate(charts):
         last_alone = i == len(charts) - 1 and i % columns == 0
-        chart(figure.add_subplot(grid[i // columns, :] if last_alone else grid[i // columns, i % columns]), design)
+        axes = figure.add_subplot(grid[i // columns, :] if last_alone else grid[i // columns, i % columns])
+        chart(axes, design)
+        time_axes.over_input(axes, time_axes.turn_time(design))
     return figure
 
 

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from itertools import cycle
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.figures import loads_contact, panels, style
+from gearlink.cli.figures import loads_contact, panels, style, time_axes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -29,8 +29,10 @@ def draw(design: Any) -> Figure:
     heights = [1.0 if i else 1.3 for i in range(len(curves))] + [1.55] * polar
     made = panels.page(f"{design.spec.name}: loads", min(1.6, 0.115 * sum(heights)))
     grid = made.add_gridspec(len(heights), _POLAR_COLUMNS, height_ratios=heights)
-    for row, panel in enumerate(curves):
-        panel(made.add_subplot(grid[row, :]), design)
+    stacked = [made.add_subplot(grid[row, :]) for row in range(len(curves))]
+    for axes, panel in zip(stacked, curves, strict=True):
+        panel(axes, design)
+    time_axes.once(stacked, 2e3 * math.pi / design.speed)
     places = [(len(curves) + i // _POLAR_COLUMNS, i % _POLAR_COLUMNS) for i in range(len(pins) + len(cams) + 1)]
     for (row, column), name in zip(places, [*pins, *(f"cam {cam}" for cam in cams), ""], strict=True):
         axes = made.add_subplot(grid[row, column])

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.figures import panels, style
+from gearlink.cli.figures import panels, style, time_axes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -119,6 +119,7 @@ def stroke_sheet(design: Any) -> Figure:
     axes = next(grid)
     _stroke(axes, design, "Torque on the cam", "torque [N m]", "input_torque")
     axes.axhline(0.0, color=style.BLACK, linewidth=0.8)
+    time_axes.once(made.axes, 2e3 * math.pi / design.speed)
     if has["residual"]:
         residual(next(grid), design)
     if has["pressure"]:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gearlink.cli.figures import panels, style
+from gearlink.cli.figures import panels, style, time_axes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -87,9 +87,9 @@ def _panel(axes: Axes, course: Course, order: int, *, last: bool) -> None:
         axes.margins(y=0.2)
     if order:
         measure, scale = ("m", 1e-3) if course.unit == "mm" else ("rad", 1.0)
-        panels.in_time(axes, course.speed, order, measure, scale)
+        time_axes.in_time(axes, course.speed, order, measure, scale)
     if last and course.speed is not None:
-        panels.in_ms(axes, 1e3 * math.radians(1.0) / course.speed)
+        time_axes.in_ms(axes, 1e3 * math.radians(1.0) / course.speed)
 
 
 def _vertex(x: Reals, y: Reals, i: int) -> tuple[float, float]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.cli.figures import linkage, panels, scene_axes, style
+from gearlink.cli.figures import linkage, panels, scene_axes, style, time_axes
 from gearlink.cli.scenes.mutilated_gear_dwell import build, mesh_scene
 from gearlink.core.dwell_gears.mutilated_design import MutilatedGearDwell
 
@@ -69,8 +69,7 @@ def _speeds(axes: Axes, design: MutilatedGearDwell) -> None:
     axes.step(turns, data["driven_speed_ratio"], where="post", color=style.ORANGE, linewidth=1.6, label="driven gear")
     if "rocker_speed_ratio" in data:
         axes.plot(turns, data["rocker_speed_ratio"], color=style.BLUE, linewidth=1.6, label="rocker")
-    panels.in_time(axes, design.angular_speed, 1, "rad")
-    panels.in_ms(axes, design.turn_time)
+    time_axes.in_time(axes, design.angular_speed, 1, "rad")
     panels.legend_above(axes, 3)
 
 

@@ -162,7 +162,7 @@ def extreme(axes: Axes, degrees: float, value: float, *, above: bool, unit: str 
     side = "right" if share > 0.85 else "left" if share < 0.15 else "center"
     look: dict[str, Any] = {"ha": side, "va": "bottom" if above else "top", "fontsize": 7.5, "zorder": 6}
     words = f"{style.number(value, 5)}{unit} at {degrees:.5g}°"
-    shift = (0, 5 if above else -5)
+    shift = ({"left": 3, "center": 0, "right": -3}[side], 5 if above else -5)
     axes.annotate(words, (degrees, value), shift, textcoords="offset points", path_effects=style.outlined(), **look)
 
 
@@ -189,54 +189,6 @@ def _few_ticks(axes: Axes, most: int) -> None:
     for axis in (axes.xaxis, axes.yaxis):
         axis.get_offset_text().set_fontsize(7)
         axis.set_major_locator(MaxNLocator(most, steps=[1, 2, 2.5, 5, 10]))
-
-
-def in_time(axes: Axes, speed: float | None, order: int, measure: str, scale: float = 1.0) -> None:
-    """A curve per input angle in real time as well, on an axis at the right; nothing where the speed is not known.
-
-    speed : of the input [rad/s]
-    order : 1 for a speed, 2 for an acceleration, 3 for a jerk
-    measure : "rad", "mm" or "m"; scale : of it in a unit of the curve
-    """
-    if speed is None:
-        return
-    factor = scale * speed**order
-
-    def faster(values: Any) -> Any:
-        return values * factor
-
-    def slower(values: Any) -> Any:
-        return values / factor
-
-    right = axes.secondary_yaxis("right", functions=(faster, slower))
-    right.set_ylabel(f"[{measure}/s{('', '', '²', '³')[order]}]", fontsize=8.5)
-    right.tick_params(labelsize=8)
-    right.ticklabel_format(scilimits=(-3, 5))
-    right.yaxis.get_offset_text().set_fontsize(7)
-
-
-def in_ms(axes: Axes, each: float | None) -> None:
-    """The x axis in time as well, below its own words; nothing where the speed is not known.
-
-    each : time of a unit of the x axis [ms]
-    """
-    if each is None:
-        return
-
-    def to_ms(values: Any) -> Any:
-        return values * each
-
-    def from_ms(values: Any) -> Any:
-        return values / each
-
-    below = axes.secondary_xaxis("bottom", functions=(to_ms, from_ms))
-    below.spines["bottom"].set_position(("outward", _BELOW))
-    below.set_xlabel("time [ms]", fontsize=8.5)
-    below.tick_params(labelsize=8)
-
-
-_BELOW = 38.0
-"""Points from an x axis to the one in ms: room for its numbers and words."""
 
 
 def turn_panel(axes: Axes, ylabel: str, xlabel: str = "") -> None:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.figures import panels, style
+from gearlink.cli.figures import panels, style, time_axes
 from gearlink.core.tolerance.budget import counted
 
 if TYPE_CHECKING:
@@ -55,6 +55,7 @@ def _stretch(axes: Axes, design: RegisterDesign) -> None:
         if place <= degrees[-1]:
             axes.axvline(place, color=style.GREY, linewidth=1.0, linestyle=style.DOTTED, label="torque turns")
     axes.set_xlim(degrees[0], degrees[-1])
+    _in_time(axes, design)
     axes.set_ylim(0.0, None)
     panels.legend_under_heading(axes, f"Over the {design.place}, relative to its start", 4)
 
@@ -73,6 +74,7 @@ def _along(axes: Axes, design: RegisterDesign) -> None:
         for cost, line in zip(costs, _LINES, strict=False):
             axes.plot(degrees, cost[name], color=color, linestyle=line, label=name if line == "-" else None)
     axes.set_xlim(degrees[0], degrees[-1])
+    _in_time(axes, design)
     axes.set_ylim(0.0, None)
     panels.legend_under_heading(axes, "By source, each at its limit", 3)
 
@@ -90,8 +92,14 @@ def _cycle(axes: Axes, design: RegisterDesign) -> None:
         here = signs == sign
         axes.plot(degrees[here], band[here], color=style.BLUE, linestyle=line, label=f"99.73 %{name}")
     style.full_turn(axes)
+    _in_time(axes, design)
     axes.set_ylim(0.0, None)
     panels.legend_under_heading(axes, "Over the cycle, absolute", 4)
+
+
+def _in_time(axes: Axes, design: Any) -> None:
+    """The input angle in time, at the speed of the design that is budgeted."""
+    time_axes.over_input(axes, time_axes.turn_time(design.design))
 
 
 def _sources(axes: Axes, design: RegisterDesign) -> None:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.cli.figures import linkage, panels, scene_axes, style
+from gearlink.cli.figures import linkage, panels, scene_axes, style, time_axes
 from gearlink.cli.scenes.slider_crank import build
 from gearlink.core.linkages import slider_crank_sweep
 
@@ -29,6 +29,7 @@ def draw(command: str, design: SliderCrankDesign) -> Figure:
     motion(travel, velocity, design)
     table = linkage.columns(design, "motion")
     linkage.transmission(transmission, design, table["input_angle"], table["transmission_angle"])
+    time_axes.over_input(transmission, time_axes.turn_time(design))
     return figure
 
 
@@ -88,7 +89,7 @@ def motion(travel: Axes, velocity: Axes, design: SliderCrankDesign) -> None:
     panels.heading(velocity, "Velocity")
     velocity.plot(degrees, speed, color=style.RED, linewidth=1.7, gid="velocity")
     velocity.axhline(0.0, color=style.BLACK, linewidth=0.8)
-    panels.in_time(velocity, getattr(design, "angular_speed", None), 1, "m", 1e-3)
+    time_axes.in_time(velocity, getattr(design, "angular_speed", None), 1, "m", 1e-3)
     for axes in (travel, velocity):
         for place, color in ((folded, style.ORANGE), (extended, style.BLUE)):
             axes.axvline(place, color=color, linewidth=0.9, linestyle=style.DASHED)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.cli.figures import panels, scene_axes, style
+from gearlink.cli.figures import panels, scene_axes, style, time_axes
 from gearlink.cli.figures.swing_gripper_motion import phases
 from gearlink.cli.scenes.scene import Chain, Scene, letters
 from gearlink.cli.scenes.swing_gripper import build
@@ -33,6 +33,7 @@ def draw(command: str, design: SwingGripper) -> Figure:
     _accelerating(curves[1], design)
     panels.curvatures(curves[2], cams, "cam angle [deg]")
     panels.shade(curves, phases(design))
+    time_axes.over_input(curves[2], time_axes.turn_time(design))
     below: Any = rows[3].subgridspec(1, 2, width_ratios=(3.0, 1.0))
     drawing = made.add_subplot(below[0])
     _cams(drawing, design)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.cli.figures import panels, scene_axes, style
+from gearlink.cli.figures import panels, scene_axes, style, time_axes
 from gearlink.cli.scenes.scene import Chain
 from gearlink.cli.scenes.swing_gripper import build, drum_center
 
@@ -35,6 +35,7 @@ def draw(command: str, design: SwingGripper) -> Figure:
     panels.shade(curves, phases(design))
     curves[-1].set_xlabel("cylinder angle [deg]", fontsize=8.5)
     curves[-1].tick_params(labelbottom=True)
+    time_axes.over_input(curves[-1], time_axes.turn_time(design))
     below: Any = rows[len(heights) - 1].subgridspec(1, 2, width_ratios=(3.2, 1.0))
     drawing = made.add_subplot(below[0])
     mechanism(drawing, design)
@@ -64,8 +65,8 @@ def _law(axes: list[Axes], design: SwingGripper) -> None:
         each.axhline(0.0, color=style.GREY, linewidth=0.6)
         each.axvline(design.spec.handover, color=_HANDOVER, linewidth=0.9, linestyle="--")
         each.plot([design.spec.handover], [mark], "o", color=_HANDOVER, markersize=4.5)
-    panels.in_time(axes[1], design.shaft_speed, 1, "rad")
-    panels.in_time(axes[2], design.shaft_speed, 2, "rad")
+    time_axes.in_time(axes[1], design.shaft_speed, 1, "rad")
+    time_axes.in_time(axes[2], design.shaft_speed, 2, "rad")
     handover = f"handover (dashed) at {design.spec.handover:g}°, {design.handover_speed:.6g} mm/s"
     panels.heading(axes[0], f"Swing β of the gripper arm; {handover}")
 

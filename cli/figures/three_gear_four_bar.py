@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from gearlink.cli.figures import failing, linkage, panels, style
+from gearlink.cli.figures import failing, linkage, panels, style, time_axes
 from gearlink.cli.figures.three_gear_mechanism import mechanism, words
 from gearlink.core.gears.mesh_phase import signed_pair
 from gearlink.core.three_gear.design import ThreeGearFourBar
@@ -181,8 +181,8 @@ def _speed(axes: Axes, design: ThreeGearFourBar) -> None:
     extremes = design.speed_extremes
     panels.extreme(axes, math.degrees(extremes.greatest_angle) % linkage.TURN, extremes.greatest, above=True)
     panels.extreme(axes, math.degrees(extremes.least_angle) % linkage.TURN, extremes.least, above=False)
-    axes.margins(y=0.18)
-    panels.in_time(axes, design.angular_speed, 1, "rad")
+    axes.margins(y=0.25)
+    time_axes.in_time(axes, design.angular_speed, 1, "rad")
     panels.legend_above(axes, 3)
 
 
@@ -195,8 +195,8 @@ def _acceleration(axes: Axes, design: ThreeGearFourBar) -> None:
     extremes = design.acceleration_extremes
     panels.extreme(axes, math.degrees(extremes.greatest_angle) % linkage.TURN, extremes.greatest, above=True)
     panels.extreme(axes, math.degrees(extremes.least_angle) % linkage.TURN, extremes.least, above=False)
-    axes.margins(y=0.18)
-    panels.in_time(axes, design.angular_speed, 2, "rad")
+    axes.margins(y=0.25)
+    time_axes.in_time(axes, design.angular_speed, 2, "rad")
 
 
 def _transmission(axes: Axes, design: ThreeGearFourBar) -> None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.cli.figures import linkage, panels, scene_axes, style
+from gearlink.cli.figures import linkage, panels, scene_axes, style, time_axes
 from gearlink.cli.scenes.two_gear_four_bar import build
 from gearlink.core.gears.mesh_phase import signed_pair
 from gearlink.core.planet_linkages.two_gear_design import TwoGearFourBar
@@ -73,7 +73,7 @@ def _curve(axes: Axes, design: TwoGearFourBar, title: str, ylabel: str, name: st
         stands = design.standstill_coupler_ratio
         axes.axhline(stands, color=style.RED, linewidth=0.9, linestyle=style.DASHED, label="output stands")
         panels.legend_above(axes, 1)
-    panels.in_time(axes, design.angular_speed, 2 if name == "acceleration_ratio" else 1, "rad")
+    time_axes.in_time(axes, design.angular_speed, 2 if name == "acceleration_ratio" else 1, "rad")
 
 
 def _output(axes: Axes, design: TwoGearFourBar) -> None:

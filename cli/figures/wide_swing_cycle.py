@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.figures import panels, style
+from gearlink.cli.figures import panels, style, time_axes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -126,4 +126,5 @@ def cycle_panel(axes: Axes, design: WideSwingDesign) -> None:
             axes.text(0.5 * (starts[i] + starts[i + 1]), 1.08 * half, text, ha="center", va="bottom", fontsize=8)
     axes.set_xlim(0.0, 360.0)
     axes.set_ylim(-1.15 * half, 1.55 * half)
+    time_axes.in_ms(axes, 6e4 / (360.0 * design.spec.speed))
     panels.heading(axes, "Cycle")

@@ -99,7 +99,7 @@ def _law_panels(made: Figure, place: Any, design: WideSwingDesign) -> None:
     for i, (name, symbol) in enumerate(_NAMES):
         axes = made.add_subplot(columns[0, i])
         panels.heading(axes, name.capitalize())
-        stroke_axis(axes, f"{symbol} [1]")
+        stroke_axis(axes, design, f"{symbol} [1]")
         for words, other, dashes in others:
             curve = other.evaluate(k, 2)[i]
             axes.plot(k, curve, color=style.GREY, linewidth=0.9, linestyle=dashes, label=words)
@@ -160,7 +160,7 @@ def _balance_panel(axes: Axes, design: WideSwingDesign) -> None:
 def _slider_panel(axes: Axes, design: WideSwingDesign) -> None:
     """The slider's travel, speed and acceleration as invariants."""
     table = design.table("slider")
-    stroke_axis(axes, "invariants of the slider")
+    stroke_axis(axes, design, "invariants of the slider")
     for column, color in (("displacement", style.GREEN), ("velocity", style.BLUE), ("acceleration", style.RED)):
         values = table.data[table.columns.index(column)]
         axes.plot(table.data[0], values, color=color, linewidth=1.6, label=column)

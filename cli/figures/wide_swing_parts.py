@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.figures import failing, panels, style
+from gearlink.cli.figures import failing, panels, style, time_axes
 from gearlink.core.errors import NoSolution
 
 if TYPE_CHECKING:
@@ -167,18 +167,20 @@ def _rockers(axes: Axes, cam: AnyCam, mirror: float) -> None:
     style.circle(axes, 0j, cam.center_distance, color=style.GREY, linewidth=0.7, linestyle=_DOTTED, zorder=1)
 
 
-def stroke_axis(axes: Axes, ylabel: str) -> None:
-    """Curves over the stroke."""
+def stroke_axis(axes: Axes, design: WideSwingDesign, ylabel: str) -> None:
+    """Curves over a stroke, and its time where both strokes take the same."""
     style.curves(axes, "fraction of the stroke k", ylabel)
     axes.set_xlim(0.0, 1.0)
     panels.small_ticks(axes)
+    if design.motion.return_angle == design.motion.cycle_angle:
+        time_axes.in_ms(axes, 1e3 * design.motion.working_time)
 
 
 def pressure_panel(axes: Axes, design: WideSwingDesign) -> None:
     """Pressure angle of each cam over the stroke with the limit; the transition zone is shaded."""
     import numpy as np
 
-    stroke_axis(axes, "pressure angle [deg]")
+    stroke_axis(axes, design, "pressure angle [deg]")
     k = np.linspace(0.0, 1.0, 401)
     for (words, cam), color in zip(design.cams.items(), (style.BLUE, style.GREEN), strict=False):
         label = f"{words}, ≤ {math.degrees(cam.max_pressure_angle):.4g}°" if design.has_zone(cam) else words
@@ -208,7 +210,7 @@ def curvature_panel(axes: Axes, design: WideSwingDesign) -> None:
 
     from gearlink.core.wide_swing.outline import is_external
 
-    stroke_axis(axes, "radius [mm]")
+    stroke_axis(axes, design, "radius [mm]")
     axes.set_yscale("log")
     k = np.linspace(0.0, 1.0, 1001)[1:-1]
     k = k[k != 0.5]

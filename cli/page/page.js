@@ -9,6 +9,10 @@ function words(over, value) {
   const [name, unit] = over.replace("]", "").split(" [");
   return name + " " + withUnit(value, (unit || "").replace("deg", "\u00b0"));
 }
+function inTime(chart, x) {
+  if (!chart.ms) return "";
+  return ", " + shortNumber(chart.ms[0] + (x - chart.x[0]) / (chart.x[1] - chart.x[0]) * (chart.ms[1] - chart.ms[0])) + " ms";
+}
 function linkSheet(sheet) {
   const svg = sheet.querySelector("svg"), charts = JSON.parse(sheet.querySelector("script.charts").textContent);
   const layer = svg.appendChild(drawn("g", { class: "cursor", "pointer-events": "none" }));
@@ -27,7 +31,7 @@ function linkSheet(sheet) {
       if (x < chart.x[0] || x > chart.x[1]) continue;
       const at = place(chart, x);
       layer.append(drawn("line", { x1: at, x2: at, y1: chart.box[1], y2: chart.box[3], stroke: "#444", "stroke-width": .8 }));
-      const right = at > (chart.box[0] + chart.box[2]) / 2, lines = [[words(over, value), "#222"]];
+      const right = at > (chart.box[0] + chart.box[2]) / 2, lines = [[words(over, value) + inTime(chart, x), "#222"]];
       for (const curve of chart.curves) {
         const y = valueAt(curve, x);
         if (y === null) continue;

@@ -104,8 +104,16 @@ def charts(made: Figure) -> list[dict[str, Any]]:
         x_range = [float(value) for value in axes.get_xlim()]
         shown = {"box": [round(side, 2) for side in sides], "x": x_range, "y": [float(low), float(high)]}
         names = {"over": _over(axes, panels), "log": axes.get_yscale() == "log", "unit": _unit(axes.get_ylabel())}
-        found.append({**shown, **names, "curves": curves})
+        found.append({**shown, **names, **_times(axes), "curves": curves})
     return found
+
+
+def _times(axes: Axes) -> dict[str, Any]:
+    """Both ends of the x axis in ms, where it is in time as well and runs evenly."""
+    from gearlink.cli.figures.time_axes import ROW
+
+    rows: list[Any] = [child for child in axes.child_axes if child.get_gid() == ROW]
+    return {"ms": [float(end) for end in rows[0].get_xlim()]} if rows else {}
 
 
 def _is_curve(line: Line2D) -> bool:

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from factory import design, worked
 
-from gearlink.cli.figures import cam_sheets, motion_sheet, timing_sheet
+from gearlink.cli.figures import cam_sheets, motion_sheet, time_axes, timing_sheet
 from gearlink.cli.figures.sheet_list import sheets_of
 
 SMOOTH = [
@@ -144,7 +144,7 @@ def test_the_lowest_panel_has_the_time_beside_the_angle_where_the_speed_is_known
         (axes.get_xlim(), child.get_xlim())
         for axes in figure.axes
         for child in axes.child_axes
-        if child.get_xlabel() == "time [ms]"
+        if child.get_gid() == time_axes.ROW
     ]
     assert bool(times) == bool(keys)
     for angles, time in times:

@@ -136,7 +136,13 @@ def test_closed_contours_are_the_table_s() -> None:
         table = made.table("contour", samples=720)
         np.testing.assert_array_equal(np.asarray(curve.get_ydata())[:-1], table["rocker_angle"])
         words = {text.get_text() for text in panel(figure, "Cycle").texts}
-        assert words == {"working stroke\n80°", "far dwell\n70°", "return stroke\n100°", "near dwell\n110°"}
+        assert words == {
+            "working stroke\n80°",
+            "far dwell\n70°",
+            "return stroke\n100°",
+            "near dwell\n110°",
+            "time [ms]",
+        }
 
 
 def test_pressure_angle_and_curvature() -> None:
