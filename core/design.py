@@ -79,7 +79,7 @@ class Design:
 
     `outlines` says what each command shows, `extra_tables` what can be added, `ways` how a file may be changed where
     a check fails. A design that `advises` says in the words of a failing
-    check what would help.
+    check what would help; one that does not judge `warnings` leaves out findings that can only warn.
     """
 
     kind: ClassVar[str]
@@ -89,6 +89,7 @@ class Design:
     ways: ClassVar[Mapping[str, tuple[Way, ...]]] = {}
     derived: ClassVar[frozenset[str]] = frozenset()  # quantities with a value or None wherever there is a mechanism
     advises = True
+    warnings = True
 
     def __init__(self, spec: Any) -> None:
         self.spec = spec

@@ -226,4 +226,7 @@ def _near_zero(
         return series(z) if z < limit else direct(z)
     import numpy as np
 
-    return np.where(z < limit, series(np.minimum(z, limit)), direct(z))
+    near = z < limit
+    if not near.any():
+        return direct(z)
+    return series(z) if near.all() else np.where(near, series(np.minimum(z, limit)), direct(z))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import cached_property
@@ -22,6 +22,7 @@ from gearlink.core.spec_paths import put
 Changes = Iterable[tuple[str, Any]]
 _DEEPEST = 4
 _PATH = re.compile(r"\w+(?:\.\w+|\[\d{1,6}\])*")
+_MARK = re.compile(r'"\\u0000(\d+)\\u0000"')  # what stands in the file's JSON for a value that changes
 _WHOLE = ("int_type", "int_from_float")
 
 
@@ -40,10 +41,12 @@ class Base:
     Parameters
         data : dict - of its design file
         command : str - whose checks count
+        warnings : bool - whether findings that can only warn are wanted
     """
 
     data: dict[str, Any]
     command: str
+    warnings: bool = True
 
     @cached_property
     def kind(self) -> Kind:
@@ -61,6 +64,34 @@ class Base:
     def _text(self) -> str:
         return json.dumps(self.data)
 
+    def _changed_text(self, changes: Sequence[tuple[str, Any]]) -> str:
+        """The data of `changed` as JSON: the texts between the values that change are made once."""
+        paths = tuple(path for path, _ in changes)
+        between = self._between.get(paths)
+        if between is None:
+            between = self._between[paths] = self._texts_between(paths)
+        if not between:
+            return json.dumps(self.changed(changes))
+        order, texts = between
+        values = [json.dumps(changes[i][1]) for i in order]
+        return "".join(part for pair in zip(texts, [*values, ""], strict=True) for part in pair)
+
+    @cached_property
+    def _between(self) -> dict[tuple[str, ...], Any]:
+        """By the paths that change: the order in which they stand in the file, and the texts between them."""
+        return {}
+
+    def _texts_between(self, paths: tuple[str, ...]) -> Any:
+        """None where a path is listed twice, leads below another, or nowhere."""
+        marks = [f"\0{i}\0" for i in range(len(paths))]
+        try:
+            text = json.dumps(self.changed(zip(paths, marks, strict=True)))
+        except (LookupError, TypeError, AttributeError):
+            return None
+        parts = _MARK.split(text)
+        order = [int(mark) for mark in parts[1::2]]
+        return (order, parts[::2]) if sorted(order) == list(range(len(paths))) else None
+
     def spec(self, changes: Changes = ()) -> Any:
         """The spec of a design with other values at some paths.
 
@@ -68,7 +99,7 @@ class Base:
             ValidationError, NoSolution - where the model refuses it
         """
         # As JSON: in strict mode a list then serves a tuple field.
-        return self.kind.spec_model().model_validate_json(json.dumps(self.changed(changes)))
+        return self.kind.spec_model().model_validate_json(self._changed_text(tuple(changes)))
 
     def design(self, changes: Changes = ()) -> Design:
         """The design with other values at some paths.
@@ -84,7 +115,7 @@ class Base:
             raise Refused(*_first(error)) from error
         except NoSolution as error:
             raise Refused(error.key, error.message, error.code) from error
-        made.advises = False
+        made.advises, made.warnings = False, self.warnings
         self._last[self.command] = made
         return made
 

@@ -62,7 +62,7 @@ def _base(spec: StudySpec) -> Base:
     if command not in known:
         message = f"`{command}` does not apply to a {kind}; this kind understands: {', '.join(known)}"
         raise WrongStudy([Fault("GL113", message, ("command",))])
-    return Base(spec.design, command)
+    return Base(spec.design, command, spec.checks.warn_counts)
 
 
 class _Reading:

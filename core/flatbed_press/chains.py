@@ -15,11 +15,8 @@ from typing import Any
 from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.linkages import fourbar, slider_crank
 from gearlink.core.linkages.fourbar import FourBar
-from gearlink.core.linkages.fourbar_loop import solve_loop
+from gearlink.core.linkages.fourbar_loop import rocker_and_rate, rocker_rate
 from gearlink.core.results import cached_property
-
-_ROCKER, _ROCKER_VELOCITY = 1, 4  # of what solve_loop gives
-_BY_ANGLE = (1.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,8 +80,18 @@ class CylinderChain:
 
     def speed(self, input_angle: float) -> float:
         """First derivative of `travel` [mm/rad] at one input angle, to the last bit the same and nothing else."""
-        loop = solve_loop(self.linkage.reading, self.initial_angle - input_angle, 1, _BY_ANGLE)
-        return self.radius * self.gear_ratio * loop[_ROCKER_VELOCITY]
+        return self.radius * self.gear_ratio * rocker_rate(self.linkage.reading, self.initial_angle - input_angle)
+
+    def position(self, input_angle: float) -> tuple[float, float]:
+        """Travel [mm] and its first derivative [mm/rad] at one input angle, and nothing else."""
+        rocker, rate = rocker_and_rate(self.linkage.reading, self.initial_angle - input_angle)
+        scale = self.radius * self.gear_ratio
+        return scale * (self._start - rocker), scale * rate
+
+    @property
+    def turn(self) -> float:
+        """Travel of a turn of the input [mm]."""
+        return 2.0 * math.pi * self.radius * self.gear_ratio
 
     def jerk(self, input_angle: Any) -> Any:
         """Third derivative of the cylinder's travel, over an array of input angles [mm/rad^3]."""
@@ -156,11 +163,11 @@ class BedChain:
 
     def speed(self, input_angle: float) -> float:
         """First derivative of `travel` [mm/rad] at one input angle, to the last bit the same and nothing else."""
-        loop = solve_loop(self.linkage.reading, self.initial_crank_angle + input_angle, 1, _BY_ANGLE)
+        rocker, rate = rocker_and_rate(self.linkage.reading, self.initial_crank_angle + input_angle)
         start = self._start[0]
-        psi = start + (loop[_ROCKER] - start) - self.crank_offset_angle
+        psi = start + (rocker - start) - self.crank_offset_angle
         depth = slider_crank.slider(psi, self.slider_crank_length, self.rod, self.offset, 1)
-        return float(-2.0 * depth[1] * loop[_ROCKER_VELOCITY])
+        return float(-2.0 * depth[1] * rate)
 
     def jerk(self, input_angle: Any) -> Any:
         """Third derivative of the bed's travel before compensation, over an array of input angles [mm/rad^3].

@@ -59,12 +59,11 @@ def _speed_gap(design: FlatbedPress) -> tuple[float, float]:
     jump of its own velocity.
     """
     motion, cam = design.motion, design.spec.cam
-    cylinder = float(motion.cylinder.travel(motion.sync_start, 1).first)
+    cylinder = motion.cylinder.speed(motion.sync_start)
     if cam is not None and cam.lead_in > 0.0 and design.cams.follows:
-        return design.cams.follower.joint("sync").velocity_step * float(
-            motion.bed.cam_angle(motion.sync_start, 1).first
-        ), cylinder
-    return float(motion.bed.travel(motion.sync_start, 1).first) - cylinder, cylinder
+        step = design.cams.follower.velocity_step("sync")
+        return step * float(motion.bed.cam_angle(motion.sync_start, 1).first), cylinder
+    return motion.bed.speed(motion.sync_start) - cylinder, cylinder
 
 
 def sync_length(design: FlatbedPress) -> Check:

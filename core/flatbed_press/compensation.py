@@ -285,11 +285,20 @@ class Compensation:
 
     def joint(self, phase: str) -> Joint:
         """Where a phase begins, with the jumps there."""
-        number = next(i for i, segment in enumerate(self.segments) if segment.phase == phase)
-        before, after = self.segments[number - 1], self.segments[number]
+        before, after = self._beside(phase)
         left, right = before.lift(before.end, 2), after.lift(after.start, 2)
         steps = (right.value - left.value, right.first - left.first, right.second - left.second)
         return Joint(before.phase, after.phase, after.start, *(float(step) for step in steps))
+
+    def velocity_step(self, phase: str) -> float:
+        """Jump of the slope where a phase begins [mm/rad]: that of `joint`, and nothing else."""
+        before, after = self._beside(phase)
+        return float(after.lift(after.start, 1).first - before.lift(before.end, 1).first)
+
+    def _beside(self, phase: str) -> tuple[Segment, Segment]:
+        """The stretch before a phase, and its own."""
+        number = next(i for i, segment in enumerate(self.segments) if segment.phase == phase)
+        return self.segments[number - 1], self.segments[number]
 
     @cached_property
     def lift_range(self) -> tuple[float, float]:

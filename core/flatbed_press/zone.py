@@ -9,11 +9,12 @@ from dataclasses import replace
 from gearlink.core.errors import NoSolution
 from gearlink.core.flatbed_press.chains import BedChain, CylinderChain
 from gearlink.core.linkages.slider_crank import dead_center_extended, dead_center_folded
-from gearlink.core.numerics.roots import bracketed_root, maximum
+from gearlink.core.numerics.roots import bracketed_root, maximum, newton_root
 from gearlink.core.report import safely_below
 
 _TURN = 2.0 * math.pi
 _STEP = math.radians(3.0)
+_CREST = 1e-9  # the speeds at a crest known to so much are known to 1e-18 of their second derivative
 
 
 def forward_stroke_end(bed: BedChain) -> float:
@@ -58,15 +59,20 @@ def zone_end(cylinder: CylinderChain, start: float, length: float) -> float:
     Source
         TY-460 report 3.2
     """
-    begin = float(cylinder.travel(start).value)
-    most = float(cylinder.travel(start + _TURN).value) - begin
+    begin = cylinder.position(start)[0]
+    most = cylinder.turn
     if length >= most:
         raise NoSolution(
             f"the zone of {length:g} mm is not shorter than the cylinder's travel per sheet, {most:.6g} mm: set "
             f"sync.length below {safely_below(most)} mm",
             key="sync.length",
         )
-    return bracketed_root(lambda phi: float(cylinder.travel(phi).value) - begin - length, start, start + _TURN)
+
+    def left(phi: float) -> tuple[float, float]:
+        travel, speed = cylinder.position(phi)
+        return travel - begin - length, speed
+
+    return newton_root(left, start, start + _TURN, start + _TURN * length / most)
 
 
 def equal_speed_angles(bed: BedChain, cylinder: CylinderChain) -> list[float]:
@@ -94,23 +100,33 @@ def _equal_speeds(bed: BedChain, cylinder: CylinderChain, start: float, end: flo
     def excess(phi: float) -> float:
         return bed.speed(phi) - cylinder.speed(phi)
 
+    def slope(phi: float) -> float:
+        return float(bed.travel(phi, 2).second - cylinder.travel(phi, 2).second)
+
     count = max(8, math.ceil((end - start) / _STEP))
     grid = [start + (end - start) * i / count for i in range(count + 1)]
     values = [excess(grid[0]), excess(grid[1])]
     for i in range(1, count + 1):
         if values[i - 1] * values[i] < 0.0 or values[i] == 0.0:
-            yield bracketed_root(excess, grid[i - 1], grid[i])
+            yield bracketed_root(excess, grid[i - 1], grid[i], ends=(values[i - 1], values[i]))
         if i == count:
             return
         values.append(excess(grid[i + 1]))
         if abs(values[i]) <= min(abs(values[i - 1]), abs(values[i + 1])) and values[i - 1] * values[i + 1] > 0.0:
-            yield from _pair_at_crest(excess, values[i] > 0.0, grid[i - 1], grid[i + 1])
+            yield from _pair_at_crest(excess, slope, values[i] > 0.0, grid[i - 1], grid[i + 1])
 
 
-def _pair_at_crest(f: Callable[[float], float], above: bool, low: float, high: float) -> Iterator[float]:
+def _pair_at_crest(
+    f: Callable[[float], float], slope: Callable[[float], float], above: bool, low: float, high: float
+) -> Iterator[float]:
     """Both roots beside a crest that passes zero between the points of a grid; none where it stays on one side."""
     sign = -1.0 if above else 1.0
-    place, value = maximum(lambda phi: sign * f(phi), low, high)
+    ends = sign * slope(low), sign * slope(high)
+    if ends[0] > 0.0 > ends[1]:
+        place = bracketed_root(lambda phi: sign * slope(phi), low, high, tolerance=_CREST, ends=ends)
+        value = sign * f(place)
+    else:
+        place, value = maximum(lambda phi: sign * f(phi), low, high)
     if value >= 0.0:
         yield bracketed_root(f, low, place)
         yield bracketed_root(f, place, high)

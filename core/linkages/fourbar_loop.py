@@ -63,9 +63,35 @@ def solve_loop(reading: Reading, phi: float, order: int, motion: tuple[float, fl
     """
     if not (0 <= order <= 3):
         raise ValueError(f"order is {order}; the rates go from 0 to 3")
+    s, e = reading.s, reading.e
+    sin_phi, cc, ss, n2, r, z = _triangle(reading, phi, order)
+    winding, nu = _to_far_pivot(reading, phi, sin_phi, cc, ss)
+    b, c = nu + s * math.atan2(r, e + n2), nu + s * math.atan2(r, e - n2)
+    result = [winding + b, winding + c, math.atan2(r, z)]
+    if order > 0:
+        result += _rates(reading, sin_phi, (cc, ss), n2, r, z, order, motion)
+    return result
+
+
+def rocker_and_rate(reading: Reading, phi: float) -> tuple[float, float]:
+    """Rocker angle and its rate by the driving angle: those of `solve_loop`, to the last bit, and nothing else."""
+    s, e = reading.s, reading.e
+    sin_phi, cc, ss, n2, r, _ = _triangle(reading, phi, 1)
+    winding, nu = _to_far_pivot(reading, phi, sin_phi, cc, ss)
+    return winding + (nu + s * math.atan2(r, e - n2)), _rocker_rate(reading, sin_phi, cc, ss, n2, r)
+
+
+def rocker_rate(reading: Reading, phi: float) -> float:
+    """The rate of `rocker_and_rate` alone."""
+    sin_phi, cc, ss, n2, r, _ = _triangle(reading, phi, 1)
+    return _rocker_rate(reading, sin_phi, cc, ss, n2, r)
+
+
+def _triangle(reading: Reading, phi: float, order: int) -> tuple[float, float, float, float, float, float]:
+    """sin(phi), the squares of cosine and sine of phi/2, n^2, R and (P - Q)/2."""
     if not math.isfinite(phi):
         raise NoSolution(refusal(reading, phi, math.nan, math.nan))
-    a, _, _, d, s, n_0, n_pi, p_0, p_pi, q_0, q_pi, e, _ = reading
+    _, _, _, _, _, n_0, n_pi, p_0, p_pi, q_0, q_pi, _, _ = reading
     sin_half, cos_half = math.sin(0.5 * phi), math.cos(0.5 * phi)
     ss, cc = sin_half * sin_half, cos_half * cos_half
     n2 = n_0 * cc + n_pi * ss
@@ -74,21 +100,24 @@ def solve_loop(reading: Reading, phi: float, order: int, motion: tuple[float, fl
     pq = p * q
     if not (pq > 0.0 or (pq == 0.0 and order == 0 and n2 > 0.0)):
         raise NoSolution(refusal(reading, phi, p, q))
-    r, z = math.sqrt(pq), 0.5 * (p - q)
-    sin_phi, winding = 2.0 * sin_half * cos_half, 0.0
+    return 2.0 * sin_half * cos_half, cc, ss, n2, math.sqrt(pq), 0.5 * (p - q)
+
+
+def _to_far_pivot(reading: Reading, phi: float, sin_phi: float, cc: float, ss: float) -> tuple[float, float]:
+    """Direction of D seen from B in two parts: what winds with the driving link, and the rest."""
+    a, d = reading.a, reading.d
     if a > abs(d):
         # Wind with the crank: arg(D - B) = phi - pi + a part that stays within a quarter turn.
-        winding = phi - math.pi if d > 0.0 else phi
-        nu = math.atan2(d * sin_phi, (a - d) * cc + (a + d) * ss)
-    elif d > 0.0:
-        nu = math.atan2(-a * sin_phi, (d - a) * cc + (d + a) * ss)
-    else:
-        nu = math.atan2(a * sin_phi, (a - d) * cc - (a + d) * ss)
-    b, c = nu + s * math.atan2(r, e + n2), nu + s * math.atan2(r, e - n2)
-    result = [winding + b, winding + c, math.atan2(r, z)]
-    if order > 0:
-        result += _rates(reading, sin_phi, (cc, ss), n2, r, z, order, motion)
-    return result
+        return phi - math.pi if d > 0.0 else phi, math.atan2(d * sin_phi, (a - d) * cc + (a + d) * ss)
+    if d > 0.0:
+        return 0.0, math.atan2(-a * sin_phi, (d - a) * cc + (d + a) * ss)
+    return 0.0, math.atan2(a * sin_phi, (a - d) * cc - (a + d) * ss)
+
+
+def _rocker_rate(reading: Reading, sin_phi: float, cc: float, ss: float, n2: float, r: float) -> float:
+    """nu' + g' h, as in `_rates`."""
+    a, d, m = reading.a, reading.d, 1.0 / n2
+    return a * ((a - d) * cc + (a + d) * ss) * m + 2.0 * reading.s * (a * d * sin_phi) / r * (0.5 + 0.5 * reading.e * m)
 
 
 def _rates(

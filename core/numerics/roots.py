@@ -8,16 +8,25 @@ from collections.abc import Callable, Sequence
 
 from gearlink.core.errors import NoSolution
 
+_ROUNDING = 2.0**-40  # of x: steps so small that do not shrink are rounding
 _GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0
 
 
-def bracketed_root(f: Callable[[float], float], low: float, high: float, *, tolerance: float = 0.0) -> float:
+def bracketed_root(
+    f: Callable[[float], float],
+    low: float,
+    high: float,
+    *,
+    tolerance: float = 0.0,
+    ends: tuple[float, float] | None = None,
+) -> float:
     """Root of a continuous function between two points where its signs differ (Chandrupatla's method).
 
     Parameters
         f : the function
         low, high : float - the bracket; f(low) and f(high) must have opposite signs or one be zero
         tolerance : float - absolute tolerance in x besides two ulp of x; the default stops at the last bit
+        ends : (float, float) - f(low) and f(high) where the caller has them already
     Returns
         x : float - the end of the final bracket where |f| is smaller
     Raises
@@ -34,7 +43,7 @@ def bracketed_root(f: Callable[[float], float], low: float, high: float, *, tole
         T. R. Chandrupatla, Adv. Eng. Softw. 28 (1997) 145-149
     """
     a, b = high, low
-    fa, fb = f(a), f(b)
+    fa, fb = (f(a), f(b)) if ends is None else (ends[1], ends[0])
     if fa == 0.0:
         return a
     if fb == 0.0:
@@ -65,6 +74,32 @@ def bracketed_root(f: Callable[[float], float], low: float, high: float, *, tole
             t = 0.5
         t = min(1.0 - share, max(share, t))
     return best
+
+
+def newton_root(f: Callable[[float], tuple[float, float]], low: float, high: float, start: float) -> float:
+    """Root of a rising function whose derivative is known, by Newton's steps held inside a bracket that shrinks.
+
+    Parameters
+        f : the function and its derivative
+        low, high : float - f(low) < 0 < f(high)
+        start : float - between them
+    Returns
+        x : float - to a few ulp, or where the steps are rounding of f
+    Example
+        >>> newton_root(lambda x: (x * x - 2.0, 2.0 * x), 0.0, 2.0, 1.0)
+        1.414213562373095
+
+    """
+    x, last = start, math.inf
+    for _ in range(200):
+        value, slope = f(x)
+        low, high = (x, high) if value < 0.0 else (low, x)
+        step = value / slope if slope > 0.0 else math.inf
+        if abs(step) <= 2.0 * math.ulp(x) or 0.5 * last <= abs(step) <= _ROUNDING * abs(x):
+            return x - step if low < x - step < high else x
+        last = abs(step)
+        x = x - step if low < x - step < high else 0.5 * (low + high)
+    return x
 
 
 def sign_changes(values: Sequence[float]) -> list[int]:

@@ -201,7 +201,8 @@ def pressure_angle(design: SwingGripper) -> Iterator[Check]:
         return
     over = design.advises and max(design.cams.max_pressure_angle) > math.radians(limit) > 0.0
     yield from pressure_angle_checks(design.cams.discs, limit, design.cams.center_remedy(limit) if over else "")
-    yield from _accelerating(design, design.spec.limits.accelerate_pressure_angle)
+    if design.warnings:
+        yield from _accelerating(design, design.spec.limits.accelerate_pressure_angle)
 
 
 def _accelerating(design: SwingGripper, limit: float) -> Iterator[Check]:

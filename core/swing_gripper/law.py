@@ -112,10 +112,10 @@ class SixPhaseLaw:
         theta = np.fmod(np.atleast_1d(np.asarray(degrees, dtype=np.float64)), 360.0)
         phase = self.phase(theta)
         out = tuple(np.zeros_like(theta) for _ in range(order + 1))
-        for index in range(int(phase.max(initial=0)) + 1):
-            inside = phase == index
-            if index == _NEAR_DWELL or not inside.any():  # that dwell rests at zero
+        for index in np.flatnonzero(np.bincount(phase.ravel(), minlength=1)).tolist():
+            if index == _NEAR_DWELL:  # it rests at zero
                 continue
+            inside = phase == index
             local = (theta[inside] - self.starts[index]) / (self.starts[index + 1] - self.starts[index])
             for target, values in zip(out, self.in_phase(index, local, order), strict=True):
                 target[inside] = values

@@ -16,6 +16,7 @@ from __future__ import annotations
 import itertools
 import json
 import math
+import re
 from pathlib import Path
 
 import mpmath as mp
@@ -26,6 +27,7 @@ from sweeps import examples
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.fourbar import FourBar, FourBarState, inverse_reading, solve, solve_inverse
+from gearlink.core.linkages.fourbar_loop import rocker_and_rate, rocker_rate
 
 EPS = 2.0**-52
 REFERENCE = Path(__file__).parents[2] / "reference"
@@ -499,3 +501,27 @@ def test_the_constants_of_the_inverse_are_made_once():
     linkage = FourBar(50.0, 45.0, 48.0, 20.0)
     assert inverse_reading(linkage) is inverse_reading(FourBar(50.0, 45.0, 48.0, 20.0))
     assert inverse_reading(linkage) is not inverse_reading(linkage.inverse())
+
+
+@pytest.mark.parametrize("assembly", [1, -1])
+@pytest.mark.parametrize("lengths", [(18.0, 50.0, 100.0, 121.4), (50.0, 45.0, 48.0, 20.0)])
+def test_the_rocker_alone_is_that_of_the_whole_solution_to_the_last_bit(lengths, assembly):
+    linkage = FourBar(*lengths, assembly)
+    for reading in (linkage.reading, FourBar(*lengths, assembly).inverse().reading):
+        for k in range(-40, 41):
+            try:
+                whole = solve(linkage if reading is linkage.reading else linkage.inverse(), 0.31 * k, 1)
+            except NoSolution as error:
+                with pytest.raises(NoSolution, match=re.escape(error.message)):
+                    rocker_rate(reading, 0.31 * k)
+                continue
+            assert rocker_and_rate(reading, 0.31 * k) == (whole.rocker_angle, whole.rocker_velocity)
+            assert rocker_rate(reading, 0.31 * k) == whole.rocker_velocity
+
+
+def test_no_rate_is_given_in_a_dead_point_or_at_no_angle() -> None:
+    for phi in (math.nan, math.inf):
+        with pytest.raises(NoSolution):
+            rocker_rate(FourBar(18.0, 50.0, 100.0, 121.4).reading, phi)
+    with pytest.raises(NoSolution):
+        rocker_and_rate(FourBar(40.0, 90.0, 40.0, 90.0).reading, 0.0)

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from sweeps import examples
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.numerics.roots import bracketed_root, maximum, sign_changes
+from gearlink.core.numerics.roots import bracketed_root, maximum, newton_root, sign_changes
 
 
 class Counter:
@@ -132,3 +132,43 @@ def test_maximum_with_a_kink():
 def test_maximum_at_an_end():
     assert maximum(math.exp, -1.0, 2.0) == (2.0, math.exp(2.0))
     assert maximum(lambda x: -math.exp(x), -1.0, 2.0) == (-1.0, -math.exp(-1.0))
+
+
+# Newton's steps inside a bracket
+
+
+@pytest.mark.parametrize("start", [1e-9, 0.3, 2.9])
+@pytest.mark.parametrize(
+    ("f", "root"),
+    [
+        (lambda x: (x * x * x - 2.0, 3.0 * x * x), 2.0 ** (1.0 / 3.0)),
+        (lambda x: (math.atan(50.0 * (x - 1.0)), 50.0 / (1.0 + 2500.0 * (x - 1.0) ** 2)), 1.0),  # overshoots by far
+        (lambda x: (math.sinh(x) - 1e-3, math.cosh(x)), math.asinh(1e-3)),
+        (lambda x: (x - 2.0 if x < 2.0 else 9.0 * (x - 2.0), 0.0), 2.0),  # no slope to go by: halved
+    ],
+)
+def test_newton_in_a_bracket(f, root, start):
+    assert newton_root(f, 0.0, 3.0, start) == pytest.approx(root, rel=1e-15, abs=4e-16)
+
+
+def test_newton_takes_few_calls_and_ends_in_noise():
+    calls = []
+
+    def noisy(x):
+        calls.append(x)
+        return (1e3 + x) ** 2 - 1e6 - 2000.25 * 0.125, 2.0 * (1e3 + x)  # cancels to 1e-10
+
+    found = newton_root(noisy, 0.0, 1.0, 0.9)
+    assert found == pytest.approx(math.sqrt(1e6 + 2000.25 * 0.125) - 1e3, abs=1e-12)
+    assert len(calls) < 10
+
+
+def test_known_ends_are_not_computed_again():
+    calls = []
+
+    def f(x):
+        calls.append(x)
+        return x * x - 2.0
+
+    assert bracketed_root(f, 0.0, 2.0, ends=(-2.0, 2.0)) == bracketed_root(lambda x: x * x - 2.0, 0.0, 2.0)
+    assert not {0.0, 2.0} & set(calls)
