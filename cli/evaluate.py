@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
@@ -103,6 +103,27 @@ def _wrong_study() -> type[WrongStudy]:
     from gearlink.core.study.faults import WrongStudy
 
     return WrongStudy
+
+
+def refused_sections(
+    loaded: LoadedFile, kind: Kind, spec: Any, done: Collection[str] = ()
+) -> Iterator[tuple[str, list[Diagnostic]]]:
+    """What the sections `tolerance` and `register` name and the design does not have, by the command that reads them.
+
+    Parameters
+        done : commands that have said so themselves
+    """
+    sections = {"tolerance": ("tolerance",), "register": ("tolerance", "register_")}
+    for command, keys in sections.items():
+        given = any(getattr(spec, key, None) is not None for key in keys)
+        if not given or command in done or command not in kind.commands:
+            continue
+        try:
+            with refusals_located(loaded):
+                kind.design(command, spec).require_named()
+        except DesignFileError as error:
+            yield command, error.diagnostics
+            return  # the other reads the same sources
 
 
 def named(spec: Any, source: str) -> Any:

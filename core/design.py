@@ -239,6 +239,13 @@ class Design:
         for name in names:
             self.raw(name)
 
+    def require_named(self) -> None:
+        """Refuse what the sections of a command name and the design does not have; nothing more is computed.
+
+        Raises
+            NoSolution, WrongStudy - at the name
+        """
+
     def prepare(self, quantities: Iterable[str], /) -> None:
         """Compute what these quantities share, where that takes less than one after the other; refuse nothing."""
 

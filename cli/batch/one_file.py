@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.batch.options import BatchOptions
 from gearlink.cli.batch.outcome import Fix, Outcome
-from gearlink.cli.evaluate import build, exit_status, open_design, read_spec
+from gearlink.cli.evaluate import build, exit_status, open_design, read_spec, refused_sections
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite, stem_of
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
@@ -51,7 +51,9 @@ def _computed(path: Path, options: BatchOptions) -> Iterator[Outcome]:
         spec = read_spec(loaded, kind, file)
         name = spec.name
         designs: dict[Any, Design] = {}  # commands of one class share its results
-        for command in (*spec.commands(), *_added(kind, spec, options)):
+        refused = False
+        added = tuple(_added(kind, spec, options))
+        for command in (*spec.commands(), *added):
             try:
                 cls = kind.class_for(command, spec)
                 made = designs.get(cls)
@@ -66,10 +68,15 @@ def _computed(path: Path, options: BatchOptions) -> Iterator[Outcome]:
                 places, fixes = (_places(loaded, report), _fixes(loaded, report)) if options.with_places else ((), ())
                 yield ended(exit_status(report, strict=options.design.strict), report, (), places, fixes)
             except DesignFileError as error:
+                refused = True
                 yield ended(ExitCode.WRONG_INPUT, errors=error.diagnostics)
             except CannotWrite as error:
                 yield ended(ExitCode.WRONG_INPUT, errors=[Diagnostic("GL116", str(error), file=file)])
             start = perf_counter()
+        if not refused:
+            for section, wrong in refused_sections(loaded, kind, spec, added):
+                command = section
+                yield ended(ExitCode.WRONG_INPUT, errors=wrong)
     except DesignFileError as error:
         yield ended(ExitCode.WRONG_INPUT, errors=error.diagnostics)
     except Exception as fault:

@@ -9,7 +9,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.commands.finding import Finding
-from gearlink.cli.evaluate import open_design, read_spec, refusals_located
+from gearlink.cli.evaluate import open_design, read_spec, refusals_located, refused_sections
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import Options
 from gearlink.cli.patience import patience
@@ -97,6 +97,7 @@ def _findings(loaded: LoadedFile, kind: Kind, spec: Any) -> Iterator[Finding]:
     """Findings of every command that the file asks for; commands of one design class share its results."""
     designs: dict[Any, Design] = {}
     done: set[tuple[Any, str]] = set()
+    refused = False
     for command in spec.commands():
         cls = kind.class_for(command, spec)
         try:
@@ -110,7 +111,11 @@ def _findings(loaded: LoadedFile, kind: Kind, spec: Any) -> Iterator[Finding]:
                     yield Finding(check.status, _place(loaded, check), command, check)
                 design.require(command)  # not every check would notice that there is no mechanism
         except DesignFileError as error:
+            refused = True
             yield from (Finding("error", diagnostic, command) for diagnostic in error.diagnostics)
+    if not refused:
+        for command, wrong in refused_sections(loaded, kind, spec):
+            yield from (Finding("error", diagnostic, command) for diagnostic in wrong)
 
 
 def _place(loaded: LoadedFile, check: Check) -> Diagnostic:

@@ -191,4 +191,14 @@ def _words(form: FileFormat, contour: Contour, asked: Export) -> str:
         from gearlink.cli.export.step import helix_error
 
         error += f", {rounded_up(helix_error(contour, asked.width))} mm more along the helix"
-    return f"{contour.points} points, {error}"
+    return f"{_counted(contour)}, {error}"
+
+
+def _counted(contour: Contour) -> str:
+    """The points of a file; where it holds several curves, those of each besides."""
+    counts: dict[str, int] = {}
+    for line in contour.lines:
+        name = line.layer.lower().replace("_", " ")
+        counts[name] = counts.get(name, 0) + line.nodes.size
+    each = ", ".join(f"{name} {count}" for name, count in counts.items())
+    return f"{contour.points} points ({each})" if len(counts) > 1 else f"{contour.points} points"

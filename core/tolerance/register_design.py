@@ -20,7 +20,7 @@ from gearlink.core.tolerance.codes import BACKLASH_IN_DWELL, REGISTER_BUDGET
 from gearlink.core.tolerance.correlation import coordinate_root, of_sizes, together
 from gearlink.core.tolerance.sampling import replication, rounded_up
 from gearlink.core.tolerance.shares import is_shared, of_replications
-from gearlink.core.tolerance.sources import Parts, Scatter, scatters
+from gearlink.core.tolerance.sources import Parts, Scatter, is_play, scatters
 from gearlink.core.tolerance.spec import Register, Tolerance
 
 SIGNS = (1, -1)
@@ -100,6 +100,20 @@ class RegisterDesign(Design):
         if self.spec.tolerance is None:
             raise MissingSection("`register` needs tolerance: {sources: {...}}", key="tolerance.sources")
         return scatters(self.spec.tolerance, self.spec, self.parts)
+
+    def require_named(self) -> None:
+        """Refuse sources, meshes and places that the machine does not have."""
+        if self.spec.register_ is None:
+            self._require_pins()
+        else:
+            _ = self.sources, self.correlations, self.backlash
+            self.contributions(self.input_angles[:1], SIGNS[0])
+
+    def _require_pins(self) -> None:
+        section = self.spec.tolerance
+        plays = {} if section is None else {key: one for key, one in section.sources.items() if is_play(key)}
+        if plays:
+            scatters(section.model_copy(update={"sources": plays}), self.spec, self.parts)
 
     @cached_property
     def correlations(self) -> dict[tuple[str, str], float]:

@@ -75,9 +75,17 @@ def scatters(section: Tolerance, spec: Any, parts: Parts) -> tuple[Scatter, ...]
         spec : the design's spec
         parts : Parts - of its kind
     Raises
-        WrongStudy - GL170 to GL175, at the source
+        WrongStudy - GL170 to GL175, each at its source
     """
-    found = tuple(_scatter(key, entry, spec, parts) for key, entry in section.sources.items())
+    found: list[Scatter] = []
+    faults: list[Fault] = []
+    for key, entry in section.sources.items():
+        try:
+            found.append(_scatter(key, entry, spec, parts))
+        except WrongStudy as error:
+            faults.extend(error.faults)
+    if faults:
+        raise WrongStudy(faults)
     if not found:
         raise _no("GL170", "no source: name at least one size that scatters", ("tolerance", "sources"))
     if sum(one.coordinates for one in found) > MOST_COORDINATES:
@@ -86,14 +94,19 @@ def scatters(section: Tolerance, spec: Any, parts: Parts) -> tuple[Scatter, ...]
             f"more than {MOST_COORDINATES} coordinates (a pin and a gear take two): leave out the least",
             ("tolerance", "sources"),
         )
-    return found
+    return tuple(found)
+
+
+def is_play(key: str) -> bool:
+    """Whether a source is the play of a pin."""
+    return key.startswith(("pins.", "bearings."))
 
 
 def _scatter(key: str, entry: ToleranceSource, spec: Any, parts: Parts) -> Scatter:
     place = ("tolerance", "sources", key)
     group, _, name = key.partition(".")
     try:
-        if group in ("pins", "bearings"):
+        if is_play(key):
             return _pin(key, name, entry, parts, place)
         if group == "gears" and entry.form in ("grade", "eccentricity"):
             return _gear(key, name, entry, parts, place)

@@ -214,5 +214,5 @@ class Register(Spec):
             return dict.fromkeys(meshes, given)
         if unknown := [name for name in given if name not in meshes]:
             message = f"no mesh {unknown[0]!r}: there are {', '.join(meshes)}"
-            raise NoSolution(message, key="register.backlash")
+            raise NoSolution(message, key=f'register.backlash."{unknown[0]}"')
         return {name: given.get(name, 0.0) for name in meshes}

@@ -50,7 +50,11 @@ class ToleranceStudy(Design):
         if self.spec.tolerance is None:
             raise MissingSection("`tolerance` needs the section tolerance: {sources: {...}}", key="tolerance")
         made = problem(self.spec)
-        _ = made.requirements, made.sources  # what is wrong with them is said before anything is computed
+        _ = (
+            made.requirements,
+            made.sources,
+            made.correlation,
+        )  # what is wrong with them is said before anything is computed
         if self.spec.tolerance.sobol and made.coordinates > MOST_WITH_INDICES:
             message = f"Sobol' indices take at most {MOST_WITH_INDICES} coordinates, here are {made.coordinates}"
             raise no("GL175", message, "sources")
@@ -64,6 +68,12 @@ class ToleranceStudy(Design):
             return not made.of_register_alone and (made.is_quick or made.samples <= _FEW)
         except (WrongStudy, NoSolution):
             return True
+
+    def require_named(self) -> None:
+        """Refuse sources and requirements that the design does not have; play of machines whose register counts it
+        is left to that."""
+        if self.spec.tolerance is not None and not problem(self.spec).of_register_alone:
+            _ = self.problem
 
     @cached_property
     def result(self) -> Result:

@@ -22,7 +22,7 @@ from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.study.faults import Fault, Place, WrongStudy
 from gearlink.core.tolerance.axis import ToleranceAxis
 from gearlink.core.tolerance.correlation import coordinate_root, together
-from gearlink.core.tolerance.sources import Parts, Scatter, scatters
+from gearlink.core.tolerance.sources import Parts, Scatter, is_play, scatters
 from gearlink.core.tolerance.spec import Tolerance
 
 ARRAY_SAMPLES, SCALAR_SAMPLES = 131_072, 4096
@@ -82,7 +82,7 @@ class Problem:
 
     def _is_play(self, key: str) -> bool:
         """Play of pins in the machines whose register counts it, but whose analysis has no play."""
-        return self.axis is None and "register" in self.base.kind.commands and key.startswith(("pins.", "bearings."))
+        return self.axis is None and "register" in self.base.kind.commands and is_play(key)
 
     @property
     def coordinates(self) -> int:
@@ -174,7 +174,7 @@ class Problem:
     # Random numbers to sizes
 
     @cached_property
-    def _correlation(self) -> Reals | None:
+    def correlation(self) -> Reals | None:
         """What makes normal coordinates scatter together; None where all are independent."""
         return coordinate_root(self.section, self.sources)
 
@@ -186,7 +186,7 @@ class Problem:
         Returns
             columns : (N,) arrays by source - as `gearlink.core.tolerance.axis` wants them
         """
-        points = together(points, self._correlation)
+        points = together(points, self.correlation)
         columns: dict[str, Reals | Points] = {}
         at = 0
         for one in self.sources:

@@ -67,3 +67,65 @@ def test_a_rocker_without_a_gap_is_judged_to_mid_swing(gearlink: Any, designs: P
 def test_a_lead_in_brings_the_speed_to_the_zone(gearlink: Any, designs: Path) -> None:
     settings = ("--set", "sync.start=50", "--set", "cam.transition_end=145")
     assert gearlink("check", designs / "ty460.yaml", *settings).status == 0
+
+
+@pytest.mark.parametrize("wish", ["dwell_tolerance=0.5", "dwell_backlash=0.5"])
+@pytest.mark.parametrize("name", ["tolerance_dwell_angle", "acceleration_ratio_max"])
+def test_a_synthesis_honours_the_wishes_of_an_analysis(gearlink: Any, tmp_path: Path, wish: str, name: str) -> None:
+    """As `analyze` of the links that it found: both solve the same extremes, links are equal to an ulp."""
+    gears = "kind: three-gear-four-bar\ngears: {module: 2, crank: 40, idler: 72, output: 40}\n"
+    (tmp_path / "wish.yaml").write_text(gears + "dwell: {angle: 90}\n")
+    asked = ("--set", wish, "--format", "json")
+    found = gearlink("synth", "dwell", tmp_path / "wish.yaml", *asked).json["quantities"]
+    links = {key: found[f"{key}_length"]["value"] for key in ("crank", "frame")}
+    (tmp_path / "links.yaml").write_text(f"{gears}links: {links}\n".replace("'", ""))
+    again = gearlink("analyze", tmp_path / "links.yaml", *asked).json["quantities"]
+    assert found[name]["value"] == pytest.approx(again[name]["value"], rel=1e-12)
+    alone = gearlink("synth", "dwell", tmp_path / "wish.yaml", "--set", wish, "--quantity", name)
+    assert alone.status == 0
+    assert float(alone.out.split()[0]) == found[name]["value"]
+
+
+@pytest.mark.parametrize(("frame", "motion", "sign"), [("122.8394", "unidirectional", 1), ("122.84", "back-step", -1)])
+def test_a_momentary_dwell_with_a_rounded_frame_still_shows_its_place(
+    gearlink: Any, tmp_path: Path, frame: str, motion: str, sign: int
+) -> None:
+    """Frame 122.83941479 makes the dwell at 275.9429 deg. Rounded, the kind of motion is another, the place is not."""
+    path = tmp_path / "rounded.yaml"
+    path.write_text(
+        "kind: three-gear-four-bar\ngears: {module: 2.5, crank: 20, idler: 20, output: 60}\n"
+        f"links: {{crank: 16, frame: {frame}}}\n"
+    )
+    found = gearlink("analyze", path, "--format", "json").json["quantities"]
+    assert found["motion"]["value"] == motion
+    assert 0.0 < sign * found["speed_ratio_min"]["value"] < 1e-5
+    assert found["speed_ratio_min_at"]["value"] == pytest.approx(275.942, abs=1e-3)
+    assert bool(found["dwell_crank_angles"]["value"]) == (motion == "back-step")
+
+
+def test_a_ratio_above_the_estimate_but_below_the_least_fails(gearlink: Any, tmp_path: Path) -> None:
+    """3.17 lies between the estimate of the stretch at 4.43, 3.1583, and the least ratio, 3.1923."""
+    path = tmp_path / "swing.yaml"
+    path.write_text(
+        "{kind: wide-swing-cam, layout: twin-cam, swing: 219.9, cycle_angle: 60, speed: 60, inertia: 0.3, unloader: "
+        "{type: spring, pivot_ratio: 3.17, arm: 106.8, stretch_ratio: 1.09, closed_length: 51.1, end_fittings: 12.6}, "
+        "cam: {center_distance: 500, roller_radius: 8}}"
+    )
+    ended = gearlink("swing", path)
+    assert ended.status == 1
+    assert "at least 3.1923 is" in ended.out
+    assert "set unloader.pivot_ratio to 3.2" in " ".join(ended.out.split())
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("natural_frequency", "Unit: Hz"),
+        ("drive_ratio", "torque of the cam shaft without over that with the device"),
+        ("drive_torque_peak", "without device and linkage_share"),
+    ],
+)
+def test_words_of_the_wide_swing_are_explained(gearlink: Any, name: str, words: str) -> None:
+    ended = gearlink("explain", name)
+    assert ended.status == 0
+    assert words in " ".join(ended.out.split())

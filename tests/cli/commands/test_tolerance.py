@@ -237,3 +237,54 @@ def test_a_word_alone_scatters_nothing(gearlink: Any, spec: Path) -> None:
     ended = gearlink("tolerance", str(spec), "--samples", "64", "--set", "tolerance.require=[motion == back-step]")
     assert ended.status == 0
     assert "motion == back-step" in ended.out
+
+
+UNKNOWN_NAMES = [
+    ("candy_feed_tolerances", 'tolerance.sources."pins.Q".clearance=[0,0.1]', "GL170", "pin 'Q': it has A, B, C, D"),
+    (
+        "candy_feed_tolerances",
+        'tolerance.sources."centers.x".plus_minus=1',
+        "GL170",
+        "it has crank_idler, idler_output",
+    ),
+    ("candy_feed_tolerances", 'tolerance.sources."gears.x".eccentricity=1', "GL170", "it has crank, idler, output"),
+    ("candy_feed_tolerances", 'tolerance.sources."links.x".plus_minus=1', "GL170", "'links.x' is no key with a number"),
+    ("candy_feed_tolerances", "tolerance.require=[bak_step_angle < 1]", "GL152", "bak_step_angle"),
+    ("candy_feed_tolerances", "register.backlash={mesh_9: 1}", "GL112", "no mesh 'mesh_9': there are crank_idler"),
+    ("candy_feed_tolerances", "register.at=zone", "GL112", "no place 'zone' here: give dwell"),
+    ("ty460_register", 'tolerance.sources."pins.Q".clearance=[0,0.1]', "GL170", "pin 'Q': it has A, B, C, D, E, F"),
+    ("ty460_register", "register.backlash.mesh_9=1", "GL112", "there are mesh_12, mesh_34, rack_lower, rack_upper"),
+    (
+        "slider_crank_tolerances",
+        'tolerance.sources."pins.D".clearance=[0,0.1]',
+        "GL170",
+        "play of pins is not computed",
+    ),
+]
+
+
+@pytest.mark.parametrize(("name", "setting", "code", "words"), UNKNOWN_NAMES)
+def test_names_that_the_design_does_not_have_are_refused_by_check_and_batch(
+    gearlink: Any, tmp_path: Path, designs: Path, name: str, setting: str, code: str, words: str
+) -> None:
+    path = designs / f"{name}.yaml"
+    ended = gearlink("check", path, "--set", setting, "--format", "json")
+    (found,) = [one for one in ended.json["findings"] if one["status"] == "error"]
+    assert (ended.status, found["code"], found["file"]) == (2, code, "<--set>")
+    assert words in found["message"]
+    (tmp_path / "one.yaml").write_text(path.read_text())
+    ended = gearlink("batch", tmp_path, "-j", "1", "--set", setting)
+    assert ended.status == 2
+    assert code in ended.out + ended.err
+
+
+def test_every_name_that_is_unknown_is_said_at_its_line(gearlink: Any, tmp_path: Path) -> None:
+    path = tmp_path / "feed.yaml"
+    path.write_text(
+        DESIGN.replace("  require", "    pins.Q: {clearance: [0, 0.1]}\n    centers.x: {plus_minus: 1}\n  require")
+    )
+    ended = gearlink("check", path)
+    assert ended.status == 2
+    assert "feed.yaml:8:5: error GL170: this design has no pin 'Q'" in ended.out + ended.err
+    assert "feed.yaml:9:5: error GL170: this design has no centre distance 'x'" in ended.out + ended.err
+    assert gearlink("tolerance", path).err.count("error GL170") == 2

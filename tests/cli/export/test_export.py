@@ -106,6 +106,18 @@ def test_the_reached_error_is_the_same_in_print_and_in_every_file(gearlink: Any,
     assert float(said) <= stated <= float(said) + 2e-6  # its own rounding is added
 
 
+def test_points_are_counted_for_each_curve(gearlink: Any, tmp_path: Path) -> None:
+    """A cam's file holds its profile and the pitch curve, a gear's one closed profile."""
+    ended = gearlink("export", PRESS, "--part", "main_cam", "--part", "gear1", "--as", "csv", "--out", tmp_path)
+    cam, gear = ended.out.splitlines()
+    found = re.search(r": (\d+) points \(profile (\d+), pitch curve (\d+)\),", cam)
+    assert found
+    whole, profile, pitch = map(int, found.groups())
+    assert whole == profile + pitch
+    assert comments(tmp_path / "TY-460-main_cam.csv")["points"] == f"PROFILE {profile}, PITCH_CURVE {pitch}"
+    assert re.search(r": \d+ points, chord", gear)
+
+
 def test_csv_says_what_it_is(gearlink: Any, tmp_path: Path) -> None:
     gearlink("export", PRESS, "--part", "main_cam", "--as", "csv", "--out", tmp_path)
     said = comments(tmp_path / "TY-460-main_cam.csv")
