@@ -60,7 +60,7 @@ def panels(command: str, design: Design) -> Figure:
 
 def settled(made: Figure, known: Places | None = None) -> Figure:
     """The figure with its panels placed for good, to the hundredth of a millimetre; where they are known to stand, if
-    its title and the number of its panels are those of that time.
+    the lines of its title and the number of its panels are those of that time.
 
     The solver of the constrained layout leaves last digits to chance; an SVG names its clips after them, and a
     drawing to scale widens its limits by them. So the limits are those from before the layout.
@@ -99,7 +99,10 @@ def places(made: Figure) -> Places:
 
 def _likeness(made: Figure) -> str:
     title = made._suptitle  # type: ignore[attr-defined]
-    return f"{len(made.axes)} panels of {title.get_text() if title is not None else ''}"
+    rows = (
+        0 if title is None else 1 + title.get_text().count("\n")
+    )  # its words move nothing, as a swing that is changed
+    return f"{len(made.axes)} panels below {rows} lines"
 
 
 def _boxes(made: Figure) -> tuple[Box, ...]:

@@ -105,6 +105,17 @@ def test_a_sheet_is_drawn_where_its_panels_were_and_again_where_they_moved(monke
     assert sheets.moved("crank", wide, ()) == sheet("crank", wide)
 
 
+def test_words_of_a_title_do_not_move_panels(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The title of a wide swing names its angle: another angle must not cost another layout."""
+    sheets = Remembered()
+    sheets.at_once("swing", design("wide_swing_twin_cam"), ())
+    like = design("wide_swing_twin_cam", swing=118)
+    with monkeypatch.context() as forbidden:
+        forbidden.setattr(ConstrainedLayoutEngine, "execute", None)  # whoever placed panels would fail
+        drawn = sheets.at_once("swing", like, ())
+    assert "118° swing" in drawn
+
+
 def test_a_newer_file_ends_the_making_of_an_older_page(tmp_path: Path) -> None:
     path, board = tmp_path / "crank.yaml", Board()
     path.write_text("kind: slider-crank\nstroke: 310\nrod: 520\n")
