@@ -117,7 +117,8 @@ def stroke_sheet(design: Any) -> Figure:
     if has["pressure"]:
         stroke_pressures(next(grid), design)
     axes = next(grid)
-    _stroke(axes, design, "Torque on the cam", "torque [N m]", "input_torque")
+    title = "Torque on the cam" if design.spec.drive is None else "Torque on the crank"
+    _stroke(axes, design, title, "torque [N m]", "input_torque")
     axes.axhline(0.0, color=style.BLACK, linewidth=0.8)
     time_axes.once(made.axes, 2e3 * math.pi / design.speed)
     if has["residual"]:
@@ -155,7 +156,7 @@ def stroke_profile(axes: Axes, stroke: Any) -> None:
 
 def _stroke(axes: Axes, design: Any, title: str, ylabel: str, column: str) -> None:
     table = design.table("contact_stroke", samples=400)
-    style.curves(axes, "cam angle [deg]", ylabel)
+    style.curves(axes, f"{'cam' if design.spec.drive is None else 'crank'} angle [deg]", ylabel)
     panels.small_ticks(axes)
     panels.heading(axes, title)
     for stroke, color in zip(design.strokes, panels.CAM_COLORS, strict=False):

@@ -85,6 +85,22 @@ def force_reserve(design: WideSwingDesign) -> Check:
     return codes.FORCE_RESERVE.check(status, text, lift_off, speed, "1/min")
 
 
+def side_change(design: WideSwingDesign) -> Iterator[Check]:
+    """GL514: device and roller change sides together, at the slot of a cam whose rocker drives a slider."""
+    if design.spec.slider is None or not design.has_profile or not design.has_zone(design.cam):
+        return
+    start, end = design.slot_of(design.cam)
+    middle = design.motion.slider.middle_place
+    beyond = max(start - middle, middle - end)
+    text = f"the device changes sides at k = {middle:.4g}, the roller between {start:.4g} and {end:.4g}"
+    if beyond > 0.0:
+        text += ": between both the device pushes the roller off its profile"
+        angle = remedies.even_middle_angle(design.spec.slider)
+        if angle is not None:
+            text += f"; make slider.middle_angle {angle:g}, where rocker and slider are fastest together"
+    yield codes.SIDE_CHANGE.check("fail" if beyond > 0.0 else "pass", text, beyond, 0.0)
+
+
 # Cams
 
 

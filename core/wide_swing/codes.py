@@ -113,3 +113,17 @@ PROFILE_PLANES = Rule(
     ("profile-planes",),
     ("cam.roller_radius", "cam"),
 )
+SIDE_CHANGE = Rule(
+    "GL514",
+    "device pushes the roller off its profile",
+    "With a slider the device changes sides at mid-swing, but the roller changes sides of the profile where the rocker "
+    "is fastest; the slot of the roller does not reach from one to the other.",
+    "Between the two the device pushes the roller away from the profile, whatever its reserve, and nothing guides the "
+    "rocker.",
+    "Turn slider.middle_angle to the value of the message, at which the slider is fastest at mid-swing; then the "
+    "reduced inertia is stationary there and the rocker is fastest at mid-swing as well.",
+    "k_mid within the slot; k* = k_mid where d2s/dphi2 = 0 at mid-swing",
+    "own derivation",
+    ("side-change",),
+    ("slider.middle_angle", "slider"),
+)

@@ -265,6 +265,7 @@ class WideSwingDesign(Design):
     check_profile_exists, check_pressure_angle = checks.profile_exists, checks.pressure_angle
     check_cam_undercut, check_transition_zone = checks.cam_undercut, checks.transition_zone
     check_shaft_clearance, check_force_reserve = checks.shaft_clearance, checks.force_reserve
+    check_side_change = checks.side_change
     check_acceleration_step, check_closed_contour = cycle_checks.acceleration_step, cycle_checks.closed_contour
     check_profile_planes = cycle_checks.profile_planes
 
@@ -294,6 +295,7 @@ class WideSwingDesign(Design):
             quantities += names.SHAFT
         if spec.slider is not None:
             tables.append("slider")
+            checks += ("side-change",) if spec.cam is not None and not self._is_refused else ()
         if spec.cam is not None:
             quantities += self._profile_quantities(command)
             checks += (*(("profile-exists",) if self._is_refused else (*_CAM_CHECKS, *of_turn)), "force-reserve")

@@ -21,15 +21,15 @@ from gearlink.core.wide_swing import loads_checks, loads_tables
 from gearlink.core.wide_swing.design import WideSwingDesign
 
 if TYPE_CHECKING:
-    from gearlink.core.loads.dynamics import Force, Mass, Torque
+    from gearlink.core.loads.dynamics import Mass
     from gearlink.core.loads.kinematics import Turn
     from gearlink.core.loads.machine import Machine
     from gearlink.core.loads.mechanism import Connection, Link, Mechanism
     from gearlink.core.loads.vibrating import Vibrating
     from gearlink.core.numerics.arrays import Points, Reals
-    from gearlink.core.wide_swing.cam import WideSwingCam
     from gearlink.core.wide_swing.loads_spec import SwingLoads as Section
     from gearlink.core.wide_swing.loads_stroke import SwingStroke
+    from gearlink.core.wide_swing.outline import AnyCam
     from gearlink.core.wide_swing.spec import WideSwingSpec
 
 _MM = 1e-3
@@ -46,16 +46,21 @@ _CONTACT = (
     "lift_off_speed",
 )
 _OF_TURN = ("bearings", "flywheel", "motor")
-_PINS = ("O", "O_return", "D")
+_PINS = ("O", "O_return", "D", "E", "F", "A", "B", "C")
 
 
 class WideSwingLoads(LoadsDesign):
-    """Cam on O, rocker on D; a twin-cam with its whole cycle has a second cam that turns the other way, on O_return."""
+    """Cam on O, rocker on D; a twin-cam with its whole cycle has a second cam that turns the other way, on O_return.
+
+    A slider hangs on the rocker by a rod from E to F; a cam on a crank-rocker is driven by its crank, A to B, and its
+    coupler, B to C.
+    """
 
     kind = "wide-swing-cam"
     spec: WideSwingSpec
     section: Section
-    links = ("rocker", "cam", "return_cam")
+    links = ("rocker", "cam", "return_cam", "rod", "slider", "crank", "coupler")
+    sliding = ("slider",)
     output = "rocker"
     pins, meshes = _PINS, ()
     stands = True
@@ -67,14 +72,10 @@ class WideSwingLoads(LoadsDesign):
         """The geometry."""
         return WideSwingDesign(self.spec)
 
-    @cached_property
-    def cam(self) -> WideSwingCam:
+    @property
+    def cam(self) -> AnyCam:
         """The cam of the working stroke."""
-        for key in ("drive", "slider"):
-            if getattr(self.spec, key) is not None:
-                words = "of a cam that turns evenly and drives a rocker alone"
-                raise NoSolution(f"loads are those {words}: leave out {key}", key=key)
-        return self.design.even_cam
+        return self.design.cam
 
     @property
     def whole(self) -> bool:
@@ -89,7 +90,7 @@ class WideSwingLoads(LoadsDesign):
         main = SwingStroke("main", self.cam, 0.0, self)
         if not self.whole:
             return (main,)
-        back = self.design.return_cam or self.design.even_cam
+        back = self.design.return_cam or self.cam
         return main, SwingStroke("return", back, sum(self.design.motion.cycle_angles[:2]), self)
 
     @property
@@ -97,10 +98,17 @@ class WideSwingLoads(LoadsDesign):
         """Whether a second cam turns the other way."""
         return self.whole and self.spec.layout == "twin-cam"
 
-    @property
+    @cached_property
     def own_links(self) -> tuple[str, ...]:
-        """Both cams, or one."""
-        return self.links if self.has_return_cam else self.links[:-1]
+        """Rocker and cam, and what the file has besides."""
+        spec = self.spec
+        has = {"return_cam": self.has_return_cam}
+        has |= dict.fromkeys(("rod", "slider"), spec.slider is not None)
+        has |= dict.fromkeys(("crank", "coupler"), spec.drive is not None)
+        for name in self.section.links.model_fields_set:
+            if not has.get(name, True):
+                raise NoSolution(f"this mechanism has no {name}: leave its mass out", key=f"loads.links.{name}")
+        return tuple(name for name in self.links if has.get(name, True))
 
     @cached_property
     def speed(self) -> float:
@@ -109,29 +117,63 @@ class WideSwingLoads(LoadsDesign):
 
     @cached_property
     def masses(self) -> dict[str, Mass]:
-        """The rocker's inertia."""
+        """Rocker and slider of their own sections, and what the file gives the others."""
         from gearlink.core.loads.dynamics import Mass
 
-        return {"rocker": Mass(0.0, self.design.motion.inertia)}
+        found = super().masses
+        if self.spec.inertia:
+            found["rocker"] = Mass(0.0, self.spec.inertia)
+        if self.spec.slider is not None:
+            found["slider"] = Mass(self.spec.slider.mass)
+        return found
 
     @cached_property
     def machine(self) -> Machine:
         """Everything, with the device."""
         from dataclasses import replace
+        from functools import partial
 
-        _ = self.cam
-        given = next((key for key in _OF_TURN if getattr(self.section, key)), None)
-        if not self.whole and given is not None:
-            message = f"{given} needs the whole turn of the cam: give cycle in place of cycle_angle"
-            raise MissingSection(message, key=f"loads.{given}")
+        from gearlink.core.wide_swing.loads_links import pull_of_device
+
+        self._require_turn()
+        self._require_directions_of_gravity()
         for stroke in self.strokes:
             stroke.cam.require_profile()
-        return replace(super().machine, more=self._device, stroke=0.0 if self.whole else self.cam.cycle_angle)
+        return replace(
+            super().machine, more=partial(pull_of_device, self), stroke=0.0 if self.whole else self.cam.cycle_angle
+        )
+
+    def _require_turn(self) -> None:
+        """Refuse what a stroke alone cannot tell."""
+        given = next((key for key in _OF_TURN if getattr(self.section, key)), None)
+        if self.whole or given is None:
+            return
+        spec, message = self.spec, f"{given} needs the whole turn of the cam: give cycle in place of cycle_angle"
+        if spec.drive is not None or spec.slider is not None:
+            other = "slider" if spec.drive is None else "drive"
+            message = (
+                f"{given} needs the whole turn of the cam, and with {other} the stroke alone is known: leave it out"
+            )
+        raise MissingSection(message, key=f"loads.{given}")
+
+    def _require_directions_of_gravity(self) -> None:
+        """Refuse a weight where the file does not say which way what is heavy stands."""
+        for section, key in (("slider", "slider_direction"), ("drive", "drive_direction")):
+            missing = getattr(self.spec, section) is not None and getattr(self.section, key) is None
+            if missing and any(self.section.gravity):
+                words = f"the weight depends on which way the {section} stands: give loads.{key}"
+                raise MissingSection(words, key="loads.gravity")
 
     @property
     def own_joints(self) -> list[float]:
-        """Mid-swing and the ends of the strokes."""
-        ends = [stroke.start + share * stroke.cam.cycle_angle for stroke in self.strokes for share in (0.0, 0.5, 1.0)]
+        """The ends of the strokes, and where the rollers change sides."""
+        from gearlink.core.wide_swing.outline import middle_of
+
+        ends = [
+            stroke.start + share * stroke.cam.cycle_angle
+            for stroke in self.strokes
+            for share in (0.0, middle_of(stroke.cam), 1.0)
+        ]
         return [angle for angle in ends if angle > 0.0]
 
     @property
@@ -144,29 +186,13 @@ class WideSwingLoads(LoadsDesign):
 
     @property
     def unknown_joints(self) -> tuple[str, ...]:
-        """D, where nothing says which way the device pulls."""
-        return ("D",) if self.section.device_direction is None else ()
-
-    def _device(self, mechanism: Mechanism, _phi: Reals) -> list[Force | Torque]:
-        """The pull of the device on its pin of the rocker, towards its base pin."""
-        import numpy as np
-
-        from gearlink.core.loads.dynamics import Force
-
-        unloader, unloading = self.spec.unloader, self.design.unloading
-        way = cmath.rect(1.0, math.radians(self.section.device_direction or 0.0))
-        rocker = mechanism.links["rocker"]
-        pin = rocker.at(unloader.arm * _MM * way)
-        base = rocker.origin.value + unloader.pivot_ratio * unloader.arm * _MM * way
-        along = base - pin.value
-        length = np.abs(along)
-        if unloader.type == "pneumatic":
-            pull = np.full(length.shape, unloading.force or 0.0)
-        else:
-            geometry = self.design.motion.plain_law.geometry
-            mounted = (geometry.shortest - unloader.stretch_ratio * geometry.stroke) * unloader.arm * _MM
-            pull = 1e3 * (unloading.spring_rate or 0.0) * (length - mounted)
-        return [Force("rocker", pull * along / length, pin)]
+        """Those of a link on which something pulls whose direction the file leaves open."""
+        section, spec = self.section, self.spec
+        slider_open = spec.slider is not None and section.slider_direction is None
+        found = ["D"] if section.device_direction is None or slider_open else []
+        if spec.drive is not None and section.drive_direction is None:
+            found.append("O")
+        return tuple(found)
 
     # Motion
 
@@ -196,7 +222,7 @@ class WideSwingLoads(LoadsDesign):
             moving, resting = sector == 2 * number, sector == 2 * number + 1
             swing, angle = (motion.swing if number == 0 else -motion.swing), stroke.cam.cycle_angle
             if moving.any():
-                a, b, c = motion.plain_law.invariants(share[moving], 2)
+                a, b, c = motion.law.invariants(share[moving], 2)
                 turn[:, moving] = (a - 0.5) * swing, swing / angle * b, swing / angle**2 * c
                 place[moving], normal[moving] = stroke.roller(share[moving])
             if resting.any():
@@ -208,45 +234,74 @@ class WideSwingLoads(LoadsDesign):
         """Rocker and cams at input angles."""
         import numpy as np
 
-        from gearlink.core.loads.kinematics import fixed, steady
-        from gearlink.core.loads.mechanism import FRAME, Coupling, Link, Mechanism, Pin, SharedContact
+        from gearlink.core.loads.kinematics import fixed
+        from gearlink.core.loads.mechanism import FRAME, Link, Mechanism, Pin, SharedContact
+        from gearlink.core.wide_swing.loads_links import SLIDER_DIRECTION, with_slider
 
         sector, share = self._share(phi)
         turn, place, normal = self._rocker(sector, share)
-        sense = -1.0 if self.spec.layout == "twin-cam" else 1.0
-        axis, pivot = fixed(0j, phi), fixed(complex(sense * self.cam.center_distance * _MM), phi)
-        links: dict[str, Link] = {"rocker": Link(pivot, turn), "cam": Link(axis, steady(phi, sense))}
-        connections: list[Connection] = [Pin("O", FRAME, "cam", axis.value), Pin("D", FRAME, "rocker", pivot.value)]
+        links, connections, sense, crank = self._driven(phi)
+        pivot = fixed(complex(self._side * self.cam.center_distance * _MM), phi)
+        links["rocker"] = Link(pivot, turn)
+        connections.append(Pin("D", FRAME, "rocker", pivot.value))
         shares: dict[str, Reals] = {"cam": np.ones(len(phi))}
         if self.has_return_cam:
-            links["return_cam"] = Link(axis, steady(phi, -sense))
             shares = {"cam": 1.0 * (sector < 2), "return_cam": 1.0 * (sector >= 2)}
+        travel = {}
+        if self.spec.slider is not None:
+            direction = math.radians(_or(self.section.slider_direction, SLIDER_DIRECTION))
+            hung, joints = with_slider(links["rocker"], self.design.motion.slider.drive, direction)
+            links |= hung
+            connections += joints
+            travel["slider"] = cmath.rect(1.0, direction)
+        connections.append(SharedContact("roller", "rocker", place, normal, shares))
+        drive = "crank" if self.spec.drive is not None else "cam"
+        return Mechanism(links, connections, drive, sense, crank, travel)
+
+    @property
+    def _side(self) -> float:
+        """Side of the cam's axis on which the rocker's lies, and sense in which an even cam of the stroke turns."""
+        return -1.0 if self.spec.layout == "twin-cam" else 1.0
+
+    def _driven(self, phi: Reals) -> tuple[dict[str, Link], list[Connection], float, complex]:
+        """The cams with what drives them, their pins, the sense of the driven link and its pivot [m]."""
+        from gearlink.core.loads.kinematics import fixed, steady
+        from gearlink.core.loads.mechanism import FRAME, Coupling, Link, Pin
+        from gearlink.core.wide_swing.loads_links import DRIVE_DIRECTION, with_drive
+
+        axis, sense = fixed(0j, phi), self._side
+        if self.spec.drive is not None:
+            direction = math.radians(_or(self.section.drive_direction, DRIVE_DIRECTION))
+            return with_drive(phi, axis, self.design.motion.drive, direction)
+        links = {"cam": Link(axis, steady(phi, sense))}
+        connections: list[Connection] = [Pin("O", FRAME, "cam", axis.value)]
+        if self.has_return_cam:
+            links["return_cam"] = Link(axis, steady(phi, -sense))
             connections += [
                 Pin("O_return", FRAME, "return_cam", axis.value),
                 Coupling("train", "cam", "return_cam", axis.value, -1.0),
             ]
-        connections.append(SharedContact("roller", "rocker", place, normal, shares))
-        return Mechanism(links, connections, "cam", sense)
+        return links, connections, sense, 0j
 
     # The stroke
 
     def inertia_torque(self, k: Reals) -> Reals:
-        """Torque that moves the rocker in the working stroke at the design speed, J gamma c/T^2 [N m]."""
+        """Torque on the rocker that moves it, and its slider, in the working stroke at the design speed [N m]."""
         motion = self.design.motion
-        found: Reals = motion.inertia * motion.swing / motion.working_time**2 * motion.plain_law.invariants(k, 2)[2]
-        return found
+        return motion.inertia * motion.swing / motion.working_time**2 * motion.torque(k)
 
     @property
     def own_forces(self) -> bool:
-        """Whether more acts than inertia and device."""
-        return self.machine.sources.any or self.machine.friction is not None
+        """Whether more acts than the inertia of rocker and slider, and the device."""
+        others = set(self.machine.masses) - {"rocker", "slider"}
+        return self.machine.sources.any or self.machine.friction is not None or bool(others)
 
-    def _greatest(self, name: str) -> float:
+    def _greatest(self, name: str, *, curved: bool = False) -> float:
         """Greatest value over the strokes of a method of theirs, where the roller touches."""
         import numpy as np
 
         return max(
-            stroke.greatest(lambda k, stroke=stroke: np.abs(getattr(stroke, name)(k)))  # type: ignore[misc]
+            stroke.greatest(lambda k, stroke=stroke: np.abs(getattr(stroke, name)(k)), curved=curved)  # type: ignore[misc]
             for stroke in self.strokes
         )
 
@@ -266,7 +321,7 @@ class WideSwingLoads(LoadsDesign):
         if self.section.roller is None:
             return None
         return max(
-            stroke.greatest(lambda k, stroke=stroke: getattr(stroke.contact(k), name))  # type: ignore[misc]
+            stroke.greatest(lambda k, stroke=stroke: getattr(stroke.contact(k), name), curved=True)  # type: ignore[misc]
             for stroke in self.strokes
         )
 
@@ -277,8 +332,10 @@ class WideSwingLoads(LoadsDesign):
 
     @cached_property
     def shear_depth(self) -> float | None:
-        """Greatest depth of the greatest shear stress [mm]."""
-        return self._of_contact("shear_depth")
+        """Greatest depth of the greatest shear stress [mm]; with a drive, that where the pressure is greatest."""
+        if self.spec.drive is None or self.section.roller is None:
+            return self._of_contact("shear_depth")
+        return self.strokes[0].shear_depth_at_greatest_pressure
 
     @property
     def roller_speed_max(self) -> float:
@@ -288,7 +345,7 @@ class WideSwingLoads(LoadsDesign):
     @property
     def entrainment_speed_max(self) -> float:
         """Greatest entrainment speed where the roller touches [mm/s]."""
-        return self._greatest("entrainment")
+        return self._greatest("entrainment", curved=True)
 
     cam_torque_max: float = placed("input_torque_max")
     cam_torque_min: float = placed("input_torque_min")
@@ -311,10 +368,15 @@ class WideSwingLoads(LoadsDesign):
         return replace(found, unit="1/min") if found is not None and name == "lift_off_speed" else found
 
     def raw(self, name: str) -> Any:
-        """A stroke alone has no turns to count."""
-        return None if name.endswith(".travel") and not self.whole else super().raw(name)
+        """A stroke alone has no turns to count; a crank drives no cam shaft."""
+        no_shaft = self.spec.drive is not None and name.startswith("cam_torque")
+        return None if no_shaft or (name.endswith(".travel") and not self.whole) else super().raw(name)
 
     rows = loads_tables.rows
     table_contact_stroke, table_harmonics = loads_tables.contact_stroke, loads_tables.harmonics
     check_contact_pressure, check_contact_loss = loads_checks.contact_pressure, loads_checks.contact_loss
     check_resonance = loads_checks.resonance
+
+
+def _or(given: float | None, otherwise: float) -> float:
+    return otherwise if given is None else given

@@ -8,36 +8,26 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
 from gearlink.core.loads.cam_contact import LineContact, plane_modulus
 from gearlink.core.numerics.extremes import maximum_over, minimum_over
+from gearlink.core.wide_swing.loads_roller import path
+from gearlink.core.wide_swing.outline import middle_of
 
 if TYPE_CHECKING:
     from gearlink.core.numerics.arrays import Points, Reals
-    from gearlink.core.wide_swing.cam import WideSwingCam
-    from gearlink.core.wide_swing.curve import CurveState
     from gearlink.core.wide_swing.loads import WideSwingLoads
+    from gearlink.core.wide_swing.outline import AnyCam
 
+Parts: TypeAlias = tuple[tuple[float, float], tuple[float, float]]
 _MM = 1e-3
 _ROUNDING = 8.0
-
-
-def outward(cam: WideSwingCam, state: CurveState) -> Points:
-    """Direction in which the profile pushes the roller, in the frame of the line of centres.
-
-    Notes
-        The body lies on the side of the inward normal of an external profile; at the cusp the limit of the run-up.
-    """
-    gradient = cam.curve.gradient(state)
-    size = np.abs(gradient)
-    cusp = size == 0.0
-    unit = gradient / np.where(cusp, 1.0, size) + np.where(cusp, 1j * cam.sense, 0.0)
-    return np.asarray(-cam.sense * unit)
+_STANDSTILL = 1e-4
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,13 +36,13 @@ class SwingStroke:
 
     Fields
         name : str - of its roller: main, return
-        cam : WideSwingCam - that guides it
+        cam : AnyCam - that guides it
         start : float [rad] - input angle at which it starts
         loads : WideSwingLoads
     """
 
     name: str
-    cam: WideSwingCam
+    cam: AnyCam
     start: float
     loads: WideSwingLoads
 
@@ -64,13 +54,8 @@ class SwingStroke:
 
     def roller(self, k: Reals, *, resting: bool = False) -> tuple[Points, Points]:
         """Roller centre [m] and the direction in which the cam pushes it; `resting`: on the arc beside its stroke."""
-        cam = self.cam
-        state = cam.curve.state(k)
-        if resting:
-            ones = np.ones_like(k)
-            state = replace(state, a=ones, e=(1.0 - cam.ratio) * ones, second=0.0 * ones)
-        arm = -((1.0 - cam.ratio) + cam.ratio * state.s) + 1j * cam.ratio * np.sin(state.psi)
-        return self.place(_MM * cam.center_distance * arm), self.place(outward(cam, state))
+        at = path(self.cam, k, resting=resting)
+        return self.place(_MM * self.cam.center_distance * at.arm), self.place(at.outward)
 
     # Over the stroke
 
@@ -91,13 +76,14 @@ class SwingStroke:
         return radius * (1.0 - radius * self.cam.bulge(k))
 
     def way(self, k: Reals) -> Reals:
-        """Way of the roller's centre over the cam, per cam angle [mm]."""
-        curve = self.cam.curve
-        return np.asarray(self.cam.center_distance * np.abs(curve.gradient(curve.state(k))))
+        """Way of the roller's centre over the cam, per input angle [mm]."""
+        return np.asarray(self.cam.center_distance * path(self.cam, k).way)
 
     def roller_speed(self, k: Reals) -> Reals:
         """Speed of the roller about its own axis [rad/s]."""
-        return (self.way(k) / self.cam.roller_radius - 1.0) * self.loads.speed
+        at = path(self.cam, k)
+        rolling = self.cam.center_distance / self.cam.roller_radius * at.way
+        return np.asarray((rolling - at.turning) * self.loads.speed)
 
     def entrainment(self, k: Reals) -> Reals:
         """Speed of both surfaces through the contact [mm/s]."""
@@ -115,21 +101,50 @@ class SwingStroke:
         return LineContact(self.force(k), self.relative_radius(k), section.roller.width, modulus)
 
     @cached_property
-    def parts(self) -> tuple[tuple[float, float], tuple[float, float]]:
+    def parts(self) -> Parts:
         """Parts of the stroke in which the roller touches the profile."""
         return self.loads.design.contact_of(self.cam)
 
-    def greatest(self, f: Callable[[Reals], Reals]) -> float:
-        """Greatest value where the roller touches."""
-        return max(maximum_over(f, *part, samples=128).value for part in self.parts)
+    @property
+    def curved_parts(self) -> Parts:
+        """Those in which the profile has a curvature.
+
+        Notes
+            At the standstills of a cam on a crank-rocker it bends without bound: it is looked at from 1e-4 on.
+        """
+        (first, start), (end, last) = self.parts
+        if self.loads.spec.drive is not None:
+            first, last = max(first, _STANDSTILL), min(last, 1.0 - _STANDSTILL)
+        return (first, start), (end, last)
+
+    def greatest(self, f: Callable[[Reals], Reals], *, curved: bool = False) -> float:
+        """Greatest value where the roller touches; `curved`: of what depends on the curvature there."""
+        parts = self.curved_parts if curved else self.parts
+        return max(maximum_over(f, *part, samples=128).value for part in parts)
 
     def least(self, f: Callable[[Reals], Reals]) -> float:
         """Least value where the roller touches."""
         return min(minimum_over(f, *part, samples=128).value for part in self.parts)
 
+    @cached_property
+    def shear_depth_at_greatest_pressure(self) -> float:
+        """Depth of the greatest shear stress where the pressure is greatest [mm]."""
+
+        def pressure(k: Reals) -> Reals:
+            return self._contact(k).pressure
+
+        found = (maximum_over(pressure, *part, samples=128) for part in self.curved_parts)
+        place = max(found, key=lambda at: at.value).place
+        return float(self._contact(np.array([place])).shear_depth[0])
+
+    def _contact(self, k: Reals) -> LineContact:
+        found = self.contact(k)
+        assert found is not None, "asked for only where the roller has a width"
+        return found
+
     def columns(self, k: Reals) -> dict[str, tuple[Any, str]]:
         """Force, pressure, radius and speeds; not a number where the roller touches nothing."""
-        touching = self.loads.design.touches(self.cam, k) & (k != 0.5)
+        touching = self.loads.design.touches(self.cam, k) & (k != middle_of(self.cam))
         at = k[touching]
         none = np.full(at.shape, np.nan)
         locked = self.loads.locked

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from gearlink.core.errors import NoSolution
 from gearlink.core.loads.vibrating import Vibrating
 from gearlink.core.results import cached_property
 
@@ -15,6 +16,14 @@ class SwingVibrating(Vibrating):
     """As of any output; of a stroke alone, the one motion that ends in a rest."""
 
     design: WideSwingLoads
+
+    @cached_property
+    def inertia(self) -> float:
+        """That of the rocker; with a slider it changes over the stroke, and a stiffness has no frequency."""
+        if self.design.spec.slider is not None:
+            message = "with a slider the inertia changes over the stroke: give loads.vibration.frequency in place"
+            raise NoSolution(message, key="loads.vibration.stiffness")
+        return super().inertia
 
     @cached_property
     def motions(self) -> list[tuple[float, float]]:

@@ -12,9 +12,9 @@ from gearlink.core.wide_swing.remedies import drive_repair, slider_repair, with_
 
 if TYPE_CHECKING:
     from gearlink.core.numerics.arrays import Reals
+    from gearlink.core.wide_swing.crank_rocker import CrankRockerDrive
     from gearlink.core.wide_swing.device import Device
     from gearlink.core.wide_swing.elastic_law import ElasticLaw
-    from gearlink.core.wide_swing.oscillating_cam import CrankRockerDrive
     from gearlink.core.wide_swing.slider import SliderLaw
     from gearlink.core.wide_swing.spec import SwingSlider, WideSwingSpec
 
@@ -148,7 +148,7 @@ class Motion:
     def drive(self) -> CrankRockerDrive:
         """The crank-rocker that carries the cam; its refusal names the length to change."""
         from gearlink.core.linkages.fourbar import FourBar
-        from gearlink.core.wide_swing.oscillating_cam import CrankRockerDrive
+        from gearlink.core.wide_swing.crank_rocker import CrankRockerDrive
 
         section = self.spec.drive
         if section is None:

@@ -13,98 +13,42 @@ from dataclasses import dataclass
 import numpy as np
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.fourbar import FourBar
-from gearlink.core.linkages.fourbar_sweep import solve
 from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.numerics.extremes import maximum_over
 from gearlink.core.results import cached_property
 from gearlink.core.wide_swing.cam import LEAST_SPEED_RATIO, CamPoints, too_small_swing
 from gearlink.core.wide_swing.contact import covered, fitting_roller
+from gearlink.core.wide_swing.crank_rocker import CrankRockerDrive
 from gearlink.core.wide_swing.curve import StrokeLaw
+from gearlink.core.wide_swing.elastic_law import MiddleView
 
 _STOP = 1e-4
 """Nearer to a stop, in strokes, the curve bends as it does at the stop, and its curvature has few digits."""
+_AT_STOP = 1e-8
+"""So near to a stop the first derivative has no more right digits in its direction than the limit there."""
 _FAR = 0.49
 _NOISE = 1e-15
 """How far from a stop, in strokes, the roller must have left its circle there for a profile to be left."""
 
 
-@dataclass(frozen=True)
-class CrankRockerDrive:
-    """Swing of a cam on the rocker of a crank-rocker, from one dead centre to the other.
+@dataclass(frozen=True, slots=True, eq=False)
+class Step:
+    """Where the roller stands on the cam and how it goes on, at fractions of the stroke.
 
-    Parameters
-        linkage : FourBar - a crank-rocker
-        outward : bool - True from the extended to the folded dead centre, False back
-    Raises
-        NoSolution - for a linkage that is no crank-rocker
-    Example
-        >>> drive = CrankRockerDrive(FourBar(crank=1.0, coupler=3.0, rocker=2.5, frame=4.0))
-        >>> [round(math.degrees(x), 6) for x in (*drive.crank_angles, drive.swing)]
-        [36.419914, 210.75352, 47.643195]
-
-    Source
-        wide-swing dissertation, chapter 4, combined cam mechanisms; own derivation
+    Fields
+        view : MiddleView - of the rocker's motion
+        chi : three (N,) arrays [rad] - cam angle from mid-swing and its derivatives after k
+        arm : (N,) complex array - roller centre from the cam axis
+        first, second : (N,) complex arrays - its derivatives after k in the cam, both turned back with the cam
+        along : (N,) complex array - unit vector of its way, at a stop the limit of the way there
     """
 
-    linkage: FourBar
-    outward: bool = True
-
-    def __post_init__(self) -> None:
-        kind = self.linkage.kind()
-        if kind != "crank-rocker":
-            raise NoSolution(
-                f"the linkage is a {kind}: the cam needs a crank-rocker, in which the crank is the shortest link and "
-                "shortest plus longest are less than the other two together; change the link lengths"
-            )
-
-    @cached_property
-    def crank_angles(self) -> tuple[float, float]:
-        """Crank angles at the start and the end of the stroke [rad]."""
-        bar = self.linkage
-        side = float(bar.assembly)
-        extended = side * self._base_angle(bar.coupler + bar.crank)
-        folded = side * self._base_angle(bar.coupler - bar.crank) + math.pi
-        first, last = (extended, folded) if self.outward else (folded, extended)
-        return first, first + math.fmod(last - first + 4.0 * math.pi, 2.0 * math.pi)
-
-    def _base_angle(self, reach: float) -> float:
-        """Angle at the crank pivot of the triangle reach, frame, rocker."""
-        bar = self.linkage
-        over = (bar.rocker - bar.frame + reach) * (bar.rocker + bar.frame - reach)
-        under = (bar.frame + reach - bar.rocker) * (bar.frame + reach + bar.rocker)
-        return 2.0 * math.atan(math.sqrt(over / under))
-
-    @property
-    def crank_span(self) -> float:
-        """Crank angle of the stroke [rad]; not a half turn in general."""
-        return self.crank_angles[1] - self.crank_angles[0]
-
-    @cached_property
-    def _middle(self) -> tuple[float, float]:
-        """Rocker angle at k = 1/2, and the sign of its velocity."""
-        middle = solve(self.linkage, np.array([0.5 * sum(self.crank_angles)]), 1)
-        return float(middle.rocker_angle[0]), math.copysign(1.0, float(middle.rocker_velocity[0]))
-
-    def motion(self, k: Reals, order: int = 2) -> tuple[Reals, ...]:
-        """Cam angle from k = 1/2, counted in its direction of motion, and its derivatives after k.
-
-        Parameters
-            k : (N,) array - fraction of the stroke
-            order : int - 0 to 3
-        Returns
-            rates : tuple of order + 1 (N,) arrays [rad] - chi and its derivatives
-        """
-        sweep = solve(self.linkage, self.crank_angles[0] + k * self.crank_span, order, velocity=self.crank_span)
-        place, sign = self._middle
-        rates = (sweep.rocker_velocity, sweep.rocker_acceleration, sweep.rocker_jerk)[:order]
-        return (sign * (sweep.rocker_angle - place), *(sign * rate for rate in rates))
-
-    @property
-    def swing(self) -> float:
-        """Swing of the cam [rad]."""
-        ends = self.motion(np.array([0.0, 1.0]))[0]
-        return float(ends[1] - ends[0])
+    view: MiddleView
+    chi: tuple[Reals, ...]
+    arm: Points
+    first: Points
+    second: Points
+    along: Points
 
 
 @dataclass(frozen=True)
@@ -123,6 +67,7 @@ class OscillatingCam:
         The pitch curve has cusps at mid-swing and, because cam and rocker stop together, at both ends, where the
         third derivative of the cam's motion leaves its curvature without bound.
     Example
+        >>> from gearlink.core.linkages.fourbar import FourBar
         >>> from gearlink.core.wide_swing.elastic_law import ElasticLaw, Pneumatic
         >>> drive = CrankRockerDrive(FourBar(crank=1.0, coupler=3.0, rocker=2.5, frame=4.0))
         >>> cam = OscillatingCam(drive, ElasticLaw(Pneumatic(2.5), math.radians(120)), 1.0, 0.02)
@@ -326,7 +271,11 @@ class OscillatingCam:
 
     def bulge(self, k: Reals) -> Reals:
         """Curvature of the pitch curve [1/mm], positive where it bulges from the body."""
-        curvature: Reals = 1.0 / self.points(k).curvature_radius
+        radius = self.points(k).curvature_radius
+        curvature = np.full_like(radius, math.inf)
+        np.divide(1.0, radius, out=curvature, where=radius != 0.0)
+        for end in (0.0, 1.0):  # infinite as it is in the middle, but towards a hollow where the curve leaves it so
+            curvature[k == end] *= math.copysign(1.0, self._stop(end)[0])
         return curvature
 
     def require_profile(self) -> None:
@@ -356,22 +305,15 @@ class OscillatingCam:
             Curvature by the parametric formula; at k = 0, 1/2 and 1 its radius is zero.
         """
         self.require_profile()
-        view = self.law.middle_view(k)
-        chi, chi1, chi2 = self.drive.motion(k)
+        step = self.step(k)
+        (chi, chi1, chi2), view, first, second = step.chi, step.view, step.first, step.second
         phi1, phi2 = self.law.swing * view.velocity, self.law.swing * view.acceleration
-        arm: Points = self.ratio * np.exp(1j * view.angle)
         turn: Points = np.exp(1j * chi)
-        pitch = turn * (arm - 1.0)
-        first = 1j * turn * (chi1 * (arm - 1.0) + phi1 * arm)
-        second = turn * (
-            1j * (chi2 * (arm - 1.0) + phi2 * arm) - chi1**2 * (arm - 1.0) - phi1 * arm * (phi1 + 2.0 * chi1)
-        )
+        pitch, along = turn * step.arm, turn * step.along
         stop = (k == 0.0) | (k == 0.5) | (k == 1.0)
-        # where the curve stops its direction is that of the second derivative: before the stop it points back
-        along = np.where(stop, np.where(k == 0.0, second, -second), first)
         size = np.where(stop, 1.0, np.abs(first))
         bend = np.where(stop, math.inf, (np.conj(first) * second).imag / size**3)
-        profile = pitch + self.roller_radius / self.center_distance * 1j * along / np.abs(along)
+        profile = pitch + self.roller_radius / self.center_distance * 1j * along
         with np.errstate(divide="ignore"):
             radius = self.center_distance / bend
         return CamPoints(
@@ -383,6 +325,24 @@ class OscillatingCam:
             pressure_angle=self._pressure_angle(view.angle, (chi1, chi2), (phi1, phi2), k),
             curvature_radius=radius,
         )
+
+    def step(self, k: Reals) -> Step:
+        """The roller's centre and its way over the cam, in centre distances and in the frame of the line of centres.
+
+        Parameters
+            k : (N,) array - fractions of the stroke, 0 to 1
+        """
+        view = self.law.middle_view(k)
+        chi, chi1, chi2 = self.drive.motion(k)
+        phi1, phi2 = self.law.swing * view.velocity, self.law.swing * view.acceleration
+        reach: Points = self.ratio * np.exp(1j * view.angle)
+        arm = reach - 1.0
+        first = 1j * (chi1 * arm + phi1 * reach)
+        second = 1j * (chi2 * arm + phi2 * reach) - chi1**2 * arm - phi1 * reach * (phi1 + 2.0 * chi1)
+        near = np.abs(k - np.round(2.0 * k) / 2.0) <= _AT_STOP
+        # where the curve stops its direction is that of the second derivative: before the stop it points back
+        along: Points = np.where(near, np.where((k < 0.25) | ((k > 0.5) & (k < 0.75)), second, -second), first)
+        return Step(view, (chi, chi1, chi2), arm, first, second, along / np.abs(along))
 
     def _pressure_angle(
         self,

@@ -188,6 +188,30 @@ def slider_repair(section: SwingSlider, swing: float) -> tuple[str, float]:
     return "swing", at_most(math.degrees(1.9 * room), _DEGREES)
 
 
+def even_middle_angle(section: SwingSlider) -> float | None:
+    """The arm's angle at mid-swing [deg], the nearest to the file's, at which the slider is fastest; None without one.
+
+    d2s/dphi2 = 0
+    """
+    import numpy as np
+
+    from gearlink.core.linkages.slider_crank_sweep import slider
+    from gearlink.core.numerics.roots import bracketed_root
+
+    def bend(angle: float) -> float:
+        return float(slider(angle - 0.5 * math.pi, section.crank, section.rod, section.offset, 2)[2])
+
+    given = math.radians(section.middle_angle)
+    grid = given + np.linspace(-math.pi, math.pi, 91)
+    values = [bend(angle) for angle in grid]
+    pairs = [i for i in range(90) if (values[i] > 0.0) != (values[i + 1] > 0.0)]
+    places = [bracketed_root(bend, float(grid[i]), float(grid[i + 1])) for i in pairs]
+    if not places:
+        return None
+    nearest = min(places, key=lambda place: abs(place - given))
+    return round(math.degrees(math.remainder(nearest, 2.0 * math.pi)), 2)
+
+
 def drive_repair(section: SwingDrive) -> tuple[str, float]:
     """A length that makes the drive a crank-rocker."""
     others = sorted((getattr(section, name), name) for name in ("coupler", "rocker", "frame"))
@@ -215,6 +239,13 @@ def _refused(design: WideSwingDesign) -> Iterator[Change]:
     yield slider_repair(spec.slider, motion.swing)
 
 
+def _side_change(design: WideSwingDesign) -> Iterator[Change]:
+    """The arm at which device and roller change sides together."""
+    found = None if design.spec.slider is None else even_middle_angle(design.spec.slider)
+    if found is not None:
+        yield "slider.middle_angle", found
+
+
 _CLOSED: dict[str, Callable[[WideSwingDesign], Iterator[Change]]] = {
     REFUSAL: _refused,
     "unloader-turnability": lambda d: _one("unloader.pivot_ratio", at_least(d.motion.usual_pivot_ratio, _RATIO)),
@@ -225,6 +256,7 @@ _CLOSED: dict[str, Callable[[WideSwingDesign], Iterator[Change]]] = {
     "cam-undercut": lambda d: _one("cam.roller_radius", at_most(roller_for_curvature(d))),
     "transition-zone": lambda d: _one("cam.roller_radius", at_most(roller_for_zone(d))),
     "shaft-clearance": lambda d: _one("cam.center_distance", at_least(center_distance(d))),
+    "side-change": _side_change,
     "force-reserve": lambda d: _one(
         "unloader.reserve", at_least(reserve(d.spec.unloader.residual, 0.1 + 1e-9), _RATIO)
     ),

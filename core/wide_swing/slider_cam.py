@@ -19,6 +19,7 @@ from gearlink.core.wide_swing.elastic_law import MiddleView
 from gearlink.core.wide_swing.slider import SliderLaw
 
 _GAUSS = np.polynomial.legendre.leggauss(12)
+_NEAR = 0.05
 _STEP = 1e-4  # of the stroke, for the jerk at k*, which only starts a search
 
 
@@ -84,20 +85,22 @@ class HalfLaw:
         return MiddleView(
             sign * angle,
             self.span * self._scale * b,
-            self.span * self._scale * self._deficit(real),
+            self.span * self._scale * self._deficit(real, b),
             sign * side * self.span**2 * self._scale * c,
         )
 
-    def _deficit(self, real: Reals) -> Reals:
-        """B - b of the real law, as the integral of its acceleration up to k*."""
-        nodes, weights = _GAUSS
-        half = 0.5 * (self.place - real)
-        at = (0.5 * (self.place + real))[..., None] + half[..., None] * nodes
-        total: Reals = half * np.sum(
-            self.law.invariants(np.clip(at, 0.0, 1.0).ravel(), 2)[2].reshape(at.shape) * weights, axis=-1
-        )
-        far = np.abs(self.place - real) > 0.05
-        return np.where(far, self.law.velocity_peak - self.law.invariants(real, 1)[1], total)
+    def _deficit(self, real: Reals, velocity: Reals) -> Reals:
+        """B - b of the real law; near k* as the integral of its acceleration up to there."""
+        found = np.asarray(self.law.velocity_peak - velocity)
+        near = np.abs(self.place - real) <= _NEAR
+        if near.any():
+            at = real[near]
+            nodes, weights = _GAUSS
+            half = 0.5 * (self.place - at)
+            places = (0.5 * (self.place + at))[:, None] + half[:, None] * nodes
+            acceleration = self.law.invariants(np.clip(places, 0.0, 1.0).ravel(), 2)[2].reshape(places.shape)
+            found[near] = half * np.sum(acceleration * weights, axis=1)
+        return found
 
 
 @dataclass(frozen=True)
@@ -237,7 +240,7 @@ class SliderCam:
         """Least radius of the pitch curve where it bulges and the roller touches it [mm]."""
         return min(half.min_curvature_radius for half in self.halves)
 
-    def _split(self, k: Reals) -> tuple[tuple[WideSwingCam, Mask, Reals], ...]:
+    def split(self, k: Reals) -> tuple[tuple[WideSwingCam, Mask, Reals], ...]:
         """Each half with the rows that are its own, and their fractions of its symmetric stroke."""
         early = k <= self.middle
         first, second = self._spans
@@ -246,14 +249,14 @@ class SliderCam:
     def pressure_angle(self, k: Reals) -> Reals:
         """Pressure angle at fractions of the stroke [rad], in the sign of `WideSwingCam`."""
         found = np.empty_like(k)
-        for number, (half, rows, own) in enumerate(self._split(k)):
+        for number, (half, rows, own) in enumerate(self.split(k)):
             found[rows] = (-1.0 if number else 1.0) * half.pressure_angle(own[rows])
         return found
 
     def bulge(self, k: Reals) -> Reals:
         """Curvature of the pitch curve [1/mm], positive where it bulges from the body."""
         found = np.empty_like(k)
-        for half, rows, own in self._split(k):
+        for half, rows, own in self.split(k):
             found[rows] = half.bulge(own[rows])
         return found
 
@@ -267,7 +270,7 @@ class SliderCam:
         real = {name: np.empty_like(k) for name in ("cam_angle", "polar_angle", "pressure_angle", "curvature_radius")}
         pitch: Points = np.empty(k.shape, dtype=np.complex128)
         profile: Points = np.empty(k.shape, dtype=np.complex128)
-        for number, (half, rows, own) in enumerate(self._split(k)):
+        for number, (half, rows, own) in enumerate(self.split(k)):
             at = half.points(own[rows])
             side = -1.0 if number else 1.0
             pitch[rows] = at.pitch.conj() if number else at.pitch

@@ -126,7 +126,7 @@ class Unloading:
     def contact_force(self, cam: AnyCam, k: Reals, speed_ratio: float | Reals = 1.0) -> Reals:
         """Force of the roller on a cam, along their normal.
 
-        F = J gamma |c| ((1 + rho) - (n T0/(n0 T))^2)/(T0^2 r cos delta)
+        F = J gamma |c| ((1 + rho) - (n T0/(n0 T))^2)/(T0^2 r cos delta), with a slider +-(N/2) E_a in place of |c|
 
         Parameters
             cam : WideSwingCam or OscillatingCam
@@ -138,16 +138,19 @@ class Unloading:
         Notes
             Friction is left out. In run-up the device is stronger than the inertia and the cam holds the rocker back;
             in run-out the inertia is weaker than the device and the cam pushes. T0 is the time of the shorter of two
-            strokes, T that of the cam's own.
+            strokes, T that of the cam's own. With a slider the device changes sides at mid-swing, the roller where the
+            rocker is fastest: between the two the force is negative.
         """
         import numpy as np
+
+        from gearlink.core.wide_swing.outline import middle_of
 
         motion = self.motion
         speed_ratio = speed_ratio * (motion.device_angle / cam.cycle_angle)
         scale = 1e3 * motion.inertia * motion.swing / (motion.stroke_time**2 * cam.rocker_radius)
-        acceleration = np.abs(motion.torque(k))
+        torque = motion.torque(k) * np.where(k < middle_of(cam), 1.0, -1.0)
         excess = self.spec.unloader.reserve - (speed_ratio - 1.0) * (speed_ratio + 1.0)
-        force: Reals = scale * excess * acceleration / np.cos(cam.pressure_angle(k))
+        force: Reals = scale * excess * torque / np.cos(cam.pressure_angle(k))
         return force
 
     def dwell_force(self, cams: Iterable[AnyCam]) -> float:

@@ -92,15 +92,6 @@ def test_what_needs_the_whole_turn_says_so() -> None:
     assert 0.0 < run.raw("speed_fluctuation") < 0.1
 
 
-@pytest.mark.parametrize(
-    ("base", "key"), [("wide_swing_slider_cam", "slider"), ("wide_swing_oscillating_cam", "drive")]
-)
-def test_other_cams_are_refused(base: str, key: str) -> None:
-    with pytest.raises(GearlinkError, match=f"leave out {key}") as caught:
-        factory.design(base, command="loads", loads={"roller": {"width": 20}}).report("loads")
-    assert caught.value.key == key
-
-
 def test_residual_after_the_stroke_by_another_integral(swing: Any) -> None:
     """Simpson over 200001 rows in time; 1e-8 of the swing."""
     n = 200_001
