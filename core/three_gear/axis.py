@@ -1,13 +1,13 @@
 """The three-gear four-bar over arrays of designs: `core.design_axis` for its syntheses in closed form and its analysis.
 
-Whatever a study asks for beside that (an idler left out, a synthesis for a window, a play, rings, gears with teeth of
-their own, quantities of other commands) is left to the design classes.
+Whatever a study asks for beside that (a synthesis for a window, a play, rings, gears with teeth of their own,
+quantities of other commands) is left to the design classes.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -20,6 +20,8 @@ from gearlink.core.numerics.arrays import Reals
 from gearlink.core.spec_paths import number_at
 from gearlink.core.three_gear.axis_batch import LIMITS, SHAFTS, TEETH, Batch
 from gearlink.core.three_gear.general_axis import Analysis, Momentary
+from gearlink.core.three_gear.idler_choice import LEAST_IDLER
+from gearlink.core.three_gear.idler_many import Idlers, Tried, smallest_idlers
 from gearlink.core.three_gear.names import MESHES
 from gearlink.core.three_gear.symmetric_axis import BackSteps, Dwells, Speeds
 
@@ -82,7 +84,14 @@ def _served(spec: Any, command: str, paths: Sequence[str]) -> bool:
         return path in paths or number_at(spec, path) is not None
 
     others = given("gears.crank") and given("gears.output") and given("gears.module")
-    return set(paths) <= known and others and given("gears.idler") != given("gears.i3")
+    idler = given("gears.idler") != given("gears.i3") or (batch.chooses_idler and not _is_given_by_task(command, given))
+    return set(paths) <= known and others and idler
+
+
+def _is_given_by_task(command: str, given: Callable[[str], bool]) -> bool:
+    """Whether the task itself gives the idler: a back-step over a crank angle does."""
+    both = given("back_step.angle") and given("back_step.crank_angle")
+    return (command == "synth back-step" and both) or given("gears.i3")
 
 
 @dataclass(frozen=True)
@@ -112,8 +121,29 @@ class ThreeGearAxis:
         count = len(next(iter(columns.values())))
         return {**columns, "gears.idler": np.broadcast_to(idler, (count,))}
 
+    @cached_property
+    def _seeks_idler(self) -> bool:
+        return all(number_at(self.spec, path) is None for path in ("gears.idler", "gears.i3"))
+
     def evaluate(self, columns: Mapping[str, Reals]) -> Evaluated:
         """As `core.design_axis.Axis`."""
         inside, outside = kept_inside(self._with_idlers(columns), _DOMAIN)
         with np.errstate(all="ignore"):
-            return self.batch(inside).evaluated(outside)
+            if not self._seeks_idler or {"gears.idler", "gears.i3"} & columns.keys():
+                return self.batch(inside).evaluated(outside)
+            teeth, doubtful = self._idlers(inside)
+            none = np.isnan(teeth)
+            made = self.batch({**inside, "gears.idler": np.where(none, LEAST_IDLER, teeth)})
+            made.without_idler = none
+            return made.evaluated(outside | doubtful)
+
+    def _idlers(self, columns: Mapping[str, Reals]) -> Idlers:
+        """The smallest idlers that keep the limits."""
+        shafts = any(path in columns or number_at(self.spec, path) is not None for path in SHAFTS)
+
+        def trial(teeth: Reals, places: Any) -> Tried:
+            some = {path: values[places] for path, values in columns.items()}
+            return self.batch({**some, "gears.idler": teeth}).tried(shafts=shafts)
+
+        kind, count = _TASKS[self.command][1], len(next(iter(columns.values())))
+        return smallest_idlers(trial, count, rising=kind.idlers_rise, shafts=shafts)

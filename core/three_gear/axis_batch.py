@@ -19,13 +19,14 @@ from gearlink.core.spec_paths import number_at
 from gearlink.core.three_gear.band_many import Dwells, Valleys, longest_in_band
 from gearlink.core.three_gear.codes import ACHIEVED, BACK_STEP, DWELL_TOLERANCE
 from gearlink.core.three_gear.general_many import Drives
+from gearlink.core.three_gear.idler_many import Tried
 from gearlink.core.three_gear.motion import tip_radius
 
 TEETH = ("gears.crank", "gears.idler", "gears.output")
 LIMITS = ("limits.transmission_angle", "limits.gear_gap", "dwell_tolerance", "dwell_window")
 SHAFTS = ("shafts.input_radius", "shafts.output_radius")
 _POOR, _SAME_RATIO = 5.0, 1e-12
-_NEAR = 1e-9
+_NEAR, _POORLY_NEAR = 1e-9, 1e-5
 _JUDGED_HERE = {rule.code for rule in (GEAR_COLLISION, TRANSMISSION_ANGLE, BACK_STEP, DWELL_TOLERANCE, DWELL_WINDOW)}
 
 
@@ -43,6 +44,10 @@ class Batch:
     """Keys of the task."""
     given: tuple[str, ...] = ()
     """Links whose length the file gives: a gap of sums of such lengths is the class's to the last bit."""
+    chooses_idler = True
+    """Whether the task finds an idler that the file leaves out."""
+    idlers_rise = False
+    """Whether all idlers above one that keeps the limits keep them."""
 
     def __init__(
         self, spec: Any, command: str, wanted: Sequence[str], meshes: UnshiftedMeshes, columns: Mapping[str, Reals]
@@ -53,6 +58,7 @@ class Batch:
         self.z1, self.z3, self.z5 = (self.key(path) for path in TEETH)
         self.module = self.key("gears.module")
         self._at_limit = np.zeros(self.count, dtype=bool)
+        self.without_idler: Mask = np.zeros(self.count, dtype=bool)  # designs for which no idler keeps the limits
 
     def key(self, path: str) -> Reals:
         """A key's values; NaN where the base has none and it is not varied."""
@@ -111,16 +117,47 @@ class Batch:
         """Designs that the class shall compute."""
         raise NotImplementedError
 
+    @property
+    def links_are_doubtful(self) -> Mask:
+        """Those among them whose links or transmission angle hang by few digits."""
+        raise NotImplementedError
+
     def of_task(self) -> Iterator[Findings]:
         """Findings of the task's own checks."""
         yield from ()
 
     # What follows from it
 
+    @property
+    def wrong_with_every_idler(self) -> Mask:
+        """Designs whose refusal no idler could avoid."""
+        raise NotImplementedError
+
+    @cached_property
+    def refused(self) -> Any:
+        """`reason`, or the place after the last of `reasons` where no idler serves."""
+        if not self.without_idler.any():
+            return self.reason
+        own = (self.reason > 0) & self.wrong_with_every_idler
+        return np.where(self.without_idler & ~own, len(self.reasons) + 1, self.reason)
+
     @cached_property
     def exists(self) -> Mask:
         """Designs that have a mechanism."""
-        return np.asarray(self.reason == 0)
+        return np.asarray(self.refused == 0)
+
+    def tried(self, *, shafts: bool) -> Tried:
+        """What the choice of an idler asks for."""
+        mu, gap = np.degrees(self.mu), self.gap
+        angle, least = self.key("limits.transmission_angle"), self.key("limits.gear_gap")
+        good = self.exists & (mu >= angle) & (gap >= least)
+        within = np.where(self.links_are_doubtful, _POORLY_NEAR, _NEAR)
+        close = self.exists & (_near(mu, angle, within) | _near(gap, least, within))
+        clear = ~self.none
+        for each in self._shafts() if shafts else ():
+            clear &= ~each.fails
+            close |= good & (each.limit == 0.0) & _near(each.value, each.limit)  # else of an axis without a shaft
+        return Tried(good, clear, close)
 
     @cached_property
     def none(self) -> Mask:
@@ -325,7 +362,8 @@ class Batch:
             empty: Any = "" if value.dtype.kind == "U" else np.nan
             found[name] = np.where(gone, empty, value)
         findings = [_without(each, gone) for each in self.findings()]
-        return Evaluated(found, findings, self.reason, self.reasons, outside | self._unsure(findings))
+        reasons = (*self.reasons, "gears.idler")
+        return Evaluated(found, findings, self.refused, reasons, outside | self._unsure(findings))
 
     def _unsure(self, findings: Sequence[Findings]) -> Mask:
         """Designs next to a limit, or where a root hangs by few digits."""
@@ -338,10 +376,10 @@ class Batch:
         return np.asarray((unsure | self._at_limit | self.doubtful) & self.exists)
 
 
-def _near(value: Reals, limit: Reals) -> Mask:
+def _near(value: Reals, limit: Reals, within: Any = _NEAR) -> Mask:
     """Where rounding might change on which side of a limit a value lies."""
     scale = np.maximum(1.0, np.maximum(np.abs(value), np.abs(limit)))
-    return np.asarray(np.abs(value - limit) <= _NEAR * scale)
+    return np.asarray(np.abs(value - limit) <= within * scale)
 
 
 def _without(each: Findings, gone: Mask) -> Findings:

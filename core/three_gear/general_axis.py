@@ -63,11 +63,15 @@ class General(Batch):
         )
 
     @cached_property
+    def links_are_doubtful(self) -> Mask:
+        """Poor transmission, and links next to a change point."""
+        return np.asarray(many.turns(self.drives)[2] | (self.mu < 1e-3))
+
+    @cached_property
     def doubtful(self) -> Mask:
-        """Searches that did not come to rest, poor transmission, and links next to a change point."""
-        doubtful = np.asarray(many.turns(self.drives)[2] | (self.mu < 1e-3))
+        """Besides: searches that did not come to rest."""
         greatest, least = self._extremes if self._seeks_speeds else ((None, None, ~self.none),) * 2
-        return doubtful | ~(greatest[2] & least[2])
+        return self.links_are_doubtful | ~(greatest[2] & least[2])
 
 
 class Momentary(General):
@@ -76,6 +80,11 @@ class Momentary(General):
     keys = ("momentary.eccentricity",)
     given = ("crank",)
     reasons = ("momentary.eccentricity",)
+
+    @property
+    def wrong_with_every_idler(self) -> Mask:
+        """A crank not below the radius of gear 1."""
+        return np.asarray(self.key("momentary.eccentricity") >= self.radii[0])
 
     @cached_property
     def _found(self) -> Any:
@@ -114,6 +123,7 @@ class Analysis(General):
     keys = ("links.crank", "links.frame")
     given = ("crank", "frame")
     reasons = ("links",)
+    chooses_idler = False
 
     @cached_property
     def links(self) -> tuple[Reals, Reals]:

@@ -26,6 +26,8 @@ _SMALL, _STEEP = 1e-3, 1e-4
 class Symmetric(Batch):
     """Designs of the family I = 1; a task gives h = phi12/2."""
 
+    idlers_rise = True
+
     @property
     def possible(self) -> Mask:
         """Where equal gears meet the task."""
@@ -40,6 +42,11 @@ class Symmetric(Batch):
     def h(self) -> Reals:
         """Half of phi12 [rad]; NaN where the output has no standstill."""
         raise NotImplementedError
+
+    @property
+    def wrong_with_every_idler(self) -> Mask:
+        """Unequal gears."""
+        return np.asarray(self.z1 != self.z5)
 
     @cached_property
     def n(self) -> Reals:
@@ -110,6 +117,11 @@ class Symmetric(Batch):
     def doubtful(self) -> Mask:
         """Where the root for h hangs by few digits."""
         return np.asarray((self.h > 0.0) & ((self.h < _SMALL) | (self.h > 0.5 * math.pi - _STEEP)))
+
+    @property
+    def links_are_doubtful(self) -> Mask:
+        """The same: links and motion hang by h."""
+        return self.doubtful
 
 
 class Dwells(Symmetric):
@@ -206,6 +218,11 @@ class Speeds(Symmetric):
         """A band that does not reach below zero."""
         low, high = self.key("speed.min"), self.key("speed.max")
         return np.asarray((low >= 0.0) & (low < high))
+
+    @property
+    def wrong_with_every_idler(self) -> Mask:
+        """A wrong band too."""
+        return np.asarray((self.z1 != self.z5) | ~self.possible)
 
     @property
     def impossible(self) -> Any:

@@ -152,6 +152,63 @@ TASKS: dict[str, tuple[str, dict[str, Any], dict[str, Any]]] = {
     ),
 }
 
+NO_IDLER = {"module": 2, "crank": 40, "output": 40}
+EQUAL = {
+    "gears.crank": {"from": 8, "to": 80, "also": ["gears.output"]},
+    "gears.module": {"values": [0.5, 1, 2.5, 8]},
+    **LIMITS,
+}
+TASKS |= {
+    "dwell, idler sought": (
+        "synth dwell",
+        {"gears": NO_IDLER, "dwell": {"angle": 135}},
+        {**EQUAL, "dwell.angle": {"from": 10, "to": 320}},
+    ),
+    "dwell, idler sought, unequal": (
+        "synth dwell",
+        {"gears": NO_IDLER, "dwell": {"angle": 150}, "assembly": -1},
+        {**{key: UNEQUAL[key] for key in ("gears.crank", "gears.output")}, **LIMITS},
+    ),
+    "dwell, idler sought, shafts": (
+        "synth dwell",
+        {"gears": NO_IDLER, "dwell": {"angle": 135}, "shafts": {"input_radius": 10}},
+        {**EQUAL, "dwell.angle": {"from": 60, "to": 200}, "shafts.input_radius": {"from": 1, "to": 150}},
+    ),
+    "back-step, idler sought": (
+        "synth back-step",
+        {"gears": NO_IDLER, "back_step": {"angle": 20}},
+        {**EQUAL, "back_step.angle": {"from": 0.1, "to": 300}},
+    ),
+    "back-step, crank angle, idler sought": (
+        "synth back-step",
+        {"gears": NO_IDLER, "back_step": {"crank_angle": 20}},
+        {**EQUAL, "back_step.crank_angle": {"from": 0, "to": 179.5}},
+    ),
+    "speed, idler sought": (
+        "synth variable-speed",
+        {"gears": NO_IDLER, "speed": {"min": 0, "max": 200}},
+        {**EQUAL, "speed.min": {"from": -20, "to": 220}},
+    ),
+    "momentary, idler sought": (
+        "synth momentary-dwell",
+        {"gears": NO_IDLER, "momentary": {"eccentricity": 20}},
+        {
+            **{key: ANY[key] for key in ("gears.crank", "gears.output")},
+            **LIMITS,
+            "momentary.eccentricity": {"from": 2, "to": 50},
+        },
+    ),
+    "momentary, idler sought, shafts": (
+        "synth momentary-dwell",
+        {"gears": NO_IDLER, "momentary": {"eccentricity": 20}, "shafts": {"input_radius": 9, "output_radius": 30}},
+        {
+            "gears.crank": {"from": 30, "to": 60},
+            "momentary.eccentricity": {"from": 5, "to": 40},
+            "shafts.output_radius": {"from": 5, "to": 120},
+        },
+    ),
+}
+
 
 def study(name: str, count: int) -> Problem:
     command, section, variables = TASKS[name]
