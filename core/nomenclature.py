@@ -234,7 +234,11 @@ _TOLERANCE = {
 }
 
 _REGISTER = {
-    "worst": Term("", "mm", "register error where all sources add up, for torque sign +1 and -1"),
+    "worst": Term(
+        "",
+        "mm",
+        "register error where all sources add up, each at its greater limit, for torque sign +1 and -1",
+    ),
     "rss": Term("", "mm", "standard deviation of the register error, for torque sign +1 and -1"),
     "band": Term("", "mm", "register error to either side that 99.73 % keep, for torque sign +1 and -1"),
     "dead_band": Term("", "mm", "how far the output jumps where its torque turns: backlash of the meshes"),

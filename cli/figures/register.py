@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.figures import panels, style, time_axes
-from gearlink.core.tolerance.budget import counted
+from gearlink.core.tolerance.budget import at_worst
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -68,7 +68,7 @@ def _along(axes: Axes, design: RegisterDesign) -> None:
     style.curves(axes, "input angle [deg]", "error [mm]")
     panels.small_ticks(axes)
     both = [design.contributions(design.input_angles, sign) for sign in (1, -1)][: len(_signs(design))]
-    costs = [{one.source: one.limit * np.abs(counted(one, 0)) for one in found} for found in both]
+    costs = [{one.source: one.limit * at_worst(one, 0) for one in found} for found in both]
     order = sorted(costs[0], key=lambda name: -max(float(cost[name].max()) for cost in costs))
     for name, color in zip(order, _COLORS, strict=False):
         for cost, line in zip(costs, _LINES, strict=False):

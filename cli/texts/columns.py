@@ -54,7 +54,7 @@ COLUMNS = {
     "feed_velocity": "velocity of the web, chain or belt that the output drives",
     "findings": "checks that do not pass, or why there is no such mechanism",
     "first": "share of the variance that the source has alone",
-    "gain": "what a unit of the source makes at the print",
+    "gain": "what a unit of the source makes at the print at worst; of a cam's profile at both ends of the stretch",
     "gap": "distance of the gripper's tip from the pitch circle",
     "gear_1": "value of gear 1",
     "gear_2": "value of gear 2",

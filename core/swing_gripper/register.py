@@ -13,6 +13,7 @@ from gearlink.core.linkages.loop_gains import LoopGains, closed_pin, loop_gains
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.results import cached_property
 from gearlink.core.swing_gripper.design import SwingGripper
+from gearlink.core.swing_gripper.register_contact import ROLLER, RollerContact, roller_contact
 from gearlink.core.tolerance.budget import Contribution
 from gearlink.core.tolerance.register_design import RegisterDesign, contribution, no_such_place
 from gearlink.core.tolerance.sources import Parts, Scatter
@@ -23,12 +24,15 @@ if TYPE_CHECKING:
 
 _LINKS = {"links.input": "crank", "links.coupler": "coupler", "links.output": "rocker"}
 _PINS = ("A", "C", "D", "E")
-_PIVOTS = {
+_VECTORS = {
     "pivots.input[0]": ("A", 1.0),
     "pivots.input[1]": ("A", 1j),
     "pivots.output[0]": ("E", 1.0),
     "pivots.output[1]": ("E", 1j),
+    "cam.center[0]": ("center", 1.0),
+    "cam.center[1]": ("center", 1j),
 }
+_ROLLING = {"pins.A", "bearings.A", *ROLLER, *(key for key, (part, _) in _VECTORS.items() if part != "E")}
 
 
 class GripperRegister(RegisterDesign):
@@ -58,11 +62,28 @@ class GripperRegister(RegisterDesign):
     def contributions(self, input_angle: Reals, _torque_sign: int) -> list[Contribution]:
         """Every source of the file, and the cam's own error."""
         motion = self.design.linkage.motion(np.degrees(input_angle), 0)
-        gains = self._loop(motion)
-        found = [contribution(source, self._gain(source, gains, motion)) for source in self.sources]
-        if self.section.cam_error is not None:
-            found.append(self._cam(motion, input_angle))
+        gains, contact = self._loop(motion), self._contact(motion, input_angle)
+        found = [contribution(source, self._gain(source, gains, motion, contact)) for source in self.sources]
+        if (error := self.section.cam_error) is not None:
+            profile = self._per_turn(motion) * roller_contact(self.design.cams, motion, input_angle).radius
+            found.append(Contribution("cam profile", np.abs(profile), error, error / 3.0, relative=False))
         return found
+
+    def _contact(self, motion: GripperMotion, input_angle: Reals) -> RollerContact | None:
+        """The main roller on its cam; None where no source moves one of them, or the file has no cam.
+
+        Notes
+            Without a cam the rocker turns as the law says, wherever its pivot stands.
+        """
+        moved = any(one.key in _ROLLING for one in self.sources)
+        return roller_contact(self.design.cams, motion, input_angle) if moved and self.spec.cam is not None else None
+
+    def _per_turn(self, motion: GripperMotion) -> Reals:
+        """Way of the tip per turn of the cam rocker [mm/rad]."""
+        links = self.spec.links
+        mu_c, mu_d = motion.input_angle - motion.coupler_angle, motion.output_angle - motion.coupler_angle
+        way: Reals = self.spec.arm.length * links.input * np.sin(mu_c) / (links.output * np.sin(mu_d))
+        return way
 
     def _loop(self, motion: GripperMotion) -> LoopGains:
         """Turn of the gripper per error of its loop; directions from +x, as the file's pivots are."""
@@ -73,21 +94,37 @@ class GripperRegister(RegisterDesign):
         lead = math.radians(self.spec.arm.direction - self.spec.output_direction)
         return 1j * np.exp(1j * (motion.output_angle + lead))
 
-    def _gain(self, source: Scatter, gains: LoopGains, motion: GripperMotion) -> Any:
+    def _gain(self, source: Scatter, gains: LoopGains, motion: GripperMotion, contact: RollerContact | None) -> Any:
         """Gain of a source: the gripper turns, and the axis E takes the tip along."""
         arm, name = self.spec.arm.length, source.key.partition(".")[2]
-        at_e = np.conj(self._along(motion)) - arm * gains.pin
+        vectors = self._vectors(gains, motion, contact)
         if source.kind == "pin":
-            return at_e if name == "E" else arm * gains.pin
+            return vectors[name]
         if source.key in _LINKS:
             return arm * getattr(gains, _LINKS[source.key])
-        if source.key in _PIVOTS:
-            pivot, way = _PIVOTS[source.key]
-            return ((at_e if pivot == "E" else arm * gains.pin) * way).real
+        if source.key in _VECTORS:
+            part, way = _VECTORS[source.key]
+            return (vectors[part] * way).real
+        if source.key in ROLLER and contact is not None:
+            turns: dict[str, Any] = {"arm": contact.length, "radius": contact.radius, "angle": -math.radians(1.0)}
+            return self._per_turn(motion) * turns[ROLLER[source.key]]
         if source.key == "arm.direction":
             return np.full(np.shape(motion.output_angle), math.radians(arm))
         message = f"{source.key} does not move the tip along the cylinder: leave it out of a register"
         raise NoSolution(message, key="tolerance.sources")
+
+    def _vectors(self, gains: LoopGains, motion: GripperMotion, contact: RollerContact | None) -> dict[str, Any]:
+        """Gains of what has a direction, by pin, and of the cam's axis.
+
+        Notes
+            A rocker whose pivot A is moved turns as well, since its roller stays on the cam.
+        """
+        loop = self.spec.arm.length * gains.pin
+        found = dict.fromkeys(_PINS, loop) | {"E": np.conj(self._along(motion)) - loop}
+        if contact is not None:
+            rolled = self._per_turn(motion) * contact.pivot
+            found |= {"A": loop + rolled, "center": -rolled}
+        return found
 
     # Samples of the exact chain
 
@@ -95,11 +132,13 @@ class GripperRegister(RegisterDesign):
         """Errors of the tip along the cylinder, the loop closed anew."""
         links, off = self.spec.links, self._by_part(parts)
         motion = self.design.linkage.motion(np.degrees(input_angle), 0)
+        contact = self._contact(motion, input_angle)
         first, last = motion.input_angle[:, None], motion.output_angle[:, None]
         a, e = (complex(*pivot) for pivot in (self.spec.pivots.input, self.spec.pivots.output))
         pin, joint = a + links.input * np.exp(1j * first), e + links.output * np.exp(1j * last)
         side = int(np.sign(((joint - pin) / (e - pin)).imag[0, 0]))
-        start = pin + off["links.input"] * np.exp(1j * first) + off["A"] + off["C"] + off["D"]
+        rocker = (links.input + off["links.input"]) * np.exp(1j * (first + (contact.turned(off) if contact else 0.0)))
+        start = a + off["A"] + rocker + off["C"] + off["D"]
         coupler, output = links.coupler + off["links.coupler"], links.output + off["links.output"]
         moved = closed_pin(start, e + off["E"], coupler, output, side) - e - off["E"]
         turned = np.angle(moved * np.exp(-1j * last)) + np.radians(off["arm.direction"])
@@ -108,24 +147,13 @@ class GripperRegister(RegisterDesign):
         return error
 
     def _by_part(self, parts: Mapping[str, Any]) -> dict[str, Any]:
-        """Errors by link, and by pin as vectors, those of its pivot added."""
-        off: dict[str, Any] = dict.fromkeys((*_LINKS, *_PINS, "arm.direction"), 0.0)
+        """Errors by link and roller, and by pin as vectors, those of its pivot added."""
+        off: dict[str, Any] = dict.fromkeys((*_LINKS, *_PINS, *ROLLER.values(), "center", "arm.direction"), 0.0)
         for source in self.sources:
-            name, error = source.key, parts[source.key]
+            name, error = ROLLER.get(source.key, source.key), parts[source.key]
             if source.kind == "pin":
                 name = source.key.partition(".")[2]
-            elif source.key in _PIVOTS:
-                name, error = _PIVOTS[source.key][0], error * _PIVOTS[source.key][1]
+            elif source.key in _VECTORS:
+                name, error = _VECTORS[source.key][0], error * _VECTORS[source.key][1]
             off[name] = off[name] + error
         return off
-
-    def _cam(self, motion: GripperMotion, input_angle: Reals) -> Contribution:
-        """Profile error of the main cam: it turns the cam rocker, and that the gripper."""
-        cams, error = self.design.cams, self.section.cam_error
-        assert error is not None
-        lean = cams.main_cam.pressure_angle(input_angle)
-        roller = cams.section.roller.arm
-        mu_c, mu_d = motion.input_angle - motion.coupler_angle, motion.output_angle - motion.coupler_angle
-        ratio = self.spec.links.input * np.sin(mu_c) / (self.spec.links.output * np.sin(mu_d))
-        gain = self.spec.arm.length * ratio / (roller * np.cos(lean))
-        return Contribution("cam profile", gain, error, error / 3.0, relative=False)

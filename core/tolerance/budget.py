@@ -82,7 +82,8 @@ def budget(
         correlations : by pairs of sources, both ways round - of real gains; a row's share is its covariance with the
             whole, and may be negative
     Notes
-        The gain's difference is taken before its magnitude: both ends of a stretch have the same cause.
+        The gain's difference is taken before its magnitude: both ends of a stretch have the same cause. The error of a
+        cam's profile has another one at each: there both count, at worst as a sum, at random as a root of squares.
     Example
         >>> frame = Contribution("frame", np.array([1.0, -2.0]), 0.01, 0.003)
         >>> found = budget([frame, Contribution("pin", np.array([1j, 1.0]), 0.02, 0.01)], None)
@@ -95,8 +96,9 @@ def budget(
     gains = [counted(one, start) for one in contributions]
     limits = np.array([one.limit for one in contributions])
     sigmas = np.array([one.sigma for one in contributions])
-    magnitudes = np.abs(np.array(gains))
-    worst, squares = limits @ magnitudes, (sigmas[:, None] * magnitudes) ** 2
+    spreads = np.abs(np.array(gains))
+    magnitudes = np.array([at_worst(one, start) for one in contributions])
+    worst, squares = limits @ magnitudes, (sigmas[:, None] * spreads) ** 2
     names = [one.source for one in contributions]
     for (one, other), rho in (correlations or {}).items():
         if one in names and other in names:
@@ -113,11 +115,11 @@ def budget(
             float(magnitude[at]),
             one.limit,
             float(magnitude[at] * one.limit),
-            float(magnitude[at] * one.sigma),
+            float(spread[at] * one.sigma),
             float(square[at]) / whole if whole > 0.0 else 0.0,
             float(mean[at]) + 0.0,  # no -0
         )
-        for one, magnitude, square, mean in zip(contributions, magnitudes, squares, means, strict=True)
+        for one, magnitude, spread, square, mean in zip(contributions, magnitudes, spreads, squares, means, strict=True)
     )
     return Budget(worst, rss, means.sum(axis=0), band, at, rows)
 
@@ -156,7 +158,21 @@ def normal_band(mean: Reals, sigma: Reals) -> Reals:
 
 
 def counted(one: Contribution, start: int | None) -> NDArray[Any]:
-    """The gain that counts over a stretch: relative to its start, where the cause is the same there."""
+    """The gain that counts at random over a stretch, relative to its start.
+
+    g - g0 where the cause is the same at both, else sqrt(g^2 + g0^2)
+    """
     if start is None:
         return one.gain
-    return one.gain - one.gain[start] if one.relative else one.gain * math.sqrt(2.0)
+    both: NDArray[Any] = one.gain - one.gain[start] if one.relative else np.hypot(one.gain, one.gain[start])
+    return both
+
+
+def at_worst(one: Contribution, start: int | None) -> Reals:
+    """The magnitude that counts at worst over a stretch, relative to its start.
+
+    |g - g0| where the cause is the same at both, else |g| + |g0|
+    """
+    alike = start is None or one.relative
+    found: Reals = np.abs(counted(one, start)) if alike else np.abs(one.gain) + abs(one.gain[start])
+    return found

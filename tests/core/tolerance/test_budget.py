@@ -41,6 +41,16 @@ def test_a_band_does_not_depend_on_sign_or_unit() -> None:
     assert normal_band(1e-6 * mean, 1e-6 * sigma) == pytest.approx(1e-6 * found, rel=1e-14)
 
 
+def test_an_uneven_profile_counts_at_both_ends() -> None:
+    """At worst it is high here and low at the start; at random the two are independent."""
+    one = Contribution("profile", np.array([1.0, 2.0]), 0.03, 0.01, relative=False)
+    found = budget([one], 0)
+    assert found.worst[1] == pytest.approx(0.03 * 3.0, rel=1e-15)
+    assert found.rss[1] == pytest.approx(0.01 * math.sqrt(5.0), rel=1e-15)
+    assert (found.rows[0].gain, found.rows[0].worst) == (3.0, pytest.approx(0.09))
+    assert budget([one], None).worst.tolist() == pytest.approx([0.03, 0.06])
+
+
 def test_a_mean_is_relative_to_the_start_as_gains_are() -> None:
     one = Contribution("long", np.array([1.0, 3.0]), 0.02, 0.0, mean=0.01)
     found = budget([one], 0)
