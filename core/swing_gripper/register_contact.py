@@ -63,7 +63,7 @@ class RollerContact:
     @property
     def pivot(self) -> Points:
         """Turn per mm of an error vector v of the pivot A, Re(v pivot) [rad/mm]; of the cam's axis the opposite."""
-        turn: Points = -np.conj(self.normal) * self.radius
+        turn: Points = -self.normal.conj() * self.radius
         return turn
 
     def turned(self, off: Mapping[str, Any]) -> Any:
