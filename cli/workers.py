@@ -7,14 +7,21 @@ import signal
 import sys
 import threading
 import time
-from collections.abc import Iterator
-from concurrent.futures import Executor, ProcessPoolExecutor
+from collections.abc import Callable, Iterator
+from concurrent.futures import Executor, Future, ProcessPoolExecutor
 from contextlib import contextmanager
 from multiprocessing import active_children, get_context, parent_process
+from multiprocessing.connection import Connection, wait
+from multiprocessing.process import BaseProcess
+from typing import Any, ParamSpec, TypeVar
 
 from gearlink.cli.files import leave_nothing_behind
 
 _GRACE_SECONDS = 1.0
+# Forked processes are all there from the first call on; others are started as they are needed, and looked for.
+_SPAWNED_SECONDS = None if sys.platform == "linux" else 1.0
+P = ParamSpec("P")
+T = TypeVar("T")
 
 
 @contextmanager
@@ -25,7 +32,7 @@ def workers(count: int) -> Iterator[Executor]:
         A forked process has every module loaded already; other systems than Linux start theirs anew.
     """
     context = get_context("fork" if sys.platform == "linux" else None)
-    pool = ProcessPoolExecutor(count, mp_context=context, initializer=_begin)
+    pool = _Workers(count, mp_context=context, initializer=_begin)
     results = pool._result_queue
     try:
         yield pool
@@ -40,6 +47,47 @@ def workers(count: int) -> Iterator[Executor]:
         raise
     finally:
         pool.shutdown()
+
+
+class _Workers(ProcessPoolExecutor):
+    """Processes of which the first to die breaks the executor, also one that was writing its result."""
+
+    _watched = False
+
+    def submit(self, fn: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> Future[T]:
+        """Schedule a call, as any executor does; the first starts the processes, which are watched from then on."""
+        future = super().submit(fn, *args, **kwargs)
+        if not self._watched:
+            self._watched = True
+            results: Any = self._result_queue
+            watched = (self._processes, results._writer)
+            threading.Thread(target=_end_with_first_dead, args=watched, daemon=True).start()
+        return future
+
+
+def _end_with_first_dead(processes: dict[int, BaseProcess], writer: Connection) -> None:
+    """End all processes as soon as one has died, and the pipe of their results with them.
+
+    The thread of the executor that reads results learns of a death where it waits for the next result. In the middle of
+    one it would wait for ever for the rest, which nobody writes, unless nobody can write any more.
+    """
+    ended: set[BaseProcess] = set()
+    while left := set(processes.values()) - ended:
+        gone = wait([process.sentinel for process in left], _SPAWNED_SECONDS)
+        now = {process for process in left if process.sentinel in gone}
+        if any(_status(process) for process in now):
+            for process in left:
+                process.terminate()
+            writer.close()
+            return
+        ended |= now
+
+
+def _status(process: BaseProcess) -> int:
+    """Exit status of a process that has ended; another thread that asks at the same moment may hear of it first."""
+    while process.exitcode is None:
+        time.sleep(0.01)
+    return process.exitcode
 
 
 def _begin() -> None:

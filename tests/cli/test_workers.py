@@ -119,6 +119,49 @@ def test_half_a_result_is_not_waited_for(tmp_path: Path) -> None:
     assert (ended.returncode, ended.stderr) == (1, b"left\n")
 
 
+# Two workers are at work at once: the first result keeps the reading thread busy, the second is killed in the middle of
+# its own. Other calls wait.
+KILLED = """
+import os, signal, sys, threading, time
+from concurrent.futures import BrokenExecutor
+from pathlib import Path
+from gearlink.cli.workers import workers
+
+class Late:
+    def __reduce__(self):
+        return wait, ()
+
+def wait():
+    reads_on.wait(30.0)
+
+def late():
+    time.sleep(0.1)
+    return Late()
+
+def large():
+    time.sleep(0.3)
+    begun.write_text(str(os.getpid()))
+    return bytes(1 << 20)
+
+begun, reads_on = Path(sys.argv[1]), threading.Event()
+with workers(2) as pool:
+    given = [pool.submit(call) for call in (late, large, *(4 * [late]))]
+    while not (begun.exists() and begun.read_text()):
+        time.sleep(0.01)
+    time.sleep(0.1)
+    os.kill(int(begun.read_text()), signal.SIGKILL)
+    threading.Timer(0.1, reads_on.set).start()
+    print(*(isinstance(given[i].exception(), BrokenExecutor) for i in (0, 1, -1)))
+"""
+
+
+def test_one_that_is_killed_while_it_writes_its_result_breaks_the_executor(tmp_path: Path) -> None:
+    """The result before it was whole; its own and what had not begun are lost, and nothing waits for them."""
+    command = [sys.executable, "-c", KILLED, str(tmp_path / "begun")]
+    ended = subprocess.run(command, capture_output=True, timeout=60, check=False)
+    assert (ended.returncode, ended.stdout, ended.stderr) == (0, b"False True True\n", b"")
+
+
 def test_they_do_not_answer_an_interrupt() -> None:
     with workers(1) as pool:
         process = pool.submit(os.getpid).result()
