@@ -7,6 +7,7 @@ a designer compares; `table` computes each as a design of its own. A mechanism t
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from copy import copy
 from dataclasses import dataclass, field
 from itertools import product
 from typing import TYPE_CHECKING, Any
@@ -67,7 +68,8 @@ def _row(design: Design, sought: Sought, values: tuple[Any, ...], own: Any) -> d
     if spec is None:
         return row | {"findings": "refused"}
     try:
-        trial = type(design)(spec)
+        # The file's own row is what has been found already: a search is not made twice.
+        trial = copy(design) if own is design.spec and spec == own else type(design)(spec)
         trial.advises = False
         counts = {name: count(trial) for name, count in sought.counted.items()}
         quantities = {name: _number(trial, name) for name in sought.quantities}

@@ -276,6 +276,16 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, FiveBarParts):
         return rounds[-1].starts if rounds else None
 
     @property
+    def searches(self) -> bool:
+        """Whether the file asks for such a search, which is not begun to tell so."""
+        target = self.spec.target
+        if target is None:
+            return False
+        if self.is_path:
+            return target.points is not None and target.input_angles is not None
+        return target.function is not None and target.function.links != "given"
+
+    @property
     def search_rounds(self) -> tuple[Round, ...]:
         """The rounds of that search."""
         found = self.timed_fit if self.is_path else self.function_fit
@@ -295,11 +305,11 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, FiveBarParts):
         """The tables of this form."""
         if not self.is_path:
             judged = ("structural_error",) if self.wanted is not None else ()
-            return ("function", *judged, *(("search",) if self.search_rounds else ()))
+            return ("function", *judged, *(("search",) if self.searches else ()))
         return (
             "path",
             *(("deviations",) if self.fit is not None else ()),
-            *(("search",) if self.search_rounds else ()),
+            *(("search",) if self.searches else ()),
         )
 
     def outline(self, command: str) -> Outline:

@@ -196,7 +196,7 @@ def _levelled(bar: FunctionFiveBar, start: float, wanted: Wanted, least: float) 
     miss, mu = _state(bar, x, swing, target)
     trust, worst = 0.05, _worst(miss, mu, limit)
     for _ in range(_LEVEL_STEPS):
-        step = _program(bar, x, swing, target, miss, mu, limit, trust)
+        step = _program(bar, x, swing, miss, mu, limit, trust)
         if step is None:
             break
         new = x + step
@@ -237,33 +237,59 @@ def _worst(miss: Reals, mu: Reals, limit: float) -> float:
     return float(np.abs(miss).max() + 10.0 * max(0.0, float(np.abs(mu).max()) - limit))
 
 
+def _level_slopes(bar: FunctionFiveBar, start: float, swing: Reals) -> tuple[Reals, Reals]:
+    """Derivatives of the output angle and of cos mu by ln b, ln c, ln e, ln d, t20 and phi0, at the places.
+
+    |g| = c,  g = a e^(i phi) + b e^(i t2) - d - e e^(i psi):   dpsi = (Re(g* dg) - c dc)/Re(g* i e e^(i psi))
+
+    Source
+        own derivation
+    """
+    phi = start + swing
+    c, e, d = bar.follower, bar.output, bar.frame
+    crank = bar.input * np.exp(1j * phi)
+    planet = bar.coupler * np.exp(1j * (bar.phase + bar.coupler_ratio * phi))
+    hand = e * np.exp(1j * outputs(bar, phi))
+    far = d - crank - planet
+    mu = (c * c + e * e - np.abs(far) ** 2) / (2.0 * c * e)
+    nothing = np.zeros(phi.size, dtype=complex)
+    moves = np.stack(
+        (planet, nothing, -hand, nothing - d, 1j * planet, 1j * (crank + bar.coupler_ratio * planet)), axis=1
+    )
+    along = np.conj(-far - hand)
+    pulled = (along[:, None] * moves).real
+    pulled[:, 1] -= c * c
+    apart = (np.conj(far)[:, None] * moves).real / (c * e)
+    apart[:, 1], apart[:, 2] = c / e - mu, e / c - mu
+    return pulled / (along * 1j * hand).real[:, None], apart
+
+
 def _program(
-    bar: FunctionFiveBar, x: Reals, swing: Reals, target: Reals, miss: Reals, mu: Reals, limit: float, trust: float
+    bar: FunctionFiveBar, x: Reals, swing: Reals, miss: Reals, mu: Reals, limit: float, trust: float
 ) -> Reals | None:
     """Step of the unknowns that makes the greatest error least, as far as its slopes tell."""
     from scipy.optimize import linprog
 
-    h = 1e-6
-    slopes, turns = np.empty((miss.size, 7)), np.empty((miss.size, 6))
-    for i in range(6):
-        ahead, behind = (_state(bar, x + side * h * np.eye(6)[i], swing, target) for side in (1.0, -1.0))
-        slopes[:, i], turns[:, i] = ((one - other) / (2.0 * h) for one, other in zip(ahead, behind, strict=True))
-    slopes[:, 6] = -1.0  # psi0
-    if not (np.all(np.isfinite(slopes)) and np.all(np.isfinite(turns))):
+    outward, turns = _level_slopes(_made(bar, x), float(x[5]), swing)
+    if not (np.all(np.isfinite(outward)) and np.all(np.isfinite(turns))):
         return None
-    ones, none = np.ones((miss.size, 1)), np.zeros((miss.size, 2))
-    rows = [np.hstack((side * slopes, -ones)) for side in (1.0, -1.0)]
-    edges = [-miss, miss]
+    ones = np.ones((miss.size, 1))
+    size = float(np.abs(miss).max())  # psi0 and the error in this: the programs' tolerance is that of numbers about 1
+    rows = [np.hstack((side / size * outward, -side * ones, -ones)) for side in (1.0, -1.0)]
+    edges = [-miss / size, miss / size]
     over = max(limit, float(np.abs(mu).max()) - 0.1 * trust)
+    reach = trust * np.abs(turns).sum(axis=1)
     for side in (1.0, -1.0):
-        rows.append(np.hstack((side * turns, none)))
-        edges.append(over - side * mu)
+        near: Mask = side * mu + reach > over  # the others cannot be reached within the trust
+        rows.append(np.hstack((side * turns[near], np.zeros((int(near.sum()), 2)))))
+        edges.append((over - side * mu)[near])
     free = (None, None)
     found = linprog(
         [0.0] * 7 + [1.0],
         A_ub=np.vstack(rows),
         b_ub=np.concatenate(edges),
         bounds=[(-trust, trust)] * 6 + [free, (0.0, None)],
-        method="highs",
+        method="highs-ds",
+        options={"presolve": False},  # takes longer than it saves
     )
     return None if found.x is None else np.asarray(found.x[:6])

@@ -11,6 +11,8 @@ from factory import design, worked
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.five_bar import candidates as five_bar_candidates
+from gearlink.core.five_bar import function_fit
+from gearlink.core.five_bar.wanted import StructuralError
 
 CASES = [
     (
@@ -72,6 +74,26 @@ def test_searches_of_a_five_bar(monkeypatch: pytest.MonkeyPatch) -> None:
     found = rows_of("five_bar_points")
     assert [row["assembly"] for row in found] == [1, -1]
     assert found[0]["path_deviation_rms"] == design("five_bar_points").path_deviation_rms
+
+
+def test_what_was_found_is_not_searched_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The row of the file's own gears is the design itself; its names of tables begin no search either."""
+    made = design("five_bar_function")
+    searched: list[float] = []
+
+    def search(first: Any, *_: Any) -> Any:
+        searched.append(first.coupler_ratio)
+        raise NoSolution("nothing is looked for here")
+
+    monkeypatch.setattr(function_fit, "fit_function", search)
+    assert "search" in made.table_names_shown()
+    assert searched == []
+    error = StructuralError(1e-3, 0.0, (0.0, 1.0), (1e-3, -1e-3))
+    made.__dict__["function_fit"] = function_fit.FunctionFit(made.start_function, 0.5, error, ())  # as if it was found
+    table = made.table("candidates")
+    assert len(searched) == table.length - 1 == 2
+    assert table["structural_error"][0] == pytest.approx(math.degrees(1e-3))
+    assert table["findings"][1] == "GL112 target.function"
 
 
 def test_a_mechanism_that_does_not_exist_says_why() -> None:

@@ -19,6 +19,7 @@ from factory import changed, design, worked
 from pydantic import ValidationError
 
 from gearlink.core.errors import NoSolution
+from gearlink.core.five_bar import function_fit
 from gearlink.core.five_bar.function_motion import FunctionFiveBar
 from gearlink.core.five_bar.path import points
 from gearlink.core.five_bar.path_motion import PathFiveBar
@@ -93,6 +94,21 @@ def test_error_table_is_the_difference(best: Any) -> None:
     swing = table["wanted_angle"] - table["wanted_angle"][0]
     x = 1.0 + np.linspace(0.0, 1.0, 41)
     np.testing.assert_allclose(swing, 90.0 * np.log2(x), atol=1e-11)
+
+
+def test_slopes_of_levelling_are_those_of_differences() -> None:
+    """By central differences of 1e-6, which are off by some 1e-9 (1e-16/1e-6 of rounding, 1e-12 of bend)."""
+    swing, start = LOG.input_swing * np.linspace(0.0, 1.0, 31), 1.343624
+    links = [math.log(length) for length in (GIVEN.coupler, GIVEN.follower, GIVEN.output, GIVEN.frame)]
+    x, step = np.array([*links, GIVEN.phase, start]), 1e-6
+    angles, cosines = function_fit._level_slopes(GIVEN, start, swing)
+    for i in range(6):
+        ahead, behind = (
+            function_fit._state(GIVEN, x + side * step * np.eye(6)[i], swing, 0.0 * swing) for side in (1.0, -1.0)
+        )
+        by_angle, by_cosine = ((one - other) / (2.0 * step) for one, other in zip(ahead, behind, strict=True))
+        assert np.ptp(angles[:, i] - by_angle) < 2e-8  # misses count about their middle
+        assert np.abs(cosines[:, i] - by_cosine).max() < 2e-8
 
 
 @pytest.mark.parametrize(
