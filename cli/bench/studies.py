@@ -41,6 +41,17 @@ _OTHERS: dict[str, dict[str, Any]] = {
         "minimize": {"specific_sliding[0]": 0.05},
         "maximize": {"contact_ratio": 0.02, "tip_thickness[0]": 0.1},
     },
+    "pinions in rings": {
+        "design": {"kind": "gear-pair", "module": 2.5, "teeth": [26, -67], "profile_shift": [0.3, -0.3]},
+        "variables": {
+            "teeth[0]": {"from": 20, "to": 40},
+            "teeth[1]": {"from": -90, "to": -60},
+            "profile_shift[0]": {"from": -0.2, "to": 0.6, "step": 0.05},
+            "profile_shift[1]": {"from": -0.6, "to": 0.2, "step": 0.05},
+        },
+        "minimize": {"specific_sliding[0]": 0.05},
+        "maximize": {"contact_ratio": 0.02, "tip_fouling_margin": 0.1},
+    },
     "slider-cranks, sizes": {
         "design": {"kind": "slider-crank", "stroke": 300, "rod": 500, "limits": {"transmission_angle": 40}},
         "variables": {
@@ -59,9 +70,9 @@ _FEW = 50
 def family(quick: bool) -> Family:
     """The table of the family; the error is the greatest difference of any quantity from the design class's."""
     methods = []
-    studies = {command: _study(command) for command in _TASKS} | {
-        name: _problem({**given, "command": "analyze"}) for name, given in _OTHERS.items()
-    }
+    studies = {command: _study(command) for command in _TASKS}
+    studies["synth dwell, idler sought"] = _study("synth dwell", idler=False)
+    studies |= {name: _problem({**given, "command": "analyze"}) for name, given in _OTHERS.items()}
     for command, made in studies.items():
         size = CHUNK // (4 if quick else 1)
         columns = made.order.columns(np.arange(size) * (made.order.count // size))
@@ -82,13 +93,14 @@ def family(quick: bool) -> Family:
     )
 
 
-def _study(command: str) -> Problem:
+def _study(command: str, *, idler: bool = True) -> Problem:
     section, variable = _TASKS[command]
-    gears = {"module": 2, "crank": 40, "idler": 72, "output": 40}
+    gears = {"module": 2, "crank": 40, "output": 40, **({"idler": 72} if idler else {})}
+    variables = {path: values for path, values in _GEARS.items() if idler or path != "gears.idler"}
     data = {
         "design": {"kind": "three-gear-four-bar", "gears": gears, **section},
         "command": command,
-        "variables": {**_GEARS, **variable},
+        "variables": {**variables, **variable},
         "minimize": {"frame_length": 10, "speed_ratio_max": 0.1},
         "maximize": {"min_transmission_angle": 2},
     }

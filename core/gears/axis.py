@@ -1,6 +1,6 @@
-"""External gear pairs over arrays of designs: spur and helical ones that the tool of their profile cuts.
+"""Gear pairs over arrays of designs: spur and helical ones that the tool of their profile cuts, rings among them.
 
-What asks for more (rings, racks, tools, allowances, loads, shares of the shift by a criterion) is left to the class.
+What asks for more (racks, tools, cutters, allowances, loads, shares of the shift by a criterion) is left to the class.
 """
 
 from __future__ import annotations
@@ -21,16 +21,20 @@ from gearlink.core.gears.codes import (
     PITTING,
     ROOT_CLEARANCE,
     SLIDING,
+    TIP_FOULING,
     TIP_THICKNESS,
     TOOTH_FORM,
     UNDERCUT,
 )
+from gearlink.core.gears.data import MAGNITUDES
 from gearlink.core.gears.drawing_checks import FilletMeasure, fillet_measured
 from gearlink.core.gears.drawing_names import PLACES
 from gearlink.core.gears.from_spec import both
 from gearlink.core.gears.pair_sweep import GearPairs, PathsOfContact
+from gearlink.core.gears.ring_sweep import InternalInterferences, RingPairs
 from gearlink.core.nomenclature import term
 from gearlink.core.numerics.arrays import Mask, Reals
+from gearlink.core.report import Rule
 from gearlink.core.spec_paths import number_at
 
 _DOMAIN = {
@@ -50,8 +54,11 @@ _DOMAIN = {
 
 _ABSENT = (
     *("tip_diameter", "tool", "cutter", "span_teeth", "allowances", "center_distance_allowance", "load"),
-    *("helix_hand", "pin_diameter"),
+    *("helix_hand", "pin_diameter", "cutter"),
 )
+_TEETH = ("teeth[0]", "teeth[1]")
+_DOMAIN_OF_RINGS = {**_DOMAIN, "teeth[1]": (-1e4, -3.0, -60.0)}
+_OF_RING = ("involute_margin", "tip_fouling_margin", "radial_assembly_margin")
 _OF_DRAWING = (
     *("transverse_pressure_angle", "base_helix_angle", "form_radius", "tip_clearance"),
     *("path_of_contact", "used_root_radius", "usable_contact_ratio", "specific_sliding_tip", "sliding_factor"),
@@ -60,9 +67,11 @@ _OF_WIDTH = ("overlap_ratio", "total_contact_ratio")
 _OF_TIPS = {
     *("contact_ratio", "tip_pressure_angle", "tip_thickness", "specific_sliding", "total_contact_ratio"),
     *("usable_contact_ratio", "path_of_contact", "used_root_radius", "specific_sliding_tip", "sliding_factor"),
+    *_OF_RING,
 }
 """Quantities that a pair does not have where a tip circle lies inside its base circle; `_TIP_RULES` likewise."""
 _TIP_RULES = (TIP_THICKNESS, CONTACT_RATIO, INTERFERENCE, FILLET, SLIDING, PITTING, TOOTH_FORM)
+_TIP_RULES_OF_RING = (*_TIP_RULES, TIP_FOULING)
 _OF_EACH = (UNDERCUT, TIP_THICKNESS, INTERFERENCE, ROOT_CLEARANCE, TOOTH_FORM)
 _LENGTHS = (INTERFERENCE, TOOTH_FORM)
 _NEAR = 1e-9
@@ -79,10 +88,11 @@ def axis(
     if command not in ("gear", "analyze") or not _served(spec, paths):
         return None
     names = {*GEAR_QUANTITIES, *_OF_DRAWING, *(() if spec.face_width is None else _OF_WIDTH)}
+    names |= set(_OF_RING) if _internal(spec) else set()
     if not {name.partition("[")[0] for name in quantities} <= names:
         return None
     made = GearPairAxis(spec, tuple(quantities), frozenset(codes))
-    one = made.evaluate({path: np.array([number_at(spec, path)], dtype=float) for path in ("teeth[0]", "teeth[1]")})
+    one = made.evaluate({path: np.array([number_at(spec, path)], dtype=float) for path in _TEETH})
     return made if all(values.ndim == 1 for values in one.quantities.values()) else None
 
 
@@ -90,11 +100,17 @@ def _served(spec: Any, paths: Sequence[str]) -> bool:
     """Whether the array form knows all keys that are varied, and the base asks for no more."""
     if not set(paths) <= _DOMAIN.keys() or any(getattr(spec, name) is not None for name in _ABSENT):
         return False
-    if any(not isinstance(z, int) or z < 0 for z in spec.teeth) or spec.tip_shortening not in (None, "full"):
+    whole = "none" if _internal(spec) else "full"
+    if any(not isinstance(z, int) for z in spec.teeth) or spec.tip_shortening not in (None, whole):
         return False
     if spec.profile_shift is not None:
         return spec.center_distance is None and "center_distance" not in paths
     return "shift_split" in paths or spec.shift_split == "equal" or not isinstance(spec.shift_split, str)
+
+
+def _internal(spec: Any) -> bool:
+    """Whether gear 2 of the base is a ring."""
+    return isinstance(spec.teeth[1], int) and spec.teeth[1] < 0
 
 
 @dataclass(frozen=True)
@@ -107,9 +123,19 @@ class GearPairAxis:
 
     def evaluate(self, columns: Mapping[str, Reals]) -> Evaluated:
         """As `core.design_axis.Axis`."""
-        inside, outside = kept_inside(columns, _DOMAIN)
+        domain, made = (_DOMAIN_OF_RINGS, _Rings) if _internal(self.spec) else (_DOMAIN, _Batch)
+        inside, outside = kept_inside(columns, domain)
+        if made is _Rings:
+            outside |= self._with_large_rings(inside)
         with np.errstate(all="ignore"):
-            return _Batch(self, inside, outside).evaluated()
+            return made(self, inside, outside).evaluated()
+
+    def _with_large_rings(self, columns: dict[str, Reals]) -> Mask:
+        """Put larger rings in place of those that the model refuses, which are told."""
+        first, ring = (np.asarray(columns.get(path, self.spec.teeth[i])) for i, path in enumerate(_TEETH))
+        small: Mask = -ring <= first
+        columns["teeth[1]"] = np.broadcast_to(np.where(small, -first - 9.0, ring), len(next(iter(columns.values()))))
+        return small
 
 
 class _Batch:
@@ -124,11 +150,14 @@ class _Batch:
         """A key's values, or the base's value."""
         return self.columns[path] if path in self.columns else number_at(self.spec, path)
 
+    made: type[GearPairs] = GearPairs
+    tip_rules: tuple[Rule, ...] = _TIP_RULES
+
     @cached_property
     def pairs(self) -> GearPairs:
         """The pairs."""
         by_shift = self.spec.profile_shift is not None
-        return GearPairs(
+        return self.made(
             module=self.key("module"),
             teeth=(self.key("teeth[0]"), self.key("teeth[1]")),
             pressure_angle=np.radians(self.key("pressure_angle")),
@@ -149,10 +178,12 @@ class _Batch:
     def evaluated(self) -> Evaluated:
         """All that a study asks for."""
         asks_tips = any(name.partition("[")[0] in _OF_TIPS for name in self.wanted)
-        asks_tips |= any(rule.code in self.codes for rule in _TIP_RULES)
+        asks_tips |= any(rule.code in self.codes for rule in self.tip_rules)
         exist, doubtful = self._spread(self.pairs.exist), self._spread(self.pairs.barely_exist)
+        refused = np.where(exist, 0, 1)
         if asks_tips:
-            exist = exist & self._spread(self.pairs.have_flanks)
+            refused = np.where(exist, self._spread(self._refused_for_tips()), refused)
+            exist = refused == 0
             doubtful = doubtful | self._spread(self.pairs.barely_have_flanks)
         findings = [each for each in self._findings() if each.code in self.codes]
         quantities = {name: np.where(exist, self._spread(self.quantity(name)), np.nan) for name in self.wanted}
@@ -166,7 +197,11 @@ class _Batch:
             each.fails[~exist] = each.warns[~exist] = False
         reason = "center_distance" if self.spec.profile_shift is None else "profile_shift"
         unsure = self.outside | doubtful | (self.near & exist)
-        return Evaluated(quantities, findings, np.where(exist, 0, 1), (reason,), unsure)
+        return Evaluated(quantities, findings, refused, (reason, "teeth[1]"), unsure)
+
+    def _refused_for_tips(self) -> Any:
+        """The place of the reason that a tip circle inside its base circle is refused for; 0: none is."""
+        return np.where(self.pairs.have_flanks, 0, 1)
 
     def _spread(self, value: Any) -> Any:
         return np.broadcast_to(value, self.outside.shape)
@@ -175,7 +210,8 @@ class _Batch:
         """A quantity, or one of a list, in the units of design files."""
         plain, _, index = name.partition("[")
         place = PLACES.get(plain, f"pair.{plain}")
-        value: Any = getattr(self.paths if place.startswith("path.") else self.pairs, place.rpartition(".")[2])
+        part, _, name = place.rpartition(".")
+        value: Any = getattr(getattr(self, {"pair": "pairs", "path": "paths"}.get(part, part)), name)
         if isinstance(value, tuple):
             value = value[int(index[0])] if index in ("0]", "1]") else np.nan
         elif index:
@@ -188,15 +224,20 @@ class _Batch:
         for rule in _OF_EACH:
             if rule.code in self.codes:
                 unit = "mm" if rule in _LENGTHS else "1"
-                for gear in (0, 1):
+                for gear in self._gears_of(rule):
                     found = measured(rule.name, self.pairs, gear, self.spec.limits)
-                    yield self._below(rule.code, *found, unit, rule is not ROOT_CLEARANCE)
+                    yield self._below(
+                        rule.code, *found, unit, rule is not ROOT_CLEARANCE or not self.pairs.keeps_clearance
+                    )
         if CONTACT_RATIO.code in self.codes:
             yield self._contact()
         if SLIDING.code in self.codes:
             yield from (self._sliding(gear) for gear in (0, 1))
         if FILLET.code in self.codes:
             yield from (self._fillet(gear) for gear in (0, 1))
+
+    def _gears_of(self, _rule: Rule) -> tuple[int, ...]:
+        return 0, 1
 
     def _below(self, code: str, value: Any, fails: Any, warns: Any, unit: str, computed: bool = True) -> Findings:
         value, limit = self._spread(value), self._spread(fails)
@@ -230,6 +271,52 @@ class _Batch:
         self.near |= known & (_close(found.margin, found.limit) | _close(left, 0.0))
         fails, warns = found.bad & found.judged, found.bad & ~found.judged
         return Findings(FILLET.code, found.margin, found.limit, fails, warns, "mm")
+
+
+class _Rings(_Batch):
+    """Some pinions in rings."""
+
+    made = RingPairs
+    tip_rules = _TIP_RULES_OF_RING
+
+    @cached_property
+    def internal(self) -> InternalInterferences:
+        """Their interferences."""
+        return InternalInterferences(self.pairs)
+
+    def quantity(self, name: str) -> Any:
+        """As `data.shown`: those with the signs of a ring as magnitudes, none that has no bound."""
+        value = super().quantity(name)
+        value = np.abs(value) if name.partition("[")[0] in MAGNITUDES else value
+        return np.where(np.isfinite(value), value, np.nan)
+
+    def _refused_for_tips(self) -> Any:
+        pinion, ring = (rise == rise for rise in self.pairs.tip_pressure_angle)
+        return np.where(pinion, np.where(ring, 0, 2), 1)
+
+    def _gears_of(self, rule: Rule) -> tuple[int, ...]:
+        return (0,) if rule is UNDERCUT else (0, 1)
+
+    def _findings(self) -> Iterator[Findings]:
+        yield from super()._findings()
+        if TIP_FOULING.code in self.codes:
+            self.near |= self._spread(self.internal.is_doubtful)
+            apart = self.internal.tip_circles_apart
+            yield self._fouling(np.where(apart < 0.0, apart, self._margin("tip_fouling")), "fail")
+            radial = self.spec.assembly == "radial"
+            yield self._fouling(self._margin("radial_assembly"), "fail" if radial else "warn")
+
+    def _margin(self, of: str) -> Any:
+        return getattr(self.internal, f"{of}_margin")
+
+    def _fouling(self, margin: Any, status: str) -> Findings:
+        """GL206 of the tips in mesh, or of the assembly along the line of centres."""
+        margin = self._spread(margin)
+        bad, nothing = margin < 0.0, np.zeros(margin.shape, dtype=bool)
+        shown = np.where(np.isfinite(margin), margin, np.nan)
+        self.near |= _close(shown, 0.0)
+        fails, warns = (bad, nothing) if status == "fail" else (nothing, bad)
+        return Findings(TIP_FOULING.code, shown, np.zeros(margin.shape), fails, warns, "mm")
 
 
 def _close(value: Any, limit: Any) -> Mask:

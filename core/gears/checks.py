@@ -209,7 +209,7 @@ def _interference_measure(pair: GearPair, gear: int, _limits: Limits) -> Measure
 def _clearance_measure(pair: GearPair, gear: int, _limits: Limits) -> Measured:
     """Clearance at the root of a gear over the module; that of the profile where the tips keep it, free of rounding."""
     kept = pair.keeps_clearance
-    clearance = pair.clearance if kept else round(pair.tip_clearance[1 - gear] / pair.module, 12)
+    clearance = pair.clearance if kept else pair.fn.round(pair.tip_clearance[1 - gear] / pair.module, 12)
     return Measured(clearance, 0.05, 0.15)
 
 

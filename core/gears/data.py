@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 Both = tuple[float | None, float | None]
 _OF_TIP_LOAD = frozenset(("tip_form_factor", "tip_stress_correction_factor", "contact_ratio_factor_bending"))
 """Of method C: for comparison with a rating that was made by it."""
-_MAGNITUDES = frozenset(
+MAGNITUDES = frozenset(
     (
         "center_distance",
         "reference_center_distance",
@@ -261,4 +261,4 @@ def shown(name: str, value: Any) -> Any:
         return None if all(each is None for each in both) else both
     if value is None or (isinstance(value, float) and not math.isfinite(value)):
         return None
-    return abs(value) if name in _MAGNITUDES else value
+    return abs(value) if name in MAGNITUDES else value

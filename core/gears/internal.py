@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from gearlink.core.gears.involute import involute_rise
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.results import cached_property
 
@@ -46,12 +45,18 @@ class InternalInterference:
     def _gain(self, gear: int) -> float:
         """inv(alpha_a) - inv(alpha_wt) [rad]."""
         working = self.pair.working_pressure_angle
-        return involute_rise(working, self.pair.tip_pressure_angle[gear] - working)
+        return self.pair.fn.involute_rise(working, self.pair.tip_pressure_angle[gear] - working)
 
     @property
     def tip_circles_apart(self) -> float:
         """|a_w| - (r_a1 - |r_a2|) [mm]; negative where the pinion's tip circle encloses the ring's."""
         return -self.pair.center_distance - (self._tips[0] - self._tips[1])
+
+    @cached_property
+    def _heron(self) -> float:
+        """16 squared areas of the triangle of both axes and the crossing of the tip circles; negative: none."""
+        (tip1, tip2), a = self._tips, -self.pair.center_distance
+        return (tip1 + tip2 + a) * (tip1 + tip2 - a) * (a + tip1 - tip2) * (a - tip1 + tip2)
 
     @cached_property
     def tip_fouling_angle(self) -> float | None:
@@ -60,13 +65,14 @@ class InternalInterference:
         F = z_1/|z_2| (d_1 + inv(alpha_a1) - inv(alpha_wt)) + inv(alpha_wt) - inv(alpha_a2) - d_2,
         d_1, d_2 the angles from the line of centres to where the tip circles cross
         """
-        (tip1, tip2), a = self._tips, -self.pair.center_distance
-        # Four areas of the triangle of both axes and the crossing (Heron): an arctangent stands a touch of the circles.
-        product = (tip1 + tip2 + a) * (tip1 + tip2 - a) * (a + tip1 - tip2) * (a - tip1 + tip2)
-        if product < 0.0:
-            return None
-        area, squares = math.sqrt(product), (tip2 - tip1) * (tip2 + tip1)
-        d1, d2 = math.atan2(area, squares - a * a), math.atan2(area, squares + a * a)
+        return None if self._heron < 0.0 else self._fouling_angle
+
+    @property
+    def _fouling_angle(self) -> float:
+        (tip1, tip2), a, fn = self._tips, -self.pair.center_distance, self.pair.fn
+        # Four areas (Heron): an arctangent stands a touch of the circles.
+        area, squares = fn.sqrt(self._heron), (tip2 - tip1) * (tip2 + tip1)
+        d1, d2 = fn.atan2(area, squares - a * a), fn.atan2(area, squares + a * a)
         z1, z2 = self.pair.teeth
         return z1 / -z2 * (d1 + self._gain(0)) - self._gain(1) - d2
 
@@ -76,6 +82,19 @@ class InternalInterference:
         angle = self.tip_fouling_angle
         return None if angle is None else angle * self._tips[1]
 
+    @property
+    def _opening(self) -> float:
+        """Q = |r_a2|/r_a1."""
+        return self._tips[1] / self._tips[0]
+
+    @property
+    def _is_too_large(self) -> bool:
+        return self._opening <= 1.0
+
+    @property
+    def _always_opens(self) -> bool:
+        return self.pair.teeth[0] * self._opening >= -self.pair.teeth[1]
+
     @cached_property
     def radial_assembly_angle(self) -> float | None:
         """G [rad] at the pinion's axis, -inf where the pinion is larger than the opening; None where it always fits.
@@ -84,15 +103,17 @@ class InternalInterference:
         sin(t_1) = sqrt((1 - (z_1 Q/z_2)^2)/(1 - (z_1/z_2)^2)), sin(t_2) = sin(t_1)/Q, Q = |r_a2|/r_a1; for every phase
         of the teeth, which helical gears as wide as an axial pitch have all at once
         """
-        q = self._tips[1] / self._tips[0]
-        z1, z2 = self.pair.teeth[0], -self.pair.teeth[1]
-        if q <= 1.0:
+        if self._is_too_large:
             return -math.inf
-        if z1 * q >= z2:
-            return None
+        return None if self._always_opens else self._assembly_angle
+
+    @property
+    def _assembly_angle(self) -> float:
+        q, fn = self._opening, self.pair.fn
+        z1, z2 = self.pair.teeth[0], -self.pair.teeth[1]
         ratio = z1 / z2
-        sine = math.sqrt((1.0 - ratio * q) * (1.0 + ratio * q) / ((1.0 - ratio) * (1.0 + ratio)))
-        t1, t2 = math.asin(min(1.0, sine)), math.asin(min(1.0, sine / q))
+        sine = fn.sqrt((1.0 - ratio * q) * (1.0 + ratio * q) / ((1.0 - ratio) * (1.0 + ratio)))
+        t1, t2 = fn.asin(fn.least(1.0, sine)), fn.asin(fn.least(1.0, sine / q))
         return t1 + self._gain(0) - z2 / z1 * (t2 + self._gain(1))
 
     @property

@@ -139,9 +139,10 @@ class GearPairs(GearPair):
     @property
     def flank_ends_on_base(self) -> Any:
         """Where a flank ends so near to its base circle that its length hangs by few digits."""
-        base = self.base_radius
-        one, other = (self._form_radius_of(k) - base[k] <= _BARELY * base[k] for k in (0, 1))
-        return one | other
+        return self._ends_on_base(0) | self._ends_on_base(1)
+
+    def _ends_on_base(self, gear: int) -> Any:
+        return self._form_radius_of(gear) - self.base_radius[gear] <= _BARELY * self.base_radius[gear]
 
     @cached_property
     def span_teeth(self) -> Any:
@@ -150,8 +151,8 @@ class GearPairs(GearPair):
 
     @cached_property
     def _rivals(self) -> Any:
-        z, x = self.teeth, self.profile_shift
-        return [teeth.span_rivals(z[k], x[k], self.pressure_angle, self.helix_angle, self.fn) for k in (0, 1)]
+        spanned = self._spanned(0), self._spanned(1)
+        return [teeth.span_rivals(z, x, self.pressure_angle, self.helix_angle, self.fn) for z, x in spanned]
 
     @property
     def span_is_doubtful(self) -> Any:

@@ -22,6 +22,7 @@ class Elementary:
     Parameters
         sin, cos, tan, asin, acos, atan, sqrt, hypot, atan2, copysign, floor : as in `math`
         turn : exp(i angle); phase : direction of a complex number
+        round : to so many decimals
         least, greatest : of two; where : the second where the first holds, else the third
     """
 
@@ -36,6 +37,7 @@ class Elementary:
     atan2: Two = math.atan2
     copysign: Two = math.copysign
     floor: Callable[[float], int] = math.floor
+    round: Callable[[float, int], float] = round
     turn: Callable[[float], complex] = lambda angle: cmath.exp(1j * angle)
     phase: Callable[[complex], float] = cmath.phase
     least: Two = min

@@ -20,6 +20,7 @@ FUNCTIONS: dict[str, Any] = {
     "atan2": np.arctan2,
     "copysign": np.copysign,
     "floor": np.floor,
+    "round": np.round,
     "turn": lambda angle: np.exp(1j * angle),
     "phase": np.angle,
     "least": np.minimum,

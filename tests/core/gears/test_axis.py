@@ -85,6 +85,59 @@ STUDIES: dict[str, tuple[dict[str, Any], dict[str, Any], list[str]]] = {
     ),
 }
 
+RING: dict[str, Any] = {"kind": "gear-pair", "module": 2, "teeth": [21, -67], "profile_shift": [0.3, -0.3]}
+RING_QUANTITIES = [
+    *(name for name in QUANTITIES if name != "min_shift_no_undercut[1]"),
+    *("involute_margin", "tip_fouling_margin", "radial_assembly_margin"),
+]
+RING_TEETH = {"teeth[0]": {"from": 10, "to": 60}, "teeth[1]": {"from": -160, "to": -55}}
+STUDIES |= {
+    "ring": (
+        RING,
+        {**RING_TEETH, "profile_shift[0]": {"from": -0.8, "to": 1}, "profile_shift[1]": {"from": -1, "to": 0.8}},
+        RING_QUANTITIES,
+    ),
+    "ring, distance": (
+        {**{key: RING[key] for key in ("kind", "module", "teeth")}, "center_distance": 46, "assembly": "radial"},
+        {
+            "teeth[0]": {"from": 17, "to": 25},
+            "teeth[1]": {"from": -72, "to": -62},
+            "center_distance": {"from": 40, "to": 52},
+            "shift_split": {"from": -1, "to": 1},
+        },
+        RING_QUANTITIES,
+    ),
+    "ring, profile": (
+        {**RING, "tip_shortening": "none", "limits": {"undercut": 0.2, "sliding": 2}},
+        {
+            **RING_TEETH,
+            "module": {"values": [0.3, 1, 2.5, 12]},
+            "pressure_angle": {"from": 14, "to": 32},
+            "addendum": {"from": 0.5, "to": 1.3},
+            "clearance": {"from": 0.02, "to": 0.4},
+        },
+        RING_QUANTITIES,
+    ),
+    "ring, helix": (
+        {**RING, "helix_angle": 15, "face_width": 20},
+        {
+            **RING_TEETH,
+            "helix_angle": {"values": [0, 0, 5, 10.5, 20, 30, 45]},
+            "profile_shift[1]": {"from": -0.6, "to": 0.6},
+        },
+        [*RING_QUANTITIES, "overlap_ratio", "total_contact_ratio"],
+    ),
+    "few teeth less": (
+        RING,
+        {
+            "teeth[0]": {"from": 50, "to": 64},
+            "profile_shift[0]": {"from": -0.5, "to": 0.5},
+            "addendum": {"from": 0.6, "to": 1.1},
+        },
+        RING_QUANTITIES,
+    ),
+}
+
 
 @pytest.mark.parametrize("name", STUDIES)
 @pytest.mark.parametrize("count", [64, pytest.param(16384, marks=pytest.mark.slow)])
@@ -93,7 +146,7 @@ def test_refusals_statuses_and_values_are_those_of_the_class(name: str, count: i
     agree(sampled(base, "gear", variables, quantities, count))
 
 
-@pytest.mark.parametrize("name", ["distance", "profile", "helix"])
+@pytest.mark.parametrize("name", ["distance", "profile", "helix", "ring"])
 def test_no_bit_depends_on_the_neighbours(name: str) -> None:
     base, variables, quantities = STUDIES[name]
     bits_stand_alone(sampled(base, "gear", variables, quantities, 1024))
@@ -131,7 +184,9 @@ def test_a_design_is_refused_where_what_is_asked_for_needs_it(must_pass: Any) ->
         ({"tip_shortening": "full"}, True),
         ({"tip_shortening": "none"}, False),
         ({"shift_split": "sliding"}, False),
-        ({"teeth": [23, -90], "center_distance": 66.5}, False),
+        ({"teeth": [23, -90], "center_distance": 66.5}, True),
+        ({"teeth": [23, -90], "center_distance": 66.5, "tip_shortening": "full"}, False),
+        ({"teeth": [23, -90], "center_distance": 66.5, "cutter": {"teeth": 30}}, False),
         ({"teeth": [23, "rack"], "center_distance": 23.5}, False),
         ({"load": {"torque": 100}, "face_width": 20}, False),
         ({"allowances": {"series": "25cd"}}, False),
@@ -148,3 +203,8 @@ def test_what_the_form_has_not_is_left_to_the_class(change: dict[str, Any], serv
         "checks": {"must_pass": "none"},
     }
     assert (problem(StudySpec.model_validate_json(json.dumps(data))).axis is not None) is served
+
+
+def study(name: str, count: int) -> Any:
+    base, variables, quantities = STUDIES[name]
+    return sampled(base, "gear", variables, quantities, count)
