@@ -22,7 +22,7 @@ class RingPairs(GearPairs):
     Example
         >>> rings = RingPairs(module=2.0, teeth=(21.0, np.array([-67.0, -90.0])), given_shift=(0.3, -0.3))
         >>> rings.contact_ratio.round(6).tolist()
-        [1.736394, 1.635747]
+        [1.736394, 1.71631]
     """
 
     @cached_property
