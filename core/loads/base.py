@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
 RPM = 2.0 * math.pi / 60.0
 _SLOWEST = 1e-6
+_CANCELLED = 1e-6
 _OF_TORQUE = frozenset(
     (
         "input_torque_mean", "input_torque_max", "input_torque_max_at", "input_torque_min", "input_torque_min_at",
@@ -369,8 +370,15 @@ class LoadsBase(Design):
 
     @cached_property
     def power_identity(self) -> float:
-        """Largest difference of the two input torques over the largest of them."""
+        """Largest difference of the two input torques over the largest of them.
+
+        Notes
+            Where the parts of the torque cancel to a millionth, as those of an unbalanced wheel that turns evenly, a
+            millionth of the parts takes its place: both ways round at 1e-16 of them.
+        """
         import numpy as np
+
+        from gearlink.core.loads.dynamics import power_parts
 
         machine = self.machine
         phi = np.linspace(0.0, machine.period, 360 * self.turns, endpoint=False)
@@ -382,5 +390,6 @@ class LoadsBase(Design):
 
             power = machine.reduced(phi).torque(machine.speed)
             power = power + losses(found, machine.friction, machine.speed) / machine.speed
-        size = max(float(np.max(np.abs(found.torque))), float(np.max(np.abs(power))))
+        parts = power_parts(machine.at(phi), machine.masses, machine.applied(phi), machine.gravity, machine.speed)
+        size = max(*(float(np.max(np.abs(each))) for each in (found.torque, power)), _CANCELLED * float(np.max(parts)))
         return float(np.max(np.abs(found.torque - power))) / size if size else 0.0

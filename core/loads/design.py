@@ -287,13 +287,17 @@ class LoadsDesign(BalancedLoads):
         self._require_directions(bearings)
         return {name: PinLoad(self, name, bearings.get(name)) for name in self.pins if self.has(name)}
 
+    @property
+    def own_directions(self) -> tuple[str, ...]:
+        """Keys of the section that say which way something stands that this design has."""
+        return tuple(key for key in type(self.section).model_fields if key.endswith("_direction"))
+
     def _require_directions(self, bearings: Iterable[str]) -> None:
         """Refuse bearings whose force the file leaves open."""
         section = self.section
         for name in bearings:
             if name in self.unknown_joints:
-                open_ = [key for key in type(section).model_fields if key.endswith("_direction")]
-                keys = " and ".join(f"loads.{key}" for key in open_ if getattr(section, key) is None)
+                keys = " and ".join(f"loads.{key}" for key in self.own_directions if getattr(section, key) is None)
                 message = f"the force on the bearing of {name} depends on where its neighbours stand: give {keys}"
                 raise MissingSection(message, key=f"loads.bearings.{name}")
 

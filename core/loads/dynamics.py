@@ -108,6 +108,31 @@ def reduced(
     return Reduced(inertia + shaft_inertia, slope, weight, load)
 
 
+def power_parts(
+    mechanism: Mechanism, masses: Masses, applied: Applied, gravity: complex, speed: Reals | float
+) -> Reals:
+    """Sum of the magnitudes of all that adds up to the input torque [N m], whatever cancels in it.
+
+    sum (m |G'| (|G''| w^2 + |g|) + J |t' t''| w^2) + sum |F| |P'| + sum |T t'|
+
+    Parameters
+        mechanism, masses, applied, gravity : as in `reduced`
+        speed : float or (N,) array [rad/s]
+    """
+    found, square = np.zeros(mechanism.rows), np.asarray(speed) ** 2
+    for name, mass in masses.items():
+        link = mechanism.links[name]
+        center, turn = link.at(mass.center), link.turn
+        found += mass.mass * np.abs(center.first) * (np.abs(center.second) * square + abs(gravity))
+        found += mass.inertia * np.abs(turn.first * turn.second) * square
+    for each in applied:
+        if isinstance(each, Force):
+            found += np.abs(each.force) * np.abs(each.at.first)
+        else:
+            found += np.abs(each.torque * mechanism.links[each.on].turn.first)
+    return found
+
+
 @dataclass(frozen=True, slots=True)
 class Reactions:
     """Everything that the links exchange.

@@ -36,12 +36,12 @@ def places_of(functions: Sequence[tuple[Function, float]], machine: Machine) -> 
     found: list[list[float]] = [[] for _ in functions]
     for k, zeros in zip(loaded, zeros_of(signs, machine.period, machine.turns), strict=True):
         f, size = functions[k]
-        if not zeros or min(zeros[0], machine.period - zeros[-1]) > _STEP:
+        if not machine.stroke and (not zeros or min(zeros[0], machine.period - zeros[-1]) > _STEP):
             # The ends of the period are one place: a sign that changes there is seen from neither side.
             first, last = f(np.array([_STEP, machine.period - _STEP]))
             if first * last < 0.0 and min(abs(first), abs(last)) > NOISE * size:
                 zeros.insert(0, 0.0)
-        found[k] = _changes(f, zeros, size)
+        found[k] = _changes(f, zeros, size, machine)
     return found
 
 
@@ -55,11 +55,12 @@ def _without_noise(f: Function, size: float, phi: Reals) -> Reals:
     return np.where(np.abs(values) <= NOISE * size, 0.0, values)
 
 
-def _changes(f: Function, zeros: list[float], size: float) -> list[float]:
+def _changes(f: Function, zeros: list[float], size: float, machine: Machine) -> list[float]:
     """The places with opposite signs on both sides; one where f comes from or goes to nothing is none."""
     if not zeros:
         return []
-    values = f(np.array([place + step for place in zeros for step in (-_STEP, _STEP)]))
+    sides = np.array([place + step for place in zeros for step in (-_STEP, _STEP)])
+    values = f(sides if machine.stroke else np.mod(sides, machine.period))
     before, after = values[::2], values[1::2]
     changes = (before * after < 0.0) & (np.minimum(np.abs(before), np.abs(after)) > NOISE * size)
     return [place for place, each in zip(zeros, changes, strict=True) if each]

@@ -136,7 +136,7 @@ class WideSwingLoads(LoadsDesign):
         from gearlink.core.wide_swing.loads_links import pull_of_device
 
         self._require_turn()
-        self._require_directions_of_gravity()
+        self._require_own_directions()
         for stroke in self.strokes:
             stroke.cam.require_profile()
         return replace(
@@ -156,12 +156,15 @@ class WideSwingLoads(LoadsDesign):
             )
         raise MissingSection(message, key=f"loads.{given}")
 
-    def _require_directions_of_gravity(self) -> None:
-        """Refuse a weight where the file does not say which way what is heavy stands."""
-        for section, key in (("slider", "slider_direction"), ("drive", "drive_direction")):
-            missing = getattr(self.spec, section) is not None and getattr(self.section, key) is None
-            if missing and any(self.section.gravity):
-                words = f"the weight depends on which way the {section} stands: give loads.{key}"
+    def _require_own_directions(self) -> None:
+        """Refuse a direction of what is not there, and a weight whose direction the file leaves open."""
+        for name in ("slider", "drive"):
+            key, has = f"{name}_direction", getattr(self.spec, name) is not None
+            given = getattr(self.section, key) is not None
+            if given and not has:
+                raise NoSolution(f"this mechanism has no {name}: leave {key} out", key=f"loads.{key}")
+            if has and not given and any(self.section.gravity):
+                words = f"the weight depends on which way the {name} stands: give loads.{key}"
                 raise MissingSection(words, key="loads.gravity")
 
     @property
@@ -183,6 +186,12 @@ class WideSwingLoads(LoadsDesign):
             return []
         working, far, back, near = self.design.motion.cycle_angles
         return [(working, far), (working + far + back, near)]
+
+    @property
+    def own_directions(self) -> tuple[str, ...]:
+        """That of the device, and those of slider and drive where the file has them."""
+        others = tuple(f"{name}_direction" for name in ("slider", "drive") if getattr(self.spec, name) is not None)
+        return ("device_direction", *others)
 
     @property
     def unknown_joints(self) -> tuple[str, ...]:

@@ -156,3 +156,30 @@ def test_a_limit_that_nothing_is_held_against_is_told(base: str, section: dict[s
     loads = factory.design(base, command="loads", **{f"loads__{name}": value for name, value in section.items()})
     (found,) = loads.check(check)
     assert (found.status, found.value) == ("warn", None)
+
+
+def test_a_torque_that_turns_at_the_start_of_the_period_is_looked_at_from_both_sides() -> None:
+    """The law of a gripper has no angles below 0; what stands there is the end of the turn."""
+    loads = {"forces": [{"on": "input", "resistance": 1e6}]}
+    design = factory.design("swing_gripper", command="loads", loads=loads)
+    torque = design.machine.torque(np.linspace(0.0, 2.0 * np.pi, 4001)[1:-1])
+    moving = np.sign(torque[np.abs(torque) > 1e-9 * np.abs(torque).max()])
+    assert design.raw("torque_reversals") == np.count_nonzero(np.diff(moving)) + (moving[0] != moving[-1])
+
+
+def test_an_unbalanced_wheel_that_turns_evenly_needs_no_torque() -> None:
+    """Reactions of 1e13 N m leave some rounding in a torque of 0: no fault of either way."""
+    links = {"gear1": {"mass": 1e9, "inertia": 0.5, "center": [1e6, 1e6]}}
+    design = factory.design("gear_pair", command="loads", loads={"speed": 1, "links": links})
+    (found,) = design.check("power-identity")
+    assert found.status == "pass"
+
+
+def test_a_direction_of_what_is_not_there_is_refused() -> None:
+    with pytest.raises(GearlinkError, match="has no slider") as caught:
+        factory.design("wide_swing_twin_cam", command="loads", loads={"slider_direction": 5}).report("loads")
+    assert caught.value.key == "loads.slider_direction"
+    bearings = {"D": {"kind": "ball", "dynamic_rating": 1e4}}
+    with pytest.raises(GearlinkError) as caught:
+        factory.design("wide_swing_cycle", command="loads", loads={"bearings": bearings}).report("loads")
+    assert caught.value.message.endswith("give loads.device_direction")
