@@ -99,6 +99,11 @@ class Design:
         """How many changes are tried for a check that fails: as many as take a tenth of a second or so."""
         return 150
 
+    @property
+    def effort(self) -> int:
+        """What was computed of this design so far, in trials, where that differs much from one to the next."""
+        return 0
+
     def outline(self, command: str) -> Outline:
         """The outline of a command."""
         return self.outlines[command]

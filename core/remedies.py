@@ -260,10 +260,12 @@ class Bench:
         key = (remedy, found.name, index)
         if key not in self._grades:
             trial = self._trial(remedy)
+            before = 0 if trial is None else trial.effort
             try:
                 self._grades[key] = 0 if trial is None else self._graded(trial, found, index)
             except NoSolution:
                 self._grades[key] = 0
+            self._left -= 0 if trial is None else trial.effort - before
         return self._grades[key]
 
     def _graded(self, trial: Design, found: Check, index: int) -> int:

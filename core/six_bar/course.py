@@ -1,31 +1,33 @@
-"""The motion of a geared six-bar followed from its start, without ever changing over to another of its closings.
-
-With J = dF/du, beta = 1/sigma_min(J), K = sum l_j |N_j|^2, K' = sum l_j |N_j| |t_j'|, M = sum l_j t_j'^2 (and a), the
-tangent from a solution fulfils the condition of Kantorovich all along
-
-    x = 1/(beta (sqrt(K M) + K'))
-
-so that one solution near it exists and is unique there, and Newton's steps from the tangent find it.
-"""
+"""The motion of a geared six-bar followed from its start, without ever changing over to another of its closings."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import islice
+from typing import NamedTuple
 
 import numpy as np
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.results import cached_property
+from gearlink.core.six_bar.following import Follower, Place
 from gearlink.core.six_bar.loop import SixBar
 
 _TURN = 2.0 * math.pi
 _MOST_TURNS = 100
-_JAM = 1e-9  # rad, a certified step so short is a dead centre, known to about as much
 _HOME = 1e-7  # rad, play of a return: directions repeat exactly or are apart by a share of a turn
 _MOST_STEPS = 100_000
+
+
+class _Walk(NamedTuple):
+    """Places one after the other, the turns of the period, and why there are no more."""
+
+    places: list[Place]
+    turns: int | None
+    error: NoSolution | None
 
 
 @dataclass(frozen=True)
@@ -67,18 +69,40 @@ class Course:
         """Input turns until everything repeats; None over a range."""
         return self._followed[1]
 
+    @property
+    def effort(self) -> int:
+        """How many places were followed so far."""
+        return len(self._walk.places) if "_walk" in self.__dict__ else 0
+
     @cached_property
     def _followed(self) -> tuple[Reals, int | None]:
         """Certified places: rows of input angle, free directions, their rates; and the turns of the period."""
+        if self._walk.error is not None:
+            raise self._walk.error
+        return np.array([place.row for place in self._walk.places]), self._walk.turns
+
+    @cached_property
+    def _walk(self) -> _Walk:
+        """What was followed; kept also where it ends too early."""
+        places: list[Place] = []
+        try:
+            return _Walk(places, self._walked(places), None)
+        except NoSolution as error:
+            return _Walk(places, None, error)
+
+    def _walked(self, places: list[Place]) -> int | None:
+        """Follow the motion over its period or range; the turns of the period."""
         if self.range is not None:
-            legs = [self._leg(min(self.range[0], 0.0)), self._leg(max(self.range[1], 0.0))]
-            return np.array(legs[0][:0:-1] + legs[1]), None
-        places, least = [self._origin], _home_turns(self.bar)
+            places += self._leg(min(self.range[0], 0.0))[:0:-1]
+            places += self._leg(max(self.range[1], 0.0))
+            return None
+        places.append(self._origin)
+        least = _home_turns(self.bar)
         for turns in range(least, _MOST_TURNS + 1, least):
             if not self._follow(places, _TURN * turns):
-                raise NoSolution(self._jam(places[-1][0]), key="links")
+                raise NoSolution(self._jam(places[-1].phi), key="links")
             if self._is_home(places[-1], turns):
-                return np.array(places), turns
+                return turns
         raise NoSolution(
             f"the six-bar does not come home within {_MOST_TURNS} turns of the input: take teeth with common factors, "
             "or give range: {start, end}",
@@ -86,59 +110,30 @@ class Course:
         )
 
     @cached_property
-    def _origin(self) -> tuple[float, ...]:
-        rates = self._rates(0.0, np.zeros(2))
-        if rates is None:
-            raise NoSolution("the six-bar starts in a dead centre: change start", key="start")
-        return (0.0, 0.0, 0.0, *rates[0])
+    def _follower(self) -> Follower:
+        return Follower(self.bar)
 
-    def _leg(self, end: float) -> list[tuple[float, ...]]:
+    @cached_property
+    def _origin(self) -> Place:
+        place = self._follower.place(0.0, (0.0, 0.0))
+        if place is None:
+            raise NoSolution("the six-bar starts in a dead centre: change start", key="start")
+        return place
+
+    def _leg(self, end: float) -> list[Place]:
         places = [self._origin]
         if not self._follow(places, end):
-            raise NoSolution(self._jam(places[-1][0]), key="range")
+            raise NoSolution(self._jam(places[-1].phi), key="range")
         return places
 
-    def _follow(self, places: list[tuple[float, ...]], end: float) -> bool:
+    def _follow(self, places: list[Place], end: float) -> bool:
         """Go on from the last place to an input angle; False where a dead centre is met before."""
-        way = math.copysign(1.0, end - places[-1][0])
-        while places[-1][0] != end:
-            phi, *rest = places[-1]
-            u, rate = np.array(rest[:2]), np.array(rest[2:])
-            found = self._rates(phi, u)
-            if found is None or found[1] < _JAM or len(places) > _MOST_STEPS:
-                return False
-            onwards = end if found[1] >= abs(end - phi) else phi + way * found[1]
-            u = self._solved(onwards, u + rate * (onwards - phi))
-            rates = self._rates(onwards, u)
-            if rates is None:
-                return False
-            places.append((onwards, *u, *rates[0]))
-        return True
+        places.extend(islice(self._follower.onwards(places[-1], end), _MOST_STEPS - len(places)))
+        return places[-1].phi == end
 
-    def _solved(self, phi: float, near: Reals) -> Reals:
-        angles = self.bar.closed(np.array([phi]), near[:, None])[:, 0]
-        rows = [j - 2 for j in self.bar.free]
-        return np.asarray(angles[rows] - self.bar.numbers[1][rows])
-
-    def _rates(self, phi: float, u: Reals) -> tuple[Reals, float] | None:
-        """Rates of the free directions, and the step that is certain; None in a dead centre."""
-        bar = self.bar
-        length, first, slopes, shares = bar.numbers
-        angles = (first + slopes * phi + shares @ u)[:, None]
-        one, other = (complex(c[0]) for c in bar.columns(bar.links(angles)))
-        determinant, total = (one.conjugate() * other).imag, abs(one) ** 2 + abs(other) ** 2
-        if abs(determinant) < 1e-15 * total:
-            return None
-        turned = bar.rates(np.array([phi]), angles)[0][:, 0]
-        beta = math.sqrt(0.5 * (total + math.sqrt(max(total * total - 4.0 * determinant**2, 0.0)))) / abs(determinant)
-        size = np.hypot(shares[:, 0], shares[:, 1])
-        k, k_rate = float(length @ size**2), float(length @ (size * np.abs(turned)))
-        m = float(length @ turned**2) + bar.lengths[1]
-        return turned[[j - 2 for j in bar.free]], 1.0 / (beta * (math.sqrt(k * m) + k_rate))
-
-    def _is_home(self, place: tuple[float, ...], turns: int) -> bool:
+    def _is_home(self, place: Place, turns: int) -> bool:
         _, _, slopes, shares = self.bar.numbers
-        moved = slopes * _TURN * turns + shares @ np.array(place[1:3])
+        moved = slopes * _TURN * turns + shares @ np.array(place.u)
         return bool(np.abs(np.remainder(moved + math.pi, _TURN) - math.pi).max() < _HOME)
 
     def _jam(self, phi: float) -> str:
@@ -147,7 +142,7 @@ class Course:
         if self._follow(back, -math.copysign(_TURN, phi)):
             free = f"{'above' if phi < 0.0 else 'below'} {math.degrees(phi):.6g} deg"
         else:
-            low, high = sorted((math.degrees(phi), math.degrees(back[-1][0])))
+            low, high = sorted((math.degrees(phi), math.degrees(back[-1].phi)))
             free = f"between {low:.6g} and {high:.6g} deg"
         return (
             f"the six-bar meets a dead centre at input angle {math.degrees(phi):.6g} deg, where it jams: let the input "

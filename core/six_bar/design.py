@@ -87,12 +87,9 @@ class GearedSixBar(OutputRates, RealSpeed, Design):
     }
 
     @property
-    def trials(self) -> int:
-        """A motion that is followed step by step takes nearly a tenth of a second each time."""
-        try:
-            return 150 if self.bar.is_closed_form else 20
-        except NoSolution:  # findings of the gears stand without a loop
-            return 20
+    def effort(self) -> int:
+        """A motion of many turns, or near its dead centres, is followed over many places."""
+        return self.course.effort // 100 if "course" in self.__dict__ else 0
 
     # Gears and links
 
