@@ -86,13 +86,26 @@ _STEPS_BY_UNIT = {"1": 0.01, "deg": 0.5}
 
 def step_of(spec: Any, path: str) -> float:
     """The step in which a number of a spec can be built: whole teeth, 0.1 mm, half a degree, 0.01 of a ratio."""
-    head, _, last = path.rpartition(".")
     if isinstance(number_at(spec, path), int):
         return 1.0
+    return _STEPS_BY_UNIT.get(unit_at(spec, path), 0.1)
+
+
+def unit_at(spec: Any, path: str) -> str:
+    """The unit of the key that a path leads to, "" where it says none."""
+    head, _, last = path.rpartition(".")
     section = value_at(spec, head) if head else spec
     field = getattr(type(section), "model_fields", {}).get(_name_of(section, last.partition("[")[0]))
-    extra = getattr(field, "json_schema_extra", None)
-    return _STEPS_BY_UNIT.get(extra.get("unit", ""), 0.1) if isinstance(extra, dict) else 0.1
+    return "" if field is None else next(_units(field), "") or next(_units(field.annotation), "")
+
+
+def _units(part: Any) -> Iterator[str]:
+    """Units that a field or a type states, the outermost first."""
+    extra = getattr(part, "json_schema_extra", None)
+    if isinstance(extra, dict) and "unit" in extra:
+        yield str(extra["unit"])
+    for inner in (*getattr(part, "__metadata__", ()), *getattr(part, "__args__", ())):
+        yield from _units(inner)
 
 
 def changed(spec: Any, values: Iterable[tuple[str, Any]]) -> Any:

@@ -83,7 +83,7 @@ COLUMNS = {
     "length": "what the gears cover along the line of the pivots",
     "less_x1": "how far x1 may fall at the same shift sum until the line is met; empty where it is not met",
     "lift": "lift of the follower",
-    "limit": "tolerance limit of the source",
+    "limit": "tolerance limit of the source, of an angle in deg",
     "line": "line of the blocking contour: undercut, tip thickness, contact ratio, fillet, base circle, equal gears",
     "linear": "share of the variance by the linear estimate",
     "load_share": "share of the load that the pair of teeth carries",

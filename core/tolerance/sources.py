@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.spec_paths import number_at
+from gearlink.core.spec_paths import number_at, unit_at
 from gearlink.core.study.faults import Fault, Place, WrongStudy
 from gearlink.core.tolerance.bearings import radial_clearance
 from gearlink.core.tolerance.iso_286 import fit_clearances, limit_deviations
@@ -56,6 +56,15 @@ class Scatter:
         if self.kind == "pin":
             return 0.5 * self.law.upper
         return max(abs(self.law.lower), abs(self.law.upper))
+
+    def within(self, half: float) -> Scatter:
+        """The same size made to limits at one distance to either side, by the same process: law, C_p and C_pk."""
+        widths = (self.law.upper - self.law.lower, 2.0 * half)
+        given = dict.fromkeys(("lower", "upper", "limits", "sigma", "class_", "measured")) | {"plus_minus": half}
+        if self.entry.mode is not None:
+            given["mode"] = (self.entry.mode - 0.5 * (self.law.lower + self.law.upper)) * widths[1] / widths[0]
+        entry = self.entry.model_copy(update=given)
+        return replace(self, entry=entry, law=_law(entry, -half, half, ("tolerance", "sources", self.key)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -162,6 +171,11 @@ def _size(key: str, group: str, name: str, entry: ToleranceSource, spec: Any, pa
     if nominal is None or (group != "centers" and isinstance(nominal, int)):
         what = "holds a whole number, which does not scatter" if nominal is not None else "is no key with a number"
         raise _no("GL170", f"{key!r} {what}: name a length or an angle of this file", place)
+    unit = "mm" if group == "centers" else unit_at(spec, key)
+    if unit not in ("mm", "") and (entry.form == "class" or entry.grades is not None):
+        what = "class" if entry.form == "class" else "grades"
+        message = f"{what} takes its width from the length of a part, and {key} is in {unit}: give plus_minus or limits"
+        raise _no("GL173", message, (*place, what))
     lower, upper = _limits(entry, nominal, place)
     return Scatter(key, "center" if group == "centers" else "size", nominal, _law(entry, lower, upper, place), entry)
 

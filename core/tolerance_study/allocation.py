@@ -4,69 +4,73 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
 from gearlink.core.numerics.arrays import Reals
-from gearlink.core.numerics.sobol import MOST_DIMENSIONS, Sobol
+from gearlink.core.tolerance.correlation import together
 from gearlink.core.tolerance.iso_286 import standard_tolerance
+from gearlink.core.tolerance.laws import Law
+from gearlink.core.tolerance.sampling import REPLICATIONS, replication
+from gearlink.core.tolerance.sources import Scatter
 from gearlink.core.tolerance_study.problem import Problem, no
 from gearlink.core.tolerance_study.statistics import result
 
 _MOST = 1_000_000
-_DRAWS = 1 << 14
+_DRAWS, _FIRST_LOOK, _FAR = 1 << 14, 1 << 10, 0.1
 _MIDDLE_GRADE = 9
-_TRIALS = 2  # choices that are confirmed by samples
+_TRIALS = 8  # choices that are put to the samples
+
+Grades = Sequence[int]
+LinearYield = Callable[[Grades], float]
 
 
 @dataclass(frozen=True)
 class Graded:
-    """A source whose grade may be chosen.
+    """A source whose grade may be chosen: finest and coarsest IT grade, cost at IT9."""
 
-    Parameters
-        size : float [mm]; finest, coarsest : int - IT grades; cost : float - at IT9; capability : float - C_p
-    """
-
-    size: float
     finest: int
     coarsest: int
     cost: float = 1.0
-    capability: float = 1.0
-
-    def sigma(self, grade: int) -> float:
-        """Standard deviation at a grade [mm]."""
-        return standard_tolerance(self.size, grade) / (6.0 * self.capability)
 
 
 @dataclass(frozen=True)
 class Wish:
-    """A requirement in its linear form: gains per mm of each graded source, the room to either limit (inf: none), and
-    the standard deviation that sources without grades leave."""
+    """A requirement in its linear form.
+
+    Fields
+        gains : per unit of each graded source
+        below, above : room to either limit (inf: none)
+        rest : (N,) array or float - error by the sources without grades, of the draws that the yield is taken from
+        spread : float - their standard deviation, where the yield is exact; `rest` is then their mean
+    """
 
     gains: tuple[float, ...]
     below: float
     above: float
-    rest: float = 0.0
+    rest: Reals | float = 0.0
+    spread: float = 0.0
 
 
 @dataclass(frozen=True)
 class Choice:
-    """Grades and their cost."""
+    """Grades, their cost, and the yield that the linear model gives them."""
 
     grades: tuple[int, ...]
     cost: float
+    reached: float
 
 
-def choices(sources: Sequence[Graded], wishes: Sequence[Wish], target: float, ratio: float) -> Iterator[Choice]:
+def choices(sources: Sequence[Graded], reached: LinearYield, target: float, ratio: float) -> Iterator[Choice]:
     """Choices of grades that reach the target by the linear model, the cheapest first.
 
     cost = sum cost_i ratio^(9 - grade)
 
     Parameters
+        reached : the yield of some grades, `normal_yield` or `drawn_yield`
         target : float - yield, 0..1
         ratio : float - cost of one grade finer
     Yields
@@ -74,64 +78,81 @@ def choices(sources: Sequence[Graded], wishes: Sequence[Wish], target: float, ra
     Notes
         All combinations up to a million; beyond that the path of a greedy search from the finest grades.
     Example
-        >>> sizes = (38.94, 112.0, 112.0, 153.53)
+        >>> laws = [{g: at_grade(size, g) for g in range(5, 12)} for size in (38.94, 112.0, 112.0, 153.53)]
         >>> wish = Wish((2.9581448247, 1.0285307299, 1.0285307299, 0.7503110467), 0.05, 0.05)
-        >>> next(choices([Graded(size, 5, 11) for size in sizes], [wish], 0.9973, 1.6)).grades
+        >>> next(choices([Graded(5, 11)] * 4, normal_yield(laws, wish), 0.9973, 1.6)).grades
         (6, 7, 8, 8)
 
     Source
         own formulation; cost per grade is an assumption of the file
     """
     ranges = [range(one.finest, one.coarsest + 1) for one in sources]
-    sigmas = [{grade: one.sigma(grade) for grade in grades} for one, grades in zip(sources, ranges, strict=True)]
 
-    def cost(grades: Sequence[int]) -> float:
+    def cost(grades: Grades) -> float:
         return sum(one.cost * ratio ** (_MIDDLE_GRADE - grade) for one, grade in zip(sources, grades, strict=True))
-
-    def reached(grades: Sequence[int]) -> float:
-        return _yield([sigmas[i][grade] for i, grade in enumerate(grades)], wishes)
 
     every = math.prod(len(grades) for grades in ranges)
     table = sorted(itertools.product(*ranges), key=cost) if every <= _MOST else _greedy(ranges, cost, reached, target)
     for grades in table:
-        if reached(grades) >= target:
-            yield Choice(tuple(grades), cost(grades))
+        share = reached(grades)
+        if share >= target:
+            yield Choice(tuple(grades), cost(grades), share)
 
 
-def _yield(sigmas: Sequence[float], wishes: Sequence[Wish]) -> float:
-    """Yield of the linear model: exact for one wish, from fixed normal draws for several that share sources."""
-    single = [
-        _within(wish, math.hypot(wish.rest, *(g * s for g, s in zip(wish.gains, sigmas, strict=True))))
-        for wish in wishes
-    ]
-    if len(wishes) < 2 or (max(single, default=1.0) == 1.0 and sum(value < 1.0 for value in single) < 2):
-        return min(single, default=1.0)
-    draws = _draws(len(sigmas) + len(wishes))
-    good = np.ones(len(draws), dtype=bool)
-    for i, wish in enumerate(wishes):
-        off = draws[:, : len(sigmas)] @ (np.array(wish.gains) * sigmas) + wish.rest * draws[:, len(sigmas) + i]
-        good &= (off <= wish.above) & (off >= -wish.below)
-    return min(float(good.mean()), *single)
+def at_grade(size: float, grade: int) -> Law:
+    """Normal law of a part made to a grade, to either side of its size [mm], C_p = 1."""
+    half = 0.5 * standard_tolerance(size, grade)
+    return Law("normal", -half, half, 0.0, half / 3.0)
 
 
-def _within(wish: Wish, sigma: float) -> float:
-    if sigma == 0.0:
-        return 1.0 if min(wish.above, wish.below) >= 0.0 else 0.0
-    upper, lower = wish.above / (sigma * math.sqrt(2.0)), wish.below / (sigma * math.sqrt(2.0))
-    return 1.0 - 0.5 * math.erfc(upper) - 0.5 * math.erfc(lower)
+def normal_yield(laws: Sequence[Mapping[int, Law]], wish: Wish) -> LinearYield:
+    """Yield of one requirement in parts that scatter normally and apart from each other, exactly.
+
+    Y = Phi((above - mean)/sigma) - Phi((-below - mean)/sigma)
+
+    Parameters
+        laws : of each source by grade
+    """
+    moments = [{grade: law.moments() for grade, law in one.items()} for one in laws]
+
+    def reached(grades: Grades) -> float:
+        rows = [(g, *one[grade]) for g, one, grade in zip(wish.gains, moments, grades, strict=True)]
+        mean = float(wish.rest) + sum(g * part for g, part, _ in rows)
+        sigma = math.hypot(wish.spread, *(g * part for g, _, part in rows))
+        upper, lower = wish.above - mean, wish.below + mean
+        if sigma == 0.0:
+            return 1.0 if min(upper, lower) >= 0.0 else 0.0
+        root = sigma * math.sqrt(2.0)
+        return 1.0 - 0.5 * math.erfc(upper / root) - 0.5 * math.erfc(lower / root)
+
+    return reached
 
 
-@lru_cache(maxsize=2)
-def _draws(width: int) -> Reals:
-    """Normal draws, the same for all grades that are weighed."""
-    from scipy.special import ndtri
+def drawn_yield(columns: Sequence[Mapping[int, Reals]], wishes: Sequence[Wish], target: float) -> LinearYield:
+    """Yield of all requirements together, of any laws, from the same draws for all grades.
 
-    rng = np.random.default_rng(np.random.SeedSequence(0, spawn_key=(0,)))
-    found: Reals = ndtri(Sobol(width, rng, bits=53).points(0, _DRAWS))
-    return found
+    Parameters
+        columns : (N,) arrays of the deviations of each source by grade
+        target : float - what is far below it is left at a first look at some of the draws
+    """
+
+    def share(grades: Grades, count: int | None) -> float:
+        parts = [one[grade][:count] for one, grade in zip(columns, grades, strict=True)]
+        good: Any = True
+        for wish in wishes:
+            rest = wish.rest[:count] if isinstance(wish.rest, np.ndarray) else wish.rest
+            off = rest + sum(g * part for g, part in zip(wish.gains, parts, strict=True))
+            good = good & (off <= wish.above) & (off >= -wish.below)
+        return float(np.mean(good))
+
+    def reached(grades: Grades) -> float:
+        first = share(grades, _FIRST_LOOK)
+        return first if first < target - _FAR else share(grades, None)
+
+    return reached
 
 
-def _greedy(ranges: list[range], cost: object, reached: object, target: float) -> list[tuple[int, ...]]:
+def _greedy(ranges: list[range], cost: Any, reached: LinearYield, target: float) -> list[tuple[int, ...]]:
     """Grades made coarser one at a time, where the yield falls least for the cost saved; the cheapest first."""
     grades = [row[0] for row in ranges]
     path = [tuple(grades)]
@@ -141,17 +162,17 @@ def _greedy(ranges: list[range], cost: object, reached: object, target: float) -
             if grades[i] < row[-1]:
                 trial = [*grades]
                 trial[i] += 1
-                steps.append((reached(trial), cost(grades) - cost(trial), trial))  # type: ignore[operator]
+                steps.append((reached(trial), cost(grades) - cost(trial), trial))
         there = [step for step in steps if step[0] >= target]
         if not there:
             return path[::-1]
-        loss = reached(grades)  # type: ignore[operator]
+        loss = reached(grades)
         grades = min(there, key=lambda step: (loss - step[0]) / step[1])[2]
         path.append(tuple(grades))
 
 
 def table_rows(study: Any) -> list[tuple[Any, ...]]:
-    """The grades that a study needs: chosen by the slopes, confirmed by samples of the design, else one choice on.
+    """The grades that a study needs: chosen by the slopes, confirmed by samples of the design, else the next choice.
 
     Parameters
         study : ToleranceStudy
@@ -161,71 +182,125 @@ def table_rows(study: Any) -> list[tuple[Any, ...]]:
         WrongStudy - without target, or without a source whose grade may be chosen, or where no grades reach it
     """
     made = study.problem
-    target = made.section.target_yield
-    places = [i for i, source in enumerate(made.sources) if source.entry.grades is not None and source.kind != "pin"]
-    if target is None or not places:
-        what = "target_yield" if target is None else "grades: [finest, coarsest] on a source"
-        raise no("GL171", f"--allocate needs {what}")
-    graded = [_graded(made.sources[i]) for i in places]
-    wishes = list(_wishes(study, places))
-    if not wishes:
-        raise no("GL171", "--allocate needs a line of require that compares one quantity with a number", "require")
-    if len(wishes) > MOST_DIMENSIONS - len(places):
-        most = MOST_DIMENSIONS - len(places)
-        raise no(
-            "GL171", f"--allocate weighs {most} quantities at most beside so many grades: ask for fewer", "require"
-        )
-    ratio = made.section.cost.ratio
-    found = None
-    for found in itertools.islice(choices(graded, wishes, target, ratio), _TRIALS):
-        reached = _sampled(made, places, found.grades)
-        if reached >= target:
-            break
-    if found is None:
-        raise no(
-            "GL171",
-            "even the finest grades miss the target yield: widen grades, or loosen the requirement",
-            "target_yield",
-        )
+    places = _places(made)
+    target, ratio = made.section.target_yield, made.section.cost.ratio
+    entries = [made.sources[i].entry for i in places]
+    graded = [Graded(entry.grades[0], entry.grades[1], entry.cost) for entry in entries if entry.grades]
+    linear = _linear_yield(study, places)
+    found, reached = _confirmed(made, places, choices(graded, linear, target, ratio))
     rows = []
     for i, one, grade in zip(places, graded, found.grades, strict=True):
         coarser = [grade + (place == i) for place, grade in zip(places, found.grades, strict=True)]
-        free = grade < one.coarsest and _linear(graded, wishes, coarser) >= target
-        half = 0.5 * standard_tolerance(one.size, grade)
-        rows.append((made.sources[i].key, grade, half, one.cost * ratio ** (_MIDDLE_GRADE - grade), reached, free))
+        free = grade < one.coarsest and linear(coarser) >= target
+        source = made.sources[i]
+        half = 0.5 * standard_tolerance(abs(source.nominal), grade)
+        rows.append((source.key, grade, half, one.cost * ratio ** (_MIDDLE_GRADE - grade), reached, free))
     return rows
 
 
-def _graded(source: Any) -> Graded:
-    finest, coarsest = source.entry.grades
-    return Graded(abs(source.nominal), finest, coarsest, source.entry.cost, source.entry.cp)
+def _places(made: Problem) -> list[int]:
+    """Which sources have grades to choose from."""
+    found = [i for i, source in enumerate(made.sources) if source.entry.grades is not None and source.kind != "pin"]
+    if made.section.target_yield is None or not found:
+        what = "target_yield" if made.section.target_yield is None else "grades: [finest, coarsest] on a source"
+        raise no("GL171", f"--allocate needs {what}")
+    return found
 
 
-def _wishes(study: Any, places: Sequence[int]) -> Iterator[Wish]:
-    """Requirements that compare one quantity with a number, about the nominal value."""
-    names = {one.expression.tree for one in study.problem.requirements if isinstance(one.expression.tree, str)}
-    for name in study.varying:
-        if name not in names:
+def _linear_yield(study: Any, places: Sequence[int]) -> LinearYield:
+    """The yield of grades by the slopes, with the laws and correlations of the file: exact where it can be."""
+    made = study.problem
+    names = {one.expression.tree for one in made.requirements if isinstance(one.expression.tree, str)}
+    asked = [name for name in study.varying if name in names]
+    if not asked:
+        raise no("GL171", "--allocate needs a line of require that compares one quantity with a number", "require")
+    by_grade = [_by_grade(made.sources[i]) for i in places]
+    alone = len(asked) == 1 and made.correlation is None
+    if alone and all(source.kind != "pin" and source.law.form in ("normal", "fixed") for source in made.sources):
+        return normal_yield(
+            [{g: one.law for g, one in row.items()} for row in by_grade], _wish(study, asked[0], places)
+        )
+    drawn = replication(made.coordinates, REPLICATIONS * _DRAWS, made.section.seed, REPLICATIONS)
+    points = together(drawn, made.correlation)
+    starts = list(itertools.accumulate((source.coordinates for source in made.sources), initial=0))
+    columns = [
+        {g: one.law.deviations(points[:, starts[i]]) for g, one in row.items()}
+        for i, row in zip(places, by_grade, strict=True)
+    ]
+    return drawn_yield(columns, [_wish(study, name, places, drawn) for name in asked], made.section.target_yield)
+
+
+def _by_grade(source: Scatter) -> dict[int, Scatter]:
+    """A source made to each of its grades, to either side of its size."""
+    finest, coarsest = source.entry.grades or (0, -1)
+    return {
+        grade: source.within(0.5 * standard_tolerance(abs(source.nominal), grade))
+        for grade in range(finest, coarsest + 1)
+    }
+
+
+def _wish(study: Any, name: str, places: Sequence[int], drawn: Reals | None = None) -> Wish:
+    """What the requirements say of a quantity, about its nominal value."""
+    made, rows, middle = study.problem, study.slopes[name], study.nominal[name]
+    lower, upper = study.limits(name)
+    others = [(source, rows[i]) for i, source in enumerate(made.sources) if i not in places]
+    rest: Reals | float = sum(row.gain[0] * source.law.moments()[0] for source, row in others)
+    if drawn is not None:
+        sizes = made.sizes(drawn)
+        rest = sum(
+            (_along(row.gain, sizes[source.key] - source.nominal) for source, row in others), np.zeros(len(drawn))
+        )
+    return Wish(
+        tuple(rows[i].gain[0] for i in places),
+        math.inf if lower is None else middle - lower,
+        math.inf if upper is None else upper - middle,
+        rest,
+        math.hypot(*(row.sigma for _, row in others), 0.0),
+    )
+
+
+def _along(gain: Sequence[float], off: Any) -> Reals:
+    """Error by a deviation, of a pin by its vector."""
+    error: Reals = gain[0] * np.real(off) + (gain[1] * np.imag(off) if len(gain) > 1 else 0.0)
+    return error
+
+
+def _confirmed(made: Problem, places: Sequence[int], found: Iterator[Choice]) -> tuple[Choice, float]:
+    """The first choice whose samples reach the target, and the lower end of their yield.
+
+    Notes
+        What fails more often in the samples than by the slopes is expected to do so with the next choices too: those
+        that would then miss are passed over.
+    Raises
+        WrongStudy - where none does
+    """
+    target, more = made.section.target_yield or 0.0, 1.0
+    tried: list[tuple[float, Choice]] = []
+    for choice in found:
+        if tried and (1.0 - choice.reached) * more > 1.0 - target:
             continue
-        lower, upper = study.limits(name)
-        rows, middle = study.slopes[name], study.nominal[name]
-        rest = math.hypot(*(row.sigma for i, row in enumerate(rows) if i not in places), 0.0)
-        gains = tuple(rows[i].gain[0] for i in places)
-        below = math.inf if lower is None else middle - lower
-        yield Wish(gains, below, math.inf if upper is None else upper - middle, rest)
+        low = _sampled(made, places, choice.grades)
+        if low >= target:
+            return choice, low
+        tried.append((low, choice))
+        if len(tried) == _TRIALS:
+            break
+        if choice.reached < 1.0:
+            more = max(more, (1.0 - low) / (1.0 - choice.reached))
+    if not tried:
+        message = "even the finest grades miss the target yield: widen grades, or loosen the requirement"
+        raise no("GL171", message, "target_yield")
+    low, best = max(tried, key=lambda one: one[0])
+    named = ", ".join(f"{made.sources[i].key} IT{grade}" for i, grade in zip(places, best.grades, strict=True))
+    message = f"by the slopes {named} reach the target yield, but samples of them prove no more than {100 * low:.6g} %"
+    raise no("GL171", f"{message}: take finer grades or more --samples, or loosen the requirement", "target_yield")
 
 
-def _linear(graded: Sequence[Graded], wishes: Sequence[Wish], grades: Sequence[int]) -> float:
-    return _yield([one.sigma(grade) for one, grade in zip(graded, grades, strict=True)], wishes)
-
-
-def _sampled(made: Problem, places: Sequence[int], grades: Sequence[int]) -> float:
+def _sampled(made: Problem, places: Sequence[int], grades: Grades) -> float:
     """Lower end of the yield of the design itself with these grades."""
     sources = dict(made.section.sources)
     for i, grade in zip(places, grades, strict=True):
         source = made.sources[i]
-        half = 0.5 * standard_tolerance(abs(source.nominal), grade)
-        changes = dict.fromkeys(("lower", "upper", "limits", "sigma", "class_", "measured"))
-        sources[source.key] = source.entry.model_copy(update={**changes, "plus_minus": half})
+        sources[source.key] = source.within(0.5 * standard_tolerance(abs(source.nominal), grade)).entry
     changed = replace(made, section=made.section.model_copy(update={"sources": sources}))
     return result(changed).good.low
