@@ -49,6 +49,7 @@ class LoadsBase(Design):
     jumps: ClassVar[bool] = False
     """Whether its speed jumps."""
     sliding: ClassVar[tuple[str, ...]] = ()
+    section_example: ClassVar[str] = "{speed: 1/min, links: ...}"
     pins: ClassVar[tuple[str, ...]]
     meshes: ClassVar[tuple[str, ...]]
     advises = False
@@ -63,7 +64,7 @@ class LoadsBase(Design):
     def section(self) -> Any:
         """The section `loads`."""
         if self.spec.loads is None:
-            raise MissingSection("`loads` needs the section loads: {speed: 1/min, links: ...}", key="loads")
+            raise MissingSection(f"`loads` needs the section loads: {self.section_example}", key="loads")
         return self.spec.loads
 
     @property
