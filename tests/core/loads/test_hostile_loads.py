@@ -188,7 +188,7 @@ def test_a_direction_of_what_is_not_there_is_refused() -> None:
 @pytest.mark.parametrize("base", ["swing_gripper", "wide_swing_twin_cam"])
 def test_the_section_that_a_missing_one_is_asked_for_is_one(base: str) -> None:
     """Kinds with a speed of their own are not told to write loads.speed."""
-    with pytest.raises(GearlinkError, match="loads: {roller") as caught:
+    with pytest.raises(GearlinkError, match=r"loads: \{roller") as caught:
         factory.design(base, command="loads").report("loads")
     assert caught.value.key == "loads"
     factory.design(base, command="loads", loads={"roller": {"width": 20}}).raw("input_torque_max")
