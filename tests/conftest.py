@@ -76,10 +76,11 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 # What the tests cost
 
-SHARE = 0.08
-"""A test file may take so much of the processor time of `make test`: a share does not depend on the machine."""
-WHOLE = 4000
-"""A run of so many tests is the whole."""
+SHARE = 0.2
+"""A test file may take so much of the processor time of its part of `make test`: a share does not depend on the
+machine."""
+WHOLE = 1000
+"""A run of so many tests is a part of `make test`, or more."""
 
 
 @pytest.hookimpl(wrapper=True)

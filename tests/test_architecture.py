@@ -40,6 +40,8 @@ MODULES = _modules()
 def _imported(node: ast.AST) -> Iterator[str]:
     """Modules that a piece of code imports when it runs, at its head or inside a function; annotations do not run."""
     for child in ast.iter_child_nodes(node):
+        if isinstance(child, ast.expr):
+            continue  # imports are statements
         if isinstance(child, ast.If) and "TYPE_CHECKING" in ast.dump(child.test):
             continue
         if isinstance(child, ast.ImportFrom) and child.module and child.module.startswith("gearlink."):

@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from factory import DESIGNS, each_kind
 from matplotlib.figure import Figure
 
 from gearlink.cli.exit_codes import ExitCode
@@ -104,8 +105,9 @@ def test_nomenclature_page_is_the_nomenclature() -> None:
     assert (ROOT / "docs" / "nomenclature.md").read_text() == module.text(), "run `make docs`"
 
 
-@pytest.mark.parametrize("path", sorted((ROOT / "designs").glob("*.yaml")), ids=lambda path: path.name)
+@pytest.mark.parametrize("path", each_kind(sorted(DESIGNS.glob("*.yaml"))), ids=lambda path: path.name)
 def test_every_worked_design_runs(path: Path, gearlink: Any) -> None:
+    """With its tables; that all of them pass, tests/cli/commands/test_check.py holds."""
     ended = gearlink("batch", path, "--format", "json")
     printed_wrong = path.name == "thesis_example_3_as_printed.yaml"
     assert ended.status == (ExitCode.FINDING if printed_wrong else ExitCode.OK), ended.out

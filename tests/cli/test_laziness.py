@@ -8,6 +8,7 @@ import sys
 from functools import cache
 from importlib.metadata import packages_distributions
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import factory
 import pytest
@@ -18,31 +19,26 @@ _PROBE = """
 import io, json, sys
 from contextlib import redirect_stdout, redirect_stderr
 from gearlink.cli.main import run
-status = 0
-if sys.argv[1:] != ["nothing"]:
+found = []
+for line in sys.argv[1:]:
     with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
-        for line in " ".join(sys.argv[1:]).split(" + "):
-            status = max(status, run(line.split()))
-print(json.dumps([int(status), sorted(sys.modules)]))
+        status = run(line.split())
+    found.append([int(status), sorted(sys.modules)])
+print(json.dumps(found))
 """
 
 
-@cache
-def modules_of(*arguments: str) -> set[str]:
-    """Modules loaded by a command, or by several with a + between them, in a process of their own."""
-    done = subprocess.run(
-        [sys.executable, "-c", _PROBE, *arguments], capture_output=True, text=True, cwd=ROOT, check=True
-    )
-    status, modules = json.loads(done.stdout)
-    assert status in (0, 1), arguments
-    return set(modules)
+def modules_after(*lines: str) -> list[set[str]]:
+    """Modules loaded after each of several command lines in a process of their own."""
+    done = subprocess.run([sys.executable, "-c", _PROBE, *lines], capture_output=True, text=True, cwd=ROOT, check=True)
+    found = json.loads(done.stdout)
+    assert [status for status, _ in found if status not in (0, 1)] == [], lines
+    return [set(modules) for _, modules in found]
 
 
 def packages(modules: set[str]) -> set[str]:
     return {name.partition(".")[0] for name in modules}
 
-
-# A process for many lines: what one of them imported would still be there.
 
 READING = {"annotated_types", "gearlink", "pydantic", "pydantic_core", "typing_extensions", "typing_inspection", "yaml"}
 SCALAR_LINES = [
@@ -58,6 +54,11 @@ SCALAR_LINES = [
     "analyze designs/six_bar_two_trains.yaml",
 ]
 CHECKS = ["check designs/wide_lever.yaml", "check designs/two_gear_ring.yaml"]
+LINES = ["crank designs/ty460_slider_crank.yaml", "press designs/ty460.yaml"]
+VERSION = ["--version"]
+ASKED = [*(f"explain {name}" for name in ("GL301", "contact_ratio", "gears.module", "gear-pair")), "schema gear-pair"]
+NEW = ["new gear-pair"]
+EXPORTS = ["export designs/ty460_input_gears.yaml --as svg --as csv --tolerance 0.1 -q --out OUT"]
 SWEEP_LINES = [
     "analyze designs/thesis_example_3_as_printed.yaml",
     "press designs/ty460.yaml",
@@ -65,6 +66,25 @@ SWEEP_LINES = [
     "gripper designs/swing_gripper.yaml",
     "swing designs/wide_swing_twin_cam.yaml",
 ]
+
+
+def as_json(lines: list[str]) -> list[str]:
+    return [f"{line} --format json" for line in lines]
+
+
+@cache
+def ladder() -> dict[str, set[str]]:
+    """Modules after each line in one process, those first that need least: what a line may not import none before it
+    may either, so that a process for each line would say no more."""
+    lines = [*VERSION, *ASKED, *NEW, *as_json(SCALAR_LINES), *CHECKS, *as_json(SWEEP_LINES), *EXPORTS, *LINES]
+    with TemporaryDirectory() as folder:
+        found = modules_after(*(line.replace("OUT", folder) for line in lines))
+    return dict(zip(lines, found, strict=True))
+
+
+def loaded_after(*lines: str) -> set[str]:
+    """What is loaded once all these lines of the ladder have been run."""
+    return max((ladder()[line] for line in lines), key=len)
 
 
 def installed(modules: set[str]) -> set[str]:
@@ -75,7 +95,7 @@ def installed(modules: set[str]) -> set[str]:
 @pytest.mark.parametrize(("lines", "besides"), [(SCALAR_LINES, set()), (SWEEP_LINES, {"numpy"})])
 def test_results_as_json_import_what_reading_needs_and_no_more(lines: list[str], besides: set[str]) -> None:
     """Scalar commands no numpy, sweeps no scipy and no matplotlib, neither rich nor Typer."""
-    modules = modules_of(*" --format json + ".join([*lines, ""]).removesuffix(" + ").split())
+    modules = loaded_after(*as_json(lines))
     assert installed(modules) <= READING | {"_yaml"} | besides
     assert not {name for name in modules if name.startswith(("gearlink.cli.figures", "gearlink.cli.app"))}
 
@@ -101,34 +121,31 @@ _GENERAL = {f"three_gear.{name}" for name in ("families", "internal_families", "
 )
 def test_a_command_imports_no_room_that_it_does_not_enter(line: str, unused: set[str]) -> None:
     """Rings, tooth data, general families, loads and studies are imported by designs that have them."""
-    modules = modules_of(*line.split(), "--format", "json")
+    (modules,) = modules_after(f"{line} --format json")
     assert not {f"gearlink.core.{name}" for name in unused | _SEARCHES} & modules
 
 
 def test_checks_of_scalar_designs_import_no_numpy() -> None:
-    assert not packages(modules_of(*" + ".join(CHECKS).split())) & {"numpy", "scipy", "matplotlib"}
+    assert not packages(loaded_after(*CHECKS)) & {"numpy", "scipy", "matplotlib"}
 
 
 def test_help_imports_no_models() -> None:
-    modules = modules_of(*["--help", "+", "synth", "--help"])
+    *_, modules = modules_after("--help", "synth --help")
     assert "numpy" not in modules
     assert not {m for m in modules if m.startswith("gearlink.core.") and "spec" in m.rpartition(".")[2]}
     assert not {m for m in modules if m in ("yaml", "scipy", "matplotlib", "gearlink.cli.commands.design")}
 
 
-_ASKED = "explain GL301 + explain contact_ratio + explain gears.module + explain gear-pair + schema gear-pair"
-
-
-@pytest.mark.parametrize(("lines", "besides"), [(_ASKED, set()), ("new gear-pair", {"yaml", "_yaml"})])
-def test_what_is_known_of_files_needs_no_models(lines: str, besides: set[str]) -> None:
+@pytest.mark.parametrize(("lines", "besides"), [(ASKED, set()), (NEW, {"yaml", "_yaml"})])
+def test_what_is_known_of_files_needs_no_models(lines: list[str], besides: set[str]) -> None:
     """Explanations, schemas and templates come from two files: no pydantic, no Typer, no design class."""
-    modules = modules_of(*lines.split())
+    modules = loaded_after(*lines)
     assert installed(modules) <= {"gearlink"} | besides
     assert not {m for m in modules if m.startswith("gearlink.core.") and m.endswith((".spec", ".design"))}
 
 
 def test_version_imports_no_typer() -> None:
-    assert installed(modules_of("--version")) <= {"gearlink"}
+    assert installed(loaded_after(*VERSION)) <= {"gearlink"}
 
 
 @pytest.mark.slow
@@ -146,16 +163,17 @@ def test_core_imports_no_interface() -> None:
     assert not found & {"typer", "rich", "yaml", "matplotlib", "scipy", "gearlink.cli"}
 
 
-LINES = ["crank designs/ty460_slider_crank.yaml", "press designs/ty460.yaml"]
-
-
 def test_results_in_a_terminal_import_no_matplotlib() -> None:
-    assert "matplotlib" not in packages(modules_of(*" + ".join(LINES).split()))
+    assert "matplotlib" not in packages(loaded_after(*LINES))
+
+
+def test_curves_as_svg_and_csv_import_no_dxf_library() -> None:
+    assert not packages(loaded_after(*EXPORTS)) & {"ezdxf", "scipy", "matplotlib"}
 
 
 @pytest.mark.parametrize("line", mostly_slow(LINES, 1))
 def test_a_picture_imports_neither_pyplot_nor_scipy(line: str, tmp_path: Path) -> None:
-    drawn = modules_of(*line.split(), "--plot", "--out", str(tmp_path), "--quiet")
+    (drawn,) = modules_after(f"{line} --plot --quiet --out {tmp_path}")
     assert "matplotlib.figure" in drawn
     assert not drawn & {"matplotlib.pyplot", "scipy"}
 

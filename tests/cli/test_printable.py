@@ -102,7 +102,7 @@ def hostile(request: Any, tmp_path: Path, designs: Path, monkeypatch: pytest.Mon
     return place
 
 
-@pytest.mark.parametrize("form", mostly_slow(["csv", "table", "md"], 2))
+@pytest.mark.parametrize("form", mostly_slow(["csv", "table", "md"], 1))
 def test_batch_and_check(gearlink: Any, hostile: Path, form: str) -> None:
     for command in ("batch", "check"):
         ended = gearlink(command, hostile, "--format", form)

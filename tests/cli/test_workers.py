@@ -10,6 +10,7 @@ import time
 from pathlib import Path
 
 import pytest
+from sweeps import mostly_slow
 
 from gearlink.cli.workers import workers
 
@@ -46,7 +47,7 @@ def _heed() -> None:
         signal.signal(getattr(signal, name), signal.SIG_DFL)
 
 
-@pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP", "SIGQUIT", "SIGUSR1", "SIGKILL"])
+@pytest.mark.parametrize("name", mostly_slow(["SIGTERM", "SIGKILL", "SIGHUP", "SIGQUIT", "SIGUSR1"], 2))
 def test_workers_end_with_their_parent(tmp_path: Path, name: str) -> None:
     """The reader of their common output gets its end, which it does not while any of them lives."""
     command = [sys.executable, "-c", PARENT, str(tmp_path)]

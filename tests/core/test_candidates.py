@@ -39,7 +39,7 @@ def rows_of(name: str, command: str = "analyze") -> list[dict[str, Any]]:
     return [dict(zip(table.columns, row, strict=True)) for row in zip(*table.data, strict=True)]
 
 
-@pytest.mark.quick(3)
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(("name", "command", "keys", "quantity"), CASES, ids=[case[0] for case in CASES])
 def test_rows_are_designs_of_their_own(name: str, command: str, keys: dict[str, str], quantity: str) -> None:
     found = rows_of(name, command)

@@ -65,7 +65,7 @@ SLOPES = [
 @pytest.mark.quick(2)
 @pytest.mark.parametrize(("name", "table", "angle", "pairs"), SLOPES)
 def test_every_rate_is_the_slope_of_its_column(name, table, angle, pairs):
-    found = design(name).table(table, samples=36_000)
+    found = design(name).table(table, samples=12_000)
     step = math.radians(found[angle][1] - found[angle][0])
     for column, rate, scale in pairs:
         slope = (found[column][2:] - found[column][:-2]) * scale / (2.0 * step)

@@ -65,7 +65,7 @@ def no_worse(now: Failing, before: Failing) -> bool:
 
     Findings come and go with what they judge: a root that no tool leaves has a warning in place of its stress.
     """
-    pairs = ((now[name], before[name]) for name in now)
+    pairs = ((now[name], before.get(name, [])) for name in now)  # cams that there were not yet have checks of their own
     return all(
         all(was or not fails for fails, was in zip(one, other, strict=True))
         if len(one) == len(other)
@@ -74,10 +74,10 @@ def no_worse(now: Failing, before: Failing) -> bool:
     )
 
 
-def tried(kind: str, failures: int) -> tuple[int, int]:
+def tried(kind: str, failures: int, seed: int = 1) -> tuple[int, int]:
     """How many findings of so many failing random designs fail, and how many have a remedy; each is followed."""
     wrong = repaired = 0
-    for data, command in draw(kind, 1, 100 * failures):
+    for data, command in draw(kind, seed, 100 * failures):
         before = failing(data, command)
         if before is None or not any(map(any, before.values())):
             continue
@@ -109,13 +109,15 @@ def follow(data: Data, check: Check, i: int, stood: dict[str, Failing]) -> None:
             assert not (fails[i] if len(fails) == len(before[check.name]) else any(fails)), (data, check)
 
 
-COSTLY = {"gripper": 2, "press": 1, "wide_swing": 1, "three_gear": 4, "cycle": 1, "loads": 1}
+COSTLY = {"gripper": 1, "press": 1, "wide_swing": 1, "three_gear": 4, "cycle": 1, "loads": 1}
 """Failing designs of `make test`, where the checks of a design take tens of milliseconds."""
+SEEDS = {"loads": 4, "cycle": 6, "gripper": 5, "press": 3, "three_gear": 2}
+"""Draws that begin with designs whose remedy takes few trials; every other one belongs to `make check-full`."""
 
 
 @pytest.mark.parametrize("kind", [name for name in DRAWN if name not in SLOW_KINDS])
 def test_followed_remedies_repair_and_break_nothing(kind: str) -> None:
-    wrong, repaired = tried(kind, COSTLY.get(kind, 5))
+    wrong, repaired = tried(kind, COSTLY.get(kind, 5), SEEDS.get(kind, 1))
     assert repaired >= 0.3 * wrong
 
 

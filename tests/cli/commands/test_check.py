@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from factory import COSTLY, QUICK
+from factory import DESIGNS, QUICK, all_but_costly
 from sweeps import ALL
 
 from gearlink.cli.commands import check
@@ -171,23 +171,23 @@ def test_no_such_place(gearlink: Any, tmp_path: Path) -> None:
     assert "GL101" in ended.err
 
 
-def test_no_table_is_computed_and_every_place_is_in_its_file(
-    gearlink: Any, designs: Path, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize("path", all_but_costly(sorted(DESIGNS.glob("*.yaml"))), ids=lambda path: path.stem)
+def test_every_worked_design_is_checked_without_its_tables_and_findings_stand_in_its_file(
+    path: Path, gearlink: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    """All of them pass but the one that is printed wrong in its source."""
+
     def refuse(self: Design, name: str) -> None:
         raise AssertionError(f"table {name} of {self.kind} was computed")
 
     monkeypatch.setattr(Design, "table", refuse)
-    paths = [path for path in sorted(designs.glob("*.yaml")) if ALL or path.stem not in COSTLY]
-    ended = gearlink("check", *paths, "--verbose", "--format", "json")
-    assert ended.status == 1
-    lines = {str(path): path.read_text().splitlines() for path in paths}
-    findings = ended.json["findings"]
-    assert {found["file"] for found in findings} <= set(lines)
-    for found in findings:
-        assert found["code"] != "GL199", found
+    ended = gearlink("check", path, "--verbose", "--format", "json")
+    assert ended.status == (1 if path.stem == "thesis_example_3_as_printed" else 0), ended.out
+    lines = path.read_text().splitlines()
+    for found in ended.json["findings"]:
+        assert (found["file"], found["code"] != "GL199") == (str(path), True), found
         key = found["key"].rpartition(".")[2].partition("[")[0]
-        assert lines[found["file"]][found["line"] - 1][found["column"] - 1 :].startswith(key)
+        assert lines[found["line"] - 1][found["column"] - 1 :].startswith(key)
 
 
 def test_agrees_with_batch_on_every_design(gearlink: Any, designs: Path, tmp_path: Path) -> None:

@@ -91,12 +91,12 @@ def test_key_that_is_left_out(gearlink: Any, designs: Path) -> None:
 
 
 def test_good_design_needs_no_change(gearlink: Any, designs: Path) -> None:
-    path = designs / "wide_swing_twin_cam.yaml"
-    ended = gearlink("swing", path, "--suggest", "--format", "json")
-    plain = gearlink("swing", path, "--format", "json")
+    path = designs / "ty460_input_gears.yaml"
+    ended = gearlink("gear", path, "--suggest", "--format", "json")
+    plain = gearlink("gear", path, "--format", "json")
     assert ended.status == ExitCode.OK
     assert ended.json == plain.json | {"suggestions": []}
-    assert gearlink("swing", path, "--suggest").out == "suggestions: none\n\n" + gearlink("swing", path).out
+    assert gearlink("gear", path, "--suggest").out == "suggestions: none\n\n" + gearlink("gear", path).out
 
 
 def test_formats(gearlink: Any, loop: Path) -> None:

@@ -117,7 +117,7 @@ kind: gear-pair
 module: 4
 teeth: [23, 41]
 center_distance: 129.5
-tolerance: {sources: {center_distance: {plus_minus: 0.03}}, samples: 64, sobol: true}
+tolerance: {sources: {center_distance: {plus_minus: 0.03}}, samples: 32, sobol: true}
 """
 
 

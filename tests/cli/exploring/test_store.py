@@ -24,7 +24,7 @@ STUDY: dict[str, Any] = {
     "name": "cranks",
     "design": {"kind": "slider-crank", "stroke": 300, "rod": 500, "offset": 20},
     "variables": {
-        "rod": {"from": 200, "to": 400, "step": 2},
+        "rod": {"from": 200, "to": 400, "step": 4},
         "offset": {"values": [0, 10, 20, 30, 45, 60]},
         "stroke": {"values": [280, 310]},
         "name": {"values": ["crank"]},  # a word, which no array form takes: chunks are those of design classes
@@ -187,7 +187,7 @@ def test_stores_that_are_refused(gearlink: Any, study: Path, tmp_path: Path) -> 
     code, message = refused(
         gearlink, study, "--store", store, "--resume", "--set", "variables.rod={from: 200, to: 500}"
     )
-    assert (code, "variables.rod.step was 2.0, is null" in message) == ("GL157", True)
+    assert (code, "variables.rod.step was 4.0, is null" in message) == ("GL157", True)
     with sqlite3.connect(store) as connection:
         connection.execute("UPDATE meta SET value = '0.0' WHERE key = 'numpy'")
     connection.close()

@@ -298,16 +298,6 @@ def test_without_the_dxf_library(gearlink: Any, tmp_path: Path, monkeypatch: pyt
     assert gearlink("export", GEARS, "--as", "svg", "--as", "csv", "--tolerance", 0.1, "--out", tmp_path).status == 0
 
 
-def test_svg_and_csv_import_no_dxf_library(tmp_path: Path) -> None:
-    line = ["export", str(GEARS), "--as", "svg", "--as", "csv", "--tolerance", "0.1", "-q", "--out", str(tmp_path)]
-    probe = (
-        f"import sys\nfrom gearlink.cli.main import run\nstatus = run({line})\n"
-        "print(int(status), sorted({m.partition('.')[0] for m in sys.modules} & {'ezdxf', 'scipy', 'matplotlib'}))"
-    )
-    done = subprocess.run([sys.executable, "-c", probe], capture_output=True, text=True, check=True)
-    assert done.stdout == "0 []\n"
-
-
 def test_a_full_disk_leaves_nothing(gearlink: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")

@@ -31,6 +31,7 @@ def keys(case):
     return dict(zip(("stroke", "rod", "offset"), case, strict=True))
 
 
+@pytest.mark.quick(4)
 @pytest.mark.parametrize("case", CASES)
 def test_curves(case):
     made, figure = sheet(DATA, "crank", **keys(case))

@@ -101,8 +101,9 @@ def test_a_sheet_is_drawn_where_its_panels_were_and_again_where_they_moved(monke
         drawn = sheets.at_once("crank", like, ())
     assert sheets.moved("crank", like, ()) == ""
     assert drawn == sheet("crank", like)
-    assert sheets.at_once("crank", wide, ()) != sheet("crank", wide)
-    assert sheets.moved("crank", wide, ()) == sheet("crank", wide)
+    whole = sheet("crank", wide)
+    assert sheets.at_once("crank", wide, ()) != whole
+    assert sheets.moved("crank", wide, ()) == whole
 
 
 def test_words_of_a_title_do_not_move_panels(monkeypatch: pytest.MonkeyPatch) -> None:

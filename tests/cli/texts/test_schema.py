@@ -80,6 +80,7 @@ def test_every_design_is_valid(path: Path) -> None:
     assert errors(data, schema_of(data["kind"])) == []
 
 
+@pytest.mark.quick(17)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda path: path.stem)
 def test_an_unknown_key_anywhere_is_found(path: Path) -> None:
     data = load(str(path)).data
@@ -106,6 +107,7 @@ def at(data: Any, path: tuple[Any, ...]) -> Any:
     return data
 
 
+@pytest.mark.quick(7)
 @pytest.mark.parametrize("path", each_kind(DESIGNS), ids=lambda path: path.stem)
 def test_schema_and_program_agree_on_wrong_values(path: Path) -> None:
     """Each value in turn made text, negative, huge, true or a section: what the schema refuses the program refuses.

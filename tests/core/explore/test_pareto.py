@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from sweeps import mostly_slow
 
 from gearlink.core.explore.pareto import PARTS, best_boxes, boxes, counted, front, knee, spread
 
@@ -28,7 +29,7 @@ def test_fronts_of_record(case: dict) -> None:
 
 
 @pytest.mark.parametrize("objectives", [1, 2, 3, 4, 6])
-@pytest.mark.parametrize(("designs", "values"), [(1, 3), (60, 3), (400, 8), (1500, 60)])
+@pytest.mark.parametrize(("designs", "values"), mostly_slow([(1, 3), (60, 3), (400, 8), (1500, 60)], 3))
 def test_fronts_against_all_pairs(objectives: int, designs: int, values: int) -> None:
     drawn = RNG.integers(0, values, (designs, objectives)).astype(float)
     assert front(drawn).tolist() == by_all_pairs(drawn)

@@ -84,22 +84,33 @@ def test_return_cam_carries_what_pulls() -> None:
     assert design.power_identity <= 1e-12
 
 
-def test_a_follower_that_changes_cams_strikes() -> None:
+ROLLER = {"width": 40, "inertia": 0.0012}
+
+
+@pytest.fixture(scope="module")
+def free() -> Any:
+    """The worked press, whose follower changes cams."""
+    return factory.design("loaded_press", command="loads", loads__roller=ROLLER)
+
+
+@pytest.fixture(scope="module")
+def held() -> Any:
+    """The same with a preload that holds both rollers."""
+    return factory.design("loaded_press", command="loads", loads__roller=ROLLER | {"preload": 5000})
+
+
+def test_a_follower_that_changes_cams_strikes(free: Any, held: Any) -> None:
     """Each change of sign of the follower's force is one; a preload that holds both rollers leaves none."""
-    free = factory.design("loaded_press", command="loads")
-    rows = np.linspace(0.0, 2.0 * math.pi, 20_001)
+    rows = np.linspace(0.0, 2.0 * math.pi, 2001)
     changes = np.count_nonzero(np.diff(np.sign(free.side_force(rows))))
     *_, found = free.check("load-reversal")
     assert (found.status, found.value) == ("warn", changes)
-    held = factory.design("loaded_press", command="loads", loads__roller={"width": 40, "preload": 5000})
     assert len(list(held.check("load-reversal"))) == len(held.meshes_found)
 
 
-def test_a_roller_is_driven_round_where_it_is_pressed() -> None:
+def test_a_roller_is_driven_round_where_it_is_pressed(free: Any, held: Any) -> None:
     """Without a preload each roller leaves its cam; with one the greatest share is that of a fine grid."""
-    roller = {"width": 40, "inertia": 0.0012}
-    assert factory.design("loaded_press", command="loads", loads__roller=roller).traction_needed == [None, None]
-    held = factory.design("loaded_press", command="loads", loads__roller=roller | {"preload": 5000})
+    assert free.traction_needed == [None, None]
     rows = np.linspace(0.0, 2.0 * math.pi, 20_001)
     for name, found in zip(held.own_rollers, held.traction_needed, strict=True):
         need = 0.0012 * np.abs(held.roller_acceleration(name, rows)) / 0.025 / held.contact_force(name, rows)

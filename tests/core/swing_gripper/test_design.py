@@ -241,8 +241,8 @@ def test_files_that_are_refused(changes: dict, words: str) -> None:
         ({"output_direction": 150.0}, "GL303", "fail", "turn output_direction by -12.81 deg"),
         ({"output_direction": 137.2}, "GL303", "warn", "for transmission angles of 45 deg"),
         ({"limits": {"pressure_angle": 20.0}}, "GL401", "fail", "the least for both rollers is 24.1 deg"),
+        ({"cam__center": [150.0, 0.0]}, "GL401", "fail", r"cam.center \[69.0, 62.7\] keeps it"),  # half a second
         ({"limits": {"accelerate_pressure_angle": 24.5}}, "GL401", "warn", "while it accelerates the gripper"),
-        ({"cam__center": [150.0, 0.0]}, "GL401", "fail", r"cam.center \[69.0, 62.7\] keeps it"),
         ({"cam__roller__radius": 110.0}, "GL402", "warn", "take a roller of at most 99.192 mm"),
         ({"cam__roller__radius": 124.0}, "GL402", "fail", "take a roller"),
         ({"cam__shaft_radius": 80.0}, "GL302", "warn", "take a shaft_radius of at most 62.66 mm"),

@@ -217,7 +217,7 @@ def study(name: str, count: int) -> Problem:
 
 @pytest.mark.quick(5)
 @pytest.mark.parametrize("name", TASKS)
-@pytest.mark.parametrize("count", [64, pytest.param(16384, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [32, pytest.param(16384, marks=pytest.mark.slow)])
 def test_refusals_statuses_and_values_are_those_of_the_classes(name: str, count: int) -> None:
     agree(study(name, count))
 
