@@ -96,16 +96,16 @@ def _symbols(name: str) -> Iterator[Topic]:
 def _keys(name: str) -> Iterator[Topic]:
     """Keys of design files by path, `gears.module`, or by their last word; one topic where several kinds agree."""
     from gearlink.cli.texts.spec_keys import known_keys
-    from gearlink.cli.texts.written_design import choice
+    from gearlink.cli.texts.written_design import choice, uncapitalised
 
     for key, kinds in known_keys():
         if name not in (key.path, key.path.rpartition(".")[2]):
             continue
+        words = uncapitalised(key.words) if key.section else key.words
         told = {"Unit": key.unit if key.unit not in ("", "1") else "", "Range": key.range, "Choice": choice(key)}
         told |= {"Kinds": ", ".join(kinds), "See also": f"`gearlink new {kinds[0]}` shows it in its place"}
-        yield Topic(
-            "key", key.path, f"key of a design file: {key.words or 'a section'}", {k: v for k, v in told.items() if v}
-        )
+        title = f"key of a design file: {words or 'a section'}"
+        yield Topic("key", key.path, title, {k: v for k, v in told.items() if v})
 
 
 def names() -> tuple[str, ...]:

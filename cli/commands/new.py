@@ -139,7 +139,9 @@ def _default(key: SpecKey) -> str:
 
 def _meaning(key: SpecKey) -> str:
     """Unit, meaning and range."""
+    from gearlink.cli.texts.written_design import uncapitalised
+
     if key.section:
-        return key.words
+        return uncapitalised(key.words)
     unit = "" if key.unit in ("", "1", "teeth") else f"{key.unit}: "
     return unit + key.words + (f" ({key.range})" if key.range else "")

@@ -67,10 +67,11 @@ def _lines(
 
 
 def _summary(kind: Kind) -> str:
-    return _uncapitalised(kind_schema(kind)["description"].partition("\n")[0])
+    return uncapitalised(kind_schema(kind)["description"].partition("\n")[0])
 
 
-def _uncapitalised(words: str) -> str:
+def uncapitalised(words: str) -> str:
+    """A sentence of a section as a remark among those of keys: no capital, no full stop."""
     return words[:1].lower() + words[1:].rstrip(".")
 
 
@@ -79,7 +80,7 @@ def _words(key: SpecKey | None, note: str) -> str:
     if key is None or key.path == "name":
         return note
     unit = "" if key.unit in ("", "1", "teeth") else f"{key.unit}: "
-    words = _uncapitalised(key.words) if key.section else unit + key.words
+    words = uncapitalised(key.words) if key.section else unit + key.words
     return "; ".join(part for part in (words, note or choice(key)) if part)
 
 

@@ -42,7 +42,6 @@ class PressLoads(CamLoadsDesign):
     kind = "flatbed-press"
     spec: FlatbedPressSpec
     section: Section
-    section_example = "{links: ...}"
     links = ("gear2", "BC", "CDE", "EF", "carriage", "pinion", "rack", "bed", "gear1", "HM", "MN", "cylinder")
     sliding = ("carriage", "rack", "bed")
     pins = ("A", "B", "C", "D", "E", "F", "F_pinion", "G", "H", "M", "N", "cylinder")

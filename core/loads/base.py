@@ -49,7 +49,8 @@ class LoadsBase(Design):
     jumps: ClassVar[bool] = False
     """Whether its speed jumps."""
     sliding: ClassVar[tuple[str, ...]] = ()
-    section_example: ClassVar[str] = "{speed: 1/min, links: ...}"
+    section_example: ClassVar[str] = ""
+    """A key of it [mm] where masses and speed stand in sections of the machine's own."""
     pins: ClassVar[tuple[str, ...]]
     meshes: ClassVar[tuple[str, ...]]
     advises = False
@@ -64,8 +65,19 @@ class LoadsBase(Design):
     def section(self) -> Any:
         """The section `loads`."""
         if self.spec.loads is None:
-            raise MissingSection(f"`loads` needs the section loads: {self.section_example}", key="loads")
+            raise MissingSection(self._first_section(), key="loads")
         return self.spec.loads
+
+    def _first_section(self) -> str:
+        """What to write where the file has no section; the speed where the machine's own keys do not give it."""
+        if self.section_example:
+            return self._needs(self.section_example, "mm")
+        own = type(self).speed is not LoadsBase.speed or getattr(self.spec, "input_speed", None) is not None
+        keys = ("" if own else "speed: 90, ") + f"links: {{{self.links[0]}: {{mass: 2, inertia: 0.01}}}}"
+        return self._needs(keys, "kg, kg m^2" if own else "rev/min, kg, kg m^2")
+
+    def _needs(self, keys: str, units: str) -> str:
+        return f"`loads` needs the section loads, such as loads: {{{keys}}} ({units}); `new {self.kind}` shows its keys"
 
     @property
     def section_roller(self) -> Any:

@@ -35,7 +35,7 @@ class GripperLoads(CamLoadsDesign):
     kind = "swing-gripper"
     spec: SwingGripperSpec
     section: Section
-    section_example = "{roller: {width: mm}}"
+    section_example = "roller: {width: 20}"
     links = ("input", "coupler", "output", "return_rocker", "cam")
     pins, meshes = ("A", "C", "D", "E", "A_return", "O"), ()
     stands = True

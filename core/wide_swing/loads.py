@@ -59,7 +59,7 @@ class WideSwingLoads(LoadsDesign):
     kind = "wide-swing-cam"
     spec: WideSwingSpec
     section: Section
-    section_example = "{roller: {width: mm}}"
+    section_example = "roller: {width: 20}"
     links = ("rocker", "cam", "return_cam", "rod", "slider", "crank", "coupler")
     sliding = ("slider",)
     output = "rocker"

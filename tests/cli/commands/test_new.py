@@ -57,6 +57,15 @@ def test_template_shows_every_key(gearlink: Any, kind: str) -> None:
         assert re.search(rf"\b{name}:", text), key.path
 
 
+@pytest.mark.parametrize("kind", ["flatbed-press", "gear-pair"])
+def test_remarks_are_alike_those_of_sections_too(gearlink: Any, kind: str) -> None:
+    """Sections that are left out are told as those that are there: no capital, no full stop."""
+    printed = gearlink("new", kind).out
+    remarks = re.findall(r"^# +[\w.]+:.* # (.*)$", printed, re.MULTILINE)
+    assert "coefficients of friction; a joint of its own has its own key" in remarks
+    assert [words for words in remarks if words.endswith(".") or re.match("(A|The|What|How) ", words)] == []
+
+
 def test_printed_and_written_are_the_same(gearlink: Any, tmp_path: Path) -> None:
     path = tmp_path / "folder" / "pair.yaml"
     printed = gearlink("new", "gear-pair").out

@@ -14,6 +14,8 @@ import factory
 import mpmath
 import numpy as np
 import pytest
+import yaml
+from sweeps import mostly_slow
 
 from gearlink.core.errors import GearlinkError
 from gearlink.core.kinds import KINDS
@@ -211,6 +213,23 @@ def test_what_has_no_masses_computes_nothing(monkeypatch: pytest.MonkeyPatch) ->
     assert factory.design("loaded_feed").report("analyze").quantities
     with pytest.raises(GearlinkError, match="needs the section loads"):
         factory.design("candy_feed", command="loads").report("loads")
+
+
+@pytest.mark.parametrize(
+    "name",
+    mostly_slow(
+        ["ty460", "swing_gripper", "gear_pair", "wide_swing_twin_cam", "loaded_feed", "wide_lever",
+         "two_gear_drag_link", "mutilated_gear_press", "hypocycloid_slider", "five_bar_path", "geared_six_bar",
+         "ty460_slider_crank"],
+        4,
+    ),
+)  # fmt: skip
+def test_the_section_that_is_named_where_none_is_there_serves(name: str) -> None:
+    with pytest.raises(GearlinkError, match="needs the section loads") as refused:
+        factory.design(name, command="loads", loads=None).report("loads")
+    written = str(refused.value).split("such as ")[1].split(" (")[0]
+    data = {**factory.worked(name), **yaml.safe_load(written)}
+    assert factory.design(data, command="loads").report("loads").checks
 
 
 @pytest.mark.parametrize("name", ["loaded_feed", "loaded_gripper"])
