@@ -25,9 +25,9 @@ from gearlink.cli.completing import better_scripts
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.exploring.register import register as register_exploring
 from gearlink.cli.export.register import register as register_export
-from gearlink.cli.options import COMMANDS, OPTIONS, Options
+from gearlink.cli.options import COMMANDS, OPTIONS, Options, folder
 from gearlink.cli.quick import run_line
-from gearlink.cli.typer_options import Spec, option, takes
+from gearlink.cli.typer_options import Spec, option, place, takes
 from gearlink.core.kinds import KINDS
 
 _HELP = """Design calculator for the mechanisms of printing machines.
@@ -109,7 +109,9 @@ def _batch(
     format: Annotated[BatchFormat, option("format", help="form of the summary")] = BatchFormat.TABLE,
     fail_on: Annotated[FailOn, typer.Option("--fail-on", help="what gives exit status 1")] = FailOn.FAILURE,
     out: Annotated[Path | None, option("out", help="write reports and tables of each design")] = None,
-    cache: Annotated[Path | None, typer.Option(metavar="DIR", help="keep results; skip unchanged designs")] = None,
+    cache: Annotated[
+        Path | None, place(folder, "--cache", metavar="DIR", help="keep results; skip unchanged designs")
+    ] = None,
     shard: Annotated[str, typer.Option(metavar="I/N", help="run only the I-th of N shares of the files")] = "1/1",
     jobs: Annotated[int, typer.Option("--jobs", "-j", min=0, help="number of processes; 0: chosen automatically")] = 0,
     dask: Annotated[str, typer.Option(metavar="ADDRESS", help="compute on the Dask cluster of this scheduler")] = "",

@@ -12,6 +12,47 @@ from enum import StrEnum
 from pathlib import Path
 from typing import Any
 
+STREAM = Path("-")
+"""Standard output, where a file is asked for."""
+
+
+def file(text: str) -> Path:
+    """The path of a file to write; `-` is standard output.
+
+    Raises
+        ValueError - for an empty one, which a variable of a script leaves that is not set
+    """
+    if not text:
+        raise ValueError("the name is empty: give a file")
+    path = Path(text)
+    return path.absolute() if path == STREAM and text != "-" else path
+
+
+def plain_file(text: str) -> Path:
+    """The path of a file that cannot be a stream.
+
+    Raises
+        ValueError - for an empty one, and for `-`
+    """
+    return _no_stream(file(text), "plain file")
+
+
+def folder(text: str) -> Path:
+    """The path of a folder to write to.
+
+    Raises
+        ValueError - for an empty one, and for `-`
+    """
+    if not text:
+        raise ValueError("the name is empty: give a folder, . for the current one")
+    return _no_stream(file(text), "folder")
+
+
+def _no_stream(path: Path, what: str) -> Path:
+    if path == STREAM:
+        raise ValueError(f"standard output is no {what}: for one of that name give ./-")
+    return path
+
 
 class Format(StrEnum):
     """How results are printed."""
@@ -89,7 +130,7 @@ OPTIONS = {
     "plot": Option(("--plot",), "write the picture NAME-COMMAND.png"),
     "plot_format": Option(("--plot-format",), "file format of the picture", PlotFormat),
     "dpi": Option(("--dpi",), "pixels per inch of a png", int, least=20, most=1200),
-    "out": Option(("--out",), "folder for files that are written", Path, "DIR"),
+    "out": Option(("--out",), "folder for files that are written", folder, "DIR"),
     "overrides": Option(
         ("--set",), "override a key (repeatable)", str, "PATH=VALUE", repeatable=True, offers="settings"
     ),
@@ -104,7 +145,7 @@ OPTIONS = {
     "profile": Option(("--profile",), "list on standard error what was computed and how long it took"),
     "suggest": Option(("--suggest",), "try the recommended changes and show the repaired design"),
     "save": Option(
-        ("--save",), "write the complete design: what was found, with --suggest what was changed", Path, "FILE"
+        ("--save",), "write the complete design: what was found, with --suggest what was changed", file, "FILE"
     ),
     "round": Option(("--round",), "of --save: step in mm of the lengths that were found", float, least=1e-6, most=100),
     "candidates": Option(

@@ -7,12 +7,13 @@ from dataclasses import replace
 from functools import wraps
 from importlib import import_module
 from inspect import Parameter, signature
+from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 from typer.models import OptionInfo
 
-from gearlink.cli.options import OPTIONS, Options
+from gearlink.cli.options import OPTIONS, Options, file, folder, plain_file
 
 Spec = Annotated[str, typer.Argument(metavar="SPEC", help="design file, or - for standard input")]
 
@@ -25,6 +26,8 @@ def option(name: str, **changed: Any) -> OptionInfo:
         1000
     """
     shared = replace(OPTIONS[name], **changed)
+    if shared.type in PLACES:
+        return place(shared.type, *shared.flags, help=shared.help, metavar=shared.metavar)
     info: OptionInfo = typer.Option(
         *shared.flags,
         help=shared.help,
@@ -33,6 +36,22 @@ def option(name: str, **changed: Any) -> OptionInfo:
         max=shared.most,
         autocompletion=offers(shared.offers) if shared.offers else None,
     )
+    return info
+
+
+PLACES: tuple[Callable[[str], Any], ...] = (file, folder, plain_file)
+
+
+def place(kind: Callable[[str], Path], *flags: str, help: str, metavar: str | None) -> OptionInfo:
+    """An option whose value is a place to write to, with the reason where it can be none."""
+
+    def read(text: str) -> Path:
+        try:
+            return kind(text)
+        except ValueError as error:
+            raise typer.BadParameter(str(error)) from None
+
+    info: OptionInfo = typer.Option(*flags, help=help, metavar=metavar, parser=read)
     return info
 
 
@@ -71,7 +90,7 @@ def takes(*names: str, **words: str) -> Callable[[Callable[..., None]], Callable
 
 
 def _parameter(name: str, words: str) -> Parameter:
-    kind: Any = OPTIONS[name].type
+    kind: Any = OPTIONS[name].type if OPTIONS[name].type not in PLACES else Path
     default = _value(name, getattr(Options(), name))
     if OPTIONS[name].repeatable:
         kind, default = list[kind], []

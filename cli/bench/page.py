@@ -12,6 +12,7 @@ from textwrap import wrap
 from typing import Any
 
 from gearlink.cli.bench.timing import Family, Row
+from gearlink.cli.printable import visible
 
 _HEAD = ("method", "N", "time each", "error", "ratio")
 
@@ -143,6 +144,6 @@ def write_pictures(families: Sequence[Family], folder: Path, say: Callable[[str]
         if curves(family):
             path = folder / f"bench-{family.name}.png"
             draw(family, path)
-            say(f"wrote {path}")
+            say(f"wrote {visible(str(path))}")
             written[family.name] = path.name
     return written

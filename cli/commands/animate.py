@@ -12,6 +12,7 @@ from gearlink.cli.evaluate import open_design, read_spec
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite, safe_stem, write_atomically
 from gearlink.cli.options import Options
+from gearlink.cli.printable import visible
 from gearlink.cli.progress import counted
 from gearlink.cli.reading.design_file import diagnose_no_solution
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
@@ -55,7 +56,7 @@ def run_animate(source: str, asked: Asked, options: Options) -> int:
     except (DesignFileError, CannotWrite) as error:
         return show_refusal(error, source, options)
     if not options.quiet:
-        print(f"wrote {path}", file=sys.stderr)
+        print(f"wrote {visible(str(path))}", file=sys.stderr)
     return ExitCode.OK
 
 

@@ -15,6 +15,7 @@ from gearlink.cli.figures.chart_list import CHARTS, DesignChart
 from gearlink.cli.files import CannotWrite
 from gearlink.cli.options import Format, Options
 from gearlink.cli.patience import patience
+from gearlink.cli.printable import visible
 from gearlink.cli.reading.design_file import diagnose_no_solution
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.core.errors import NoSolution, at_key
@@ -62,7 +63,7 @@ def run_chart(asked: Asked, options: Options) -> int:
 
             path = write_chart(chart, report.tables[0], curves, marked, options)
             if not options.quiet:
-                print(f"wrote {path}", file=sys.stderr)
+                print(f"wrote {visible(str(path))}", file=sys.stderr)
     except (DesignFileError, CannotWrite) as error:
         return show_refusal(error, asked.design or "<command line>", options)
     if marked is not None and marked.off_family > _LINK_TOLERANCE and not options.quiet:

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING
 from gearlink.cli.evaluate import build, exit_status, open_design, read_spec, require_command
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite
-from gearlink.cli.options import Format, Options
+from gearlink.cli.options import STREAM, Format, Options
 from gearlink.cli.patience import patience
+from gearlink.cli.printable import visible
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.errors import show_errors
 from gearlink.core.errors import NoSolution
@@ -59,7 +60,8 @@ def _run(command: str, source: str, options: Options, step: Callable[[str], Abst
     except (DesignFileError, CannotWrite, NoSolution) as error:
         return show_refusal(error, source, options)
     with step("print"):
-        print_report(report, options)
+        if options.save != STREAM:
+            print_report(report, options)
     _notes(design, report, options)
     return max(saved, exit_status(report, strict=options.strict))
 
@@ -110,7 +112,7 @@ def plot(command: str, design: Design, options: Options, report: Report) -> None
     with patience(f"drawing {report.name}", quiet=options.quiet):
         path = write_plot(command, design, options, checks=report.checks)
     if not options.quiet:
-        print(f"wrote {path}", file=sys.stderr)
+        print(f"wrote {visible(str(path))}", file=sys.stderr)
 
 
 def print_report(report: Report, options: Options) -> None:

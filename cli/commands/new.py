@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from functools import partial
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
 from gearlink.cli.exit_codes import ExitCode
+from gearlink.cli.options import STREAM
+from gearlink.cli.printable import visible
 from gearlink.cli.texts.known import index
 from gearlink.cli.texts.worked_designs import worked_design
 from gearlink.core.kinds import KINDS, SUMMARIES
@@ -28,18 +31,19 @@ def run_new(kind_name: str, out: Path | None, *, force: bool = False, quiet: boo
     kind = kind_named(kind_name)
     if kind is None:
         return ExitCode.WRONG_INPUT
-    text = template(kind, "" if out is None else stem_of(out))
-    if out is None:
+    text = template(kind, "" if out in (None, STREAM) else stem_of(out))
+    if out in (None, STREAM):
         sys.stdout.write(text)
         return ExitCode.OK
     try:
-        if out.exists() and not force:
+        if os.path.exists(out) and not force:
             raise CannotWrite(f"{out} is there already: give another --out, or --force to overwrite it")
         write_atomically(out, partial(_write, text=text))
     except CannotWrite as error:
         return _refused(str(error), out)
     if not quiet:
-        print(f"wrote {out}; try: gearlink {index().first_commands[kind.name]} {out}", file=sys.stderr)
+        path = visible(str(out))
+        print(f"wrote {path}; try: gearlink {index().first_commands[kind.name]} {path}", file=sys.stderr)
     return ExitCode.OK
 
 

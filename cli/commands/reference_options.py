@@ -9,8 +9,8 @@ from typing import Annotated
 
 import typer
 
-from gearlink.cli.options import Format, Options
-from gearlink.cli.typer_options import offers, option, takes
+from gearlink.cli.options import Format, Options, file, folder
+from gearlink.cli.typer_options import offers, option, place, takes
 from gearlink.core.kinds import FILES
 
 
@@ -44,7 +44,9 @@ def _new(
         str,
         typer.Argument(metavar="KIND", help="kind of design; default: list the kinds", autocompletion=offers("kinds")),
     ] = "",
-    out: Annotated[Path | None, option("out", metavar="FILE", help="file to write; default: the screen")] = None,
+    out: Annotated[
+        Path | None, option("out", type=file, metavar="FILE", help="file to write; default, and -: the screen")
+    ] = None,
     force: Annotated[bool, typer.Option("--force", help="overwrite the file")] = False,
 ) -> None:
     from gearlink.cli.commands.new import run_new
@@ -66,7 +68,7 @@ def _schema(
         typer.Argument(metavar="KIND", help="kind of design; default: all kinds", autocompletion=offers("kinds")),
     ] = None,
     write: Annotated[
-        Path | None, typer.Option("--write", metavar="DIR", help="write it there, with settings for VS Code")
+        Path | None, place(folder, "--write", metavar="DIR", help="write it there, with settings for VS Code")
     ] = None,
 ) -> None:
     """JSON Schema (draft-07) of the design files, for editors that check and complete while you type.

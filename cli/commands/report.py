@@ -18,6 +18,7 @@ from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite, safe_stem, write_atomically
 from gearlink.cli.options import Options
 from gearlink.cli.patience import patience
+from gearlink.cli.printable import visible
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.errors import show_errors
 from gearlink.core.errors import NoSolution
@@ -59,7 +60,7 @@ def run_report(source: str, options: Options) -> int:
         show_errors([Diagnostic("GL116", str(error), file=source)], options)
         return ExitCode.WRONG_INPUT
     if not options.quiet:
-        print(f"wrote {path}", file=sys.stderr)
+        print(f"wrote {visible(str(path))}", file=sys.stderr)
     return max(exit_status(report, strict=options.strict) for _, report in parts)
 
 

@@ -1,14 +1,20 @@
-"""`--save FILE`: the design of a command as a complete file, with what was found and where each number is from."""
+"""`--save FILE`: the design of a command as a complete file, with what was found and where each number is from.
+
+`--save -` writes it to standard output, in place of the results.
+"""
 
 from __future__ import annotations
 
 import math
+import os
 import sys
 from collections.abc import Iterable, Mapping, Sequence
 from typing import IO, TYPE_CHECKING, Any
 
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite, stem_of, write_atomically
+from gearlink.cli.options import STREAM
+from gearlink.cli.printable import visible
 from gearlink.cli.reading.design_file import parse, validate
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.texts.spec_keys import spec_keys
@@ -40,14 +46,14 @@ def require_place(options: Options) -> None:
         raise DesignFileError(
             [Diagnostic("GL115", "--round goes with --save FILE", file="<command line>", key="--round")]
         )
-    if options.save is not None and options.save.exists() and not options.force:
+    if options.save is not None and os.path.exists(options.save) and not options.force and options.save != STREAM:
         raise CannotWrite(f"{options.save} is there already: give another --save, or --force to overwrite it")
 
 
 def save(
     loaded: LoadedFile, kind: Kind, command: str, design: Design, options: Options, changes: Sequence[Change] = ()
 ) -> int:
-    """Write the design to the file of the options, say so, and give the exit status of what was written.
+    """Write the design where the options want it, say so, and give the exit status of what was written.
 
     Raises
         CannotWrite - where the file is there already, or the disk does not take it
@@ -56,9 +62,13 @@ def save(
     text = complete(loaded, kind, command, design, options.save, options.round, changes)
     again = "analyze" if "analyze" in kind.commands else command
     failing = _failing_when_rounded(kind, again, text, options)
-    write_atomically(options.save, lambda stream: _write(stream, text))
-    if not options.quiet:
-        print(f"wrote {options.save}; try: gearlink {again} {options.save}", file=sys.stderr)
+    if options.save == STREAM:
+        sys.stdout.write(text)
+    else:
+        write_atomically(options.save, lambda stream: _write(stream, text))
+        if not options.quiet:
+            path = visible(str(options.save))
+            print(f"wrote {path}; try: gearlink {again} {path}", file=sys.stderr)
     worse = [check for check in failing if check.code not in _codes(design, command)]
     for check in worse:
         print(f"rounded to {options.round:g} mm it fails {check.code} {check.name}: {check.message}", file=sys.stderr)
@@ -122,7 +132,7 @@ def complete(
         value, words = _rounded(found.value, found.path, units, step)
         notes |= {path: "; ".join(w for w in (found.why, word) if w) for path, word in words.items()}
         _put(data, found.path, value)
-    data["name"] = stem_of(file) if "name" not in loaded.data else data["name"]
+    data["name"] = stem_of(file) if "name" not in loaded.data and file != STREAM else design.spec.name
     head = [f"{data['name']}: `gearlink {command} {loaded.file}` (gearlink {VERSION})"]
     head += [f"asked for: {path}: {flow(value)}" for path, value in left_out]
     return written(kind, _ordered(data, dict.fromkeys(_KEY_ORDER) | dict(_with_links(loaded.data))), head, notes)

@@ -13,6 +13,7 @@ from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite, safe_stem, write_atomically
 from gearlink.cli.options import Options
 from gearlink.cli.patience import patience
+from gearlink.cli.printable import visible
 from gearlink.cli.reading.design_file import diagnose_no_solution
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.core.errors import NoSolution
@@ -39,7 +40,7 @@ def run_sheet(source: str, names: Sequence[str], options: Options) -> int:
     except (DesignFileError, CannotWrite) as error:
         return show_refusal(error, source, options)
     if not options.quiet:
-        print("\n".join(f"wrote {path}" for path in paths), file=sys.stderr)
+        print("\n".join(f"wrote {visible(str(path))}" for path in paths), file=sys.stderr)
     return ExitCode.OK
 
 

@@ -16,7 +16,7 @@ from gearlink.cli.commands.save import require_place, save
 from gearlink.cli.evaluate import build, exit_status, open_design, read_spec, require_command
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite
-from gearlink.cli.options import Format, Options
+from gearlink.cli.options import STREAM, Format, Options
 from gearlink.cli.printable import json_text
 from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.core.errors import NoSolution
@@ -124,6 +124,10 @@ def _as_plain(changes: Sequence[Change]) -> list[dict[str, Any]]:
 
 
 def _print(changes: Sequence[Change] | None, report: Report, options: Options) -> None:
+    if options.save == STREAM:  # the design stands there, so that nothing else may
+        if not options.quiet:
+            print(_as_text(changes, options), file=sys.stderr)
+        return
     if options.format is Format.JSON:
         from gearlink.cli.render.json_report import as_plain
 

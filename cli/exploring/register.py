@@ -9,8 +9,8 @@ from typing import Annotated
 import typer
 
 from gearlink.cli.exploring.options import Exploring
-from gearlink.cli.options import Options
-from gearlink.cli.typer_options import takes
+from gearlink.cli.options import Options, folder, plain_file
+from gearlink.cli.typer_options import place, takes
 
 
 def register(app: typer.Typer) -> None:
@@ -22,7 +22,9 @@ def register(app: typer.Typer) -> None:
 def _explore(
     sources: Annotated[list[str], typer.Argument(metavar="STUDY", help="study file, - for standard input, or a store")],
     options: Options,
-    store: Annotated[Path | None, typer.Option(metavar="FILE", help="keep what is finished in this file")] = None,
+    store: Annotated[
+        Path | None, place(plain_file, "--store", metavar="FILE", help="keep what is finished in this file")
+    ] = None,
     resume: Annotated[bool, typer.Option("--resume", help="continue what the store has")] = False,
     budget: Annotated[float | None, typer.Option(min=1.0, metavar="N", help="most designs")] = None,
     seed: Annotated[int | None, typer.Option(min=0, metavar="N", help="seed of a sampled study")] = None,
@@ -32,7 +34,9 @@ def _explore(
     shard: Annotated[str, typer.Option(metavar="I/N", help="compute only the I-th of N shares")] = "1/1",
     merge: Annotated[bool, typer.Option("--merge", help="put the named stores together in --store")] = False,
     show: Annotated[str, typer.Option(metavar="N", help="print design N (mK: nearest miss of row K of why)")] = "",
-    write: Annotated[Path | None, typer.Option(metavar="DIR", help="write the kept designs as files")] = None,
+    write: Annotated[
+        Path | None, place(folder, "--write", metavar="DIR", help="write the kept designs as files")
+    ] = None,
 ) -> None:
     """Find the best of many designs: the exact front of a grid, or a sampled one.
 

@@ -24,6 +24,7 @@ from gearlink.cli.exploring.store import (
 )
 from gearlink.cli.files import CannotWrite
 from gearlink.cli.options import Format
+from gearlink.cli.printable import visible
 from gearlink.cli.progress import progress
 from gearlink.cli.reading.base_design import located
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
@@ -174,7 +175,7 @@ def _print(study: Exploration, asked: Exploring) -> int:
     if asked.write is not None:
         from gearlink.cli.exploring.designs import write
 
-        _tell(f"wrote {write(study.found, asked.write)} designs to {asked.write}", asked)
+        _tell(f"wrote {write(study.found, asked.write)} designs to {visible(str(asked.write))}", asked)
     if asked.options.plot:
         from gearlink.cli.commands.design import plot
 

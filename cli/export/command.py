@@ -16,6 +16,7 @@ from gearlink.cli.export import parts
 from gearlink.cli.export.options import CONTOUR, CurveForm, Export, FileFormat
 from gearlink.cli.files import CannotWrite, safe_stem, write_atomically
 from gearlink.cli.patience import patience
+from gearlink.cli.printable import visible
 from gearlink.cli.reading.design_file import diagnose_no_solution
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import LoadedFile
@@ -47,7 +48,7 @@ def run_export(source: str, asked: Export) -> int:
         for path, data, words in files:
             write_atomically(path, lambda stream, data=data: stream.write(data))  # type: ignore[misc]
             if not asked.options.quiet:
-                print(f"{path}: {words}")
+                print(f"{visible(str(path))}: {words}")
     except DesignFileError as error:
         show_errors(error.diagnostics, asked.options)
         return ExitCode.WRONG_INPUT
