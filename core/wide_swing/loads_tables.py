@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from gearlink.core.errors import MissingSection
+from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.loads import tables
 from gearlink.core.report import Table
 
@@ -48,7 +48,8 @@ def contact_stroke(design: WideSwingLoads, samples: int | None = None) -> Table:
 def harmonics(design: WideSwingLoads, samples: int | None = None) -> Table:
     """Harmonics of the rocker's motion over a whole turn."""
     if not design.whole:
-        raise MissingSection(
-            "harmonics are those of a whole turn: give cycle in place of cycle_angle", key="cycle_angle"
-        )
+        if design.spec.drive is not None or design.spec.slider is not None:
+            raise NoSolution("harmonics are those of a whole turn, and here the stroke alone is known", key="loads")
+        message = "harmonics are those of a whole turn: give cycle in place of cycle_angle"
+        raise MissingSection(message, key="cycle_angle")
     return tables.harmonics(design, samples)
