@@ -129,7 +129,9 @@ class _Reading:
         place: tuple[str, ...] = ("variables", variable.path)
         if variable.whole and variable.step is not None and variable.step != int(variable.step):
             return Fault(
-                "GL156", f"{variable.path} takes whole numbers, a step of {variable.step:g} not", (*place, "step")
+                "GL156",
+                f"{variable.path} takes whole numbers: its step is one too, not {variable.step:g}",
+                (*place, "step"),
             )
         tried = list(_tried(variable, before))
         if not tried:
@@ -148,7 +150,8 @@ class _Reading:
         defined: dict[str, Expression] = {}
         wrong: set[str] = set()
         for name, text in self.spec.define.items():
-            names = Names(self.base.unit, known, dict(defined), self.base.nearest, frozenset(wrong))
+            later = frozenset(self.spec.define) - defined.keys()
+            names = Names(self.base.unit, known, dict(defined), self.base.nearest, frozenset(wrong), later)
             place = ("define", name)
             if not name.isidentifier() or name in known:
                 message = f"{name!r} is no new name" if name in known else f"{name!r} is no name: letters, digits and _"

@@ -10,11 +10,12 @@ from typing import Any
 import numpy as np
 
 from gearlink.core.numerics.arrays import Mask
-from gearlink.core.study.expressions import Expression, NotAnExpression, parse
+from gearlink.core.study.expressions import Expression, NotAnExpression, parse, with_definitions
 from gearlink.core.study.faults import Fault, Place
 
 _AMOUNT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S.*)?")
 _CONDITION = re.compile(r"(.*?)(>=|<=|==|<|>)(.*)", re.DOTALL)
+_SHOWN = 80
 _WORD = re.compile(r"[A-Za-z][\w-]*")
 _LEAST_RESOLUTION = 1e-12
 """Below it the millionths of a resolution, in which objectives are counted, pass the range of numbers."""
@@ -25,6 +26,7 @@ COMPARED: dict[str, Callable[[Any, Any], Any]] = {
     ">": np.greater,
     "<": np.less,
 }
+_TURNED = {">=": "<=", "<=": ">=", "==": "==", ">": "<", "<": ">"}
 
 
 @dataclass(frozen=True)
@@ -81,6 +83,7 @@ class Names:
         defined : expressions by name
         nearest : function - the nearest known names of one, in words
         wrong : names that the study defines wrongly, which is a fault of their own
+        later : names that it defines below
     """
 
     unit_of: Callable[[str], str]
@@ -88,6 +91,7 @@ class Names:
     defined: Mapping[str, Expression]
     nearest: Callable[[str, Any], str]
     wrong: frozenset[str] = frozenset()
+    later: frozenset[str] = frozenset()
 
     def expression(self, text: str, place: Place) -> Expression:
         """An expression of quantities alone, what is defined put in.
@@ -97,15 +101,22 @@ class Names:
         """
         try:
             found = parse(text)
+            for name in found.names:
+                self._require(name, place)
+            return with_definitions(found, self.defined)
         except NotAnExpression as error:
-            raise FaultFound(Fault("GL152", f"{text.strip()!r} cannot be read: {error}", place)) from None
-        for name in found.names:
-            if name in self.wrong:
-                raise FaultFound(None)
-            if name not in self.defined and name.partition("[")[0] not in self.known:
-                helps = self.nearest(name, [*self.defined, *self.known])
-                raise FaultFound(Fault("GL152", f"no quantity {name!r} of this kind of design", place, helps))
-        return Expression(found.text, _with(found.tree, self.defined))
+            raise FaultFound(Fault("GL152", f"{_short(text)!r} cannot be read: {error}", place)) from None
+
+    def _require(self, name: str, place: Place) -> None:
+        """Refuse a name that neither the kind nor the study knows."""
+        if name in self.wrong:
+            raise FaultFound(None)
+        if name in self.defined or name.partition("[")[0] in self.known:
+            return
+        helps = self.nearest(name, [*self.defined, *self.known])
+        if name in self.later:
+            helps = f"{name} is defined below: list it before, and let no definition go back to itself"
+        raise FaultFound(Fault("GL152", f"no quantity {name!r} of this kind of design", place, helps))
 
     def unit(self, expression: Expression) -> str | None:
         """The unit of an expression, None where any will do."""
@@ -120,10 +131,10 @@ class FaultFound(Exception):
         self.faults = [] if fault is None else [fault]
 
 
-def _with(tree: Any, defined: Mapping[str, Expression]) -> Any:
-    if isinstance(tree, str):
-        return defined[tree].tree if tree in defined else tree
-    return (tree[0], [_with(part, defined) for part in tree[1]]) if isinstance(tree, tuple) else tree
+def _short(text: str) -> str:
+    """The beginning of a text that fills a line."""
+    text = text.strip()
+    return text if len(text) <= _SHOWN else f"{text[: _SHOWN - 3]}..."
 
 
 def objective(name: str, given: float | str, sign: float, names: Names, place: Place) -> Objective:
@@ -152,8 +163,16 @@ def condition(text: str, names: Names, place: Place) -> Condition:
     parts = _CONDITION.fullmatch(text)
     if parts is None:
         helps = "such as min_transmission_angle >= 45 deg"
-        raise FaultFound(Fault("GL152", f"{text!r} compares nothing: it has none of >=, <=, ==, <, >", place, helps))
+        raise FaultFound(
+            Fault("GL152", f"{_short(text)!r} compares nothing: it has none of >=, <=, ==, <, >", place, helps)
+        )
     left, sign, right = (part.strip() for part in parts.groups())
+    if any(mark in right for mark in COMPARED):
+        helps = "write two lines, each with the quantity on its left"
+        raise FaultFound(Fault("GL152", f"{_short(text)!r} compares twice", place, helps))
+    if _AMOUNT.fullmatch(left) and not _AMOUNT.fullmatch(right):
+        helps = f"write {right} {_TURNED[sign]} {left}"
+        raise FaultFound(Fault("GL152", f"{_short(left)!r} is a number: the quantity stands on the left", place, helps))
     expression = names.expression(left, place)
     amount = _AMOUNT.fullmatch(right)
     if amount is not None:
@@ -162,7 +181,7 @@ def condition(text: str, names: Names, place: Place) -> Condition:
             raise FaultFound(Fault("GL152", f"{amount[1]} is beyond all numbers", place))
         return Condition(text, expression, sign, limit, _same_unit(left, expression, amount[2] or "", names, place))
     if sign != "==" or not _WORD.fullmatch(right):
-        message = f"{right!r} is no number" + ("" if sign == "==" else ": words are compared by == alone")
+        message = f"{_short(right)!r} is no number" + ("" if sign == "==" else ": words are compared by == alone")
         raise FaultFound(Fault("GL152", message, place, "such as frame_length <= 220 mm, or motion == back-step"))
     return Condition(text, expression, sign, right, "1")
 

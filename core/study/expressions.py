@@ -25,6 +25,8 @@ _SIGNS: dict[str, Callable[[Any, Any], Any]] = {
     "/": operator.truediv,
 }
 _DEEPEST, _LONGEST = 50, 1000
+MOST_OPERATIONS = 250
+"""Of an expression with all that is defined in it: each may stand below the one before."""
 
 
 class NotAnExpression(GearlinkError):
@@ -42,6 +44,7 @@ class Expression:
     Parameters
         text : str - as the file has it
         tree : Tree
+        operations : int - signs and functions of the tree
     Example
         >>> found = parse("frame_length + 2 * tip_radius[1]")
         >>> list(found.names), found.value({"frame_length": 10.0, "tip_radius[1]": 4.0})
@@ -50,6 +53,7 @@ class Expression:
 
     text: str
     tree: Tree
+    operations: int
 
     @property
     def names(self) -> dict[str, None]:
@@ -94,15 +98,20 @@ def parse(text: str) -> Expression:
     tree = reader.sum(0)
     if reader.kind:
         raise NotAnExpression(f"{reader.token!r} does not belong here", reader.at)
-    return Expression(text.strip(), tree)
+    return Expression(text.strip(), tree, reader.operations)
 
 
 class _Reader:
     """Reads by recursive descent; `token` is the next one."""
 
     def __init__(self, text: str) -> None:
-        self._text, self._end = text, 0
+        self._text, self._end, self.operations = text, 0, 0
         self.step()
+
+    def _counted(self) -> None:
+        self.operations += 1
+        if self.operations > MOST_OPERATIONS:
+            raise NotAnExpression(f"more than {MOST_OPERATIONS} operations", self.at)
 
     def step(self) -> str:
         """Take the token; give it."""
@@ -125,6 +134,7 @@ class _Reader:
             raise NotAnExpression("too many brackets in each other", self.at)
         tree = self._product(depth)
         while self.token in ("+", "-"):
+            self._counted()
             sign = self.step()
             tree = (sign, [tree, self._product(depth)])
         return tree
@@ -132,6 +142,7 @@ class _Reader:
     def _product(self, depth: int) -> Tree:
         tree = self._factor(depth)
         while self.token in ("*", "/"):
+            self._counted()
             sign = self.step()
             tree = (sign, [tree, self._factor(depth)])
         return tree
@@ -168,12 +179,34 @@ class _Reader:
         least, most = _FUNCTIONS[name]
         if not least <= len(arguments) <= most:
             raise NotAnExpression(f"{name} takes {least} value{'' if most == 1 else ' or more'}", self.at)
+        self._counted()
         return (name, arguments)
 
     def _close(self) -> None:
         if self.token != ")":
             raise NotAnExpression("a bracket is not closed", self.at)
         self.step()
+
+
+def with_definitions(expression: Expression, defined: Mapping[str, Expression]) -> Expression:
+    """An expression with others put in for the names that they are defined under.
+
+    Raises
+        NotAnExpression - where it grows beyond all use
+    """
+    operations = expression.operations + sum(
+        defined[name].operations for name in _names(expression.tree) if name in defined
+    )
+    if operations > MOST_OPERATIONS:
+        text = f"with what is defined in it, it has {operations} operations, more than {MOST_OPERATIONS}"
+        raise NotAnExpression(text, 0)
+    return Expression(expression.text, _with(expression.tree, defined), operations)
+
+
+def _with(tree: Tree, defined: Mapping[str, Expression]) -> Tree:
+    if isinstance(tree, str):
+        return defined[tree].tree if tree in defined else tree
+    return (tree[0], [_with(part, defined) for part in tree[1]]) if isinstance(tree, tuple) else tree
 
 
 def _names(tree: Tree) -> Iterator[str]:

@@ -179,6 +179,17 @@ def test_a_range_of_one_value_is_one_design() -> None:
         ({"checks": {"must_pass": ["GL400"]}}, "GL152", ("checks", "must_pass", 0)),
         ({"define": {"frame_length": "2"}}, "GL152", ("define", "frame_length")),
         ({"define": {"x": "1 + *"}, "minimize": {"x": 1}, "where": ["x > 0"]}, "GL152", ("define", "x")),
+        ({"define": {"x": "y", "y": "1"}}, "GL152", ("define", "x")),
+        ({"define": {"x": "x + i3"}}, "GL152", ("define", "x")),
+        (
+            {"define": {"x0": "i3", **{f"x{i}": f"x{i - 1} + x{i - 1}" for i in range(1, 40)}}},
+            "GL152",
+            ("define", "x8"),
+        ),
+        ({"define": {"x0": "i3", **{f"x{i}": f"x{i - 1} + 1" for i in range(1, 400)}}}, "GL152", ("define", "x251")),
+        ({"define": {"x": "+".join("1" * 400)}}, "GL152", ("define", "x")),
+        ({"where": ["40 <= min_transmission_angle <= 50"]}, "GL152", ("where", 0)),
+        ({"where": ["40 deg <= min_transmission_angle"]}, "GL152", ("where", 0)),
         ({"command": "press"}, "GL113", ("command",)),
         ({"design": {**FEED, "dwell": {"angle": 359}}}, "GL156", ("design", "dwell", "angle")),
         ({"sampling": {"method": "grid", "budget": 40}}, "GL155", ("sampling", "budget")),
@@ -194,3 +205,29 @@ def test_wrong_studies(keys: dict[str, Any], code: str, place: tuple[Any, ...]) 
     with pytest.raises(WrongStudy) as caught:
         study(**{**plain, **keys}).report("explore")
     assert [(fault.code, fault.place) for fault in caught.value.faults] == [(code, place)]
+
+
+def test_definitions_of_many_operations_are_computed() -> None:
+    made = study(
+        variables={"gears.idler": {"values": [40, 50]}},
+        define={"x0": "i3", **{f"x{i}": f"x{i - 1} + 1" for i in range(1, 251)}, "y": "+".join(["i3"] * 250)},
+        minimize={"x250": 1e-3},
+        maximize={"y": 1e-3},
+        checks={"must_pass": "none"},
+    )
+    table = made.report("explore").tables[0]
+    assert sorted(table["x250"]) == [pytest.approx(250.0 - z / 40.0) for z in (50, 40)]
+    assert sorted(table["y"]) == [pytest.approx(-250.0 * z / 40.0) for z in (50, 40)]
+
+
+@pytest.mark.parametrize(
+    ("where", "helps"),
+    [
+        ("40 deg <= min_transmission_angle", "write min_transmission_angle >= 40 deg"),
+        ("1 < i3 < 2", "write two lines, each with the quantity on its left"),
+    ],
+)
+def test_conditions_that_are_written_in_another_way(where: str, helps: str) -> None:
+    with pytest.raises(WrongStudy) as caught:
+        study(variables={"gears.idler": {"values": [40]}}, minimize={"i3": 1}, where=[where]).report("explore")
+    assert caught.value.faults[0].help == helps
