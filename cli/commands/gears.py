@@ -38,7 +38,8 @@ def gears(
     """Find whole teeth and modules for a ratio at a centre distance, the best first.
 
     x1 is shared for equal sliding; margin is how far it may move until undercut, a thin tip, a root fillet or a small
-    contact ratio is met, negative where one is met already. Exit status 1: no pair meets the wish.
+    contact ratio is met, negative where one is met already. Of more than 1000 pairs the nearest to the ratio are shown.
+    Exit status 1: no pair meets the wish.
 
     Example: gearlink gears --ratio 3.2 --center-distance 120
     """

@@ -24,6 +24,8 @@ MODULES = (1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 16.0, 
 """ISO 54, series I, from 1 mm."""
 _BLOCKING = ("undercut", "tip 1 0.2", "tip 2 0.2", "fillet", "base circle", "contact ratio 1.1", "tip fouling")
 _MOST_TEETH = 2000
+MOST_PAIRS = 1000
+_ROUNDING = 1e-12
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -95,15 +97,16 @@ def teeth_sums(wish: Wish, module: float) -> range:
 
 def _teeth(wish: Wish, total: int) -> Iterator[tuple[int, int]]:
     """Teeth of a sum (of a difference, with a ring) whose ratio lies in its tolerance."""
-    parts = wish.ratio - 1.0 if wish.internal else wish.ratio + 1.0
-    if parts <= 0.0:
+    side = -1.0 if wish.internal else 1.0
+    few, many = (wish.ratio * (1.0 + way * wish.tolerance) + side for way in (1.0, -1.0))
+    if few <= 0.0:
         return
-    near = round(total / parts)
-    for first in (near - 1, near, near + 1):
+    last = math.floor(min(total / many, _MOST_TEETH) + _ROUNDING) if many > 0.0 else _MOST_TEETH
+    for first in range(max(wish.least_teeth, math.ceil(total / few - _ROUNDING)), last + 1):
         second = first + total if wish.internal else total - first
-        if first < wish.least_teeth or second < 1 or (wish.internal and second <= first):
+        if second < 1:
             continue
-        if abs(second / first / wish.ratio - 1.0) <= wish.tolerance:
+        if abs(second / first / wish.ratio - 1.0) <= wish.tolerance + _ROUNDING:
             yield first, -second if wish.internal else second
 
 
@@ -117,17 +120,17 @@ def pairs_of_teeth(wish: Wish, module: float) -> Iterator[tuple[int, int]]:
 def candidates(wish: Wish) -> list[Candidate]:
     """Every pair that meets the wish, the best first: unblocked, near the ratio, hunting teeth, large margins.
 
+    Notes
+        Where more than `MOST_PAIRS` meet it, those nearest to the ratio.
     Example
         >>> best = candidates(Wish(ratio=3.2, distance=120.0, modules=(3.0, 4.0)))[0]
         >>> best.pair.module, best.pair.teeth
         (3.0, (19, 61))
     """
-    found = [
-        each
-        for module in wish.modules
-        for teeth in pairs_of_teeth(wish, module)
-        if (each := _candidate(wish, module, teeth)) is not None
-    ]
+    every = [(module, teeth) for module in wish.modules for teeth in pairs_of_teeth(wish, module)]
+    if len(every) > MOST_PAIRS:
+        every = sorted(every, key=lambda one: abs(abs(one[1][1] / one[1][0]) - wish.ratio))[:MOST_PAIRS]
+    found = [each for module, teeth in every if (each := _candidate(wish, module, teeth)) is not None]
     return sorted(found, key=_rank)
 
 

@@ -11,8 +11,9 @@ from typing import Any
 import pytest
 
 from gearlink.core.errors import NoSolution
+from gearlink.core.gears import search
 from gearlink.core.gears.pair import GearPair
-from gearlink.core.gears.search import Wish, candidates, teeth_sums
+from gearlink.core.gears.search import Wish, candidates, pairs_of_teeth, teeth_sums
 
 
 @pytest.mark.parametrize(
@@ -37,6 +38,32 @@ def test_sums_of_teeth_by_brute_force(internal: bool, helix: float, module: floa
         except NoSolution:
             inside = False
         assert inside == (total in found), total
+
+
+@pytest.mark.parametrize(
+    ("internal", "ratio", "tolerance"), [(False, 3.2, 0.1), (False, 0.6, 0.02), (True, 5.5, 0.02), (True, 1.3, 0.3)]
+)
+def test_no_pair_within_the_tolerance_is_left_out(internal: bool, ratio: float, tolerance: float) -> None:
+    """All teeth counted: with a wide tolerance many first gears go with one sum."""
+    wish = Wish(ratio=ratio, distance=150.0, modules=(1.0,), tolerance=tolerance, internal=internal, least_teeth=12)
+    sums = teeth_sums(wish, 1.0)
+    seconds = {z1: [z1 + one if internal else one - z1 for one in sums] for z1 in range(12, 2001)}
+    every = {
+        (z1, -z2 if internal else z2)
+        for z1, some in seconds.items()
+        for z2 in some
+        if z2 > 0 and abs(z2 / z1 / ratio - 1.0) <= tolerance
+    }
+    found = list(pairs_of_teeth(wish, 1.0))
+    assert len(found) > 3 * len(sums) or tolerance == 0.02
+    assert (len(found), set(found)) == (len(every), every)
+
+
+def test_most_pairs_are_the_nearest_to_the_ratio(monkeypatch: pytest.MonkeyPatch) -> None:
+    wish = Wish(ratio=3.2, distance=120.0, modules=(2.0, 3.0), tolerance=0.05)
+    every = sorted(abs(one.ratio_error) for one in candidates(wish))
+    monkeypatch.setattr(search, "MOST_PAIRS", 4)
+    assert sorted(abs(one.ratio_error) for one in candidates(wish)) == every[:4]
 
 
 def test_every_candidate_meets_the_wish() -> None:
