@@ -34,6 +34,7 @@ from gearlink.core.wide_swing.device import (
     require_swing,
     spring_rate,
 )
+from gearlink.core.wide_swing.kept import Kept, kept_for
 
 __all__ = [
     "Device",
@@ -333,7 +334,13 @@ class ElasticLaw:
 
     def _pendulum(self, k: Reals) -> tuple[Reals, Reals, npt.NDArray[np.bool_]]:
         """sin u, cos u of every k folded into the first half, and which k lay in the second."""
-        k = np.asarray(k, dtype=np.float64).ravel()
+        return kept_for(self._kept, np.asarray(k, dtype=np.float64).ravel(), self._turned)
+
+    @cached_property
+    def _kept(self) -> Kept[tuple[Reals, Reals, npt.NDArray[np.bool_]]]:
+        return {}
+
+    def _turned(self, k: Reals) -> tuple[Reals, Reals, npt.NDArray[np.bool_]]:
         if not bool(np.all((k >= 0.0) & (k <= 1.0))):
             raise NoSolution("the fraction of the stroke k must lie between 0 and 1")
         second = k > 0.5

@@ -21,6 +21,7 @@ from gearlink.core.report import safely_above
 from gearlink.core.results import cached_property
 from gearlink.core.wide_swing.device import Device, DeviceGeometry
 from gearlink.core.wide_swing.elastic_law import ElasticLaw
+from gearlink.core.wide_swing.kept import Kept, kept_for
 
 _NEWTON_STEPS = 60
 # A step as small is as good as none: subnormal numbers have no full set of digits to settle in.
@@ -294,6 +295,14 @@ class SliderLaw:
         return b, 0.5 * parameter * (push - energy * inertia_change / inertia) / inertia
 
     def _pendulum(self, k: Reals) -> tuple[Reals, Reals]:
+        """sin u and cos u of every k."""
+        return kept_for(self._kept, k, self._turned)
+
+    @cached_property
+    def _kept(self) -> Kept[tuple[Reals, Reals]]:
+        return {}
+
+    def _turned(self, k: Reals) -> tuple[Reals, Reals]:
         if not bool(np.all((k >= 0.0) & (k <= 1.0))):
             raise NoSolution("the fraction of the stroke k must lie between 0 and 1")
         late = k > 0.5

@@ -5,6 +5,7 @@ cubic of the pitch-point condition, whose roots numpy gives to about 1e-12 of th
 against golden-section search, exact to rounding in the value at a smooth extreme.
 """
 
+import itertools
 import json
 import math
 import random
@@ -157,7 +158,7 @@ def test_each_rate_is_the_slope_of_the_one_before(lengths, carrier):
     drive, step = PlanetLinkage(FourBar(*lengths), -16.0 / 12.0, carrier), 1e-5
     curves = (drive.angle, drive.speed, drive.acceleration, drive.jerk)
     for phi in (0.3, 1.7, 2.9, 4.0, 5.6):
-        for lower, upper in zip(curves, curves[1:], strict=False):
+        for lower, upper in itertools.pairwise(curves):
             slope = (lower(phi + step) - lower(phi - step)) / (2.0 * step)
             assert upper(phi) == pytest.approx(slope, rel=1e-8, abs=1e-8)
 
