@@ -30,7 +30,8 @@ def run_files(files: Sequence[Path], options: BatchOptions) -> tuple[list[Outcom
     """Outcomes of the files that were finished, and whether the user interrupted.
 
     Notes
-        A sample from the whole list runs here; how long it takes decides whether more processes pay for the rest.
+        A sample from the whole list runs here, until it has taken as long as several processes take to pay; how long
+        it takes decides whether they do for the rest.
     """
     results: list[Outcome] = []
     with progress(len(files), "designs", quiet=options.design.quiet) as advance:
@@ -48,12 +49,15 @@ def _each(files: Sequence[Path], options: BatchOptions) -> Iterator[tuple[int, l
     if options.dask:
         yield from _on_cluster(files, options)
         return
-    start = perf_counter()
+    start, tried = perf_counter(), 0
     stride = 1 if options.jobs == 1 else max(1, len(files) // _TRIED_FIRST)
     for path in files[::stride]:
         yield 1, outcomes(path, options)
-    rest = [path for i, path in enumerate(files) if i % stride]
-    seconds_each = (perf_counter() - start) / max(1, len(files) - len(rest))
+        tried += 1
+        if options.jobs != 1 and perf_counter() - start > _WORTH_SECONDS:  # a folder of searches takes them all
+            break
+    rest = [path for i, path in enumerate(files) if i % stride or i >= tried * stride]
+    seconds_each = (perf_counter() - start) / max(1, tried)
     jobs = _jobs(options, rest, seconds_each)
     if jobs > 1:
         yield from _in_processes(_chunks(rest, jobs, seconds_each), options, jobs)

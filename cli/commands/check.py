@@ -18,6 +18,7 @@ from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import LoadedFile, parse_path
 from gearlink.cli.reading.places import design_files
 from gearlink.cli.texts.finding_keys import key_of
+from gearlink.core.design import Outline
 from gearlink.core.report import Check
 
 if TYPE_CHECKING:
@@ -94,7 +95,11 @@ def findings(file: str, options: Options) -> list[Finding]:
 
 
 def _findings(loaded: LoadedFile, kind: Kind, spec: Any) -> Iterator[Finding]:
-    """Findings of every command that the file asks for; commands of one design class share its results."""
+    """Findings of every command that the file asks for; commands of one design class share its results.
+
+    Notes
+        A study is made ready, which refuses what is wrong with it; its search is the matter of `explore` and `batch`.
+    """
     designs: dict[Any, Design] = {}
     done: set[tuple[Any, str]] = set()
     refused = False
@@ -103,7 +108,7 @@ def _findings(loaded: LoadedFile, kind: Kind, spec: Any) -> Iterator[Finding]:
         try:
             with refusals_located(loaded):
                 design = designs.setdefault(cls, kind.design(command, spec))
-                outline = design.outline(command)
+                outline = Outline() if design.searches else design.outline(command)
                 design.prepare(outline.quantities)
                 names = [name for name in outline.checks if (cls, name) not in done]
                 done |= {(cls, name) for name in names}

@@ -32,7 +32,7 @@ def show_findings(found: Sequence[Finding], designs: int, options: Options, *, o
         rows = [list(_plain(finding).values()) for finding in shown]
         write_rows([_HEADS, *rows], sys.stdout)
         return
-    words = ", ".join(f"{count} {status}" for status, count in counts.items() if count) or "nothing to check"
+    words = ", ".join(f"{count} {status}" for status, count in counts.items() if count) or "nothing wrong"
     verdict = f"{designs} design{'s' if designs != 1 else ''}: {words}"
     print(_as_markdown(shown, verdict) if options.format is Format.MARKDOWN else _as_text(shown, verdict))
     if shown and not options.quiet:

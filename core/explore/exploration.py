@@ -25,6 +25,7 @@ class Exploration(Design):
 
     kind = "study"
     spec: StudySpec
+    searches = True
     outlines = {
         "explore": Outline(
             ("designs", "refused", "feasible", "front_size", "kept", "shown", "exhaustive", "knee"),
@@ -52,6 +53,14 @@ class Exploration(Design):
         """What was found."""
         made = self.problem
         return Found.of(made, together(made, (chunk_of(made, number) for number in range(made.chunks))))
+
+    def require(self, _command: str) -> None:
+        """Make the study ready: what is wrong with its file, and whether there are designs to compute.
+
+        Raises
+            WrongStudy
+        """
+        _ = self.problem.order
 
     @property
     def designs(self) -> int:

@@ -317,6 +317,26 @@ def test_a_process_that_dies_costs_its_one_file(
     assert capfd.readouterr().err == ""
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="forked processes")
+def test_files_that_take_their_time_are_left_to_the_processes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """One tried file of a fifth of a second says enough; no second one waits here for its turn."""
+    from gearlink.cli.batch import pool
+    from gearlink.cli.batch.options import BatchOptions
+    from gearlink.cli.batch.outcome import Outcome
+
+    parent, first = os.getpid(), tmp_path / "00"
+
+    def outcome(path: Path, _: BatchOptions) -> list[Outcome]:
+        time.sleep(0.2 if path == first else 0.0)
+        return [Outcome(str(path), "here" if os.getpid() == parent else "there", path.stem, "", 0)]
+
+    monkeypatch.setattr(pool, "outcomes", outcome)
+    monkeypatch.setattr(pool, "processors", lambda: 2)
+    found, _ = pool.run_files([tmp_path / f"{i:02}" for i in range(40)], BatchOptions(jobs=2))
+    assert len({outcome.file for outcome in found}) == len(found) == 40
+    assert [Path(outcome.file).name for outcome in found if outcome.kind == "here"] == ["00"]
+
+
 def test_without_processes_the_batch_is_done_here(gearlink: Any, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The system's limit of processes or open files is reached."""
 

@@ -112,6 +112,23 @@ def test_batch_and_check_take_studies(gearlink: Any, written: Any) -> None:
     assert gearlink("check", study).status == 0
 
 
+def test_check_makes_a_study_ready_and_does_not_search(
+    gearlink: Any, written: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from gearlink.core.explore import exploration
+
+    def searched(*_: object) -> None:
+        raise AssertionError("a chunk was computed")
+
+    monkeypatch.setattr(exploration, "chunk_of", searched)
+    ended = gearlink("check", written())
+    assert (ended.status, ended.out) == (0, "1 design: nothing wrong\n")
+    # nor is what the order of the designs refuses left to `explore`
+    sampling = {"method": "grid", "budget": 5}
+    ended = gearlink("check", written(sampling=sampling), "--format", "json")
+    assert (ended.status, [each["code"] for each in ended.json["findings"]]) == (2, ["GL155"])
+
+
 @pytest.mark.parametrize("command", ["check", "diff", "batch"])
 @pytest.mark.parametrize(
     ("keys", "code"),
