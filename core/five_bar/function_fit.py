@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,13 +12,15 @@ import numpy as np
 from gearlink.core.errors import NoSolution
 from gearlink.core.five_bar.function_motion import FunctionFiveBar
 from gearlink.core.five_bar.wanted import StructuralError, Wanted, outputs, structural_error
-from gearlink.core.numerics.arrays import Mask, Reals
+from gearlink.core.numerics.arrays import Mask, Points, Reals
 from gearlink.core.numerics.halton import halton
 
 _NODES, _GRID = 9, 121
 _STARTS, _ROUNDS, _STEPS = 300, 1, 60
 # The best of a round that are levelled, and the most steps of that.
 _LEVELLED, _LEVEL_STEPS = 5, 40
+# Of t20, phi0 and psi0 those that turn the input link, the coupler and the output link.
+_TURNED_BY = ((5,), (4, 5), (6,))
 _SCATTER, _WIDEST = 1.6, math.log(20.0)
 _WEIGHT = 3.0
 _MARGIN = math.radians(0.01)  # of the transmission angle against rounding
@@ -164,10 +166,21 @@ def _descended(x: Reals, phi: Reals, psi: Reals, ratio: float, cosine: float) ->
 
 def _misses(x: Reals, phi: Reals, psi: Reals, ratio: float, cosine: float) -> Reals:
     """(|CD| - c)/e at the nodes, and the excess of |cos mu| over its limit, for every row."""
-    b, c, e, d = (np.exp(np.clip(x[:, i], -6.0, 6.0))[:, None] for i in range(4))
+    return _of_directions(x, [_direction(x, which, phi, psi, ratio) for which in range(3)], cosine)
+
+
+def _direction(x: Reals, which: int, phi: Reals, psi: Reals, ratio: float) -> Points:
+    """Directions of input link, coupler and output link at the nodes."""
+    if which == 2:
+        return np.asarray(np.exp(1j * (x[:, 6:7] + psi)))
     turned = phi + x[:, 5:6]
-    joint = np.exp(1j * turned) + b * np.exp(1j * (x[:, 4:5] + ratio * turned))
-    gap = joint - d - e * np.exp(1j * (x[:, 6:7] + psi))
+    return np.asarray(np.exp(1j * (x[:, 4:5] + ratio * turned) if which else 1j * turned))
+
+
+def _of_directions(x: Reals, directions: Sequence[Points], cosine: float) -> Reals:
+    b, c, e, d = (np.exp(np.clip(x[:, i], -6.0, 6.0))[:, None] for i in range(4))
+    joint = directions[0] + b * directions[1]
+    gap = joint - d - e * directions[2]
     mu = (c * c + e * e - np.abs(d - joint) ** 2) / (2.0 * c * e)
     return np.concatenate(((np.abs(gap) - c) / e, _WEIGHT * np.maximum(0.0, np.abs(mu) - cosine)), axis=1)
 
@@ -175,11 +188,14 @@ def _misses(x: Reals, phi: Reals, psi: Reals, ratio: float, cosine: float) -> Re
 def _slopes(x: Reals, value: Reals, phi: Reals, psi: Reals, ratio: float, cosine: float) -> Reals:
     """Derivatives by the unknowns, by differences: the rows are levelled afterwards, where digits count."""
     step = 1e-7
-    columns = []
+    columns, there = [], [_direction(x, which, phi, psi, ratio) for which in range(3)]
     for i in range(7):
         moved = x.copy()
         moved[:, i] += step
-        columns.append((_misses(moved, phi, psi, ratio, cosine) - value) / step)
+        turned = [
+            _direction(moved, which, phi, psi, ratio) if i in _TURNED_BY[which] else there[which] for which in range(3)
+        ]
+        columns.append((_of_directions(moved, turned, cosine) - value) / step)
     return np.stack(columns, axis=2)
 
 
@@ -194,9 +210,9 @@ def _levelled(bar: FunctionFiveBar, start: float, wanted: Wanted, least: float) 
     x = np.array([*(math.log(v) for v in (bar.coupler, bar.follower, bar.output, bar.frame)), bar.phase, start])
     limit = math.cos(least + _MARGIN)
     miss, mu = _state(bar, x, swing, target)
-    trust, worst = 0.05, _worst(miss, mu, limit)
+    trust, worst, slopes = 0.05, _worst(miss, mu, limit), _level_slopes(_made(bar, x), start, swing)
     for _ in range(_LEVEL_STEPS):
-        step = _program(bar, x, swing, miss, mu, limit, trust)
+        step = _program(slopes, miss, mu, limit, trust)
         if step is None:
             break
         new = x + step
@@ -205,6 +221,7 @@ def _levelled(bar: FunctionFiveBar, start: float, wanted: Wanted, least: float) 
         if new_worst < worst:
             gained = worst - new_worst
             x, miss, mu, worst, trust = new, new_miss, new_mu, new_worst, min(0.5, 2.0 * trust)
+            slopes = _level_slopes(_made(bar, x), float(x[5]), swing)
             if gained <= 1e-5 * worst:
                 break
         else:
@@ -264,13 +281,11 @@ def _level_slopes(bar: FunctionFiveBar, start: float, swing: Reals) -> tuple[Rea
     return pulled / (along * 1j * hand).real[:, None], apart
 
 
-def _program(
-    bar: FunctionFiveBar, x: Reals, swing: Reals, miss: Reals, mu: Reals, limit: float, trust: float
-) -> Reals | None:
+def _program(slopes: tuple[Reals, Reals], miss: Reals, mu: Reals, limit: float, trust: float) -> Reals | None:
     """Step of the unknowns that makes the greatest error least, as far as its slopes tell."""
     from scipy.optimize import linprog
 
-    outward, turns = _level_slopes(_made(bar, x), float(x[5]), swing)
+    outward, turns = slopes
     if not (np.all(np.isfinite(outward)) and np.all(np.isfinite(turns))):
         return None
     ones = np.ones((miss.size, 1))
