@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import textwrap
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -56,7 +57,16 @@ def find(subject: str) -> list[Topic]:
     if exact:
         return exact
     spellings = dict.fromkeys((subject.upper(), subject.lower().replace("_", "-"), subject.lower().replace("-", "_")))
-    return [topic for spelling in spellings if spelling != subject for topic in _topics(spelling)]
+    found = [topic for spelling in spellings if spelling != subject for topic in _topics(spelling)]
+    return found or list(_told_of(subject))
+
+
+def _told_of(point: str) -> Iterator[Topic]:
+    """Columns in whose words a point or pole stands, as P15 does."""
+    if re.fullmatch(r"[A-Z]+\d*", point):
+        for column, words in COLUMNS.items():
+            if re.search(rf"\b{point}\b", words):
+                yield Topic("column", column, f"column of a table: {words}", {})
 
 
 def _topics(name: str) -> Iterator[Topic]:

@@ -221,6 +221,7 @@ def test_help_has_an_example(gearlink: Any) -> None:
     ("speed_ratio", "column", "output speed per input speed"),
     ("mesh_13", "column", "tangential force in that mesh"),
     ("kappa", "constant", "rest-to-speed law"),
+    ("P15", "column", "instant centre P15"),
 ])  # fmt: skip
 def test_symbols_keys_columns_and_constants_are_known(gearlink: Any, name: str, about: str, words: str) -> None:
     topics = gearlink("explain", name, "--format", "json").json["topics"]
