@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from gearlink.core.loads.dynamics import Mass
     from gearlink.core.loads.flywheel import Energy
     from gearlink.core.loads.machine import Machine
-    from gearlink.core.loads.mechanism import Mechanism
+    from gearlink.core.loads.mechanism import Connection, Mechanism
     from gearlink.core.loads.running import Running
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.numerics.extremes import Extreme
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
 
 RPM = 2.0 * math.pi / 60.0
 _SLOWEST = 1e-6
-_CANCELLED = 1e-6
 _OF_TORQUE = frozenset(
     (
         "input_torque_mean", "input_torque_max", "input_torque_max_at", "input_torque_min", "input_torque_min_at",
@@ -156,10 +155,11 @@ class LoadsBase(Design):
         given = self.section.friction
         if given is None:
             return None
-        from gearlink.core.loads.friction import Coefficients
+        from gearlink.core.loads.friction import Coefficients, require_coefficients
         from gearlink.core.loads.mechanism import Guide, Mesh, Pin, Rack
 
         self._require_joints("friction.joints", given.joints, Pin, Guide, Mesh, Rack)
+        require_coefficients(given, self._connections)
         return Coefficients(given.pins, given.guides, given.meshes, given.pin_radius * 1e-3, dict(given.joints))
 
     @property
@@ -167,11 +167,16 @@ class LoadsBase(Design):
         """Joints whose force depends on something that the file does not say."""
         return ()
 
-    def _require_joints(self, section: str, names: Iterable[str], *sorts: type) -> None:
-        """Refuse names of a section that no joint of some sorts in this design has."""
+    @cached_property
+    def _connections(self) -> Sequence[Connection]:
+        """What joins the links."""
         import numpy as np
 
-        known = [c.name for c in self.kinematics(np.zeros(1)).connections if isinstance(c, sorts)]
+        return self.kinematics(np.zeros(1)).connections
+
+    def _require_joints(self, section: str, names: Iterable[str], *sorts: type) -> None:
+        """Refuse names of a section that no joint of some sorts in this design has."""
+        known = [c.name for c in self._connections if isinstance(c, sorts)]
         for name in names:
             if name not in known:
                 has = f"it has {', '.join(known)}" if known else "leave it out"
@@ -380,29 +385,3 @@ class LoadsBase(Design):
 
     motor_torque_rms: float | None = placed("running.motor_rms")
     motor_torque_peak: float | None = placed("running.motor_peak")
-
-    @cached_property
-    def power_identity(self) -> float:
-        """Largest difference of the two input torques over the largest of them.
-
-        Notes
-            Where the parts of the torque cancel to a millionth, as those of an unbalanced wheel that turns evenly, a
-            millionth of the parts takes its place: both ways round at 1e-16 of them.
-        """
-        import numpy as np
-
-        from gearlink.core.loads.dynamics import power_parts
-
-        machine = self.machine
-        phi = np.linspace(0.0, machine.period, 360 * self.turns, endpoint=False)
-        found = machine.reactions(phi)
-        if machine.friction is None:
-            power = machine.reduced(phi).torque(machine.speed)
-        else:
-            from gearlink.core.loads.friction import losses
-
-            power = machine.reduced(phi).torque(machine.speed)
-            power = power + losses(found, machine.friction, machine.speed) / machine.speed
-        parts = power_parts(machine.at(phi), machine.masses, machine.applied(phi), machine.gravity, machine.speed)
-        size = max(*(float(np.max(np.abs(each))) for each in (found.torque, power)), _CANCELLED * float(np.max(parts)))
-        return float(np.max(np.abs(found.torque - power))) / size if size else 0.0

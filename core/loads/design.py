@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from gearlink.core.report import Remedy
 
 _HIGHEST = 10_000
+_CANCELLED = 1e-6
 MOST_TURNS = 100
 """Turns of the period that tables show at most."""
 TORQUE = (
@@ -106,6 +107,32 @@ class LoadsDesign(BalancedLoads):
 
         degrees = turn_degrees(samples, min(self.turns, MOST_TURNS))
         return np.radians(degrees), {"input_angle": (degrees, "deg")}
+
+    @cached_property
+    def power_identity(self) -> float:
+        """Largest difference of the two input torques over the largest of them.
+
+        Notes
+            Where the parts of the torque cancel to a millionth, as those of an unbalanced wheel that turns evenly, a
+            millionth of the parts takes its place: both ways round at 1e-16 of them.
+        """
+        import numpy as np
+
+        from gearlink.core.loads.dynamics import power_parts
+
+        machine = self.machine
+        phi = np.linspace(0.0, machine.period, 360 * self.turns, endpoint=False)
+        found = machine.reactions(phi)
+        if machine.friction is None:
+            power = machine.reduced(phi).torque(machine.speed)
+        else:
+            from gearlink.core.loads.friction import losses
+
+            power = machine.reduced(phi).torque(machine.speed)
+            power = power + losses(found, machine.friction, machine.speed) / machine.speed
+        parts = power_parts(machine.at(phi), machine.masses, machine.applied(phi), machine.gravity, machine.speed)
+        size = max(*(float(np.max(np.abs(each))) for each in (found.torque, power)), _CANCELLED * float(np.max(parts)))
+        return float(np.max(np.abs(found.torque - power))) / size if size else 0.0
 
     # Frame and joints
 

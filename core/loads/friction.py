@@ -10,11 +10,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from gearlink.core.errors import NoSolution
+from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.loads.dynamics import Applied, Masses, Reactions, System
 from gearlink.core.loads.kinematics import dot
 from gearlink.core.loads.mechanism import (
@@ -28,9 +28,13 @@ from gearlink.core.loads.mechanism import (
     Mesh,
     Pin,
     Rack,
+    Toothed,
     rates,
 )
 from gearlink.core.numerics.arrays import Reals
+
+if TYPE_CHECKING:
+    from gearlink.core.loads.spec import Friction
 
 _PASSES, _PLAIN, _KEPT, _POWERS = 60, 4, 5, 20
 _SETTLED, _NEARLY, _BEYOND = 1e-14, 1e-11, 1e6
@@ -294,6 +298,23 @@ def _exchange(solved: Reals, new: int, place: int, whole: Reals) -> None:
             share = np.divide(solved[k, place], y[place], out=np.zeros_like(y[place]), where=pulled)
             solved[k] -= y * share
             solved[k, place] = np.where(pulled, share, solved[k, place])
+
+
+def require_coefficients(given: Friction, connections: Sequence[Connection]) -> None:
+    """Refuse coefficients that a joint cannot have, and those of pins that have no radius, which would have no effect.
+
+    Raises
+        NoSolution - with its key
+    """
+    for each in connections:
+        of_teeth = isinstance(each, Toothed)
+        if given.joints.get(each.name) == (0.0 if of_teeth else 1.0):
+            allowed = "the efficiency of a mesh lies above 0" if of_teeth else "a coefficient of friction lies below 1"
+            raise NoSolution(f"{given.joints[each.name]:g}: {allowed}", key=f"loads.friction.joints.{each.name}")
+    pins = (given.joints.get(each.name, given.pins) for each in connections if isinstance(each, Pin))
+    if given.pin_radius == 0.0 and any(pins):
+        words = "friction of pins acts at their radius: give loads.friction.pin_radius (mm)"
+        raise MissingSection(words, key="loads.friction")
 
 
 def with_friction(

@@ -129,7 +129,7 @@ class Friction(Spec):
     meshes: Annotated[float, Field(gt=0, le=1, json_schema_extra={"unit": "1"})] = Field(
         1.0, description="efficiency of all gear meshes"
     )
-    joints: dict[str, Coefficient] = Field(
+    joints: dict[str, Annotated[float, Field(ge=0, le=1, json_schema_extra={"unit": "1"})]] = Field(
         {}, description="coefficient of a pin or guide, or efficiency of a mesh, by its name"
     )
 

@@ -101,7 +101,7 @@ def test_friction_that_vanishes_in_rounding_is_none() -> None:
     section = {"links": {"rod": {"mass": 12.0}}, "forces": [{"on": "slider", "resistance": 200.0}]}
     found = [
         factory.design(data | {"loads": section | extra}, command="loads").table("torque", samples=36)
-        for extra in ({"friction": {"pins": 1e-17}}, {})
+        for extra in ({"friction": {"pins": 1e-17, "pin_radius": 8}}, {})
     ]
     assert list(found[0]["input_torque"]) == pytest.approx(list(found[1]["input_torque"]), rel=1e-12)
 
@@ -191,3 +191,26 @@ def test_the_section_that_a_missing_one_is_asked_for_is_one(base: str) -> None:
         factory.design(base, command="loads").report("loads")
     assert caught.value.key == "loads"
     factory.design(base, command="loads", loads={"roller": {"width": 20}}).raw("input_torque_max")
+
+
+@pytest.mark.parametrize(
+    ("friction", "key"),
+    [
+        ({"joints": {"mesh_13": 0.0}}, "loads.friction.joints.mesh_13"),
+        ({"joints": {"A": 1.0}, "pin_radius": 8}, "loads.friction.joints.A"),
+        ({"pins": 0.1}, "loads.friction"),
+        ({"joints": {"A": 0.1}}, "loads.friction"),
+    ],
+)
+def test_coefficients_that_no_joint_has_are_refused(friction: dict[str, Any], key: str) -> None:
+    with pytest.raises(GearlinkError) as caught:
+        factory.design(FEED, command="loads", loads__friction=friction).raw("input_torque_max")
+    assert caught.value.key == key
+
+
+def test_a_mesh_by_name_may_lose_nothing() -> None:
+    free, whole = (
+        factory.design(FEED, command="loads", loads__friction=friction).raw("input_torque_max")
+        for friction in ({"meshes": 1.0}, {"meshes": 0.9, "joints": {"mesh_13": 1.0, "mesh_35": 1.0}})
+    )
+    assert whole == pytest.approx(free, rel=1e-12)
