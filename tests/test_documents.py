@@ -94,6 +94,15 @@ def test_links_lead_somewhere(page: Path) -> None:
             assert (page.parent / target).exists(), target
 
 
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_files_that_are_named_are_there(page: Path) -> None:
+    """Paths below the folders of the repository; a star stands for any letters."""
+    named = re.findall(r"(?<![\w/])(?:core|cli|docs|designs|tests|bench)/[\w/*-]+\.(?:py|yaml|md)", page.read_text())
+    assert [path for path in named if not list(ROOT.glob(path))] == []
+    parts = re.findall(r"`((?:core|cli)/[a-z_/]+)[.`]", page.read_text())
+    assert [path for path in parts if not (ROOT / path).is_dir() and not (ROOT / f"{path}.py").is_file()] == []
+
+
 def test_nomenclature_page_is_the_nomenclature() -> None:
     import importlib.util
 
