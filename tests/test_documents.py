@@ -100,7 +100,7 @@ def test_files_that_are_named_are_there(page: Path) -> None:
     named = re.findall(r"(?<![\w/])(?:core|cli|docs|designs|tests|bench)/[\w/*-]+\.(?:py|yaml|md)", page.read_text())
     assert [path for path in named if not list(ROOT.glob(path))] == []
     parts = re.findall(r"`((?:core|cli)/[a-z_/]+)[.`]", page.read_text())
-    assert [path for path in parts if not (ROOT / path).is_dir() and not (ROOT / f"{path}.py").is_file()] == []
+    assert [path for path in parts if not (ROOT / path).is_dir() and not list(ROOT.glob(f"{path}.*"))] == []
 
 
 def test_nomenclature_page_is_the_nomenclature() -> None:
