@@ -123,7 +123,7 @@ def _workpiece(axes: Axes, cam: DiscCam, shaft: float) -> None:
     )
     if shaft > 0.0:
         bore = _bore(shaft, roller / abs(roller))
-        axes.fill(bore.real, bore.imag, facecolor="white", edgecolor=style.BLACK, linewidth=1.2, zorder=5)
+        style.area(axes, bore, facecolor="white", edgecolor=style.BLACK, linewidth=1.2, zorder=5)
     panels.cam_axis(axes, 0j, (cam,), cam.sense, shaft)
     reach = abs(roller) + 1.2 * cam.roller_radius
     axes.plot([-cam.max_radius * 1.1, reach], [0.0, 0.0], color=style.GREY, linewidth=0.7, linestyle="-.", zorder=1)

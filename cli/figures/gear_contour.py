@@ -38,8 +38,7 @@ _STEP = 0.15
 def contour_plot(axes: Axes, key: Axes, contour: BlockingContour) -> None:
     """Every line of the contour in the plane of both shifts, the shifts that are free, and the design."""
     panels.heading(axes, "Blocking contour")
-    for band in contour.free:
-        axes.fill(*zip(*band, strict=True), facecolor=style.GREEN, alpha=0.12, linewidth=0, label="_")
+    _free(axes, contour)
     axes.plot([], [], color=style.GREEN, alpha=0.25, linewidth=6, label="free of all that blocks")
     named: set[str] = set()
     for name, points in contour.points.items():
@@ -56,6 +55,17 @@ def contour_plot(axes: Axes, key: Axes, contour: BlockingContour) -> None:
     axes.set_ylim(*contour.window[1])
     _named(axes, "$x_1$", "$x_2$")
     _key(key, axes.get_legend_handles_labels()[0], 3)
+
+
+def _free(axes: Axes, contour: BlockingContour) -> None:
+    """The shifts that are free, as one patch: strips of their own would show their seams."""
+    from matplotlib.patches import PathPatch
+    from matplotlib.path import Path
+
+    strips = [Path([*band, band[0]], closed=True) for band in contour.free]
+    if strips:
+        look: dict[str, Any] = {"facecolor": style.GREEN, "alpha": 0.12, "linewidth": 0}
+        style.cornered(axes, PathPatch(Path.make_compound_path(*strips), **look))
 
 
 def _margins(axes: Axes, contour: BlockingContour) -> None:

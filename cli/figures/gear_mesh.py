@@ -129,7 +129,7 @@ def _zone_teeth(axes: Axes, mesh: Mesh, gear: int, high: float) -> None:
         return
     center, color = geometry.axes[gear], COLORS[gear]
     body = [*teeth, center]
-    axes.fill([p.real for p in body], [p.imag for p in body], facecolor=color, alpha=0.16, linewidth=0)
+    style.area(axes, body, facecolor=color, alpha=0.16, linewidth=0)
     axes.plot(teeth.real, teeth.imag, color=color, linewidth=1.5, zorder=3, gid=f"zone-{gear + 1}")
 
 
@@ -142,7 +142,7 @@ def _zone_ring(axes: Axes, mesh: Mesh) -> None:
     teeth = RingProfile.of(pair).outline(48) * np.exp(1j * geometry.first_space[1]) + center
     rim = center - 2.0 * pair.root_radius[1] * np.exp(-2j * math.pi * np.linspace(0.0, 1.0, 181))
     body = np.concatenate([teeth, rim])
-    axes.fill(body.real, body.imag, facecolor=COLORS[1], alpha=0.16, linewidth=0)
+    style.area(axes, body, facecolor=COLORS[1], alpha=0.16, linewidth=0)
     axes.plot(teeth.real, teeth.imag, color=COLORS[1], linewidth=1.5, zorder=3, gid="zone-2")
 
 

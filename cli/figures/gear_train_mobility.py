@@ -69,7 +69,7 @@ def _link(axes: Axes, name: str, points: list[complex]) -> None:
         for point in points:
             style.pivot(axes, point)
     if len(points) > 2:
-        axes.fill([p.real for p in points], [p.imag for p in points], color=color, alpha=0.15, zorder=1)
+        style.area(axes, points, color=color, alpha=0.15, zorder=1)
     ends = [*points, points[0]] if len(points) > 2 else points
     axes.plot([p.real for p in ends], [p.imag for p in ends], color=color, linewidth=2.4, zorder=2)
     middle = sum(points, 0j) / len(points)

@@ -69,7 +69,7 @@ def shade(axes: Sequence[Axes], phases: Sequence[Phase]) -> None:
         parts = phase.within_turn()
         for start, end in parts:
             for each in axes:
-                each.axvspan(start, end, color=PHASE_TINTS[phase.name], linewidth=0, zorder=0)
+                style.stretch(each, start, end, color=PHASE_TINTS[phase.name], linewidth=0, zorder=0)
         start, end = max(parts, key=lambda part: part[1] - part[0])
         names.append((0.5 * (start + end), phase.name))
         crowded |= _width_in_degrees(phase.name) > end - start
@@ -266,7 +266,7 @@ def cam_outline(axes: Axes, cam: DiscCam, color: str, axis: complex = 0j, line: 
     pitch, profile = cam.points(np.radians(_turn_angles()))
     pitch, profile = pitch + axis, profile + axis
     roller = complex(cam.path(np.array([0.0]), 1).position.flat[0]) + axis
-    axes.fill(profile.real, profile.imag, color=color, alpha=0.08, linewidth=0)
+    style.area(axes, profile, color=color, alpha=0.08, linewidth=0)
     words = f"{cam.name}, profile"
     axes.plot(profile.real, profile.imag, color=color, linewidth=1.7, linestyle=line, label=words, zorder=3)
     _cut(axes, cam, profile)

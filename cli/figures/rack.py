@@ -56,5 +56,5 @@ def _rack_teeth(axes: Axes, rack: RackMesh, geometry: RackGeometry, high: float)
     place = np.array([rack.center_distance + 1j * geometry.first_space[1]])
     body = rack_body(rack, count, 9.0 * high, place)
     outline = place + 1j * body.outline
-    axes.fill(outline.real, outline.imag, facecolor=COLORS[1], alpha=0.16, linewidth=0)
+    style.area(axes, outline, facecolor=COLORS[1], alpha=0.16, linewidth=0)
     axes.plot(outline.real, outline.imag, color=COLORS[1], linewidth=1.5, zorder=3, gid="zone-2")

@@ -125,7 +125,7 @@ def _outline(axes: Axes, part: Body | Line, order: float) -> None:
         axes.plot(points.real, points.imag, color=part.color, **{**look, "zorder": 3.2}, linestyle=dashes)
     elif part.fill:
         gid = f"body-{part.label}" if part.label else None
-        axes.fill(points.real, points.imag, facecolor=part.fill, edgecolor=part.color, gid=gid, **look)
+        style.area(axes, points, facecolor=part.fill, edgecolor=part.color, gid=gid, **look)
     elif not part.pitch:
         axes.plot(points.real, points.imag, color=part.color, **look)
     if isinstance(part, Body) and part.pitch:

@@ -14,6 +14,8 @@ from gearlink.cli.scenes import colors
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+    from matplotlib.patches import Patch
+    from numpy.typing import NDArray
 
 BLUE, ORANGE, GREEN, RED = colors.BLUE, colors.ORANGE, colors.GREEN, colors.RED
 PURPLE, SKY, BLACK, GREY, LIGHT = colors.PURPLE, colors.SKY, colors.BLACK, colors.GREY, colors.LIGHT
@@ -87,6 +89,32 @@ def drawing(axes: Axes, title: str = "") -> None:
         axis.get_offset_text().set(size=7, color=GREY)
     for spine in axes.spines.values():
         spine.set_color(LIGHT)
+
+
+def area(axes: Axes, points: Sequence[complex] | NDArray[Any], **look: Any) -> None:
+    """A filled outline, given by its corners."""
+    import numpy as np
+    from matplotlib.patches import Polygon
+
+    corners = np.asarray(points, dtype=complex)
+    cornered(axes, Polygon(np.column_stack((corners.real, corners.imag)), closed=True, **look))
+
+
+def cornered(axes: Axes, patch: Patch) -> None:
+    """A patch of straight sides, which reaches as far as its corners; `add_patch` would seek the extremes of each side,
+    which takes longer than to draw them."""
+    axes.add_artist(patch)
+    axes.update_datalim(patch.get_path().vertices)
+    axes.autoscale(None)
+
+
+def stretch(axes: Axes, start: float, end: float, **look: Any) -> None:
+    """A stretch of the x axis, over the height of the panel whatever its limits."""
+    from matplotlib.patches import Rectangle
+
+    axes.add_artist(Rectangle((start, 0.0), end - start, 1.0, transform=axes.get_xaxis_transform(), **look))
+    axes.update_datalim([(start, 0.0), (end, 0.0)], updatey=False)
+    axes.autoscale(None)
 
 
 def disc(axes: Axes, center: complex, radius: float, **look: Any) -> None:

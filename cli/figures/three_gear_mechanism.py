@@ -64,7 +64,7 @@ def _collision(axes: Axes, design: ThreeGearFourBar) -> None:
     assert gap is not None, "external gears have a gap"
     r1, r5 = first.tip_radius[0], second.tip_radius[1]
     both = _overlap(complex(design.crank_length), r1, complex(frame), r5)
-    axes.fill(both.real, both.imag, color=style.RED, linewidth=0, zorder=6, gid="collision")
+    style.area(axes, both, color=style.RED, linewidth=0, zorder=6, gid="collision")
     where = (frame - math.copysign(r5, frame - design.crank_length), 0.0)
     shape = {"arrowstyle": "-|>", "color": style.RED, "linewidth": 0.9}
     look: dict[str, Any] = {"color": style.RED, "fontsize": 8, "ha": "center", "arrowprops": shape, "zorder": 8}

@@ -47,7 +47,7 @@ def contours_panel(made: Figure, place: Any, design: WideSwingDesign) -> None:
         axes = made.add_subplot(columns[0, i])
         panels.drawing(axes, title)
         _contour(axes, cam, frame, (style.BLUE, style.GREEN)[i])
-        axes.fill(*_xy(_whole(cam, frame)), color=style.BLUE, alpha=0.10, linewidth=0, zorder=1)
+        style.area(axes, _whole(cam, frame), color=style.BLUE, alpha=0.10, linewidth=0, zorder=1)
         _finish(axes, design)
         _legend(made.add_subplot(columns[1, i]), axes, 2)
 
@@ -86,11 +86,11 @@ def _between(axes: Axes, cycle: WholeCycle) -> None:
 
     inside, hollow = _whole(cycle.back, cycle.of_back), _whole(cycle.main, cycle.of_main)
     rim = 1.08 * float(np.abs(hollow).max())
-    axes.fill(*_xy(inside), color=style.GREEN, alpha=0.12, linewidth=0, zorder=1)
+    style.area(axes, inside, color=style.GREEN, alpha=0.12, linewidth=0, zorder=1)
     turn = rim * np.exp(2j * math.pi * np.linspace(0.0, 1.0, 361))
     paths = [Path(np.stack(_xy(z), axis=1), closed=True) for z in (turn, hollow)]
     look = {"facecolor": style.BLUE, "alpha": 0.10, "linewidth": 0, "zorder": 1}
-    axes.add_patch(PathPatch(Path.make_compound_path(*paths), **look))
+    style.cornered(axes, PathPatch(Path.make_compound_path(*paths), **look))
     axes.plot(*_xy(turn), color=style.BLUE, linewidth=0.8, zorder=2)
 
 

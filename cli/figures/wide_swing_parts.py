@@ -84,7 +84,7 @@ def _body(axes: Axes, design: WideSwingDesign, cam: AnyCam, mirror: float) -> No
     rest = dwell_arc(cam) if design.spec.cycle is None else _rest_of_turn(design, cam, mirror)
     x, y = _mirrored(np.concatenate((edge, rest)), mirror)
     if is_external(cam):
-        axes.fill(x, y, color=style.BLUE, alpha=0.10, linewidth=0, zorder=1)
+        style.area(axes, x + 1j * y, color=style.BLUE, alpha=0.10, linewidth=0, zorder=1)
     else:
         _ring(axes, x, y, 1.12 * float(np.abs(edge).max()) + cam.roller_radius)
     axes.plot(*_mirrored(rest, mirror), color=style.BLUE, linewidth=0.8, zorder=2)
@@ -123,7 +123,9 @@ def _ring(axes: Axes, x: Any, y: Any, radius: float) -> None:
     if _area(x, y) > 0.0:
         inside = inside[::-1]
     paths = [Path(around, closed=True), Path(inside, closed=True)]
-    axes.add_patch(PathPatch(Path.make_compound_path(*paths), facecolor=style.BLUE, alpha=0.10, linewidth=0, zorder=1))
+    style.cornered(
+        axes, PathPatch(Path.make_compound_path(*paths), facecolor=style.BLUE, alpha=0.10, linewidth=0, zorder=1)
+    )
     axes.plot(around[:, 0], around[:, 1], color=style.BLUE, linewidth=0.8, zorder=2)
 
 
