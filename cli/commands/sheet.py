@@ -60,7 +60,8 @@ def _chosen(made: Makers, names: Sequence[str], kind: str) -> list[str]:
 
 
 def _write(made: Makers, name: str, spec: Any, options: Options) -> Path:
-    from gearlink.cli.figures.write import save, settled
+    from gearlink.cli.figures.placing import settled
+    from gearlink.cli.figures.write import save
 
     ending = options.plot_format.value
     path = options.out / f"{safe_stem(spec.name)}-{name}.{ending}"

@@ -33,7 +33,6 @@ def draw(command: str, design: FlatbedPress) -> Figure:
     right: Any = below[1].subgridspec(2, 1, height_ratios=(1.5, 1.0))
     _compensation(made.add_subplot(right[0]), design)
     panels.legend_beside(made.add_subplot(right[1]), drawing)
-    made.align_ylabels(curves)
     return made
 
 

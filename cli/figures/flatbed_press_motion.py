@@ -34,7 +34,6 @@ def draw(command: str, design: FlatbedPress) -> Figure:
     machine(made.add_subplot(middle[1]), design)
     curves = [made.add_subplot(rows[2]), made.add_subplot(rows[3])]
     _curves(curves, design)
-    made.align_ylabels(curves)
     return made
 
 

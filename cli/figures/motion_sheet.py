@@ -67,7 +67,6 @@ def draw(design: Any) -> Figure:
         panels.heading(axes[0], course.name)
         if course.bands:
             panels.shade(axes, course.bands)
-        made.align_ylabels(axes)
     return made
 
 

@@ -38,7 +38,6 @@ def draw(command: str, design: SwingGripper) -> Figure:
     drawing = made.add_subplot(below[0])
     _cams(drawing, design)
     panels.legend_beside(made.add_subplot(below[1]), drawing)
-    made.align_ylabels(curves)
     return made
 
 

@@ -40,7 +40,6 @@ def draw(command: str, design: SwingGripper) -> Figure:
     drawing = made.add_subplot(below[0])
     mechanism(drawing, design)
     panels.legend_beside(made.add_subplot(below[1]), drawing)
-    made.align_ylabels(curves)
     return made
 
 

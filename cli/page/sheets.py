@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 from html import escape
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.figures import write
+from gearlink.cli.figures import placing, write
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -39,7 +39,7 @@ class Remembered:
     move: so each is drawn at once where its panels stood the time before, and again where they have moved."""
 
     def __init__(self) -> None:
-        self._places: dict[str, write.Places] = {}
+        self._places: dict[str, placing.Places] = {}
 
     @property
     def known(self) -> frozenset[str]:
@@ -50,13 +50,13 @@ class Remembered:
         """The sheet with its panels where they were, placed if there was none before."""
         known = self._places.get(command)
         html, made = _as_html(command, design.spec.name, lambda: write.draw(command, design, checks, known))
-        self._places[command] = write.places(made)
+        self._places[command] = placing.places(made)
         return html
 
     def moved(self, command: str, design: Design, checks: Sequence[Check]) -> str:
         """The sheet with its panels placed anew; empty where they stand as they do."""
         with write.fonts_of(design.spec.name):
-            now = write.places(write.draw(command, design, checks))
+            now = placing.places(write.draw(command, design, checks))
         if now == self._places.get(command):
             return ""
         self._places[command] = now
