@@ -82,7 +82,8 @@ def ruled(
         middle = row + 0.5 + (extra if row else 0.5 * extra)
         for (x, side), text in zip(places, line, strict=True):
             weight = "normal" if row else "bold"
-            axes.text(x, middle, text, fontsize=size, ha=side, va="center", fontweight=weight)
+            # In the panel anyhow: to measure every cell for the layout takes longer than to draw it.
+            axes.text(x, middle, text, fontsize=size, ha=side, va="center", fontweight=weight, in_layout=False)
         axes.axhline(row + 1.0 + extra, color=style.LIGHT if row else style.GREY, linewidth=0.6)
 
 

@@ -63,8 +63,8 @@ def numbers(axes: Axes, drawing: Axes, design: Any, words: Mapping[str, str]) ->
     found = [(short, design.quantity(name)) for name, short in words.items()]
     shown = [(short, f"{_text(q.value, q.unit)} {q.unit}".removesuffix(" 1")) for short, q in found if q is not None]
     for i, (short, value) in enumerate(reversed(shown)):
-        axes.text(0.0, 0.062 * i, short, transform=axes.transAxes, va="bottom", fontsize=8)
-        axes.text(1.0, 0.062 * i, value, transform=axes.transAxes, va="bottom", ha="right", fontsize=8)
+        axes.text(0.0, 0.062 * i, short, transform=axes.transAxes, va="bottom", fontsize=8, in_layout=False)
+        axes.text(1.0, 0.062 * i, value, transform=axes.transAxes, va="bottom", ha="right", fontsize=8, in_layout=False)
 
 
 def _text(value: object, unit: str) -> str:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from typing import TYPE_CHECKING, Any, TypeAlias
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -11,13 +12,19 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Box: TypeAlias = tuple[float, float, float, float]
-Places: TypeAlias = tuple[str, tuple[Box, ...]]
-"""What tells like figures, and the boxes of their panels."""
+
+
+class Places(NamedTuple):
+    """What tells like figures, the boxes of their panels, and how far from these the words along their axes stand."""
+
+    likeness: str
+    boxes: tuple[Box, ...]
+    distances: tuple[float, ...]
 
 
 def settled(made: Figure, known: Places | None = None) -> Figure:
     """The figure with its panels placed for good, to the hundredth of a millimetre; where they are known to stand, if
-    its title and the number of its panels are those of that time.
+    the lines of its title and the numbers of its panels and labels are those of that time.
 
     The solver of the constrained layout leaves last digits to chance; an SVG names its clips after them, and a
     drawing to scale widens its limits by them. So the limits are those from before the layout.
@@ -25,16 +32,17 @@ def settled(made: Figure, known: Places | None = None) -> Figure:
     from gearlink.cli.figures import style
 
     limits = [(axes.get_xlim(), axes.get_ylim()) for axes in made.axes]
-    likeness, boxes = known or ("", ())
-    if likeness != _likeness(made):
-        boxes = ()
-    if not boxes and made.get_layout_engine():
-        _lay_out(made)
+    labels = _labels(made)
+    if known is not None and known.likeness == _likeness(made):
+        boxes, distances = known.boxes, known.distances
     else:
-        made.align_ylabels()
+        distances = _laid_out(made, labels)
+        boxes = _boxes(made)
     made.set_layout_engine(None)  # "none" would have savefig draw the panels a time more, for a layout
     style.place_title(made)
-    for axes, (x, y), box in zip(made.axes, limits, boxes or _boxes(made), strict=True):
+    for label, distance in zip(labels, distances, strict=True):
+        label.keep(distance)
+    for axes, (x, y), box in zip(made.axes, limits, boxes, strict=True):
         axes.set_position(box)
         axes.set_xlim(x, auto=None)
         axes.set_ylim(y, auto=None)
@@ -43,12 +51,13 @@ def settled(made: Figure, known: Places | None = None) -> Figure:
 
 def places(made: Figure) -> Places:
     """Where the panels of a settled figure stand."""
-    return _likeness(made), _boxes(made)
+    return Places(_likeness(made), _boxes(made), tuple(label.distance for label in _labels(made)))
 
 
 def _likeness(made: Figure) -> str:
     title = made._suptitle  # type: ignore[attr-defined]
-    return f"{len(made.axes)} panels of {title.get_text() if title is not None else ''}"
+    rows = 0 if title is None else 1 + title.get_text().count("\n")  # its words move nothing
+    return f"{len(made.axes)} panels with {len(_labels(made))} labels below {rows} lines"
 
 
 def _boxes(made: Figure) -> tuple[Box, ...]:
@@ -56,19 +65,21 @@ def _boxes(made: Figure) -> tuple[Box, ...]:
     return tuple(tuple(round(side, 5) for side in box) for box in found)
 
 
-def _lay_out(made: Figure) -> None:
-    """Place the panels; words along axes stay at their distance, those of panels one above another in a line."""
+def _laid_out(made: Figure, labels: Sequence[_Label]) -> tuple[float, ...]:
+    """Place the panels, and say how far from them their words stand."""
     layout: Any = made.get_layout_engine()
-    labels: list[_Label] = []
+    if layout is None:
+        return tuple(label.distance for label in labels)
+    far: dict[_Label, float] = {}
     for axes in made.axes:
-        _measured_once(axes, labels)
+        _measured_once(axes, [label for label in labels if label.of(axes)], far)
     layout.execute(made)
     for axes in made.axes:
         del axes.get_tightbbox  # the method of the class again
-    _keep(labels)
+    return _in_line(labels, far)
 
 
-def _measured_once(axes: Axes, labels: list[_Label]) -> None:
+def _measured_once(axes: Axes, labels: Sequence[_Label], far: dict[_Label, float]) -> None:
     """Let the room that a panel's words need beside it be measured once.
 
     The layout measures all words twice, for numbers along an axis may change with its length; those of these sheets
@@ -78,53 +89,67 @@ def _measured_once(axes: Axes, labels: list[_Label]) -> None:
 
     measure = axes.get_tightbbox
     known: list[Any] = []
-    every = [each for panel in (axes, *axes.child_axes) for each in (panel.xaxis, panel.yaxis)]
-    for axis in every:
-        if not axis.get_label_text():
-            axis.set_label_coords(0.0, 0.0)  # else the numbers beside it are measured for its place
+    for each in (axes, *axes.child_axes):
+        for axis in (each.xaxis, each.yaxis):
+            if not axis.get_label_text():
+                axis.set_label_coords(0.0, 0.0)  # else the numbers beside it are measured for its place
 
     def measured(*given: Any, **named: Any) -> Any:
         box: Any = axes.get_position(original=True).transformed(axes.figure.transSubfigure)
         if not known:
             tight = measure(*given, **named)
             known.append(None if tight is None else tight.extents - box.extents)
-            labels.extend(_Label(axis) for axis in every if axis.get_label_text())
+            far.update({label: label.distance for label in labels})
         return None if known[0] is None else Bbox.from_extents(*(box.extents + known[0]))
 
     axes.get_tightbbox = measured  # type: ignore[method-assign]
 
 
-class _Label:
-    """The words along an axis, and how far from their panel they were measured to stand [inch, outwards]."""
-
-    def __init__(self, axis: Axis) -> None:
-        self.axis, self.side = axis, axis.get_label_position()
-        box, dpi = axis.axes.bbox, axis.axes.figure.dpi
-        x, y = axis.label.get_position()  # one in pixels, the other a share of the panel
-        ways = {"left": box.x0 - x, "right": x - box.x1, "bottom": box.y0 - y, "top": y - box.y1}
-        self.distance = ways[self.side] / dpi
-        self.along = y if self.side in ("left", "right") else x
-
-    def keep(self, distance: float) -> None:
-        """Let the words stand there: to place them anew, each drawing would measure all numbers of the axis."""
-        from matplotlib.transforms import ScaledTranslation
-
-        axes, far = self.axis.axes, self.side in ("right", "top")
-        out = distance if far else -distance
-        upright = self.side in ("left", "right")
-        shift = ScaledTranslation(*((out, 0.0) if upright else (0.0, out)), axes.figure.dpi_scale_trans)
-        place = (float(far), self.along) if upright else (self.along, float(far))
-        self.axis.set_label_coords(*place, axes.transAxes + shift)
-
-
-def _keep(labels: list[_Label]) -> None:
-    columns: dict[float, list[_Label]] = defaultdict(list)
+def _in_line(labels: Sequence[_Label], far: dict[_Label, float]) -> tuple[float, ...]:
+    """The distances of words, those to the left of panels one above another in a line."""
+    columns: dict[float, float] = defaultdict(float)
     for label in labels:
         if label.side == "left":
-            columns[round(label.axis.axes.get_position(original=True).x0, 3)].append(label)
-        else:
-            label.keep(label.distance)
-    for column in columns.values():
-        farthest = max(label.distance for label in column)
-        for label in column:
-            label.keep(farthest)
+            columns[label.column] = max(columns[label.column], far.get(label, 0.0))
+    return tuple(columns[label.column] if label.side == "left" else far.get(label, 0.0) for label in labels)
+
+
+def _labels(made: Figure) -> list[_Label]:
+    """The words along the axes of all panels."""
+    every = [axis for axes in made.axes for each in (axes, *axes.child_axes) for axis in (each.xaxis, each.yaxis)]
+    return [_Label(axis) for axis in every if axis.get_label_text() and axis.axes.axison]
+
+
+class _Label:
+    """The words along an axis: to place them anew, each drawing would measure all numbers of the axis."""
+
+    def __init__(self, axis: Axis) -> None:
+        self._axis, self.side = axis, str(axis.get_label_position())
+
+    def of(self, axes: Axes) -> bool:
+        """Whether they stand beside a panel, or an axis more that it has."""
+        return self._axis.axes in (axes, *axes.child_axes)
+
+    @property
+    def column(self) -> float:
+        """Where the panel begins, as a share of the figure."""
+        return round(float(self._axis.axes.get_position(original=True).x0), 3)
+
+    @property
+    def distance(self) -> float:
+        """How far from the panel they stand, outwards [inch]."""
+        box, dpi = self._axis.axes.bbox, self._axis.axes.figure.dpi
+        x, y = self._axis.label.get_transform().transform(self._axis.label.get_position())
+        ways = {"left": box.x0 - x, "right": x - box.x1, "bottom": box.y0 - y, "top": y - box.y1}
+        return round(float(ways[self.side]) / dpi, 4)
+
+    def keep(self, distance: float) -> None:
+        """Let them stand there."""
+        from matplotlib.transforms import ScaledTranslation
+
+        axes, far, upright = self._axis.axes, self.side in ("right", "top"), self.side in ("left", "right")
+        out = distance if far else -distance
+        shift = ScaledTranslation(*((out, 0.0) if upright else (0.0, out)), axes.figure.dpi_scale_trans)
+        x, y = self._axis.label.get_position()
+        place = (float(far), y) if upright else (x, float(far))
+        self._axis.set_label_coords(*place, axes.transAxes + shift)

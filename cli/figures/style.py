@@ -107,7 +107,7 @@ def cornered(axes: Axes, patch: Patch) -> None:
     which takes longer than to draw them."""
     axes.add_artist(patch)
     axes.update_datalim(patch.get_path().vertices)
-    axes.autoscale(None)
+    axes.autoscale(None)  # type: ignore[arg-type]  # "bool or None", it says: whatever it was
 
 
 def stretch(axes: Axes, start: float, end: float, **look: Any) -> None:
@@ -116,7 +116,7 @@ def stretch(axes: Axes, start: float, end: float, **look: Any) -> None:
 
     axes.add_artist(Rectangle((start, 0.0), end - start, 1.0, transform=axes.get_xaxis_transform(), **look))
     axes.update_datalim([(start, 0.0), (end, 0.0)], updatey=False)
-    axes.autoscale(None)
+    axes.autoscale(None)  # type: ignore[arg-type]  # "bool or None", it says: whatever it was
 
 
 def disc(axes: Axes, center: complex, radius: float, **look: Any) -> None:

@@ -331,7 +331,7 @@ def _roots_of(value: Callable[[float], float], grid: list[float], values: list[f
     found = []
     for k in sign_changes(values):
         try:
-            found.append(bracketed_root(value, grid[k], grid[k + 1]))
+            found.append(bracketed_root(value, grid[k], grid[k + 1], ends=(values[k], values[k + 1])))
         except NoSolution:  # the value ends within the step
             continue
     return found

@@ -193,9 +193,9 @@ class GearPair(PitchPair):
 
     def tool(self, gear: int) -> RackTool:
         """The rack tool of a gear: the given one, or that of the profile."""
-        from gearlink.core.gears.tools import standard_tool
+        from gearlink.core.gears.tools import tool_of_profile
 
-        return self.tools[gear] or standard_tool(self.pressure_angle, self.addendum, self.clearance)
+        return self.tools[gear] or tool_of_profile(self.pressure_angle, self.addendum, self.clearance)
 
     def root_depth(self, gear: int) -> float:
         """h_fP* of a gear's tool [module]."""

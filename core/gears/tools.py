@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.gears.functions import SCALARS, GearFunctions
@@ -106,6 +107,17 @@ def standard_tool(pressure_angle: float, addendum: float, clearance: float, f: G
     depth = addendum + clearance
     most = f.greatest(0.0, full_rounding(pressure_angle, depth, f=f))
     return RackTool(addendum=depth, rounding=f.least(clearance / (1.0 - f.sin(pressure_angle)), most))
+
+
+@lru_cache(maxsize=64)
+def tool_of_profile(pressure_angle: float, addendum: float, clearance: float) -> RackTool:
+    """`standard_tool`, kept for the thousands of pairs of a contour that differ in their shifts alone.
+
+    Example
+        >>> tool_of_profile(math.radians(20.0), 1.0, 0.25) == standard_tool(math.radians(20.0), 1.0, 0.25)
+        True
+    """
+    return standard_tool(pressure_angle, addendum, clearance)
 
 
 def usual_rounding(pressure_angle: float, addendum: float, clearance: float, residual_undercut: float = 0.0) -> float:
