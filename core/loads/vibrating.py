@@ -171,11 +171,8 @@ class Vibrating:
         shares = np.linspace(0.1, 1.3, count)
         speed = abs(self.design.speed)
         motions = [self._panelled(a, b, 0.1 * speed) for a, b in self.motions] if self.design.stands else []
-        residuals = [
-            max((m.residual(self.oscillator, float(share * speed)) for m in motions), default=math.nan)
-            for share in shares
-        ]
-        return shares, (self.rise_periods or math.nan) / shares, np.array(residuals)
+        left = [motion.residuals(self.oscillator, shares * speed) for motion in motions]
+        return shares, (self.rise_periods or math.nan) / shares, np.max(left or [np.full(count, np.nan)], axis=0)
 
     # In the dwell
 

@@ -25,6 +25,7 @@ _PHASE = 6.0
 _STEP = math.radians(10.0)
 _UNBOUNDED, _STANDING, _ROUNDING = 1e-6, 1e-9, 1e-11
 _LEAST_RATIO, _MOST_RATIO = 1e-6, 1e4
+_BLOCK, _AT_ONCE = 8192, 100
 Function = Callable[[Reals], Reals]
 
 
@@ -114,6 +115,16 @@ class Panelled:
             0.5
         """
         return abs(self.state(oscillator, speed)) / oscillator.damped
+
+    def residuals(self, oscillator: Oscillator, speeds: Reals) -> Reals:
+        """The residual at each of some speeds; no value depends on the others."""
+        exponent, left = oscillator.exponent, (self.edges[-1] - self.nodes).ravel()
+        rates, values = exponent.real / speeds + 1j * (exponent.imag / speeds), (self.weights * self.values).ravel()
+        at_once, found = max(1, _BLOCK // left.size), np.empty(len(speeds))
+        for start in range(0, len(speeds), at_once):
+            part = slice(start, start + at_once)
+            found[part] = np.abs(speeds[part] * np.sum(values * np.exp(rates[part, None] * left), axis=1))
+        return found / oscillator.damped
 
 
 @dataclass(frozen=True)
@@ -232,10 +243,9 @@ def speed_limit(motion: Panelled, oscillator: Oscillator, speeds: Reals, allowed
     Notes
         The lobes between the zeros move with damping and load: this is where the first of them passes.
     """
-    above = [motion.residual(oscillator, float(speed)) > allowed for speed in speeds]
-    if not any(above):
+    first = _first_above(motion, oscillator, speeds, allowed)
+    if first is None:
         return None
-    first = above.index(True)
     if first == 0:
         return float(speeds[0])
     low, high = float(speeds[first - 1]), float(speeds[first])
@@ -246,6 +256,15 @@ def speed_limit(motion: Panelled, oscillator: Oscillator, speeds: Reals, allowed
         else:
             low = middle
     return high
+
+
+def _first_above(motion: Panelled, oscillator: Oscillator, speeds: Reals, allowed: float) -> int | None:
+    """Number of the first speed at which the residual passes what is allowed; those behind it are not looked at."""
+    for start in range(0, len(speeds), _AT_ONCE):
+        above = motion.residuals(oscillator, speeds[start : start + _AT_ONCE]) > allowed
+        if above.any():
+            return start + int(np.argmax(above))
+    return None
 
 
 def harmonics(values: Reals, orders: int) -> Reals:

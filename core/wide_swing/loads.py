@@ -318,34 +318,31 @@ class WideSwingLoads(LoadsDesign):
     @cached_property
     def contact_force_max(self) -> float:
         """Greatest force of the roller on any of the cams over the strokes [N]."""
-        return self._greatest("force") if self.own_forces else self.design.contact_force
+        return self._pressed("force") if self.own_forces else self.design.contact_force
+
+    def _pressed(self, name: str) -> float:
+        return max(stroke.pressed[name].value for stroke in self.strokes)
 
     @cached_property
     def least_contact_force(self) -> float:
         """Least force of the roller where it touches the cam of a stroke [N]."""
-        return min(stroke.least(stroke.force) for stroke in self.strokes)
+        return min(stroke.pressed["least_force"].value for stroke in self.strokes)
 
     lift_off_speed: float = placed("design.unloading.lift_off_speed")
-
-    def _of_contact(self, name: str) -> float | None:
-        if self.section.roller is None:
-            return None
-        return max(
-            stroke.greatest(lambda k, stroke=stroke: getattr(stroke.contact(k), name), curved=True)  # type: ignore[misc]
-            for stroke in self.strokes
-        )
 
     @cached_property
     def hertz_pressure_max(self) -> float | None:
         """Greatest pressure of roller and cam [N/mm^2]."""
-        return self._of_contact("pressure")
+        return None if self.section.roller is None else self._pressed("pressure")
 
     @cached_property
     def shear_depth(self) -> float | None:
         """Greatest depth of the greatest shear stress [mm]; with a drive, that where the pressure is greatest."""
-        if self.spec.drive is None or self.section.roller is None:
-            return self._of_contact("shear_depth")
-        return self.strokes[0].shear_depth_at_greatest_pressure
+        if self.section.roller is None:
+            return None
+        if self.spec.drive is not None:
+            return self.strokes[0].shear_depth_at_greatest_pressure
+        return self._pressed("shear_depth")
 
     @property
     def roller_speed_max(self) -> float:

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from gearlink.core.loads.cam_contact import LineContact, plane_modulus
-from gearlink.core.numerics.extremes import maximum_over, minimum_over
+from gearlink.core.numerics.extremes import Extreme, extremes_over, maximum_over
 from gearlink.core.wide_swing.loads_roller import path
 from gearlink.core.wide_swing.outline import middle_of
 
@@ -28,6 +28,16 @@ Parts: TypeAlias = tuple[tuple[float, float], tuple[float, float]]
 _MM = 1e-3
 _ROUNDING = 8.0
 _STANDSTILL = 1e-4
+Wanted: TypeAlias = "dict[str, tuple[Callable[[Reals], Reals], bool]]"
+
+
+def _extremes(wanted: Wanted, parts: Parts) -> dict[str, Extreme]:
+    """Greatest or least values of functions over parts of a stroke, each part searched in one go."""
+    found = [extremes_over(list(wanted.values()), *part, samples=128) for part in parts]
+    return {
+        name: (max if greatest else min)((of_part[i] for of_part in found), key=lambda extreme: extreme.value)
+        for i, (name, (_, greatest)) in enumerate(wanted.items())
+    }
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,19 +132,28 @@ class SwingStroke:
         parts = self.curved_parts if curved else self.parts
         return max(maximum_over(f, *part, samples=128).value for part in parts)
 
-    def least(self, f: Callable[[Reals], Reals]) -> float:
-        """Least value where the roller touches."""
-        return min(minimum_over(f, *part, samples=128).value for part in self.parts)
+    @cached_property
+    def pressed(self) -> dict[str, Extreme]:
+        """Greatest force, pressure and depth of the shear, and the least force, where the roller touches.
+
+        Notes
+            Searched together, so that the machine under its loads is computed once for all of them.
+        """
+        of_force: Wanted = {"force": (lambda k: np.abs(self.force(k)), True), "least_force": (self.force, False)}
+        names = ("pressure",) if self.loads.spec.drive is not None else ("pressure", "shear_depth")
+        has_width = self.loads.section.roller is not None
+        of_contact: Wanted = {name: (self._of_contact(name), True) for name in names if has_width}
+        if self.curved_parts == self.parts:
+            return _extremes(of_force | of_contact, self.parts)
+        return _extremes(of_force, self.parts) | _extremes(of_contact, self.curved_parts)
+
+    def _of_contact(self, name: str) -> Callable[[Reals], Reals]:
+        return lambda k: np.asarray(getattr(self._contact(k), name))
 
     @cached_property
     def shear_depth_at_greatest_pressure(self) -> float:
         """Depth of the greatest shear stress where the pressure is greatest [mm]."""
-
-        def pressure(k: Reals) -> Reals:
-            return self._contact(k).pressure
-
-        found = (maximum_over(pressure, *part, samples=128) for part in self.curved_parts)
-        place = max(found, key=lambda at: at.value).place
+        place = self.pressed["pressure"].place
         return float(self._contact(np.array([place])).shear_depth[0])
 
     def _contact(self, k: Reals) -> LineContact:

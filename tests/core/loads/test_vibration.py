@@ -60,6 +60,14 @@ def test_speed_scales_the_natural_periods() -> None:
     assert motion.residual(Oscillator(frequency, 0.0), speed) == pytest.approx(closed, abs=1e-13)
 
 
+def test_residuals_of_many_speeds_are_those_of_each() -> None:
+    motion, oscillator = rise("modified-sine", 12.0), Oscillator(2.0 * math.pi, 0.03)
+    speeds = 1.0 / np.linspace(12.0, 1.0, 333)
+    each = [motion.residual(oscillator, float(speed)) for speed in speeds]
+    assert motion.residuals(oscillator, speeds) == pytest.approx(each, rel=1e-15, abs=1e-16)
+    assert np.array_equal(motion.residuals(oscillator, speeds[100:101]), motion.residuals(oscillator, speeds)[100:101])
+
+
 def test_speed_limit_is_where_the_residual_is_what_is_allowed() -> None:
     motion = rise("polynomial-345", 40.0)
     oscillator = Oscillator(2.0 * math.pi, 0.02)
