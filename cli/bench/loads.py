@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from itertools import count
 from pathlib import Path
 from typing import Any
 
@@ -56,29 +57,29 @@ def _machine(name: str) -> list[Method]:
     design: Any = kind.design("loads", read_spec(loaded, kind, source))
     machine = design.machine
     _ = machine.friction is not None and machine.locks
-    phi = np.arange(ROWS) * (TURN / ROWS)
+    runs = count()
 
-    def fresh() -> None:
+    def fresh() -> Reals:
+        """Other input angles each time, so that nothing that machine or law have kept serves again."""
         machine.kept.clear()
         machine.kept_few.clear()
+        return np.linspace(0.0, TURN, ROWS, endpoint=False) + 1e-9 * next(runs)
 
     def forces() -> None:
-        fresh()
+        phi = fresh()
         machine.reduced(phi)
         machine.reactions(phi)
 
     def power() -> Reals:
-        fresh()
-        found: Reals = machine.reduced(phi).torque(machine.speed)
+        found: Reals = machine.reduced(fresh()).torque(machine.speed)
         return found
 
     def by_differences() -> Reals:
-        fresh()
-        reduced = machine.reduced(phi)
+        reduced = machine.reduced(fresh())
         slope = (np.roll(reduced.inertia, -1) - np.roll(reduced.inertia, 1)) * (0.5 * ROWS / TURN)
         return np.asarray(0.5 * slope * machine.speed**2 + reduced.static)
 
-    true = power()
+    true = machine.reduced(np.arange(ROWS) * (TURN / ROWS)).torque(machine.speed)
     error = float(np.max(np.abs(by_differences() - true)) / np.max(np.abs(true)))
     return [
         Method(f"{design.kind}: all forces", 1, forces, design.power_identity),

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from gearlink.core.cams.laws import Law
 from gearlink.core.errors import NoSolution
@@ -18,6 +18,9 @@ from gearlink.core.flatbed_press.chains import BedChain, CylinderChain, Travel, 
 from gearlink.core.numerics.roots import bracketed_root, maximum
 from gearlink.core.report import safely_above, safely_below
 from gearlink.core.results import cached_property
+
+if TYPE_CHECKING:
+    from gearlink.core.numerics.arrays import Reals
 
 _TURN = 2.0 * math.pi
 
@@ -146,9 +149,9 @@ class Compensation:
         """Lift at the end of the transition [mm]."""
         return self.lead_in_lift + self.compensation + self.transition_rise
 
-    def _zone_lift(self, phi: Any, order: int) -> Travel:
-        """Lift in the zone above its start, by the cam angle, at an input angle."""
-        cam = self.bed.cam_angle(phi, order)
+    def _zone_lift(self, phi: Any, order: int, cam: Travel | None = None) -> Travel:
+        """Lift in the zone above its start, by the cam angle, at an input angle; `cam` where the caller has it."""
+        cam = self.bed.cam_angle(phi, order) if cam is None else cam
         p, q = self.bed.travel(phi, order, cam), self.cylinder.travel(phi, order)
         value = (p.value - q.value) - self._difference_at_start
         if order == 0:
@@ -159,7 +162,10 @@ class Compensation:
         return Travel(value, first, ((p.second - q.second) - first * cam.second) / (cam.first * cam.first))
 
     def _sync(self, theta: Any, order: int) -> Travel:
-        lift = self._zone_lift(self.bed.input_angle(theta), order)
+        return self._sync_at(self.bed.input_angle(theta), order)
+
+    def _sync_at(self, phi: Any, order: int, cam: Travel | None = None) -> Travel:
+        lift = self._zone_lift(phi, order, cam)
         return Travel(lift.value + self.lead_in_lift, lift.first, lift.second)
 
     def _lead_in(self, theta: Any, order: int) -> Travel:
@@ -262,21 +268,41 @@ class Compensation:
         """Lift at an array of cam angles, as `evaluate` gives it, without the names of the phases."""
         return self._placed(theta, order)[0]
 
-    def _placed(self, theta: Any, order: int) -> tuple[Travel, Any]:
-        """Lift at an array of cam angles and the number of the stretch of each."""
+    def lift_at(self, phi: Reals, cam: Travel) -> Travel:
+        """Lift and two derivatives by the cam angle at input angles whose cam angles are known: no angle is solved for.
+
+        Parameters
+            phi : (N,) array [rad] - input angles
+            cam : Travel of (N,) arrays - `BedChain.cam_angle` there, or whole turns more
+        """
+        return self._placed(cam.value, 2, (phi, cam))[0]
+
+    def _placed(self, theta: Any, order: int, known: tuple[Reals, Travel] | None = None) -> tuple[Travel, Any]:
+        """Lift at an array of cam angles and the number of the stretch of each; `known`: as of `lift_at`."""
         import numpy as np
 
         begin = self.segments[0].start
         turned = begin + np.mod(np.asarray(theta, dtype=float) - begin, _TURN)
         index = np.searchsorted([segment.start for segment in self.segments], turned, side="right") - 1
         lift = Travel(*(np.zeros_like(turned) for _ in range(order + 1)))
-        for number, segment in enumerate(self.segments):
+        for number, segment in enumerate(self.segments[:-1]):  # the last one stands
             inside = np.flatnonzero(index == number)
             if inside.size:
-                part = segment.lift(turned[inside], order)
+                if known is not None and segment.phase == "sync":
+                    part = self._sync_known(known, inside)
+                else:
+                    part = segment.lift(turned[inside], order)
                 for name in ("value", "first", "second")[: order + 1]:
                     getattr(lift, name)[inside] = getattr(part, name)
         return lift, index
+
+    def _sync_known(self, known: tuple[Reals, Travel], rows: Any) -> Travel:
+        """The zone's lift at some of the known input angles, less the turns that they are beyond the zone."""
+        import numpy as np
+
+        phi, cam = known[0][rows], Travel(*(part[rows] for part in (known[1].value, known[1].first, known[1].second)))
+        middle = 0.5 * (self.sync_start + self.sync_end)
+        return self._sync_at(phi - _TURN * np.round((phi - middle) / _TURN), 2, cam)
 
     @cached_property
     def joints(self) -> tuple[Joint, ...]:

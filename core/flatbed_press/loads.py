@@ -96,9 +96,12 @@ class PressLoads(CamLoadsDesign):
         bed = self.design.bed
         return [float(bed.input_angle(segment.start)) for segment in self.design.cams.follower.segments]
 
-    def lift(self, cam_angle: Reals) -> Travel:
-        """Lift of the cam's follower [mm]."""
-        return self.design.cams.follower.lift(cam_angle, 2)
+    def lift(self, phi: Reals, rocker: Turn) -> Travel:
+        """Lift of the cam's follower [mm] at input angles, with CDE's motion there."""
+        from gearlink.core.flatbed_press.chains import Travel
+
+        turned = rocker.value - self.design.bed.cam_angle_start
+        return self.design.cams.follower.lift_at(phi, Travel(turned, rocker.first, rocker.second))
 
     def kinematics(self, phi: Reals) -> Mechanism:
         """The twelve links at input angles."""
@@ -132,7 +135,7 @@ class PressLoads(CamLoadsDesign):
         psi = Turn(rocker.value - bed.crank_offset_angle, rocker.first, rocker.second)
         e = carried(pivot, psi, bed.slider_crank_length * _MM)
         rod, f = slider(e, bed.rod * _MM, (four.frame - bed.offset) * _MM + 0j, -1j)
-        cam = self.lift(rocker.value - bed.cam_angle_start)
+        cam = self.lift(phi, rocker)
         slope, bend = cam.first * _MM, cam.second * _MM
         lift = (cam.value * _MM, slope * rocker.first, bend * rocker.first**2 + slope * rocker.second)
         r8 = self.pinion_radius
@@ -200,7 +203,7 @@ class PressLoads(CamLoadsDesign):
         from gearlink.core.loads.cam_contact import RollerOnCam
 
         cams = self.design.cams
-        cam = self.lift(self._cam_turn(phi).value)
+        cam = self.lift(phi, self.machine.at(phi).links["CDE"].turn)
         at = cams.base_radius if name == "main" else cams.base_radius - cams.roller_center_distance
         rates = (at + cam.value, cam.first, cam.second)
         position, first, second = (1j * _MM * part for part in rates)

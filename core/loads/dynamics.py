@@ -45,7 +45,10 @@ class Torque(NamedTuple):
 
 Applied = Sequence[Force | Torque]
 Masses = Mapping[str, Mass]
-Left = list[dict[int, Reals]]
+Factor = Reals | float
+Side = dict[int, Factor]
+"""A right side by equation; those that are left out are 0, and a number is the same in every row."""
+Left = list[dict[int, Factor]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -164,7 +167,8 @@ class Reactions:
 class System:
     """The equations of Newton and Euler of a mechanism, three a link, and their solution.
 
-    The matrix is kept by its entries, each an array over the input angles; it is solved block by block.
+    Matrix and right sides are kept by their entries, each an array over the input angles or a number; they are solved
+    block by block.
     """
 
     def __init__(self, mechanism: Mechanism, masses: Masses) -> None:
@@ -176,18 +180,18 @@ class System:
         if mechanism.gain is None:
             place = np.zeros(mechanism.rows, dtype=np.complex128)
             self.columns.append(("drive", Column(FRAME, mechanism.drive, 0j, place, mechanism.sense)))
-        self.size, self.one = 3 * len(self.index), np.ones(mechanism.rows)
+        self.size = 3 * len(self.index)
         if len(self.columns) != self.size:
             raise AssertionError(f"{len(self.columns)} unknowns for {self.size} equations")
 
     @cached_property
-    def entries(self) -> list[dict[int, Reals]]:
-        """By unknown: its factor in each equation in which it occurs."""
+    def entries(self) -> list[dict[int, Factor]]:
+        """By unknown: its factor in each equation in which it occurs; a number where it is the same in every row."""
         return [self.factors(column) for _, column in self.columns]
 
-    def factors(self, column: Column) -> dict[int, Reals]:
+    def factors(self, column: Column) -> dict[int, Factor]:
         """What the unit of an unknown adds to each equation."""
-        found: dict[int, Reals] = {}
+        found: dict[int, Factor] = {}
         acts = [
             Act(column.second, column.force, column.at, column.couple),
             *column.also,
@@ -198,33 +202,49 @@ class System:
                 found[row] = found[row] + value if row in found else value
         return found
 
-    def _act(self, act: Act) -> Iterator[tuple[int, Reals]]:
+    def _act(self, act: Act) -> Iterator[tuple[int, Factor]]:
         """What a force and a couple on a link add to its equations; zeros by structure are left out."""
-        k, force, couple, one = 3 * self.index[act.on], act.force, act.couple, self.one
-        if isinstance(force, np.ndarray) or force.real:
-            yield k, force.real * one
-        if isinstance(force, np.ndarray) or force.imag:
-            yield k + 1, force.imag * one
-        center = self.centers[act.on].value
-        if act.at is not center and (isinstance(force, np.ndarray) or force):
-            arm = act.at - center
-            yield k + 2, arm.real * force.imag - arm.imag * force.real + couple
+        k, force, couple = 3 * self.index[act.on], act.force, act.couple
+        if isinstance(force, np.ndarray):
+            yield k, force.real
+            yield k + 1, force.imag
+        else:
+            if force.real:
+                yield k, force.real
+            if force.imag:
+                yield k + 1, force.imag
+            if not force:
+                if isinstance(couple, np.ndarray) or couple:
+                    yield k + 2, couple
+                return
+        if act.at is not self.centers[act.on].value:
+            moment = _moment(self._arm(act.on, act.at), force)
+            yield k + 2, moment + couple if isinstance(couple, np.ndarray) or couple else moment
         elif isinstance(couple, np.ndarray) or couple:
-            yield k + 2, couple * one
+            yield k + 2, couple
 
-    def side(self, acts: Iterable[Act]) -> Reals:
-        """The right side that forces and couples from outside make, (n, N)."""
-        found = np.zeros((self.size, self.mechanism.rows))
+    def _arm(self, link: str, at: Points) -> Points:
+        """From the centre of mass of a link to a place; a joint asks for it once for each of its unknowns."""
+        key = link, id(at)
+        if key not in self._arms:
+            self._arms[key] = at, np.asarray(at - self.centers[link].value)  # `at` is held, so that no other has its id
+        return self._arms[key][1]
+
+    @cached_property
+    def _arms(self) -> dict[tuple[str, int], tuple[Points, Points]]:
+        return {}
+
+    def side(self, acts: Iterable[Act]) -> Side:
+        """The right side that forces and couples from outside make."""
+        found: Side = {}
         for act in acts:
             if act.on != FRAME:
                 for row, value in self._act(act):
-                    found[row] -= value
+                    found[row] = found[row] - value if row in found else -value
         return found
 
-    def right_side(
-        self, applied: Applied, gravity: complex, speed: Reals | float, acceleration: Reals | float
-    ) -> Reals:
-        """Inertia less what is applied, (n, N)."""
+    def right_side(self, applied: Applied, gravity: complex, speed: Reals | float, acceleration: Reals | float) -> Side:
+        """Inertia less what is applied."""
         side = self.side(
             Act(each.on, each.force, each.at.value, 0.0) if isinstance(each, Force) else _couple(each)
             for each in applied
@@ -233,16 +253,16 @@ class System:
         for name, mass in self.masses.items():
             k, center, turn = 3 * self.index[name], self.centers[name], self.mechanism.links[name].turn
             force = mass.mass * (center.second * square + center.first * acceleration - gravity)
-            side[k] += force.real
-            side[k + 1] += force.imag
-            side[k + 2] += mass.inertia * (turn.second * square + turn.first * acceleration)
+            couple = mass.inertia * (turn.second * square + turn.first * acceleration)
+            for row, value in ((k, force.real), (k + 1, force.imag), (k + 2, couple)):
+                side[row] = side[row] + value if row in side else value
         return side
 
     def place(self, name: str) -> int:
         """Number of the first unknown of a connection."""
         return next(i for i, (each, _) in enumerate(self.columns) if each == name)
 
-    def radials(self) -> list[Reals]:
+    def radials(self) -> list[Side]:
         """For each mesh the right side of a unit of its radial force."""
         found = []
         for mesh in self.mechanism.meshes:
@@ -250,7 +270,7 @@ class System:
             found.append(self.side([Act(mesh.second, force, at, 0.0), Act(mesh.first, -force, at, 0.0)]))
         return found
 
-    def solve(self, sides: Sequence[Reals]) -> Reals:
+    def solve(self, sides: Sequence[Side]) -> Reals:
         """The unknowns to some right sides, (sides, n, N).
 
         Raises
@@ -259,8 +279,9 @@ class System:
         # by equation: what is left of each side that has anything in it; most of them reach few equations
         left: Left = [{} for _ in range(self.size)]
         for number, side in enumerate(sides):
-            for row in np.flatnonzero(side.any(axis=1)):
-                left[row][number] = side[row]
+            for row, value in side.items():
+                if value.any() if isinstance(value, np.ndarray) else value:
+                    left[row][number] = value
         found = np.zeros((len(sides), self.size, self.mechanism.rows))
         try:
             for block in blocks(tuple(tuple(entries) for entries in self.entries)):
@@ -275,7 +296,7 @@ class System:
         sides = sorted(set().union(*(left[row] for row in rows)))
         if len(rows) == 1:
             factor = self.entries[columns[0]][rows[0]]
-            if not np.all(factor):
+            if not (factor.all() if isinstance(factor, np.ndarray) else factor):
                 raise np.linalg.LinAlgError
             for side in sides:
                 np.divide(left[rows[0]][side], factor, out=found[side, columns[0]])
@@ -287,8 +308,8 @@ class System:
             for row, factor in self.entries[column].items():
                 if row not in rows:
                     for side in sides:
-                        taken = factor * found[side, column]
-                        left[row][side] = left[row][side] - taken if side in left[row] else -taken
+                        taken, there = factor * found[side, column], left[row]
+                        there[side] = there[side] - taken if side in there else -taken
 
     def _matrix(self, block: Block) -> Reals:
         """The equations of a block in its unknowns, (N, k, k)."""
@@ -317,6 +338,16 @@ class System:
         gain = self.mechanism.gain
         torque = rows.pop("drive")[0] if gain is None else gain * rows[self.mechanism.drive][0]
         return Reactions({name: np.array(values) for name, values in rows.items()}, torque, self.mechanism)
+
+
+def _moment(arm: Points, force: Points | complex) -> Reals:
+    """arm x force; of a force along an axis the one product that is not zero."""
+    if not isinstance(force, np.ndarray):
+        if not force.imag:
+            return np.asarray(-(arm.imag * force.real))
+        if not force.real:
+            return np.asarray(arm.real * force.imag)
+    return np.asarray(arm.real * force.imag - arm.imag * force.real)
 
 
 def _couple(torque: Torque) -> Act:

@@ -20,7 +20,6 @@ from gearlink.core.loads.kinematics import dot
 from gearlink.core.loads.mechanism import (
     FRAME,
     Act,
-    Column,
     Connection,
     Contact,
     Guide,
@@ -263,33 +262,28 @@ def solution_of(
     for name, (at, normal) in backs:
         place = system.place(name)
         column = system.columns[place][1]._replace(at=at, force=normal)
-        sides.append(_full(system, column))
+        sides.append(system.factors(column))  # a column of the matrix as a right side
     solved = system.solve(sides)
     places = [(system.place(mesh.name),) * 2 for mesh in meshes] + [unit.places(system) for unit in rubbing]
     shares = np.array([1.0] * len(meshes) + [unit.share for unit in rubbing])
     count = 1 + len(shares)
     for k, (name, _) in enumerate(backs, count):
-        _exchange(solved, k, system.place(name), _with_separation(solved, places[: len(meshes)]))
+        place = system.place(name)
+        _exchange(solved, k, place, _with_separation(solved, places[: len(meshes)], place))
     found = Rubbing(solved[0], solved[1:count], shares, np.array(places, dtype=np.intp).reshape(-1, 2))
     return Solution(mechanism, system, found)
 
 
-def _full(system: System, column: Column) -> Reals:
-    """A column of the matrix as a right side."""
-    found = np.zeros((system.size, system.mechanism.rows))
-    for row, value in system.factors(column).items():
-        found[row] = value
-    return found
-
-
-def _with_separation(solved: Reals, places: Sequence[tuple[int, int]]) -> Reals:
-    """The unknowns with the separating forces of all teeth."""
-    return np.asarray(solved[0] + sum(np.abs(solved[0, place]) * solved[k] for k, (place, _) in enumerate(places, 1)))
+def _with_separation(solved: Reals, places: Sequence[tuple[int, int]], at: int) -> Reals:
+    """An unknown with the separating forces of all teeth."""
+    return np.asarray(
+        solved[0, at] + sum(np.abs(solved[0, place]) * solved[k, at] for k, (place, _) in enumerate(places, 1))
+    )
 
 
 def _exchange(solved: Reals, new: int, place: int, whole: Reals) -> None:
-    """Put another column in the place of one, where its unknown is negative."""
-    pulled = whole[place] < 0.0
+    """Put another column in the place of one, where its unknown, `whole`, is negative."""
+    pulled = whole < 0.0
     if pulled.any():
         y = solved[new]
         for k in range(new):

@@ -32,8 +32,14 @@ class Link:
         return np.asarray(np.exp(1j * self.turn.value))
 
     def at(self, arm: complex) -> Point:
-        """A point given in link coordinates [m]."""
-        return carried(self.origin, self.turn, arm, self.unit)
+        """A point given in link coordinates [m], computed once."""
+        if arm not in self._points:
+            self._points[arm] = carried(self.origin, self.turn, arm, self.unit)
+        return self._points[arm]
+
+    @cached_property
+    def _points(self) -> dict[complex, Point]:
+        return {}
 
 
 class Act(NamedTuple):

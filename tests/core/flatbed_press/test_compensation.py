@@ -313,6 +313,18 @@ def test_evaluate_is_periodic_and_gives_the_phase(name):
         assert phase != "dwell" or value == 0.0
 
 
+@pytest.mark.parametrize("name", ZONES)
+def test_the_lift_at_known_input_angles_is_that_at_their_cam_angles(name):
+    """Over five turns either way, both ends of the zone among them; 1e-12 of the peak, the cam angle being found."""
+    lift = of(name, lead_in=12.0)
+    turns = TURN * np.arange(-2.0, 3.0)
+    phi = np.concatenate([turns + lift.sync_start, turns + lift.sync_end, np.linspace(-12.0, 13.0, 901)])
+    cam = lift.bed.cam_angle(phi, 2)
+    known, found = lift.lift_at(phi, cam), lift.lift(cam.value, 2)
+    for order, size in zip(("value", "first", "second"), peaks(lift), strict=True):
+        np.testing.assert_allclose(getattr(known, order), getattr(found, order), rtol=0.0, atol=1e-12 * size)
+
+
 def test_a_joint_belongs_to_the_stretch_that_starts_there():
     lift = follower(TY460, lead_in=12.0)
     starts = np.array([segment.start for segment in lift.segments])

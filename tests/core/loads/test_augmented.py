@@ -117,7 +117,8 @@ class Augmented:
         turn = self.angle(contact.first, q)
         c, s = np.cos(turn), np.sin(turn)
         x, y = c * (x2 - x1) + s * (y2 - y1), c * (y2 - y1) - s * (x2 - x1)
-        lift, sense = self.design.lift(self.design._cam_turn(self.phi).value), 1.0 if main else -1.0
+        cam = self.design._cam_turn(self.phi).value
+        lift, sense = self.design.design.cams.follower.lift(cam), 1.0 if main else -1.0
         rho, slope, bend = abs(at - axis), 1e-3 * sense * float(lift.first[0]), 1e-3 * sense * float(lift.second[0])
         beta = -x / y - (-x / y) ** 3 / 3.0
         radius = rho - slope * beta + 0.5 * bend * beta * beta

@@ -14,6 +14,7 @@ import pytest
 from gearlink.core.flatbed_press.chains import Travel
 from gearlink.core.flatbed_press.loads import PressLoads
 from gearlink.core.loads import friction
+from gearlink.core.loads.kinematics import Turn
 from gearlink.core.loads.mechanism import Contact
 
 PRESS = json.loads((Path(__file__).parents[2] / "reference" / "loads.json").read_text())["press"]
@@ -23,11 +24,12 @@ PRESS = json.loads((Path(__file__).parents[2] / "reference" / "loads.json").read
 def press(monkeypatch: pytest.MonkeyPatch) -> Any:
     """The press with the reference's follower, whose roller stays on the main cam."""
     lift = PRESS["lift"]
-    monkeypatch.setattr(
-        PressLoads,
-        "lift",
-        lambda _, t: Travel(lift * (1 - np.cos(t)) / 2, lift * np.sin(t) / 2, lift * np.cos(t) / 2),
-    )
+
+    def of_reference(press: PressLoads, _: Any, rocker: Turn) -> Travel:
+        t = rocker.value - press.design.bed.cam_angle_start
+        return Travel(lift * (1 - np.cos(t)) / 2, lift * np.sin(t) / 2, lift * np.cos(t) / 2)
+
+    monkeypatch.setattr(PressLoads, "lift", of_reference)
     monkeypatch.setattr(PressLoads, "own_joints", [])
     monkeypatch.setattr(Contact, "sided", lambda self, _: self)
     monkeypatch.setattr(friction, "_exchange", lambda *_: None)
