@@ -79,7 +79,7 @@ class Design:
 
     `outlines` says what each command shows, `extra_tables` what can be added, `ways` how a file may be changed where
     a check fails. A design that `advises` says in the words of a failing check what would help; one that does not judge
-    `warnings` leaves out findings that can only warn. The checks of one that `searches` are of what its command finds:
+    `warnings` leaves out findings that can only warn. Where `checks_need_search` a design is the result of a search:
     where files alone are checked it is made ready, not searched.
     """
 
@@ -91,7 +91,7 @@ class Design:
     derived: ClassVar[frozenset[str]] = frozenset()  # quantities with a value or None wherever there is a mechanism
     advises = True
     warnings = True
-    searches: ClassVar[bool] = False
+    checks_need_search: ClassVar[bool] = False
 
     def __init__(self, spec: Any) -> None:
         self.spec = spec

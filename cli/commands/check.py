@@ -108,7 +108,7 @@ def _findings(loaded: LoadedFile, kind: Kind, spec: Any) -> Iterator[Finding]:
         try:
             with refusals_located(loaded):
                 design = designs.setdefault(cls, kind.design(command, spec))
-                outline = Outline() if design.searches else design.outline(command)
+                outline = Outline() if design.checks_need_search else design.outline(command)
                 design.prepare(outline.quantities)
                 names = [name for name in outline.checks if (cls, name) not in done]
                 done |= {(cls, name) for name in names}

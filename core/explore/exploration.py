@@ -25,7 +25,7 @@ class Exploration(Design):
 
     kind = "study"
     spec: StudySpec
-    searches = True
+    checks_need_search = True
     outlines = {
         "explore": Outline(
             ("designs", "refused", "feasible", "front_size", "kept", "shown", "exhaustive", "knee"),
