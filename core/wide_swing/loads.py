@@ -21,12 +21,15 @@ from gearlink.core.wide_swing import loads_checks, loads_tables
 from gearlink.core.wide_swing.design import WideSwingDesign
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from gearlink.core.loads.dynamics import Mass
     from gearlink.core.loads.kinematics import Turn
     from gearlink.core.loads.machine import Machine
     from gearlink.core.loads.mechanism import Connection, Link, Mechanism
     from gearlink.core.loads.vibrating import Vibrating
     from gearlink.core.numerics.arrays import Points, Reals
+    from gearlink.core.report import Remedy
     from gearlink.core.wide_swing.loads_spec import SwingLoads as Section
     from gearlink.core.wide_swing.loads_stroke import SwingStroke
     from gearlink.core.wide_swing.outline import AnyCam
@@ -378,6 +381,10 @@ class WideSwingLoads(LoadsDesign):
         """A stroke alone has no turns to count; a crank drives no cam shaft."""
         no_shaft = self.spec.drive is not None and name.startswith("cam_torque")
         return None if no_shaft or (name.endswith(".travel") and not self.whole) else super().raw(name)
+
+    def candidates(self, check: str, /) -> Iterable[Remedy]:
+        """Of a slider whose arm stands ill that comes first."""
+        return (*loads_checks.candidates(self, check), *super().candidates(check))
 
     rows = loads_tables.rows
     table_contact_stroke, table_harmonics = loads_tables.contact_stroke, loads_tables.harmonics

@@ -7,9 +7,11 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.loads import codes, vibration_checks
 from gearlink.core.loads.cam_checks import no_width
+from gearlink.core.remedies import at_least
 from gearlink.core.report import Check
 
 if TYPE_CHECKING:
+    from gearlink.core.report import Remedy
     from gearlink.core.wide_swing.loads import WideSwingLoads
 
 _NEAR = 0.9
@@ -43,12 +45,18 @@ def contact_loss(design: WideSwingLoads) -> Iterator[Check]:
         yield codes.CONTACT_LOSS.check("fail", message, limit, speed, "1/min")
     else:
         yield codes.CONTACT_LOSS.check("pass", text, limit, speed, "1/min")
-    if not design.own_forces:
+    if not design.own_forces and design.spec.slider is None:
         return
     least = design.least_contact_force
     text = f"with all that acts the roller presses its cam with at least {least:.5g} N"
     if least < 0.0:
-        message = f"{text}: it leaves the profile; raise unloader.reserve, or lessen loads.forces"
+        angle = even_angle(design)
+        mend = (
+            "raise unloader.reserve, or lessen loads.forces"
+            if angle is None
+            else (f"the device changes sides before or after the roller; make slider.middle_angle {angle:g}")
+        )
+        message = f"{text}: it leaves the profile; {mend}"
         yield codes.CONTACT_LOSS.check("fail", message, least, 0.0, "N")
     else:
         yield codes.CONTACT_LOSS.check("pass", text, least, 0.0, "N")
@@ -57,3 +65,20 @@ def contact_loss(design: WideSwingLoads) -> Iterator[Check]:
 def resonance(design: WideSwingLoads) -> Iterator[Check]:
     """GL611, of a whole turn."""
     return vibration_checks.resonance(design) if design.whole else iter(())
+
+
+def even_angle(design: WideSwingLoads) -> float | None:
+    """The slider.middle_angle [deg] at which device and roller change sides together, where now they do not."""
+    from gearlink.core.wide_swing.remedies import even_middle_angle
+
+    apart = any(check.status == "fail" for check in design.design.check("side-change"))
+    return even_middle_angle(design.spec.slider) if apart and design.spec.slider is not None else None
+
+
+def candidates(design: WideSwingLoads, check: str) -> Iterator[Remedy]:
+    """The arm at which the device holds the roller all the way, alone and with more reserve."""
+    angle = even_angle(design) if check == "contact-loss" else None
+    if angle is not None:
+        turned, reserve = ("slider.middle_angle", angle), design.spec.unloader.reserve
+        yield (turned,)
+        yield from ((turned, ("unloader.reserve", at_least(reserve + more, 0.01))) for more in (0.1, 0.25, 0.5, 1.0))

@@ -258,7 +258,7 @@ def test_device_leaves_its_reserve_alone(base: str) -> None:
 def test_device_and_roller_change_sides_together() -> None:
     """Where the slider is not fastest at mid-swing the device pushes the roller off its profile between the two."""
     apart = factory.design(
-        "wide_swing_slider_cam", command="loads", slider__middle_angle=90, loads=SLIDER | {"links": {}}
+        "wide_swing_slider_cam", command="loads", slider__middle_angle=90, loads={"roller": {"width": 20}}
     )
     law, cam = apart.design.motion.slider, apart.cam
     between = np.array([0.5 * (law.middle_place + apart.design.slot_of(cam)[0])])
@@ -267,6 +267,8 @@ def test_device_and_roller_change_sides_together() -> None:
     (found,) = geometry.findings("swing", "side-change")
     assert (found.code, found.status) == ("GL514", "fail")
     assert found.remedy == (("slider.middle_angle", 73.18),)
+    (loss,) = [f for f in apart.findings("loads", "contact-loss") if f.value == apart.least_contact_force]
+    assert (loss.status, loss.remedy) == ("fail", (("slider.middle_angle", 73.18),))
     mended = factory.design("wide_swing_slider_cam", slider__middle_angle=73.18)
     assert mended.check("side-change")[0].status == "pass"
     assert mended.cam.middle == pytest.approx(mended.motion.slider.middle_place, abs=2e-4)
