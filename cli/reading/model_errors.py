@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.reading.diagnostics import Diagnostic
 from gearlink.cli.reading.loaded_file import KeyPath, LoadedFile, parse_path
-from gearlink.cli.reading.model_shapes import allowed_range, fields_at, takes_truth_value
+from gearlink.cli.reading.model_shapes import allowed_range, fields_at, takes_truth_value, unit_at
 from gearlink.cli.reading.value_words import (
     WANTED,
     bound,
@@ -159,7 +159,7 @@ class _Wording:
             if near := get_close_matches(value[:100], known, n=1):
                 return f"did you mean {known[near[0]]}?"
             if kinds & {"int_type", "float_type"}:
-                return number_remedy(value)
+                return number_remedy(value, unit_at(self.model, group[0].path, self.loaded.data))
             return truth_remedy(value) if "bool_type" in kinds else ""
         return text_remedy(value) if kinds == {"string_type"} else ""
 

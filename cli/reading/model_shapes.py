@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import types
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Union, get_args, get_origin
 
 from pydantic import BaseModel
@@ -16,6 +17,13 @@ if TYPE_CHECKING:
 
 Shape = tuple[Any, tuple[Any, ...]]
 """A type without unions around it, and the constraints that its annotations carry."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Unit:
+    """What a number is measured in, among its constraints."""
+
+    name: str
 
 
 def fields_at(model: type[BaseModel], path: KeyPath, data: Any) -> dict[str, FieldInfo]:
@@ -34,6 +42,13 @@ def allowed_range(model: type[BaseModel], path: KeyPath, data: Any) -> str:
             low = _limit(constraint, ("gt", "above"), ("ge", "from")) or low
             high = _limit(constraint, ("lt", "below"), ("le", "to")) or high
     return f"{low} {'' if high.startswith('to') else 'and '}{high}" if low and high else ""
+
+
+def unit_at(model: type[BaseModel], path: KeyPath, data: Any) -> str:
+    """The unit of a number; empty where it has none, or one that another key names."""
+    units = {each.name for _, found in _shapes_at(model, path, data)[0] for each in found if isinstance(each, _Unit)}
+    unit = units.pop() if len(units) == 1 else ""
+    return "" if unit.startswith("the ") or path[:1] == ("tolerance",) else unit
 
 
 def takes_truth_value(model: type[BaseModel], path: KeyPath, data: Any) -> bool:
@@ -76,7 +91,7 @@ def _inside(shape: Any, step: str | int, section: Any) -> Iterator[Shape]:
         if _fits(shape, section):
             for name, field in _keys(shape):
                 if name == step:
-                    yield from _flat(field.annotation, tuple(field.metadata))
+                    yield from _flat(field.annotation, (*field.metadata, *_unit(field)))
         return
     arguments = get_args(shape)
     if get_origin(shape) is dict and isinstance(step, str):
@@ -107,8 +122,15 @@ def _constraints(extra: Iterable[Any]) -> Iterator[Any]:
     for item in extra:
         if isinstance(item, FieldInfo):
             yield from item.metadata
+            yield from _unit(item)
         else:
             yield item
+
+
+def _unit(field: FieldInfo) -> Iterator[_Unit]:
+    said = field.json_schema_extra
+    if isinstance(said, dict) and isinstance(said.get("unit"), str):
+        yield _Unit(str(said["unit"]))
 
 
 def _is_model(shape: Any) -> bool:

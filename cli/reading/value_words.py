@@ -7,6 +7,7 @@ import re
 from typing import Any
 from unicodedata import normalize
 
+from gearlink.cli.reading.units import without_unit
 from gearlink.cli.reading.yaml_reader import plain_value
 from gearlink.cli.reading.yaml_remedies import ODD, odd_character, odd_remedy
 
@@ -37,7 +38,8 @@ _BOUNDS = {
     "multiple_of": ("multiple_of", "a multiple of {}"),
 }
 _NUMBER = r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
-_WITH_UNIT = re.compile(rf"({_NUMBER})\s*(?:[a-zA-Zµ°%'\"][\w/^°%²]*)", re.ASCII)
+_WITH_UNIT = re.compile(rf"({_NUMBER})\s*((?:1/)?[a-zA-Zµ°%'\"][\w/^°%² -]*)", re.ASCII)
+DASHES = ("\u2212", "\u2013", "\u2014")
 _LOOKALIKES = str.maketrans("OolI", "0011")
 _SHOWN_CHARACTERS = 40
 
@@ -82,16 +84,20 @@ def whole_number_remedy(value: float) -> str:
     return f"write {int(value)}" if value == int(value) else f"write {math.floor(value)} or {math.ceil(value)}"
 
 
-def number_remedy(text: str) -> str:
+def number_remedy(text: str, unit: str = "") -> str:
     """What to write in place of a text that was meant as a number; nothing where that is not plain.
 
+    Parameters
+        unit : str - of the key, where it has one
     Example
-        >>> number_remedy("38,857")
-        'write a decimal point: 38.857'
+        >>> number_remedy("38,8"), number_remedy("5 cm", "mm")
+        ('write a decimal point: 38.8', 'keys carry no unit, this one is in mm: write 50')
     """
     text = text[:200].strip(" ")
     if isinstance(plain_value(text), (int, float)):
         return "leave the quotation marks out"
+    if re.fullmatch(r"[-+]?[1-9][0-9]{0,2},[0-9]{3}", text):
+        return f"write {text.replace(',', '.')}, or {text.replace(',', '')} where the comma parts thousands"
     if re.fullmatch(r"[-+]?[0-9]+,[0-9]+", text):
         return f"write a decimal point: {text.replace(',', '.')}"
     if re.fullmatch(r"[-+]?[0-9]+(:[0-5]?[0-9])+(\.[0-9]*)?", text):
@@ -103,13 +109,17 @@ def number_remedy(text: str) -> str:
         if re.fullmatch(_NUMBER, plain):
             return f"it holds {odd_character(odd[0])}: write {plain}"
         return f"it holds {odd_character(odd[0])}: {odd_remedy(odd[0])}"
-    if text.startswith("\u2212"):
-        return "it holds U+2212 (minus sign): write -"
+    if text[:1] in DASHES:
+        return f"it holds {odd_character(text[0])}: write -"
     digits = text.translate(_LOOKALIKES)
     if re.fullmatch(_NUMBER, digits):
         return f"a letter stands for a digit: write {digits}"
-    unit = _WITH_UNIT.fullmatch(text)
-    return f"keys carry no unit: write {unit[1]}" if unit else ""
+    if re.fullmatch(r"[-+]?0[xXbBoO]\w*", text, re.ASCII):
+        return "write it in decimals"
+    if re.fullmatch(r"[-+]?[0-9.]+[eE][-+]?[0-9_]*", text):
+        return "write the exponent as in 1e3"
+    found = _WITH_UNIT.fullmatch(text)
+    return without_unit(found[1], found[2], unit) if found else ""
 
 
 def text_remedy(value: Any) -> str:

@@ -124,7 +124,15 @@ def plain_value(text: str) -> Any:
         if len(text) <= _EXACT_LENGTH:
             return int(text, base) if base == 10 else int(text[2:], base)
         return float(text) if base == 10 else _large(text[2:], base)
-    return float(text) if _FLOAT.fullmatch(text) else text
+    return _fraction(text) if _FLOAT.fullmatch(text) else text
+
+
+def _fraction(text: str) -> float:
+    """A number that is not 0 does not become 0 however small it is: its check refuses it then."""
+    value = float(text)
+    if value == 0.0 and re.search("[1-9]", re.split("[eE]", text)[0]):
+        return math.copysign(math.ulp(0.0), value)
+    return value
 
 
 def _large(digits: str, base: int) -> float:

@@ -380,7 +380,9 @@ def test_unknown_keys(text: str, column: int, help: str) -> None:
 @pytest.mark.parametrize(
     ("text", "remedy"),
     [
-        ("38,857", "write a decimal point: 38.857"),
+        ("38,8571", "write a decimal point: 38.8571"),
+        ("0,857", "write a decimal point: 0.857"),
+        ("38,857", "write 38.857, or 38857 where the comma parts thousands"),
         ("40 mm", "keys carry no unit: write 40"),
         ("20°", "keys carry no unit: write 20"),
         ("1.5e3rpm", "keys carry no unit: write 1.5e3"),
@@ -390,6 +392,13 @@ def test_unknown_keys(text: str, column: int, help: str) -> None:
         ("38\u00a0", "it holds U+00A0 (no-break space): write 38"),
         ("１２．５", "it holds U+FF11 (fullwidth digit one): write 12.5"),
         ("\u22125", "it holds U+2212 (minus sign): write -"),
+        ("\u20135", "it holds U+2013 (en dash): write -"),
+        ("40 parsec", "keys carry no unit"),
+        ("5 cm", "keys carry no unit"),
+        ("0b11", "write it in decimals"),
+        ("0xG", "write it in decimals"),
+        ("1e", "write the exponent as in 1e3"),
+        ("1e5_0", "write the exponent as in 1e3"),
         ("2O", "a letter stands for a digit: write 20"),
         ("abc", ""),
         ("", ""),
@@ -397,6 +406,49 @@ def test_unknown_keys(text: str, column: int, help: str) -> None:
 )
 def test_texts_that_were_meant_as_numbers(text: str, remedy: str) -> None:
     assert number_remedy(text) == remedy
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "remedy"),
+    [
+        ("5 cm", "mm", ", this one is in mm: write 50"),
+        ("2in", "mm", ", this one is in mm: write 50.8"),
+        ("50 deg", "mm", ", this one is in mm"),
+        ("0.5 rad", "deg", ", this one is in deg: write 28.64788976"),
+        ("20°", "deg", ": write 20"),
+        ("2 1/s", "1/min", ", this one is in 1/min: write 120"),
+        ("60 rev/min", "1/min", ": write 60"),
+        ("1.2 kN m", "N m", ", this one is in N m: write 1200"),
+        ("50 %", "1", ": write 0.5"),
+        ("3 mm", "1", ""),
+        ("3 teeth", "teeth", ", this one is in teeth"),
+    ],
+)
+def test_a_number_in_another_unit_is_not_told_to_lose_it(text: str, unit: str, remedy: str) -> None:
+    """5 cm written as 5 is a wrong machine."""
+    assert number_remedy(text, unit) == f"keys carry no unit{remedy}"
+
+
+def test_units_are_those_of_the_keys(gearlink: Any, tmp_path: Path) -> None:
+    path = tmp_path / "units.yaml"
+    path.write_text(
+        "kind: wide-swing-cam\nlayout: twin-cam\nswing: 2 rad\ncycle_angle: 120\nspeed: 1 Hz\ninertia: 300 kg cm^2\n"
+        "unloader: {type: pneumatic, pivot_ratio: 2.5, arm: 12 cm}\ncam: {center_distance: 20 cm, roller_radius: 8}\n"
+    )
+    found = gearlink("check", path, "--format", "json").json["errors"]
+    assert [one["help"].rpartition("keys carry no unit, this one is in ")[2] for one in found] == [
+        "deg: write 114.591559",
+        "1/min: write 60",
+        "kg m^2: write 0.03",
+        "mm: write 120",
+        "mm: write 200",
+    ]
+
+
+@pytest.mark.parametrize("text", ["1e-400", "-1e-400", "0." + "0" * 400 + "1"])
+def test_what_is_not_0_does_not_become_0(text: str) -> None:
+    found = only(f"gears: {{module: {text}, crank: 1}}\n")
+    assert (found.code, "no number of a machine" in found.message) == ("GL108", True)
 
 
 def test_quoted_number_where_a_number_is_wanted() -> None:
