@@ -10,12 +10,12 @@ import pytest
 from hypothesis import settings
 
 ALL = os.environ.get("GEARLINK_EXAMPLES") == "all"
-SHARE = 4
-FEWEST = 15
+SHARE = 6
+FEWEST = 10
 
 
 def examples(count: int) -> Any:
-    """So many examples of a property in `make check-full`, a quarter of them in `make test`, at least 15.
+    """So many examples of a property in `make check-full`, a sixth of them in `make test`, at least 10.
 
     The cases that a property test must not miss stand beside it as examples of their own or as reference cases.
     """

@@ -196,6 +196,7 @@ def test_missing_file(gearlink: Any) -> None:
     assert "GL101" in ended.err
 
 
+@pytest.mark.quick(5)
 @pytest.mark.parametrize("width", [80, 160])
 @pytest.mark.parametrize(
     ("command", "file"),

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 import pytest
 from factory import design
+from sheets import sheet
 
 from gearlink.cli.figures import failing
-from gearlink.cli.figures.write import panels
 
 CASES = [
     ("analyze", "two_gear_ring", {"limits__transmission_angle": 70.0}, 1),
@@ -34,29 +34,26 @@ def red(made: Any) -> list[Any]:
 
 @pytest.mark.parametrize(("command", "name", "keys", "count"), CASES)
 def test_places_that_fail_are_red(command: str, name: str, keys: dict[str, Any], count: int) -> None:
-    made = red(panels(command, design(name, command=command, **keys)))
+    made = red(sheet(name, command, **keys).figure)
     assert len(made) >= count
 
 
 @pytest.mark.parametrize("name", ["ty460_slider_crank", "hypocycloid_slider", "mutilated_gear_press", "wide_lever"])
 def test_the_least_transmission_angle_is_the_foot_of_its_curve(name: str) -> None:
     """Curves have a point every degree at least, and their least is a smooth minimum: 1e-2 deg."""
-    made = design(name)
-    (line,) = (
-        line for axes in panels("analyze", made).axes for line in axes.lines if line.get_gid() == "transmission-angle"
-    )
+    made, figure = sheet(name)
+    (line,) = (line for axes in figure.axes for line in axes.lines if line.get_gid() == "transmission-angle")
     least = np.degrees(made.min_transmission_angle)
     assert np.min(line.get_ydata()) == pytest.approx(least, abs=1e-2)
 
 
 @pytest.mark.parametrize("name", ["ty460_slider_crank", "hypocycloid_slider", "mutilated_gear_press", "six_bar_swing"])
 def test_a_design_that_passes_has_no_red(name: str) -> None:
-    assert red(panels("analyze", design(name))) == []
+    assert red(sheet(name).figure) == []
 
 
 def test_red_stretches_are_those_below_the_limit() -> None:
-    made = panels("analyze", design("wide_lever", limits={"transmission_angle": 60.0}))
-    (line,) = red(made)
+    (line,) = red(sheet("wide_lever", limits__transmission_angle=60.0).figure)
     x, y = line.get_data()
     shown = np.isfinite(y)
     table = design("wide_lever").table("motion")

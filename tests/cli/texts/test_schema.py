@@ -50,6 +50,7 @@ def errors(data: Any, schema: dict[str, Any]) -> list[str]:
 _VALIDATORS: dict[int, Draft7Validator] = {}  # each keeps its schema, so that no other one gets its id
 
 
+@pytest.mark.quick(3)  # all of them stand in the schema of all kinds below
 @pytest.mark.parametrize("kind", KINDS)
 def test_schema_is_draft_07(gearlink: Any, kind: str) -> None:
     schema = gearlink("schema", kind).json
