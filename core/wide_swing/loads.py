@@ -278,23 +278,17 @@ class WideSwingLoads(LoadsDesign):
 
     def _driven(self, phi: Reals) -> tuple[dict[str, Link], list[Connection], float, complex]:
         """The cams with what drives them, their pins, the sense of the driven link and its pivot [m]."""
-        from gearlink.core.loads.kinematics import fixed, steady
-        from gearlink.core.loads.mechanism import FRAME, Coupling, Link, Pin
-        from gearlink.core.wide_swing.loads_links import DRIVE_DIRECTION, with_drive
+        from gearlink.core.loads.kinematics import fixed
+        from gearlink.core.wide_swing.loads_links import DRIVE_DIRECTION, with_drive, with_shafts
+        from gearlink.core.wide_swing.outline import middle_of
 
-        axis, sense = fixed(0j, phi), self._side
+        axis = fixed(0j, phi)
         if self.spec.drive is not None:
             direction = math.radians(_or(self.section.drive_direction, DRIVE_DIRECTION))
             return with_drive(phi, axis, self.design.motion.drive, direction)
-        links = {"cam": Link(axis, steady(phi, sense))}
-        connections: list[Connection] = [Pin("O", FRAME, "cam", axis.value)]
-        if self.has_return_cam:
-            links["return_cam"] = Link(axis, steady(phi, -sense))
-            connections += [
-                Pin("O_return", FRAME, "return_cam", axis.value),
-                Coupling("train", "cam", "return_cam", axis.value, -1.0),
-            ]
-        return links, connections, sense, 0j
+        middles = [stroke.start + middle_of(stroke.cam) * stroke.cam.cycle_angle for stroke in self.strokes]
+        links, connections = with_shafts(phi, axis, self._side, middles[: 1 + self.has_return_cam])
+        return links, connections, self._side, 0j
 
     # The stroke
 

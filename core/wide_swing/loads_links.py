@@ -14,9 +14,11 @@ import numpy as np
 
 from gearlink.core.loads.dynamics import Force
 from gearlink.core.loads.kinematics import Point, carried, dyad, fixed, slider, standing, steady
-from gearlink.core.loads.mechanism import FRAME, Connection, Guide, Link, Pin
+from gearlink.core.loads.mechanism import FRAME, Connection, Coupling, Guide, Link, Pin
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from gearlink.core.loads.dynamics import Torque
     from gearlink.core.loads.mechanism import Mechanism
     from gearlink.core.numerics.arrays import Reals
@@ -46,6 +48,28 @@ def with_slider(rocker: Link, drive: SliderDrive, direction: float) -> tuple[dic
         Pin("F", "rod", "slider", block.value),
         Guide("guide", FRAME, "slider", block.value, away),
     ]
+    return links, joints
+
+
+def with_shafts(
+    phi: Reals, axis: Point, sense: float, middles: Sequence[float]
+) -> tuple[dict[str, Link], list[Connection]]:
+    """The cam that turns evenly, and a second one that a train turns the other way, each in the frame of its table.
+
+    Parameters
+        phi : (N,) array [rad] - input angle
+        axis : Point [m] - of both cams
+        sense : float - in which the first one turns
+        middles : by cam - input angle at which its roller stands on the line of centres [rad]
+    """
+    links = {"cam": Link(axis, steady(phi, sense, -sense * middles[0]))}
+    joints: list[Connection] = [Pin("O", FRAME, "cam", axis.value)]
+    if len(middles) > 1:
+        links["return_cam"] = Link(axis, steady(phi, -sense, sense * middles[1]))
+        joints += [
+            Pin("O_return", FRAME, "return_cam", axis.value),
+            Coupling("train", "cam", "return_cam", axis.value, -1.0),
+        ]
     return links, joints
 
 

@@ -15,8 +15,12 @@ Direction = Annotated[float, Field(ge=-360, le=360, json_schema_extra={"unit": "
 class SwingMasses(Spec):
     """Masses of what has none elsewhere; those of rocker and slider are the keys inertia and slider.mass."""
 
-    cam: Body | None = Field(None, description="cam; one on a crank-rocker with its rocker, x to the coupler's end")
-    return_cam: Body | None = Field(None, description="second cam of a twin-cam with its whole cycle")
+    cam: Body | None = Field(
+        None, description="cam, in the frame of main_cam; one on a crank-rocker with its rocker, x to C"
+    )
+    return_cam: Body | None = Field(
+        None, description="second cam of a twin-cam with its cycle, in the frame of return_cam"
+    )
     rod: Body | None = Field(None, description="rod to the slider, from the rocker's pin E to F")
     crank: Body | None = Field(None, description="crank of the drive, from its pivot A to B")
     coupler: Body | None = Field(None, description="coupler of the drive, from B to C")

@@ -314,3 +314,25 @@ def test_standstills_of_the_cam_are_no_noise() -> None:
     assert found["shear_depth"] < 0.1
     assert found["entrainment_speed_max"] < 1000.0
     assert "cam_torque_max" not in found
+
+
+@pytest.mark.parametrize(
+    ("base", "changes"),
+    [
+        ("wide_swing_twin_cam", {}),
+        ("wide_swing_twin_rocker", {}),
+        ("wide_swing_slider_cam", {}),
+        ("wide_swing_cycle", {"layout": "twin-cam"}),
+    ],
+)
+def test_cams_stand_in_the_frames_of_their_tables(base: str, changes: dict[str, Any]) -> None:
+    """The roller's centre, seen from the cam that guides it, is the table's pitch point."""
+    design = factory.design(base, command="loads", loads={"roller": {"width": 20}}, **changes)
+    for stroke, table, cam in zip(design.strokes, ("main_cam", "return_cam"), ("cam", "return_cam"), strict=False):
+        rows = design.design.table(table)
+        pitch = np.array(rows["pitch_x"]) + 1j * np.array(rows["pitch_y"])
+        k = np.array(rows["k"])[1:-1]
+        mechanism = design.machine.at(stroke.start + k * stroke.cam.cycle_angle)
+        roller = next(each for each in mechanism.connections if each.name == "roller")
+        seen = 1e3 * roller.at * np.exp(-1j * mechanism.links[cam].turn.value)
+        assert np.abs(seen - pitch[1:-1]).max() <= 1e-9 * np.abs(pitch).max()
