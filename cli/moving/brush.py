@@ -49,6 +49,31 @@ def dashes(points: Points, length: float) -> list[Points]:
     return made
 
 
+def thinned(points: Points, tolerance: float) -> Points:
+    """The points of a polyline that keep it within so much of what it was (Douglas and Peucker).
+
+    Example
+        >>> thinned(np.array([0, 1 + 0.01j, 2, 2 + 1j]), 0.1).tolist()
+        [0j, (2+0j), (2+1j)]
+    """
+    kept = np.zeros(len(points), dtype=bool)
+    kept[[0, -1]] = True
+    open_ends = [(0, len(points) - 1)]
+    while open_ends:
+        first, last = open_ends.pop()
+        if last - first < 2:
+            continue
+        chord, beside = points[last] - points[first], points[first + 1 : last] - points[first]
+        # A closed line has no chord between its ends: the farthest point splits it.
+        off = np.abs((beside * np.conj(chord)).imag) / abs(chord) if chord else np.abs(beside)
+        worst = int(off.argmax())
+        if off[worst] > tolerance:
+            middle = first + 1 + worst
+            kept[middle] = True
+            open_ends += [(first, middle), (middle, last)]
+    return points[kept]
+
+
 def font_file(name: str) -> str:
     """A font that has the letters of a name, where one is installed; else the one that comes with matplotlib."""
     from gearlink.cli.figures.write import families

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
@@ -11,14 +11,16 @@ import numpy as np
 from PIL import Image, ImageDraw
 
 from gearlink.cli.moving.backdrop import backdrop
-from gearlink.cli.moving.brush import FINER, bar, disc, flat, font
+from gearlink.cli.moving.brush import FINER, bar, disc, flat, font, thinned
 from gearlink.cli.moving.stage import ChartScale, Stage
 from gearlink.cli.scenes.colors import BLACK, WHITE
-from gearlink.cli.scenes.scene import Body, Chain, Points, placed
+from gearlink.cli.scenes.scene import Body, Chain, Part, Points, placed
 
 if TYPE_CHECKING:
     from PIL.Image import Image as Picture
 
+_SEEN = 0.1
+"""Outlines that differ by less are drawn alike [pixel]."""
 _DOT = 7
 """Half the side of the square that the point on a curve is drawn in."""
 
@@ -69,8 +71,17 @@ class Raster:
         left, top, _, _ = self._moving_room
         return np.asarray(FINER * (self.stage.pixels(points) - complex(left, top)))
 
+    @cached_property
+    def _parts(self) -> list[Part]:
+        """The parts, with the points of outlines alone that are seen: every point is drawn in every picture."""
+        seen = _SEEN / self.stage.scale
+        return [
+            replace(part, outline=thinned(part.outline, seen)) if isinstance(part, Body) and len(part.outline) else part
+            for part in self.stage.scene.parts
+        ]
+
     def _move(self, draw: ImageDraw.ImageDraw, i: int) -> None:
-        for part in self.stage.scene.parts:
+        for part in self._parts:
             if isinstance(part, Body):
                 self._body(draw, part, i)
             elif isinstance(part, Chain):
