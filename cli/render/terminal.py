@@ -245,8 +245,8 @@ def show_table(table: Table, console: Console, most: int = _MOST_ROWS) -> None:
             grid.add_column(
                 table.columns[i].replace("_", "\n") + unit, justify="right", no_wrap=True, vertical="bottom"
             )
-        for row in cells:
-            grid.add_row(*(row[i] for i in columns))
+        # A column is one cell of many lines: rich takes as long for a cell as for a hundred lines.
+        grid.add_row(*(Text("\n".join(visible(row[i]) for row in cells)) for i in columns))
         show_grid(grid, console)
 
 
