@@ -11,6 +11,7 @@ import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from html import escape
+from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.evaluate import build, exit_status, open_design, read_spec
@@ -84,14 +85,16 @@ def _budgets(kind: Kind, spec: Any) -> Iterator[str]:
 def _body(text: str, spec: Any, parts: Sequence[Part]) -> Iterator[str]:
     from gearlink.cli.page import sections
 
-    sheets = list(_sheets(parts))
+    sheets = _sheets(parts)
+    first = next(sheets)  # what is not a sheet is made while other processes draw the others
     yield sections.head(spec, parts)
     yield sections.film(parts)
     yield sections.given(text, spec)
-    for (_, report), sheet in zip(parts, sheets, strict=True):
+    results = [sections.results(report) for _, report in parts]
+    for (_, report), sheet, result in zip(parts, chain([first], sheets), results, strict=True):
         yield f"<h2>{escape(report.command)}</h2>"
         yield sheet
-        yield sections.results(report)
+        yield result
 
 
 def _sheets(parts: Sequence[Part]) -> Iterator[str]:
