@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from gearlink.core.linkages.fourbar import FourBar
 
 _POOR = math.radians(3.0)
-_EDGE = 0.992  # back-step over band from which on a frame a little off may lose a quarter of the window
+EDGE = 0.992  # back-step over band from which on a frame a little off may lose a quarter of the window
 _NARROW = 0.05  # mm, an interval of the frame that a workshop holds with care
 WINDOW_FIT = 1e-9
 
@@ -64,13 +64,13 @@ def dwell_edge_check(share: float, interval: list[float] | None) -> Check:
     width = None if interval is None else interval[1] - interval[0]
     if width is not None:
         text += f"; the frame may lie within {width:.4g} mm"
-    near = _EDGE < share <= 1.0 + WINDOW_FIT
+    near = EDGE < share <= 1.0 + WINDOW_FIT
     narrow = width is not None and width < _NARROW
     if near:
         text += ": a frame a little off makes it exceed the band and costs a quarter of the window; ask for less"
     elif narrow:
         text += f", less than {_NARROW} mm: ask for a shorter window or a greater tolerance"
-    return DWELL_EDGE.check("warn" if near or narrow else "pass", text, share, _EDGE)
+    return DWELL_EDGE.check("warn" if near or narrow else "pass", text, share, EDGE)
 
 
 def check_linkage(linkage: FourBar) -> str:

@@ -1,7 +1,7 @@
 """The three-gear four-bar over arrays of designs: `core.design_axis` for its syntheses in closed form and its analysis.
 
-Whatever a study asks for beside that (a synthesis for a window, a play, rings, gears with teeth of their own,
-quantities of other commands) is left to the design classes.
+Whatever a study asks for beside that (a synthesis for a window within a tolerance, a play, rings, gears with teeth of
+their own, quantities of other commands) is left to the design classes.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from gearlink.core.three_gear.general_axis import Analysis, Momentary
 from gearlink.core.three_gear.idler_choice import LEAST_IDLER
 from gearlink.core.three_gear.idler_many import Idlers, Tried, smallest_idlers
 from gearlink.core.three_gear.names import MESHES
-from gearlink.core.three_gear.symmetric_axis import BackSteps, Dwells, Speeds
+from gearlink.core.three_gear.symmetric_axis import BackSteps, Dwells, Speeds, Windows
 
 _TASKS: dict[str, tuple[str, type[Batch]]] = {
     "synth dwell": ("dwell", Dwells),
@@ -68,7 +68,7 @@ def axis(
 
 def _served(spec: Any, command: str, paths: Sequence[str]) -> bool:
     """Whether the array form knows all keys that are varied, and the base asks for no more."""
-    task, batch = _TASKS[command]
+    task, batch = _TASKS[command][0], _batch_of(spec, command)
     section = getattr(spec, task)
     if section is None:
         return False
@@ -76,16 +76,26 @@ def _served(spec: Any, command: str, paths: Sequence[str]) -> bool:
         return False
     if any(getattr(spec, name) is not None for name in ("dwell_backlash", "input_speed")):
         return False
-    if any(getattr(section, name) is not None for name in _OTHERS[task]):
+    if any(getattr(section, name) is not None for name in (_PLACED if batch is Windows else _OTHERS[task])):
         return False
     known = {*TEETH, "gears.module", "gears.i3", *batch.keys, *LIMITS, *SHAFTS}
 
     def given(path: str) -> bool:
         return path in paths or number_at(spec, path) is not None
 
+    if batch is Windows:
+        window = given("dwell.window")
+        if window == given("dwell.tolerance") or (window and given("dwell_tolerance")):
+            return False
     others = given("gears.crank") and given("gears.output") and given("gears.module")
     idler = given("gears.idler") != given("gears.i3") or (batch.chooses_idler and not _is_given_by_task(command, given))
     return set(paths) <= known and others and idler
+
+
+def _batch_of(spec: Any, command: str) -> type[Batch]:
+    """What computes the designs of a task: a dwell may ask for a window in place of an angle."""
+    by_window = command == "synth dwell" and spec.dwell is not None and spec.dwell.angle is None
+    return Windows if by_window else _TASKS[command][1]
 
 
 def _is_given_by_task(command: str, given: Callable[[str], bool]) -> bool:
@@ -109,7 +119,11 @@ class ThreeGearAxis:
 
     def batch(self, columns: Mapping[str, Reals]) -> Batch:
         """Some designs."""
-        return _TASKS[self.command][1](self.spec, self.command, self.wanted, self.meshes, columns)
+        return self._kind(self.spec, self.command, self.wanted, self.meshes, columns)
+
+    @cached_property
+    def _kind(self) -> type[Batch]:
+        return _batch_of(self.spec, self.command)
 
     def _with_idlers(self, columns: Mapping[str, Reals]) -> Mapping[str, Reals]:
         """With the idlers that ratios ask for, as `idler_for_ratio`; none where the model refuses gears beside one."""
@@ -128,6 +142,10 @@ class ThreeGearAxis:
     def evaluate(self, columns: Mapping[str, Reals]) -> Evaluated:
         """As `core.design_axis.Axis`."""
         inside, outside = kept_inside(self._with_idlers(columns), _DOMAIN)
+        if self._kind is Windows:  # of unequal gears the class has them, in the balanced family
+            crank, output = (inside.get(path, number_at(self.spec, path)) for path in (TEETH[0], TEETH[2]))
+            outside |= np.asarray(crank != output)
+            inside["gears.output"] = np.broadcast_to(np.asarray(crank), outside.shape)
         with np.errstate(all="ignore"):
             if not self._seeks_idler or {"gears.idler", "gears.i3"} & columns.keys():
                 return self.batch(inside).evaluated(outside)
@@ -145,5 +163,5 @@ class ThreeGearAxis:
             some = {path: values[places] for path, values in columns.items()}
             return self.batch({**some, "gears.idler": teeth}).tried(shafts=shafts)
 
-        kind, count = _TASKS[self.command][1], len(next(iter(columns.values())))
-        return smallest_idlers(trial, count, rising=kind.idlers_rise, shafts=shafts)
+        count = len(next(iter(columns.values())))
+        return smallest_idlers(trial, count, rising=self._kind.idlers_rise, shafts=shafts)

@@ -13,7 +13,7 @@ from gearlink.core.clearance.bodies import LEAST_SHAFT_MODULES
 from gearlink.core.design_axis import Evaluated, Findings
 from gearlink.core.gears.unshifted import Mesh, UnshiftedMeshes
 from gearlink.core.linkages.checks import WINDOW_FIT
-from gearlink.core.linkages.codes import DWELL_WINDOW, GEAR_COLLISION, SHAFT_CLEARANCE, TRANSMISSION_ANGLE
+from gearlink.core.linkages.codes import DWELL_EDGE, DWELL_WINDOW, GEAR_COLLISION, SHAFT_CLEARANCE, TRANSMISSION_ANGLE
 from gearlink.core.numerics.arrays import Mask, Reals
 from gearlink.core.spec_paths import number_at
 from gearlink.core.three_gear.band_many import Dwells, Valleys, longest_in_band
@@ -27,7 +27,9 @@ LIMITS = ("limits.transmission_angle", "limits.gear_gap", "dwell_tolerance", "dw
 SHAFTS = ("shafts.input_radius", "shafts.output_radius")
 _POOR, _SAME_RATIO = 5.0, 1e-12
 _NEAR, _POORLY_NEAR = 1e-9, 1e-5
-_JUDGED_HERE = {rule.code for rule in (GEAR_COLLISION, TRANSMISSION_ANGLE, BACK_STEP, DWELL_TOLERANCE, DWELL_WINDOW)}
+_JUDGED_HERE = {
+    rule.code for rule in (GEAR_COLLISION, TRANSMISSION_ANGLE, BACK_STEP, DWELL_TOLERANCE, DWELL_WINDOW, DWELL_EDGE)
+}
 
 
 class Batch:

@@ -27,7 +27,7 @@ from gearlink.core.three_gear.synthesis import with_analysis
 if TYPE_CHECKING:
     from gearlink.core.three_gear.families import Family
 
-_MARGIN = 0.01
+MARGIN = 0.01
 _ROUNDING = 1e-9
 _PLAIN_TOLERANCE = math.radians(1.0)  # of a dwell that names none
 
@@ -100,6 +100,7 @@ class DwellSynthesis(BackStepFamily):
 
         with at_key(self._key()):
             if self.window is None:
+                window_dwell.check_tolerance(i3, self.asked_tolerance or 0.0)  # of which `window_limit` tells too
                 return window_dwell.crank_angle_for_tolerance(i3, self._aimed_at())
             self._refuse_even_motion(1.0)
             if self._band is not None:
@@ -130,7 +131,7 @@ class DwellSynthesis(BackStepFamily):
     def _aimed_at(self) -> float:
         tolerance = self.asked_tolerance
         assert tolerance is not None
-        return tolerance * (1.0 - (_MARGIN if self._wish.margin is None else self._wish.margin))
+        return tolerance * (1.0 - (MARGIN if self._wish.margin is None else self._wish.margin))
 
     def _refuse_even_motion(self, ratio: float) -> None:
         band, window = self._band, self.window
@@ -253,7 +254,8 @@ class DwellSynthesis(BackStepFamily):
         if not self.general:
             from gearlink.core.three_gear import window_dwell
 
-            return window_dwell.longest_window(self.i3, band)
+            with at_key(self._key()):
+                return window_dwell.longest_window(self.i3, band)
         from gearlink.core.three_gear.families import back_step_of, ripple, solved
 
         family = self._family(self.idler_teeth)

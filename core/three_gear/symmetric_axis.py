@@ -1,22 +1,25 @@
 """The syntheses of equal gears in closed form over arrays: a dwell angle, a back-step, a band of speed.
 
-Mirrors `DwellSynthesis` (an angle phi13), `BackStepSynthesis` and `VariableSpeedSynthesis`.
+Mirrors `DwellSynthesis` (an angle phi13, a window or a tolerance alone), `BackStepSynthesis`, `VariableSpeedSynthesis`.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from gearlink.core.design_axis import Findings
+from gearlink.core.linkages.checks import EDGE, WINDOW_FIT
+from gearlink.core.linkages.codes import DWELL_EDGE
 from gearlink.core.numerics.arrays import Mask, Reals
 from gearlink.core.three_gear import symmetric_many as many
 from gearlink.core.three_gear.axis_batch import Batch
 from gearlink.core.three_gear.codes import ACHIEVED, BACK_STEP
+from gearlink.core.three_gear.dwell_synthesis import MARGIN
 from gearlink.core.three_gear.general_many import wrapped
 
 _PLAIN_TOLERANCE, _MISSED = 1.0, 0.5
@@ -170,6 +173,89 @@ class Dwells(Symmetric):
         half = np.degrees(0.5 * self.back_step[0])
         limit = np.where(np.isnan(self.given_tolerance), _PLAIN_TOLERANCE, np.degrees(self.given_tolerance))
         yield Findings(BACK_STEP.code, half, limit, self.none, half > limit, "deg")
+
+
+class Windows(Symmetric):
+    """`synth dwell` with a window or a tolerance; what asks for both is the class's."""
+
+    keys = ("dwell.window", "dwell.tolerance", "dwell.margin")
+    chooses_idler = False
+
+    @property
+    def reasons(self) -> tuple[str, ...]:  # type: ignore[override]
+        """The key that asks for the dwell is the one at fault."""
+        return "gears.output", "dwell.window" if self._by_window else "dwell.tolerance"
+
+    @cached_property
+    def _by_window(self) -> bool:
+        return bool(np.isfinite(self.key("dwell.window")).any())
+
+    @cached_property
+    def _window(self) -> Reals:
+        return np.radians(self.key("dwell.window"))
+
+    @cached_property
+    def given_tolerance(self) -> Reals:
+        """That of the dwell."""
+        return np.radians(self.key("dwell.tolerance"))
+
+    @cached_property
+    def _back_step_sought(self) -> Reals:
+        """Twice the tolerance less the margin."""
+        margin = self.key("dwell.margin")
+        return 2.0 * (self.given_tolerance * (1.0 - np.where(np.isnan(margin), MARGIN, margin)))
+
+    @cached_property
+    def possible(self) -> Mask:
+        """Windows and tolerances that the gears reach."""
+        if self._by_window:
+            return many.in_range(self._window, 0.0, many.window_limit(self.n))
+        most = np.minimum(math.pi, 0.5 * (self.z3 / self.z5) * math.pi)
+        return many.in_range(self.given_tolerance, 0.0, most) & (self._back_step_sought > 0.0)
+
+    @cached_property
+    def h(self) -> Reals:
+        """From the window, or from the back-step that fills the band but for the margin."""
+        h, good = np.full(self.count, np.nan), self.exists
+        found = many.half_angle_for_window if self._by_window else many.half_angle_for_back_step
+        h[good] = found(self.n[good], (self._window if self._by_window else self._back_step_sought)[good])
+        return h
+
+    @cached_property
+    def tolerance(self) -> Reals:
+        """As given, or half of the back-step."""
+        return np.where(np.isnan(self.given_tolerance), 0.5 * self.back_step[0], self.given_tolerance)
+
+    @cached_property
+    def band(self) -> tuple[Reals, Reals]:
+        """In closed form where the back-step fills the band."""
+        if not self._by_window:
+            return super().band
+        before = self.standstills[0] - (self.dwell_angle - self.back_step[1])
+        return wrapped(before), 2.0 * self.dwell_angle - self.back_step[1]
+
+    @cached_property
+    def _longest(self) -> Reals:
+        """The longest window that the tolerance leaves to the gears."""
+        longest, good = np.full(self.count, np.nan), self.exists
+        if good.any():
+            h = many.half_angle_for_back_step(self.n[good], 2.0 * self.given_tolerance[good])
+            longest[good] = many.longest_window(self.n[good], h)
+        return longest
+
+    @cached_property
+    def plain(self) -> dict[str, Callable[[], Any]]:
+        """With what a window has."""
+        own = {"dwell_tolerance": lambda: np.degrees(0.5 * self.back_step[0])}
+        if not self._by_window:
+            own["window_limit"] = lambda: np.degrees(self._longest)
+        return {**super().plain, **own}
+
+    def of_task(self) -> Iterator[Findings]:
+        """GL314: the back-step's share of the band."""
+        share = 0.5 * self.back_step[0] / self.given_tolerance
+        warns = (share > EDGE) & (share <= 1.0 + WINDOW_FIT)
+        yield Findings(DWELL_EDGE.code, share, np.full(self.count, EDGE), self.none, warns, "1")
 
 
 class BackSteps(Symmetric):

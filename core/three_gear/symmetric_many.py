@@ -88,6 +88,31 @@ def dwell_angle(n: Reals, h: Reals) -> Reals:
     return h + newton(_regained, h, high, np.minimum(2.0 * h, high), n, h)
 
 
+def half_angle_for_window(n: Reals, window: Reals) -> Reals:
+    """h [rad] of the back-step whose band the output touches twice over a window [rad]: y = window/2 is given.
+
+    Source
+        as `symmetric_back_step.crank_angle_for_window`
+    """
+    y = 0.5 * window
+    return newton(_missing_window, y / 3.0, np.minimum(y, _QUARTER), np.minimum(0.5 * y, 0.9 * _QUARTER), n, y)
+
+
+def _missing_window(h: Reals, n: Reals, y: Reals) -> tuple[Reals, Reals]:
+    """What `_regained` gives, of the other sign, and its derivative with respect to h."""
+    sin_h, cos_h, sin_y, cos_y = np.sin(h), np.cos(h), np.sin(y), np.cos(y)
+    rest = n * n - 1.0
+    root = np.sqrt(rest * cos_h * cos_h + cos_y * cos_y)
+    value = n * (np.arctan2(sin_y, root) + np.arctan2(sin_h, n * cos_h)) - h - y
+    whole = rest * cos_h * cos_h + 1.0
+    return value, n * sin_y * rest * cos_h * sin_h / (root * whole) + n * n / whole - 1.0
+
+
+def longest_window(n: Reals, h: Reals) -> Reals:
+    """2 phi13 - phi12 [rad] of a back-step over 2 h: the window over which the output stays within it."""
+    return 2.0 * (dwell_angle(n, h) - h)
+
+
 def _regained(y: Reals, n: Reals, h: Reals) -> tuple[Reals, Reals]:
     """How far the output at 270 deg + y stands above its place at 270 deg - h, and its speed there."""
     sin_h, cos_h, sin_y, cos_y = np.sin(h), np.cos(h), np.sin(y), np.cos(y)
@@ -136,3 +161,8 @@ def frame_ratio_for_speeds(n: Reals, low: Reals, high: Reals) -> Reals:
 def in_range(value: Reals, low: Any, high: Any) -> Mask:
     """Where low < value < high."""
     return np.asarray((low < value) & (value < high))
+
+
+def window_limit(n: Reals) -> Reals:
+    """Upper limit of the window [rad], as `symmetric_back_step.window_limit`."""
+    return np.asarray(math.pi * (3.0 * n - 1.0) / (n + 1.0))

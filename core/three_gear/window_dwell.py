@@ -68,6 +68,16 @@ def crank_angle_for_tolerance(i3: float, tolerance: float) -> float:
         >>> round(math.degrees(crank_angle_for_tolerance(-1.8, math.radians(0.5))), 9)
         35.243222439
     """
+    check_tolerance(i3, tolerance)
+    return crank_angle_for_back_step(i3, 2.0 * tolerance)
+
+
+def check_tolerance(i3: float, tolerance: float) -> None:
+    """Refuse a tolerance that has no longest window.
+
+    Raises
+        NoSolution - naming the limit
+    """
     check_ratio(i3)
     limit = min(math.pi, -0.5 * i3 * math.pi)
     if not 0.0 < tolerance < limit:
@@ -75,7 +85,6 @@ def crank_angle_for_tolerance(i3: float, tolerance: float) -> float:
             f"a tolerance of {_deg(tolerance)} deg has no longest window with i3 = {i3:.9g}: it must lie above 0 and "
             f"below {_deg(limit)} deg; reduce it"
         )
-    return crank_angle_for_back_step(i3, 2.0 * tolerance)
 
 
 def least_tolerance(i3: float, window: float) -> float:

@@ -217,3 +217,14 @@ def test_a_tiny_dwell_angle_is_met() -> None:
     window = made.quantity("tolerance_dwell_angle")
     assert window is not None
     assert window.value == pytest.approx(4.0 / 3.0 * 0.001, rel=1e-9)
+
+
+@pytest.mark.parametrize("quantity", ["linkage", "window_limit", "crank_length"])
+def test_a_tolerance_without_longest_window_is_refused_whatever_is_asked_for(quantity: str) -> None:
+    """Less a margin of 1 % it would have one."""
+    gears = {"module": 1, "crank": 25, "idler": 34, "output": 25}
+    wish = {"kind": "three-gear-four-bar", "gears": gears, "dwell": {"tolerance": 123.0}}
+    made = design(wish, command="synth dwell")
+    with pytest.raises(NoSolution, match=r"123 deg .* below 122\.4 deg") as caught:
+        made.raw(quantity)
+    assert caught.value.key == "dwell.tolerance"
