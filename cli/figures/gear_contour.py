@@ -77,7 +77,10 @@ def _margins(axes: Axes, contour: BlockingContour) -> None:
         name, way = end
         axes.plot([x1, x1 + way], [x2, x2 - way], color=style.BLACK, linewidth=0.8, marker="|", markersize=5, zorder=5)
         text = f"{style.number(way, 3)} {name}"
-        shift, align = ((-4, 3), "right") if side == 0 else ((4, -3), "left")
+        low, high = contour.window[0]
+        share = (x1 + way - low) / (high - low)
+        outward = share > 0.35 if side == 0 else share < 0.65  # within the plot wherever the limit lies
+        shift, align = ((-4, 3), "right") if (side == 0) == outward else ((4, -3), "left")
         box = {"facecolor": "white", "alpha": 0.75, "edgecolor": "none", "pad": 0.4}
         look: dict[str, Any] = {"fontsize": 6, "zorder": 7, "bbox": box, "annotation_clip": True}
         place = (x1 + way, x2 - way)

@@ -45,15 +45,16 @@ class Mesh:
 def mesh_figure(title: str, meshes: Sequence[Mesh]) -> Figure:
     """One row per mesh, whole gears and mesh zone, over a table of their values."""
     rows = len(meshes)
-    figure = panels.page(title, 0.27 + 0.28 * rows)
-    grid = figure.add_gridspec(rows + 1, 2, height_ratios=[*[1.0] * rows, 0.78], width_ratios=(1.3, 1.0))
+    figure = panels.page(title, 0.33 + 0.28 * rows)
+    grid = figure.add_gridspec(rows + 1, 2, height_ratios=[*[1.0] * rows, 1.0], width_ratios=(1.3, 1.0))
     for row, mesh in enumerate(meshes):
         whole_gears(figure.add_subplot(grid[row, 0]), mesh)
         zone = figure.add_subplot(grid[row, 1])
         mesh_zone(zone, mesh)
         if row == rows - 1:
             zone_legend(zone)
-    ruled(figure.add_subplot(grid[rows, :]), *values(meshes))
+    # The names of meshes need their room in the head where there are several.
+    ruled(figure.add_subplot(grid[rows, :]), *values(meshes), size=7.0, at=(0.38, 0.46) if rows == 1 else (0.33, 0.39))
     return figure
 
 

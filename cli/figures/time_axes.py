@@ -118,7 +118,7 @@ def once(stacked: Sequence[Axes], turn: float | None) -> None:
 
 
 def _time_row(axes: Axes, functions: Any, name: str) -> None:
-    """Numbers in ms on a thin line, their name at the left of it, where the numbers of the y axis leave room."""
+    """Numbers in ms on a thin line, their unit at the left of it, where the numbers of the y axis leave room."""
     from matplotlib.ticker import MaxNLocator
 
     labelled = bool(axes.get_xlabel())
@@ -132,4 +132,4 @@ def _time_row(axes: Axes, functions: Any, name: str) -> None:
     below.xaxis.get_offset_text().set_fontsize(7)
     look: dict[str, Any] = {"fontsize": 7, "color": style.GREY, "ha": "right", "va": "top"}
     where: dict[str, Any] = {"xycoords": "axes fraction", "textcoords": "offset points"}
-    axes.annotate("time [ms]", (0.0, 0.0), (-12, -down - 3.5), **where, **look)
+    axes.annotate("[ms]", (0.0, 0.0), (-12, -down - 3.5), **where, **look)

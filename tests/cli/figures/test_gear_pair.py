@@ -4,12 +4,14 @@ Tolerances
 * teeth on their circles: the figures' own chord error, 2e-3 module at most; contact points: 1e-12 relative.
 """
 
+import itertools
 import math
 
 import numpy as np
 import pytest
 from factory import design
-from sheets import odd_sheets, panel, points, sheet, tagged, words
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from sheets import odd_sheets, panel, placed_sheet, points, sheet, tagged, words
 
 from gearlink.cli.figures.gear_mesh import Mesh, mesh_figure
 from gearlink.cli.figures.write import write_plot
@@ -134,3 +136,25 @@ def test_sliding_without_bounds_leaves_its_panel_and_is_not_cut_off():
     assert drawn == pytest.approx(1.0 - mate / (80 / 12 * rho), rel=1e-9)
     assert drawn.min() < axes.get_ylim()[0]
     assert drawn.max() <= axes.get_ylim()[1]
+
+
+def test_words_of_a_table_keep_clear_of_rules_and_of_each_other() -> None:
+    """The names of meshes in the head, and every line between its rules."""
+    _, figure = placed_sheet("candy_feed", "gear")
+    axes = figure.axes[-1]
+    renderer = FigureCanvasAgg(figure).get_renderer()
+    heads = [text.get_window_extent(renderer) for text in axes.texts if text.get_text().startswith("gear")]
+    assert len(heads) == 4
+    assert all(left.x1 < right.x0 for left, right in itertools.pairwise(heads))
+    pitch = 72.0 * axes.get_window_extent(renderer).height / figure.dpi / abs(np.ptp(axes.get_ylim()))
+    assert pitch > 1.3 * max(text.get_fontsize() for text in axes.texts)
+
+
+def test_the_nearest_limits_are_named_within_the_plot() -> None:
+    """One lies near the left edge."""
+    _, figure = placed_sheet("gear_pair", "gear")
+    axes = next(each for each in figure.axes if each.get_title(loc="left") == "Blocking contour")
+    plot, renderer = axes.get_window_extent(), FigureCanvasAgg(figure).get_renderer()
+    boxes = [text.get_window_extent(renderer) for text in axes.texts]
+    assert boxes
+    assert all(plot.x0 <= box.x0 and box.x1 <= plot.x1 for box in boxes)

@@ -141,7 +141,7 @@ def test_closed_contours_are_the_table_s() -> None:
             "far dwell\n70°",
             "return stroke\n100°",
             "near dwell\n110°",
-            "time [ms]",
+            "[ms]",
         }
 
 
