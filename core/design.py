@@ -14,7 +14,7 @@ from functools import cache
 from itertools import count
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from gearlink.core.errors import GearlinkError
+from gearlink.core.errors import GearlinkError, named
 from gearlink.core.nomenclature import term
 from gearlink.core.numerics.rows import Rows
 from gearlink.core.remedies import Bench, Way, with_remedies
@@ -70,7 +70,7 @@ class UnknownName(GearlinkError):
     """A quantity or table was asked for that this design does not have."""
 
     def __init__(self, what: str, name: str, known: Sequence[str]) -> None:
-        super().__init__(f"this design has no {what} named {name!r}")
+        super().__init__(f"this design has no {what} named {named(name)}")
         self.what, self.name, self.known = what, name, tuple(known)
 
 

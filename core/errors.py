@@ -7,6 +7,9 @@ if TYPE_CHECKING:
     from typing import Literal
 
 
+_MOST_CHARACTERS = 40  # of a name that a message repeats
+
+
 class GearlinkError(Exception):
     """Base of every error that is the user's to repair, with its place in a design file where that is known."""
 
@@ -14,6 +17,16 @@ class GearlinkError(Exception):
     line = 0
     column = 0
     key = ""
+
+
+def named(text: str) -> str:
+    """A name that somebody gave, in quotation marks, as a message repeats it: a long one is cut.
+
+    Example
+        >>> named("gears.crank"), named("x" * 50)
+        ("'gears.crank'", "'xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx...'")
+    """
+    return repr(text if len(text) <= _MOST_CHARACTERS else text[: _MOST_CHARACTERS - 3] + "...")
 
 
 class NoSolution(GearlinkError):

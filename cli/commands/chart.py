@@ -18,7 +18,7 @@ from gearlink.cli.patience import patience
 from gearlink.cli.printable import visible
 from gearlink.cli.reading.design_file import diagnose_no_solution
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
-from gearlink.core.errors import NoSolution, at_key
+from gearlink.core.errors import NoSolution, at_key, named
 from gearlink.core.report import Quantity, Report
 
 if TYPE_CHECKING:
@@ -89,7 +89,7 @@ def _chart_named(name: str) -> DesignChart:
     near = get_close_matches(name.lower().replace("_", "-"), CHARTS, n=3, cutoff=0.4)
     known = f"the charts are {', '.join(CHARTS)}"
     remedy = f"nearest: {', '.join(near)}; {known}" if near else known
-    raise DesignFileError([Diagnostic("GL115", f"no chart {name!r}", "<command line>", key=name, help=remedy)])
+    raise DesignFileError([Diagnostic("GL115", f"no chart {named(name)}", "<command line>", key=name, help=remedy)])
 
 
 def _range(text: str, chart: DesignChart) -> tuple[float, float]:

@@ -13,6 +13,7 @@ from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import Format, Options
 from gearlink.cli.texts.columns import COLUMNS, CONSTANTS, column_words
 from gearlink.cli.texts.known import index
+from gearlink.core.errors import named
 
 if TYPE_CHECKING:
     from gearlink.core.kinds import Kind
@@ -310,6 +311,6 @@ def _unknown(subject: str, format: Format) -> int:
     lower = {name.lower(): name for name in [*(name.rpartition(".")[2] for name in everything), *everything]}
     near = [lower[name] for name in get_close_matches(subject.lower(), lower, n=3, cutoff=0.5)]
     remedy = f"nearest: {', '.join(near)}" if near else "`gearlink explain` lists the codes"
-    wrong = Diagnostic("GL115", f"nothing is named {subject!r}", file="<command line>", key=subject, help=remedy)
+    wrong = Diagnostic("GL115", f"nothing is named {named(subject)}", file="<command line>", key=subject, help=remedy)
     show_errors([wrong], Options(format=format))
     return ExitCode.WRONG_INPUT

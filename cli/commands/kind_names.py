@@ -5,6 +5,7 @@ from __future__ import annotations
 from gearlink.cli.options import Options
 from gearlink.cli.reading.diagnostics import Diagnostic
 from gearlink.cli.render.errors import show_errors
+from gearlink.core.errors import named
 from gearlink.core.kinds import FILES, Kind
 
 
@@ -17,5 +18,5 @@ def kind_named(name: str) -> Kind | None:
     near = get_close_matches(name.lower().replace("_", "-"), FILES, n=3, cutoff=0.4)
     known = f"the kinds are {', '.join(FILES)}"
     remedy = f"nearest: {', '.join(near)}; {known}" if near else known
-    show_errors([Diagnostic("GL109", f"no kind {name!r}", "<command line>", key=name, help=remedy)], Options())
+    show_errors([Diagnostic("GL109", f"no kind {named(name)}", "<command line>", key=name, help=remedy)], Options())
     return None

@@ -16,7 +16,7 @@ from gearlink.cli.patience import patience
 from gearlink.cli.printable import visible
 from gearlink.cli.reading.design_file import diagnose_no_solution
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
-from gearlink.core.errors import NoSolution
+from gearlink.core.errors import NoSolution, named
 
 if TYPE_CHECKING:
     from gearlink.cli.figures.sheet_list import Makers
@@ -51,7 +51,7 @@ def _chosen(made: Makers, names: Sequence[str], kind: str) -> list[str]:
         found = [sheet for sheet in made if sheet == name or sheet.rpartition("-")[0] == name]
         if not found:
             known = f"it has {', '.join(made)}" if made else "it has none"
-            message = f"this {kind} has no sheet named {name!r}; {known}"
+            message = f"this {kind} has no sheet named {named(name)}; {known}"
             raise DesignFileError([Diagnostic("GL115", message, "<command line>", key=name)])
         chosen += found
     if not chosen:

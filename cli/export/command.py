@@ -21,7 +21,7 @@ from gearlink.cli.reading.design_file import diagnose_no_solution
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import LoadedFile
 from gearlink.cli.render.errors import show_errors
-from gearlink.core.errors import GearlinkError, NoSolution
+from gearlink.core.errors import GearlinkError, NoSolution, named
 from gearlink.core.kinds import Kind
 
 if TYPE_CHECKING:
@@ -162,7 +162,7 @@ def _names(asked: tuple[str, ...], known: tuple[str, ...], also: tuple[str, ...]
         return tuple(dict.fromkeys(asked)) or known
     near = get_close_matches(unknown[0], (*known, *also), n=3, cutoff=0.5)
     remedy = f"nearest: {', '.join(near)}" if near else f"known: {', '.join((*known, *also))}"
-    message = f"this design has no part named {unknown[0]!r}"
+    message = f"this design has no part named {named(unknown[0])}"
     raise DesignFileError([Diagnostic("GL115", message, file="<--part>", key=unknown[0], help=remedy)])
 
 

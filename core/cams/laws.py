@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar
 from gearlink.core.cams.first_half import FirstHalf
 from gearlink.core.cams.polynomials import POLYNOMIAL_123, POLYNOMIAL_345, POLYNOMIAL_4567
 from gearlink.core.cams.scca import scca
-from gearlink.core.errors import NoSolution
+from gearlink.core.errors import NoSolution, named
 from gearlink.core.numerics.roots import roots_on
 
 if TYPE_CHECKING:
@@ -255,7 +255,7 @@ def law(definition: str | Mapping[str, object]) -> Law:
         return _KINDS[key.removesuffix("scca")](f"{key} {list(shares)}", base)
     if key in ("quintic", "septic"):
         return _free(key, *_numbers(key, value, 1))
-    raise NoSolution(f"unknown motion law {key!r}: the laws with numbers are scca, quintic and septic")
+    raise NoSolution(f"unknown motion law {named(key)}: the laws with numbers are scca, quintic and septic")
 
 
 @lru_cache(maxsize=128)
@@ -279,7 +279,7 @@ def _symmetric(name: str, asked: str) -> FirstHalf:
     near = difflib.get_close_matches(asked, known, n=1)
     meant = f"did you mean {near[0]!r}? From" if near else "from"
     raise NoSolution(
-        f"unknown motion law {asked!r}: {meant} rest to rest: {', '.join(REST_TO_REST)}; from rest to speed: "
+        f"unknown motion law {named(asked)}: {meant} rest to rest: {', '.join(REST_TO_REST)}; from rest to speed: "
         "half-<law>, velocity-<law>"
     )
 
@@ -293,7 +293,9 @@ def _constant_share(name: str) -> float:
     except ValueError:
         share = math.nan
     if not 0.0 <= share < 1.0:
-        raise NoSolution(f"motion law {name!r}: the percentage of constant velocity must lie in 0 to 99, as in mcv-33")
+        raise NoSolution(
+            f"motion law {named(name)}: the percentage of constant velocity must lie in 0 to 99, as in mcv-33"
+        )
     return share
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from bisect import bisect_left
 
-from gearlink.core.errors import NoSolution
+from gearlink.core.errors import NoSolution, named
 
 GROUPS = ("C2", "CN", "C3", "C4", "C5")
 _BORES = (10, 18, 24, 30, 40, 50, 65, 80, 100)
@@ -40,7 +40,7 @@ def radial_clearance(bore: float, group: str) -> tuple[float, float]:
         ISO 5753-1, table of deep-groove ball bearings with cylindrical bore
     """
     if group not in GROUPS:
-        raise NoSolution(f"no clearance group {group!r}: ISO 5753-1 has {', '.join(GROUPS)}")
+        raise NoSolution(f"no clearance group {named(group)}: ISO 5753-1 has {', '.join(GROUPS)}")
     if not 0 < bore <= _BORES[-1]:
         raise NoSolution(
             f"the table of bearing clearances reaches to a bore of {_BORES[-1]} mm, not {bore:g} mm:"

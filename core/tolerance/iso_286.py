@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from bisect import bisect_left
 
-from gearlink.core.errors import NoSolution
+from gearlink.core.errors import NoSolution, named
 
 _MAIN = (3, 6, 10, 18, 30, 50, 80, 120, 180, 250, 315, 400, 500)
 _FINE = (3, 6, 10, 14, 18, 24, 30, 40, 50, 65, 80, 100, 120, 140, 160, 180, 200, 225, 250, 280, 315, 355, 400, 450, 500)
@@ -236,7 +236,7 @@ def limit_deviations(size: float, tolerance_class: str) -> tuple[float, float]:
     match = _CLASS.fullmatch(tolerance_class)
     if not match:
         raise NoSolution(
-            f"no tolerance class {tolerance_class!r}: write a letter a-h, j, js, k, m, n, p, r, s, u"
+            f"no tolerance class {named(tolerance_class)}: write a letter a-h, j, js, k, m, n, p, r, s, u"
             " (capital for a hole) and a grade, as in H7 or g6"
         )
     letter, grade = match[1], int(match[2])
@@ -265,7 +265,7 @@ def fit_parts(size: float, fit: str) -> tuple[tuple[float, float], tuple[float, 
     """Deviations (lower, upper) of the hole and of the shaft of a fit [mm]."""
     hole, slash, shaft = fit.partition("/")
     if not slash or not hole[:1].isupper() or not shaft[:1].islower():
-        raise NoSolution(f"no fit {fit!r}: write the hole's class, a slash and the shaft's class, as in H7/g6")
+        raise NoSolution(f"no fit {named(fit)}: write the hole's class, a slash and the shaft's class, as in H7/g6")
     return limit_deviations(size, hole), limit_deviations(size, shaft)
 
 

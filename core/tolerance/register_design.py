@@ -11,7 +11,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from gearlink.core.design import Design, Outline
-from gearlink.core.errors import MissingSection, NoSolution
+from gearlink.core.errors import MissingSection, NoSolution, named
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.report import Check, Status, Table, safely_above
 from gearlink.core.results import cached_property
@@ -374,4 +374,6 @@ def contribution(source: Scatter, gain: Any) -> Contribution:
 
 def no_such_place(at: str, known: Sequence[str]) -> NoSolution:
     """A place that the machine does not have."""
-    return NoSolution(f"no place {at!r} here: give {', '.join(known)} or an input angle in degrees", key="register.at")
+    return NoSolution(
+        f"no place {named(at)} here: give {', '.join(known)} or an input angle in degrees", key="register.at"
+    )

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass, replace
 from typing import Any
 
-from gearlink.core.errors import NoSolution
+from gearlink.core.errors import NoSolution, named
 from gearlink.core.spec_paths import number_at, unit_at
 from gearlink.core.study.faults import Fault, Place, WrongStudy
 from gearlink.core.tolerance.bearings import radial_clearance
@@ -127,7 +127,7 @@ def _scatter(key: str, entry: ToleranceSource, spec: Any, parts: Parts) -> Scatt
 def _pin(key: str, name: str, entry: ToleranceSource, parts: Parts, place: Place) -> Scatter:
     if name not in parts.pins:
         known = f": it has {', '.join(parts.pins)}" if parts.pins else ": play of pins is not computed for it"
-        raise _no("GL170", f"this design has no pin {name!r}{known}", place)
+        raise _no("GL170", f"this design has no pin {named(name)}{known}", place)
     if entry.fit is not None and entry.size is not None:
         least, greatest = fit_clearances(entry.size, entry.fit)
         if least < 0:
@@ -148,7 +148,7 @@ def _pin(key: str, name: str, entry: ToleranceSource, parts: Parts, place: Place
 def _gear(key: str, name: str, entry: ToleranceSource, parts: Parts, place: Place) -> Scatter:
     gears = parts.gears or {}
     if name not in gears:
-        raise _no("GL170", f"this design has no gear {name!r}: it has {', '.join(gears) or 'none'}", place)
+        raise _no("GL170", f"this design has no gear {named(name)}: it has {', '.join(gears) or 'none'}", place)
     gear, limit = gears[name], entry.eccentricity or 0.0
     if entry.eccentricity is not None:
         return Scatter(key, "gear", 0.0, Law("fixed", 0.0, limit, mean=limit), entry)
@@ -164,13 +164,13 @@ def _size(key: str, group: str, name: str, entry: ToleranceSource, spec: Any, pa
             known = (
                 f"it has {', '.join(parts.centers)}" if parts.centers else "its centre distances are keys of the file"
             )
-            raise _no("GL170", f"this design has no centre distance {name!r}: {known}", place)
+            raise _no("GL170", f"this design has no centre distance {named(name)}: {known}", place)
         nominal: float | None = parts.centers[name]
     else:
         nominal = number_at(spec, key)
     if nominal is None or (group != "centers" and isinstance(nominal, int)):
         what = "holds a whole number, which does not scatter" if nominal is not None else "is no key with a number"
-        raise _no("GL170", f"{key!r} {what}: name a length or an angle of this file", place)
+        raise _no("GL170", f"{named(key)} {what}: name a length or an angle of this file", place)
     unit = "mm" if group == "centers" else unit_at(spec, key)
     if unit not in ("mm", "") and (entry.form == "class" or entry.grades is not None):
         what = "class" if entry.form == "class" else "grades"

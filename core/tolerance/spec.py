@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.errors import NoSolution
+from gearlink.core.errors import NoSolution, named
 from gearlink.core.spec import Angle, Distance, Length, Spec
 
 _SIZES = (
@@ -170,12 +170,12 @@ class Tolerance(Spec):
         for group in self.correlated:
             if unknown := [name for name in group.sources if name not in self.sources]:
                 raise _wrong(
-                    "GL176", f"{unknown[0]!r} of correlated is no source: name keys of `sources`", "correlated"
+                    "GL176", f"{named(unknown[0])} of correlated is no source: name keys of `sources`", "correlated"
                 )
             if twice := [name for name in group.sources if group.sources.count(name) > 1]:
                 raise _wrong(
                     "GL176",
-                    f"{twice[0]!r} stands twice in one group of correlated: name different sources",
+                    f"{named(twice[0])} stands twice in one group of correlated: name different sources",
                     "correlated",
                 )
         return self
@@ -213,6 +213,6 @@ class Register(Spec):
         if not isinstance(given, dict):
             return dict.fromkeys(meshes, given)
         if unknown := [name for name in given if name not in meshes]:
-            message = f"no mesh {unknown[0]!r}: there are {', '.join(meshes)}"
+            message = f"no mesh {named(unknown[0])}: there are {', '.join(meshes)}"
             raise NoSolution(message, key=f'register.backlash."{unknown[0]}"')
         return {name: given.get(name, 0.0) for name in meshes}

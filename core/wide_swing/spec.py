@@ -111,7 +111,7 @@ class SwingCycle(Spec):
             raise PydanticCustomError(
                 "GL108",
                 "{given} sum to {total} deg; one turn of the cam is 360: change near_dwell by {change}",
-                {"key": "near_dwell", "given": given, "total": f"{total:.9g}", "change": f"{360.0 - total:+.9g}"},
+                {"key": "near_dwell", "given": given, "total": f"{total:.13g}", "change": f"{360.0 - total:+.7g}"},
             )
         return self
 

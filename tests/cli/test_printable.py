@@ -180,3 +180,28 @@ def test_json_keeps_the_name_and_shows_nothing_that_steers(
         assert harmless(ended.out), line
         found = {"gear": [ended.json], "batch": ended.json.get("designs")}.get(line[0], [])
         assert [design["name"] for design in found] == [name] * len(found)
+
+
+LONG = "x" * 10_000
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        ("explain", LONG),
+        ("new", LONG),
+        ("chart", LONG),
+        ("crank", "SPEC", "--quantity", LONG),
+        ("crank", "SPEC", "--table", LONG),
+        ("sheet", "SPEC", LONG),
+        ("check", "SPEC", "--set", f"tolerance.sources.{LONG}.plus_minus=1"),
+        ("check", "SPEC", "--set", f"{LONG}=1"),
+        ("laws", "--law", LONG),
+    ],
+    ids=lambda line: f"{line[0]} {line[-2][:12]}",
+)
+def test_a_long_name_is_cut_where_a_message_repeats_it(gearlink: Any, designs: Path, line: tuple[str, ...]) -> None:
+    ended = gearlink(*(designs / "slider_crank_tolerances.yaml" if word == "SPEC" else word for word in line))
+    assert ended.status == 2
+    assert "x" * 30 in ended.err + ended.out
+    assert "x" * 200 not in ended.err + ended.out

@@ -281,3 +281,9 @@ def test_table() -> None:
     back, late = twins.table("return_cam", samples=12), twins.table("contour", samples=36)
     np.testing.assert_allclose(late["return_x"][16:21], back["x"][:5], atol=1e-9)
     np.testing.assert_allclose(late["return_pitch_y"][16:28], back["pitch_y"][:12], atol=1e-9)
+
+
+def test_a_turn_that_is_missed_by_little_is_said_with_its_digits() -> None:
+    cycle = {"working": 90.0, "far_dwell": 90.0, "return": 90.0, "near_dwell": 90.0000001}
+    with pytest.raises(ValidationError, match=r"sum to 360\.0000001 deg; .* change near_dwell by -9\.999997e-08"):
+        design(changed(worked("wide_swing_cycle"), cycle=cycle))
