@@ -207,8 +207,8 @@ _FIVE_BAR = {
     "path_width": Term("", "mm", "extent of the path along the frame"),
     "path_height": Term("", "mm", "extent of the path across the frame"),
     "phase_step": Term("360/z4", "deg", "step in which the phase can be set a tooth on"),
-    "path_deviation_rms": Term("", "mm", "root mean square of the points' distances from the path"),
-    "path_deviation_max": Term("", "mm", "greatest distance of a point from the path"),
+    "path_deviation_rms": Term("", "mm", "root mean square of the distances of the table deviations"),
+    "path_deviation_max": Term("", "mm", "greatest distance of the table deviations"),
     "position_errors": Term("", "deg", "output angle reached less that asked for, at each position"),
 }
 

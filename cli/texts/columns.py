@@ -43,7 +43,7 @@ COLUMNS = {
     "cylinder_velocity": "velocity of the cylinder's surface at the speed of the file",
     "deviation": "distance from the place in mid-dwell or from the exact solution",
     "displacement": "place of what is moved, from the start of its stroke",
-    "distance": "distance of a wanted point from the path",
+    "distance": "distance of a wanted point from the path, with input angles from its place at that angle",
     "drive_ratio": "torque of the cam shaft without over that with the device",
     "driven_angle": "angle of the driven gear",
     "driven_speed": "angular speed of the driven gear at this input speed",
@@ -124,7 +124,7 @@ COLUMNS = {
     "ratio": "one over the other: teeth of gear 2 over 1, torque without over with the device, periods over motions",
     "ratio_error": "gear ratio of the row over the one that is asked for, less 1",
     "relative_error": "relative error of the source's iteration",
-    "residual": "what is left of the loop's closure",
+    "residual": "what is left of the loop's closure; in a spectrum the vibration that the motion leaves",
     "return_force": "contact force on the return cam",
     "return_pitch_x": "x of the return roller's centre in the cam's own frame",
     "return_pitch_y": "y of the return roller's centre in the cam's own frame",
@@ -145,7 +145,7 @@ COLUMNS = {
     "root_stress_1": "bending stress at the root of gear 1",
     "root_stress": "of a path of contact: root stress of gear 1 while it is loaded at that place, without K factors",
     "root_stress_2": "root stress of gear 2 while it is loaded at that place, without K factors",
-    "share": "share of the source in the whole",
+    "share": "share of the source in the variance of the whole",
     "sigma": "standard deviation",
     "signs": "which tolerances are at their upper (+) and lower (-) limits",
     "slider_acceleration": "acceleration of the slider at this input speed",
@@ -212,9 +212,50 @@ CONSTANTS = {
 }
 """Words of `gearlink laws`."""
 
+COLUMNS |= {
+    "input_torque": "torque that turns the input, inertia and load together",
+    "inertia_part": "part of the input torque that the masses take",
+    "load_part": "part of the input torque that forces, springs and friction take",
+    "reflected_inertia": "moment of inertia of all links as the input feels it",
+    "reflected_inertia_slope": "its derivative by the input angle, per radian",
+    "power": "power that the input takes in",
+    "entrainment": "mean speed at which cam and roller draw oil into the contact",
+    "roller_speed": "speed of the roller about its own pin",
+    "force_x": "x component of the masses' shaking force on the frame",
+    "force_y": "y component of the masses' shaking force on the frame",
+    "moment": "shaking moment of the masses on the frame, about the input's pivot",
+    "kinetic_energy": "kinetic energy of all that moves",
+    "order": "number of the harmonic, in turns of the input",
+    "frequency": "frequency of the harmonic at the speed of the file",
+    "torque": "torque, or force, that the output's mass takes in the harmonic",
+    "twist": "deflection of the output in the harmonic",
+    "grade": "IT grade that is chosen for the source",
+    "plus_minus": "limits of that grade to either side of the size",
+    "cost": "cost of the part at that grade, by tolerance.cost and the source's own",
+    "input": "input angle of the row",
+    "output": "which output the row is of",
+    "q05": "5 % of the samples lie below",
+    "q95": "95 % of the samples lie below",
+    "one_coarser_holds": "whether the next coarser grade of this source alone keeps the target by the slopes",
+}
+"""Words of the tables of `loads` and of `tolerance --allocate`."""
+
+_ROLLER = {
+    "force": "force between cam and roller",
+    "pressure": "Hertzian pressure between cam and roller",
+    "radius": "relative radius of curvature of cam and roller, 1/(1/roller + 1/cam)",
+    "roller_speed": COLUMNS["roller_speed"],
+    "entrainment": COLUMNS["entrainment"],
+    "cam_angle": COLUMNS["cam_angle"],
+    "input_torque": COLUMNS["input_torque"],
+}
+_ROLLERS = {"main": "the main cam", "return": "the return cam"}
+_OF_ROLLER = re.compile(rf"(?P<cam>main|return)_(?P<part>{'|'.join(_ROLLER)})")
 _PLACE = re.compile(r"(?P<axis>[xy])_(?P<pin>[A-Z])")
 _COUPLER = re.compile(r"coupler_(?P<number>[123])_(?P<rest>\w+)")
-_FORCE = re.compile(r"(?P<pin>[A-Z]|[A-Z]_\w+|planet|guide)_(?P<part>x|y)|mesh_\w+")
+_FORCE = re.compile(r"(?P<pin>[A-Z]|[A-Z]_[a-z]+|planet|cylinder|guide|guide_[a-z]+?)_(?P<part>x|y)")
+_JOINT = re.compile(r"[A-HMNO]|[A-O]_(sum|return|idler|output|pinion)|planet|cylinder|guide(_[a-z]+)?")
+_MESH = re.compile(r"(mesh_\w+?|rack_lower|rack_upper)(_radial)?")
 
 
 def column_words(name: str) -> str:
@@ -233,10 +274,14 @@ def column_words(name: str) -> str:
     if found := _COUPLER.fullmatch(name):
         words = COLUMNS.get(f"coupler_{found['rest']}", "")
         return words.replace("coupler", f"coupler {('BC', 'CD', 'DE')[int(found['number']) - 1]} of a six-bar")
+    if found := _OF_ROLLER.fullmatch(name):
+        return f"{_ROLLER[found['part']]}, of {_ROLLERS[found['cam']]}"
     if found := _FORCE.fullmatch(name):
-        if not found["pin"]:
-            return "tangential force in that mesh, signed; of a column ..._radial the radial one"
         if found["pin"].endswith("_sum"):
             return f"{found['part']} component of the forces of the frame on all shafts about {found['pin'][0]}"
         return f"{found['part']} component of the force at the pin {found['pin']} on the second body named there"
-    return ""
+    if _MESH.fullmatch(name):
+        return "tangential force in that mesh, signed; of a column ..._radial the radial one"
+    if name.startswith("guide") and name.endswith("_moment"):
+        return "couple of the guide on what slides in it"
+    return f"magnitude of the force at the joint {name}, in the table joints" if _JOINT.fullmatch(name) else ""

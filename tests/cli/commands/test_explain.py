@@ -280,3 +280,23 @@ def test_every_column_of_the_search_for_teeth_has_words(gearlink: Any) -> None:
     columns = found["tables"]["candidates"]["columns"] if isinstance(found["tables"], dict) else found["columns"]
     assert "teeth1" in columns
     assert [each for each in columns if not (column_words(each) or each in TERMS)] == []
+
+
+@pytest.mark.parametrize(
+    ("name", "command", "tables"),
+    [
+        ("loaded_gripper", "loads", ("torque", "contact", "joints", "teeth", "frame", "harmonics")),
+        ("loaded_press", "loads", ("torque", "contact", "joints", "teeth", "frame")),
+        ("slider_crank_tolerances", "tolerance", ("allocation",)),
+    ],
+)
+def test_every_column_that_is_asked_for_has_words(name: str, command: str, tables: tuple[str, ...]) -> None:
+    more: dict[str, Any] = {}
+    if command == "tolerance":
+        section = worked(name)["tolerance"]
+        section["sources"]["crank"]["grades"] = [4, 9]
+        more = {"tolerance": section | {"samples": 64, "target_yield": 0.5}}
+    made = design(name, command=command, **more)
+    for table in tables:
+        columns = made.table(table, samples=4).columns
+        assert [each for each in columns if not (column_words(each) or each in TERMS)] == [], table
