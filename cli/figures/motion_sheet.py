@@ -82,7 +82,8 @@ def _panel(axes: Axes, course: Course, order: int, *, last: bool) -> None:
     if order and np.isfinite(values).all():
         for pick, above in ((np.argmax, True), (np.argmin, False)):
             i = int(pick(values))
-            panels.extreme(axes, *_vertex(course.x, values, i), above=above)
+            if i not in (0, len(values) - 1) or abs(values[i]) > 1e-9 * np.ptp(values):  # a rest at an end is seen
+                panels.extreme(axes, *_vertex(course.x, values, i), above=above)
         axes.margins(y=0.2)
     if order:
         measure, scale = ("m", 1e-3) if course.unit == "mm" else ("rad", 1.0)

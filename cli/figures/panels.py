@@ -32,6 +32,8 @@ _LEGEND: dict[str, Any] = {
     "columnspacing": 1.2,
 }
 _NAME_SIZE = 7.5
+_BESIDE = 60.0
+"""Points that numbers and words beside a panel take."""
 _LINE = 112
 """Characters of a legend that fill the width of a page."""
 
@@ -158,12 +160,18 @@ def extreme(axes: Axes, degrees: float, value: float, *, above: bool, unit: str 
     """A marked extreme of a curve over a turn, with its value."""
     axes.plot([degrees], [value], "o", color=style.RED, markersize=4.0, zorder=5)
     left, right = axes.get_xlim()
-    share = (degrees - left) / (right - left)
-    side = "right" if share > 0.85 else "left" if share < 0.15 else "center"
-    look: dict[str, Any] = {"ha": side, "va": "bottom" if above else "top", "fontsize": 7.5, "zorder": 6}
     words = f"{style.number(value, 5)}{unit} at {degrees:.5g}°"
+    share, half = (degrees - left) / (right - left), _half_width(axes, words)
+    side = "right" if share > 1.0 - half else "left" if share < half else "center"
+    look: dict[str, Any] = {"ha": side, "va": "bottom" if above else "top", "fontsize": 7.5, "zorder": 6}
     shift = ({"left": 3, "center": 0, "right": -3}[side], 5 if above else -5)
     axes.annotate(words, (degrees, value), shift, textcoords="offset points", path_effects=style.outlined(), **look)
+
+
+def _half_width(axes: Axes, words: str) -> float:
+    """Half the width of small words, as a share of the panel's."""
+    across = 72.0 * (_A4[0] - 1.6) * _share_of_page(axes) - _BESIDE
+    return min(0.5, 0.5 * 0.6 * _NAME_SIZE * len(words) / across)
 
 
 def legend_beside(axes: Axes, drawing: Axes) -> None:

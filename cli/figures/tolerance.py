@@ -71,6 +71,7 @@ def _histogram(axes: Axes, study: ToleranceStudy, name: str) -> None:
     unit = study.units[name]
     style.curves(axes, f"{name} [{unit}]" if unit != "1" else name, "density")
     panels.small_ticks(axes)
+    axes.ticklabel_format(axis="x", useOffset=False)
     axes.hist(values, bins=_BINS, density=True, color=style.SKY, edgecolor="white", linewidth=0.3)
     axes.axvline(study.nominal[name], color=style.BLACK, linewidth=1.2, label="nominal")
     low, _, high = study.result.spreads[name].quantiles

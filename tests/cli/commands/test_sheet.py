@@ -152,3 +152,16 @@ def test_the_lowest_panel_has_the_time_beside_the_angle_where_the_speed_is_known
     for angles, time in times:
         assert angles == (0.0, 360.0)
         assert time == pytest.approx((0.0, made.turn_time), rel=1e-12)
+
+
+def test_extremes_are_named_within_their_panels() -> None:
+    """Two columns leave half of a page's width."""
+    figure = motion_sheet.draw(design(worked("ty460")))
+    figure.draw_without_rendering()
+    for axes in figure.axes:
+        panel = axes.get_window_extent()
+        for words in axes.texts:
+            if " at " in words.get_text():
+                box = words.get_window_extent()
+                assert panel.x0 - 1.0 <= box.x0, words.get_text()
+                assert box.x1 <= panel.x1 + 1.0, words.get_text()
