@@ -143,8 +143,11 @@ class _Reader:
         tree = self._factor(depth)
         while self.token in ("*", "/"):
             self._counted()
-            sign = self.step()
-            tree = (sign, [tree, self._factor(depth)])
+            sign, at = self.step(), self.at
+            factor = self._factor(depth)
+            if sign == "/" and not any(_names(factor)) and Expression("", factor, 0).value({}) == 0.0:
+                raise NotAnExpression("a division by 0", at)
+            tree = (sign, [tree, factor])
         return tree
 
     def _factor(self, depth: int) -> Tree:

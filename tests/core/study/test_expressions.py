@@ -37,6 +37,7 @@ def test_values(text: str, value: float) -> None:
 
 
 def test_what_does_not_exist_is_no_number() -> None:
+    assert math.isnan(parse("1 / sqrt(-1)").value(QUANTITIES))
     assert math.isnan(parse("sqrt(b.c[1])").value(QUANTITIES))
     assert not math.isfinite(parse("a / (a - 3)").value(QUANTITIES))
 
@@ -64,7 +65,21 @@ def test_units(text: str, unit: str | None) -> None:
 
 @pytest.mark.parametrize(
     ("text", "at"),
-    [("", 0), ("a +", 3), ("a b", 2), ("(a", 2), ("a)", 1), ("f(a)", 1), ("a ? b", 2), ("sqrt(a, a)", 10), ("a[x]", 1)],
+    [
+        ("", 0),
+        ("a +", 3),
+        ("a b", 2),
+        ("(a", 2),
+        ("a)", 1),
+        ("f(a)", 1),
+        ("a ? b", 2),
+        ("sqrt(a, a)", 10),
+        ("a[x]", 1),
+        ("a / 0", 4),
+        ("a/(1-1)", 2),
+        ("1/-0.0", 2),
+        ("a * 2 / min(0, 1)", 8),
+    ],
 )
 def test_what_is_no_expression(text: str, at: int) -> None:
     with pytest.raises(NotAnExpression) as caught:
