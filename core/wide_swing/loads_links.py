@@ -108,14 +108,16 @@ def pull_of_device(loads: WideSwingLoads, mechanism: Mechanism, _phi: Reals) -> 
     unloader, unloading = loads.spec.unloader, loads.design.unloading
     way = cmath.rect(1.0, math.radians(loads.section.device_direction or 0.0))
     rocker = mechanism.links["rocker"]
-    pin = rocker.at(unloader.arm * _MM * way)
-    base = rocker.origin.value + unloader.pivot_ratio * unloader.arm * _MM * way
-    along = base - pin.value
+    arm = unloader.arm * _MM
+    pin = rocker.at(arm * way)
+    along = way * (
+        unloader.pivot_ratio - rocker.unit
+    )  # in arms from the pivot: of any size, and a short one is not lost
     length = np.abs(along)
     if unloader.type == "pneumatic":
         pull = np.full(length.shape, unloading.force or 0.0)
     else:
         geometry = loads.design.motion.law.geometry
-        mounted = (geometry.shortest - unloader.stretch_ratio * geometry.stroke) * unloader.arm * _MM
-        pull = 1e3 * (unloading.spring_rate or 0.0) * (length - mounted)
+        mounted = geometry.shortest - unloader.stretch_ratio * geometry.stroke
+        pull = 1e3 * (unloading.spring_rate or 0.0) * arm * (length - mounted)
     return [Force("rocker", pull * along / length, pin)]
