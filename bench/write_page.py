@@ -47,11 +47,12 @@ _REASONS = """## Where a goal is missed, and why
 * **Start-up.** Plain command lines are read without Typer, pydantic's search for plug-ins is switched off, and its
   models are built when a file needs them; what remains is the import of pydantic (which Typer's own floor includes, and
   which is two thirds of a scalar command), of numpy for sweeps, and of rich for tables on a terminal.
-* **Pictures, reports, films.** matplotlib's import and its constrained layout are most of a picture; the program's own
-  part is the last third. `gear --plot` draws six panels with symbols set as mathematics, and the blocking contour,
-  half of its time: some ten thousand roots and forty thousand values of pairs. A report draws its further sheets in
-  other processes. A film of a machine with true teeth spends its time on polygons, reduction and encoding, some 16 ms
-  a frame, drawn in as many processes as there are processors.
+* **Pictures, reports, films.** Of `cam --plot`, the imports of matplotlib and numpy are a third, drawing a fifth (half
+  of it words), making the panels an eighth and their layout a tenth; words are measured once, and stand where they were
+  measured. `gear --plot` draws six panels with symbols set as mathematics, and the blocking contour, a third of its
+  time: some ten thousand roots and forty thousand values of pairs. A report draws its further sheets in
+  other processes: three on two processors take the time of two. A film of a machine with true teeth spends its time on
+  polygons, reduction and encoding, some 10 ms a frame, drawn in as many processes as there are processors.
 * **All worked designs.** The folder holds searches, studies and loads of a second or two each (a five-bar's function, a
   press with its joint forces, a study of gripper cams); a folder of designs that are complete takes milliseconds each.
 * **Batch.** Reading and validating a small file takes 0.1 to 0.2 ms, for libyaml and pydantic-core are compiled; the

@@ -123,7 +123,9 @@ def disc(axes: Axes, center: complex, radius: float, **look: Any) -> None:
     """A disc, or a circle where the look says `fill=False`."""
     from matplotlib.patches import Circle
 
-    axes.add_patch(Circle((center.real, center.imag), radius, **look))
+    axes.add_artist(Circle((center.real, center.imag), radius, **look))
+    corner = complex(radius, radius)
+    axes.update_datalim([(p.real, p.imag) for p in (center - corner, center + corner)])
 
 
 def circle(axes: Axes, center: complex, radius: float, **look: Any) -> None:

@@ -1,0 +1,87 @@
+"""What a figure measures once stays right: limits of filled outlines, and the words along axes clear of their numbers.
+
+Limits against matplotlib's own ways: 1e-12 of the size, for its circles are Bezier curves. Words: half a pixel.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from typing import Any
+
+import numpy as np
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle
+from sheets import sheet
+
+from gearlink.cli.figures import style
+from gearlink.cli.figures.placing import places, settled
+from gearlink.cli.moving.brush import thinned
+
+OUTLINE = 3.0 * np.exp(2j * np.pi * np.arange(7) / 7) + 1j
+
+
+def _limits(add: Any) -> list[float]:
+    axes = Figure().add_subplot()
+    axes.plot([0.0, 1.0], [0.0, 1.0])
+    add(axes)
+    return [*axes.get_xlim(), *axes.get_ylim()]
+
+
+@pytest.mark.parametrize(
+    ("ours", "theirs"),
+    [
+        (lambda axes: style.area(axes, OUTLINE), lambda axes: axes.fill(OUTLINE.real, OUTLINE.imag)),
+        (lambda axes: style.disc(axes, 2 - 1j, 3.5), lambda axes: axes.add_patch(Circle((2, -1), 3.5))),
+        (lambda axes: style.stretch(axes, 0.5, 4.0), lambda axes: axes.axvspan(0.5, 4.0)),
+    ],
+    ids=["area", "disc", "stretch"],
+)
+def test_what_is_filled_reaches_as_far_as_matplotlib_says(ours: Any, theirs: Any) -> None:
+    assert _limits(ours) == pytest.approx(_limits(theirs), rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("name", "command"), [("ty460", "cam"), ("candy_feed", "synth dwell"), ("swing_gripper", "gripper")]
+)
+def test_words_beside_panels_are_clear_of_all_numbers_and_in_a_line(name: str, command: str) -> None:
+    made = sheet(name, command).figure
+    settled(made)
+    renderer = FigureCanvasAgg(made).get_renderer()
+    made.draw(renderer)
+    columns: dict[float, list[tuple[float, float]]] = defaultdict(list)
+    for axes in made.axes:
+        if not axes.axison or not axes.get_ylabel():
+            continue
+        words = axes.yaxis.label.get_window_extent(renderer)
+        low, high = sorted(axes.get_ylim())
+        every = zip(axes.get_yticks(), axes.get_yticklabels(), strict=True)  # those beyond the limits are not drawn
+        numbers = min(text.get_window_extent(renderer).x0 for at, text in every if low <= at <= high)
+        columns[round(axes.get_position().x0, 3)].append((words.x1, numbers))
+    assert columns
+    for column in columns.values():
+        ends = [end for end, _ in column]
+        assert max(ends) <= min(numbers for _, numbers in column) + 0.5
+        assert max(ends) - min(ends) <= 0.5
+
+
+def test_places_are_read_back_as_they_were_set() -> None:
+    made = sheet("ty460_slider_crank", "crank").figure
+    known = places(settled(made))
+    again = settled(sheet("ty460_slider_crank", "crank").figure, known)
+    assert places(again) == known
+    assert len(known.distances) > 3
+    assert min(known.distances) > 0.05
+
+
+def test_a_thinned_outline_stays_within_the_tolerance() -> None:
+    turn = np.linspace(0.0, 2.0 * np.pi, 721)
+    outline = (40.0 + 2.0 * np.sin(19.0 * turn)) * np.exp(1j * turn)
+    kept = thinned(outline, 0.05)
+    assert kept[0] == outline[0]
+    assert kept[-1] == outline[-1]
+    assert len(kept) < len(outline) / 2
+    starts, ways = kept[:-1], np.diff(kept)
+    share = np.clip(((outline[:, None] - starts) * ways.conj()).real / np.abs(ways) ** 2, 0.0, 1.0)
+    assert np.abs(outline[:, None] - (starts + share * ways)).min(axis=1).max() <= 0.05
