@@ -94,10 +94,9 @@ def side_change(design: WideSwingDesign) -> Iterator[Check]:
     beyond = max(start - middle, middle - end)
     text = f"the device changes sides at k = {middle:.4g}, the roller between {start:.4g} and {end:.4g}"
     if beyond > 0.0:
-        text += ": between both the device pushes the roller off its profile"
-        angle = remedies.even_middle_angle(design.spec.slider)
-        if angle is not None:
-            text += f"; make slider.middle_angle {angle:g}, where rocker and slider are fastest together"
+        text += (
+            f": between both the device pushes the roller off its profile; {remedies.side_words(design.spec.slider)}"
+        )
     yield codes.SIDE_CHANGE.check("fail" if beyond > 0.0 else "pass", text, beyond, 0.0)
 
 

@@ -120,9 +120,10 @@ SIDE_CHANGE = Rule(
     "is fastest; the slot of the roller does not reach from one to the other.",
     "Between the two the device pushes the roller away from the profile, whatever its reserve, and nothing guides the "
     "rocker.",
-    "Turn slider.middle_angle to the value of the message, at which the slider is fastest at mid-swing; then the "
-    "reduced inertia is stationary there and the rocker is fastest at mid-swing as well.",
-    "k_mid within the slot; k* = k_mid where d2s/dphi2 = 0 at mid-swing",
+    "Turn slider.middle_angle to the value of the message, at which the slider is fastest at mid-swing: the reduced "
+    "inertia is stationary there, and so is the rocker's speed. Where that is its least, since the slider's mass slows "
+    "it, take a lighter slider or more inertia of the rocker.",
+    "k_mid within the slot; c(k_mid) = 0 where d2s/dphi2 = 0 at mid-swing",
     "own derivation",
     ("side-change",),
     ("slider.middle_angle", "slider"),

@@ -9,6 +9,7 @@ from gearlink.core.loads import codes, vibration_checks
 from gearlink.core.loads.cam_checks import no_width
 from gearlink.core.remedies import at_least
 from gearlink.core.report import Check
+from gearlink.core.wide_swing.remedies import side_changes, side_words
 
 if TYPE_CHECKING:
     from gearlink.core.report import Remedy
@@ -50,12 +51,9 @@ def contact_loss(design: WideSwingLoads) -> Iterator[Check]:
     least = design.least_contact_force
     text = f"with all that acts the roller presses its cam with at least {least:.5g} N"
     if least < 0.0:
-        angle = even_angle(design)
-        mend = (
-            "raise unloader.reserve, or lessen loads.forces"
-            if angle is None
-            else (f"the device changes sides before or after the roller; make slider.middle_angle {angle:g}")
-        )
+        mend = "raise unloader.reserve, or lessen loads.forces"
+        if design.spec.slider is not None and changes_apart(design):
+            mend = f"the device changes sides before or after the roller; {side_words(design.spec.slider)}"
         message = f"{text}: it leaves the profile; {mend}"
         yield codes.CONTACT_LOSS.check("fail", message, least, 0.0, "N")
     else:
@@ -67,18 +65,16 @@ def resonance(design: WideSwingLoads) -> Iterator[Check]:
     return vibration_checks.resonance(design) if design.whole else iter(())
 
 
-def even_angle(design: WideSwingLoads) -> float | None:
-    """The slider.middle_angle [deg] at which device and roller change sides together, where now they do not."""
-    from gearlink.core.wide_swing.remedies import even_middle_angle
-
-    apart = any(check.status == "fail" for check in design.design.check("side-change"))
-    return even_middle_angle(design.spec.slider) if apart and design.spec.slider is not None else None
+def changes_apart(design: WideSwingLoads) -> bool:
+    """Whether device and roller change sides at different places."""
+    return any(check.status == "fail" for check in design.design.check("side-change"))
 
 
 def candidates(design: WideSwingLoads, check: str) -> Iterator[Remedy]:
-    """The arm at which the device holds the roller all the way, alone and with more reserve."""
-    angle = even_angle(design) if check == "contact-loss" else None
-    if angle is not None:
-        turned, reserve = ("slider.middle_angle", angle), design.spec.unloader.reserve
-        yield (turned,)
-        yield from ((turned, ("unloader.reserve", at_least(reserve + more, 0.01))) for more in (0.1, 0.25, 0.5, 1.0))
+    """What lets the device hold the roller all the way, alone and with more reserve."""
+    section, reserve = design.spec.slider, design.spec.unloader.reserve
+    if check != "contact-loss" or section is None or not changes_apart(design):
+        return
+    for changes in side_changes(section):
+        yield changes
+        yield from ((*changes, ("unloader.reserve", at_least(reserve + more, 0.01))) for more in (0.25, 1.0))

@@ -22,6 +22,7 @@ Change: TypeAlias = tuple[str, float | None]
 
 _STRICTLY = 1.0 + 1e-6
 _DEGREES, _RATIO = 0.5, 0.01
+_SAME_ANGLE = 0.011
 
 _CYCLE = down("cycle_angle", step=_DEGREES)
 _ROLLER = (down("cam.roller_radius"), up("cam.center_distance"))
@@ -38,6 +39,8 @@ WAYS = {
 
 def candidates(design: WideSwingDesign, check: str) -> Iterable[Remedy]:
     """Remedies of a check, or of a refusal, from closed forms, the first to be tried first."""
+    if check == "side-change" and design.spec.slider is not None:
+        return side_changes(design.spec.slider)
     return ((change,) for change in _CLOSED[check](design)) if check in _CLOSED else ()
 
 
@@ -189,7 +192,7 @@ def slider_repair(section: SwingSlider, swing: float) -> tuple[str, float]:
 
 
 def even_middle_angle(section: SwingSlider) -> float | None:
-    """The arm's angle at mid-swing [deg], the nearest to the file's, at which the slider is fastest; None without one.
+    """The arm's angle at mid-swing [deg], the nearest to the file's, at which the slider is fastest; None where it is.
 
     d2s/dphi2 = 0
     """
@@ -202,14 +205,30 @@ def even_middle_angle(section: SwingSlider) -> float | None:
         return float(slider(angle - 0.5 * math.pi, section.crank, section.rod, section.offset, 2)[2])
 
     given = math.radians(section.middle_angle)
-    grid = given + np.linspace(-math.pi, math.pi, 91)
+    grid = (given + np.linspace(-math.pi, math.pi, 91)).tolist()
     values = [bend(angle) for angle in grid]
     pairs = [i for i in range(90) if (values[i] > 0.0) != (values[i + 1] > 0.0)]
-    places = [bracketed_root(bend, float(grid[i]), float(grid[i + 1])) for i in pairs]
-    if not places:
-        return None
-    nearest = min(places, key=lambda place: abs(place - given))
-    return round(math.degrees(math.remainder(nearest, 2.0 * math.pi)), 2)
+    places = [bracketed_root(bend, grid[i], grid[i + 1]) for i in pairs]
+    nearest = min(places, key=lambda place: abs(place - given), default=given)
+    found = round(math.degrees(math.remainder(nearest, 2.0 * math.pi)), 2)
+    return None if abs(math.remainder(found - section.middle_angle, 360.0)) < _SAME_ANGLE else found
+
+
+def side_words(section: SwingSlider) -> str:
+    """What brings device and roller to change sides together."""
+    angle = even_middle_angle(section)
+    if angle is None:
+        return "a lighter slider, more inertia of the rocker or a larger roller brings both together"
+    return f"make slider.middle_angle {angle:g}, where the slider is fastest at mid-swing"
+
+
+def side_changes(section: SwingSlider) -> Iterator[tuple[Change, ...]]:
+    """The arm at which the slider is fastest at mid-swing, and lighter sliders, under which the rocker is as well."""
+    angle = even_middle_angle(section)
+    turned: tuple[Change, ...] = () if angle is None else (("slider.middle_angle", angle),)
+    if turned:
+        yield turned
+    yield from ((*turned, ("slider.mass", at_most(share * section.mass))) for share in (0.5, 0.2, 0.1))
 
 
 def drive_repair(section: SwingDrive) -> tuple[str, float]:
@@ -239,13 +258,6 @@ def _refused(design: WideSwingDesign) -> Iterator[Change]:
     yield slider_repair(spec.slider, motion.swing)
 
 
-def _side_change(design: WideSwingDesign) -> Iterator[Change]:
-    """The arm at which device and roller change sides together."""
-    found = None if design.spec.slider is None else even_middle_angle(design.spec.slider)
-    if found is not None:
-        yield "slider.middle_angle", found
-
-
 _CLOSED: dict[str, Callable[[WideSwingDesign], Iterator[Change]]] = {
     REFUSAL: _refused,
     "unloader-turnability": lambda d: _one("unloader.pivot_ratio", at_least(d.motion.usual_pivot_ratio, _RATIO)),
@@ -256,7 +268,6 @@ _CLOSED: dict[str, Callable[[WideSwingDesign], Iterator[Change]]] = {
     "cam-undercut": lambda d: _one("cam.roller_radius", at_most(roller_for_curvature(d))),
     "transition-zone": lambda d: _one("cam.roller_radius", at_most(roller_for_zone(d))),
     "shaft-clearance": lambda d: _one("cam.center_distance", at_least(center_distance(d))),
-    "side-change": _side_change,
     "force-reserve": lambda d: _one(
         "unloader.reserve", at_least(reserve(d.spec.unloader.residual, 0.1 + 1e-9), _RATIO)
     ),

@@ -269,6 +269,12 @@ def test_device_and_roller_change_sides_together() -> None:
     assert found.remedy == (("slider.middle_angle", 73.18),)
     (loss,) = [f for f in apart.findings("loads", "contact-loss") if f.value == apart.least_contact_force]
     assert (loss.status, loss.remedy) == ("fail", (("slider.middle_angle", 73.18),))
+    # under a spring that pulls little at mid-swing the slider's mass makes the rocker slowest there
+    spring = {"type": "spring", "pivot_ratio": 4, "stretch_ratio": 0.5, "arm": 80, "reserve": 0.3}
+    heavy = factory.design("wide_swing_slider_cam", slider__middle_angle=73.18, unloader=spring)
+    assert heavy.cam.middle < 0.3
+    (found,) = heavy.findings("swing", "side-change")
+    assert (found.status, found.remedy) == ("fail", (("slider.mass", 1.2),))
     mended = factory.design("wide_swing_slider_cam", slider__middle_angle=73.18)
     assert mended.check("side-change")[0].status == "pass"
     assert mended.cam.middle == pytest.approx(mended.motion.slider.middle_place, abs=2e-4)
