@@ -79,7 +79,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 SHARE = 0.2
 """A test file may take so much of the processor time of its part of `make test`: a share does not depend on the
 machine."""
-WHOLE = 1000
+WHOLE = 500
 """A run of so many tests is a part of `make test`, or more."""
 
 
