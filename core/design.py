@@ -55,12 +55,14 @@ def placed(path: str) -> Any:
         quantity : property, to be annotated with the type of the value
     """
 
+    way = tuple(int(name) if name.isdecimal() else name for name in path.split("."))
+
     def value(design: Any) -> Any:
         found = design
-        for name in path.split("."):
+        for place in way:
             if found is None:
                 return None
-            found = found[int(name)] if name.isdecimal() else getattr(found, name)
+            found = getattr(found, place) if isinstance(place, str) else found[place]
         return found
 
     return property(value, doc=f"Stands at `{path}`.")

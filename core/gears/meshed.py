@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     AnyMesh = GearPair | InternalMesh
 
 QUANTITIES = (*MESH_QUANTITIES, *TRAIN_QUANTITIES)
+_OF_MESHES, _OF_PAIRS = frozenset(QUANTITIES), frozenset(MESH_QUANTITIES)
 _LEAST_AND_GREATEST = ("backlash_circumferential", "backlash_normal")
 """Pairs that are not of two gears."""
 
@@ -85,7 +86,7 @@ class Meshed(GearQuantities, Design):
         """Links of the file that count as working centre distances [mm]."""
         return self.given_distances if self.spec.gears.profile_shift is not None else (None,) * len(self.mesh_names)
 
-    @property
+    @cached_property
     def own_teeth(self) -> bool:
         """Whether the teeth are not those of the standard profile at the reference centre distance."""
         return bool(self.spec.gears.own_teeth or any(self._distances))
@@ -173,7 +174,7 @@ class Meshed(GearQuantities, Design):
     def raw(self, name: str) -> Any:
         """The quantities of the meshes, and the design's own."""
         mesh, _, quantity = name.rpartition(".")
-        if quantity not in QUANTITIES or (not mesh and name in self.own_quantities):
+        if quantity not in _OF_MESHES or (not mesh and name in self.own_quantities):
             return super().raw(name)
         if mesh not in self.mesh_names:
             return None
@@ -184,11 +185,15 @@ class Meshed(GearQuantities, Design):
 
     def _swapped(self, mesh: str) -> bool:
         """Whether a ring stands before its mate: the first gear of its mesh, the second of its pair."""
-        return self.signed_teeth[self.mesh_names.index(mesh)] < 0
+        return mesh in self._rings_first
+
+    @cached_property
+    def _rings_first(self) -> frozenset[str]:
+        return frozenset(name for name, teeth in zip(self.mesh_names, self.signed_teeth, strict=False) if teeth < 0)
 
     def _of_mesh(self, name: str, quantity: str) -> Any:
         mesh = self.meshes[name]
-        found = mesh_quantity(mesh, quantity) if quantity in MESH_QUANTITIES else None
+        found = mesh_quantity(mesh, quantity) if quantity in _OF_PAIRS else None
         if found is not None or not _has_involutes(mesh):
             return found
         if quantity not in GEAR_QUANTITIES:
