@@ -17,12 +17,14 @@ from gearlink.core.results import cached_property
 if TYPE_CHECKING:
     from gearlink.core.cams.disc_cam import DiscCam
     from gearlink.core.cams.profile import RollerPath
+    from gearlink.core.flatbed_press.chains import Travel
     from gearlink.core.flatbed_press.motion import PressMotion
     from gearlink.core.flatbed_press.spec import FlatbedPressSpec, PressCam
     from gearlink.core.numerics.arrays import Reals
 
 # By so much of its limits a chosen radius keeps to the safe side: its cams are checked in other roundings.
 _HAIR = 1e-9
+_KEPT = 8192
 
 
 class PressCams(DiscCams):
@@ -199,11 +201,24 @@ class PressCams(DiscCams):
         from gearlink.core.cams.profile import translating
 
         def path(theta: Reals, order: int) -> RollerPath:
-            lift = self.follower.lift(theta, order)
+            lift = self._lift(theta, order)
             return translating(at_zero_lift + lift.value, lift.first, lift.second if order > 1 else 0.0)
 
         joints = tuple(segment.start for segment in self.follower.segments)
         return DiscCam(name, path, 1, self.section.roller_radius, joints)
+
+    def _lift(self, theta: Reals, order: int) -> Travel:
+        """The follower's lift; that of the last angles is kept, for both cams are looked at in the same places."""
+        if theta.size > _KEPT:  # for the memory's sake
+            return self.follower.lift(theta, order)
+        places = theta.tobytes()
+        if self._last.get(order, (b"",))[0] != places:
+            self._last[order] = places, self.follower.lift(theta, order)
+        return self._last[order][1]
+
+    @cached_property
+    def _last(self) -> dict[int, tuple[bytes, Travel]]:
+        return {}
 
     def require_motion(self) -> None:
         """Compute chains and zone."""
