@@ -82,8 +82,9 @@ def ruled(
         middle = row + 0.5 + (extra if row else 0.5 * extra)
         for (x, side), text in zip(places, line, strict=True):
             weight = "normal" if row else "bold"
-            # In the panel anyhow: to measure every cell for the layout takes longer than to draw it.
-            axes.text(x, middle, text, fontsize=size, ha=side, va="center", fontweight=weight, in_layout=False)
+            # To measure each cell for the layout takes longer than to draw it; a remark alone in its row may need room.
+            alone = not any(line[1:])
+            axes.text(x, middle, text, fontsize=size, ha=side, va="center", fontweight=weight, in_layout=alone)
         axes.axhline(row + 1.0 + extra, color=style.LIGHT if row else style.GREY, linewidth=0.6)
 
 

@@ -66,6 +66,15 @@ def test_words_beside_panels_are_clear_of_all_numbers_and_in_a_line(name: str, c
         assert max(ends) - min(ends) <= 0.5
 
 
+def test_a_remark_below_a_table_keeps_clear_of_the_table_beside_it() -> None:
+    made = settled(sheet("gear_pair", "gear").figure)
+    renderer = FigureCanvasAgg(made).get_renderer()
+    remarks = [text for axes in made.axes for text in axes.texts if text.get_text().startswith("K_A")]
+    assert remarks
+    beside = next(axes for axes in made.axes if axes.get_title(loc="left") == "Gear table of the drawing")
+    assert max(text.get_window_extent(renderer).x1 for text in remarks) < beside.get_window_extent(renderer).x0
+
+
 def test_places_are_read_back_as_they_were_set() -> None:
     made = sheet("ty460_slider_crank", "crank").figure
     known = places(settled(made))
