@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 Panel = Callable[["Axes", "LoadsDesign"], None]
 _COLORS = (style.BLUE, style.ORANGE, style.GREEN, style.RED, style.PURPLE, style.SKY, style.BLACK, style.GREY)
 _POLAR_COLUMNS = 3
+_LINES: tuple[Any, ...] = ("-", style.LONG, style.CHAIN, style.DOTTED)
+"""Curves of one panel differ in their lines as well, for grey print."""
 
 
 def draw(design: Any) -> Figure:
@@ -106,8 +108,17 @@ def _torque(axes: Axes, design: LoadsDesign) -> None:
     columns = _columns(design, "torque")
     x = _angles(columns, design)
     axes.axhline(0.0, color=style.BLACK, linewidth=0.8)
-    axes.plot(x, _closed(columns["inertia_part"]), color=style.ORANGE, linewidth=0.9, label="of the masses")
-    axes.plot(x, _closed(columns["load_part"]), color=style.GREEN, linewidth=0.9, label="of the load")
+    axes.plot(
+        x,
+        _closed(columns["inertia_part"]),
+        color=style.ORANGE,
+        linewidth=0.9,
+        linestyle=style.LONG,
+        label="of the masses",
+    )
+    axes.plot(
+        x, _closed(columns["load_part"]), color=style.GREEN, linewidth=0.9, linestyle=style.CHAIN, label="of the load"
+    )
     axes.plot(x, _closed(columns["input_torque"]), color=style.BLUE, linewidth=1.7, label="whole", gid="input-torque")
     mean = design.input_torque_mean
     axes.axhline(mean, color=style.GREY, linewidth=0.9, linestyle=style.DOTTED, label="mean")
@@ -130,8 +141,9 @@ def _teeth(axes: Axes, design: LoadsDesign) -> None:
     _over_turn(axes, design, "Tooth forces, tangential", "force [N]")
     columns = _columns(design, "teeth")
     axes.axhline(0.0, color=style.BLACK, linewidth=0.8)
-    for name, color in zip(design.meshes_found, cycle(_COLORS)):
-        axes.plot(_angles(columns, design), _closed(columns[name]), color=color, linewidth=1.4, label=name)
+    for name, color, line in zip(design.meshes_found, cycle(_COLORS), cycle(_LINES)):
+        look: Any = {"color": color, "linestyle": line}
+        axes.plot(_angles(columns, design), _closed(columns[name]), linewidth=1.4, label=name, **look)
         places = design.meshes_found[name].reversal_places
         axes.plot([math.degrees(p) for p in places], [0.0] * len(places), "o", color=style.RED, markersize=4)
     panels.legend_above(axes, 4)
@@ -142,11 +154,9 @@ def _forces(axes: Axes, design: LoadsDesign) -> None:
     _over_turn(axes, design, "Joint forces", "force [N]")
     columns = _columns(design, "joints")
     for i, name in enumerate(n for n in design.pins if n in columns):
-        again, color = divmod(i, len(_COLORS))
-        line = ("-", "--", ":")[again % 3]  # a machine has more pins than there are colours
-        axes.plot(
-            _angles(columns, design), _closed(columns[name]), line, color=_COLORS[color], linewidth=1.2, label=name
-        )
+        # A machine has more pins than there are colours or lines, not than pairs of them.
+        look: Any = {"color": _COLORS[i % len(_COLORS)], "linestyle": _LINES[(i + i // len(_COLORS)) % len(_LINES)]}
+        axes.plot(_angles(columns, design), _closed(columns[name]), linewidth=1.2, label=name, **look)
     axes.set_ylim(bottom=0.0)
     panels.legend_above(axes, 8)
 

@@ -17,8 +17,8 @@ _TURN = 360.0
 def forces(axes: Axes, design: Any) -> None:
     """Force between each roller and its cam."""
     x, columns = _contact(axes, design, "Contact forces", "force [N]")
-    for name, color in zip(design.own_rollers, panels.CAM_COLORS, strict=False):
-        axes.plot(x, columns[f"{name}_force"], color=color, linewidth=1.4, label=f"{name} roller")
+    for name, color, line in zip(design.own_rollers, panels.CAM_COLORS, panels.CAM_LINES, strict=False):
+        axes.plot(x, columns[f"{name}_force"], color=color, linestyle=line, linewidth=1.4, label=f"{name} roller")
     axes.axhline(0.0, color=style.BLACK, linewidth=0.8)
     panels.legend_above(axes, 2)
 
@@ -26,8 +26,8 @@ def forces(axes: Axes, design: Any) -> None:
 def pressures(axes: Axes, design: Any) -> None:
     """Hertzian pressure of each roller, and what is allowed."""
     x, columns = _contact(axes, design, "Hertzian pressure", "p [N/mm²]")
-    for name, color in zip(design.own_rollers, panels.CAM_COLORS, strict=False):
-        axes.plot(x, columns[f"{name}_pressure"], color=color, linewidth=1.4, label=f"{name} roller")
+    for name, color, line in zip(design.own_rollers, panels.CAM_COLORS, panels.CAM_LINES, strict=False):
+        axes.plot(x, columns[f"{name}_pressure"], color=color, linestyle=line, linewidth=1.4, label=f"{name} roller")
     _allowed(axes, design)
     axes.set_ylim(bottom=0.0)
     panels.legend_above(axes, 3)

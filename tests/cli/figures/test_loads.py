@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from typing import Any
 
 import numpy as np
@@ -67,3 +68,13 @@ def test_a_locked_machine_has_a_sheet_of_what_is_left(name: str) -> None:
     friction = {"pins": 0.9, "pin_radius": 900}
     _, figure = sheet(name, "loads", loads__friction=friction)
     assert _axes(figure, "Shaking force [N]").lines
+
+
+def test_curves_of_a_panel_are_told_apart_in_grey() -> None:
+    """No two neighbours have the same line, and no two curves the same line and colour."""
+    _, figure = sheet("loaded_feed", "loads")
+    for title in ("Input torque", "Joint forces", "Tooth forces, tangential"):
+        curves = [line for line in _axes(figure, title).lines if len(line.get_xdata()) > 25]
+        dashes = [str(line._unscaled_dash_pattern) for line in curves]
+        assert all(one != other for one, other in itertools.pairwise(dashes)), title
+        assert len({(dash, line.get_color()) for dash, line in zip(dashes, curves, strict=True)}) == len(curves)
