@@ -135,7 +135,7 @@ def test_many_mutated_files(tmp_path: Path) -> None:
     "line",
     [
         "swing wide_swing_twin_cam.yaml --set swing=1e-17",  # the arm ratio rounded to 1
-        "loads loaded_wide_swing.yaml --set unloader.arm=1e-17",  # the pin rounded to the pivot: no direction of the pull
+        "loads loaded_wide_swing.yaml --set unloader.arm=1e-17",  # the pin rounded to the pivot: no direction
     ],
 )
 def test_what_once_failed(line: str) -> None:
