@@ -270,7 +270,7 @@ class Bench:
 
     def _graded(self, trial: Design, found: Check, index: int) -> int:
         grade = self._own_grade(trial, found, index)
-        for name in self._before:
+        for name in dict.fromkeys((*self._before, *self._checks(trial))):
             if grade <= 0:
                 return 0
             grade = min(grade, self._against(trial, name))
@@ -283,8 +283,11 @@ class Bench:
         return _PASSES - (now[index] if same else max(now, default=0))
 
     def _against(self, trial: Design, name: str) -> int:
-        """Whether a check is no worse than before; findings that are new or gone are counted by their status."""
-        before, now = self._before[name], _ranks(trial, name)
+        """Whether a check is no worse than before; findings that are new or gone are counted by their status.
+
+        A cam that there was not yet has checks of its own, all of them new.
+        """
+        before, now = self._before.get(name, ()), _ranks(trial, name)
         if len(before) != len(now):
             before, now = tuple(sorted(before, reverse=True)), tuple(sorted(now, reverse=True))
             before += (0,) * (len(now) - len(before))
@@ -294,8 +297,11 @@ class Bench:
     @cached_property
     def _before(self) -> dict[str, tuple[int, ...]]:
         """How bad the findings of each check are in the design as it stands."""
-        names = dict.fromkeys(name for command in self._commands for name in self._design.outline(command).checks)
-        return {name: _ranks(self._design, name) for name in names}
+        return {name: _ranks(self._design, name) for name in self._checks(self._design)}
+
+    def _checks(self, design: Design) -> dict[str, None]:
+        """The checks of every command that counts."""
+        return dict.fromkeys(name for command in self._commands for name in design.outline(command).checks)
 
     def _exists(self, trial: Design) -> bool:
         for command in self._commands:
