@@ -209,8 +209,8 @@ _EVALUATED = [
     ("analyze", "mutilated_gear_press", "dwell_share", "mutilated"),
     ("analyze", "mutilated_gear_press", "rocker_swing", "linkage"),
     ("analyze", "two_gear_ring", "gear_ratio", ""),
-    ("analyze", "two_gear_ring", "coupler_length", "linkage"),
-    ("analyze", "wide_lever", "rocker_swing", "crank_length linkage"),
+    ("analyze", "two_gear_ring", "coupler_length", "linkage own_teeth"),  # which say what a centre distance is
+    ("analyze", "wide_lever", "rocker_swing", "crank_length linkage own_teeth"),
 ]
 
 
