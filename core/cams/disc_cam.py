@@ -125,6 +125,10 @@ class DiscCam:
         contact = profile.profile_points(cam_angle, path, sense=self.sense, roller_radius=self.roller_radius)
         return pitch, contact
 
+    def normals(self, cam_angle: Reals) -> Points:
+        """Direction from the profile to the roller's centre at cam angles, in the frame of the machine."""
+        return profile.normals(cam_angle, self.path(cam_angle, 1), sense=self.sense)
+
     def radius(self, cam_angle: Reals) -> Reals:
         """Distance of the profile from the cam axis [mm] at cam angles."""
         return np.abs(self.points(cam_angle)[1])

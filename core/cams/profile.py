@@ -171,6 +171,28 @@ def profile_points(
     return _back_turn(cam_angle, sense) * _contact(path, d1, reach)
 
 
+def normals(cam_angle: ArrayLike, path: RollerPath, *, sense: int) -> Points:
+    """Direction from the profile to the roller's centre, in the frame in which the roller is given.
+
+    -N = i eps D1/|D1|
+
+    Parameters
+        cam_angle, path, sense : as of pitch_points
+    Returns
+        normals : (N,) complex array - unit vectors, exact however small the roller is
+    Raises
+        NoSolution - the pitch curve stands still (D1 = 0)
+    Example
+        >>> normals([0.0], translating([90.0], [0.0]), sense=1)
+        array([1.+0.j])
+
+    Source
+        own derivation: envelope of the roller
+    """
+    d1 = _pitch_rate(path, sense)
+    return np.asarray(1j * sense * d1 / _speed(cam_angle, path, d1))
+
+
 def _contact(path: RollerPath, d1: Points, reach: Reals) -> Points:
     # B - i reach D1
     contact = np.empty(d1.shape, dtype=np.complex128)
