@@ -135,7 +135,7 @@ def test_many_mutated_files(tmp_path: Path) -> None:
     "line",
     [
         "swing wide_swing_twin_cam.yaml --set swing=1e-17",  # the arm ratio rounded to 1
-        "register swing_gripper_register.yaml --set cam.roller.radius=1e-17",  # the contact rounded to the centre: no normal
+        "register swing_gripper_register.yaml --set cam.roller.radius=1e-17",  # the contact rounded to the centre
         "loads loaded_wide_swing.yaml --set unloader.arm=1e-17",  # the pin rounded to the pivot: no direction
     ],
 )
