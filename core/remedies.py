@@ -173,7 +173,7 @@ class Bench:
         """
         if found.status == "pass" or (found.status == "warn" and not self._patient):
             return ()  # what warns may be built: no report waits for its trials
-        self._left = self._design.trials
+        self._left = self._design.trials - self._design.effort
         for wanted in (_PASSES, _HOLDS) if found.status == "fail" else (_PASSES,):
             remedy = self._first(found.name, lambda tried, wanted=wanted: self._grade(tried, found, index) >= wanted)  # type: ignore[misc]
             if remedy:
@@ -182,7 +182,7 @@ class Bench:
 
     def detour(self, found: Check, index: int) -> Remedy:
         """What repairs a finding at the price of others, from where a design may be repaired further."""
-        self._left = self._design.trials
+        self._left = self._design.trials - self._design.effort
 
         def good(remedy: Remedy) -> bool:
             trial = self._trial(remedy)
@@ -194,7 +194,7 @@ class Bench:
 
     def of_refusal(self, error: NoSolution) -> Iterator[Remedy]:
         """Remedies of a design that is refused: nothing of what its file asks for is refused then."""
-        self._left = self._design.trials
+        self._left = self._design.trials - self._design.effort
         ways = refusal_ways(self._design.spec, error.key)
         yield from (remedy for remedy in self._closed(REFUSAL) if self._stands(remedy))
         yield from (remedy for remedy in (self._along(way, self._stands) for way in ways) if remedy)
