@@ -89,7 +89,7 @@ class GearedSixBar(OutputRates, RealSpeed, Design):
     @property
     def effort(self) -> int:
         """A motion of many turns, or near its dead centres, is followed over many places."""
-        return self.course.effort // 100 if "course" in self.__dict__ else 0
+        return self.course.effort // 25 if "course" in self.__dict__ else 0
 
     # Gears and links
 

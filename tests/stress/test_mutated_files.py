@@ -14,6 +14,7 @@ import resource
 import signal
 from collections.abc import Iterator
 from contextlib import chdir, contextmanager, redirect_stderr, redirect_stdout
+from itertools import pairwise
 from pathlib import Path
 from random import Random
 from time import perf_counter
@@ -71,7 +72,8 @@ def verdict(arguments: list[str]) -> str:
     text = talk.getvalue()
     if status not in (0, 1, 2) or "Traceback" in text or "Warning" in text:
         return f"status {status}: {text.strip()[:300]}"
-    return unreadable(shown.getvalue(), "json" in arguments and "--show" not in arguments)
+    designs = "--show" in arguments or ("--save", "-") in pairwise(arguments)  # as YAML, in place of results
+    return unreadable(shown.getvalue(), "json" in arguments and not designs)
 
 
 def unreadable(text: str, is_json: bool) -> str:

@@ -275,7 +275,7 @@ def test_gears_of_one_plane_are_judged() -> None:
 
 
 def test_a_motion_of_many_turns_is_not_followed_for_seconds_to_find_a_remedy() -> None:
-    """By counts, which do not depend on the machine: places that were followed, a hundred in the time of a trial."""
+    """By counts, which do not depend on the machine: places that were followed, 25 in the time of a trial."""
     machine = six_bar(
         FOLLOWED, trains=MANY_TURNS, links={"coupler_1": 180, "coupler_2": 180, "coupler_3": 180}, start=OPEN
     )
