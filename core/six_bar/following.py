@@ -138,11 +138,12 @@ class Follower:
         for length, first, slope, n, m in self._links:
             link = cmath.rect(length, first + slope * phi + n * u[0] + m * u[1])
             pushed, one, other = pushed + slope * link, one + n * link, other + m * link
-        determinant, total = (one.conjugate() * other).imag, abs(one) ** 2 + abs(other) ** 2
-        if abs(determinant) < _SINGULAR * total:
+        product, a, b = one.conjugate() * other, abs(one) ** 2, abs(other) ** 2
+        determinant = product.imag
+        if abs(determinant) < _SINGULAR * (a + b):
             return None
         rates = _solve_pair(one, other, -pushed)
-        beta = math.sqrt(0.5 * (total + math.sqrt(max(total * total - 4.0 * determinant**2, 0.0)))) / abs(determinant)
+        beta = math.sqrt(0.5 * (a + b + math.hypot(a - b, 2.0 * product.real))) / abs(determinant)
         turned = [slope + n * rates[0] + m * rates[1] for _, _, slope, n, m in self._links]
         k_rate = sum(size * abs(rate) for size, rate in zip(self._sizes, turned, strict=True))
         m_all = sum(each[0] * rate**2 for each, rate in zip(self._links, turned, strict=True)) + self.bar.lengths[1]
