@@ -55,8 +55,8 @@ def places(made: Figure) -> Places:
 
 
 def _likeness(made: Figure) -> str:
-    title = made._suptitle  # type: ignore[attr-defined]
-    rows = 0 if title is None else 1 + title.get_text().count("\n")  # its words move nothing
+    title = made.get_suptitle()
+    rows = 1 + title.count("\n") if title else 0  # its words move nothing
     return f"{len(made.axes)} panels with {len(_labels(made))} labels below {rows} lines"
 
 

@@ -112,8 +112,9 @@ class InternalInterference:
         q, fn = self._opening, self.pair.fn
         z1, z2 = self.pair.teeth[0], -self.pair.teeth[1]
         ratio = z1 / z2
-        sine = fn.sqrt((1.0 - ratio * q) * (1.0 + ratio * q) / ((1.0 - ratio) * (1.0 + ratio)))
-        t1, t2 = fn.asin(fn.least(1.0, sine)), fn.asin(fn.least(1.0, sine / q))
+        # Both cosines are sqrt(q^2 - 1) times a number: nothing has to be held below 1.
+        sine, cosine = fn.sqrt((1.0 - ratio * q) * (1.0 + ratio * q)), fn.sqrt((q - 1.0) * (q + 1.0))
+        t1, t2 = fn.atan2(sine, ratio * cosine), fn.atan2(sine, cosine)
         return t1 + self._gain(0) - z2 / z1 * (t2 + self._gain(1))
 
     @property
