@@ -16,7 +16,7 @@ import numpy as np
 
 from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.loads.dynamics import Applied, Masses, Reactions, System
-from gearlink.core.loads.kinematics import dot
+from gearlink.core.loads.kinematics import dot, sense_of
 from gearlink.core.loads.mechanism import (
     FRAME,
     Act,
@@ -94,7 +94,7 @@ class Coefficients:
             share = self.of(each)
             if not share:
                 continue
-            direction = np.sign(speed) * np.sign(relative(mechanism, each))
+            direction = np.sign(speed) * sense_of(relative(mechanism, each), relative(mechanism, each, 2))
             if isinstance(each, Guide):
                 at = mechanism.links[each.second].origin.value
                 yield Unit(each.name, [Act(each.second, -direction * each.along, at, 0.0)], share)
@@ -117,16 +117,15 @@ class Coefficients:
         return relative(mechanism, connection)
 
 
-def relative(mechanism: Mechanism, connection: Connection) -> Reals:
-    """Relative turning of a pin, travel of a guide [m], rolling of a mesh; per input angle."""
+def relative(mechanism: Mechanism, connection: Connection, order: int = 1) -> Reals:
+    """Relative turning of a pin, travel of a guide [m], rolling of a mesh; per input angle, or its derivative."""
     if isinstance(connection, Guide):
-        link = mechanism.links[connection.second]
-        return dot(connection.along, link.origin.first)
+        return dot(connection.along, mechanism.links[connection.second].origin[order])
     if isinstance(connection, Rack):
-        return rates(mechanism, connection.carrier, connection.second)
+        return rates(mechanism, connection.carrier, connection.second, order)
     if isinstance(connection, Mesh):
-        return rates(mechanism, connection.carrier, connection.first)
-    return rates(mechanism, connection.first, connection.second)
+        return rates(mechanism, connection.carrier, connection.first, order)
+    return rates(mechanism, connection.first, connection.second, order)
 
 
 class SelfLocking(NoSolution):

@@ -14,6 +14,10 @@ from gearlink.core.errors import NoSolution
 from gearlink.core.numerics.arrays import Points, Reals
 
 
+_TURNING_BACK = 1e-12
+"""Input angle [rad] within which a rate passes through zero at a row: far above rounding, far below any step."""
+
+
 class Point(NamedTuple):
     """A point of the plane [m] and its two derivatives with respect to the input angle; arrays of one shape."""
 
@@ -38,6 +42,12 @@ def cross(a: Points | complex, b: Points | complex) -> Reals:
 def dot(a: Points | complex, b: Points | complex) -> Reals:
     """a . b of plane vectors, Re(conj(a) b)."""
     return np.asarray((np.conj(a) * b).real)
+
+
+def sense_of(first: Reals, second: Reals) -> Reals:
+    """Sign of a rate; where it turns back, which is between two roundings of the angle, the sign just after."""
+    back = np.abs(first) <= _TURNING_BACK * np.abs(second)
+    return np.asarray(np.sign(np.where(back, second, first)))
 
 
 def fixed(place: complex, like: Reals) -> Point:

@@ -324,11 +324,11 @@ class Mechanism:
         return None if name == FRAME else self.links[name]
 
 
-def rates(mechanism: Mechanism, first: str, second: str) -> Reals:
-    """Turning of the second link against the first, per input angle: t_j' - t_i'."""
+def rates(mechanism: Mechanism, first: str, second: str, order: int = 1) -> Reals:
+    """Turning of the second link against the first, per input angle: t_j' - t_i', or its derivative (order 2)."""
 
     def rate(name: str) -> Reals | float:
         link = mechanism.link(name)
-        return 0.0 if link is None else link.turn.first
+        return 0.0 if link is None else link.turn[order]
 
     return np.asarray(rate(second) - rate(first) + np.zeros(mechanism.rows))

@@ -10,7 +10,7 @@ import numpy as np
 from gearlink.core.errors import NoSolution
 from gearlink.core.loads import courses
 from gearlink.core.loads.dynamics import Force, Mass, Torque
-from gearlink.core.loads.kinematics import Point, dot, fixed
+from gearlink.core.loads.kinematics import Point, dot, fixed, sense_of
 from gearlink.core.loads.mechanism import FRAME, Mechanism
 from gearlink.core.numerics.arrays import Reals
 
@@ -102,11 +102,11 @@ def _load(load: Load, mechanism: Mechanism, phi: Reals, sense: float) -> Force |
         if load.force is not None:
             size = courses.values(load.force, phi)
         else:
-            size = -(load.resistance or 0.0) * np.sign(sense * dot(travel, link.origin.first))
+            size = -(load.resistance or 0.0) * sense * sense_of(dot(travel, link.origin.first), dot(travel, link.origin.second))
         return Force(load.on, (size * travel).astype(np.complex128), link.origin)
     if load.torque is not None:
         return Torque(load.on, courses.values(load.torque, phi))
-    return Torque(load.on, -(load.resistance or 0.0) * np.sign(sense * link.turn.first))
+    return Torque(load.on, -(load.resistance or 0.0) * sense * sense_of(link.turn.first, link.turn.second))
 
 
 def _spring(spring: Spring, mechanism: Mechanism, phi: Reals, key: str) -> Iterator[Force]:

@@ -129,3 +129,16 @@ def test_hardly_any_friction_changes_hardly_anything() -> None:
         for friction in (None, {"pins": 1e-6, "pin_radius": 1})
     )
     assert rubbing.range == pytest.approx(free.range, rel=1e-5)
+
+
+def test_where_joints_turn_back_a_row_is_the_one_just_after() -> None:
+    """At 0 and 180 deg coupler and rocker turn back against each other: the pin between them and the mesh that rolls
+    on it change sides there together, and no row has one of them on the old side."""
+    data = factory.worked("wide_lever") | {"loads": {"speed": 90, "gravity": [5, -7]}}
+    data["loads"] |= {"links": {name: {"mass": 2, "inertia": 0.01} for name in ("coupler", "output")}}
+    data["loads"] |= {"friction": RUBBING, "forces": [{"on": "output", "resistance": 3}]}
+    machine = factory.design(data, command="loads").machine
+    back = np.array([0.0, math.pi, 2.0 * math.pi])
+    at, after = machine.reactions(back), machine.reactions(back + 1e-9)
+    assert at.force("C") == pytest.approx(after.force("C"), rel=1e-6)
+    assert at.torque == pytest.approx(after.torque, rel=1e-6)
