@@ -170,7 +170,7 @@ def self_locking(design: LoadsDesign) -> Iterator[Check]:
         return
     from gearlink.core.loads.friction import LOCKS
 
-    ratio, place = design.machine.locking
+    ratio, place = design.nearest_locking
     if place is None:
         message = "with this friction there are no forces with which the mechanism moves: it locks itself"
         yield codes.SELF_LOCKING.check("fail", f"{message}; {_LESS_FRICTION}", None, LOCKS)

@@ -134,6 +134,23 @@ class LoadsDesign(BalancedLoads):
         size = max(*(float(np.max(np.abs(each))) for each in (found.torque, power)), _CANCELLED * float(np.max(parts)))
         return float(np.max(np.abs(found.torque - power))) / size if size else 0.0
 
+    @cached_property
+    def nearest_locking(self) -> tuple[float, float | None]:
+        """How near friction is to locking the machine, the worst of the period, and the input angle [rad].
+
+        Notes
+            As `Machine.locking`, of some rows alone, where the machine locks itself.
+        """
+        from gearlink.core.loads.friction import SelfLocking
+
+        if self.locked:
+            return self.machine.locking
+        try:
+            found = self.extreme(self.machine.passes_ratio)
+        except SelfLocking:
+            return float("inf"), None
+        return found.value, found.place % self.machine.period
+
     # Frame and joints
 
     def course(self, name: str) -> Callable[[Reals], Reals]:

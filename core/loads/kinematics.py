@@ -13,7 +13,6 @@ import numpy as np
 from gearlink.core.errors import NoSolution
 from gearlink.core.numerics.arrays import Points, Reals
 
-
 _TURNING_BACK = 1e-12
 """Input angle [rad] within which a rate passes through zero at a row: far above rounding, far below any step."""
 

@@ -150,10 +150,19 @@ class Machine:
         assert self.friction is not None, "asked for only where there is friction"
         phi = np.linspace(0.0, min(TURN, self.period), 72, endpoint=False)
         try:
-            found = passes_ratio(self.at(phi), self.masses, self.applied(phi), self.gravity, self.speed, self.friction)
+            found = self.passes_ratio(phi)
         except SelfLocking:
             return math.inf, None
         return float(found.max()), float(phi[np.argmax(found)])
+
+    def passes_ratio(self, phi: Reals) -> Reals:
+        """What a pass of the friction leaves of a change at input angles; from 1 on the machine locks itself.
+
+        Raises
+            SelfLocking - where there are no forces with which it moves
+        """
+        assert self.friction is not None, "asked for only where there is friction"
+        return passes_ratio(self.at(phi), self.masses, self.applied(phi), self.gravity, self.speed, self.friction)
 
     def rubbing(self, share: float) -> Machine:
         """The machine with a share of its friction."""

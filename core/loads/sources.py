@@ -102,7 +102,11 @@ def _load(load: Load, mechanism: Mechanism, phi: Reals, sense: float) -> Force |
         if load.force is not None:
             size = courses.values(load.force, phi)
         else:
-            size = -(load.resistance or 0.0) * sense * sense_of(dot(travel, link.origin.first), dot(travel, link.origin.second))
+            size = (
+                -(load.resistance or 0.0)
+                * sense
+                * sense_of(dot(travel, link.origin.first), dot(travel, link.origin.second))
+            )
         return Force(load.on, (size * travel).astype(np.complex128), link.origin)
     if load.torque is not None:
         return Torque(load.on, courses.values(load.torque, phi))

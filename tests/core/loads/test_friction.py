@@ -142,3 +142,20 @@ def test_where_joints_turn_back_a_row_is_the_one_just_after() -> None:
     at, after = machine.reactions(back), machine.reactions(back + 1e-9)
     assert at.force("C") == pytest.approx(after.force("C"), rel=1e-6)
     assert at.torque == pytest.approx(after.torque, rel=1e-6)
+
+
+def test_how_near_it_is_to_locking_is_the_worst_of_all_turns() -> None:
+    """A five-bar of three turns is nearest to locking in its second, between two rows of 5 deg."""
+    links = {"input": 22, "coupler": 80, "follower": 85, "output": 30}
+    data = {"kind": "geared-five-bar", "form": "path", "gears": {"module": 2, "input": 20, "output": 60}, "phase": 30}
+    data |= {"links": links, "coupler_point": {"along": 30}}
+    data["loads"] = {"speed": 90, "links": {name: {"mass": 2, "center": [20, 5]} for name in ("coupler", "follower")}}
+    data["loads"]["friction"] = RUBBING
+    design = factory.design(data, command="loads")
+    rows = np.linspace(0.0, design.machine.period, 5003)
+    worst = float(design.machine.passes_ratio(rows).max())
+    assert design.machine.turns == 3
+    assert worst > 1.05 * design.machine.locking[0]
+    (found,) = design.check("self-locking")
+    assert found.value >= worst * (1.0 - 1e-9)
+    assert found.value == pytest.approx(worst, rel=0.03)  # beside a jump more than at any row
