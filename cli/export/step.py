@@ -94,28 +94,6 @@ def width_of(contour: Contour, width: float | None) -> float:
     return across
 
 
-def section_area(contour: Contour) -> float:
-    """Area between profile and rim [mm^2]: the integral of Im(conj(z) dz)/2 over its cubics, exact by Gauss.
-
-    Notes
-        The integrand is of degree 5 on each cubic, which three points integrate exactly.
-    """
-    from scipy.interpolate import BSpline
-
-    places, weights = np.polynomial.legendre.leggauss(3)
-    total = 0.0
-    for piece in (piece for piece in contour.pieces if piece.stretch.layers[0] == "PROFILE"):
-        control = piece.control[0]
-        spline = BSpline(piece.knots, np.column_stack([control.real, control.imag]), 3)
-        knots = np.unique(piece.knots)
-        half = 0.5 * np.diff(knots)
-        at = (knots[:-1] + half)[:, None] + half[:, None] * places
-        (x, y), (dx, dy) = (np.moveaxis(spline(at.ravel(), order), -1, 0) for order in (0, 1))
-        total += float(((x * dy - y * dx).reshape(at.shape) * half[:, None] * weights).sum())
-    area = abs(0.5 * total * contour.turns.size)
-    return math.pi * contour.part.rim**2 - area if contour.part.rim else area
-
-
 def _profile(contour: Contour) -> list[tuple[Points, Any]]:
     """Control points and knots of each stretch of the profile, all round; of a hole the other way round."""
     (line,) = (line for line in contour.lines if line.layer == "PROFILE")

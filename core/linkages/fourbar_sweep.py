@@ -12,7 +12,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.fourbar import FourBar, inverse_reading
@@ -79,8 +79,7 @@ def solve(
     Returns
         sweep : FourBarSweep - angles continuous in the crank angle as in `fourbar.solve`
     Raises
-        NoSolution - when the linkage does not close at one of the angles, or rates are wanted at a dead point;
-            `assembles` gives the mask
+        NoSolution - when the linkage does not close at one of the angles, or rates are wanted at a dead point
     Example
         >>> sweep = solve(FourBar(18.0, 50.0, 100.0, 121.4), np.radians([45.0, 90.0]), order=1)
         >>> np.round(np.degrees(sweep.rocker_angle), 6).tolist()
@@ -157,23 +156,6 @@ def unit_vectors(linkage: FourBar, crank_angle: Reals, order: int = 2, out: Real
         own derivation, see `gearlink.core.linkages.fourbar_loop`
     """
     return _sweep(linkage.reading, crank_angle, order, _write_vectors, out)
-
-
-def assembles(linkage: FourBar, crank_angle: ArrayLike) -> NDArray[np.bool_]:
-    """Whether the linkage closes, for every crank angle of an array.
-
-    Example
-        >>> assembles(FourBar(150.0, 160.0, 100.0, 300.0), [0.0, 1.0, 2.0]).tolist()
-        [True, True, False]
-
-    Source
-        own derivation: signs of P and Q, see `gearlink.core.linkages.fourbar_loop`
-    """
-    half = 0.5 * np.asarray(crank_angle, dtype=np.float64)
-    reading, cc, ss = linkage.reading, np.cos(half) ** 2, np.sin(half) ** 2
-    p = reading.p_0 * cc + reading.p_pi * ss
-    q = reading.q_0 * cc + reading.q_pi * ss
-    return np.asarray((p >= 0.0) & (q >= 0.0))
 
 
 def _driven(rows: list[Reals], velocity: ArrayLike, acceleration: ArrayLike, jerk: ArrayLike) -> list[Reals]:

@@ -12,13 +12,14 @@ from typing import Any
 
 import numpy as np
 import pytest
+from oracles.closing import assembles
 from stress.worst import COUNTS, EPS, LONG, LONGER_NUMBERS, MANY, Worst
 
 from gearlink.core.cams.laws import law
 from gearlink.core.cams.profile import oscillating, profile, translating
 from gearlink.core.errors import NoSolution
 from gearlink.core.gears.pair import GearPair
-from gearlink.core.linkages import fourbar, fourbar_sweep, slider_crank
+from gearlink.core.linkages import fourbar, slider_crank
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.three_gear.sweep import dwell_angles, momentary_dwells
 from gearlink.core.three_gear.symmetric_back_step import dwell_angle
@@ -81,7 +82,7 @@ def test_four_bars_of_every_class(count: int) -> None:
         try:
             exact = long_four_bar(a, b, c, d, side, phi)
         except ValueError:
-            if not fourbar_sweep.assembles(linkage, phi):
+            if not assembles(linkage, phi):
                 with pytest.raises(NoSolution):
                     fourbar.solve(linkage, phi)
             continue

@@ -6,7 +6,7 @@ import statistics
 import subprocess
 import sys
 import tracemalloc
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from time import process_time
 
@@ -16,7 +16,7 @@ import pytest
 from gearlink.core.cams.profile import profile, translating
 from gearlink.core.linkages import fourbar_sweep
 from gearlink.core.linkages.fourbar import FourBar
-from gearlink.core.numerics.blocks import BLOCK, turn_blocks
+from gearlink.core.numerics.blocks import BLOCK
 from gearlink.core.three_gear.motion import GearTrain
 from gearlink.core.three_gear.sweep import output_motion
 
@@ -24,6 +24,13 @@ LINKAGE, TRAIN = FourBar(18.0, 50.0, 100.0, 121.4), GearTrain(20, 20, 60)
 SIZES = (100_000, 1_000_000, 10_000_000)
 ROUNDS = 3
 GROWTH, MEGABYTES = 1.5, 4.0
+
+
+def turn_blocks(samples: int) -> Iterator[np.ndarray]:
+    """Angles that divide the turn into equal steps, a block at a time."""
+    step = 2.0 * np.pi / samples
+    for start in range(0, samples, BLOCK):
+        yield np.arange(start, min(start + BLOCK, samples), dtype=np.float64) * step
 
 
 def four_bar(count: int) -> float:

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 from factory import design
+from oracles.sections import section_area
 from scipy.interpolate import BSpline
 
 from gearlink.cli.export import parts, step
@@ -147,7 +148,7 @@ def test_section_area_is_that_of_a_fine_polygon() -> None:
         at = np.linspace(piece.knots[0], piece.knots[-1], 4001)
         x, y = BSpline(piece.knots, np.column_stack([piece.control[0].real, piece.control[0].imag]), 3)(at).T
         area += 0.5 * 13 * float((x[:-1] * y[1:] - x[1:] * y[:-1]).sum())
-    assert step.section_area(made) == pytest.approx(area, rel=1e-7)
+    assert section_area(made) == pytest.approx(area, rel=1e-7)
 
 
 def test_a_ring_lies_between_its_teeth_and_its_rim(designs: Path) -> None:
@@ -158,7 +159,7 @@ def test_a_ring_lies_between_its_teeth_and_its_rim(designs: Path) -> None:
     mesh = made.mesh
     middle = math.pi * (ring.part.rim**2 - mesh.reference_radius[1] ** 2)
     teeth = math.pi * (mesh.reference_radius[1] ** 2 - mesh.tip_radius[1] ** 2)
-    assert middle - teeth < step.section_area(ring) < middle + teeth
+    assert middle - teeth < section_area(ring) < middle + teeth
     nodes = np.abs(ring.lines[0].nodes)
     assert nodes.min() == pytest.approx(mesh.tip_radius[1], rel=1e-12)
     assert nodes.max() == pytest.approx(mesh.root_radius[1], rel=1e-12)
@@ -208,7 +209,7 @@ def test_a_solid_that_is_read_again_has_the_volume_of_its_section(given: Any, na
     made = design(worked(given) if isinstance(given, str) else given)
     section = _spline(name, made)
     shape = _read_again(section, made.spec, 12.5, tmp_path)
-    assert _volume(shape) == pytest.approx(12.5 * step.section_area(section), rel=1e-6)
+    assert _volume(shape) == pytest.approx(12.5 * section_area(section), rel=1e-6)
 
 
 NO_STEP = "STEP needs the extra `step` (cadquery-ocp), which is not installed"
@@ -274,7 +275,7 @@ def test_a_helical_solid_is_its_section_turned_along_the_axis(hand: str, name: s
     made = design(PAIR | {"teeth": teeth, "profile_shift": [0.3, 0.1], "helix_angle": 20, "helix_hand": hands})
     section, pair = _spline(name, made, 1e-4), made.gear_pair
     shape = _read_again(section, made.spec, width, tmp_path)
-    assert _volume(shape) == pytest.approx(width * step.section_area(section), rel=1e-6)
+    assert _volume(shape) == pytest.approx(width * section_area(section), rel=1e-6)
     assert step.helix_error(section, width) < 0.01 * section.tolerance
     twist = (1.0 if hand == "right" else -1.0) * math.tan(math.radians(20.0)) / abs(pair.reference_radius[number])
     points, heights = _cut(shape, 0.5)
@@ -301,7 +302,7 @@ def test_a_helical_rack_is_a_slanted_prism(tmp_path: Path) -> None:
     made = design(RACK | {"rack_teeth": 5})
     section = _spline("rack", made, 1e-4)
     shape, straight = (_read_again(each, made.spec, 30.0, tmp_path) for each in (section, _upright(section)))
-    assert _volume(shape) == pytest.approx(30.0 * step.section_area(section), rel=1e-7)
+    assert _volume(shape) == pytest.approx(30.0 * section_area(section), rel=1e-7)
     centers = []
     for solid in (shape, straight):
         found = GProp_GProps()

@@ -14,8 +14,9 @@ from typing import Any
 import numpy as np
 import pytest
 from factory import design, worked
+from oracles.sections import section_area
 
-from gearlink.cli.export import parts, step
+from gearlink.cli.export import parts
 from gearlink.cli.export.contour import contour
 from gearlink.cli.export.options import CurveForm
 from gearlink.cli.figures.path_of_contact import zone_size
@@ -55,7 +56,7 @@ def test_the_solid_has_the_area_of_trapezia_less_the_roundings() -> None:
     below = 30 * (pitch / 2 * deep + deep * deep * math.tan(alpha))
     turned = math.pi / 2 - alpha  # each corner is rounded by an arc of this angle
     corner = rho * rho * (math.tan(turned / 2) - turned / 2)
-    assert step.section_area(made) == pytest.approx(teeth + below + 60 * corner + 30 * pitch * 12.0, rel=3e-8)
+    assert section_area(made) == pytest.approx(teeth + below + 60 * corner + 30 * pitch * 12.0, rel=3e-8)
 
 
 def test_files_of_a_rack_and_what_has_none(gearlink: Any, designs: Path, tmp_path: Path) -> None:

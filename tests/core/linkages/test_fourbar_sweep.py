@@ -20,6 +20,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from oracles.closing import assembles
 from sweeps import examples
 
 from gearlink.core.errors import NoSolution
@@ -161,10 +162,10 @@ def test_angles_are_continuous_over_several_turns(linkage: FourBar) -> None:
 def test_the_loop_closes_for_any_linkage_that_does(lengths: tuple[float, ...], assembly: int) -> None:
     linkage = FourBar(*lengths, assembly)
     if linkage.kind() == "impossible":
-        assert not sweep.assembles(linkage, np.linspace(-4.0, 4.0, 101)).any()
+        assert not assembles(linkage, np.linspace(-4.0, 4.0, 101)).any()
         return
     phi = np.linspace(-4.0, 4.0, 100)  # without 0, where B may fall on D
-    phi = phi[sweep.assembles(linkage, phi)]
+    phi = phi[assembles(linkage, phi)]
     rows = sweep.unit_vectors(linkage, phi, 0)
     got = sweep.solve(linkage, phi)
     dev = np.maximum(np.minimum(got.transmission_angle, np.pi - got.transmission_angle), 1e-8)
@@ -208,7 +209,7 @@ def test_output_rows_are_reused() -> None:
 
 def test_refusal_names_the_first_angle_that_does_not_close() -> None:
     phi = np.radians(np.arange(0.0, 91.0))
-    assert sweep.assembles(DOUBLE_ROCKER, phi).sum() == 61
+    assert assembles(DOUBLE_ROCKER, phi).sum() == 61
     with pytest.raises(NoSolution, match=r"crank angle 61 deg: \|BD\| = .* mm too long .*60.0734833 deg"):
         sweep.solve(DOUBLE_ROCKER, phi)
     with pytest.raises(NoSolution, match="dead point at crank angle 0 deg"):
