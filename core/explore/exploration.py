@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from gearlink.core.design import Design, Outline
+from gearlink.core.design import Design, Outline, placed
 from gearlink.core.explore.chunks import Miss, chunk_of, together
 from gearlink.core.explore.front import SHOWN, Found
 from gearlink.core.explore.order import Variable
@@ -62,10 +62,7 @@ class Exploration(Design):
         """
         _ = self.problem.order
 
-    @property
-    def designs(self) -> int:
-        """Designs that were computed."""
-        return self.found.total.designs
+    designs: int = placed("found.total.designs")
 
     @property
     def refused(self) -> int:
@@ -73,15 +70,8 @@ class Exploration(Design):
         misses = self.found.total.misses
         return sum(miss.fails for name, miss in misses.items() if name.startswith("refused "))
 
-    @property
-    def feasible(self) -> int:
-        """Designs that satisfy everything."""
-        return self.found.total.feasible
-
-    @property
-    def front_size(self) -> int:
-        """Designs of the exact front."""
-        return self.found.front_size
+    feasible: int = placed("found.total.feasible")
+    front_size: int = placed("found.front_size")
 
     @property
     def kept(self) -> int:
@@ -93,15 +83,8 @@ class Exploration(Design):
         """Rows that a terminal shows."""
         return min(self.kept, SHOWN)
 
-    @property
-    def exhaustive(self) -> bool:
-        """Whether every design was computed."""
-        return self.problem.exhaustive
-
-    @property
-    def knee(self) -> int | None:
-        """Index of the design at the knee of the front."""
-        return self.found.knee
+    exhaustive: bool = placed("problem.exhaustive")
+    knee: int | None = placed("found.knee")
 
     def table_front(self, _samples: int | None = None) -> Table:
         """The kept designs, sorted by the first objective."""

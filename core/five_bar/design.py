@@ -172,25 +172,10 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, FiveBarParts):
             return self.path_bar.span_extremes
         return self.function_bar.reach_extremes(*self.input_range)
 
-    @property
-    def span_min(self) -> float:
-        """Least distance of the dyad's ends [mm]."""
-        return self._spans[0][1]
-
-    @property
-    def span_min_at(self) -> float:
-        """Input angle of it [rad]."""
-        return self._spans[0][0]
-
-    @property
-    def span_max(self) -> float:
-        """Greatest distance of the dyad's ends [mm]."""
-        return self._spans[1][1]
-
-    @property
-    def span_max_at(self) -> float:
-        """Input angle of it [rad]."""
-        return self._spans[1][0]
+    span_min: float = placed("_spans.0.1")
+    span_min_at: float = placed("_spans.0.0")
+    span_max: float = placed("_spans.1.1")
+    span_max_at: float = placed("_spans.1.0")
 
     @cached_property
     def _transmission(self) -> tuple[float, float]:
@@ -198,15 +183,8 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, FiveBarParts):
             return self.path_bar.min_transmission_angle()
         return self.function_bar.min_transmission_angle(*self.input_range)
 
-    @property
-    def min_transmission_angle(self) -> float:
-        """Least angle between the two links of the dyad [rad]."""
-        return self._transmission[0]
-
-    @property
-    def min_transmission_angle_at(self) -> float:
-        """Input angle of it [rad]."""
-        return self._transmission[1]
+    min_transmission_angle: float = placed("_transmission.0")
+    min_transmission_angle_at: float = placed("_transmission.1")
 
     # Path
 
@@ -247,11 +225,7 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, FiveBarParts):
         """The bodies in the plane of the gears."""
         return bodies.layout(self)
 
-    @property
-    def gear_gap(self) -> float | None:
-        """Gap of the tips of input and output gear with an idler between them [mm]."""
-        return self.layout.gear_gap
-
+    gear_gap: float | None = placed("layout.gear_gap")
     structural_error: float | None = placed("function_fit.error.greatest")
     error_extremes: int | None = placed("function_fit.error.alternations")
     function_start: float | None = placed("function_fit.start")

@@ -267,15 +267,8 @@ class LoadsBase(Design):
         """Least and greatest input torque [N m], with their places."""
         return self.extreme_of("torque", False), self.extreme_of("torque")
 
-    @property
-    def input_torque_max(self) -> float:
-        """Greatest input torque [N m]."""
-        return self.torque_range[1].value
-
-    @property
-    def input_torque_min(self) -> float:
-        """Least input torque [N m]."""
-        return self.torque_range[0].value
+    input_torque_max: float = placed("torque_range.1.value")
+    input_torque_min: float = placed("torque_range.0.value")
 
     @property
     def input_torque_max_at(self) -> float:
@@ -357,10 +350,7 @@ class LoadsBase(Design):
 
         return Running(self)
 
-    @property
-    def flywheel_inertia(self) -> float | None:
-        """Flywheel for the fluctuation of the file [kg m^2]."""
-        return self.running.needed
+    flywheel_inertia: float | None = placed("running.needed")
 
     def _of_run(self, value: Callable[[], float]) -> float | None:
         """A result of the run, where the file has a flywheel or a motor and the machine does not stop."""

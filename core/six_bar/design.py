@@ -144,25 +144,15 @@ class GearedSixBar(OutputRates, RealSpeed, Design):
             message = f"{name} would be {other:.9g} mm, {why} {one:.9g} mm: leave one out, or change module or teeth"
             raise NoSolution(message, key=key)
 
-    @property
-    def input_length(self) -> float:
-        """AB [mm]."""
-        return self.lengths[1]
+    input_length: float = placed("lengths.1")
 
     @property
     def coupler_length(self) -> list[float]:
         """BC, CD, DE [mm]."""
         return list(self.lengths[2:5])
 
-    @property
-    def output_length(self) -> float:
-        """EF [mm]."""
-        return self.lengths[5]
-
-    @property
-    def frame_length(self) -> float:
-        """AF [mm]."""
-        return self.lengths[0]
+    output_length: float = placed("lengths.5")
+    frame_length: float = placed("lengths.0")
 
     # Motion
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from gearlink.core.design import placed
 from gearlink.core.errors import at_key
 from gearlink.core.linkages.band_dwell import ToleranceDwell
 from gearlink.core.linkages.checks import check_linkage
@@ -39,15 +40,8 @@ class TolerancedDrive(ThreeGearFourBar):
         super().__init__(spec)
         self.lengths, self.window = lengths, window
 
-    @property
-    def coupler_length(self) -> float:
-        """Coupler as it is made [mm]."""
-        return self.lengths[1]
-
-    @property
-    def rocker_length(self) -> float:
-        """Rocker as it is made [mm]."""
-        return self.lengths[2]
+    coupler_length: float = placed("lengths.1")
+    rocker_length: float = placed("lengths.2")
 
     @cached_property
     def linkage(self) -> FourBar:
@@ -57,10 +51,7 @@ class TolerancedDrive(ThreeGearFourBar):
             check_linkage(linkage)
         return linkage
 
-    @cached_property
-    def dwell_crank_angles(self) -> list[float]:
-        """Crank angles of zero output speed [rad], ascending."""
-        return self.by_roots.places
+    dwell_crank_angles: list[float] = placed("by_roots.places")
 
     @cached_property
     def motion(self) -> str:
@@ -70,15 +61,8 @@ class TolerancedDrive(ThreeGearFourBar):
             return "back-step"
         return MOMENTARY_DWELL if places else UNIDIRECTIONAL
 
-    @cached_property
-    def back_step(self) -> BackStep | None:
-        """The back-step, where there is one."""
-        return self.by_roots.back_step
-
-    @cached_property
-    def dwell_angle(self) -> float | None:
-        """Crank angle until the output regains its place [rad]."""
-        return self.by_roots.dwell_angle
+    back_step: BackStep | None = placed("by_roots.back_step")
+    dwell_angle: float | None = placed("by_roots.dwell_angle")
 
     @cached_property
     def tolerance_dwell(self) -> ToleranceDwell | None:

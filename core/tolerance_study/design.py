@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from gearlink.core.design import Design, Outline
+from gearlink.core.design import Design, Outline, placed
 from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
@@ -86,30 +86,16 @@ class ToleranceStudy(Design):
             return self.result.good.value
         return super().raw(name)
 
-    @property
-    def yield_low(self) -> float:
-        """Lower end of the yield's interval."""
-        return self.result.good.low
-
-    @property
-    def yield_high(self) -> float:
-        """Upper end of the yield's interval."""
-        return self.result.good.high
-
-    @property
-    def samples(self) -> int:
-        """Samples that were computed."""
-        return self.result.samples
+    yield_low: float = placed("result.good.low")
+    yield_high: float = placed("result.good.high")
+    samples: int = placed("result.samples")
 
     @property
     def seed(self) -> int:
         """Seed of the samples."""
         return int(self.problem.section.seed)
 
-    @property
-    def no_mechanism(self) -> float:
-        """Share of samples that do not exist."""
-        return self.result.missing
+    no_mechanism: float = placed("result.missing")
 
     # Tables
 
