@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from gearlink.core.report import Column
 
+OUTPUT_SPEEDS = ("output_speed_max", "output_speed_min", "output_acceleration_max", "output_acceleration_min")
+SLIDER_SPEEDS = ("slider_velocity_max", "slider_velocity_min", "slider_acceleration_max", "slider_acceleration_min")
 _MILLISECONDS = 1000.0
 _OF_TIME = {0: "", 1: "/s", 2: "/s^2", 3: "/s^3"}
 
@@ -89,6 +91,15 @@ class OutputSpeed:
     output_speed_min: float | None = per_time("speed_ratio_min", 1)
     output_acceleration_max: float | None = per_time("acceleration_ratio_max", 2)
     output_acceleration_min: float | None = per_time("acceleration_ratio_min", 2)
+
+
+class SliderSpeed(RealSpeed):
+    """Greatest and least velocity [mm/s] and acceleration [mm/s^2] of a slider, from its rates by the input angle."""
+
+    slider_velocity_max: float | None = per_time("velocity_max", 1)
+    slider_velocity_min: float | None = per_time("velocity_min", 1)
+    slider_acceleration_max: float | None = per_time("acceleration_max", 2)
+    slider_acceleration_min: float | None = per_time("acceleration_min", 2)
 
 
 def _scaled(data: Any, factor: float) -> Any:

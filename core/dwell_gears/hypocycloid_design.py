@@ -20,8 +20,9 @@ from gearlink.core.gears.single_mesh import MESH_CHECKS
 from gearlink.core.gears.train_names import TRAIN_CHECKS
 from gearlink.core.gears.train_ways import train_ways
 from gearlink.core.linkages.checks import transmission_check
+from gearlink.core.motion_extremes import names
 from gearlink.core.numerics.rows import row_numbers
-from gearlink.core.real_speed import RealSpeed, per_time
+from gearlink.core.real_speed import SLIDER_SPEEDS, SliderSpeed, per_time
 from gearlink.core.remedies import Way, up
 from gearlink.core.report import Check, Remedy, Table
 from gearlink.core.results import cached_property
@@ -30,7 +31,7 @@ if TYPE_CHECKING:
     from gearlink.core.dwell_gears.hypocycloid_spec import HypocycloidDwellSpec
 
 
-class HypocycloidDwell(RealSpeed, Meshed):
+class HypocycloidDwell(SliderSpeed, Meshed):
     """Slider that dwells while a point of the planet runs along an arc about its centre."""
 
     kind = "hypocycloid-dwell"
@@ -55,20 +56,10 @@ class HypocycloidDwell(RealSpeed, Meshed):
                 "ripple_share",
                 "min_transmission_angle",
                 "contact_ratio",
-                "velocity_max",
-                "velocity_max_at",
-                "velocity_min",
-                "velocity_min_at",
-                "acceleration_max",
-                "acceleration_max_at",
-                "acceleration_min",
-                "acceleration_min_at",
+                *names("velocity", "acceleration"),
                 "input_speed",
                 "turn_time",
-                "slider_velocity_max",
-                "slider_velocity_min",
-                "slider_acceleration_max",
-                "slider_acceleration_min",
+                *SLIDER_SPEEDS,
                 "dwell_time",
             ),
             ("dwell-quality", "shaft-clearance", "transmission-angle", *MESH_CHECKS),
@@ -244,10 +235,6 @@ class HypocycloidDwell(RealSpeed, Meshed):
     acceleration_max_at: float = placed("slider.hardest.1")
     acceleration_min: float = placed("slider.hardest_inwards.0")
     acceleration_min_at: float = placed("slider.hardest_inwards.1")
-    slider_velocity_max: float | None = per_time("velocity_max", 1)
-    slider_velocity_min: float | None = per_time("velocity_min", 1)
-    slider_acceleration_max: float | None = per_time("acceleration_max", 2)
-    slider_acceleration_min: float | None = per_time("acceleration_min", 2)
     dwell_time: float | None = per_time("_dwell_reached", -1)
 
     @property

@@ -21,7 +21,7 @@ from gearlink.core.gears.train_names import TRAIN_CHECKS
 from gearlink.core.gears.train_ways import train_ways
 from gearlink.core.linkages.checks import target_check, transmission_check
 from gearlink.core.motion_extremes import WithExtremes, names
-from gearlink.core.real_speed import OutputSpeed, RealSpeed, per_time
+from gearlink.core.real_speed import OUTPUT_SPEEDS, OutputSpeed, RealSpeed, per_time
 from gearlink.core.remedies import down, either, up
 from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
@@ -99,10 +99,7 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, FiveBarParts):
                 "point_speed_max",
                 "point_speed_min",
                 "point_acceleration_max",
-                "output_speed_max",
-                "output_speed_min",
-                "output_acceleration_max",
-                "output_acceleration_min",
+                *OUTPUT_SPEEDS,
             ),
             ("closure", "target", "gear-collision", "shaft-clearance", "transmission-angle", *MESH_CHECKS, "backlash"),
             ("path", "function", "deviations", "structural_error", "search"),

@@ -67,8 +67,6 @@ def fit_function(
         nodes, the transmission angle as a penalty at the nodes; the five best are levelled by linear programs on 121
         places with a region of trust. Levelled is what has eight alternating extremes of one size, one fewer for each
         place where the transmission angle is at its limit; that no other start would come lower is not proved.
-    Source
-        own derivation
     """
     begun, best, rounds = time.monotonic(), None, []
     for number in range(_ROUNDS if seconds is None else 1_000_000):
@@ -258,9 +256,6 @@ def _level_slopes(bar: FunctionFiveBar, start: float, swing: Reals) -> tuple[Rea
     """Derivatives of the output angle and of cos mu by ln b, ln c, ln e, ln d, t20 and phi0, at the places.
 
     |g| = c,  g = a e^(i phi) + b e^(i t2) - d - e e^(i psi):   dpsi = (Re(g* dg) - c dc)/Re(g* i e e^(i psi))
-
-    Source
-        own derivation
     """
     phi = start + swing
     c, e, d = bar.follower, bar.output, bar.frame

@@ -60,8 +60,6 @@ def fit_timed(
     Notes
         Each round: up to 600 scattered starts that close, the 48 whose paths come nearest tried at 48 places of the
         first point, 120 steps of Levenberg and Marquardt; the transmission angle is a penalty.
-    Source
-        own derivation
     """
     scale = float(np.max(np.abs(targets[:, None] - targets[None, :])))
     if not scale > 0.0:

@@ -57,49 +57,29 @@ class InternalMesh:
 
     @property
     def center_distance(self) -> float:
-        """Centre distance, m (z_2 - z_1)/2 [mm].
-
-        Source
-            ISO 21771
-        """
+        """Centre distance, m (z_2 - z_1)/2 [mm]."""
         return self.module * (self.teeth[1] - self.teeth[0]) / 2.0
 
     @property
     def reference_radius(self) -> Pair:
-        """Reference radii [mm], here the working ones too.
-
-        Source
-            ISO 21771
-        """
+        """Reference radii [mm], here the working ones too."""
         return self.module * self.teeth[0] / 2.0, self.module * self.teeth[1] / 2.0
 
     @property
     def base_radius(self) -> Pair:
-        """Base radii, r cos(alpha) [mm].
-
-        Source
-            ISO 21771
-        """
+        """Base radii, r cos(alpha) [mm]."""
         r_1, r_2 = self.reference_radius
         return r_1 * math.cos(self.pressure_angle), r_2 * math.cos(self.pressure_angle)
 
     @property
     def tip_radius(self) -> Pair:
-        """Tip radii [mm]; the ring's tips point inward.
-
-        Source
-            ISO 21771
-        """
+        """Tip radii [mm]; the ring's tips point inward."""
         r_1, r_2 = self.reference_radius
         return r_1 + self.addendum * self.module, r_2 - self.addendum * self.module
 
     @property
     def root_radius(self) -> Pair:
-        """Root radii [mm].
-
-        Source
-            ISO 21771
-        """
+        """Root radii [mm]."""
         depth = (self.addendum + self.clearance) * self.module
         r_1, r_2 = self.reference_radius
         return r_1 - depth, r_2 + depth
@@ -115,8 +95,6 @@ class InternalMesh:
 
         Raises
             NoSolution - where the ring's tips lie inside its base circle
-        Source
-            ISO 21771
         """
         (a_1, a_2), (b_1, b_2) = self.tip_radius, self.base_radius
         if a_2 < b_2:
@@ -155,8 +133,6 @@ class InternalMesh:
 
         Raises
             NoSolution - as `tip_pressure_angle`
-        Source
-            ISO 21771
         """
         tip_1, tip_2 = (math.tan(angle) for angle in self.tip_pressure_angle)
         reference = math.tan(self.pressure_angle)

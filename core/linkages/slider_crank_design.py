@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 from gearlink.core.design import Design, Outline, placed
 from gearlink.core.linkages.checks import transmission_check
 from gearlink.core.linkages.slider_crank import SliderCrank, slider
-from gearlink.core.real_speed import RealSpeed, per_time
+from gearlink.core.motion_extremes import names
+from gearlink.core.real_speed import SLIDER_SPEEDS, SliderSpeed, per_time
 from gearlink.core.remedies import down, either, up
 from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
@@ -22,23 +23,13 @@ _SIZES = ("crank_length", "stroke", *SLIDER_QUANTITIES)
 _MOTION = (
     "forward_angle",
     "return_angle",
-    "velocity_max",
-    "velocity_max_at",
-    "velocity_min",
-    "velocity_min_at",
-    "acceleration_max",
-    "acceleration_max_at",
-    "acceleration_min",
-    "acceleration_min_at",
+    *names("velocity", "acceleration"),
     "min_transmission_angle",
     "input_speed",
     "turn_time",
     "forward_time",
     "return_time",
-    "slider_velocity_max",
-    "slider_velocity_min",
-    "slider_acceleration_max",
-    "slider_acceleration_min",
+    *SLIDER_SPEEDS,
 )
 
 
@@ -52,7 +43,7 @@ class SliderCrankQuantities:
     max_stroke: float = placed("slider_crank.max_stroke")
 
 
-class SliderCrankDesign(RealSpeed, SliderCrankQuantities, Design):
+class SliderCrankDesign(SliderSpeed, SliderCrankQuantities, Design):
     """The slider-crank of a design file; its crank turns counter-clockwise, F lies below D on x = -offset."""
 
     kind = "slider-crank"
@@ -133,10 +124,6 @@ class SliderCrankDesign(RealSpeed, SliderCrankQuantities, Design):
     acceleration_max_at: float = placed("hardest.0.place")
     acceleration_min: float = placed("hardest.1.value")
     acceleration_min_at: float = placed("hardest.1.place")
-    slider_velocity_max: float | None = per_time("velocity_max", 1)
-    slider_velocity_min: float | None = per_time("velocity_min", 1)
-    slider_acceleration_max: float | None = per_time("acceleration_max", 2)
-    slider_acceleration_min: float | None = per_time("acceleration_min", 2)
     forward_time: float | None = per_time("forward_angle", -1)
     return_time: float | None = per_time("return_angle", -1)
 

@@ -20,10 +20,11 @@ from gearlink.core.linkages.fourbar import FourBar, solve
 from gearlink.core.linkages.output_rates import OutputRates
 from gearlink.core.linkages.standstills import Turning, turnings
 from gearlink.core.linkages.swing import rocker_swing
+from gearlink.core.motion_extremes import names
 from gearlink.core.planet_linkages.bodies import rocker_layout
 from gearlink.core.planet_linkages.planet import PlanetLinkage
 from gearlink.core.planet_linkages.rocker_synthesis import crank_for_swing, extreme_crank_angles
-from gearlink.core.real_speed import RealSpeed
+from gearlink.core.real_speed import OUTPUT_SPEEDS, RealSpeed
 from gearlink.core.remedies import down, either, up
 from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
@@ -62,23 +63,14 @@ class GearedRocker(OutputRates, RealSpeed, Meshed):
                 "swing_multiple",
                 "naive_multiple",
                 "extreme_crank_angles",
-                "speed_ratio_max",
-                "speed_ratio_max_at",
-                "speed_ratio_min",
-                "speed_ratio_min_at",
-                "acceleration_ratio_max",
-                "acceleration_ratio_max_at",
-                "acceleration_ratio_min",
-                "acceleration_ratio_min_at",
+                *names("speed_ratio"),
+                *names("acceleration_ratio"),
                 "min_transmission_angle",
                 "swing_residual",
                 "contact_ratio",
                 "input_speed",
                 "turn_time",
-                "output_speed_max",
-                "output_speed_min",
-                "output_acceleration_max",
-                "output_acceleration_min",
+                *OUTPUT_SPEEDS,
             ),
             ("target", "shaft-clearance", "transmission-angle", *GEAR_CHECKS, "backlash"),
             ("motion",),

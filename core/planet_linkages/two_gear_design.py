@@ -22,10 +22,11 @@ from gearlink.core.linkages.fourbar import FourBar, solve
 from gearlink.core.linkages.output_rates import OutputRates
 from gearlink.core.linkages.standstills import BackStep, Turning
 from gearlink.core.linkages.swing import rocker_swing
+from gearlink.core.motion_extremes import names
 from gearlink.core.planet_linkages.bodies import two_gear_layout
 from gearlink.core.planet_linkages.codes import DWELL_CONDITION
 from gearlink.core.planet_linkages.planet import PlanetLinkage, standstill_coupler_ratio
-from gearlink.core.real_speed import per_time
+from gearlink.core.real_speed import OUTPUT_SPEEDS, per_time
 from gearlink.core.remedies import down, either, up
 from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
@@ -62,17 +63,11 @@ QUANTITIES = (
     "back_step_crank_angle",
     "min_transmission_angle",
     "contact_ratio",
-    "acceleration_ratio_max",
-    "acceleration_ratio_max_at",
-    "acceleration_ratio_min",
-    "acceleration_ratio_min_at",
+    *names("acceleration_ratio"),
     "rocker_swing",
     "input_speed",
     "turn_time",
-    "output_speed_max",
-    "output_speed_min",
-    "output_acceleration_max",
-    "output_acceleration_min",
+    *OUTPUT_SPEEDS,
     "back_step_time",
     *FEED_QUANTITIES,
 )

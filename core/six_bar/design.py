@@ -16,7 +16,8 @@ from gearlink.core.gears.pair import GearPair
 from gearlink.core.gears.single_mesh import MESH_CHECKS, mesh_checks, mesh_quantity
 from gearlink.core.linkages.checks import transmission_check
 from gearlink.core.linkages.output_rates import OutputRates
-from gearlink.core.real_speed import RealSpeed
+from gearlink.core.motion_extremes import names
+from gearlink.core.real_speed import OUTPUT_SPEEDS, RealSpeed
 from gearlink.core.remedies import down, either, up
 from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
@@ -53,15 +54,9 @@ class GearedSixBar(OutputRates, RealSpeed, Design):
                 "period_turns",
                 "mean_ratio",
                 "output_swing",
-                "speed_ratio_max",
-                "speed_ratio_max_at",
-                "speed_ratio_min",
-                "speed_ratio_min_at",
+                *names("speed_ratio"),
                 "dwell_crank_angles",
-                "acceleration_ratio_max",
-                "acceleration_ratio_max_at",
-                "acceleration_ratio_min",
-                "acceleration_ratio_min_at",
+                *names("acceleration_ratio"),
                 "min_transmission_angle",
                 "min_transmission_angle_at",
                 "center_distance",
@@ -69,10 +64,7 @@ class GearedSixBar(OutputRates, RealSpeed, Design):
                 "contact_ratio",
                 "input_speed",
                 "turn_time",
-                "output_speed_max",
-                "output_speed_min",
-                "output_acceleration_max",
-                "output_acceleration_min",
+                *OUTPUT_SPEEDS,
             ),
             ("gear-collision", "shaft-clearance", "transmission-angle", *MESH_CHECKS),
             ("motion",),

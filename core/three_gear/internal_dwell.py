@@ -132,8 +132,6 @@ def standstills(linkage: FourBar, train: GearTrain, radii: tuple[float, float, f
     Notes
         Each root of the quadratic is followed by Newton steps on the speed ratio, which take out what cancels where
         both roots are near each other: always so for S near 0, a ring output with coupler and rocker of equal length.
-    Source
-        own derivation
     """
     r1, r3, r5 = radii
     s, facing = r1 + 2.0 * r3 + r5, math.copysign(1.0, (r1 + r3) * (r3 + r5))

@@ -5,6 +5,8 @@ from __future__ import annotations
 from gearlink.core.gears.meshed import named
 from gearlink.core.gears.single_mesh import MESH_CHECKS
 from gearlink.core.linkages.feed import FEED_QUANTITIES
+from gearlink.core.motion_extremes import names
+from gearlink.core.real_speed import OUTPUT_SPEEDS
 
 QUANTITIES = (
     "i3",
@@ -30,19 +32,13 @@ QUANTITIES = (
     "nonuniformity",
     "speed_ratio_max_at",
     "speed_ratio_min_at",
-    "acceleration_ratio_max",
-    "acceleration_ratio_max_at",
-    "acceleration_ratio_min",
-    "acceleration_ratio_min_at",
+    *names("acceleration_ratio"),
     "rocker_swing",
     "tolerance_dwell_angle",
     "tolerance_dwell_start",
     "input_speed",
     "turn_time",
-    "output_speed_max",
-    "output_speed_min",
-    "output_acceleration_max",
-    "output_acceleration_min",
+    *OUTPUT_SPEEDS,
     "back_step_time",
     "dwell_time",
     "tolerance_dwell_time",
