@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import Format, Options
-from gearlink.cli.texts.columns import COLUMNS, CONSTANTS, column_words
 from gearlink.cli.texts.known import index
+from gearlink.cli.texts.words import COLUMNS, CONSTANTS, FORMULAS, column_words
 from gearlink.core.errors import named
 
 if TYPE_CHECKING:
@@ -166,7 +166,6 @@ def _kinds_with_checks(checks: tuple[str, ...]) -> str:
 
 
 def _quantity(name: str) -> Topic:
-    from gearlink.cli.texts.formulas import FORMULAS
     from gearlink.core.nomenclature import term
 
     entry = term(name)

@@ -43,14 +43,21 @@ def feed_radius(feed: Feed) -> float:
     return ratio * ((feed.radius or 0.0) + 0.5 * feed.belt_thickness)
 
 
+def _fed_per_time(name: str, order: int) -> Any:
+    """A ratio of the output's motion as that of what is fed [mm/s^order]; None without `feed` or `input_speed`."""
+
+    def value(design: Any) -> Any:
+        if design.spec.feed is None or design.angular_speed is None:
+            return None
+        return getattr(design, name) * design.angular_speed**order * design.feed_radius
+
+    return property(value, doc=f"`{name}` of what is fed, in real time.")
+
+
 class FeedResults(RealSpeed):
     """Results of a design whose file may have a section `feed`; None of them without it."""
 
     mean_ratio: Any
-    speed_ratio_max: Any
-    speed_ratio_min: Any
-    acceleration_ratio_max: Any
-    acceleration_ratio_min: Any
     back_step_angle: Any
 
     @property
@@ -74,38 +81,14 @@ class FeedResults(RealSpeed):
         feed = self.spec.feed
         return None if feed is None or feed.teeth is None else 2.0 * math.sin(0.5 * math.pi / feed.teeth) ** 2
 
-    @property
-    def feed_velocity_max(self) -> float | None:
-        """Greatest velocity of what is fed [mm/s]."""
-        return self._real("speed_ratio_max", 1)
-
-    @property
-    def feed_velocity_min(self) -> float | None:
-        """Least velocity of what is fed [mm/s]."""
-        return self._real("speed_ratio_min", 1)
-
-    @property
-    def feed_velocity_mean(self) -> float | None:
-        """Mean velocity of what is fed [mm/s]."""
-        return self._real("mean_ratio", 1)
-
-    @property
-    def feed_acceleration_max(self) -> float | None:
-        """Greatest acceleration of what is fed [mm/s^2]."""
-        return self._real("acceleration_ratio_max", 2)
-
-    @property
-    def feed_acceleration_min(self) -> float | None:
-        """Least acceleration of what is fed [mm/s^2]."""
-        return self._real("acceleration_ratio_min", 2)
+    feed_velocity_max: float | None = _fed_per_time("speed_ratio_max", 1)
+    feed_velocity_min: float | None = _fed_per_time("speed_ratio_min", 1)
+    feed_velocity_mean: float | None = _fed_per_time("mean_ratio", 1)
+    feed_acceleration_max: float | None = _fed_per_time("acceleration_ratio_max", 2)
+    feed_acceleration_min: float | None = _fed_per_time("acceleration_ratio_min", 2)
 
     def _fed(self, angle: float | None) -> float | None:
         return None if angle is None or self.feed_radius is None else angle * self.feed_radius
-
-    def _real(self, name: str, order: int) -> float | None:
-        if self.spec.feed is None or self.angular_speed is None:
-            return None
-        return self._fed(getattr(self, name) * self.angular_speed**order)
 
     def timed(
         self, columns: Mapping[str, tuple[Column, str]], angle: str, rates: Mapping[str, tuple[str, int]]

@@ -12,8 +12,7 @@ from sweeps import mostly_slow
 
 from gearlink.cli.commands.explain import names
 from gearlink.cli.texts.codes import explanations
-from gearlink.cli.texts.columns import column_words
-from gearlink.cli.texts.formulas import FORMULAS
+from gearlink.cli.texts.words import FORMULAS, column_words
 from gearlink.core.codes import rules
 from gearlink.core.kinds import FILES as KINDS
 from gearlink.core.nomenclature import TERMS
