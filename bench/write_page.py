@@ -49,8 +49,8 @@ _REASONS = """## Where a goal is missed, and why
   which is two thirds of a scalar command), of numpy for sweeps, and of rich for tables on a terminal.
 * **Pictures, reports, films.** Of `cam --plot`, the imports of matplotlib and numpy are a third, drawing a fifth (half
   of it words), making the panels an eighth and their layout a tenth; words are measured once, and stand where they were
-  measured. `gear --plot` draws six panels with symbols set as mathematics, and the blocking contour, a third of its
-  time: some ten thousand roots and forty thousand values of pairs. A report draws its further sheets in
+  measured. `gear --plot` draws six panels with symbols set as mathematics, and the blocking contour, a tenth of its
+  time: some two thousand roots and forty thousand values of pairs, as arrays. A report draws its further sheets in
   other processes: three on two processors take the time of two. A film of a machine with true teeth spends its time on
   polygons, reduction and encoding, some 10 ms a frame, drawn in as many processes as there are processors.
 * **All worked designs.** The folder holds searches, studies and loads of a second or two each (a five-bar's function, a

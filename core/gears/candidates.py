@@ -16,21 +16,22 @@ if TYPE_CHECKING:
     from gearlink.core.report import Column
 
 
+def strengths(data: GearData) -> Pair | None:
+    """Y_F Y_S over width and permissible stress of both gears; None where a root has no section."""
+    root = data.root
+    widths = root.bearing_width or (1.0, 1.0)
+    found = []
+    for section, width, material in zip(root.sections, widths, data.materials, strict=True):
+        if section is None:
+            return None
+        permissible = (material.bending_limit or 1.0) * material.bending_factors
+        found.append(section.form_factor * section.stress_correction_factor / (width * permissible))
+    return found[0], found[1]
+
+
 def strength_of(data: GearData) -> Callable[[GearPair], Pair | None]:
-    """Y_F Y_S over width and permissible stress of both gears, for any pair with the data of this one."""
-
-    def strength(pair: GearPair) -> Pair | None:
-        root = replace(data, pair=pair).root
-        widths = root.bearing_width or (1.0, 1.0)
-        found = []
-        for section, width, material in zip(root.sections, widths, data.materials, strict=True):
-            if section is None:
-                return None
-            permissible = (material.bending_limit or 1.0) * material.bending_factors
-            found.append(section.form_factor * section.stress_correction_factor / (width * permissible))
-        return found[0], found[1]
-
-    return strength
+    """`strengths` of any pair with the data of this one."""
+    return lambda pair: strengths(replace(data, pair=pair))
 
 
 def candidates_table(data: GearData) -> Table:

@@ -6,14 +6,13 @@ may cross a diagonal more than once, and does.
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
-from typing import TYPE_CHECKING, NamedTuple
+from itertools import compress, pairwise
+from typing import TYPE_CHECKING
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.gears.candidates import strength_of
+from gearlink.core.gears.contour_lines import Line, lines_of, value_of
 from gearlink.core.gears.data import GearData
 from gearlink.core.gears.pair import GearPair, Pair
 from gearlink.core.gears.shift_split import Diagonal
@@ -23,47 +22,14 @@ from gearlink.core.report import Table
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
+    from gearlink.core.gears.contour_sweep import Rows
+    from gearlink.core.numerics.arrays import Reals
     from gearlink.core.report import Column
 
-Value = Callable[[GearData], float | None]
 _DIAGONALS, _UPRIGHTS, _POINTS = 81, 41, 33
 _NEAR = 0.05
 """Points that are nearer, in both shifts, tell nothing new."""
-_TIPS, _RATIOS = (0.0, 0.2, 0.4), (1.0, 1.1, 1.2)
 _ROOM, _LEAST, _MOST = 0.5, -0.8, 1.6
-
-
-class Line(NamedTuple):
-    """A line of the contour: its value is positive where a pair is good, or changes sign where gears are equal."""
-
-    name: str
-    value: Value
-    blocks: bool = True
-    limits: bool = True
-
-
-def lines_of(data: GearData) -> tuple[Line, ...]:
-    """The lines that a pair can have: undercut, tips, contact ratio, root fillets, base circles, ring tips."""
-    found: list[Line] = []
-    for gear in (0, 1):
-        if data.pair.teeth[gear] > 0:
-            found.append(Line(f"undercut {gear + 1}", lambda d, g=gear: _undercut(d, g)))  # type: ignore[misc]
-        for level in _TIPS:
-            name = f"tip {gear + 1} {level:g} m" if level else f"pointed tip {gear + 1}"
-            value = lambda d, g=gear, t=level: d.pair.tip_thickness[g] / d.pair.module - t  # noqa: E731
-            found.append(Line(name, value, limits=not level))
-        found.append(Line(f"fillet {gear + 1}", lambda d, g=gear: _fillet(d, g)))  # type: ignore[misc]
-        found.append(Line(f"base circle {gear + 1}", lambda d, g=gear: d.pair.interference_margin[1 - g]))  # type: ignore[misc]
-    for ratio in _RATIOS:
-        found.append(Line(f"contact ratio {ratio:g}", lambda d, r=ratio: d.pair.contact_ratio - r, limits=ratio == 1.0))  # type: ignore[misc]
-    found.append(Line("equal sliding", _sliding, blocks=False, limits=False))
-    found.append(Line("equal root stress", _roots, blocks=False, limits=False))
-    if data.pair.internal:
-        found.append(Line("tip fouling", lambda d: d.internal.tip_fouling_margin if d.internal else None))
-        found.append(
-            Line("radial assembly", lambda d: d.internal.radial_assembly_margin if d.internal else None, limits=False)
-        )
-    return tuple(found)
 
 
 def _has_mesh(data: GearData) -> bool:
@@ -71,30 +37,6 @@ def _has_mesh(data: GearData) -> bool:
         return data.pair.contact_ratio > 0.0
     except NoSolution:
         return False
-
-
-def _undercut(data: GearData, gear: int) -> float | None:
-    least = data.pair.min_shift_no_undercut[gear]
-    return None if least is None else data.pair.profile_shift[gear] - least
-
-
-def _fillet(data: GearData, gear: int) -> float | None:
-    form, used = data.pair.form_radius[gear], data.path.used_root_radius[gear]
-    if form is None or data.pair.interference_margin[1 - gear] < 0.0:
-        return None
-    return used - form
-
-
-def _sliding(data: GearData) -> float | None:
-    if not data.pair.slides:
-        return None
-    one, other = data.pair.specific_sliding
-    return one - other
-
-
-def _roots(data: GearData) -> float | None:
-    found = strength_of(data)(data.pair)
-    return None if found is None else math.log(found[0] / found[1])
 
 
 @dataclass(frozen=True)
@@ -116,6 +58,11 @@ class BlockingContour:
         """The pair by its shifts, without backlash."""
         x = self.data.pair.profile_shift
         return replace(self.data.pair, given_shift=x, given_distance=None, given_first_shift=None)
+
+    @cached_property
+    def placed(self) -> GearData:
+        """The data of that pair."""
+        return replace(self.data, pair=self.pair)
 
     @cached_property
     def lines(self) -> tuple[Line, ...]:
@@ -155,8 +102,22 @@ class BlockingContour:
         Raises
             NoSolution - where the shift sum leaves no mesh
         """
+        return [first for _, first in self.crossed((line,), shift_sum)]
+
+    def crossed(self, lines: Sequence[Line], shift_sum: float) -> list[tuple[Line, float]]:
+        """Lines that cross a diagonal, with the x_1 there.
+
+        Raises
+            NoSolution - where the shift sum leaves no mesh
+        """
         at, grid = self._data_on(shift_sum), self._on(shift_sum)
-        return _roots_of(lambda first: _value(line, at(first)), grid, [_value(line, at(first)) for first in grid])
+        designs = [at(first) for first in grid]
+
+        def roots(line: Line) -> list[float]:
+            values = [value_of(line, each) for each in designs]
+            return _roots_of(lambda first: value_of(line, at(first)), grid, values)
+
+        return [(line, root) for line in lines for root in roots(line)]
 
     @cached_property
     def _diagonals(self) -> list[tuple[float, list[tuple[Line, float]], list[Pair]]]:
@@ -164,7 +125,9 @@ class BlockingContour:
         (low1, high1), (low2, high2) = self.window
         step = (high1 + high2 - low1 - low2) / (_DIAGONALS - 1)
         sums = [low1 + low2 + step * k for k in range(_DIAGONALS)]
-        return [(total, *self._across(total)) for total in sums]
+        inside = [total for total in sums if self._on(total)]
+        crossed, free = self._across(inside)
+        return list(zip(inside, crossed, free, strict=True))
 
     @cached_property
     def points(self) -> dict[str, list[Pair]]:
@@ -178,33 +141,26 @@ class BlockingContour:
             found[line.name] += [point for point in self._upright(line) if not _near(point, known)]
         return found
 
-    def _upright(self, line: Line) -> Iterator[Pair]:
+    def _upright(self, line: Line) -> list[Pair]:
         """Where a limit crosses lines of constant x_1."""
         if not line.limits or line.name.startswith("undercut"):
-            return
-        for first, grid, designs in self._uprights:
-
-            def value(second: float, first: float = first) -> float:
-                data = self._at(first, second)
-                return math.nan if data is None else _value(line, data)
-
-            values = [math.nan if data is None else _value(line, data) for data in designs]
-            for root in _roots_of(value, grid, values):
-                yield first, root
+            return []
+        firsts, uprights = self._uprights
+        rows, seconds = uprights.crossings(line)
+        return list(zip(firsts[rows].tolist(), seconds.tolist(), strict=True))
 
     @cached_property
-    def _uprights(self) -> list[tuple[float, list[float], list[GearData | None]]]:
-        """For each x_1 the x_2 along it and the pairs there, which the limits share; None where there is none."""
-        (low1, high1), (low2, high2) = self.window
-        grid = [low2 + (high2 - low2) * k / (_POINTS - 1) for k in range(_POINTS)]
-        firsts = [low1 + (high1 - low1) * k / (_UPRIGHTS - 1) for k in range(_UPRIGHTS)]
-        return [(first, grid, [self._at(first, second) for second in grid]) for first in firsts]
+    def _uprights(self) -> tuple[Reals, Rows]:
+        """x_1 across the window, and x_2 along each."""
+        import numpy as np
 
-    def _at(self, first: float, second: float) -> GearData | None:
-        try:
-            return replace(self.data, pair=replace(self.pair, given_shift=(first, second)))
-        except NoSolution:
-            return None
+        from gearlink.core.gears.contour_sweep import Rows
+
+        (low1, high1), (low2, high2) = self.window
+        seconds = low2 + (high2 - low2) * np.arange(_POINTS) / (_POINTS - 1)
+        firsts = low1 + (high1 - low1) * np.arange(_UPRIGHTS) / (_UPRIGHTS - 1)
+        along = np.broadcast_to(seconds, (_UPRIGHTS, _POINTS))
+        return firsts, Rows(self.placed, along, lambda rows, second: (firsts[rows], second))
 
     @property
     def free(self) -> Iterator[list[Pair]]:
@@ -219,27 +175,39 @@ class BlockingContour:
                     if max(low, start - (two - one)) <= min(high, end):
                         yield [(low, one - low), (high, one - high), (end, two - end), (start, two - start)]
 
-    def _across(self, total: float) -> tuple[list[tuple[Line, float]], list[Pair]]:
-        try:
-            at = self._data_on(total)
-        except NoSolution:
-            return [], []
-        grid = self._on(total)
-        designs = [at(first) for first in grid]
-        crossed = []
+    def _across(self, sums: list[float]) -> tuple[list[list[tuple[Line, float]]], list[list[Pair]]]:
+        """For some shift sums where lines cross them, and between which x_1 they are free."""
+        import numpy as np
+
+        from gearlink.core.gears.contour_sweep import Rows
+
+        grids, totals = [self._on(total) for total in sums], np.array(sums)
+        along = np.array(grids).reshape(len(sums), _POINTS)
+        diagonals = Rows(self.placed, along, lambda rows, first: (first, totals[rows] - first))
+        crossed: list[list[tuple[Line, float]]] = [[] for _ in sums]
         for line in self.lines:
-            values = [_value(line, each) for each in designs]
-            roots = _roots_of(lambda first, line=line: _value(line, at(first)), grid, values)  # type: ignore[misc]
-            crossed += [(line, root) for root in roots]
-        if not grid:
-            return crossed, []
-        ends = sorted({grid[0], grid[-1], *(root for line, root in crossed if line.limits)})
-        free: list[Pair] = []
-        for low, high in pairwise(ends):
-            if self.is_free(at(0.5 * (low + high))):
-                touches = bool(free) and free[-1][1] == low  # a line that is met from inside on both sides
-                free.append((free.pop()[0] if touches else low, high))
-        return crossed, free
+            for row, first in zip(*(found.tolist() for found in diagonals.crossings(line)), strict=True):
+                crossed[row].append((line, first))
+        stretches = [(row, ends) for row, grid in enumerate(grids) for ends in _stretches(grid, crossed[row])]
+        rows, middles = [row for row, _ in stretches], [0.5 * (low + high) for _, (low, high) in stretches]
+        are_free = diagonals.are_free(self.lines, rows, np.array(middles)).tolist()
+        free: list[list[Pair]] = [[] for _ in sums]
+        for row, ends in compress(stretches, are_free):
+            free[row].append(ends)
+        return crossed, [_joined(each) for each in free]
+
+    @cached_property
+    def _own_crossed(self) -> list[tuple[Line, float]]:
+        """Where lines cross the diagonal of the design."""
+        return self.crossed(self.lines, sum(self.pair.profile_shift))
+
+    @cached_property
+    def _own_free(self) -> list[Pair]:
+        """x_1 between which that diagonal is free."""
+        total = sum(self.pair.profile_shift)
+        at = self._data_on(total)
+        found = _stretches(self._on(total), self._own_crossed)
+        return _joined([(low, high) for low, high in found if self.is_free(at(0.5 * (low + high)))])
 
     def shares(self, wish: str = "") -> list[float]:
         """x_1 at the same shift sum that lie within the limits, whole hundredths, the nearest first.
@@ -249,14 +217,13 @@ class BlockingContour:
         Notes
             With each stretch that is free also what is left of it where the wishes (tips, contact ratio) are kept.
         """
-        now, other = self.pair.profile_shift
-        crossed, free = self._across(now + other)
+        now = self.pair.profile_shift[0]
         if wish:
-            found = [first for line, first in crossed if line.name == wish]
+            found = [first for line, first in self._own_crossed if line.name == wish]
             return sorted((round(first, 2) for first in found), key=lambda first: abs(first - now))
-        places = [first for line, first in crossed if line.blocks]
+        places = [first for line, first in self._own_crossed if line.blocks]
         inside: set[float] = set()
-        for low, high in free:
+        for low, high in self._own_free:
             ends = [low, *sorted(first for first in places if low < first < high), high]
             for start, end in pairwise(ends):
                 inside |= {first for first in (at_least(start, 0.01), at_most(end, 0.01)) if start <= first <= end}
@@ -264,16 +231,16 @@ class BlockingContour:
 
     def is_free(self, data: GearData) -> bool:
         """Whether nothing that limits a pair is violated."""
-        found = [_value(line, data) for line in self.lines if line.limits]
+        found = [value_of(line, data) for line in self.lines if line.limits]
         return all(value >= 0.0 or value != value for value in found) and _has_mesh(data)
 
     @cached_property
     def margins(self) -> dict[str, tuple[float | None, float | None]]:
         """For each line how far x_1 may fall and rise, at the same shift sum, until the line is met [module]."""
-        one, other = self.pair.profile_shift
+        one = self.pair.profile_shift[0]
         found: dict[str, tuple[float | None, float | None]] = {}
         for line in self.lines:
-            roots = self.crossings(line, one + other)
+            roots = [first for each, first in self._own_crossed if each.name == line.name]
             below, above = [x - one for x in roots if x <= one], [x - one for x in roots if x > one]
             found[line.name] = max(below, default=None), min(above, default=None)
         return found
@@ -298,8 +265,7 @@ class BlockingContour:
 
     def margin_table(self) -> Table:
         """The table `margins`: each line with the value of the design and the way to it along the diagonal."""
-        at = replace(self.data, pair=self.pair)
-        values = [_value(line, at) for line in self.lines]
+        values = [value_of(line, self.placed) for line in self.lines]
         states = [_state(line, value) for line, value in zip(self.lines, values, strict=True)]
         columns: dict[str, tuple[Column, str]] = {
             "line": ([line.name for line in self.lines], "1"),
@@ -318,13 +284,18 @@ def _near(point: Pair, known: list[Pair]) -> bool:
     return any(abs(point[0] - one) < _NEAR and abs(point[1] - other) < _NEAR for one, other in known)
 
 
-def _value(line: Line, data: GearData) -> float:
-    """The value of a line, not a number where a pair has none."""
-    try:
-        found = line.value(data)
-    except NoSolution:
-        return math.nan
-    return math.nan if found is None else found
+def _stretches(grid: list[float], crossed: list[tuple[Line, float]]) -> Iterator[Pair]:
+    """The pieces of a diagonal between its ends and the limits that cross it."""
+    return pairwise(sorted({grid[0], grid[-1], *(root for line, root in crossed if line.limits)}))
+
+
+def _joined(stretches: list[Pair]) -> list[Pair]:
+    """Stretches with those as one that touch, at a line that is met from inside on both sides."""
+    found: list[Pair] = []
+    for low, high in stretches:
+        touches = bool(found) and found[-1][1] == low
+        found.append((found.pop()[0] if touches else low, high))
+    return found
 
 
 def _roots_of(value: Callable[[float], float], grid: list[float], values: list[float]) -> list[float]:

@@ -346,9 +346,10 @@ class GearPair(PitchPair):
     @cached_property
     def form_radius(self) -> tuple[float | None, float | None]:
         """r_Ff [mm], where the flank ends towards the root; None for a ring without cutter, and for a pointed tool."""
-        return self._form_radius_of(0), self._form_radius_of(1)
+        return self.form_radius_of(0), self.form_radius_of(1)
 
-    def _form_radius_of(self, gear: int) -> float | None:
+    def form_radius_of(self, gear: int) -> float | None:
+        """r_Ff of one gear [mm]."""
         if self.teeth[gear] < 0:
             return None if self.shaped is None else -self.shaped.form_radius
         if self.tool(gear).rounding_center(self.pressure_angle) < 0.0:
@@ -395,6 +396,5 @@ class GearPair(PitchPair):
     def span_over(self, gear: int, count: int, shift: float | None = None) -> float:
         """W_k of a gear over so many teeth [mm], of a ring over so many spaces; `shift` is a generating one."""
         z, x = self._spanned(gear)
-        if shift is not None:
-            x = math.copysign(1.0, self.teeth[gear]) * shift
+        x = x if shift is None else math.copysign(1.0, self.teeth[gear]) * shift
         return teeth.span_measurement(self.module, z, x, self.pressure_angle, count, self.helix_angle, self.fn)

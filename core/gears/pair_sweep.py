@@ -7,7 +7,7 @@ here, and so is what it lacks.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
 import numpy as np
@@ -30,7 +30,7 @@ _BARELY = 1e-6
 
 @dataclass(frozen=True, kw_only=True)
 class GearPairs(GearPair):
-    """External pairs cut by the tool of their profile, by centre distance or shifts; parameters are arrays or numbers.
+    """External pairs by centre distance or shifts; parameters are arrays or numbers.
 
     Notes
         Agrees with `GearPair` to a few ulp times the condition number that it names.
@@ -99,9 +99,9 @@ class GearPairs(GearPair):
     def _specific_sliding_of(self, gear: int) -> Any:
         return np.where(self.slides, self._sliding_at_root(gear), np.nan)
 
-    def tool(self, _gear: int) -> RackTool:
-        """That of the profile."""
-        return self._standard_tool
+    def tool(self, gear: int) -> RackTool:
+        """The given one, or that of the profile."""
+        return self.tools[gear] or self._standard_tool
 
     @cached_property
     def _standard_tool(self) -> RackTool:
@@ -122,19 +122,19 @@ class GearPairs(GearPair):
         )
         return one, other
 
-    def _form_radius_of(self, gear: int) -> Any:
-        return np.where(self._pointed, np.nan, self.module * self.roots[gear].form_radius)
+    def form_radius_of(self, gear: int) -> Any:
+        """r_Ff of one gear of each pair."""
+        return np.where(self._pointed(gear), np.nan, self.module * self.roots[gear].form_radius)
 
-    @cached_property
-    def _pointed(self) -> Any:
+    def _pointed(self, gear: int) -> Any:
         """Where the tool has no tip."""
-        return self._standard_tool.rounding_center(self.pressure_angle, self.fn) < 0.0
+        return self.tool(gear).rounding_center(self.pressure_angle, self.fn) < 0.0
 
     @property
     def form_is_doubtful(self) -> Any:
         """Where the cut of fillet and involute was not found."""
-        one, other = (np.isnan(self._form_radius_of(gear)) for gear in (0, 1))
-        return ~self._pointed & (one | other)
+        one, other = (~self._pointed(gear) & np.isnan(self.form_radius_of(gear)) for gear in (0, 1))
+        return one | other
 
     @property
     def flank_ends_on_base(self) -> Any:
@@ -142,7 +142,7 @@ class GearPairs(GearPair):
         return self._ends_on_base(0) | self._ends_on_base(1)
 
     def _ends_on_base(self, gear: int) -> Any:
-        return self._form_radius_of(gear) - self.base_radius[gear] <= _BARELY * self.base_radius[gear]
+        return self.form_radius_of(gear) - self.base_radius[gear] <= _BARELY * self.base_radius[gear]
 
     @cached_property
     def span_teeth(self) -> Any:
@@ -187,7 +187,7 @@ class PathsOfContact(PathOfContact):
 
 @dataclass(frozen=True, kw_only=True)
 class RackCutRoots(RackCutRoot):
-    """The roots of many gears, cut by tools without protuberance."""
+    """The roots of many gears, whose tools share their protuberance."""
 
     fn: ClassVar[GearFunctions] = ARRAYS
 
@@ -195,7 +195,8 @@ class RackCutRoots(RackCutRoot):
         def at(value: Any) -> Any:
             return value[places] if np.ndim(value) else value
 
-        tool = RackTool(addendum=at(self.tool.addendum), rounding=at(self.tool.rounding))
+        given = self.tool
+        tool = replace(given, addendum=at(given.addendum), rounding=at(given.rounding))
         return RackCutRoots(
             teeth=at(self.teeth),
             shift=at(self.shift),
@@ -206,9 +207,9 @@ class RackCutRoots(RackCutRoot):
 
     @cached_property
     def form_radius(self) -> Any:
-        """r_Ff; where the tool undercuts from the cut through the involute."""
+        """r_Ff; where the tool undercuts or protrudes from the cut through the involute."""
         found = np.atleast_1d(self.form_radius_uncut)
-        places = np.flatnonzero(self.undercut)
+        places = np.flatnonzero(np.atleast_1d(self.undercut) | (self.tool.residual_undercut != 0.0))
         if places.size:
             cut = self._part(places)
             found[places] = np.maximum(cut.base_radius, abs(cut.fillet(cut.end_normal)))
@@ -216,7 +217,7 @@ class RackCutRoots(RackCutRoot):
 
     @cached_property
     def end_normal(self) -> Any:
-        """Where the fillet ends, of gears that are all undercut; NaN where it meets no involute."""
+        """Where the fillet ends, of gears that are all cut into; NaN where it meets no involute."""
         size = np.atleast_1d(self.flank_start).shape
         end: Any = np.broadcast_to(np.asarray(self.last_normal, dtype=float), size)
         base = np.broadcast_to(self.base_radius, size)

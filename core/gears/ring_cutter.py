@@ -114,8 +114,9 @@ class ShapedRing:
     def form_radius(self) -> float:
         """|r_Ff2|, where the involute that the cutter's flank leaves ends towards the root."""
         r0, r2 = self.mesh.base_radius
-        mate = (r0 + r2) * math.tan(self.mesh.working_pressure_angle) - self._flank_end
-        return min(self.root_radius, math.hypot(r2, mate))
+        fn = self.mesh.fn
+        mate = (r0 + r2) * fn.tan(self.mesh.working_pressure_angle) - self._flank_end
+        return fn.least(self.root_radius, fn.hypot(r2, mate))
 
     @cached_property
     def substitute(self) -> RackTool:
@@ -127,7 +128,7 @@ class ShapedRing:
             ISO 6336-3, from memory; its fillet radius lies within 5 % of the shaped one in seven rings
         """
         rho, left = self.cutter.rounding, self.cutter.shift + self.depth - self.cutter.rounding
-        rounding = rho + max(0.0, left) ** 1.95 / (3.156 * 1.036**self.cutter.teeth)
+        rounding = rho + self.mesh.fn.greatest(0.0, left) ** 1.95 / (3.156 * 1.036**self.cutter.teeth)
         return RackTool(addendum=self.depth, rounding=rounding)
 
     def fillet(self, turn: float) -> complex:

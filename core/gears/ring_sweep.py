@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
+from gearlink.core.gears.functions import GearFunctions
+from gearlink.core.gears.functions_sweep import ARRAYS
 from gearlink.core.gears.internal import InternalInterference
 from gearlink.core.gears.pair_limits import bound_of_shift_sum
 from gearlink.core.gears.pair_sweep import GearPairs
+from gearlink.core.gears.pitch_pair import PitchPair
+from gearlink.core.gears.ring_cutter import ShapedRing
 from gearlink.core.results import cached_property
 
 
 @dataclass(frozen=True, kw_only=True)
 class RingPairs(GearPairs):
-    """Pairs whose gear 2 is a ring without a cutter: its fillets are not known.
+    """Pairs whose gear 2 is a ring; without a cutter its fillets are not known.
 
     Notes
         As `GearPair` does, they keep their tips whole.
@@ -47,13 +51,30 @@ class RingPairs(GearPairs):
         """x_min of the pinions; rings have none."""
         return self.min_shift_of(0), np.nan
 
-    def _form_radius_of(self, gear: int) -> Any:
-        return super()._form_radius_of(0) if gear == 0 else np.nan
+    @cached_property
+    def shaped(self) -> ShapedRings | None:
+        """The rings as their cutter leaves them; None without one."""
+        if self.cutter is None:
+            return None
+        return ShapedRings(
+            module=self.module,
+            teeth=self.teeth[1],
+            shift=self.profile_shift[1],
+            cutter=self.cutter,
+            pressure_angle=self.pressure_angle,
+            helix_angle=self.helix_angle,
+        )
+
+    def form_radius_of(self, gear: int) -> Any:
+        """r_Ff of one gear of each pair; of a ring only with a cutter."""
+        if gear == 0:
+            return super().form_radius_of(0)
+        return np.nan if self.shaped is None else -self.shaped.form_radius
 
     @property
     def form_is_doubtful(self) -> Any:
         """Where the cut of fillet and involute was not found."""
-        return ~self._pointed & np.isnan(self._form_radius_of(0))
+        return ~self._pointed(0) & np.isnan(self.form_radius_of(0))
 
     @property
     def flank_ends_on_base(self) -> Any:
@@ -69,6 +90,28 @@ class RingPairs(GearPairs):
     def _spanned(self, gear: int) -> Any:
         z, x = self.teeth[gear], self.profile_shift[gear]
         return (z, x) if gear == 0 else (-z, -x)
+
+
+class _Meshes(PitchPair):
+    """Cutters and rings."""
+
+    fn: ClassVar[GearFunctions] = ARRAYS
+
+
+@dataclass(frozen=True, kw_only=True)
+class ShapedRings(ShapedRing):
+    """Rings of many shifts as one pinion cutter shapes them."""
+
+    @cached_property
+    def mesh(self) -> PitchPair:
+        """Cutter and rings while the last cut is taken."""
+        return _Meshes(
+            module=self.module,
+            teeth=(self.cutter.teeth, self.teeth),
+            pressure_angle=self.pressure_angle,
+            helix_angle=self.helix_angle,
+            given_shift=(self.cutter.shift, self.shift),
+        )
 
 
 @dataclass(frozen=True)

@@ -8,10 +8,9 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.gears.involute import involute
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.gears.tools import RackTool
 from gearlink.core.numerics.roots import bracketed_root
@@ -65,14 +64,14 @@ class RootSection:
     @cached_property
     def virtual_teeth(self) -> float:
         """z_n = z/(cos^2(beta_b) cos(beta)), negative for a ring."""
-        pair = self.pair
-        return pair.teeth[self.gear] / (math.cos(pair.base_helix_angle) ** 2 * math.cos(pair.helix_angle))
+        pair, fn = self.pair, self.pair.fn
+        return pair.teeth[self.gear] / (fn.cos(pair.base_helix_angle) ** 2 * fn.cos(pair.helix_angle))
 
     @cached_property
     def virtual_contact_ratio(self) -> float:
         """eps_alpha,n = eps_alpha/cos^2(beta_b)."""
         eps = self.pair.contact_ratio if self.contact_ratio is None else self.contact_ratio
-        return eps / math.cos(self.pair.base_helix_angle) ** 2
+        return eps / self.pair.fn.cos(self.pair.base_helix_angle) ** 2
 
     @property
     def _depth(self) -> float:
@@ -90,30 +89,34 @@ class RootSection:
         Raises
             NoSolution - where no tangent of this direction touches the fillet
         """
-        z, alpha = self.virtual_teeth, self.pair.pressure_angle
-        h = 2.0 / z * (math.pi / 2.0 - self.tool.rounding_center(alpha)) - self._tangent
-        slope = 2.0 * self._depth / z
+        slope, h = self._tangent_line
         try:
-            return bracketed_root(lambda b: b - slope * math.tan(b) + h, 0.0, math.pi / 2.0 - alpha)
+            return bracketed_root(lambda b: b - slope * math.tan(b) + h, 0.0, math.pi / 2.0 - self.pair.pressure_angle)
         except NoSolution:
             degrees = "60" if self._ring else "30"
             raise NoSolution(f"no tangent of {degrees} deg touches the root fillet of gear {self.gear + 1}") from None
 
     @property
+    def _tangent_line(self) -> tuple[float, float]:
+        """2 G/z_n and H of the equation of theta."""
+        z, center = self.virtual_teeth, self.tool.rounding_center(self.pair.pressure_angle, self.pair.fn)
+        return 2.0 * self._depth / z, 2.0 / z * (math.pi / 2.0 - center) - self._tangent
+
+    @property
     def _out(self) -> float:
         """G/cos(theta) - rho*."""
-        return self._depth / math.cos(self.theta) - self.tool.rounding
+        return self._depth / self.pair.fn.cos(self.theta) - self.tool.rounding
 
     @cached_property
     def chord(self) -> float:
         """s_Fn*, thickness of the root section."""
         factor = 1.0 if self._ring else math.sqrt(3.0)
-        return self.virtual_teeth * math.sin(self._tangent - self.theta) + factor * self._out
+        return self.virtual_teeth * self.pair.fn.sin(self._tangent - self.theta) + factor * self._out
 
     @cached_property
     def fillet_radius(self) -> float:
         """rho_F*, radius of the fillet at the tangent."""
-        g, cosine = self._depth, math.cos(self.theta)
+        g, cosine = self._depth, self.pair.fn.cos(self.theta)
         return self.tool.rounding + 2.0 * g * g / (cosine * (self.virtual_teeth * cosine * cosine - 2.0 * g))
 
     @property
@@ -143,34 +146,34 @@ class RootSection:
         """d_en*/2, where the load acts on the virtual gear; signed."""
         if self.contact_radius is not None:
             return self.contact_radius
-        z, alpha, sign = self.virtual_teeth, self.pair.pressure_angle, self.pair.signs[self.gear]
-        base = 0.5 * z * math.cos(alpha)
-        tip = self.tip_radius
-        roll = sign * math.sqrt(max(0.0, (tip - base) * (tip + base)))
-        at = roll - math.pi * math.cos(alpha) * (self.virtual_contact_ratio - 1.0)
-        return sign * math.hypot(at, base)
+        z, fn, sign = self.virtual_teeth, self.pair.fn, self.pair.signs[self.gear]
+        cosine, tip = fn.cos(self.pair.pressure_angle), self.tip_radius
+        base = 0.5 * z * cosine
+        roll = sign * fn.sqrt(fn.greatest(0.0, (tip - base) * (tip + base)))
+        at = roll - math.pi * cosine * (self.virtual_contact_ratio - 1.0)
+        return sign * fn.hypot(at, base)
 
     @cached_property
     def load_angle(self) -> float:
         """alpha_Fen, between the load and the normal of the tooth's middle: alpha_en - gamma."""
-        z, alpha = self.virtual_teeth, self.pair.pressure_angle
-        base = 0.5 * z * math.cos(alpha)
-        at = math.acos(min(1.0, base / self.load_radius))
-        gamma = (0.5 * math.pi + 2.0 * self.shift * math.tan(alpha)) / z + involute(alpha) - involute(at)
+        z, alpha, fn = self.virtual_teeth, self.pair.pressure_angle, self.pair.fn
+        base = 0.5 * z * fn.cos(alpha)
+        at = fn.acos(fn.least(1.0, base / self.load_radius))
+        gamma = (0.5 * math.pi + 2.0 * self.shift * fn.tan(alpha)) / z + fn.involute(alpha) - fn.involute(at)
         return at - gamma
 
     @cached_property
     def moment_arm(self) -> float:
         """h_Fe*, from the root section to where the load crosses the middle of the tooth."""
-        z, factor = self.virtual_teeth, math.sqrt(3.0) if self._ring else 1.0
-        crossing = z * math.cos(self.pair.pressure_angle) / math.cos(self.load_angle)
-        return 0.5 * (crossing - z * math.cos(self._tangent - self.theta) - factor * self._out)
+        z, fn, factor = self.virtual_teeth, self.pair.fn, math.sqrt(3.0) if self._ring else 1.0
+        crossing = z * fn.cos(self.pair.pressure_angle) / fn.cos(self.load_angle)
+        return 0.5 * (crossing - z * fn.cos(self._tangent - self.theta) - factor * self._out)
 
     @cached_property
     def form_factor(self) -> float:
         """Y_F = 6 h_Fe* cos(alpha_Fen)/(s_Fn*^2 cos(alpha_n))."""
-        lever = 6.0 * self.moment_arm * math.cos(self.load_angle)
-        return lever / (self.chord**2 * math.cos(self.pair.pressure_angle))
+        lever = 6.0 * self.moment_arm * self.pair.fn.cos(self.load_angle)
+        return lever / (self.chord**2 * self.pair.fn.cos(self.pair.pressure_angle))
 
     @cached_property
     def notch(self) -> float:
@@ -188,5 +191,9 @@ class RootSection:
             raise NoSolution(
                 f"the root fillet of gear {self.gear + 1} has no radius that a stress could be formed with"
             )
+        return float(self._stress_correction)
+
+    @property
+    def _stress_correction(self) -> Any:
         slender = self.chord / self.moment_arm
-        return float((1.2 + 0.13 * slender) * self.notch ** (1.0 / (1.21 + 2.3 / slender)))
+        return (1.2 + 0.13 * slender) * self.notch ** (1.0 / (1.21 + 2.3 / slender))

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.gears.contour import BlockingContour, Line
+from gearlink.core.gears.contour import BlockingContour
+from gearlink.core.gears.contour_lines import Line
 from gearlink.core.gears.data import GearData
 from gearlink.core.gears.involute import involute
 from gearlink.core.gears.pair import GearPair
@@ -161,10 +162,10 @@ def _margin(data: GearData) -> float:
     first = data.pair.profile_shift[0]
     low, high = contour.reach(total)
     room, ways = min(first - low, high - first), []
-    for line in contour.lines:
-        if not line.name.startswith(_BLOCKING):
-            continue
-        way = min((abs(root - first) for root in contour.crossings(line, total)), default=room)
+    lines = [line for line in contour.lines if line.name.startswith(_BLOCKING)]
+    crossed = contour.crossed(lines, total)
+    for line in lines:
+        way = min((abs(root - first) for each, root in crossed if each is line), default=room)
         ways.append(way if _good(line, data) else -way)
     return min(ways)
 

@@ -8,14 +8,18 @@ from __future__ import annotations
 import json
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 from sweeps import ALL
 
+from gearlink.core.errors import NoSolution
 from gearlink.core.gears import contour as kernel
 from gearlink.core.gears.contour import BlockingContour
+from gearlink.core.gears.contour_lines import Line
 from gearlink.core.gears.data import GearData
 from gearlink.core.gears.pair import GearPair
+from gearlink.core.gears.tools import PinionCutter, RackTool
 
 CASES = json.loads((Path(__file__).parents[2] / "reference" / "gears.json").read_text())["cases"]
 
@@ -52,6 +56,40 @@ def test_every_point_lies_on_its_line(teeth: tuple[int, int], shift: tuple[float
             value = line.value(data)
             assert value is not None
             assert abs(value) < 1e-6, (line.name, x1, x2)
+
+
+@pytest.mark.parametrize(
+    "keys",
+    [
+        {"teeth": (8, 8), "given_shift": (0.4, 0.4), "helix_angle": 0.5},
+        {"teeth": (12, 31), "tools": (RackTool(addendum=1.4, rounding=0.2, residual_undercut=0.03), None)},
+        {"teeth": (20, 33), "tip": "none", "clearance": 0.0, "pressure_angle": 0.25},
+        {"teeth": (17, 40), "given_tip_radius": (9.8, 21.1)},
+        {"teeth": (20, -45), "cutter": PinionCutter(teeth=12, shift=0.1, addendum=1.25, rounding=0.1)},
+        {"teeth": (12, -13), "given_shift": (0.3, -0.4), "pressure_angle": 0.5, "helix_angle": 0.3},
+    ],
+)
+def test_many_diagonals_at_once_are_crossed_where_each_is_alone(
+    keys: dict[str, Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Arrays against scalars, root by root; a line that only touches a diagonal is known to the root of an ulp."""
+    monkeypatch.setattr(kernel, "_DIAGONALS", 8)
+    pair = GearPair(**{"module": 1.0, "given_shift": (0.3, -0.1)} | keys)
+    found = BlockingContour(GearData(pair=pair, face_width=(9.0, 8.0)))
+    many = [(total, line.name, first) for total, crossed, _ in found._diagonals for line, first in crossed]
+    alone = [
+        (total, line.name, first) for total, *_ in found._diagonals for line, first in _crossed_alone(found, total)
+    ]
+    assert len({name for _, name, _ in many}) > 6
+    assert [row[:2] for row in many] == [row[:2] for row in alone]
+    assert [row[2] for row in many] == pytest.approx([row[2] for row in alone], rel=0.0, abs=1e-8)
+
+
+def _crossed_alone(found: BlockingContour, total: float) -> list[tuple[Line, float]]:
+    try:
+        return found.crossed(found.lines, total)
+    except NoSolution:
+        return []
 
 
 def test_margins_lead_to_the_lines() -> None:

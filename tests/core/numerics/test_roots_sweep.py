@@ -34,7 +34,30 @@ def test_a_root_does_not_depend_on_the_others() -> None:
 
 
 def test_ends_that_are_roots_and_brackets_that_are_none() -> None:
-    low, high = np.array([0.0, -1.0, 1.0, -1.0]), np.array([1.0, 0.0, 2.0, np.nan])
+    low, high = np.array([0.0, -1.0, 0.0, 1.0, -1.0]), np.array([1.0, 0.0, np.nan, 2.0, np.nan])
     found = bracketed_roots(lambda x: x, low, high)
-    assert found[:2].tolist() == [0.0, 0.0]
-    assert np.isnan(found[2:]).all()
+    assert found[:3].tolist() == [0.0, 0.0, 0.0]
+    assert np.isnan(found[3:]).all()
+
+
+def test_a_jump_across_zero_is_found_and_no_number_is_no_root() -> None:
+    """A regula falsi creeps towards a jump between values of one size, and cannot step from one without bound."""
+    at = np.array([0.3, 0.7, 1e-9])
+    found = bracketed_roots(lambda x: np.where(x < at, -1.0 - x, 0.9 + x), np.zeros(3), np.ones(3))
+    assert np.abs(found - at).max() < 4e-16
+    unbounded = bracketed_roots(lambda x: np.where(x < at, -np.inf, 1.0 + x), np.zeros(3), np.ones(3))
+    assert np.abs(unbounded - at).max() < 4e-16
+    ends = bracketed_roots(lambda x: np.where(np.abs(x - 0.5) < 0.2, np.nan, x - 0.5), np.zeros(1), np.ones(1))
+    assert np.isnan(ends).all()
+
+
+def test_values_at_the_ends_need_not_be_computed_again() -> None:
+    asked: list[float] = []
+
+    def f(x: np.ndarray) -> np.ndarray:
+        asked.extend(x.tolist())
+        return x * x - 2.0
+
+    found = bracketed_roots(f, np.zeros(1), np.full(1, 2.0), ends=(np.full(1, -2.0), np.full(1, 2.0)))
+    assert found.tolist() == [bracketed_root(lambda x: x * x - 2.0, 0.0, 2.0)]
+    assert not {0.0, 2.0} & set(asked)
