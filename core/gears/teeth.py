@@ -12,6 +12,7 @@ from gearlink.core.report import safely_above
 
 RIM_MODULES = 2.0
 """A ring's rim lies so many modules outside its root circle, where the file names none."""
+_LEAST_SPANNED = 2
 
 
 def rim_radius(root_radius: float, module: float, given: float | None = None) -> float:
@@ -163,8 +164,9 @@ def span_teeth(teeth: int, shift: float, pressure_angle: float, helix_angle: flo
         pressure_angle : float [rad] - alpha_n
         helix_angle : float [rad] - beta
     Returns
-        k : int - 1 <= k <= z; the smaller of two that are equally near
+        k : int - 2 <= k <= z; the smaller of two that are equally near
     Notes
+        Over one tooth there is nothing to measure: the planes would meet its flanks at the root alone.
         R_k grows with k, so that only the two whole numbers beside the exact solution compete.
     Example
         >>> span_teeth(40, 0.0, math.radians(20.0)), span_teeth(72, 0.29, math.radians(20.0))
@@ -191,6 +193,6 @@ def span_rivals(
         span = span_measurement(1.0, teeth, shift, pressure_angle, k, helix_angle, f)
         return k, abs(span_contact_radius(base, span, base_helix, f) - wanted)
 
-    low: Any = f.greatest(1, f.least(teeth, f.floor(exact)))
+    low: Any = f.greatest(_LEAST_SPANNED, f.least(teeth, f.floor(exact)))
     high: Any = f.least(teeth, low + 1)
     return rival(low), rival(high)

@@ -85,7 +85,7 @@ class ToothProfile:
                 f"at least {math.ceil(2.0 * (self.tool_addendum - self.shift) + 1e-9)} teeth or raise the shift"
             )
         if not self._form < self._top:
-            remedy = "lower" if self._top < self.tip_radius / self.module else "raise"
+            remedy = "raise" if self.undercut and not self._top < self.tip_radius / self.module else "lower"
             raise NoSolution(
                 f"no involute is left to a gear of {self.teeth} teeth: it would begin at "
                 f"{self.form_radius:.6g} mm, the tooth ends at {self.outer_radius:.6g} mm; {remedy} the profile shift "

@@ -305,8 +305,15 @@ def test_span_touches_nearest_to_the_shifted_circle():
                 width = teeth.span_measurement(1.0, z, x, alpha, n)
                 return abs(math.sqrt(base**2 + width**2 / 4.0) - (z / 2.0 + x))
 
-            best = min(range(1, z + 1), key=distance)
+            best = min(range(2, z + 1), key=distance)
             assert distance(k) <= distance(best) + 1e-12 * z
+
+
+def test_no_span_over_one_tooth():
+    """Nearest to r + x m would be one tooth, which the planes meet at its root."""
+    pair = GearPair.from_center_distance(3.0, (19, 47), 96.0)
+    assert pair.span_teeth == (2, 5)
+    assert pair.form_radius[0] < pair.span_contact(0, 2) < pair.tip_radius[0]
 
 
 def test_known_span_measurement():

@@ -219,6 +219,9 @@ def test_a_gear_without_involute_is_refused():
         ToothProfile(module=1.0, teeth=12, shift=0.0, pressure_angle=ALPHA, tip_radius=5.65)
     with pytest.raises(NoSolution, match=r"no involute is left to a gear of 12 teeth: .* lower"):
         profile(12, 4.0)
+    # pushed apart, the tip shortened into the root: less shift is the way out
+    with pytest.raises(NoSolution, match=r"no involute is left to a gear of 19 teeth: .* lower"):
+        ToothProfile.of(GearPair.from_center_distance(3.0, (19, 47), 120.0), 0)
 
 
 def test_chord_error_must_be_reachable():
