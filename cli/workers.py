@@ -7,7 +7,7 @@ import signal
 import sys
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Executor, Future, ProcessPoolExecutor
 from contextlib import contextmanager
 from multiprocessing import active_children, get_context, parent_process
@@ -18,6 +18,7 @@ from typing import Any, ParamSpec, TypeVar
 from gearlink.cli.files import leave_nothing_behind
 
 _GRACE_SECONDS = 1.0
+_AGAIN_SECONDS = 0.05
 # Forked processes are all there from the first call on; others are started as they are needed, and looked for.
 _SPAWNED_SECONDS = None if sys.platform == "linux" else 1.0
 P = ParamSpec("P")
@@ -39,8 +40,7 @@ def workers(count: int) -> Iterator[Executor]:
     except BaseException:
         # What they are at is lost; waiting for it would make the user wait.
         pool.shutdown(wait=False, cancel_futures=True)
-        for child in active_children():
-            child.terminate()
+        _end(active_children())
         # The thread that reads results would wait for ever for the rest of one that a worker was writing: its end comes
         # when nobody can write any more, this process included.
         results._writer.close()  # type: ignore[attr-defined]
@@ -76,11 +76,26 @@ def _end_with_first_dead(processes: dict[int, BaseProcess], writer: Connection) 
         gone = wait([process.sentinel for process in left], _SPAWNED_SECONDS)
         now = {process for process in left if process.sentinel in gone}
         if any(_status(process) for process in now):
-            for process in left:
-                process.terminate()
+            _end(left)
             writer.close()
             return
         ended |= now
+
+
+def _end(processes: Iterable[BaseProcess]) -> None:
+    """End processes as by a signal; those that do not heed it, by force.
+
+    Notes
+        A process that has just been forked may lose a signal: Python forgets those that come before it has begun.
+    """
+    left, latest = list(processes), time.monotonic() + _GRACE_SECONDS
+    while left and time.monotonic() < latest:
+        for process in left:
+            process.terminate()
+        gone = wait([process.sentinel for process in left], _AGAIN_SECONDS)
+        left = [process for process in left if process.sentinel not in gone]
+    for process in left:
+        process.kill()
 
 
 def _status(process: BaseProcess) -> int:

@@ -10,6 +10,7 @@ from typing import Any
 from gearlink.cli.reading.design_file import load, read_kind, validate
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import LoadedFile
+from gearlink.cli.reading.places import ENDINGS
 from gearlink.cli.reading.yaml_reader import Tree, format_path
 from gearlink.core.kinds import KINDS
 from gearlink.core.study.faults import Fault
@@ -26,6 +27,9 @@ def with_base(loaded: LoadedFile, spec: Any) -> Any:
         where = "the base design"
     else:
         path = base_path(loaded.file, spec.of)
+        if not path.name.endswith(ENDINGS):
+            message = f"the base design {path} is no design file ({', '.join(ENDINGS)})"
+            raise DesignFileError([loaded.report("GL101", message, ("of",))])
         try:
             base = load(str(path))
         except DesignFileError as error:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
 
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic, Source
 from gearlink.cli.reading.loaded_file import KeyPath, LoadedFile, Override, parse_path
+from gearlink.cli.reading.places import ENDINGS, astray
 from gearlink.cli.reading.yaml_reader import (
     CONTROL,
     MAX_BYTES,
@@ -45,6 +46,9 @@ def load(source: str | os.PathLike[str], *, overrides: Sequence[str] = (), stdin
         DesignFileError - with everything that keeps it from being read (GL101 to GL104, GL110, GL114)
     """
     name = "<stdin>" if source == "-" else os.fspath(source)
+    if target := astray(name):
+        message = f"a link to {target}, which is no design file ({', '.join(ENDINGS)})"
+        raise DesignFileError([Diagnostic("GL101", message, name)])
     return parse(read_at_most(source, MAX_BYTES + 1, stdin), name, overrides=overrides)
 
 
@@ -282,8 +286,9 @@ def _missing(name: str) -> Diagnostic:
         return Diagnostic("GL101", f"a link to {os.readlink(name)}, which does not exist", name)
     from difflib import get_close_matches
 
-    near = get_close_matches(os.path.basename(name), _neighbours(name), n=1)
-    remedy = f"did you mean {os.path.join(os.path.dirname(name), near[0])}?" if near else ""
+    by_stem = {os.path.splitext(there)[0]: there for there in reversed(_neighbours(name))}
+    near = get_close_matches(os.path.splitext(os.path.basename(name))[0], by_stem, n=1)
+    remedy = f"did you mean {os.path.join(os.path.dirname(name), by_stem[near[0]])}?" if near else ""
     return Diagnostic("GL101", "no such file", name, help=remedy)
 
 

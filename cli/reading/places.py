@@ -9,7 +9,8 @@ from pathlib import Path
 
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 
-_ENDINGS = (".yaml", ".yml")
+ENDINGS = (".yaml", ".yml")
+"""How the names of design files end."""
 
 
 def design_files(places: Sequence[str]) -> list[Path]:
@@ -27,9 +28,17 @@ def design_files(places: Sequence[str]) -> list[Path]:
         for match in matched:
             found.update(dict.fromkeys(_below(match) if match.is_dir() else [match]))
     if not found:
-        message = f"no design file ({', '.join(_ENDINGS)}) below"
+        message = f"no design file ({', '.join(ENDINGS)}) below"
         raise DesignFileError([Diagnostic("GL101", message, file=", ".join(places))])
     return list(found)
+
+
+def astray(name: str) -> str:
+    """Where a link named as a design file leads, if that is none: its lines would be shown as those of a design."""
+    if not (name.endswith(ENDINGS) and os.path.islink(name)):
+        return ""
+    target = os.path.realpath(name)
+    return "" if target.endswith(ENDINGS) or not os.path.exists(target) else target
 
 
 def _matched(pattern: str) -> list[Path]:
@@ -58,6 +67,6 @@ def _below(folder: Path) -> list[Path]:
         for entry in seen:
             if entry.is_dir(follow_symlinks=False):
                 waiting.append(entry.path)
-            elif entry.name.endswith(_ENDINGS) and (os.path.isfile(entry) or not os.path.exists(entry)):
+            elif entry.name.endswith(ENDINGS) and (os.path.isfile(entry) or not os.path.exists(entry)):
                 found.append(entry.path)
     return sorted(map(Path, found), key=lambda path: path.parts)

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import itertools
 import os
 import signal
 import subprocess
 import sys
 import time
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from sweeps import mostly_slow
 
-from gearlink.cli.workers import workers
+from gearlink.cli.workers import _end, workers
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="forked processes, /proc")
 
@@ -82,6 +84,35 @@ def test_an_exception_in_the_block_ends_them_at_once() -> None:
     with pytest.raises(ValueError, match="enough"):
         _leave_in_the_middle()
     assert time.monotonic() - begun < 10.0
+
+
+@pytest.mark.parametrize(("heeds", "asked", "forced"), [(1, 1, 0), (3, 3, 0), (9, 3, 1)])
+def test_one_that_loses_a_signal_is_asked_again(
+    monkeypatch: pytest.MonkeyPatch, heeds: int, asked: int, forced: int
+) -> None:
+    """Python forgets a signal to a process that has just been forked; who would wait for it waits for ever."""
+    clock = SimpleNamespace(monotonic=itertools.count(0.0, 0.3).__next__)  # seconds go by in a moment
+    monkeypatch.setattr("gearlink.cli.workers.time", clock)
+    monkeypatch.setattr("gearlink.cli.workers._AGAIN_SECONDS", 0.0)
+    deaf = _Deaf(heeds)
+    _end([deaf])  # type: ignore[list-item]
+    assert (deaf.asked, deaf.forced) == (asked, forced)
+
+
+class _Deaf:
+    """A process that heeds the signal of that number alone; its sentinel is the end of a pipe."""
+
+    def __init__(self, heeds: int) -> None:
+        self.heeds, self.asked, self.forced = heeds, 0, 0
+        self.sentinel, self._held = os.pipe()
+
+    def terminate(self) -> None:
+        self.asked += 1
+        if self.asked == self.heeds:
+            os.close(self._held)
+
+    def kill(self) -> None:
+        self.forced += 1
 
 
 # A pipe holds 64 kB: while the thread that reads results is busy with the first, the worker stands in the middle of the

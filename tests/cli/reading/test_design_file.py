@@ -160,6 +160,7 @@ def test_missing_file_names_the_nearest(tmp_path: Path) -> None:
     found = refused(tmp_path / "candyfeed.yaml")
     assert (found.code, found.line, found.column) == ("GL101", 1, 1)
     assert found.help == f"did you mean {tmp_path / 'candy_feed.yaml'}?"
+    assert refused(tmp_path / "press.yaml").help == ""  # alike in the ending alone
 
 
 def test_unreadable_places(tmp_path: Path) -> None:

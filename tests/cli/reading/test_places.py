@@ -86,6 +86,31 @@ def test_a_link_that_leads_nowhere(gearlink: Any, here: Path) -> None:
         assert "did you mean" not in ended.out + ended.err
 
 
+def test_a_link_to_what_is_no_design_is_not_read(gearlink: Any, here: Path) -> None:
+    """A stranger's link would show lines of any file of this machine in the log."""
+    (here / "secret.txt").write_text("token: hunter2\n")
+    os.symlink("../secret.txt", "files/b.yaml")
+    os.symlink("b.yaml", "files/c.yml")
+    os.symlink("a.yaml", "files/d.yaml")
+    for line in (("check", "files"), ("batch", "files"), ("crank", "files/c.yml")):
+        ended = gearlink(*line)
+        assert ended.status == 2
+        assert "which is no design file (.yaml, .yml)" in " ".join((ended.out + ended.err).split())
+        assert "token" not in ended.out + ended.err
+    assert gearlink("crank", "files/d.yaml").status == 0
+
+
+def test_a_base_design_is_a_design_file(gearlink: Any, here: Path) -> None:
+    (here / "secret.txt").write_text("token: hunter2\n")
+    (here / "study.yaml").write_text(
+        "kind: study\nof: secret.txt\nvariables: {stroke: {values: [1]}}\nminimize: {rod: 1}\n"
+    )
+    ended = gearlink("explore", "study.yaml")
+    assert ended.status == 2
+    assert "study.yaml:2:1: error GL101: the base design secret.txt is no design file (.yaml, .yml)" in ended.err
+    assert "token" not in ended.err
+
+
 def test_links_to_folders_are_not_followed(here: Path) -> None:
     os.symlink(here / "files", here / "files" / "loop")
     os.symlink("a.yaml", here / "files" / "b.yaml")
