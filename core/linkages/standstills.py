@@ -102,14 +102,33 @@ def standstills(speed: Function, extremes: list[Turning], tolerance: float, peri
         >>> [round(math.degrees(x), 9) for x in standstills(f, turnings(f, slope), 1e-9)]
         [210.0, 330.0]
     """
-    places = [t.place for t in extremes if abs(t.value) <= tolerance]
+    places, between = standing(extremes, tolerance, period)
+    places += (bracketed_root(speed, *ends) for ends in between)
+    return sorted(place if period is None else place % period for place in places)
+
+
+def standing(
+    extremes: list[Turning], tolerance: float, period: float | None = TURN
+) -> tuple[list[float], list[tuple[float, float]]]:
+    """Momentary standstills, and pairs of crank angles between which a speed ratio passes zero once.
+
+    Parameters
+        extremes, tolerance, period : as of `standstills`
+    Returns
+        places, between : list of float, list of two float [rad]
+    Example
+        >>> standing([Turning(0.0, 1.0), Turning(2.0, 0.0), Turning(3.0, 1.0), Turning(4.0, -1.0)], 0.0, None)
+        ([2.0], [(3.0, 4.0)])
+    """
     around = extremes
     if period is not None and extremes:
         around = [*extremes, Turning(extremes[0].place + period, extremes[0].value)]
-    for one, other in pairwise(around):
-        if min(abs(one.value), abs(other.value)) > tolerance and one.value * other.value < 0.0:
-            places.append(bracketed_root(speed, one.place, other.place))
-    return sorted(place if period is None else place % period for place in places)
+    between = [
+        (one.place, other.place)
+        for one, other in pairwise(around)
+        if min(abs(one.value), abs(other.value)) > tolerance and one.value * other.value < 0.0
+    ]
+    return [t.place for t in extremes if abs(t.value) <= tolerance], between
 
 
 def back_steps(speed: Function, angle: Function, places: list[float]) -> list[BackStep]:

@@ -225,12 +225,11 @@ class GearedSixBar(OutputRates, RealSpeed, Design):
     @cached_property
     def dwell_crank_angles(self) -> list[float]:
         """Input angles at which the output stands [rad], ascending."""
-        from gearlink.core.linkages.standstills import standstills
-        from gearlink.core.six_bar.turnings import scalar
+        from gearlink.core.six_bar.turnings import standstills
 
         fastest = max(abs(t.value) for t in self.speed_turnings)
         period = None if self.period_turns is None else self.course.end
-        return standstills(scalar(self.rate(1)), self.speed_turnings, _STANDSTILL * fastest, period)
+        return standstills(self.rate(1), self.speed_turnings, _STANDSTILL * fastest, period)
 
     @cached_property
     def output_swing(self) -> float | None:

@@ -25,6 +25,9 @@ from gearlink.core.six_bar.relations import LINKS, Row, reduced
 FREE = range(2, LINKS)
 NAMES = ("frame", "input", "coupler_1", "coupler_2", "coupler_3", "output")
 _ROUNDS = 60
+_BLOCK = 4096  # of places, so that they stay in the cache
+_REST = 1e-18  # rad, a step so short is none
+_NEAR = 1e-5  # rad, steps converge by the square from there on
 
 
 @dataclass(frozen=True)
@@ -119,14 +122,10 @@ class SixBar:
             np.array([[float(n) for n in share] for share in self.shares]),
         )
 
-    def links(self, angles: Reals) -> Points:
-        """Links 2 to 5 as vectors [mm]; angles : (4, N) array [rad]."""
-        return np.asarray(self.numbers[0][:, None] * np.exp(1j * angles))
-
-    def columns(self, links: Points) -> tuple[Points, Points]:
-        """Velocities of the loop's end by the two free directions [mm/rad]; links : (4, N) array [mm]."""
-        one, other = self.numbers[3].T @ (1j * links)
-        return one, other
+    def _projections(self, angles: Reals) -> tuple[Reals, Reals]:
+        """Links 2 to 5 along x and y [mm], two (4, N) arrays."""
+        cos, sin = turned(angles)
+        return self.numbers[0][:, None] * cos, self.numbers[0][:, None] * sin
 
     def closed(self, phi: Reals, near: Reals) -> Reals:
         """Directions of links 2 to 5, continued from approximate ones.
@@ -163,25 +162,38 @@ class SixBar:
         return angles
 
     def _by_newton(self, phi: Reals, near: Reals) -> Reals:
-        """Newton's steps on the two free directions until they are rounding."""
+        """Newton's steps on the two free directions until they are rounding, block by block."""
+        angles = np.empty((4, phi.size))
+        for start in range(0, phi.size, _BLOCK):
+            part = slice(start, start + _BLOCK)
+            angles[:, part] = self._block_by_newton(phi[part], near[:, part])
+        return angles
+
+    def _block_by_newton(self, phi: Reals, near: Reals) -> Reals:
+        """Each place rests by itself: no bit of it depends on the others."""
         _, first, slopes, shares = self.numbers
-        u = near.copy()
         base = first[:, None] + slopes[:, None] * phi
-        finest = np.full(phi.shape, np.inf)
-        crank = self.lengths[1] * np.exp(1j * phi)
+        cos, sin = turned(phi)
+        chord = self.lengths[1] * cos - self.lengths[0], self.lengths[1] * sin
+        u, finest = near.copy(), np.full(phi.shape, np.inf)
+        found, rows = u.copy(), np.arange(phi.size)
         for _ in range(_ROUNDS):
-            angles: Reals = base + shares @ u
-            links = self.links(angles)
-            gap = crank + links.sum(axis=0) - self.lengths[0]
-            step = solve_pair(*self.columns(links), -gap)
+            cos, sin = self._projections(base + shares @ u)
+            step = _closing(shares.T @ cos, shares.T @ sin, chord[0] + cos.sum(axis=0), chord[1] + sin.sum(axis=0))
             size = np.abs(step).max(axis=0)
-            going = size < finest  # steps shrink until rounding is reached
             if not np.isfinite(size).all():
                 break
+            taken = size < finest  # steps shrink until rounding is reached
+            u = u + np.where(taken, step, 0.0)
+            found[:, rows] = u
+            # the next one would be as much shorter again, squared: s_(k+1) = s_k (s_k/s_(k-1))^2
+            going = taken & (size**3 >= _REST * np.minimum(finest, _NEAR) ** 2)
             if not going.any():
-                return angles
-            u = u + np.where(going, step, 0.0)
-            finest = np.where(going, size, 0.0)
+                return np.asarray(first[:, None] + slopes[:, None] * phi + shares @ found)
+            if not going.all():
+                u, base, rows, size = u[:, going], base[:, going], rows[going], size[going]
+                chord = chord[0][going], chord[1][going]
+            finest = size
         raise NoSolution("the six-bar does not close there")
 
     def rates(self, phi: Reals, angles: Reals) -> tuple[Reals, Reals, Reals]:
@@ -198,14 +210,26 @@ class SixBar:
         Notes
             The condition is 1/sin of `transmission`, infinite in a dead centre.
         """
-        _, _, slopes, shares = self.numbers
-        links, crank = self.links(angles), self.lengths[1] * np.exp(1j * phi)
-        ends = self.columns(links)
-        pushed = -1j * crank - 1j * (slopes[:, None] * links).sum(axis=0)
-        first = slopes[:, None] + shares @ solve_pair(*ends, pushed)
-        second = shares @ solve_pair(*ends, (first * first * links).sum(axis=0) + crank)
-        third = shares @ solve_pair(*ends, ((3.0 * first * second + 1j * first**3) * links).sum(axis=0) + 1j * crank)
+        parts = [
+            self._block_rates(phi[start : start + _BLOCK], angles[:, start : start + _BLOCK])
+            for start in range(0, max(1, phi.size), _BLOCK)
+        ]
+        first, second, third = parts[0] if len(parts) == 1 else (np.hstack(each) for each in zip(*parts, strict=True))
         return first, second, third
+
+    def _block_rates(self, phi: Reals, angles: Reals) -> tuple[Reals, Reals, Reals]:
+        _, _, slopes, shares = self.numbers
+        cos, sin = self._projections(angles)
+        crank_x, crank_y = (self.lengths[1] * each for each in turned(phi))
+        ends = shares.T @ cos, shares.T @ sin
+        first = slopes[:, None] + shares @ _closing(*ends, -(crank_y + slopes @ sin), crank_x + slopes @ cos)
+        square = first * first
+        pulled = [-(part + (square * links).sum(axis=0)) for part, links in ((crank_x, cos), (crank_y, sin))]
+        second = shares @ _closing(*ends, pulled[0], pulled[1])
+        along, across = 3.0 * first * second, first * square
+        x = crank_y - (along * cos - across * sin).sum(axis=0)
+        y = -crank_x - (along * sin + across * cos).sum(axis=0)
+        return first, second, shares @ _closing(*ends, x, y)
 
     def transmission(self, angles: Reals) -> Reals:
         """Angle between the velocities by which the two free directions close the loop, 0 to 90 deg [rad].
@@ -215,21 +239,32 @@ class SixBar:
         Source
             VDI 2142 for the dyad; own derivation
         """
-        one, other = self.columns(self.links(angles))
-        product = np.conj(one) * other
-        return np.asarray(np.arctan2(np.abs(product.imag), np.abs(product.real)))
+        found = np.empty(angles.shape[1:])
+        for start in range(0, found.size, _BLOCK):
+            part = slice(start, start + _BLOCK)
+            x, y = (self.numbers[3].T @ each for each in self._projections(angles[:, part]))
+            found[part] = np.arctan2(np.abs(x[0] * y[1] - y[0] * x[1]), np.abs(x[0] * x[1] + y[0] * y[1]))
+        return found
 
 
-def solve_pair(one: Points, other: Points, right: Points) -> Reals:
-    """Real x, y with x one + y other = right; (2, N) array.
+def turned(angles: Reals) -> tuple[Reals, Reals]:
+    """Cosine and sine, to some ulp of 1, by one tangent of half the angle: it costs an eighth of e^(i angle).
 
     Example
-        >>> solve_pair(np.array([1 + 0j]), np.array([1j]), np.array([3 + 4j])).ravel().tolist()
-        [3.0, 4.0]
+        >>> [round(float(each), 15) for each in turned(np.array(np.pi / 3.0))]
+        [0.5, 0.866025403784439]
     """
-    determinant = (np.conj(one) * other).imag
+    half = np.tan(0.5 * angles)
+    square = half * half
+    share = 1.0 / (1.0 + square)
+    return np.asarray((1.0 - square) * share), np.asarray((half + half) * share)
+
+
+def _closing(cos: Reals, sin: Reals, x: Reals, y: Reals) -> Reals:
+    """Newton's step of the free directions, (2, N), where the loop is open by x, y and its links run so."""
+    determinant = sin[0] * cos[1] - sin[1] * cos[0]
     with np.errstate(divide="ignore", invalid="ignore"):
-        return np.array([(np.conj(right) * other).imag, (np.conj(one) * right).imag]) / determinant
+        return np.asarray(np.array([x * cos[1] + y * sin[1], -(x * cos[0] + y * sin[0])]) / determinant)
 
 
 def pins(bar: SixBar, phi: Reals, angles: Reals) -> Points:

@@ -7,17 +7,12 @@ from collections.abc import Callable
 import numpy as np
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.standstills import Turning
+from gearlink.core.linkages.standstills import Turning, standing
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.roots import sign_changes
 from gearlink.core.numerics.roots_sweep import bracketed_roots
 
 Function = Callable[[Reals], Reals]
-
-
-def scalar(f: Function) -> Callable[[float], float]:
-    """A function of arrays as one of numbers."""
-    return lambda x: float(f(np.array([x]))[0])
 
 
 def zeros(f: Function, grid: Reals) -> list[float]:
@@ -32,9 +27,32 @@ def zeros(f: Function, grid: Reals) -> list[float]:
     places = np.array(sign_changes(f(grid).tolist()), dtype=int)
     if not places.size:
         return []
-    found = bracketed_roots(f, grid[places], grid[places + 1])
+    return _between(f, grid[places], grid[places + 1])
+
+
+def standstills(f: Function, extremes: list[Turning], tolerance: float, period: float | None) -> list[float]:
+    """Input angles at which a speed ratio is zero, touching zeros among them, ascending.
+
+    Parameters
+        f : function of arrays of input angles [rad]
+        extremes, tolerance, period : as of the function of the same name of all linkages
+    Example
+        >>> f, grid = (lambda x: 1.0 + 2.0 * np.sin(x)), np.linspace(0.0, 2.0 * np.pi, 100)
+        >>> found = standstills(f, turnings(f, np.cos, grid, False), 1e-9, 2.0 * np.pi)
+        >>> np.degrees(found).round(9).tolist()
+        [210.0, 330.0]
+    """
+    places, between = standing(extremes, tolerance, period)
+    if between:
+        low, high = np.array(between).T
+        places += _between(f, low, high)
+    return sorted(place if period is None else place % period for place in places)
+
+
+def _between(f: Function, low: Reals, high: Reals) -> list[float]:
+    found = bracketed_roots(f, low, high)
     if np.isnan(found).any():
-        at = float(grid[places[np.isnan(found)][0]])
+        at = float(low[np.isnan(found)][0])
         raise NoSolution(f"the function is no number next to {at!r}")
     return [float(x) for x in found]
 

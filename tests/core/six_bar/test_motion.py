@@ -19,6 +19,7 @@ from hypothesis import strategies as st
 from sweeps import examples
 
 from gearlink.core.errors import NoSolution
+from gearlink.core.six_bar import loop
 from gearlink.core.six_bar.course import Course
 from gearlink.core.six_bar.following import Follower
 from gearlink.core.six_bar.loop import SixBar, pins
@@ -79,7 +80,7 @@ def test_transmission_is_the_acute_angle_of_the_dyad() -> None:
     bar = machine.bar
     angles = machine.course.angles(TURNS)
     one, other = (j - 2 for j in bar.free)
-    links = bar.links(angles)
+    links = bar.numbers[0][:, None] * np.exp(1j * angles)
     b, c = bar.lengths[one + 2], bar.lengths[other + 2]
     chord = np.abs(links[one] + links[other])
     between = np.arccos((b * b + c * c - chord * chord) / (2.0 * b * c))
@@ -143,6 +144,25 @@ def polished(bar: SixBar, rows: Any, phi: Any, near: Any, ties: Any) -> list[Any
 
     found = mpmath.findroot(lacking, [mpmath.mpf(float(t)) for t in near], tol=mpmath.mpf(10) ** -70)
     return list(found)
+
+
+def test_a_place_costs_few_steps_and_rests_by_itself(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Over fifty turns: some four steps a place, and the standstills of all turns in the calls of one."""
+    links = {"coupler_1": 180, "coupler_2": 180, "coupler_3": 180}
+    trains = [MANY_TURNS[0] | {"gears": [20, 30, 40]}, MANY_TURNS[1] | {"gears": [22, 20]}]
+    machine = six_bar(FOLLOWED, links=links, trains=trains, start=OPEN, assembly=1)
+    course, asked = machine.course, list[int]()
+    assert course.period_turns == 50
+    plain = loop.turned
+    monkeypatch.setattr(loop, "turned", lambda angles: asked.append(angles.size) or plain(angles))
+    angles = course.angles(course.grid)
+    assert sum(asked) < 4.0 * 4.5 * course.grid.size
+    few = np.linspace(0, course.grid.size - 1, 5000).astype(int)
+    assert np.abs(course.angles(course.grid[few]) - angles[:, few]).max() < 2.0 * EPS * np.abs(angles).max()
+    _ = machine.speed_turnings
+    asked.clear()
+    assert len(machine.dwell_crank_angles) == 206
+    assert len(asked) < 60
 
 
 def test_the_course_is_that_of_small_steps() -> None:
@@ -308,8 +328,8 @@ def test_the_certain_step_is_that_of_the_least_singular_value() -> None:
     place = Follower(bar).place(0.0, (0.0, 0.0))
     assert place is not None
     length, first, _, shares = bar.numbers
-    one, other = bar.columns(bar.links(first[:, None]))
-    beta = 1.0 / np.linalg.svd(np.array([[one[0].real, other[0].real], [one[0].imag, other[0].imag]]))[1][-1]
+    one, other = shares.T @ (1j * length * np.exp(1j * first))
+    beta = 1.0 / np.linalg.svd(np.array([[one.real, other.real], [one.imag, other.imag]]))[1][-1]
     turned = bar.rates(np.zeros(1), first[:, None])[0][:, 0]
     size = np.linalg.norm(shares, axis=1)
     k, k_rate = length @ size**2, length @ (size * np.abs(turned))
