@@ -27,7 +27,7 @@ from gearlink.cli.exploring.register import register as register_exploring
 from gearlink.cli.export.register import register as register_export
 from gearlink.cli.options import COMMANDS, OPTIONS, Options, folder
 from gearlink.cli.quick import run_line
-from gearlink.cli.typer_options import Spec, option, place, takes
+from gearlink.cli.typer_options import Dask, Jobs, Spec, option, place, share, takes
 from gearlink.core.kinds import KINDS
 
 _HELP = """Design calculator for the mechanisms of printing machines.
@@ -113,8 +113,8 @@ def _batch(
         Path | None, place(folder, "--cache", metavar="DIR", help="keep results; skip unchanged designs")
     ] = None,
     shard: Annotated[str, typer.Option(metavar="I/N", help="run only the I-th of N shares of the files")] = "1/1",
-    jobs: Annotated[int, typer.Option("--jobs", "-j", min=0, help="number of processes; 0: chosen automatically")] = 0,
-    dask: Annotated[str, typer.Option(metavar="ADDRESS", help="compute on the Dask cluster of this scheduler")] = "",
+    jobs: Jobs = 0,
+    dask: Dask = "",
     added: Annotated[
         list[Added] | None, typer.Option("--with", help="run this as well on files with tolerances (repeatable)")
     ] = None,
@@ -129,14 +129,7 @@ def _batch(
         raise typer.BadParameter("--plot of a batch needs --out DIR", param_hint="--plot")
     design = replace(options, strict=options.strict or fail_on is FailOn.WARNING)
     more = tuple(dict.fromkeys(one.value for one in added or ()))
-    raise typer.Exit(run_batch(places, BatchOptions(design, format, out, cache, _share(shard), jobs, dask, more)))
-
-
-def _share(text: str) -> tuple[int, int]:
-    index, _, count = text.partition("/")
-    if text.isascii() and index.isdecimal() and count.isdecimal() and 1 <= int(index) <= int(count):
-        return int(index), int(count)
-    raise typer.BadParameter(f"{text!r} is not I/N with 1 <= I <= N", param_hint="--shard")
+    raise typer.Exit(run_batch(places, BatchOptions(design, format, out, cache, share(shard), jobs, dask, more)))
 
 
 register(app)

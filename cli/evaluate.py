@@ -82,6 +82,18 @@ def build(
     return design, report
 
 
+def whole_design(kind: Kind, spec: Any) -> Design:
+    """The design by the command whose class knows links and parts: an analysis of given ones before a synthesis."""
+    asked: tuple[str, ...] = spec.commands()
+    return kind.design("analyze" if "analyze" in asked else asked[0], spec)
+
+
+def wrong_kind(loaded: LoadedFile, message: str) -> DesignFileError:
+    """The refusal of a file for its kind."""
+    line, column, file = loaded.locate(("kind",))
+    return DesignFileError([Diagnostic("GL113", message, file=file, line=line, column=column, key="kind")])
+
+
 @contextmanager
 def refusals_located(loaded: LoadedFile) -> Iterator[None]:
     """What a mechanism or a study refuses becomes an error at its place in the file.

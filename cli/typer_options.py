@@ -16,6 +16,8 @@ from typer.models import OptionInfo
 from gearlink.cli.options import OPTIONS, Options, file, folder, plain_file
 
 Spec = Annotated[str, typer.Argument(metavar="SPEC", help="design file, or - for standard input")]
+Jobs = Annotated[int, typer.Option("--jobs", "-j", min=0, help="number of processes; 0: chosen automatically")]
+Dask = Annotated[str, typer.Option("--dask", metavar="ADDRESS", help="compute on the Dask cluster of this scheduler")]
 
 
 def option(name: str, **changed: Any) -> OptionInfo:
@@ -64,6 +66,14 @@ def offers(name: str) -> Callable[[str], list[tuple[str, str]]]:
         return offer
 
     return found
+
+
+def share(text: str) -> tuple[int, int]:
+    """The share I of N that --shard names, counted from 1."""
+    index, _, count = text.partition("/")
+    if text.isascii() and index.isdecimal() and count.isdecimal() and 1 <= int(index) <= int(count):
+        return int(index), int(count)
+    raise typer.BadParameter(f"{text!r} is not I/N with 1 <= I <= N", param_hint="--shard")
 
 
 def takes(*names: str, **words: str) -> Callable[[Callable[..., None]], Callable[..., None]]:

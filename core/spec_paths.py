@@ -142,5 +142,12 @@ def put(data: Any, path: str, value: Any) -> None:
     data[last] = value
 
 
+def part_at(data: Any, path: str) -> Any:
+    """What stands at a path in the data of a design file; None where nothing does, all of it for an empty path."""
+    for step in _steps(path):
+        data = data.get(step) if isinstance(data, dict) else None
+    return data
+
+
 def _steps(path: str) -> list[str | int]:
     return [int(step) if step.isdecimal() else step for step in _STEP.findall(path)]

@@ -5,21 +5,17 @@ from __future__ import annotations
 import re
 import sys
 from dataclasses import dataclass
-from typing import IO, TYPE_CHECKING, Any
+from typing import IO, TYPE_CHECKING
 
-from gearlink.cli.commands.design import show_refusal
-from gearlink.cli.evaluate import open_design, read_spec
+from gearlink.cli.evaluate import open_design, read_spec, refusals_located, whole_design, wrong_kind
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite, safe_stem, write_atomically
 from gearlink.cli.options import Options
 from gearlink.cli.printable import visible
 from gearlink.cli.progress import counted
-from gearlink.cli.reading.design_file import diagnose_no_solution
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
-from gearlink.cli.reading.loaded_file import LoadedFile
+from gearlink.cli.render.errors import show_refusal
 from gearlink.cli.scenes.loops import build, moves, moving_kinds, pictures_for
-from gearlink.core.errors import NoSolution
-from gearlink.core.kinds import Kind
 
 if TYPE_CHECKING:
     from gearlink.cli.moving.stage import Stage
@@ -65,31 +61,16 @@ def _scene(source: str, asked: Asked, options: Options) -> tuple[Design, Scene]:
     import numpy as np
 
     loaded, kind = open_design(source, options)
-    _require_motion(loaded, kind)
+    if not moves(kind.name):
+        raise wrong_kind(loaded, f"a {kind.name} does not move; kinds that do: {', '.join(moving_kinds())}")
     spec = read_spec(loaded, kind, source)
-    try:
-        design = kind.design(_command(spec), spec)
+    with refusals_located(loaded):
+        design = whole_design(kind, spec)
         if asked.seconds is None:
             count = pictures_for(build(design, np.arange(_PROBES) / _PROBES), asked.fps)
         else:
             count = max(2, round(asked.seconds * asked.fps))
         return design, build(design, np.arange(count) / count)
-    except NoSolution as error:
-        raise DesignFileError([diagnose_no_solution(loaded, error)]) from error
-
-
-def _require_motion(loaded: LoadedFile, kind: Kind) -> None:
-    if moves(kind.name):
-        return
-    line, column, file = loaded.locate(("kind",))
-    message = f"a {kind.name} does not move; kinds that do: {', '.join(moving_kinds())}"
-    raise DesignFileError([Diagnostic("GL113", message, file=file, line=line, column=column, key="kind")])
-
-
-def _command(spec: Any) -> str:
-    """The command whose design class knows the links: an analysis of given ones before a synthesis."""
-    asked: tuple[str, ...] = spec.commands()
-    return "analyze" if "analyze" in asked else asked[0]
 
 
 def _size(text: str) -> tuple[int, int]:

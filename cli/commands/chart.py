@@ -8,16 +8,16 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.commands.design import print_report, show_refusal
-from gearlink.cli.evaluate import open_design, read_spec
+from gearlink.cli.commands.design import print_report
+from gearlink.cli.evaluate import open_design, read_spec, refusals_located, whole_design, wrong_kind
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.figures.chart_list import CHARTS, DesignChart
 from gearlink.cli.files import CannotWrite
 from gearlink.cli.options import Format, Options
 from gearlink.cli.patience import patience
 from gearlink.cli.printable import visible
-from gearlink.cli.reading.design_file import diagnose_no_solution
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
+from gearlink.cli.render.errors import show_refusal
 from gearlink.core.errors import NoSolution, at_key, named
 from gearlink.core.report import Quantity, Report
 
@@ -148,16 +148,12 @@ def _marked(chart: DesignChart, source: str, options: Options) -> Marked:
     """
     loaded, kind = open_design(source, options)
     if kind.name != chart.kind:
-        line, column, file = loaded.locate(("kind",))
-        message = f"a {kind.name} has no place in the chart {chart.name}; it is about the kind {chart.kind}"
-        raise DesignFileError([Diagnostic("GL113", message, file=file, line=line, column=column, key="kind")])
+        words = f"a {kind.name} has no place in the chart {chart.name}; it is about the kind {chart.kind}"
+        raise wrong_kind(loaded, words)
     spec = read_spec(loaded, kind, source)
-    asked: tuple[str, ...] = spec.commands()
-    try:
-        design: Any = kind.design("analyze" if "analyze" in asked else asked[0], spec)
+    with refusals_located(loaded):
+        design: Any = whole_design(kind, spec)
         return _located_swing(chart, design) if chart.kind == "wide-swing-cam" else _located(chart, design)
-    except NoSolution as error:
-        raise DesignFileError([diagnose_no_solution(loaded, error)]) from error
 
 
 def _located_swing(chart: DesignChart, design: Any) -> Marked:

@@ -38,10 +38,9 @@ def run_check(places: Sequence[str], options: Options, *, verbose: bool = False)
         if named := [place for place in places if place != "-"]:
             files += map(str, design_files(named))
     except DesignFileError as error:
-        from gearlink.cli.render.errors import show_errors
+        from gearlink.cli.render.errors import show_refusal
 
-        show_errors(error.diagnostics, options)
-        return ExitCode.WRONG_INPUT
+        return show_refusal(error, "", options)
     found, of_files = [], _of_all(files, options)
     for number, file in enumerate(files, start=1):
         share = f" ({number} of {len(files)})" if len(files) > 1 else ""

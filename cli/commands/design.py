@@ -13,8 +13,8 @@ from gearlink.cli.files import CannotWrite
 from gearlink.cli.options import STREAM, Format, Options
 from gearlink.cli.patience import patience
 from gearlink.cli.printable import visible
-from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
-from gearlink.cli.render.errors import show_errors
+from gearlink.cli.reading.diagnostics import DesignFileError
+from gearlink.cli.render.errors import show_refusal
 from gearlink.core.errors import NoSolution
 
 if TYPE_CHECKING:
@@ -89,20 +89,6 @@ def _save(loaded: LoadedFile, kind: Kind, command: str, design: Design, options:
     from gearlink.cli.commands.save import save
 
     return save(loaded, kind, command, design, options)
-
-
-def show_refusal(error: DesignFileError | CannotWrite | NoSolution, source: str, options: Options) -> int:
-    """Print why there is no result, and give the exit status.
-
-    A NoSolution that comes here is the plot's: it may show what the report did not ask for.
-    """
-    if isinstance(error, DesignFileError):
-        show_errors(error.diagnostics, options)
-    elif isinstance(error, NoSolution):
-        show_errors([Diagnostic(error.code, error.message, file=source, key=error.key)], options)
-    else:
-        show_errors([Diagnostic("GL116", str(error), file=source, line=1, column=1, key="")], options)
-    return ExitCode.WRONG_INPUT
 
 
 def plot(command: str, design: Design, options: Options, report: Report) -> None:

@@ -38,14 +38,13 @@ class Side:
 def run_diff(old: str, new: str, options: Options, tolerance: float = TOLERANCE) -> int:
     """Print what changed from `old` to `new`; 0 where nothing did, 1 where something did."""
     from gearlink.cli.commands.diff_page import show_difference
-    from gearlink.cli.render.errors import show_errors
+    from gearlink.cli.render.errors import show_refusal
 
     try:
         with patience(f"computing {old} and {new}", quiet=options.quiet):
             found = difference(old, new, options, tolerance)
     except DesignFileError as error:
-        show_errors(error.diagnostics, options)
-        return ExitCode.WRONG_INPUT
+        return show_refusal(error, new, options)
     show_difference(found, options)
     return ExitCode.OK if found.equal else ExitCode.FINDING
 

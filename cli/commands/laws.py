@@ -42,10 +42,10 @@ def laws(
 def run_laws(names: Sequence[str], options: Options) -> int:
     """Print the constants of all laws or the course of those named, and give the exit status."""
     from gearlink.cli.commands.design import plot as draw
-    from gearlink.cli.commands.design import print_report, show_refusal
+    from gearlink.cli.commands.design import print_report
     from gearlink.cli.files import CannotWrite
     from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
-    from gearlink.cli.render.errors import show_errors
+    from gearlink.cli.render.errors import show_errors, show_refusal
     from gearlink.core.cams.law_tables import LawChoice, MotionLaws
     from gearlink.core.errors import NoSolution
 

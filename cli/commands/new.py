@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import os
 import sys
-from functools import partial
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.exit_codes import ExitCode
-from gearlink.cli.options import STREAM
+from gearlink.cli.options import STREAM, Options
 from gearlink.cli.printable import visible
 from gearlink.cli.texts.known import index
 from gearlink.cli.texts.worked_designs import worked_design
 from gearlink.core.kinds import KINDS, SUMMARIES
+from gearlink.core.spec_paths import part_at
 
 if TYPE_CHECKING:
     from gearlink.cli.texts.spec_keys import SpecKey
@@ -38,26 +38,15 @@ def run_new(kind_name: str, out: Path | None, *, force: bool = False, quiet: boo
     try:
         if os.path.exists(out) and not force:
             raise CannotWrite(f"{out} is there already: give another --out, or --force to overwrite it")
-        write_atomically(out, partial(_write, text=text))
+        write_atomically(out, lambda stream: stream.write(text.encode()))
     except CannotWrite as error:
-        return _refused(str(error), out)
+        from gearlink.cli.render.errors import show_refusal
+
+        return show_refusal(error, str(out), Options())
     if not quiet:
         path = visible(str(out))
         print(f"wrote {path}; try: gearlink {index().first_commands[kind.name]} {path}", file=sys.stderr)
     return ExitCode.OK
-
-
-def _write(stream: IO[bytes], text: str) -> None:
-    stream.write(text.encode())
-
-
-def _refused(message: str, out: Path) -> int:
-    from gearlink.cli.options import Options
-    from gearlink.cli.reading.diagnostics import Diagnostic
-    from gearlink.cli.render.errors import show_errors
-
-    show_errors([Diagnostic("GL116", message, file=str(out))], Options())
-    return ExitCode.WRONG_INPUT
 
 
 def list_of_kinds() -> str:
@@ -114,7 +103,7 @@ def _left_out(kind: Kind, text: str) -> str:
     rows = []
     for key in spec_keys(kind):
         parent, _, name = key.path.rpartition(".")
-        section = _at(data, parent)
+        section = part_at(data, parent)
         if not (isinstance(section, dict) and name in section):
             # In a section that the file has, the whole path tells where the key belongs.
             label = key.path if isinstance(section, dict) else "  " * key.path.count(".") + name
@@ -126,12 +115,6 @@ def _left_out(kind: Kind, text: str) -> str:
     return "\n# Keys that this file leaves out, with their defaults; a.b stands for b in the section a:\n" + "\n".join(
         [*lines, ""]
     )
-
-
-def _at(data: Any, path: str) -> Any:
-    for step in path.split(".") if path else ():
-        data = data.get(step) if isinstance(data, dict) else None
-    return data
 
 
 def _default(key: SpecKey) -> str:

@@ -15,13 +15,12 @@ from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.evaluate import build, exit_status, open_design, read_spec
-from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite, safe_stem, write_atomically
 from gearlink.cli.options import Options
 from gearlink.cli.patience import patience
 from gearlink.cli.printable import visible
-from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
-from gearlink.cli.render.errors import show_errors
+from gearlink.cli.reading.diagnostics import DesignFileError
+from gearlink.cli.render.errors import show_refusal
 from gearlink.core.errors import NoSolution
 
 if TYPE_CHECKING:
@@ -51,15 +50,8 @@ def run_report(source: str, options: Options) -> int:
             page = whole_page(spec.name, _body(loaded.text, spec, parts))
         path = options.out / f"{safe_stem(spec.name)}.html"
         write_atomically(path, lambda stream: stream.write(page.encode()))
-    except DesignFileError as error:
-        show_errors(error.diagnostics, options)
-        return ExitCode.WRONG_INPUT
-    except NoSolution as error:  # of a sheet, which may show what the report did not ask for
-        show_errors([Diagnostic(error.code, error.message, file=source, key=error.key)], options)
-        return ExitCode.WRONG_INPUT
-    except CannotWrite as error:
-        show_errors([Diagnostic("GL116", str(error), file=source)], options)
-        return ExitCode.WRONG_INPUT
+    except (DesignFileError, CannotWrite, NoSolution) as error:
+        return show_refusal(error, source, options)
     if not options.quiet:
         print(f"wrote {visible(str(path))}", file=sys.stderr)
     return max(exit_status(report, strict=options.strict) for _, report in parts)

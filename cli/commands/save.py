@@ -9,7 +9,7 @@ import math
 import os
 import sys
 from collections.abc import Iterable, Mapping, Sequence
-from typing import IO, TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite, stem_of, write_atomically
@@ -20,6 +20,7 @@ from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.texts.spec_keys import spec_keys
 from gearlink.cli.texts.written_design import flow, written
 from gearlink.core.errors import NoSolution
+from gearlink.core.spec_paths import part_at, put
 from gearlink.core.version import VERSION
 
 if TYPE_CHECKING:
@@ -65,7 +66,7 @@ def save(
     if options.save == STREAM:
         sys.stdout.write(text)
     else:
-        write_atomically(options.save, lambda stream: _write(stream, text))
+        write_atomically(options.save, lambda stream: stream.write(text.encode()))
         if not options.quiet:
             path = visible(str(options.save))
             print(f"wrote {path}; try: gearlink {again} {path}", file=sys.stderr)
@@ -89,10 +90,6 @@ def _failing_when_rounded(kind: Kind, command: str, text: str, options: Options)
         reason = error.message if isinstance(error, NoSolution) else error.diagnostics[0].message
         words = f"rounded to {options.round:g} mm there is no such mechanism: {reason}; take a smaller step"
         raise DesignFileError([Diagnostic("GL115", words, file="<command line>", key="--round")]) from error
-
-
-def _write(stream: IO[bytes], text: str) -> None:
-    stream.write(text.encode())
 
 
 def _failing(kind: Kind, command: str, spec: Any) -> list[Check]:
@@ -126,12 +123,12 @@ def complete(
     left_out, units = [], {key.path: key.unit for key in spec_keys(kind)}
     for found in design.completion():
         if found.value is None:
-            left_out += [(found.path, old)] if (old := _at(data, found.path)) is not None else []
-            _put(data, found.path, None)
+            left_out += [(found.path, old)] if (old := part_at(data, found.path)) is not None else []
+            put(data, found.path, None)
             continue
         value, words = _rounded(found.value, found.path, units, step)
         notes |= {path: "; ".join(w for w in (found.why, word) if w) for path, word in words.items()}
-        _put(data, found.path, value)
+        put(data, found.path, value)
     data["name"] = stem_of(file) if "name" not in loaded.data and file != STREAM else design.spec.name
     head = [f"{data['name']}: `gearlink {command} {loaded.file}` (gearlink {VERSION})"]
     head += [f"asked for: {path}: {flow(value)}" for path, value in left_out]
@@ -168,19 +165,6 @@ def _ordered(data: Mapping[str, Any], order: Mapping[str, Any]) -> dict[str, Any
         else data[key]
         for key in keys
     }
-
-
-def _at(data: Any, path: str) -> Any:
-    for step in path.split("."):
-        data = data.get(step) if isinstance(data, dict) else None
-    return data
-
-
-def _put(data: dict[str, Any], path: str, value: Any) -> None:
-    *sections, last = path.split(".")
-    for step in sections:
-        data = data.setdefault(step, {})
-    data[last] = value
 
 
 def _shown(value: Any) -> str:

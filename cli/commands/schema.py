@@ -11,8 +11,7 @@ from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite, write_atomically
 from gearlink.cli.options import Options
 from gearlink.cli.printable import visible
-from gearlink.cli.reading.diagnostics import Diagnostic
-from gearlink.cli.render.errors import show_errors
+from gearlink.cli.render.errors import show_refusal
 from gearlink.cli.texts.schema import all_kinds_schema, kind_schema
 from gearlink.core.kinds import FILES
 
@@ -45,8 +44,7 @@ def write_schema(kind_name: str | None, folder: Path) -> int:
             write_atomically(settings, lambda stream: stream.write(f"{line}\n".encode()))
             print(f"wrote {visible(str(settings))}", file=sys.stderr)
     except CannotWrite as error:
-        show_errors([Diagnostic("GL116", str(error), file="<--write>")], Options())
-        return ExitCode.WRONG_INPUT
+        return show_refusal(error, "<--write>", Options())
     return ExitCode.OK
 
 

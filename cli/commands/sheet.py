@@ -7,16 +7,15 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.commands.design import show_refusal
-from gearlink.cli.evaluate import open_design, read_spec
+from gearlink.cli.evaluate import open_design, read_spec, refusals_located, whole_design
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite, safe_stem, write_atomically
 from gearlink.cli.options import Options
 from gearlink.cli.patience import patience
 from gearlink.cli.printable import visible
-from gearlink.cli.reading.design_file import diagnose_no_solution
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
-from gearlink.core.errors import NoSolution, named
+from gearlink.cli.render.errors import show_refusal
+from gearlink.core.errors import named
 
 if TYPE_CHECKING:
     from gearlink.cli.figures.sheet_list import Makers
@@ -29,14 +28,9 @@ def run_sheet(source: str, names: Sequence[str], options: Options) -> int:
     try:
         loaded, kind = open_design(source, options)
         spec = read_spec(loaded, kind, source)
-        commands = spec.commands()
-        command = "analyze" if "analyze" in commands else commands[0]
-        try:
-            with patience(f"drawing {spec.name}", quiet=options.quiet):
-                made = sheets_of(kind.design(command, spec))
-                paths = [_write(made, name, spec, options) for name in _chosen(made, names, kind.name)]
-        except NoSolution as error:
-            raise DesignFileError([diagnose_no_solution(loaded, error)]) from error
+        with refusals_located(loaded), patience(f"drawing {spec.name}", quiet=options.quiet):
+            made = sheets_of(whole_design(kind, spec))
+            paths = [_write(made, name, spec, options) for name in _chosen(made, names, kind.name)]
     except (DesignFileError, CannotWrite) as error:
         return show_refusal(error, source, options)
     if not options.quiet:

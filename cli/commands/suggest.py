@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.commands.design import plot, print_report, show_refusal
+from gearlink.cli.commands.design import plot, print_report
 from gearlink.cli.commands.save import require_place, save
 from gearlink.cli.evaluate import build, exit_status, open_design, read_spec, require_command
 from gearlink.cli.exit_codes import ExitCode
@@ -19,6 +19,7 @@ from gearlink.cli.files import CannotWrite
 from gearlink.cli.options import STREAM, Format, Options
 from gearlink.cli.printable import json_text
 from gearlink.cli.reading.diagnostics import DesignFileError
+from gearlink.cli.render.errors import show_refusal
 from gearlink.core.errors import NoSolution
 from gearlink.core.remedies import Bench
 from gearlink.core.report import Check, Remedy, Report

@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from gearlink.cli.options import OPTIONS, Options
-from gearlink.cli.typer_options import Spec, takes
+from gearlink.cli.typer_options import Jobs, Spec, takes
 
 _SHARED = [name for name in OPTIONS if name not in ("samples", "suggest", "save", "round", "force")]
 
@@ -27,7 +27,6 @@ Samples = Annotated[
 ]
 Seed = Annotated[int | None, typer.Option("--seed", min=0, max=2**32 - 1, help="the same seed gives the same samples")]
 
-Jobs = Annotated[int, typer.Option("--jobs", "-j", min=0, help="number of processes; 0: chosen automatically")]
 Factory = Annotated[str, typer.Option("--executor", metavar="MODULE:FACTORY", help="what makes an executor")]
 Scheduler = Annotated[str, typer.Option("--dask", metavar="ADDRESS", help="compute on this scheduler's Dask cluster")]
 

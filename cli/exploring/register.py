@@ -10,7 +10,7 @@ import typer
 
 from gearlink.cli.exploring.options import Exploring
 from gearlink.cli.options import Options, folder, plain_file
-from gearlink.cli.typer_options import place, takes
+from gearlink.cli.typer_options import Dask, Jobs, place, share, takes
 
 
 def register(app: typer.Typer) -> None:
@@ -28,9 +28,9 @@ def _explore(
     resume: Annotated[bool, typer.Option("--resume", help="continue what the store has")] = False,
     budget: Annotated[float | None, typer.Option(min=1.0, metavar="N", help="most designs")] = None,
     seed: Annotated[int | None, typer.Option(min=0, metavar="N", help="seed of a sampled study")] = None,
-    jobs: Annotated[int, typer.Option("--jobs", "-j", min=0, help="number of processes; 0: chosen automatically")] = 0,
+    jobs: Jobs = 0,
     executor: Annotated[str, typer.Option(metavar="MODULE:FACTORY", help="what makes an executor to compute by")] = "",
-    dask: Annotated[str, typer.Option(metavar="ADDRESS", help="compute on the Dask cluster of this scheduler")] = "",
+    dask: Dask = "",
     shard: Annotated[str, typer.Option(metavar="I/N", help="compute only the I-th of N shares")] = "1/1",
     merge: Annotated[bool, typer.Option("--merge", help="put the named stores together in --store")] = False,
     show: Annotated[str, typer.Option(metavar="N", help="print design N (mK: nearest miss of row K of why)")] = "",
@@ -49,12 +49,5 @@ def _explore(
     given = [f"sampling.budget={budget!r}"] if budget is not None else []
     given += [f"sampling.seed={seed}"] if seed is not None else []
     options = replace(options, overrides=(*options.overrides, *given))
-    asked = Exploring(options, store, resume, merge, jobs, executor, dask, show, write, _share(shard), tuple(sources))
+    asked = Exploring(options, store, resume, merge, jobs, executor, dask, show, write, share(shard), tuple(sources))
     raise typer.Exit(run_explore(asked))
-
-
-def _share(text: str) -> tuple[int, int]:
-    index, _, count = text.partition("/")
-    if text.isascii() and index.isdecimal() and count.isdecimal() and 1 <= int(index) <= int(count):
-        return int(index), int(count)
-    raise typer.BadParameter(f"{text!r} is not I/N with 1 <= I <= N", param_hint="--shard")

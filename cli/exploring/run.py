@@ -28,7 +28,7 @@ from gearlink.cli.printable import visible
 from gearlink.cli.progress import progress
 from gearlink.cli.reading.base_design import located
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
-from gearlink.cli.render.errors import show_errors
+from gearlink.cli.render.errors import show_errors, show_refusal
 from gearlink.core.explore.chunks import together
 from gearlink.core.explore.exploration import Exploration
 from gearlink.core.explore.front import Found
@@ -41,14 +41,12 @@ def run_explore(asked: Exploring) -> int:
     """Do what the command line asks for, and give the exit status."""
     try:
         return _run(asked)
-    except DesignFileError as error:
-        show_errors(error.diagnostics, asked.options)
     except CannotStore as error:
         place = str(asked.store or asked.sources[0])
         show_errors([Diagnostic(error.code, str(error), file=place, help=error.help)], asked.options)
-    except CannotWrite as error:
-        show_errors([Diagnostic("GL116", str(error), file=asked.sources[0])], asked.options)
-    return ExitCode.WRONG_INPUT
+        return ExitCode.WRONG_INPUT
+    except (DesignFileError, CannotWrite) as error:
+        return show_refusal(error, asked.sources[0], asked.options)
 
 
 def _run(asked: Exploring) -> int:

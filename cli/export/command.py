@@ -10,19 +10,17 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.evaluate import open_design, read_spec
+from gearlink.cli.evaluate import open_design, read_spec, refusals_located, whole_design, wrong_kind
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.export import parts
 from gearlink.cli.export.options import CONTOUR, CurveForm, Export, FileFormat
 from gearlink.cli.files import CannotWrite, safe_stem, write_atomically
 from gearlink.cli.patience import patience
 from gearlink.cli.printable import visible
-from gearlink.cli.reading.design_file import diagnose_no_solution
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import LoadedFile
-from gearlink.cli.render.errors import show_errors
-from gearlink.core.errors import GearlinkError, NoSolution, named
-from gearlink.core.kinds import Kind
+from gearlink.cli.render.errors import show_errors, show_refusal
+from gearlink.core.errors import GearlinkError, named
 
 if TYPE_CHECKING:
     from gearlink.cli.export.contour import Contour
@@ -35,9 +33,10 @@ def run_export(source: str, asked: Export) -> int:
     """
     try:
         loaded, kind = open_design(source, asked.options)
-        _require_profiles(loaded, kind)
+        if kind.name not in (known := parts.kinds()):
+            raise wrong_kind(loaded, f"a {kind.name} has no profile to export; kinds that have one: {', '.join(known)}")
         spec = read_spec(loaded, kind, source)
-        design = kind.design(_command(spec), spec)
+        design = whole_design(kind, spec)
         with _located(loaded), patience(f"computing the profiles of {spec.name}", quiet=asked.options.quiet):
             files = list(_contour_files(design, asked))
             profiles = _without_contour(design, asked)
@@ -49,12 +48,8 @@ def run_export(source: str, asked: Export) -> int:
             write_atomically(path, lambda stream, data=data: stream.write(data))  # type: ignore[misc]
             if not asked.options.quiet:
                 print(f"{visible(str(path))}: {words}")
-    except DesignFileError as error:
-        show_errors(error.diagnostics, asked.options)
-        return ExitCode.WRONG_INPUT
-    except CannotWrite as error:
-        show_errors([Diagnostic("GL116", str(error), file=source)], asked.options)
-        return ExitCode.WRONG_INPUT
+    except (DesignFileError, CannotWrite) as error:
+        return show_refusal(error, source, asked.options)
     except GearlinkError as error:
         show_errors([Diagnostic("GL115", str(error), file="<command line>")], asked.options)
         return ExitCode.WRONG_INPUT
@@ -94,9 +89,8 @@ def _located(loaded: LoadedFile) -> Iterator[None]:
     from gearlink.cli.export.sampling import TooFine
 
     try:
-        yield
-    except NoSolution as error:
-        raise DesignFileError([diagnose_no_solution(loaded, error)]) from error
+        with refusals_located(loaded):
+            yield
     except TooFine as error:
         raise DesignFileError([Diagnostic("GL115", str(error), file="<--tolerance>")]) from error
 
@@ -139,20 +133,6 @@ def _drawn(form: FileFormat, contours: dict[CurveForm, list[Contour]], asked: Ex
     made = contours[CurveForm.SPLINE]
     closed = [contour for contour in made if contour.part.closed]
     return made if asked.parts or not closed else closed
-
-
-def _command(spec: Any) -> str:
-    """The command whose design class knows the parts: an analysis of given links before a synthesis."""
-    asked: tuple[str, ...] = spec.commands()
-    return "analyze" if "analyze" in asked else asked[0]
-
-
-def _require_profiles(loaded: LoadedFile, kind: Kind) -> None:
-    if kind.name in parts.kinds():
-        return
-    line, column, file = loaded.locate(("kind",))
-    message = f"a {kind.name} has no profile to export; kinds that have one: {', '.join(parts.kinds())}"
-    raise DesignFileError([Diagnostic("GL113", message, file=file, line=line, column=column, key="kind")])
 
 
 def _names(asked: tuple[str, ...], known: tuple[str, ...], also: tuple[str, ...]) -> tuple[str, ...]:

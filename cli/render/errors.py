@@ -7,10 +7,13 @@ import sys
 from collections.abc import Sequence
 from typing import TextIO
 
+from gearlink.cli.exit_codes import ExitCode
+from gearlink.cli.files import CannotWrite
 from gearlink.cli.options import Format, Options
 from gearlink.cli.printable import json_text
-from gearlink.cli.reading.diagnostics import Diagnostic
+from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.json_report import FORMAT
+from gearlink.core.errors import NoSolution
 
 _NARROWEST = 40
 _MESSAGE = re.compile(r"\S.*: (error|fail|warn|pass|fault) GL\d|  help: ")  # the source line and its caret stay
@@ -28,6 +31,20 @@ def show_errors(diagnostics: Sequence[Diagnostic], options: Options) -> None:
         return
     for diagnostic in diagnostics:
         print(fitted(diagnostic.as_text(sys.stderr.encoding or "utf-8"), sys.stderr), file=sys.stderr)
+
+
+def show_refusal(error: DesignFileError | CannotWrite | NoSolution, source: str, options: Options) -> int:
+    """Print why there is no result, and give the exit status.
+
+    A NoSolution that comes here is the plot's: it may show what the report did not ask for.
+    """
+    if isinstance(error, DesignFileError):
+        show_errors(error.diagnostics, options)
+    elif isinstance(error, NoSolution):
+        show_errors([Diagnostic(error.code, error.message, file=source, key=error.key)], options)
+    else:
+        show_errors([Diagnostic("GL116", str(error), file=source)], options)
+    return ExitCode.WRONG_INPUT
 
 
 def fitted(text: str, stream: TextIO) -> str:

@@ -22,8 +22,7 @@ from matplotlib.path import Path as Outline
 from PIL import Image
 from sweeps import mostly_slow
 
-from gearlink.cli.commands.animate import _command
-from gearlink.cli.evaluate import open_design, read_spec
+from gearlink.cli.evaluate import open_design, read_spec, whole_design
 from gearlink.cli.moving import gif
 from gearlink.cli.moving.page import page, player_stage
 from gearlink.cli.moving.raster import Raster
@@ -43,7 +42,7 @@ QUICK = ("--fps", 4, "--seconds", 1, "--size", "240x180")
 def design_of(path: Path | str) -> Any:
     loaded, kind = open_design(str(path), Options())
     spec = read_spec(loaded, kind, str(path))
-    return kind.design(_command(spec), spec)
+    return whole_design(kind, spec)
 
 
 def kind_in(path: Path) -> str:
