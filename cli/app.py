@@ -25,7 +25,7 @@ from gearlink.cli.completing import better_scripts
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.exploring.register import register as register_exploring
 from gearlink.cli.export.register import register as register_export
-from gearlink.cli.options import COMMANDS, OPTIONS, Options, folder
+from gearlink.cli.options import COMMANDS, OF_REPORT, OPTIONS, Options, folder
 from gearlink.cli.quick import run_line
 from gearlink.cli.typer_options import Dask, Jobs, Spec, option, place, share, takes
 from gearlink.core.kinds import KINDS
@@ -69,15 +69,13 @@ for _name, _words in COMMANDS.items():
 
 
 @app.command("report")
-@takes("out", "overrides", "strict", "quiet")
+@takes(*OF_REPORT)
 def _report(spec: Spec, options: Options) -> None:
     """Write a design as one self-contained HTML page: input, results, findings, tables, pictures.
 
     Example: gearlink report designs/ty460.yaml --out reports
     """
-    from gearlink.cli.commands.report import run_report
-
-    raise typer.Exit(run_report(spec, options))
+    raise typer.Exit(run_line("report", spec, options))
 
 
 @app.command("watch")

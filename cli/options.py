@@ -156,6 +156,9 @@ OPTIONS = {
 }
 """The options that commands share, by the field of `Options` that keeps their value."""
 
+OF_REPORT = ("out", "overrides", "strict", "quiet")
+"""Those that `report` has."""
+
 COMMANDS = {
     "analyze": "Full analysis of a design: kinematics over a turn, dwells, all checks.",
     "gear": "Gear pairs: a gear-pair design, or the pairs inside a press or a geared linkage.",

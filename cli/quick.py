@@ -1,7 +1,7 @@
 """Plain command lines of the commands that are used most, read without Typer, whose import takes longer than most.
 
-Only what is certain is taken: a design command, one design file, options spelled out with proper values. For all
-else `plain_line` gives None and Typer reads the line, so that help, abbreviations and every error are its own.
+Only what is certain is taken: a design command or `report`, one design file, options spelled out with proper values.
+For all else `plain_line` gives None and Typer reads the line, so that help, abbreviations and every error are its own.
 A test holds the two readings to the same result.
 """
 
@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any, TypeAlias
 
-from gearlink.cli.options import COMMANDS, OPTIONS, Format, Option, Options
+from gearlink.cli.options import COMMANDS, OF_REPORT, OPTIONS, Format, Option, Options
 
 Line: TypeAlias = tuple[str, str, Options]
 """Command, design file, options."""
@@ -34,6 +34,8 @@ def plain_line(arguments: list[str]) -> Line | None:
     try:
         sources, chosen = _read(iter(rest))
     except (LookupError, ValueError, StopIteration):
+        return None
+    if command == "report" and not chosen.keys() <= set(OF_REPORT):
         return None
     return (command, sources[0], Options(**chosen)) if len(sources) == 1 else None
 
@@ -77,6 +79,10 @@ def run_reference(command: str, *words: str) -> int:
 
 def run_line(command: str, source: str, options: Options) -> int:
     """Run a command on a design file as the options ask, and give the exit status."""
+    if command == "report":
+        from gearlink.cli.commands.report import run_report
+
+        return run_report(source, options)
     if options.suggest:
         from gearlink.cli.commands.suggest import run_suggested
 
@@ -89,7 +95,7 @@ def run_line(command: str, source: str, options: Options) -> int:
 def _command(arguments: list[str]) -> tuple[str, list[str]]:
     words = 2 if arguments[:1] == ["synth"] else 1
     command = " ".join(arguments[:words])
-    return (command, arguments[words:]) if command in COMMANDS else ("", [])
+    return (command, arguments[words:]) if command in COMMANDS or command == "report" else ("", [])
 
 
 def _read(rest: Iterator[str]) -> tuple[list[str], dict[str, Any]]:

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from sweeps import examples
 
 import gearlink.cli.commands.design
+import gearlink.cli.commands.report
 import gearlink.cli.commands.suggest
 from gearlink.cli import app
 from gearlink.cli.options import COMMANDS, OPTIONS, Format, Options, PlotFormat
@@ -56,12 +57,13 @@ def by_typer(arguments: list[str], monkeypatch: pytest.MonkeyPatch) -> Any:
     with monkeypatch.context() as patch:
         patch.setattr(gearlink.cli.commands.design, "run_design", lambda *line: seen.append(line) or 0)
         patch.setattr(gearlink.cli.commands.suggest, "run_suggested", lambda *line: seen.append(line) or 0)
+        patch.setattr(gearlink.cli.commands.report, "run_report", lambda *line: seen.append(("report", *line)) or 0)
         app.invoke(arguments)
     return seen[0] if seen else None
 
 
 @examples(300)
-@given(st.sampled_from(list(COMMANDS)), st.lists(WRITTEN, max_size=4), WORDS, st.integers(0, 4))
+@given(st.sampled_from([*COMMANDS, "report"]), st.lists(WRITTEN, max_size=4), WORDS, st.integers(0, 4))
 def test_plain_lines_are_read_as_typer_reads_them(command: str, options: list[str], source: str, at: int) -> None:
     line = [part for option in [*options[:at], source, *options[at:]] for part in option.split("\0")]
     arguments = [*command.split(), *line]
@@ -145,6 +147,15 @@ def test_reference_lines_do_what_typer_does(
 )
 def test_other_reference_lines_are_left_to_typer(arguments: list[str]) -> None:
     assert plain_reference(arguments) is None
+
+
+def test_a_report_takes_its_own_options_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    arguments = ["report", "x.yaml", "--out", "pages", "--set", "a=1", "--strict", "-q"]
+    quick = plain_line(arguments)
+    assert quick is not None
+    assert quick == by_typer(arguments, monkeypatch)
+    others = [["--plot"], ["-f", "json"], ["--samples", "12"], ["--no-color"]]
+    assert [plain_line(["report", "x.yaml", *other]) for other in others] == [None] * len(others)
 
 
 def test_every_shared_option_is_plain(monkeypatch: pytest.MonkeyPatch) -> None:
