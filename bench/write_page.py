@@ -50,9 +50,10 @@ _REASONS = """## Where a goal is missed, and why
 * **Pictures, reports, films.** Of `cam --plot`, the imports of matplotlib and numpy are a third, drawing a fifth (half
   of it words), making the panels an eighth and their layout a tenth; words are measured once, and stand where they were
   measured. `gear --plot` draws six panels with symbols set as mathematics, and the blocking contour, a tenth of its
-  time: some two thousand roots and forty thousand values of pairs, as arrays. A report draws its further sheets in
-  other processes: three on two processors take the time of two. A film of a machine with true teeth spends its time on
-  polygons, reduction and encoding, some 10 ms a frame, drawn in as many processes as there are processors.
+  time: some two thousand roots and forty thousand values of pairs, as arrays. A report computes and draws its commands
+  in as many processes as there are processors, each the next that none has taken. A film of a machine with true teeth
+  spends its time on polygons, reduction and encoding, some 10 ms a frame, drawn in as many processes as there are
+  processors.
 * **All worked designs.** The folder holds searches, studies and loads of a second or two each (a five-bar's function, a
   press with its joint forces, a study of gripper cams); a folder of designs that are complete takes milliseconds each.
 * **Batch.** Reading and validating a small file takes 0.1 to 0.2 ms, for libyaml and pydantic-core are compiled; the

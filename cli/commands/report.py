@@ -6,13 +6,11 @@ of player and cursor. It holds no date, so the same design gives the same bytes.
 
 from __future__ import annotations
 
-import os
 import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from html import escape
-from itertools import chain
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gearlink.cli.evaluate import build, exit_status, open_design, read_spec
 from gearlink.cli.files import CannotWrite, safe_stem, write_atomically
@@ -24,14 +22,21 @@ from gearlink.cli.render.errors import show_refusal
 from gearlink.core.errors import NoSolution
 
 if TYPE_CHECKING:
+    from gearlink.cli.reading.loaded_file import LoadedFile
     from gearlink.core.design import Design
     from gearlink.core.kinds import Kind
     from gearlink.core.report import Report
 
     Part = tuple[Design, Report]
 
-_PARTS: list[Part] = []
-"""What forked processes draw: it needs no way to them."""
+
+class Section(NamedTuple):
+    """A command on the page: its report without tables, film (of the first command), sheet and results as HTML."""
+
+    report: Report
+    film: str
+    sheet: str
+    results: str
 
 
 def run_report(source: str, options: Options) -> int:
@@ -41,20 +46,37 @@ def run_report(source: str, options: Options) -> int:
     try:
         loaded, kind = open_design(source, options)
         spec = read_spec(loaded, kind, source)
-        with patience(f"computing {spec.name}", quiet=options.quiet):
-            parts = [
-                build(loaded, kind, command, spec, replace(options, tables=_tables(kind, command, spec)))
-                for command in (*spec.commands(), *_budgets(kind, spec))
-            ]
-        with patience(f"drawing {spec.name}", quiet=options.quiet):
-            page = whole_page(spec.name, _body(loaded.text, spec, parts))
+        with patience(f"computing and drawing {spec.name}", quiet=options.quiet):
+            made = _sections(loaded, kind, spec, options)
+        page = whole_page(spec.name, _body(loaded.text, spec, made))
         path = options.out / f"{safe_stem(spec.name)}.html"
         write_atomically(path, lambda stream: stream.write(page.encode()))
     except (DesignFileError, CannotWrite, NoSolution) as error:
         return show_refusal(error, source, options)
     if not options.quiet:
         print(f"wrote {visible(str(path))}", file=sys.stderr)
-    return max(exit_status(report, strict=options.strict) for _, report in parts)
+    return max(exit_status(section.report, strict=options.strict) for section in made)
+
+
+def _sections(loaded: LoadedFile, kind: Kind, spec: Any, options: Options) -> list[Section]:
+    """Every command of the design, several at a time on a machine with several processors.
+
+    Where one is refused they are made again one after another, so that the first to refuse in the file's order says so.
+    """
+    from gearlink.cli.page.side_by_side import side_by_side
+
+    studies: dict[str, Design] = {}
+    commands = (*spec.commands(), *_budgets(kind, spec, studies))
+
+    def built(command: str) -> Part:
+        asked = replace(options, tables=_tables(kind, command, spec))
+        return build(loaded, kind, command, spec, asked, made=studies.get(command))
+
+    made = side_by_side(lambda i: _section(built(commands[i]), filmed=i == 0), len(commands))
+    if made is None:
+        parts = [built(command) for command in commands]
+        made = [_section(part, filmed=i == 0) for i, part in enumerate(parts)]
+    return made
 
 
 def _tables(kind: Kind, command: str, spec: Any) -> tuple[str, ...]:
@@ -63,7 +85,7 @@ def _tables(kind: Kind, command: str, spec: Any) -> tuple[str, ...]:
     return shown
 
 
-def _budgets(kind: Kind, spec: Any) -> Iterator[str]:
+def _budgets(kind: Kind, spec: Any, studies: dict[str, Design]) -> Iterator[str]:
     """Register budget and tolerance study of a file that has them; samples that take long have their own command."""
     if getattr(spec, "tolerance", None) is None:
         return
@@ -71,52 +93,27 @@ def _budgets(kind: Kind, spec: Any) -> Iterator[str]:
         yield "register"
     study: Any = kind.design("tolerance", spec)
     if study.is_short:
+        studies["tolerance"] = study
         yield "tolerance"
 
 
-def _body(text: str, spec: Any, parts: Sequence[Part]) -> Iterator[str]:
+def _section(part: Part, *, filmed: bool) -> Section:
     from gearlink.cli.page import sections
-
-    sheets = _sheets(parts)
-    first = next(sheets)  # what is not a sheet is made while other processes draw the others
-    yield sections.head(spec, parts)
-    yield sections.film(parts)
-    yield sections.given(text, spec)
-    results = [sections.results(report) for _, report in parts]
-    for (_, report), sheet, result in zip(parts, chain([first], sheets), results, strict=True):
-        yield f"<h2>{escape(report.command)}</h2>"
-        yield sheet
-        yield result
-
-
-def _sheets(parts: Sequence[Part]) -> Iterator[str]:
-    """The sheets, which take most of the time: on a machine with several processors the others beside the first."""
-    spare = len(os.sched_getaffinity(0)) - 1 if sys.platform == "linux" else 0
-    if min(spare, len(parts) - 1) < 1:
-        yield from (_sheet(part) for part in parts)
-        return
-    import matplotlib.figure  # noqa: F401 - the forked processes have it then
-
-    from gearlink.cli.workers import workers
-
-    _PARTS[:] = parts
-    with workers(min(spare, len(parts) - 1)) as pool:
-        others = [pool.submit(_other_sheet, i) for i in range(1, len(parts))]
-        yield _sheet(parts[0])
-        for part, other in zip(parts[1:], others, strict=True):
-            yield other.result() or _sheet(part)
-
-
-def _sheet(part: Part) -> str:
     from gearlink.cli.page.sheets import sheet
 
     design, report = part
-    return sheet(report.command, design, report.checks)
+    film = sections.film(design) if filmed else ""
+    drawn = sheet(report.command, design, report.checks)
+    return Section(replace(report, tables=()), film, drawn, sections.results(report))
 
 
-def _other_sheet(i: int) -> str:
-    """A sheet in a process of its own; empty where the design refuses it, which the parent then says."""
-    try:
-        return _sheet(_PARTS[i])
-    except NoSolution:
-        return ""
+def _body(text: str, spec: Any, made: Sequence[Section]) -> Iterator[str]:
+    from gearlink.cli.page import sections
+
+    yield sections.head(spec, [section.report for section in made])
+    yield made[0].film
+    yield sections.given(text, spec)
+    for section in made:
+        yield f"<h2>{escape(section.report.command)}</h2>"
+        yield section.sheet
+        yield section.results

@@ -134,8 +134,8 @@ def _pieces(
     known = sheets.known
     return [
         lambda: board.begin(spec.name, order),
-        lambda: board.put("head", sections.head(spec, parts)),
-        lambda: board.put("film", sections.film(parts, _FIRST_PICTURES)),
+        lambda: board.put("head", sections.head(spec, [report for _, report in parts])),
+        lambda: board.put("film", sections.film(parts[0][0], _FIRST_PICTURES)),
         # Numbers take milliseconds, a sheet half a second.
         *(lambda i=i: board.put(f"{names[i]}-results", results(i)) for i in every),
         lambda: board.put("input", sections.given(text, spec)),

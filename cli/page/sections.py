@@ -18,8 +18,6 @@ if TYPE_CHECKING:
     from gearlink.core.design import Design
     from gearlink.core.report import Report, Table
 
-    Part = tuple[Design, Report]
-
 _MOST_ROWS = 37
 
 
@@ -49,15 +47,15 @@ def _file(name: str) -> str:
     return (resources.files("gearlink.cli.page") / name).read_text(encoding="utf-8")
 
 
-def head(spec: Any, parts: Sequence[Part]) -> str:
+def head(spec: Any, reports: Sequence[Report]) -> str:
     """Name, kind and verdict."""
     kind = f"{escape(spec.kind)}, computed with gearlink {VERSION}"
-    return f'<h1>{escape(spec.name)}</h1>\n<p class="kind">{kind}</p>\n{_verdict(parts)}'
+    return f'<h1>{escape(spec.name)}</h1>\n<p class="kind">{kind}</p>\n{_verdict(reports)}'
 
 
-def film(parts: Sequence[Part], pictures: int = 0) -> str:
-    """The film of the first design; empty where it has none."""
-    data = film_data(parts[0][0], pictures)
+def film(design: Design, pictures: int = 0) -> str:
+    """The film of a design; empty where it has none."""
+    data = film_data(design, pictures)
     return "" if data is None else f'<h2 class="first">Film</h2>\n<div class="film">{as_data(data, "data")}</div>'
 
 
@@ -75,8 +73,8 @@ def results(report: Report) -> str:
     return "\n".join(_results(report))
 
 
-def _verdict(parts: Sequence[Part]) -> str:
-    checks = [check for _, report in parts for check in report.checks]
+def _verdict(reports: Sequence[Report]) -> str:
+    checks = [check for report in reports for check in report.checks]
     words = []
     for status, word in (("fail", "failed"), ("warn", "warning"), ("pass", "passed")):
         count = sum(check.status == status for check in checks)

@@ -45,11 +45,15 @@ class ToleranceStudy(Design):
         vars(self)["kind"] = spec.kind
 
     @cached_property
+    def _made(self) -> Problem:
+        return problem(self.spec)
+
+    @cached_property
     def problem(self) -> Problem:
         """The study made ready."""
         if self.spec.tolerance is None:
             raise MissingSection("`tolerance` needs the section tolerance: {sources: {...}}", key="tolerance")
-        made = problem(self.spec)
+        made = self._made
         _ = (
             made.requirements,
             made.sources,
@@ -64,7 +68,7 @@ class ToleranceStudy(Design):
     def is_short(self) -> bool:
         """Whether its samples take a second or so: over arrays, or few of them; True as well where it is wrong."""
         try:
-            made = problem(self.spec)
+            made = self._made
             return not made.of_register_alone and (made.is_quick or made.samples <= _FEW)
         except (WrongStudy, NoSolution):
             return True
@@ -72,7 +76,7 @@ class ToleranceStudy(Design):
     def require_named(self) -> None:
         """Refuse sources and requirements that the design does not have; play of machines whose register counts it
         is left to that."""
-        if self.spec.tolerance is not None and not problem(self.spec).of_register_alone:
+        if self.spec.tolerance is not None and not self._made.of_register_alone:
             _ = self.problem
 
     @cached_property
