@@ -210,8 +210,9 @@ def _fillet_of(data: GearData, gear: int) -> Iterator[Check]:
     status: Status = "pass"
     if found.bad:
         status = "fail" if found.judged else "warn"
+        of_tool = "residual_undercut" if pair.teeth[gear] > 0 and pair.tool(gear).residual_undercut else "rounding"
         text += (
-            f": raise its profile shift, shorten the tips of gear {2 - gear}, or take a tool with a smaller rounding"
+            f": raise its profile shift, shorten the tips of gear {2 - gear}, or take a tool with a smaller {of_tool}"
         )
     yield FILLET.check(status, text, found.margin, found.limit, "mm")
 

@@ -18,7 +18,7 @@ from gearlink.core.gears.functions import GearFunctions
 from gearlink.core.gears.functions_sweep import ARRAYS
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.gears.pair_limits import bound_of_shift_sum, least_distance
-from gearlink.core.gears.root_fillet import RackCutRoot
+from gearlink.core.gears.root_fillet import REACH, RackCutRoot
 from gearlink.core.gears.tools import RackTool, standard_tool
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.roots_sweep import bracketed_roots
@@ -225,9 +225,11 @@ class RackCutRoots(RackCutRoot):
         inside = abs(self.fillet(start)) < base
         ends_inside = inside & (abs(self.fillet(end)) <= base)
         start[inside] = self._root("_above_base", start[inside], end[inside], np.flatnonzero(inside))
-        meets = ~ends_inside & ((self._into_tooth(start) > 0.0) != (self._into_tooth(end) > 0.0))
+        past = (self.tool.residual_undercut > 0.0) & (self._into_tooth(end) > 0.0)
+        meets = ~ends_inside & ~past & ((self._into_tooth(start) > 0.0) != (self._into_tooth(end) > 0.0))
         cut = np.where(ends_inside, end, start)
         cut[meets] = self._root("_into_tooth", start[meets], end[meets], np.flatnonzero(meets))
+        cut[past] = self._root("_into_tooth", end[past], end[past] + REACH, np.flatnonzero(past))
         return cut
 
     def _above_base(self, normal: Any) -> Any:

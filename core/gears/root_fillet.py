@@ -6,7 +6,8 @@ the normal section (0 at the root circle, 90 deg - alpha_n where the straight fl
     X = (E + rho sin b)/cos(beta),  Y = G - rho cos b,  s = X + Y sin b cos(beta)/cos b
     point = (X - s + i (Y + r)) exp(-i s/r)
 
-on an axis i through the middle of the space.
+on an axis i through the middle of the space. A protuberance ends with a corner where the rounding does: from there on
+the corner draws the fillet, s falls while X and Y stay.
 """
 
 from __future__ import annotations
@@ -20,6 +21,9 @@ from gearlink.core.gears.pair_limits import transverse
 from gearlink.core.gears.tools import RackTool
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.results import cached_property
+
+REACH = 5.0
+"""Further than the corner of a protuberance turns [rad] until it is back in the space."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -101,35 +105,45 @@ class RackCutRoot:
         return math.pi / 2.0 - self.pressure_angle
 
     def fillet(self, normal: float) -> complex:
-        """Point of the fillet at a direction b of the normal; the middle of the space is the imaginary axis."""
-        beta, tool = self.helix_angle, self.tool
-        x = (tool.rounding_center(self.pressure_angle, self.fn) + tool.rounding * self.fn.sin(normal)) / self.fn.cos(
-            beta
-        )
-        y = tool.rounding - tool.addendum + self.shift - tool.rounding * self.fn.cos(normal)
-        left = -y * self.fn.tan(normal) * self.fn.cos(beta)
-        return (left + 1j * (y + self._r)) * self.fn.turn((left - x) / self._r)
+        """Point of the fillet at a direction b of the normal; the middle of the space is the imaginary axis.
+
+        Beyond the last normal, by so much as the tool has rolled on [rad], a point of its corner's path.
+        """
+        left, above, rolled = self._drawn(normal)
+        return (left + 1j * above) * self.fn.turn(-rolled)
+
+    def _drawn(self, normal: float) -> tuple[float, float, float]:
+        """Where the tool touches, right of the gear's axis and above it, while it has rolled by so much [rad]."""
+        fn, tool, cosine = self.fn, self.tool, self.fn.cos(self.helix_angle)
+        held = fn.least(normal, self.last_normal)
+        x = (tool.rounding_center(self.pressure_angle, fn) + tool.rounding * fn.sin(held)) / cosine
+        y = tool.rounding - tool.addendum + self.shift - tool.rounding * fn.cos(held)
+        left = -y * fn.tan(held) * cosine + (normal - held) * self._r
+        return left, y + self._r, (x - left) / self._r
 
     def _into_tooth(self, normal: float) -> float:
         """Angle by which the fillet stands inside the tooth of the involute, at its own radius [rad]."""
-        point = self.fillet(normal)
-        roll = self.fn.sqrt(self.fn.greatest((abs(point) / self.base_radius) ** 2 - 1.0, 0.0))
-        beside = math.pi / 2.0 - self.fn.phase(point)
+        left, above, rolled = self._drawn(normal)
+        radius = self.fn.hypot(left, above)
+        roll = self.fn.sqrt(self.fn.greatest((radius / self.base_radius) ** 2 - 1.0, 0.0))
+        beside = self.fn.atan2(left, above) + rolled
         return beside - self.half_space_at_base - self.fn.involute(self.fn.atan(roll))
 
     @cached_property
     def end_normal(self) -> float:
-        """Direction of the normal where the fillet ends: the flank's own, or the cut through the involute [rad]."""
+        """Where the fillet ends: the direction of the flank's normal, or the cut through the involute [rad]."""
         end = self.last_normal
         if not self.undercut and self.tool.residual_undercut == 0.0:
             return end
+        if self.tool.residual_undercut > 0.0 and self._into_tooth(end) > 0.0:
+            return bracketed_root(self._into_tooth, end, end + REACH)
         start = 0.0
         if abs(self.fillet(start)) < self.base_radius:
             if abs(self.fillet(end)) <= self.base_radius:
                 return end
             start = bracketed_root(lambda b: abs(self.fillet(b)) - self.base_radius, start, end)
         if (self._into_tooth(start) > 0.0) == (self._into_tooth(end) > 0.0):
-            return start  # a protuberance that is nowhere without effect: the involute begins on the base circle
+            return start  # to rounding: the fillet nowhere comes into the tooth
         return bracketed_root(self._into_tooth, start, end)
 
     @property
@@ -139,8 +153,9 @@ class RackCutRoot:
 
     @cached_property
     def form_radius(self) -> float:
-        """r_Ff, where fillet and involute meet; with a protuberance where the fillet comes to stand before the
-        involute. At least the base radius.
+        """r_Ff, where fillet and involute meet outermost; at least the base radius.
+
+        Of a protuberance the least that it can leave: one that is higher than its rounding cuts away more.
         """
         if not self.undercut and self.tool.residual_undercut == 0.0:
             return self.form_radius_uncut

@@ -29,7 +29,9 @@ class ToolSpec(Spec):
     rounding: Rounding | None = Field(
         None, description="radius of the tool's tip; left out: 0.38, or less where clearance or full round ask for it"
     )
-    residual_undercut: Protuberance = Field(0.0, description="protuberance less the machining allowance")
+    residual_undercut: Protuberance = Field(
+        0.0, description="protuberance, as high as the rounding, less the machining allowance"
+    )
 
 
 class CutterSpec(Spec):

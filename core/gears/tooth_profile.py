@@ -218,11 +218,12 @@ class ToothProfile:
         return arc
 
     def trochoid(self, normal: Reals) -> Points:
-        """The root's rounding, over the direction b of the normal."""
+        """The root's rounding, over the direction b of the normal, then the path of a protuberance's corner."""
         q, rho = self.tool_addendum - self.tool_rounding - self.shift, self.tool_rounding
-        below = q + rho * np.cos(normal)
-        across = below * np.tan(normal) * math.cos(self.helix_angle)
-        shifted = self._u + rho * np.sin(normal) / math.cos(self.helix_angle) - across
+        held = np.minimum(normal, self._cut.last_normal)
+        below = q + rho * np.cos(held)
+        across = below * np.tan(held) * math.cos(self.helix_angle) + (normal - held) * self._r
+        shifted = self._u + rho * np.sin(held) / math.cos(self.helix_angle) - across
         points = self._r - below + 1j * across
         rounded: Points = self.module * points * np.exp(1j * shifted / self._r)
         return rounded
