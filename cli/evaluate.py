@@ -22,17 +22,6 @@ if TYPE_CHECKING:
     from gearlink.core.study.faults import WrongStudy
 
 
-def evaluate(command: str, source: str, options: Options) -> tuple[Design, Report]:
-    """The design of a file and the report of a command on it.
-
-    Raises
-        DesignFileError - for everything that is wrong with the file, the command for it, or the mechanism
-    """
-    loaded, kind = open_design(source, options)
-    require_command(loaded, kind, command)
-    return build(loaded, kind, command, read_spec(loaded, kind, source), options)
-
-
 def open_design(source: str, options: Options) -> tuple[LoadedFile, Kind]:
     """The text of a design file as located data, and its kind."""
     loaded = load(source, overrides=options.overrides)

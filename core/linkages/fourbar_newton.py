@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -27,10 +26,8 @@ from gearlink.core.numerics.arrays import Reals
 __all__ = [
     "NewtonSweep",
     "dead_point_distance",
-    "follow",
     "loop_rates",
     "loop_residual",
-    "newton_step",
     "polish",
     "position_error",
     "refine",
@@ -58,40 +55,6 @@ class NewtonSweep:
     residual: Reals
 
 
-def newton_step(
-    linkage: FourBar, crank_angle: ArrayLike, coupler_angle: ArrayLike, rocker_angle: ArrayLike
-) -> tuple[Reals, Reals, Reals]:
-    """One Newton-Raphson step of the vector loop with its analytic Jacobian, solved by projection.
-
-    d_b = Re(r conj(e_c)) / (b sin(theta_b - theta_c)),   d_c = Re(r conj(e_b)) / (c sin(theta_b - theta_c))
-
-    Parameters
-        linkage : FourBar
-        crank_angle, coupler_angle, rocker_angle : arrays that broadcast [rad] - an approximate position
-    Returns
-        coupler_step, rocker_step : arrays [rad] - what to add to the angles
-        residual : array [mm] - |r| before the step
-    Raises
-        NoSolution - where coupler and rocker align exactly: the Jacobian is singular
-    Notes
-        Error law: e_b' = [b cos(theta_b - theta_c) e_b^2 - c e_c^2] / [2 b sin(theta_b - theta_c)], likewise for c.
-    Example
-        >>> linkage = FourBar(18.0, 50.0, 100.0, 121.4)
-        >>> d_b, d_c, _ = newton_step(linkage, 0.0, 1.26, 2.65)
-        >>> round(float(1.26 + d_b), 4), round(float(2.65 + d_c), 4)
-        (1.257, 2.646)
-
-    Source
-        swing-gripper paper (4), there called Newton-Simpson, with the sign of l3 cos theta3 corrected
-    """
-    phi, b, c = (np.asarray(x, dtype=np.float64) for x in (crank_angle, coupler_angle, rocker_angle))
-    e_a, e_b, e_c = (unit_vector(x) for x in (phi, b, c))
-    if not np.all((e_b * e_c.conjugate()).imag):
-        raise NoSolution("coupler and rocker align: the vector loop has no Newton step; start off the dead point")
-    d_b, d_c, residual, _ = loop_step(linkage, e_a, e_b, e_c)
-    return d_b, d_c, residual
-
-
 def start_is_safe(
     linkage: FourBar, crank_angle: ArrayLike, coupler_angle: ArrayLike, rocker_angle: ArrayLike
 ) -> NDArray[np.bool_]:
@@ -100,7 +63,7 @@ def start_is_safe(
     |r| <= min(b, c) sin^2(g/2),   g = min(gamma, pi - gamma),   and sin(theta_c - theta_b) has the assembly's sign
 
     Parameters
-        linkage, crank_angle, coupler_angle, rocker_angle - as `newton_step`
+        linkage, crank_angle, coupler_angle, rocker_angle - a position [rad]
     Returns
         safe : array of bool
     Notes
@@ -201,38 +164,6 @@ class _Place:
     b: float
     c: float
     iterations: int
-
-
-def follow(linkage: FourBar, crank_angle: Sequence[float] | Reals) -> NewtonSweep:
-    """Follow the motion from one crank angle to the next, each start predicted from the position before.
-
-    theta + theta' h + theta'' h^2/2; the step h is halved until `start_is_safe`
-
-    Parameters
-        linkage : FourBar
-        crank_angle : (N,) sequence [rad] - in the order of the motion; the first position comes from the closed form
-    Returns
-        sweep : NewtonSweep - angles continuous along the motion
-    Raises
-        NoSolution - where the motion ends at a dead point before the angle asked for
-    Notes
-        It cannot change the assembly. About three iterations a position at steps of a degree.
-    Example
-        >>> sweep = follow(FourBar(18.0, 50.0, 100.0, 121.4), [math.radians(x) for x in range(0, 361, 30)])
-        >>> round(float(np.degrees(sweep.rocker_angle[10])), 9)
-        161.772190585
-
-    Source
-        swing-gripper paper (4); predictor and step rule: own derivation
-    """
-    angles = [float(x) for x in crank_angle]
-    places: list[_Place] = []
-    for phi in angles:
-        places.append(_advance(linkage, places[-1], phi) if places else _first(linkage, phi))
-    phi_s, b, c = (np.array([getattr(p, name) for p in places]) for name in ("phi", "b", "c"))
-    unit = [unit_vector(x) for x in (phi_s, b, c)]
-    iterations = np.array([p.iterations for p in places], dtype=np.int64)
-    return NewtonSweep(b, c, iterations, _checked(linkage, phi_s, b, c, *unit))
 
 
 def _first(linkage: FourBar, phi: float) -> _Place:

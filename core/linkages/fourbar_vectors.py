@@ -33,7 +33,13 @@ def loop_opening(linkage: FourBar, e_a: Any, e_b: Any, e_c: Any) -> Any:
 
 
 def loop_step(linkage: FourBar, e_a: Any, e_b: Any, e_c: Any) -> tuple[Any, Any, Any, Any]:
-    """Steps, |r| and sin(theta_b - theta_c) from unit vectors that are complex numbers or arrays of them."""
+    """Newton-Raphson steps, |r| and sin(theta_b - theta_c) from unit vectors, complex numbers or arrays of them.
+
+    d_b = Re(r conj(e_c)) / (b sin(theta_b - theta_c)),   d_c = Re(r conj(e_b)) / (c sin(theta_b - theta_c))
+
+    Source
+        swing-gripper paper (4), there called Newton-Simpson, with the sign of l3 cos theta3 corrected
+    """
     r = loop_opening(linkage, e_a, e_b, e_c)
     sine = (e_b * e_c.conjugate()).imag
     d_b = (r * e_c.conjugate()).real / (linkage.coupler * sine)
@@ -57,7 +63,7 @@ def loop_rates(
     w_b = w a sin(phi - theta_c) / (b s),  w_c = w a sin(phi - theta_b) / (c s),  s = sin(theta_c - theta_b)
 
     Parameters
-        linkage, crank_angle, coupler_angle, rocker_angle - a position, as `newton_step`
+        linkage, crank_angle, coupler_angle, rocker_angle - a position [rad]
         order : 1..3
         velocity, acceleration, jerk : float or arrays - motion of the crank; the defaults give the derivatives
             with respect to the crank angle

@@ -57,6 +57,8 @@ def train_change(fixed: int) -> int:
     Raises
         NoSolution - for another R: a train has two ends
     Example
+        A four-bar takes one train with one end fixed, a six-bar loop two with two.
+
         >>> [train_change(fixed) for fixed in (0, 1, 2)]
         [1, 0, -1]
 
@@ -69,30 +71,6 @@ def train_change(fixed: int) -> int:
             "gears between, each of which ends one train and begins the next"
         )
     return 1 - fixed
-
-
-def mobility(linkage: int, fixed: Sequence[int]) -> int:
-    """Degrees of freedom of a linkage with gear trains.
-
-    F = F_linkage + sum(1 - R_i)
-
-    Parameters
-        linkage : int - degrees of freedom of the linkage alone
-        fixed : sequence of int - R_i of each train
-    Returns
-        F : int
-    Raises
-        NoSolution - for an R_i that is not 0, 1 or 2
-    Example
-        A four-bar takes one train with one end fixed, a five-bar one with two, a six-bar loop two with two.
-
-        >>> mobility(1, [1]), mobility(2, [2]), mobility(3, [2, 2])
-        (1, 1, 1)
-
-    Source
-        thesis 2.1
-    """
-    return linkage + sum(train_change(r) for r in fixed)
 
 
 def common_links(links: Mapping[str, Sequence[str]], first: str, second: str) -> list[str]:

@@ -163,12 +163,3 @@ def positive_drive(force: Reals, preload: float, stiffness: tuple[float, float])
     one, other = preload + force * share, preload - force * (1.0 - share)
     closed = (one > 0.0) & (other > 0.0)
     return np.where(closed, one, np.maximum(force, 0.0)), np.where(closed, other, np.maximum(-force, 0.0))
-
-
-def preload_needed(force: Reals, stiffness: tuple[float, float], least: float = 0.0) -> float:
-    """Least preload with which both rollers stay on their cams [N].
-
-    P >= max(F k_2/(k_1 + k_2), -F k_1/(k_1 + k_2)) + N_min
-    """
-    share = stiffness[0] / (stiffness[0] + stiffness[1])
-    return float(np.max(np.maximum(force * (1.0 - share), -force * share))) + least

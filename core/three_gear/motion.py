@@ -267,26 +267,6 @@ def acceleration_extremes(linkage: FourBar, train: GearTrain) -> Extremes:
     return _extremes(lambda phi: output_acceleration(linkage, train, phi), lambda phi: output_jerk(linkage, train, phi))
 
 
-def nonuniformity(linkage: FourBar, train: GearTrain, extremes: Extremes) -> float:
-    """Spread of the speed ratio over its mean.
-
-    delta = (W_max - W_min)/W_m,   W_m the net output turns per crank turn
-
-    Parameters
-        extremes : Extremes - of the speed, from `speed_extremes`
-    Example
-        >>> d = 8.07617907041421
-        >>> b = math.sqrt((1 + d * d) / 2)
-        >>> linkage, train = FourBar(1.0, b, b, d), GearTrain(20, 21, 20)
-        >>> round(nonuniformity(linkage, train, speed_extremes(linkage, train)), 12)
-        1.0
-
-    Source
-        thesis (4-20)
-    """
-    return (extremes.greatest - extremes.least) / abs(mean_ratio(linkage, train))
-
-
 def gear_gap(linkage: FourBar, train: GearTrain, module: float, addendum: float = 1.0) -> float:
     """Gap between the tip circles of crank gear and output gear where they come nearest over the turn.
 

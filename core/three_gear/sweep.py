@@ -49,25 +49,6 @@ class MomentaryDwells:
     exists: Mask
 
 
-def turn(samples: int = 360) -> Reals:
-    """Crank angles that divide the turn into equal steps, from 0.
-
-    Parameters
-        samples : int - at least 1
-    Returns
-        crank_angle : (samples,) array [rad]
-    Raises
-        NoSolution - for fewer than one sample
-    Example
-        >>> np.degrees(turn(4)).tolist()
-        [0.0, 90.0, 180.0, 270.0]
-    """
-    if samples < 1:
-        raise NoSolution(f"{samples} samples divide no turn; take at least 1")
-    angles: Reals = np.arange(samples, dtype=np.float64) * (2.0 * math.pi / samples)
-    return angles
-
-
 def output_motion(linkage: FourBar, train: GearTrain, crank_angle: ArrayLike) -> OutputMotion:
     """Output angle, speed and acceleration ratio and transmission angle over an array of crank angles.
 

@@ -52,55 +52,6 @@ def frame_ratio_for_back_step(i3: float, back_step_crank_angle: float) -> float:
     return sc + math.hypot(sc, 1.0)
 
 
-def momentary_frame_ratio(i3: float) -> float:
-    """Frame ratio at which the output just stops: below it steps back, above it turns one way.
-
-    d_lim = n + sqrt(n^2 - 1),   n = 1 - i3
-
-    Example
-        >>> momentary_frame_ratio(-1.0)
-        3.732050807568877
-
-    Source
-        thesis (4-18) at phi12 = 0
-    """
-    check_ratio(i3)
-    return 1.0 - i3 + math.sqrt(i3 * (i3 - 2.0))
-
-
-def back_step_crank_angle(i3: float, frame_ratio: float) -> float:
-    """Crank angle phi12 over which the output of a given frame ratio turns backwards.
-
-    cos(phi12/2) = (d^2 - 1)/(2 d s),   s = sqrt(i3 (i3 - 2));   phi(1), phi(2) = 270 deg -+ phi12/2
-
-    Parameters
-        i3 : float - negative
-        frame_ratio : float - d, 1 < d <= d_lim = 1 - i3 + s
-    Returns
-        phi12 : float [rad]
-    Raises
-        NoSolution - for d <= 1, and for d > d_lim, where the output never stops
-    Notes
-        The sine comes from the product (d_lim - d)(d + 1/d_lim): no digit is lost near the momentary dwell.
-    Example
-        >>> round(math.degrees(back_step_crank_angle(-1.8, 3.951703805053557)), 9)
-        90.0
-
-    Source
-        thesis (4-15)
-    """
-    check_ratio(i3)
-    s, d, limit = math.sqrt(i3 * (i3 - 2.0)), frame_ratio, momentary_frame_ratio(i3)
-    if not 1.0 < d <= limit:
-        raise NoSolution(
-            f"the frame ratio {d:.9g} gives no back-step with i3 = {i3:.9g}: it must lie above 1 and not above "
-            f"{limit:.9g} (there the output just stops); shorten the frame or make -i3 larger"
-        )
-    rest = 2.0 * d * s + (d - 1.0) * (d + 1.0)
-    sine = math.sqrt((limit - d) * (d + 1.0 / limit) * rest)
-    return 2.0 * math.atan2(sine, (d - 1.0) * (d + 1.0))
-
-
 def frame_ratio_for_speed_band(i3: float, lowest_speed: float, highest_speed: float) -> float:
     """Frame ratio d that makes the output run between two speeds, the input turning at their mean.
 

@@ -31,10 +31,11 @@ def asked(name):
 
 
 def design_of(path, command="analyze"):
-    from gearlink.cli.evaluate import evaluate
+    from gearlink.cli.evaluate import build, open_design, read_spec
     from gearlink.cli.options import Options
 
-    return evaluate(command, str(path), Options())[0]
+    loaded, kind = open_design(str(path), Options())
+    return build(loaded, kind, command, read_spec(loaded, kind, str(path)), Options())[0]
 
 
 @pytest.mark.quick(5)

@@ -17,11 +17,11 @@ from gearlink.core.three_gear.sweep import (
     dwell_angles,
     momentary_dwells,
     output_motion,
-    turn,
 )
 from gearlink.core.three_gear.symmetric_back_step import dwell_angle
 
 EX3 = FourBar(18.0, 50.0, 100.0, 121.4)
+TURN = np.arange(360) * (math.tau / 360)
 EX3_TRAIN = GearTrain(20, 20, 60)
 DRAG = FourBar(50.47, 35.785689262214326, 40.265643369620086, 20.88, -1)
 DRAG_TRAIN = GearTrain(23.441236459944996, 12.003476037635881, 27.87850422292809)
@@ -43,14 +43,14 @@ def test_motion_agrees_with_the_scalar_kernels(linkage, train):
 
 
 def test_motion_starts_at_zero_and_gains_the_mean_ratio():
-    motion = output_motion(EX3, EX3_TRAIN, turn(8))
+    motion = output_motion(EX3, EX3_TRAIN, TURN[::45])
     assert motion.output_angle[0] == 0.0
     assert output_motion(EX3, EX3_TRAIN, 2.0 * math.pi).output_angle == pytest.approx(2.0 * math.pi / 3.0, abs=1e-14)
     assert output_motion(DRAG, DRAG_TRAIN, 2.0 * math.pi).output_angle == pytest.approx(2.0 * math.pi, abs=1e-13)
 
 
 def test_motion_keeps_the_shape_of_the_angles():
-    grid = turn(360).reshape(60, 6)
+    grid = TURN.reshape(60, 6)
     assert output_motion(EX3, EX3_TRAIN, grid).speed_ratio.shape == (60, 6)
 
 
@@ -94,7 +94,5 @@ def test_refuses_values_outside_their_range():
         dwell_angles(math.nan, 1.0)
     with pytest.raises(NoSolution, match="positive and finite"):
         momentary_dwells(25.0, 25.0, 0.0, 16.0)
-    with pytest.raises(NoSolution, match="take at least 1"):
-        turn(0)
     with pytest.raises(NoSolution):
-        output_motion(FourBar(150.0, 160.0, 100.0, 300.0), EX3_TRAIN, turn())
+        output_motion(FourBar(150.0, 160.0, 100.0, 300.0), EX3_TRAIN, TURN)

@@ -17,6 +17,7 @@ import pytest
 from factory import design
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from oracles.symmetric import momentary_frame_ratio
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.three_gear import window_dwell
@@ -24,7 +25,6 @@ from gearlink.core.three_gear.motion import GearTrain
 from gearlink.core.three_gear.symmetric_back_step import crank_angle_for_window, dwell_angle, window_limit
 from gearlink.core.three_gear.symmetric_family import (
     frame_ratio_for_back_step,
-    momentary_frame_ratio,
     symmetric_linkage,
 )
 from gearlink.core.three_gear.tolerance_dwell import tolerance_dwell
