@@ -113,6 +113,11 @@ class Design:
         return self.outlines[command]
 
     @classmethod
+    def judged(cls, command: str, _spec: Any, /) -> tuple[str, ...]:
+        """Names of all checks that a command may judge of designs with the sections of a spec."""
+        return cls.outlines[command].checks
+
+    @classmethod
     def tables_of_page(cls, _command: str, _spec: Any, /) -> tuple[str, ...]:
         """The extra tables that the page of `report` shows of a command."""
         return cls.page_tables

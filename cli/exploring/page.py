@@ -38,7 +38,7 @@ def _counts(study: Exploration) -> str:
         front = f"best {study.kept:,} (resolution {resolution})"
     return (
         f"{study.designs:,} designs, {how}; {study.refused:,} without a mechanism; "
-        f"{study.feasible:,} satisfy everything; {front}"
+        f"{study.feasible:,} satisfy {study.problem.asked}; {front}"
     )
 
 

@@ -213,7 +213,7 @@ class Base:
     @cached_property
     def codes(self) -> dict[str, tuple[str, ...]]:
         """The codes of the command's checks, each with the names of its checks."""
-        checks = self.kind.design_class(self.command).outlines[self.command].checks
+        checks = self.kind.design_class(self.command).judged(self.command, self.spec())
         return {
             code: tuple(name for name in rule.checks if name in checks)
             for code, rule in rules().items()

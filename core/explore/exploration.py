@@ -115,7 +115,8 @@ class Exploration(Design):
     def check_feasible_designs(self) -> Check:
         """GL161."""
         share = self.feasible / self.designs
-        text = f"{self.feasible} of {self.designs} designs satisfy everything"
+        text = f"{self.feasible} of {self.designs} designs satisfy {self.problem.asked}"
+        text += "; checks.must_pass: all asks for it too" if self.problem.waived else ""
         if share >= _FEW:
             return FEASIBLE.check("pass", text, share, _FEW)
         name, _, worst = max(self.found.why, key=lambda row: row[2].alone, default=("", None, Miss()))

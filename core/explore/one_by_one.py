@@ -50,9 +50,10 @@ def findings_of(base: Base, design: Any, codes: Sequence[str]) -> Iterable[Check
     Raises
         Refused - where a check finds that there is no mechanism
     """
-    names = dict.fromkeys(name for code in codes for name in base.codes[code])
+    names = {name for code in codes for name in base.codes[code]}
     try:
-        return [check for name in names for check in design.check(name)]
+        shown = dict.fromkeys(name for name in design.outline(base.command).checks if name in names)
+        return [check for name in shown for check in design.check(name)]
     except NoSolution as error:
         raise Refused(error.key, error.message, error.code) from error
 

@@ -51,6 +51,18 @@ class Problem:
         return tuple(dict.fromkeys(name for expression in wanted for name in expression.names))
 
     @cached_property
+    def waived(self) -> tuple[str, ...]:
+        """Codes that are not asked because the base fails them."""
+        by_base = self.spec.checks.must_pass == "default"
+        return tuple(sorted(set(self.base.codes) - set(self.must_pass))) if by_base else ()
+
+    @property
+    def asked(self) -> str:
+        """In words, what a design of the front satisfies."""
+        waived = ", ".join(self.waived)
+        return f"everything but {waived}, which the base fails" if waived else "everything"
+
+    @cached_property
     def shown(self) -> tuple[tuple[str, Expression, str], ...]:
         """Name, expression and unit of each column besides the variables: objectives, then what is named by where."""
         found = {wish.name: (wish.expression, wish.unit) for wish in self.objectives}

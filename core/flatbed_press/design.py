@@ -233,6 +233,12 @@ class FlatbedPress(WithExtremes, SliderCrankQuantities, GearQuantities, Design):
         with at_key("input_gears"):
             return pair_check(name, self.gear_data, self.spec.limits, shifts=self._shifts_given)
 
+    @classmethod
+    def judged(cls, command: str, spec: Any, /) -> tuple[str, ...]:
+        """`press` judges whether the cams can bear the motion, `analyze` the cams."""
+        of_cams = {} if spec.cam is None else {"press": _BEARING, "analyze": _CAM_CHECKS}
+        return tuple(dict.fromkeys((*super().judged(command, spec), *of_cams.get(command, ()))))
+
     def outline(self, command: str) -> Outline:
         """With the section `cam`, `press` judges whether the cams can bear the motion; `analyze` shows them too."""
         outline = self.outlines[command]

@@ -143,6 +143,12 @@ class SwingGripper(WithExtremes, Design):
     check_pressure_angle, check_cam_undercut = checks.pressure_angle, checks.cam_undercut
     check_shaft_clearance, check_lift_off = checks.shaft_clearance, checks.lift_off
 
+    @classmethod
+    def judged(cls, command: str, spec: Any, /) -> tuple[str, ...]:
+        """With cams each command judges them, and whether a spring keeps the rollers on."""
+        of_cams = () if spec.cam is None else (*cls.outlines["cam"].checks, "lift-off")
+        return tuple(dict.fromkeys((*super().judged(command, spec), *of_cams)))
+
     def outline(self, command: str) -> Outline:
         """`gripper` and `analyze` add what the optional sections of the file make possible."""
         outline, spec = self.outlines[command], self.spec

@@ -196,7 +196,7 @@ class ToleranceStudy(Design):
 
     def outline(self, command: str) -> Outline:
         """Besides the study's own checks those of the nominal design."""
-        own, nominal = super().outline(command), self.problem.nominal.outlines[self.problem.base.command]
+        own, nominal = super().outline(command), self.problem.nominal.outline(self.problem.base.command)
         return Outline(own.quantities, (*nominal.checks, *own.checks), own.tables)
 
     def check(self, name: str) -> list[Check]:

@@ -140,7 +140,7 @@ class Problem:
         wanted = dict.fromkeys(name for one in self.requirements for name in one.expression.names)
         if wanted:
             return tuple(wanted)
-        outline = self.nominal.outlines[self.base.command].quantities
+        outline = self.nominal.outline(self.base.command).quantities
         plain = [name for name in outline if isinstance(self._nominal_value(name), float)]
         return tuple(plain)
 

@@ -280,6 +280,15 @@ class WideSwingDesign(Design):
 
     # Outlines
 
+    @classmethod
+    def judged(cls, command: str, spec: Any, /) -> tuple[str, ...]:
+        """With a cam `swing` judges the profile, the device, and a cycle or a slider."""
+        more: tuple[str, ...] = ()
+        if spec.cam is not None and command != "cam":
+            more = (*_CAM_CHECKS, "force-reserve", *(("side-change",) if spec.slider is not None else ()))
+        more += _CYCLE_CHECKS if spec.cycle is not None and spec.cam is not None else ()
+        return tuple(dict.fromkeys((*super().judged(command, spec), *more)))
+
     def outline(self, command: str) -> Outline:
         """What the sections of the file allow; a profile with a loop leaves its quantities out of `swing`."""
         base, spec = self.outlines[command], self.spec

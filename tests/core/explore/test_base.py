@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 from typing import Any
 
 import pytest
-from factory import worked
+from factory import DESIGNS, all_but_costly, design, worked
 
 from gearlink.core.explore.base import Base
 from gearlink.core.explore.one_by_one import single
+from gearlink.core.kinds import KINDS
 
 PRESS = worked("ty460")
 CHANGES: list[list[tuple[str, Any]]] = [
@@ -48,3 +50,14 @@ def test_findings_that_only_warn_are_left_out_where_they_do_not_count() -> None:
     every, failing = (single(Base(gripper, "cam", warnings), changes, (), ("GL401",)) for warnings in (True, False))
     assert {check.status for check in every.findings} == {"pass", "warn"}
     assert [*failing.findings] == [check for check in every.findings if check.status == "pass"]
+
+
+@pytest.mark.parametrize("path", all_but_costly(sorted(DESIGNS.glob("*.yaml"))), ids=lambda path: path.stem)
+def test_every_check_that_a_command_shows_is_known_beforehand(path: Path) -> None:
+    """What the sections of a file add to the checks of a command counts in studies of it."""
+    data = worked(path.stem)
+    for command in KINDS[data["kind"]].commands if data["kind"] in KINDS else ():
+        if command in ("loads", "register", "tolerance") or command.startswith("synth"):
+            continue
+        made = design(data, command=command)
+        assert set(made.outline(command).checks) <= set(type(made).judged(command, made.spec)), command

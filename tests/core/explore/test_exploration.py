@@ -231,3 +231,48 @@ def test_conditions_that_are_written_in_another_way(where: str, helps: str) -> N
     with pytest.raises(WrongStudy) as caught:
         study(variables={"gears.idler": {"values": [40]}}, minimize={"i3": 1}, where=[where]).report("explore")
     assert caught.value.faults[0].help == helps
+
+
+@pytest.mark.parametrize(
+    ("base", "command", "path", "values", "code"),
+    [
+        ("ty460", "press", "cylinder.initial_crank_angle", [50.0, 57.109], "GL401"),
+        ("ty460", "analyze", "cam.shaft_radius", [30.0, 80.0], "GL302"),
+        ("swing_gripper", "gripper", "cam.roller.radius", [30.0, 90.0], "GL302"),
+        ("wide_swing_twin_cam", "swing", "cam.shaft_radius", [25.0, 120.0], "GL302"),
+    ],
+)
+def test_what_a_section_makes_a_command_judge_is_asked(
+    base: str, command: str, path: str, values: list[float], code: str
+) -> None:
+    """Cams that one of two designs cannot have: the command itself fails that one."""
+    data = factory.worked(base)
+    found = study(
+        design=data, command=command, variables={path: {"values": values}}, minimize={_PLAIN[data["kind"]]: 1e-6}
+    )
+    good = [
+        i
+        for i, value in enumerate(values)
+        if all(
+            check.status != "fail"
+            for check in factory.design(data, command=command, **{path.replace(".", "__"): value})
+            .report(command)
+            .checks
+        )
+    ]
+    assert len(good) == 1
+    assert [row.index for row in found.found.rows] == good
+    assert {row[1]: row[2] for row in found.table("why").rows()}[code] == 1
+
+
+_PLAIN = {"flatbed-press": "crank_length", "swing-gripper": "total_swing", "wide-swing-cam": "velocity_peak"}
+
+
+def test_what_the_base_fails_is_said_to_be_left_out() -> None:
+    """A base whose gears collide asks no design to keep its gears apart, and does not say that all is well."""
+    base = factory.worked("thesis_example_3_as_printed")
+    keys: dict[str, Any] = {"variables": {"links.crank": {"values": [16.0, 18.0]}}, "minimize": {"frame_length": 0.1}}
+    left, asked = study(design=base, **keys), study(design=base, checks={"must_pass": "all"}, **keys)
+    assert (left.feasible, left.problem.waived) == (2, ("GL301",))
+    assert "everything but GL301, which the base fails" in left.check("feasible-designs")[0].message
+    assert (asked.feasible, asked.problem.asked) == (1, "everything")
