@@ -32,7 +32,7 @@ def max_stroke(rod: float, offset: float = 0.0) -> float:
         988.736568
 
     Source
-        own derivation: crank L - |e| in `stroke`
+        own derivation: crank L - |e| in S = P - Q
     """
     _check_rod(rod, offset)
     return _max_stroke(rod, offset)
@@ -42,59 +42,9 @@ def _max_stroke(rod: float, offset: float, f: Elementary = SCALARS) -> float:
     return 2.0 * f.sqrt(rod * (rod - abs(offset)))
 
 
-def crank_length(stroke: float, rod: float, offset: float = 0.0) -> float:
-    """Crank of the offset slider-crank that has a given stroke.
-
-    S = sqrt((L+r)^2 - e^2) - sqrt((L-r)^2 - e^2),  r = (S/2) sqrt((4 L^2 - 4 e^2 - S^2)/(4 L^2 - S^2))
-
-    Parameters
-        stroke : float [mm] - S, between 0 and max_stroke
-        rod : float [mm] - length L
-        offset : float [mm] - e, signed; |e| < L
-    Returns
-        crank : float [mm] - r < L - |e|
-    Raises
-        NoSolution - for a stroke that is not positive or not below max_stroke, or an offset beyond the rod
-    Notes
-        Squaring the equation twice also solves sqrt(A) + sqrt(B) = S; those roots lie beyond max_stroke.
-        The two radicands are formed as products (whichever form cancels less): a few ulp up to max_stroke,
-        where dr/dS goes to 0.
-    Example
-        >>> round(crank_length(310.0, 520.0, 50.0), 9)
-        154.211592039
-
-    Source
-        TY-460 report 2.1; the closed form is an own derivation
-    """
-    _check_stroke(stroke, rod, offset)
-    return _crank_length(stroke, rod, offset)
-
-
 def _crank_length(stroke: float, rod: float, offset: float, f: Elementary = SCALARS) -> float:
     numerator, denominator = _radicands(stroke, rod, offset, f)
     return stroke / 2.0 * f.sqrt(numerator / denominator)
-
-
-def stroke(crank: float, rod: float, offset: float = 0.0) -> float:
-    """Stroke of a slider-crank (inverse of crank_length).
-
-    S = P - Q = 4 L r/(P + Q),  P = sqrt((L+r)^2 - e^2),  Q = sqrt((L-r)^2 - e^2)
-
-    Parameters
-        crank, rod, offset : float [mm] - r, L, e (signed)
-    Returns
-        stroke : float [mm]
-    Raises
-        NoSolution - when the crank cannot make a full turn
-    Example
-        >>> stroke(crank_length(310.0, 520.0, 50.0), 520.0, 50.0)
-        310.0
-
-    Source
-        TY-460 report 2.1
-    """
-    _check_crank(crank, rod, offset)
-    return _stroke(crank, rod, offset)
 
 
 def _stroke(crank: float, rod: float, offset: float, f: Elementary = SCALARS) -> float:
@@ -146,28 +96,6 @@ def dead_center_folded(crank: float, rod: float, offset: float = 0.0) -> float:
     return math.atan2(offset, _reaches(crank, rod, offset)[1])
 
 
-def quick_return_ratio(crank: float, rod: float, offset: float = 0.0) -> float:
-    """Crank angle of the stroke away from the crank pivot over that of the stroke back.
-
-    K = (180 + t)/(180 - t),  t = asin(e/(L - r)) - asin(e/(L + r))
-
-    Parameters
-        crank, rod, offset : float [mm] - r, L, e (signed)
-    Returns
-        K : float [1] - for a crank that turns counter-clockwise; 1/K for one that turns clockwise.
-        A negative offset, the mirror image, gives 1/K too
-    Raises
-        NoSolution - when the crank cannot make a full turn
-    Notes
-        t = atan(e S/(P Q + e^2)) takes no difference of angles.
-    Example
-        >>> round(quick_return_ratio(154.21159203908383, 520.0, 50.0), 9)
-        1.040855858
-    """
-    _check_crank(crank, rod, offset)
-    return _ratio(*_reaches(crank, rod, offset), stroke(crank, rod, offset), offset)
-
-
 @dataclass(frozen=True)
 class SliderCrank:
     """Slider-crank of a given stroke, each value worked out when it is asked for.
@@ -178,10 +106,13 @@ class SliderCrank:
         stroke, rod, offset : float [mm] - S, L, e (signed)
     Returns
         Properties: crank_length, max_stroke [mm]; dead_center_extended, dead_center_folded [rad];
-        quick_return_ratio [1]; as the functions of these names
+        quick_return_ratio [1], crank angle of the stroke away from the crank pivot over that of the stroke back, for a
+        crank that turns counter-clockwise: 1/K for one that turns clockwise, and for the mirror image
     Raises
-        NoSolution - as crank_length
+        NoSolution - for a stroke that is not positive or not below max_stroke, or an offset beyond the rod
     Notes
+        Squaring S = P - Q twice also solves P + Q = S; those roots lie beyond max_stroke. Radicands are formed as
+        products (whichever form cancels less): a few ulp up to max_stroke, where dr/dS goes to 0.
         Near the largest stroke the crank hardly depends on the stroke, so that the folded dead centre cannot be
         had from the rounded crank. Here Q comes from the stroke,
         Q = (S_max^2 - S^2)(4 L^2 - S^2 + 4 L |e|)/(2 D (4 L r/S + S)), D = 4 L^2 - S^2.
@@ -190,7 +121,7 @@ class SliderCrank:
         50.0
 
     Source
-        TY-460 report 2.1; own derivation
+        TY-460 report 2.1; the closed form of the crank is an own derivation
     """
 
     stroke: float
@@ -208,7 +139,7 @@ class SliderCrank:
         """The slider-crank of a given crank.
 
         Raises
-            NoSolution - as `stroke`
+            NoSolution - when the crank cannot make a full turn
         Example
             >>> SliderCrank.of_crank(50.0, 200.0).stroke
             100.0
@@ -279,7 +210,7 @@ def slider(psi: float, crank: float, rod: float, offset: float = 0.0, order: int
         (250.0, -62.5)
 
     Source
-        TY-460 report 2.1; own derivation
+        TY-460 report 2.1; the closed form of the crank is an own derivation
     """
     cosine, sine = math.cos(psi), math.sin(psi)
     u = crank * cosine + offset

@@ -13,6 +13,7 @@ from gearlink.core.gears.involute import inverse_involute, involute
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.linkages import fourbar, slider_crank
 from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.slider_crank import SliderCrank
 from gearlink.core.three_gear.dwells import dwell_positions
 from gearlink.core.three_gear.momentary_dwell import momentary_frame_length, momentary_linkage
 from gearlink.core.three_gear.motion import GearTrain
@@ -49,11 +50,11 @@ def test_strokes_up_to_the_greatest(less: float) -> None:
     """The stroke hardly depends on the crank there: what it gives back is exact to some ulp, up to the limit."""
     most = slider_crank.max_stroke(520.0, 50.0)
     stroke = most * (1.0 - less)
-    crank = slider_crank.crank_length(stroke, 520.0, 50.0)
+    crank = SliderCrank(stroke, 520.0, 50.0).crank_length
     far, near = math.sqrt((520.0 + crank) ** 2 - 2500.0), math.sqrt(max((520.0 - crank) ** 2 - 2500.0, 0.0))
     assert abs(far - near - stroke) <= 64.0 * EPS * stroke / math.sqrt(less) + 1e-5 * stroke * (less < 1e-9)
     with pytest.raises(NoSolution):
-        slider_crank.crank_length(most * (1.0 + 1e-12), 520.0, 50.0)
+        SliderCrank(most * (1.0 + 1e-12), 520.0, 50.0)
 
 
 @pytest.mark.parametrize(

@@ -36,6 +36,7 @@ from gearlink.core.errors import NoSolution
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.linkages import fourbar, slider_crank
 from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.slider_crank import SliderCrank
 from gearlink.core.planet_linkages.planet import PlanetLinkage
 from gearlink.core.three_gear.momentary_dwell import eccentricity_range, momentary_frame_length
 from gearlink.core.three_gear.sweep import dwell_angles, momentary_dwells
@@ -137,7 +138,7 @@ def test_slider_cranks(count: int) -> None:
         rod = 10.0 ** float(rng.uniform(-6, 6))
         offset = rod * float(rng.uniform(-0.9, 0.9))
         wanted = slider_crank.max_stroke(rod, offset) * (1.0 - 10.0 ** float(rng.uniform(-8, -0.1)))
-        crank = slider_crank.crank_length(wanted, rod, offset)
+        crank = SliderCrank(wanted, rod, offset).crank_length
         slope = float(mp.diff(lambda r, rod=rod, e=offset: forty_digits.stroke(r, rod, e), mp.mpf(crank)))
         gap = abs(float(forty_digits.stroke(crank, rod, offset) - mp.mpf(wanted)))
         worst.take("stroke given back", gap / (EPS * (wanted + slope * crank)), (wanted, rod, offset))

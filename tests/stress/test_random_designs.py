@@ -21,6 +21,7 @@ from gearlink.core.errors import NoSolution
 from gearlink.core.gears.pair import GearPair
 from gearlink.core.linkages import fourbar, slider_crank
 from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.slider_crank import SliderCrank
 from gearlink.core.three_gear.sweep import dwell_angles, momentary_dwells
 from gearlink.core.three_gear.symmetric_back_step import dwell_angle
 from gearlink.core.wide_swing.device import Pneumatic, Spring
@@ -223,7 +224,7 @@ def test_slider_cranks(count: int) -> None:
         most = slider_crank.max_stroke(rod, offset)
         share = 1.0 - 10.0 ** float(rng.uniform(-8, -0.5)) if i % 2 else float(rng.uniform(1e-6, 1.0))
         stroke = most * min(share, 1.0 - 1e-9)
-        crank = slider_crank.crank_length(stroke, rod, offset)
+        crank = SliderCrank(stroke, rod, offset).crank_length
         far, near = LONG(rod) + LONG(crank), LONG(rod) - LONG(crank)
         p, q = (
             np.sqrt((far - abs(LONG(offset))) * (far + abs(LONG(offset)))),

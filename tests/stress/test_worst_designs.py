@@ -30,8 +30,9 @@ from stress.worst import EPS, LONGER_NUMBERS, Worst
 
 from gearlink.core.cams.profile import oscillating, profile, translating
 from gearlink.core.gears.pair import GearPair
-from gearlink.core.linkages import fourbar, slider_crank
+from gearlink.core.linkages import fourbar
 from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.slider_crank import SliderCrank
 from gearlink.core.planet_linkages.planet import PlanetLinkage
 from gearlink.core.three_gear.momentary_dwell import least_eccentricity
 from gearlink.core.three_gear.motion import GearTrain
@@ -234,7 +235,7 @@ def test_gear_pairs(module: float, teeth: tuple[int, int], shifts: tuple[float, 
 
 def test_slider_crank() -> None:
     wanted, rod, offset = 0.01365311940426825, 0.011084884366623417, -0.006880788327584944
-    crank = slider_crank.crank_length(wanted, rod, offset)
+    crank = SliderCrank(wanted, rod, offset).crank_length
     slope = float(mp.diff(lambda r: forty_digits.stroke(r, rod, offset), mp.mpf(crank)))
     assert abs(forty_digits.stroke(crank, rod, offset) - mp.mpf(wanted)) <= 4.0 * EPS * (wanted + slope * crank)
 

@@ -54,19 +54,19 @@ def exact_crank(stroke, rod, offset):
 @pytest.mark.parametrize(("data", "wanted"), CASES)
 def test_reference_cases(data, wanted):
     design = SliderCrank(data["stroke"], data["rod"], data["offset"])
-    crank = slider_crank.crank_length(data["stroke"], data["rod"], data["offset"])
+    back = SliderCrank.of_crank(design.crank_length, data["rod"], data["offset"])
     for name, value in wanted.items():
         got = [getattr(design, name)]
         if name == "max_stroke":
             got.append(slider_crank.max_stroke(data["rod"], data["offset"]))
         elif name != "crank_length":
-            got.append(getattr(slider_crank, name)(crank, data["rod"], data["offset"]))
+            got.append(getattr(back, name))
         got = [math.degrees(v) for v in got] if name.startswith("dead_center") else got
         assert got == pytest.approx([value] * len(got), rel=8 * EPS, abs=0.0), name
 
 
 def test_press_report():
-    assert slider_crank.crank_length(310.0, 520.0, 50.0) == pytest.approx(154.21, abs=0.005)
+    assert SliderCrank(310.0, 520.0, 50.0).crank_length == pytest.approx(154.21, abs=0.005)
 
 
 strokes = st.tuples(st.floats(1e-3, 1.0 - 1e-9), st.floats(1.0, 1e3), st.floats(-0.999, 0.999))
@@ -95,8 +95,8 @@ def test_crank_against_bisection(drawn):
 
 def test_crank_against_the_bracketed_root_finder():
     for stroke in (1.0, 50.0, 200.0, 310.0, 700.0, 980.0):
-        root = bracketed_root(lambda r, s=stroke: float(slider_crank.stroke(r, 520.0, 50.0)) - s, 1e-3, 470.0)
-        assert slider_crank.crank_length(stroke, 520.0, 50.0) == pytest.approx(root, rel=4 * EPS, abs=0.0)
+        root = bracketed_root(lambda r, s=stroke: float(exact_stroke(r, 520.0, 50.0)) - s, 1e-3, 470.0)
+        assert SliderCrank(stroke, 520.0, 50.0).crank_length == pytest.approx(root, rel=4 * EPS, abs=0.0)
 
 
 @pytest.mark.parametrize("gap", [1e-3, 1e-6, 1e-9, 1e-12, 1e-15])
@@ -112,7 +112,7 @@ def test_up_to_the_largest_stroke(rod, offset, gap):
 def test_largest_stroke_belongs_to_the_longest_crank():
     for rod, offset in ((200.5, 5.0), (520.0, 50.0), (100.0, 99.0)):
         longest = rod - offset
-        assert slider_crank.stroke(longest, rod, offset) == pytest.approx(
+        assert float(exact_stroke(longest, rod, offset)) == pytest.approx(
             slider_crank.max_stroke(rod, offset), rel=4 * EPS, abs=0.0
         )
         assert slider_crank.dead_center_folded(longest, rod, offset) == math.pi / 2
@@ -127,14 +127,16 @@ def test_round_trip_mirror_and_scale(drawn):
     share, rod, part = drawn
     offset = part * rod
     crank = share * (rod - abs(offset))
-    stroke = slider_crank.stroke(crank, rod, offset)
+    stroke = SliderCrank.of_crank(crank, rod, offset).stroke
     # dr/dS goes to 0 at the largest stroke, so that the way back is never worse than the stroke itself
-    assert slider_crank.crank_length(stroke, rod, offset) == pytest.approx(crank, rel=16 * EPS, abs=0.0)
-    ratio = slider_crank.quick_return_ratio(crank, rod, offset)
-    assert slider_crank.quick_return_ratio(crank, rod, -offset) == pytest.approx(1.0 / ratio, rel=8 * EPS, abs=0.0)
+    assert SliderCrank(stroke, rod, offset).crank_length == pytest.approx(crank, rel=16 * EPS, abs=0.0)
+    ratio = SliderCrank.of_crank(crank, rod, offset).quick_return_ratio
+    assert SliderCrank.of_crank(crank, rod, -offset).quick_return_ratio == pytest.approx(
+        1.0 / ratio, rel=8 * EPS, abs=0.0
+    )
     assert (ratio - 1.0) * offset >= 0.0
-    assert slider_crank.stroke(crank, rod, -offset) == stroke
-    assert slider_crank.stroke(1024.0 * crank, 1024.0 * rod, 1024.0 * offset) == 1024.0 * stroke
+    assert SliderCrank.of_crank(crank, rod, -offset).stroke == stroke
+    assert SliderCrank.of_crank(1024.0 * crank, 1024.0 * rod, 1024.0 * offset).stroke == 1024.0 * stroke
     for angle in (slider_crank.dead_center_extended, slider_crank.dead_center_folded):
         assert angle(crank, rod, -offset) == -angle(crank, rod, offset)
 
@@ -150,11 +152,11 @@ def test_dead_centers_are_the_extremes_of_the_slider(drawn):
     low, low_rate = slider_crank.slider(-math.pi / 2 - extended, crank, rod, offset, 1)
     high, high_rate = slider_crank.slider(math.pi / 2 - folded, crank, rod, offset, 1)
     steep = rod / (rod - crank - abs(offset))
-    assert low - high == pytest.approx(slider_crank.stroke(crank, rod, offset), abs=16 * EPS * rod * steep)
+    assert low - high == pytest.approx(SliderCrank.of_crank(crank, rod, offset).stroke, abs=16 * EPS * rod * steep)
     assert max(abs(low_rate), abs(high_rate)) <= 32 * EPS * rod * steep
     # the counter-clockwise turn from folded to stretched over the one back
     away = 2.0 * math.pi - (math.pi - folded + extended)
-    assert slider_crank.quick_return_ratio(crank, rod, offset) == pytest.approx(
+    assert SliderCrank.of_crank(crank, rod, offset).quick_return_ratio == pytest.approx(
         away / (2.0 * math.pi - away), rel=64 * EPS * steep, abs=0.0
     )
 
@@ -205,17 +207,17 @@ def test_mirror_of_the_position(psi, drawn):
 @pytest.mark.parametrize(
     ("call", "message"),
     [
-        (lambda: slider_crank.crank_length(399.0, 200.5, 5.0), r"must stay below 395\.96843.* mm; shorten it"),
+        (lambda: SliderCrank(399.0, 200.5, 5.0), r"must stay below 395\.96843.* mm; shorten it"),
         (lambda: SliderCrank(399.0, 200.5, 5.0), r"must stay below 395\.96843"),
-        (lambda: slider_crank.crank_length(400.0, 200.0), "must stay below 400 mm"),
-        (lambda: slider_crank.crank_length(100.0, 200.0, -200.0), "must be below the rod length 200 mm"),
-        (lambda: slider_crank.crank_length(0.0, 200.0), "stroke 0 mm: it must be positive"),
-        (lambda: slider_crank.crank_length(math.nan, 200.0), "it must be positive"),
-        (lambda: slider_crank.crank_length(10.0, -1.0), "rod -1 mm"),
-        (lambda: slider_crank.crank_length(10.0, 20.0, math.nan), "offset nan mm"),
-        (lambda: slider_crank.stroke(96.0, 100.0, 5.0), "must not exceed rod less offset, 95 mm"),
+        (lambda: SliderCrank(400.0, 200.0), "must stay below 400 mm"),
+        (lambda: SliderCrank(100.0, 200.0, -200.0), "must be below the rod length 200 mm"),
+        (lambda: SliderCrank(0.0, 200.0), "stroke 0 mm: it must be positive"),
+        (lambda: SliderCrank(math.nan, 200.0), "it must be positive"),
+        (lambda: SliderCrank(10.0, -1.0), "rod -1 mm"),
+        (lambda: SliderCrank(10.0, 20.0, math.nan), "offset nan mm"),
+        (lambda: SliderCrank.of_crank(96.0, 100.0, 5.0), "must not exceed rod less offset, 95 mm"),
         (lambda: slider_crank.dead_center_folded(96.0, 100.0, -5.0), "cannot make a full turn"),
-        (lambda: slider_crank.quick_return_ratio(-1.0, 100.0), "crank -1 mm"),
+        (lambda: SliderCrank.of_crank(-1.0, 100.0), "crank -1 mm"),
         (lambda: slider_crank.slider(0.0, 96.0, 100.0, 5.0), r"at crank direction 0 deg .* longer than 101 mm"),
         (lambda: slider_crank.slider(0.0, 95.0, 100.0, 5.0, 1), "does not reach"),
         (lambda: slider_crank_sweep.slider([-1.5, 0.0], 96.0, 100.0, 5.0), "at crank direction 0 deg"),
