@@ -108,6 +108,10 @@ class DrivenSpec(TolerancedSpec):
         None, description="speed of the input: with it real speeds, accelerations and times are given"
     )
 
+    def commands(self) -> tuple[str, ...]:
+        """What the file asks for."""
+        return ("analyze", "gear", *(("loads",) if getattr(self, "loads", None) is not None else ()))
+
 
 class _LawNames:
     """Gives editors the names of the motion laws; `gearlink.core.cams.laws.law` is what judges them."""

@@ -95,7 +95,3 @@ class HypocycloidDwellSpec(DrivenSpec):
         if wants_tolerance and self.dwell.tolerance is None:
             raise PydanticCustomError("GL106", "widest-dwell needs dwell.tolerance", {"key": "dwell.tolerance"})
         return self
-
-    def commands(self) -> tuple[str, ...]:
-        """What the file asks for."""
-        return ("analyze", "gear", *(("loads",) if self.loads is not None else ()))

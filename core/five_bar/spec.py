@@ -234,10 +234,6 @@ class GearedFiveBarSpec(DrivenSpec):
         _refuse(self.range is not None and self.range.end <= self.range.start, "range.end",
                 "the range ends before it starts: give a greater end")  # fmt: skip
 
-    def commands(self) -> tuple[str, ...]:
-        """What the file asks for."""
-        return ("analyze", "gear", *(("loads",) if self.loads is not None else ()))
-
 
 _NEEDED = {
     "path": {

@@ -67,7 +67,3 @@ class GearedRockerSpec(DrivenSpec):
                 {"key": "links.crank"},
             )
         return self
-
-    def commands(self) -> tuple[str, ...]:
-        """What the file asks for."""
-        return ("analyze", "gear", *(("loads",) if self.loads is not None else ()))

@@ -125,10 +125,6 @@ class GearedSixBarSpec(DrivenSpec):
             _refuse("range.end", "the range ends before it starts: give a greater end")
         return self
 
-    def commands(self) -> tuple[str, ...]:
-        """What the file asks for."""
-        return ("analyze", "gear", *(("loads",) if self.loads is not None else ()))
-
 
 def _refuse(key: str, message: str) -> None:
     raise PydanticCustomError("GL111", "{message}", {"key": key, "message": message})
