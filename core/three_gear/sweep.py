@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,6 +16,7 @@ from gearlink.core.numerics.arrays import Mask, Reals
 from gearlink.core.numerics.gauss import GAUSS_NODES, GAUSS_WEIGHTS
 from gearlink.core.three_gear.dwell_angle_sweep import regained
 from gearlink.core.three_gear.motion import GearTrain
+from gearlink.core.three_gear.symmetric_many import newton
 
 _BLOCK = 8192
 _INTEGRAL_BELOW = 0.2  # h [rad], as in `gearlink.core.three_gear.symmetric_back_step`
@@ -189,7 +189,11 @@ def _regained_by_bracket(ratio: Reals, h: Reals) -> Reals:
     """Where the output regains its place: Newton steps kept inside the bracket [h, 3 h]."""
     limit = 2.0 * math.pi * (1.0 - ratio) / (2.0 - ratio)
     high = np.minimum(3.0 * h, limit - h)
-    return _newton(lambda y: (-_fallen(ratio, h, y), _speed(ratio, h, y)), h, high, np.minimum(2.0 * h, high))
+    return newton(_regains, h, high, np.minimum(2.0 * h, high), ratio, h)
+
+
+def _regains(y: Reals, ratio: Reals, h: Reals) -> tuple[Reals, Reals]:
+    return -_fallen(ratio, h, y), _speed(ratio, h, y)
 
 
 def _pair(i3: ArrayLike, angle: ArrayLike) -> tuple[Reals, Reals]:
@@ -227,19 +231,3 @@ def _speed(i3: Reals, h: Reals, y: Reals) -> Reals:
     cos_y = np.cos(y)
     speed: Reals = 1.0 - (1.0 - i3) * cos_y / np.sqrt(i3 * (i3 - 2.0) * np.cos(h) ** 2 + cos_y**2)
     return speed
-
-
-def _newton(f: Callable[[Reals], tuple[Reals, Reals]], low: Reals, high: Reals, x: Reals) -> Reals:
-    """Roots of rising functions with their slopes, f(low) <= 0 <= f(high); a step that leaves the bracket halves it."""
-    low, high = np.array(low), np.array(high)
-    for _ in range(100):
-        value, slope = f(x)
-        low, high = np.where(value < 0.0, x, low), np.where(value < 0.0, high, x)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            step = np.where(value == 0.0, 0.0, value / slope)
-        new = x - step
-        new = np.where((new >= low) & (new <= high), new, 0.5 * (low + high))
-        if np.all(np.abs(new - x) <= 1e-9 * np.abs(new)):  # the error is the square of the last step
-            return new
-        x = new
-    return x
