@@ -287,7 +287,8 @@ class _Rings(_Batch):
     def quantity(self, name: str) -> Any:
         """As `data.shown`: those with the signs of a ring as magnitudes, none that has no bound."""
         value = super().quantity(name)
-        value = np.abs(value) if name.partition("[")[0] in MAGNITUDES else value
+        plain, _, index = name.partition("[")
+        value = np.abs(value) if plain in MAGNITUDES and index != "0]" else value
         return np.where(np.isfinite(value), value, np.nan)
 
     def _refused_for_tips(self) -> Any:

@@ -225,6 +225,13 @@ def form_parts(pair: GearPair, gear: int) -> dict[str, float]:
     }
 
 
+_FORM_REMEDIES = {
+    "the height of the teeth of ": "lower the sum of the profile shifts, or shorten the tips less",
+    "the root radius of ": "raise its profile shift or take more teeth",
+    "the tip thickness of ": "lower its profile shift or its addendum",
+}
+
+
 def _form_measure(pair: GearPair, gear: int, _limits: Limits) -> Measured:
     return Measured(reduce(pair.fn.least, form_parts(pair, gear).values()), 0.0, 0.0)
 
@@ -295,7 +302,8 @@ def _tooth_form(gear: _Gear, _limits: Limits) -> Iterator[Check]:
     if worst <= 0.0:
         most = math.pi / (4.0 * math.tan(gear.pair.pressure_angle))
         nearer = f"bring its profile shift {gear.of('profile_shift'):.6g} nearer to 0 (|x| below {most:.3g})"
-        text += f", a tooth that no tool can cut: {nearer if gear.shifts else 'take more teeth'}"
+        remedy = _FORM_REMEDIES.get(part, nearer) if gear.shifts else "take more teeth"
+        text += f", a tooth that no tool can cut: {remedy}"
     yield TOOTH_FORM.check("fail" if worst <= 0.0 else "pass", text, worst, 0.0, "mm")
 
 

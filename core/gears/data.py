@@ -257,7 +257,7 @@ class GearData:
 def shown(name: str, value: Any) -> Any:
     """A value as results give it: magnitudes of radii and distances, None where both gears have none."""
     if isinstance(value, tuple):
-        both = tuple(shown(name, each) for each in value)
+        both = shown("", value[0]), *(shown(name, each) for each in value[1:])  # gear 1 is no ring
         return None if all(each is None for each in both) else both
     if value is None or (isinstance(value, float) and not math.isfinite(value)):
         return None

@@ -111,3 +111,27 @@ def test_ring_without_an_involute_keeps_the_kinematics(ring: int, angle: float, 
 def test_no_pressure_angle_divides_by_nothing(angle: float) -> None:
     with pytest.raises(NoSolution, match="take a larger pressure angle"):
         _ = InternalMesh(1.6, (25, 75), math.radians(angle)).contact_ratio
+
+
+@pytest.mark.parametrize(
+    ("keys", "words"),
+    [
+        ({"teeth": [3, -63], "profile_shift": [-0.685, 0.37]}, "raise its profile shift or take more teeth"),
+        ({"teeth": [12, 60], "profile_shift": [1.2, 0]}, "lower its profile shift or its addendum"),
+        ({"teeth": [12, 12], "profile_shift": [2, 2], "addendum": 0.3, "clearance": 0.1}, "shorten the tips less"),
+        ({"teeth": [900, 900], "profile_shift": [-2.2, 2.2], "addendum": 0.1}, "nearer to 0 (|x| below"),
+    ],
+)
+def test_what_is_wrong_with_a_tooth_decides_what_mends_it(keys: dict[str, Any], words: str) -> None:
+    """Bringing a shift of -0.7 below 1.36 would not give a root circle back."""
+    angle = {} if "addendum" in keys or keys["teeth"][1] == 60 else {"pressure_angle": 30, "addendum": 0.8}
+    made = design({"kind": "gear-pair", "module": 2} | angle | {"clearance": 0.4} | keys)
+    assert words in made.check("tooth-form")[0].message
+
+
+def test_a_root_circle_that_is_none_is_shown_negative_in_a_ring_too() -> None:
+    keys = {"kind": "gear-pair", "module": 2, "addendum": 0.8, "clearance": 0.4, "profile_shift": [-0.685, 0.37]}
+    for second in (63, -63):
+        pinion, wheel = design(keys | {"teeth": [3, second]}).quantity("root_radius").value
+        assert pinion == pytest.approx(3.0 - 2.0 * (1.2 + 0.685))
+        assert wheel > 0.0
