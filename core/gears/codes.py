@@ -133,16 +133,18 @@ BACKLASH = Rule(
 )
 INSPECTION = Rule(
     "GL213",
-    "ball does not measure the teeth",
+    "a measure that cannot be taken",
     "A ball or pin that the file names does not lie between the flanks: it falls through the space, touches beyond the "
-    "tips, on the fillet or on the root circle, or lies below the tips where no anvil reaches it.",
-    "The measure over balls is then not that of the drawing, and a good gear is rejected or a bad one passed.",
-    "Take the preferred size that the finding names, or leave pin_diameter out.",
+    "tips, on the fillet or on the root circle, or lies below the tips where no anvil reaches it. Or the planes of the "
+    "span measurement touch a helical gear beyond its face.",
+    "The measure is then not that of the drawing, and a good gear is rejected or a bad one passed.",
+    "Take the preferred size that the finding names, or leave pin_diameter out; span fewer teeth, or measure over "
+    "balls.",
     "form circle <= d_M <= tip circle, root circle clear, M beyond the tip circle; tan(alpha_M) = tan(alpha_K) - "
-    "D cos(beta_b)/d_b",
+    "D cos(beta_b)/d_b; b >= W_k sin(beta_b) + 1.2 mm cos(beta_b)",
     "DIN 21773",
     ("inspection",),
-    ("pin_diameter", *_within("pin_diameter")),
+    ("pin_diameter", "span_teeth", "gears.span_teeth", *_within("pin_diameter")),
 )
 PITTING = Rule(
     "GL210",

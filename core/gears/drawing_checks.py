@@ -15,8 +15,10 @@ from gearlink.core.gears.drawing_names import DRAWING_CHECKS
 from gearlink.core.gears.inspection import preferred_pin
 from gearlink.core.gears.load import Factors
 from gearlink.core.gears.pair import GearPair
-from gearlink.core.report import Check, Rule, Status
+from gearlink.core.report import Check, Rule, Status, safely_above
 
+_TOUCHING = 1.2
+"""Length of the line on which a plane of a span measurement touches, at least [mm]."""
 _NEGATIVE = -1e-6
 """Backlash below it, in modules, is none."""
 
@@ -240,6 +242,28 @@ def _inspection(data: GearData, _limits: DrawingLimits) -> Iterator[Check]:
             best = preferred_pin(data.pair, gear)
             remedy = f": take one of {best:g} mm (pin_diameter)" if best is not None else ""
             yield INSPECTION.check("warn", f"a ball of {diameter:g} mm {found}{remedy}")
+        yield from _spanned(data, gear)
+
+
+def _spanned(data: GearData, gear: int) -> Iterator[Check]:
+    """A span measurement that leaves a helical gear's face; both planes touch apart by W_k sin(beta_b) along it."""
+    pair, widths = data.pair, data.face_width
+    count = pair.span_teeth[gear]
+    if pair.helix_angle == 0.0 or widths is None or count is None:
+        return
+    angle, width = pair.base_helix_angle, widths[gear]
+
+    def needed(teeth: int) -> float:
+        return pair.span_over(gear, teeth) * math.sin(angle) + _TOUCHING * math.cos(angle)
+
+    if needed(count) <= width:
+        return
+    form, tip = pair.form_radius[gear] or pair.base_radius[gear], pair.tip_radius[gear]
+    fewer = [k for k in range(1, count) if needed(k) <= width and form < pair.span_contact(gear, k) < tip]
+    wanted = f"needs a face width of {safely_above(needed(count), 4)} mm, it has {width:g}"
+    over = f"measure over {fewer[-1]} teeth, or balls" if fewer else "measure over balls"
+    text = f"the span of {data.called(gear)} over {count} teeth {wanted}: {over}"
+    yield INSPECTION.check("warn", text, width, needed(count), "mm")
 
 
 def _amiss(data: GearData, gear: int) -> str | None:

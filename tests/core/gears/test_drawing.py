@@ -63,6 +63,27 @@ def test_balls_that_do_not_measure_the_teeth_are_named(teeth: list[Any], pins: l
     assert design(known, command="gear").check("inspection") == []
 
 
+@pytest.mark.parametrize(("width", "over"), [(15.5, 6), (9.0, None)])
+def test_a_span_beyond_the_face_of_a_helical_gear_is_named(width: float, over: int | None) -> None:
+    """The planes touch along lines at the base helix angle, so their places stand W_k sin(beta_b) apart along the axis.
+
+    Followed, the finding is gone; wide gears and spur ones have none.
+    """
+    known: dict[str, Any] = {"kind": "gear-pair", "module": 2, "teeth": [41, 40], "profile_shift": [0.2, 0.0]}
+    helical = known | {"helix_angle": 25}
+    made = design(helical | {"face_width": [width, 40]}, command="gear")
+    (found,) = made.check("inspection")
+    assert (found.code, found.status) == ("GL213", "warn")
+    span, bend = made.quantity("span_measurement").value[0], made.gear_pair.base_helix_angle
+    assert found.limit == pytest.approx(span * math.sin(bend) + 1.2 * math.cos(bend))
+    assert found.message.endswith("measure over balls" if over is None else f"measure over {over} teeth, or balls")
+    if over is not None:
+        fewer = {"face_width": [width, 40], "span_teeth": [over, 5]}
+        assert design(helical | fewer, command="gear").check("inspection") == []
+    assert design(helical | {"face_width": 40}, command="gear").check("inspection") == []
+    assert design(known | {"face_width": 1}, command="gear").check("inspection") == []
+
+
 @pytest.mark.parametrize("teeth", [[18, 57], [18, -57], [18, "rack"]])
 def test_a_load_without_a_width_is_not_left_without_a_word(teeth: list[Any]) -> None:
     known = {"kind": "gear-pair", "module": 2.5, "teeth": teeth, "profile_shift": [0.2, 0.0], "load": {"torque": 10}}
