@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import unicodedata
+from functools import cached_property
 from importlib import import_module
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, TypeAdapter
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 from pydantic_core import PydanticCustomError, core_schema
+
+if TYPE_CHECKING:
+    from pydantic import TypeAdapter
 
 
 class Spec(BaseModel):
@@ -61,7 +65,10 @@ class Deferred:
         module, _, name = self.place.partition(":")
         return getattr(import_module(f"gearlink.core.{module}"), name)
 
+    @cached_property
     def _adapter(self) -> TypeAdapter[Any]:
+        from pydantic import TypeAdapter
+
         model = self.model()
         return TypeAdapter(model, config=None if isinstance(model, type) else Spec.model_config)
 
@@ -69,14 +76,15 @@ class Deferred:
         return core_schema.no_info_plain_validator_function(self._validated)
 
     def _validated(self, value: Any) -> Any:
-        # A design whose spec is changed and validated anew brings a section that is valid already.
         model = self.model()
-        if isinstance(model, type) and isinstance(value, model):
-            return value
-        return self._adapter().validate_python(value)
+        if not isinstance(model, type):
+            return self._adapter.validate_python(value)
+        section: type[BaseModel] = model
+        # A design whose spec is changed and validated anew brings a section that is valid already.
+        return value if isinstance(value, section) else section.model_validate(value)
 
     def __get_pydantic_json_schema__(self, _schema: Any, handler: Any) -> dict[str, Any]:
-        found: dict[str, Any] = handler(self._adapter().core_schema)
+        found: dict[str, Any] = handler(self._adapter.core_schema)
         return found
 
 

@@ -8,7 +8,8 @@ from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.gears.train_keys import TrainKeys
-from gearlink.core.linkages.spec_parts import FourLinks, LinkageLimits, PivotShafts
+from gearlink.core.linkages.spec_parts import LinkageLimits
+from gearlink.core.linkages.spec_sections import FourLinks, PivotShafts
 from gearlink.core.spec import Angle, Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth
 
 Turns: TypeAlias = Annotated[float, Field(gt=0, le=1e6, json_schema_extra={"unit": "1"})]

@@ -8,7 +8,8 @@ from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.gears.train_keys import TrainKeys
-from gearlink.core.linkages.spec_parts import InputRange, LinkageLimits, TurnAngle, require_rim
+from gearlink.core.linkages.spec_parts import LinkageLimits, TurnAngle, require_rim
+from gearlink.core.linkages.spec_sections import InputRange
 from gearlink.core.spec import Angle, Assembly, Deferred, DrivenSpec, Length, PressureAngle, SignedLength, Spec, Teeth
 
 Plain = Annotated[float, Field(ge=-1e6, le=1e6, json_schema_extra={"unit": "1"})]

@@ -14,10 +14,11 @@ from gearlink.core.gears.pair import GearPair, Pair
 from gearlink.core.gears.tools import PinionCutter, RackTool, usual_rounding
 
 if TYPE_CHECKING:
+    from gearlink.core.gears.material_spec import MaterialSpec
     from gearlink.core.gears.pair_keys import PairKeys
     from gearlink.core.gears.rack_rating import RackData
     from gearlink.core.gears.spec import GearPairSpec
-    from gearlink.core.gears.spec_parts import AllowanceSpec, LoadSpec, MaterialSpec, ToolSpec
+    from gearlink.core.gears.spec_parts import AllowanceSpec, LoadSpec, ToolSpec
 
 _MOST_SHIFT = 5.0
 _AGREE = 1e-6

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from gearlink.core.spec import Coefficient, Spec
+from gearlink.core.spec import Coefficient, Length, Spec
 
 Shift = Annotated[float, Field(ge=-5, le=5, json_schema_extra={"unit": "1"})]
 HelixAngle = Annotated[float, Field(ge=0, le=45, json_schema_extra={"unit": "deg"})]
@@ -14,8 +14,22 @@ Alteration = Annotated[float, Field(ge=-3, le=3, json_schema_extra={"unit": "1"}
 FaceWidth = Annotated[float, Field(ge=1e-3, le=1e6, json_schema_extra={"unit": "mm"})]
 Rim = Annotated[float, Field(ge=1e-3, le=1e6, json_schema_extra={"unit": "mm"})]
 SpanTeeth = Annotated[int, Field(ge=1, le=10_000, json_schema_extra={"unit": "teeth"})]
+Factor = Annotated[float, Field(gt=0, le=100, json_schema_extra={"unit": "1"})]
 Hand = Literal["right", "left"]
 AccuracyGrade = Annotated[int, Field(ge=0, le=12, json_schema_extra={"unit": "1"})]
+
+TwoRims = Annotated[list[Rim | None], Field(min_length=2, max_length=2)]
+TwoWidths = Annotated[list[FaceWidth], Field(min_length=2, max_length=2)]
+TwoShifts = Annotated[list[Shift], Field(min_length=2, max_length=2)]
+TwoLengths = Annotated[list[Length], Field(min_length=2, max_length=2)]
+TwoAlterations = Annotated[list[Alteration], Field(min_length=2, max_length=2)]
+TwoHands = Annotated[list[Hand], Field(min_length=2, max_length=2)]
+TwoSpans = Annotated[list[SpanTeeth], Field(min_length=2, max_length=2)]
+WidthOrTwo = FaceWidth | TwoWidths
+RimOrTwo = Rim | TwoRims
+LengthOrTwo = Length | TwoLengths
+TipShortening = Literal["full", "none"] | TwoAlterations
+SignedTeeth = Annotated[int, Field(ge=-10_000, le=10_000, json_schema_extra={"unit": "teeth"})]
 
 
 class ToothKeys(Spec):

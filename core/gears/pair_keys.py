@@ -2,24 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from gearlink.core.gears.key_types import FaceWidth, Rim, ToothKeys
-from gearlink.core.gears.spec_parts import (
-    AllowanceSpec,
-    LoadSpec,
-    MaterialSpec,
-    TipShortening,
-    ToolSpec,
-    TwoLengths,
-    TwoRims,
-    TwoShifts,
-    TwoTools,
-    TwoWidths,
-)
-from gearlink.core.spec import Length, PressureAngle
+from gearlink.core.gears.key_types import ToothKeys, TwoShifts
+from gearlink.core.spec import Deferred, Length, PressureAngle
+
+
+def _usual_material() -> Any:
+    from gearlink.core.gears.material_spec import MaterialSpec
+
+    return MaterialSpec.model_construct()
 
 
 class PairKeys(ToothKeys):
@@ -30,22 +24,31 @@ class PairKeys(ToothKeys):
     profile_shift: TwoShifts | None = Field(
         None, description="profile shift coefficients of gear 1 and 2; what the centre distance leaves is backlash"
     )
-    tip_shortening: TipShortening | None = Field(
+    tip_shortening: Annotated[Any, Deferred("gears.key_types:TipShortening")] | None = Field(
         None, description="full (default), none, or tip alterations k of both gears"
     )
-    face_width: FaceWidth | TwoWidths | None = Field(None, description="face width of both gears, or of each")
-    rim_thickness: Rim | TwoRims | None = Field(
+    face_width: Annotated[Any, Deferred("gears.key_types:WidthOrTwo")] | None = Field(
+        None, description="face width of both gears, or of each"
+    )
+    rim_thickness: Annotated[Any, Deferred("gears.key_types:RimOrTwo")] | None = Field(
         None, description="thickness of the rim under the tooth roots of both gears, or of each, for Y_B"
     )
-    tool: ToolSpec | TwoTools | None = Field(
+    tool: Annotated[Any, Deferred("gears.spec_parts:OneOrTwoTools")] | None = Field(
         None, description="rack tool of both gears, or of each; left out: straight to the addendum"
     )
-    pin_diameter: Length | TwoLengths | None = Field(
+    pin_diameter: Annotated[Any, Deferred("gears.key_types:LengthOrTwo")] | None = Field(
         None, description="measuring balls or pins of both gears, or of each; left out: a preferred size"
     )
-    allowances: AllowanceSpec | None = None
+    allowances: Annotated[Any, Deferred("gears.spec_parts:AllowanceSpec")] | None = Field(
+        None,
+        description="allowances of the tooth thickness in the normal section: a series of DIN 3967, or limits in mm",
+    )
     center_distance_allowance: Literal["js7"] | Length | None = Field(
         None, description="plus and minus of the centre distance: js7, or a number in mm"
     )
-    load: LoadSpec | None = Field(None, description="load of the rating by ISO 6336 (loads is for forces of a drive)")
-    material: MaterialSpec = MaterialSpec.model_construct()
+    load: Annotated[Any, Deferred("gears.spec_parts:LoadSpec")] | None = Field(
+        None, description="load of the rating by ISO 6336 (loads is for forces of a drive)"
+    )
+    material: Annotated[Any, Deferred("gears.material_spec:MaterialSpec")] = Field(
+        default_factory=_usual_material, description="the materials; each key one number, or one for each gear"
+    )

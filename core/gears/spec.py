@@ -7,18 +7,8 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.gears.key_types import Hand, Rim, Shift, SpanTeeth
+from gearlink.core.gears.key_types import Shift, SignedTeeth, TwoShifts
 from gearlink.core.gears.pair_keys import PairKeys
-from gearlink.core.gears.spec_parts import (
-    CutterSpec,
-    SignedTeeth,
-    TipShortening,
-    TwoLengths,
-    TwoRims,
-    TwoShifts,
-    exclude_each_other,
-    require_teeth,
-)
 from gearlink.core.spec import (
     Deferred,
     DrawingLimits,
@@ -44,15 +34,17 @@ class GearPairSpec(TolerancedSpec, PairKeys):
         None, description="working centre distance; with profile_shift the difference is backlash"
     )
     profile_shift: TwoShifts | None = Field(None, description="profile shift coefficients of gear 1 and 2 (ISO signs)")
-    helix_hand: Annotated[list[Hand], Field(min_length=2, max_length=2)] | None = Field(
+    helix_hand: Annotated[Any, Deferred("gears.key_types:TwoHands")] | None = Field(
         None, description="hands of helix of gear 1 and 2, for drawing and exports"
     )
-    tip_shortening: TipShortening | None = Field(
+    tip_shortening: Annotated[Any, Deferred("gears.key_types:TipShortening")] | None = Field(
         None,
         description="full (default of external pairs), none (of internal ones), or tip alterations k of both gears",
     )
-    tip_diameter: TwoLengths | None = Field(None, description="tip diameters, in place of tip_shortening")
-    rim_thickness: Rim | TwoRims | None = Field(
+    tip_diameter: Annotated[Any, Deferred("gears.key_types:TwoLengths")] | None = Field(
+        None, description="tip diameters, in place of tip_shortening"
+    )
+    rim_thickness: Annotated[Any, Deferred("gears.key_types:RimOrTwo")] | None = Field(
         None,
         description="thickness of the rim under the tooth roots, of both or of each: for Y_B, and the back of a ring "
         "or rack in exports, which left out is 2 modules",
@@ -60,8 +52,10 @@ class GearPairSpec(TolerancedSpec, PairKeys):
     rack_teeth: Annotated[int, Field(ge=1, le=10_000, json_schema_extra={"unit": "teeth"})] | None = Field(
         None, description="teeth of the rack in pictures and exports; left out: as many as gear 1 has"
     )
-    cutter: CutterSpec | None = Field(None, description="pinion cutter of a ring: only then its fillets are known")
-    span_teeth: Annotated[list[SpanTeeth], Field(min_length=2, max_length=2)] | None = Field(
+    cutter: Annotated[Any, Deferred("gears.spec_parts:CutterSpec")] | None = Field(
+        None, description="pinion cutter of a ring: only then its fillets are known"
+    )
+    span_teeth: Annotated[Any, Deferred("gears.key_types:TwoSpans")] | None = Field(
         None, description="teeth that the span measurement of each gear goes over; left out: chosen"
     )
     assembly: Literal["axial", "radial"] = Field("axial", description="how pinion and ring are put together")
@@ -139,3 +133,26 @@ class GearPairSpec(TolerancedSpec, PairKeys):
     def commands(self) -> tuple[str, ...]:
         """What the file asks for."""
         return ("gear", *(("loads",) if self.loads is not None else ()))
+
+
+def exclude_each_other(spec: Any, first: str, second: str) -> None:
+    """Refuse a file that gives both of two keys."""
+    if getattr(spec, first) is not None and getattr(spec, second) is not None:
+        message = f"{first} and {second} exclude each other: give one"
+        raise PydanticCustomError("GL111", message, {"key": second})
+
+
+def require_teeth(teeth: list[Any]) -> None:
+    """Refuse teeth that no pair has: gear 1 is external, gear 2 external, a ring (negative), or a rack."""
+    first, second = teeth
+    if first == "rack":
+        message = "teeth[0] must be a number: gear 1 is external, a rack is teeth: [z, rack]"
+        raise PydanticCustomError("GL108", message, {"key": "teeth[0]"})
+    for place, z in enumerate((first, second)):
+        if z == 0 or (place == 0 and z < 0):
+            help_ = "a ring is gear 2: teeth: [21, -67]" if z < 0 else "allowed: from 1 to 10000"
+            message = "{key} must be at least 1, not {value}"
+            raise PydanticCustomError("GL108", message, {"key": f"teeth[{place}]", "value": z, "help": help_})
+    if second != "rack" and second < 0 and -second <= first:
+        message = "a ring of {ring} teeth does not take a gear of {first}: it needs more teeth"
+        raise PydanticCustomError("GL111", message, {"key": "teeth[1]", "ring": -second, "first": first})

@@ -3,23 +3,16 @@
 from __future__ import annotations
 
 import re
-from typing import Annotated, Any, Literal
+from typing import Annotated
 
 from pydantic import AfterValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.gears.key_types import Alteration, FaceWidth, Rim, Shift
-from gearlink.core.spec import Coefficient, Length, Spec
+from gearlink.core.gears.key_types import Factor, Shift
+from gearlink.core.spec import Coefficient, Spec
 
 Protuberance = Annotated[float, Field(ge=0, le=1, json_schema_extra={"unit": "1"})]
 Rounding = Annotated[float, Field(ge=0, le=3, json_schema_extra={"unit": "1"})]
-TwoRims = Annotated[list[Rim | None], Field(min_length=2, max_length=2)]
-TwoWidths = Annotated[list[FaceWidth], Field(min_length=2, max_length=2)]
-TwoShifts = Annotated[list[Shift], Field(min_length=2, max_length=2)]
-TwoLengths = Annotated[list[Length], Field(min_length=2, max_length=2)]
-TwoAlterations = Annotated[list[Alteration], Field(min_length=2, max_length=2)]
-TipShortening = Literal["full", "none"] | TwoAlterations
-SignedTeeth = Annotated[int, Field(ge=-10_000, le=10_000, json_schema_extra={"unit": "teeth"})]
 
 
 class ToolSpec(Spec):
@@ -45,37 +38,11 @@ class CutterSpec(Spec):
     rounding: Rounding = Field(0.25, description="radius of the cutter's tip corner")
 
 
-TwoTools = Annotated[list[ToolSpec | None], Field(min_length=2, max_length=2)]
+OneOrTwoTools = ToolSpec | Annotated[list[ToolSpec | None], Field(min_length=2, max_length=2)]
 
 
-def exclude_each_other(spec: Any, first: str, second: str) -> None:
-    """Refuse a file that gives both of two keys."""
-    if getattr(spec, first) is not None and getattr(spec, second) is not None:
-        message = f"{first} and {second} exclude each other: give one"
-        raise PydanticCustomError("GL111", message, {"key": second})
-
-
-def require_teeth(teeth: list[Any]) -> None:
-    """Refuse teeth that no pair has: gear 1 is external, gear 2 external, a ring (negative), or a rack."""
-    first, second = teeth
-    if first == "rack":
-        message = "teeth[0] must be a number: gear 1 is external, a rack is teeth: [z, rack]"
-        raise PydanticCustomError("GL108", message, {"key": "teeth[0]"})
-    for place, z in enumerate((first, second)):
-        if z == 0 or (place == 0 and z < 0):
-            help_ = "a ring is gear 2: teeth: [21, -67]" if z < 0 else "allowed: from 1 to 10000"
-            message = "{key} must be at least 1, not {value}"
-            raise PydanticCustomError("GL108", message, {"key": f"teeth[{place}]", "value": z, "help": help_})
-    if second != "rack" and second < 0 and -second <= first:
-        message = "a ring of {ring} teeth does not take a gear of {first}: it needs more teeth"
-        raise PydanticCustomError("GL111", message, {"key": "teeth[1]", "ring": -second, "first": first})
-
-
-Factor = Annotated[float, Field(gt=0, le=100, json_schema_extra={"unit": "1"})]
 Allowance = Annotated[float, Field(ge=-100, le=100, json_schema_extra={"unit": "mm"})]
 TwoAllowances = Annotated[list[Allowance], Field(min_length=2, max_length=2)]
-Stress = Annotated[float, Field(ge=1e-3, le=1e7, json_schema_extra={"unit": "N/mm^2"})]
-Poisson = Annotated[float, Field(ge=0, le=0.5, json_schema_extra={"unit": "1"})]
 _SERIES = r"^(2[1-9]|30)(ab|a|bc|b|cd|c|d|e|f|g|h)$"
 
 
@@ -157,26 +124,3 @@ class LoadSpec(Spec):
         if self.power is not None and self.speed is None:
             raise PydanticCustomError("GL106", "power needs speed", {"key": "speed"})
         return self
-
-
-class MaterialSpec(Spec):
-    """The materials; each key one number, or one for each gear."""
-
-    elastic_modulus: Stress | Annotated[list[Stress], Field(min_length=2, max_length=2)] = Field(
-        206000.0, description="modulus of elasticity"
-    )
-    poisson: Poisson | Annotated[list[Poisson], Field(min_length=2, max_length=2)] = Field(
-        0.3, description="Poisson's ratio"
-    )
-    contact_limit: Stress | Annotated[list[Stress], Field(min_length=2, max_length=2)] | None = Field(
-        None, description="sigma_Hlim; left out: no safety against pitting"
-    )
-    bending_limit: Stress | Annotated[list[Stress], Field(min_length=2, max_length=2)] | None = Field(
-        None, description="sigma_Flim; left out: no safety against breaking"
-    )
-    contact_factors: Factor | Annotated[list[Factor], Field(min_length=2, max_length=2)] = Field(
-        1.0, description="Z_N Z_L Z_v Z_R Z_W Z_X as one product, given"
-    )
-    bending_factors: Factor | Annotated[list[Factor], Field(min_length=2, max_length=2)] = Field(
-        1.0, description="Y_N Y_drelT Y_RrelT Y_X as one product, given"
-    )

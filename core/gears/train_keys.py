@@ -10,13 +10,12 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.gears.key_types import Alteration, FaceWidth, Hand, Rim, Shift, SpanTeeth, ToothKeys
+from gearlink.core.gears.key_types import Hand, ToothKeys
 from gearlink.core.spec import Deferred, Length
 
 if TYPE_CHECKING:
     from gearlink.core.gears.pair_keys import PairKeys
 
-_MANY = Field(min_length=2, max_length=4)
 _LISTS = (
     "profile_shift",
     "helix_hand",
@@ -37,13 +36,13 @@ class TrainKeys(ToothKeys):
     drawn: ClassVar[tuple[str, ...]] = ()
     """Names of the gears, in the order of the lists."""
 
-    profile_shift: Annotated[list[Shift], _MANY] | None = Field(
+    profile_shift: Annotated[Any, Deferred("gears.train_parts:Shifts")] | None = Field(
         None, description="profile shift coefficients, a list with one for each gear; left out: 0"
     )
-    helix_hand: Annotated[list[Hand], _MANY] | None = Field(
+    helix_hand: Annotated[Any, Deferred("gears.train_parts:Hands")] | None = Field(
         None, description="hands of helix, a list with one for each gear, for drawing and exports"
     )
-    tip_shortening: Literal["full", "none"] | Annotated[list[Alteration], _MANY] | None = Field(
+    tip_shortening: Annotated[Any, Deferred("gears.train_parts:TipShortenings")] | None = Field(
         None, description="full (default of external meshes), none (of rings), or tip alterations k of all gears"
     )
     tool: Annotated[Any, Deferred("gears.train_parts:Tools")] | None = Field(
@@ -52,16 +51,16 @@ class TrainKeys(ToothKeys):
     cutter: Annotated[Any, Deferred("gears.spec_parts:CutterSpec")] | None = Field(
         None, description="pinion cutter of a ring: only then its fillets are known"
     )
-    face_width: FaceWidth | Annotated[list[FaceWidth], _MANY] | None = Field(
+    face_width: Annotated[Any, Deferred("gears.train_parts:FaceWidths")] | None = Field(
         None, description="face width of all gears, or of each"
     )
-    rim_thickness: Rim | Annotated[list[Rim | None], _MANY] | None = Field(
+    rim_thickness: Annotated[Any, Deferred("gears.train_parts:Rims")] | None = Field(
         None, description="thickness of the rim under the tooth roots of all gears, or of each, for Y_B"
     )
-    span_teeth: Annotated[list[SpanTeeth], _MANY] | None = Field(
+    span_teeth: Annotated[Any, Deferred("gears.train_parts:Spans")] | None = Field(
         None, description="teeth that the span measurement of each gear goes over; left out: chosen"
     )
-    pin_diameter: Length | Annotated[list[Length], _MANY] | None = Field(
+    pin_diameter: Annotated[Any, Deferred("gears.train_parts:Pins")] | None = Field(
         None, description="measuring balls or pins of all gears, or of each; left out: a preferred size"
     )
     allowances: Annotated[Any, Deferred("gears.train_parts:TrainAllowances")] | None = Field(

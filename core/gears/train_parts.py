@@ -2,30 +2,36 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Self
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
+from gearlink.core.gears.key_types import Alteration, FaceWidth, Factor, Hand, Rim, Shift, SpanTeeth
+from gearlink.core.gears.material_spec import MaterialSpec, Poisson, Stress
 from gearlink.core.gears.spec_parts import (
     Allowance,
     AllowanceSpec,
-    Factor,
     LoadSpec,
-    MaterialSpec,
-    Poisson,
     Series,
-    Stress,
     ToolSpec,
 )
-from gearlink.core.spec import Spec
+from gearlink.core.spec import Length, Spec
 
-_Allowances = Annotated[list[Allowance], Field(min_length=2, max_length=4)]
-_Series = Annotated[list[Series], Field(min_length=2, max_length=4)]
-_Stresses = Annotated[list[Stress], Field(min_length=2, max_length=4)]
-_Poissons = Annotated[list[Poisson], Field(min_length=2, max_length=4)]
-_Factors = Annotated[list[Factor], Field(min_length=2, max_length=4)]
-Tools = ToolSpec | Annotated[list[ToolSpec | None], Field(min_length=2, max_length=4)]
+_MANY = Field(min_length=2, max_length=4)
+_Allowances = Annotated[list[Allowance], _MANY]
+_Series = Annotated[list[Series], _MANY]
+_Stresses = Annotated[list[Stress], _MANY]
+_Poissons = Annotated[list[Poisson], _MANY]
+_Factors = Annotated[list[Factor], _MANY]
+Shifts = Annotated[list[Shift], _MANY]
+Hands = Annotated[list[Hand], _MANY]
+TipShortenings = Literal["full", "none"] | Annotated[list[Alteration], _MANY]
+FaceWidths = FaceWidth | Annotated[list[FaceWidth], _MANY]
+Rims = Rim | Annotated[list[Rim | None], _MANY]
+Spans = Annotated[list[SpanTeeth], _MANY]
+Pins = Length | Annotated[list[Length], _MANY]
+Tools = ToolSpec | Annotated[list[ToolSpec | None], _MANY]
 
 
 def entries(values: dict[str, Any], places: Any) -> dict[str, Any]:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from gearlink.core.real_speed import RealSpeed
 
 if TYPE_CHECKING:
-    from gearlink.core.linkages.spec_parts import Feed
+    from gearlink.core.linkages.spec_sections import Feed
     from gearlink.core.report import Column
 
 FEED_QUANTITIES = (

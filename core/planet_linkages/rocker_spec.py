@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.gears.train_keys import TrainKeys
-from gearlink.core.linkages.spec_parts import LinkageLimits, PivotShafts
+from gearlink.core.linkages.spec_parts import LinkageLimits
 from gearlink.core.spec import Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth
 
 
@@ -49,7 +49,9 @@ class GearedRockerSpec(DrivenSpec):
     assembly: Assembly = Field(1, description="+1: C left of the vector from B to D; -1: its mirror image")
     target: SwingTarget | None = None
     limits: LinkageLimits = LinkageLimits.model_construct()
-    shafts: PivotShafts | None = None
+    shafts: Annotated[Any, Deferred("linkages.spec_sections:PivotShafts")] | None = Field(
+        None, description="shafts of the frame through the plane of the gears; one that is left out may end before it"
+    )
     loads: Annotated[Any, Deferred("planet_linkages.loads_spec:PlanetLoads")] | None = Field(
         None, description="masses, forces and drive, for the command loads"
     )

@@ -8,7 +8,8 @@ from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.gears.train_keys import TrainKeys
-from gearlink.core.linkages.spec_parts import DwellBand, Feed, LinkageLimits, PivotShafts, require_rim
+from gearlink.core.linkages.dwell_band_spec import DwellBand
+from gearlink.core.linkages.spec_parts import LinkageLimits, require_rim
 from gearlink.core.spec import Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth
 
 
@@ -93,9 +94,13 @@ class TwoGearFourBarSpec(DrivenSpec):
     target: MotionTarget | None = None
     dwell: StandingDwell | None = None
     back_step: BackStepAngle | None = None
-    feed: Feed | None = None
+    feed: Annotated[Any, Deferred("linkages.spec_sections:Feed")] | None = Field(
+        None, description="what the output carries on: a roller or belt by its radius, or a chain by pitch and teeth"
+    )
     limits: LinkageLimits = LinkageLimits.model_construct()
-    shafts: PivotShafts | None = None
+    shafts: Annotated[Any, Deferred("linkages.spec_sections:PivotShafts")] | None = Field(
+        None, description="shafts of the frame through the plane of the gears; one that is left out may end before it"
+    )
     loads: Annotated[Any, Deferred("planet_linkages.loads_spec:PlanetLoads")] | None = Field(
         None, description="masses, forces and drive, for the command loads"
     )

@@ -8,7 +8,8 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.linkages.spec_parts import InputRange, LinkageLimits, require_rim
+from gearlink.core.linkages.spec_parts import LinkageLimits, require_rim
+from gearlink.core.linkages.spec_sections import InputRange
 from gearlink.core.spec import Angle, Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec
 
 PINS = "ABCDEF"

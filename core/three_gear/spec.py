@@ -8,9 +8,9 @@ from pydantic import AfterValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from gearlink.core.gears.train_keys import TrainKeys
-from gearlink.core.linkages.spec_parts import DwellBand, DwellTolerance, Feed, LinkageLimits, require_rim
+from gearlink.core.linkages.spec_parts import DwellTolerance, LinkageLimits, require_rim
 from gearlink.core.real_speed import other_speed
-from gearlink.core.spec import Assembly, Deferred, DrivenSpec, Length, PressureAngle, SignedLength, Spec, Teeth
+from gearlink.core.spec import Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth
 
 
 def _some_teeth(teeth: int) -> int:
@@ -76,98 +76,6 @@ class Links(Spec):
     frame: Length = Field(description="frame AD")
 
 
-class Placing(Spec):
-    """What fixes crank and frame of unequal gears besides the task, which fixes only one of them."""
-
-    crank: Length | None = Field(None, description="crank AB, for gears of any size; the frame is sought")
-    frame: Length | None = Field(None, description="frame AD, in place of crank; the crank is sought")
-    balanced: Literal[True] | None = Field(
-        None, description="true, in place of crank: the transmission angle deviates equally at both ends"
-    )
-
-    @model_validator(mode="after")
-    def _one_placing(self) -> Placing:
-        given = [name for name in ("crank", "frame", "balanced") if getattr(self, name) is not None]
-        if len(given) > 1:
-            message = "crank, frame and balanced exclude each other: give one"
-            raise PydanticCustomError("GL111", message, {"key": given[1]})
-        return self
-
-
-class Dwell(DwellBand, Placing):
-    """Asked of `synth dwell`: a crank angle until the output is back (angle), or one within a tolerance (window)."""
-
-    angle: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
-        None, description="crank angle phi13 from the start of the back-step until the output is back at its place"
-    )
-
-    @model_validator(mode="after")
-    def _one_wish(self) -> Dwell:
-        if self.angle is None and self.window is None and self.tolerance is None:
-            raise PydanticCustomError("GL106", "give angle, window or tolerance", {"key": "angle"})
-        if self.angle is not None and (self.window is not None or self.tolerance is not None):
-            message = "angle excludes window and tolerance: it asks for another dwell"
-            raise PydanticCustomError("GL111", message, {"key": "window" if self.window is not None else "tolerance"})
-        if self.margin is not None and (self.window is not None or self.tolerance is None):
-            message = "margin goes with tolerance alone: leave it out"
-            raise PydanticCustomError("GL111", message, {"key": "margin"})
-        return self
-
-
-class BackStep(Placing):
-    """Asked of `synth back-step`."""
-
-    angle: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
-        None, description="back-step of the output"
-    )
-    crank_angle: Annotated[float, Field(ge=0, lt=180, json_schema_extra={"unit": "deg"})] | None = Field(
-        None, description="crank angle phi12 of the back-step"
-    )
-
-    @model_validator(mode="after")
-    def _something(self) -> BackStep:
-        if self.angle is None and self.crank_angle is None:
-            raise PydanticCustomError("GL106", "give angle, crank_angle or both", {"key": "angle"})
-        return self
-
-
-class Speed(Placing):
-    """Asked of `synth variable-speed`; the input turns at the mean of the two."""
-
-    min: Annotated[float, Field(json_schema_extra={"unit": "1/min"})] = Field(description="least output speed")
-    max: Annotated[float, Field(gt=0, json_schema_extra={"unit": "1/min"})] = Field(description="greatest output speed")
-
-
-class Momentary(Spec):
-    """Asked of `synth momentary-dwell`: one of the four."""
-
-    eccentricity: Length | None = Field(None, description="crank length e; the frame is sought")
-    frame: Length | None = Field(None, description="frame AD, in place of eccentricity; the crank is sought")
-    gap: SignedLength | None = Field(
-        None, description="gap between the tips of gears 1 and 5 at the closest, in place of eccentricity"
-    )
-    balanced: Literal[True] | None = Field(
-        None, description="true, in place of eccentricity: the transmission angle deviates equally at both ends"
-    )
-
-    @model_validator(mode="after")
-    def _one_length(self) -> Momentary:
-        given = [name for name in ("eccentricity", "frame", "gap", "balanced") if getattr(self, name) is not None]
-        if not given:
-            raise PydanticCustomError("GL106", "give eccentricity, frame, gap or balanced", {"key": "eccentricity"})
-        if len(given) > 1:
-            message = "eccentricity, frame, gap and balanced exclude each other: give one"
-            raise PydanticCustomError("GL111", message, {"key": given[1]})
-        return self
-
-
-class Shafts(Spec):
-    """Shafts that pass through the plane of the gears."""
-
-    input_radius: Length | None = Field(None, description="radius of the input shaft at A")
-    output_radius: Length | None = Field(None, description="radius of the output shaft at D")
-
-
 class ThreeGearSpec(DrivenSpec):
     """Gear on the crank, idler on the coupler pin, output gear on the rocker's axis."""
 
@@ -175,10 +83,19 @@ class ThreeGearSpec(DrivenSpec):
     gears: Gears
     links: Links | None = None
     assembly: Assembly = Field(1, description="+1: C left of the vector from B to D; -1: its mirror image")
-    dwell: Dwell | None = None
-    back_step: BackStep | None = None
-    speed: Speed | None = None
-    momentary: Momentary | None = None
+    dwell: Annotated[Any, Deferred("three_gear.task_spec:Dwell")] | None = Field(
+        None,
+        description="asked of `synth dwell`: a crank angle until the output is back, or one within a tolerance",
+    )
+    back_step: Annotated[Any, Deferred("three_gear.task_spec:BackStep")] | None = Field(
+        None, description="asked of `synth back-step`"
+    )
+    speed: Annotated[Any, Deferred("three_gear.task_spec:Speed")] | None = Field(
+        None, description="asked of `synth variable-speed`; the input turns at the mean of the two"
+    )
+    momentary: Annotated[Any, Deferred("three_gear.task_spec:Momentary")] | None = Field(
+        None, description="asked of `synth momentary-dwell`: one of the four"
+    )
     dwell_tolerance: DwellTolerance | None = Field(None, description="output tolerance +- for the tolerance dwell")
     dwell_window: Annotated[float, Field(gt=0, lt=360, json_schema_extra={"unit": "deg"})] | None = Field(
         None, description="crank angle over which the output must stay within that tolerance"
@@ -186,9 +103,13 @@ class ThreeGearSpec(DrivenSpec):
     dwell_backlash: Annotated[Length, Field(ge=1e-9)] | None = Field(
         None, description="play at the output gear's reference circle, in place of dwell_tolerance"
     )
-    feed: Feed | None = None
+    feed: Annotated[Any, Deferred("linkages.spec_sections:Feed")] | None = Field(
+        None, description="what the output carries on: a roller or belt by its radius, or a chain by pitch and teeth"
+    )
     limits: LinkageLimits = LinkageLimits.model_construct()
-    shafts: Shafts | None = None
+    shafts: Annotated[Any, Deferred("three_gear.task_spec:Shafts")] | None = Field(
+        None, description="shafts that pass through the plane of the gears"
+    )
     register_: Annotated[Any, Deferred("tolerance.spec:Register")] | None = Field(
         None, alias="register", description="what the output may lose in its dwell, for the command register"
     )
