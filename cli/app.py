@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
-from dataclasses import replace
 from functools import cache
 from itertools import pairwise
 from pathlib import Path
@@ -125,7 +124,7 @@ def _batch(
 
     if options.plot and out is None:
         raise typer.BadParameter("--plot of a batch needs --out DIR", param_hint="--plot")
-    design = replace(options, strict=options.strict or fail_on is FailOn.WARNING)
+    design = options._replace(strict=options.strict or fail_on is FailOn.WARNING)
     more = tuple(dict.fromkeys(one.value for one in added or ()))
     raise typer.Exit(run_batch(places, BatchOptions(design, format, out, cache, share(shard), jobs, dask, more)))
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import re
-import signal
 import stat
 from contextlib import contextmanager, suppress
 
@@ -31,6 +30,8 @@ def leave_nothing_behind() -> None:
     Notes
         What the parent of the process chose to ignore (nohup) stays ignored. An interrupt unwinds as Python's own.
     """
+    import signal  # whose names take longer to make than --version to answer
+
     for name in _ENDING:
         number = getattr(signal, name, None)  # not every system has them all
         if number is not None and signal.getsignal(number) == signal.SIG_DFL:
@@ -38,6 +39,8 @@ def leave_nothing_behind() -> None:
 
 
 def _end(number: int, _: object) -> None:
+    import signal
+
     for path in tuple(_unfinished):
         _remove(path)
     signal.signal(number, signal.SIG_DFL)

@@ -21,7 +21,8 @@ if TYPE_CHECKING:
 def main() -> None:
     """Run gearlink on the process's arguments and leave with its exit status."""
     _prepare_process()
-    leave_nothing_behind()
+    if not _asks_version(sys.argv[1:]):
+        leave_nothing_behind()
     sys.stdout, sys.stderr = _output(sys.stdout, BrokenPipeError), _output(sys.stderr, OSError)
     status = run(sys.argv[1:])
     gc.freeze()  # else the interpreter walks all that it has loaded several times before it ends: a sixth of a command
@@ -95,7 +96,7 @@ def _replace_closed_streams() -> None:
 
 
 def _invoke(arguments: list[str]) -> int:
-    if arguments in (["--version"], ["-V"]):
+    if _asks_version(arguments):
         from gearlink.core.version import VERSION
 
         print(f"gearlink {VERSION}")
@@ -117,6 +118,10 @@ def _invoke(arguments: list[str]) -> int:
     from gearlink.cli.app import invoke
 
     return invoke(arguments)
+
+
+def _asks_version(arguments: list[str]) -> bool:
+    return arguments in (["--version"], ["-V"])
 
 
 def _memory_limit() -> int:

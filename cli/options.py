@@ -7,10 +7,9 @@ Typer's parameters of it.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from enum import StrEnum
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 STREAM = Path("-")
 """Standard output, where a file is asked for."""
@@ -75,15 +74,14 @@ DPI = 130
 """Pixels per inch of a picture: 1075 across a page."""
 
 
-@dataclass(frozen=True, slots=True)
-class Options:
+class Options(NamedTuple):
     """What the user asked for besides the command and the design file."""
 
     format: Format = Format.TABLE
     plot: bool = False
     plot_format: PlotFormat = PlotFormat.PNG
     dpi: int = DPI
-    out: Path = field(default_factory=Path)
+    out: Path = Path()
     overrides: tuple[str, ...] = ()
     quantities: tuple[str, ...] = ()
     tables: tuple[str, ...] = ()
@@ -99,8 +97,7 @@ class Options:
     candidates: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Option:
+class Option(NamedTuple):
     """An option as it is written: names, type of its value, what --help says of it.
 
     Parameters

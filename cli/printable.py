@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from typing import Any
 
-_COMMAND = re.compile(r":(?=:)|#(?=#)")
+_COMMAND = r":(?=:)|#(?=#)"
 
 
 def visible(text: str, encoding: str = "utf-8") -> str:
@@ -27,7 +27,7 @@ def visible(text: str, encoding: str = "utf-8") -> str:
 
 def glyphs(text: str, encoding: str = "utf-8") -> list[str]:
     """What `visible` shows, character by character."""
-    opens = {match.start() for match in _COMMAND.finditer(text)}
+    opens = {match.start() for match in re.finditer(_COMMAND, text)}
     return [f"\\x{ord(char):x}" if i in opens else _glyph(char, encoding) for i, char in enumerate(text)]
 
 
@@ -39,7 +39,7 @@ def _glyph(char: str, encoding: str) -> str:
     return char if char.isprintable() else char.encode("unicode_escape").decode()
 
 
-_UNSHOWN = re.compile("[\x7f-\xa0\xad\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff\ud800-\udfff]|#(?=#)")
+_UNSHOWN = "[\x7f-\xa0\xad\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff\ud800-\udfff]|#(?=#)"
 
 
 def json_text(value: Any, indent: int | None = None) -> str:
@@ -52,7 +52,9 @@ def json_text(value: Any, indent: int | None = None) -> str:
     import json
 
     text = json.dumps(value, ensure_ascii=False, allow_nan=False, indent=indent)
-    return _UNSHOWN.sub(lambda match: f"\\u{ord(match[0]):04x}", text)
+    if text.isascii() and "##" not in text and "\x7f" not in text:
+        return text
+    return re.sub(_UNSHOWN, lambda match: f"\\u{ord(match[0]):04x}", text)
 
 
 _FORMULA = ("=", "+", "-", "@", "\uff1d", "\uff0b", "\uff0d", "\uff20")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from functools import wraps
 from importlib import import_module
 from inspect import Parameter, signature
@@ -27,7 +26,7 @@ def option(name: str, **changed: Any) -> OptionInfo:
         >>> option("samples", help="rows of the table", most=1000).max
         1000
     """
-    shared = replace(OPTIONS[name], **changed)
+    shared = OPTIONS[name]._replace(**changed)
     if shared.type in PLACES:
         return place(shared.type, *shared.flags, help=shared.help, metavar=shared.metavar)
     info: OptionInfo = typer.Option(

@@ -9,10 +9,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cache
 from itertools import count
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 from gearlink.core.errors import GearlinkError, named
 from gearlink.core.nomenclature import term
@@ -24,8 +23,7 @@ from gearlink.core.results import cached_property, step
 _PART_SIZES = (65_521, 65_537)
 
 
-@dataclass(frozen=True, slots=True)
-class Outline:
+class Outline(NamedTuple):
     """What a command shows of a design: names of quantities, checks and tables."""
 
     quantities: tuple[str, ...] = ()
@@ -33,8 +31,7 @@ class Outline:
     tables: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Found:
+class Found(NamedTuple):
     """What a design adds to its file so that it is complete: a key by its path, its value, and where that is from.
 
     A value is in the units of design files; a dict is a section, None leaves a key out that is answered.

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 if TYPE_CHECKING:
     from gearlink.core.design import Design
     from gearlink.core.design_axis import Maker
 
 
-@dataclass(frozen=True, slots=True)
-class Kind:
+class Kind(NamedTuple):
     """Where the spec model and, for each command, the design class of a kind stand ("module:Class").
 
     `axis` is where its array form stands, which computes many designs at once; empty where it has none.

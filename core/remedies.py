@@ -11,8 +11,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from contextlib import suppress
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, Literal
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.report import Check, Remedy, remedy_words
@@ -30,8 +30,7 @@ REFUSAL = "refusal"
 """Name under which a design gives candidates where it is refused."""
 
 
-@dataclass(frozen=True, slots=True)
-class Way:
+class Way(NamedTuple):
     """A way to change a design file.
 
     Fields

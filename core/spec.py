@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import unicodedata
 from functools import cached_property
 from importlib import import_module
 from typing import TYPE_CHECKING, Annotated, Any, Literal
@@ -27,6 +26,10 @@ MOST_NAME = 200
 def _fit_to_print(name: str) -> str:
     if len(name) > MOST_NAME:
         raise PydanticCustomError("GL108", f"name has {len(name)} characters: shorten it to {MOST_NAME}")
+    if name.isprintable():
+        return name
+    import unicodedata
+
     if wrong := next((each for each in name if unicodedata.category(each) in ("Cc", "Cs") and each not in "\t\n"), ""):
         message = f"name holds the control character U+{ord(wrong):04X}: take it out"
         raise PydanticCustomError("GL108", message)

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-_STEP = re.compile(r"[^.\[\]]+")
+_STEP = r"[^.\[\]]+"
 
 
 def value_at(spec: Any, path: str) -> Any:
@@ -150,4 +150,4 @@ def part_at(data: Any, path: str) -> Any:
 
 
 def _steps(path: str) -> list[str | int]:
-    return [int(step) if step.isdecimal() else step for step in _STEP.findall(path)]
+    return [int(step) if step.isdecimal() else step for step in re.findall(_STEP, path)]

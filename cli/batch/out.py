@@ -8,7 +8,6 @@ import os
 import stat
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -42,7 +41,7 @@ def write_results(source: Path, design: Design, report: Report, options: BatchOp
     if options.design.plot:
         from gearlink.cli.figures.write import write_plot
 
-        write_plot(report.command, design, replace(options.design, out=folder), stem=stem, checks=report.checks)
+        write_plot(report.command, design, options.design._replace(out=folder), stem=stem, checks=report.checks)
 
 
 def place_of(source: Path) -> tuple[str, ...]:

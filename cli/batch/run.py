@@ -55,7 +55,7 @@ def _refused(error: DesignFileError, options: BatchOptions) -> int:
     from gearlink.cli.render.errors import show_errors
 
     in_json = options.format in (BatchFormat.JSON, BatchFormat.JSONL)
-    show_errors(error.diagnostics, replace(options.design, format=Format.JSON if in_json else options.design.format))
+    show_errors(error.diagnostics, options.design._replace(format=Format.JSON if in_json else options.design.format))
     return ExitCode.WRONG_INPUT
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -36,7 +35,7 @@ def laws(
 
     Example: gearlink laws --law modified-sine --law polynomial-345 --plot
     """
-    raise typer.Exit(run_laws(law, replace(options, samples=samples)))
+    raise typer.Exit(run_laws(law, options._replace(samples=samples)))
 
 
 def run_laws(names: Sequence[str], options: Options) -> int:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
@@ -135,4 +134,4 @@ def _diff(
     """
     from gearlink.cli.commands.diff import run_diff
 
-    raise typer.Exit(run_diff(old, new, replace(options, format=Format(format.value)), tolerance))
+    raise typer.Exit(run_diff(old, new, options._replace(format=Format(format.value)), tolerance))

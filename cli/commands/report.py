@@ -69,7 +69,7 @@ def _sections(loaded: LoadedFile, kind: Kind, spec: Any, options: Options) -> li
     commands = (*spec.commands(), *_budgets(kind, spec, studies))
 
     def built(command: str) -> Part:
-        asked = replace(options, tables=_tables(kind, command, spec))
+        asked = options._replace(tables=_tables(kind, command, spec))
         return build(loaded, kind, command, spec, asked, made=studies.get(command))
 
     made = side_by_side(lambda i: _section(built(commands[i]), filmed=i == 0), len(commands))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from enum import StrEnum
 from typing import Annotated
 
@@ -40,7 +39,7 @@ def register(app: typer.Typer) -> None:
 def _keyed(options: Options, section: str, keys: dict[str, object]) -> Options:
     """Options with keys of a section set, those that were given."""
     given = tuple(f"{section}.{key}={value}" for key, value in keys.items() if value not in (None, False))
-    return replace(options, overrides=(*options.overrides, *(text.replace("=True", "=true") for text in given)))
+    return options._replace(overrides=(*options.overrides, *(text.replace("=True", "=true") for text in given)))
 
 
 @takes(*_SHARED)
@@ -69,7 +68,7 @@ def _tolerance(
 
     options = _keyed(options, "tolerance", {"samples": samples, "seed": seed, "sobol": sobol})
     added = (*(("corners",) if worst_case else ()), *(("allocation",) if allocate else ()))
-    options = replace(options, tables=(*options.tables, *added))
+    options = options._replace(tables=(*options.tables, *added))
     with shares_by(jobs, executor, dask, words="samples", quiet=options.quiet):
         raise typer.Exit(run_design("tolerance", spec, options))
 

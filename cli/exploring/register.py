@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -48,6 +47,6 @@ def _explore(
 
     given = [f"sampling.budget={budget!r}"] if budget is not None else []
     given += [f"sampling.seed={seed}"] if seed is not None else []
-    options = replace(options, overrides=(*options.overrides, *given))
+    options = options._replace(overrides=(*options.overrides, *given))
     asked = Exploring(options, store, resume, merge, jobs, executor, dask, show, write, share(shard), tuple(sources))
     raise typer.Exit(run_explore(asked))

@@ -57,7 +57,7 @@ def _inside(loaded: LoadedFile) -> LoadedFile:
     marks = (loaded.tree.marks or {}).get("design")
     at, below = (marks[0], marks[2]) if marks else (loaded.tree.at, None)
     tree = Tree(loaded.tree.source, loaded.data["design"], below, at)
-    overrides = [replace(o, path=o.path[1:]) for o in loaded.overrides if o.path[:1] == ("design",) and len(o.path) > 1]
+    overrides = [o._replace(path=o.path[1:]) for o in loaded.overrides if o.path[:1] == ("design",) and len(o.path) > 1]
     return LoadedFile(loaded.file, loaded.data["design"], tree, overrides)
 
 

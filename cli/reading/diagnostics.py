@@ -7,7 +7,6 @@ from bisect import bisect_right
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from unicodedata import combining, east_asian_width
 
 from gearlink.cli.printable import glyphs, visible
 from gearlink.core.errors import GearlinkError
@@ -127,4 +126,6 @@ def _width(text: str) -> int:
     """Columns that a text takes on a terminal, where Chinese characters are two wide."""
     if text.isascii():
         return len(text)
+    from unicodedata import combining, east_asian_width
+
     return sum(0 if combining(char) else 2 if east_asian_width(char) in "WF" else 1 for char in text)

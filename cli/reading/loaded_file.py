@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 from gearlink.cli.reading.diagnostics import Diagnostic, Source
 from gearlink.cli.reading.yaml_reader import Marks, Tree, format_path
@@ -12,12 +12,11 @@ from gearlink.cli.reading.yaml_reader import Marks, Tree, format_path
 KeyPath = tuple[str | int, ...]
 """A key path: `("teeth", 1)` for `teeth[1]`."""
 
-_PLAIN = re.compile(r"(?:[-+]?[.0-9][-+.0-9eE]*|[a-z][-a-z0-9]*)(?=[\s,\]}]|$)")
-_STEP = re.compile(r"""(?:(?:^|(?<=.)\.)(?:(["'])([^"'=]+)\1|([^.\[\]=\s"']+))|\[([0-9]{1,6})\])""")
+_PLAIN = r"(?:[-+]?[.0-9][-+.0-9eE]*|[a-z][-a-z0-9]*)(?=[\s,\]}]|$)"
+_STEP = r"""(?:(?:^|(?<=.)\.)(?:(["'])([^"'=]+)\1|([^.\[\]=\s"']+))|\[([0-9]{1,6})\])"""
 
 
-@dataclass(frozen=True, slots=True)
-class Override:
+class Override(NamedTuple):
     """A value that `--set` put in; its marks are positions in the argument."""
 
     path: KeyPath
@@ -56,7 +55,7 @@ class LoadedFile:
         """Line, first column and the column after the number or word that a key has in the file itself; None where
         the file has no plain one there, or `--set` put another value over it."""
         at, found = _find(self.tree.marks, path, self.tree.at, True)
-        plain = _PLAIN.match(self.text, at)
+        plain = re.compile(_PLAIN).match(self.text, at)
         if not path or found < len(path) or plain is None or any(path[: len(o.path)] == o.path for o in self.overrides):
             return None
         line, column = self.tree.source.place(at)
@@ -93,7 +92,8 @@ def parse_path(text: str) -> KeyPath | None:
     """
     steps: list[str | int] = []
     at = 0
-    while match := _STEP.match(text, at):
+    step = re.compile(_STEP)
+    while match := step.match(text, at):
         steps.append(int(match[4]) if match[4] is not None else match[2] or match[3])
         at = match.end()
     return tuple(steps) if at == len(text) and steps and isinstance(steps[0], str) else None

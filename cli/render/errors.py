@@ -16,7 +16,7 @@ from gearlink.cli.render.json_report import FORMAT
 from gearlink.core.errors import NoSolution
 
 _NARROWEST = 40
-_MESSAGE = re.compile(r"\S.*: (error|fail|warn|pass|fault) GL\d|  help: ")  # the source line and its caret stay
+_MESSAGE = r"\S.*: (error|fail|warn|pass|fault) GL\d|  help: "  # the source line and its caret stay
 
 
 def errors_as_json(diagnostics: Sequence[Diagnostic]) -> str:
@@ -61,7 +61,7 @@ def fitted(text: str, stream: TextIO) -> str:
 
     width = max(_NARROWEST, get_terminal_size().columns)
     lines = text.split("\n")
-    folded = [_folded(line, width) if _MESSAGE.match(line) else line for line in lines]
+    folded = [_folded(line, width) if re.match(_MESSAGE, line) else line for line in lines]
     return "\n".join(folded)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -13,8 +13,7 @@ from gearlink.core.numerics.arrays import Points, Reals
 _GRID = 17
 
 
-@dataclass(frozen=True, slots=True)
-class Undercut:
+class Undercut(NamedTuple):
     """The place where the profile comes nearest to a roller centre.
 
     Attributes

@@ -11,7 +11,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import chain, combinations
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from gearlink.core.clearance.reach import Reach
 from gearlink.core.gears.teeth import rim_radius
@@ -24,8 +24,7 @@ if TYPE_CHECKING:
 LEAST_SHAFT_MODULES = 2.0
 
 
-@dataclass(frozen=True, slots=True)
-class Gear:
+class Gear(NamedTuple):
     """A gear by its circles.
 
     Parameters
@@ -43,8 +42,7 @@ class Gear:
     mates: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Shaft:
+class Shaft(NamedTuple):
     """A shaft of the frame that passes through the plane of the gears.
 
     Parameters
@@ -58,7 +56,11 @@ class Shaft:
     axis: str
     radius: float | None
     key: str
-    inner = -math.inf
+
+    @property
+    def inner(self) -> float:
+        """No hole."""
+        return -math.inf
 
     @property
     def outer(self) -> float:
@@ -66,8 +68,7 @@ class Shaft:
         return self.radius or 0.0
 
 
-@dataclass(frozen=True, slots=True)
-class Clearance:
+class Clearance(NamedTuple):
     """The least gap [mm] of two bodies, negative where they overlap, and its input angle [rad], None for any."""
 
     one: Gear | Shaft

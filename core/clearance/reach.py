@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.linkages.nearest_passes import joint_to_crank_pivot
@@ -11,8 +11,7 @@ from gearlink.core.linkages.nearest_passes import joint_to_crank_pivot
 _TURN = 2.0 * math.pi
 
 
-@dataclass(frozen=True, slots=True)
-class Reach:
+class Reach(NamedTuple):
     """Least and greatest distance of two axes [mm] and the input angles [rad] where they occur.
 
     Notes

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from gearlink.core.clearance.bodies import Layout
@@ -286,7 +285,7 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, FiveBarParts):
     def outline(self, command: str) -> Outline:
         """Each form has its own tables."""
         found = super().outline(command)
-        return replace(found, tables=self.table_names_shown()) if command == "analyze" else found
+        return found._replace(tables=self.table_names_shown()) if command == "analyze" else found
 
     def table(self, name: str, *, samples: int | None = None) -> Table:
         """A table of this form; the other form's is refused as one that the design does not have."""

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.linkages import fourbar, slider_crank
@@ -19,8 +19,7 @@ from gearlink.core.linkages.fourbar_loop import rocker_and_rate, rocker_rate
 from gearlink.core.results import cached_property
 
 
-@dataclass(frozen=True, slots=True)
-class Travel:
+class Travel(NamedTuple):
     """A displacement and its derivatives with respect to the input angle; floats, or arrays of one shape.
 
     Rates beyond the order asked for are not computed and hold NaN.

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gearlink.core.cams.laws import Law
 from gearlink.core.errors import NoSolution
@@ -25,8 +25,7 @@ if TYPE_CHECKING:
 _TURN = 2.0 * math.pi
 
 
-@dataclass(frozen=True, slots=True)
-class Segment:
+class Segment(NamedTuple):
     """A stretch of cam angle over which the lift is one smooth function.
 
     `lift(theta, order)` takes a float or an array within [start, end] and gives lift and derivatives.
@@ -38,8 +37,7 @@ class Segment:
     lift: Callable[[Any, int], Travel]
 
 
-@dataclass(frozen=True, slots=True)
-class Joint:
+class Joint(NamedTuple):
     """Where two segments meet: how far lift [mm], slope [mm/rad] and second derivative [mm/rad^2] jump."""
 
     before: str

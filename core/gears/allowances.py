@@ -33,7 +33,7 @@ _TOLERANCE = {
     "29": (130, 200, 250, 300, 400, 500, 600, 800, 1000, 1300, 1600),
     "30": (200, 300, 400, 500, 600, 800, 1000, 1300, 1600, 2000, 2400),
 }
-SERIES = re.compile(r"(2[1-9]|30)(ab|a|bc|b|cd|c|d|e|f|g|h)")
+SERIES = r"(2[1-9]|30)(ab|a|bc|b|cd|c|d|e|f|g|h)"
 _JS_UP_TO = (
     3, 6, 10, 18, 30, 50, 80, 120, 180, 250, 315, 400, 500, 630, 800, 1000, 1250, 1600, 2000, 2500, 3150,
 )  # fmt: skip
@@ -59,7 +59,7 @@ def thickness_allowances(series: str, diameter: float) -> tuple[float, float]:
     Source
         DIN 3967:1978, tables 1 and 2 as two public transcriptions agree on them; the standard was not opened
     """
-    found = SERIES.fullmatch(series)
+    found = re.fullmatch(SERIES, series)
     if found is None:
         raise NoSolution(
             f"series {series!r} is none of DIN 3967: a tolerance series 21 to 30 and a letter a, ab, b, bc, c, cd, d, "

@@ -8,7 +8,7 @@ from gearlink.core.gears.involute import involute, involute_rise, rise_of_involu
 from gearlink.core.numerics.elementary import Elementary, One, Two
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class GearFunctions(Elementary):
     """Functions of numbers, or of arrays element by element; involutes as in `gearlink.core.gears.involute`."""
 

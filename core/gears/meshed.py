@@ -167,9 +167,8 @@ class Meshed(GearQuantities, Design):
         found = super().outline(command)
         if command != "gear" or self.spec.gears.rated:
             return found
-        return replace(
-            found, quantities=tuple(name for name in found.quantities if name.rpartition(".")[2] not in RATING)
-        )
+        shown = tuple(name for name in found.quantities if name.rpartition(".")[2] not in RATING)
+        return found._replace(quantities=shown)
 
     def raw(self, name: str) -> Any:
         """The quantities of the meshes, and the design's own."""

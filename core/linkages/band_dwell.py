@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.numerics.roots import bracketed_root
@@ -13,8 +13,7 @@ _TURN = 2.0 * math.pi
 _FIT = 1e-13
 
 
-@dataclass(frozen=True, slots=True)
-class ToleranceDwell:
+class ToleranceDwell(NamedTuple):
     """A dwell within a tolerance.
 
     start : float [rad] - crank angle of its start, in [0, 2 pi)
@@ -28,8 +27,7 @@ class ToleranceDwell:
     output_angle: float
 
 
-@dataclass(frozen=True, slots=True)
-class Valley:
+class Valley(NamedTuple):
     """Part of the turn around the least speed: output angle, its rate, and the crank angles [rad] that bound the parts.
 
     first, second : phi(1), phi(2), or the least speed's place twice; low, high : the greatest speed's before and after

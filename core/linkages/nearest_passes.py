@@ -7,13 +7,12 @@ frame = AD. Crank angles count from A->D, counter-clockwise.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from gearlink.core.errors import NoSolution
 
 
-@dataclass(frozen=True, slots=True)
-class Approach:
+class Approach(NamedTuple):
     """A distance [mm] between two axes and the crank angle [rad] in [0, 2 pi) at which it occurs."""
 
     distance: float

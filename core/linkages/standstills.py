@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from itertools import pairwise
+from typing import NamedTuple
 
 from gearlink.core.numerics.roots import bracketed_root, roots_on
 
@@ -29,16 +29,14 @@ SLIDER_GRID = _grid(-90.0, 90.0)
 """Of a slider-crank, whose slide line is at 90 deg: near rod = 4 cranks two extremes of its acceleration part there."""
 
 
-@dataclass(frozen=True, slots=True)
-class Turning:
+class Turning(NamedTuple):
     """An extreme of a ratio: crank angle [rad] and value."""
 
     place: float
     value: float
 
 
-@dataclass(frozen=True, slots=True)
-class BackStep:
+class BackStep(NamedTuple):
     """A back-step, a stretch of negative speed.
 
     start, end : crank angles phi(1) and phi(2) [rad] - the output speed turns negative at the start, positive again at

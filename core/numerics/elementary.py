@@ -15,7 +15,7 @@ One = Callable[[float], float]
 Two = Callable[[float, float], float]
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Elementary:
     """Functions of numbers, or of arrays element by element.
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Generator, Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,8 +27,7 @@ _TURNS_OF_NOISE = 4
 _END_SHARE = 2.0**-7  # of a step: where the samples fall from an end, little else than that end is left to see
 
 
-@dataclass(frozen=True, slots=True)
-class Extreme:
+class Extreme(NamedTuple):
     """The value of an extreme and its place."""
 
     value: float
@@ -135,8 +134,7 @@ def _maximum(start: float, end: float, joints: Sequence[float], samples: int, fe
         return top
 
 
-@dataclass(frozen=True, slots=True)
-class _Asked:
+class _Asked(NamedTuple):
     """Places of a round: (N,) on the grid, for every search, or (brackets, points), and each search with its own."""
 
     places: Reals
@@ -206,8 +204,7 @@ def convex_radius(curvature: Extreme) -> Extreme:
     return Extreme(1.0 / curvature.value if curvature.value > 0.0 else math.inf, curvature.place)
 
 
-@dataclass(frozen=True, slots=True)
-class _Grid:
+class _Grid(NamedTuple):
     """The samples between all joints.
 
     Fields

@@ -6,7 +6,6 @@ Trains that share a pin lie in planes of their own; all others are taken to lie 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import replace
 from itertools import chain, combinations
 from typing import TYPE_CHECKING, Any
 
@@ -45,7 +44,7 @@ def _gears(design: GearedSixBar, number: int) -> list[Gear]:
         mates = "".join(train.pins[j] for j in (k - 1, k + 1) if 0 <= j < len(train.pins))
         if teeth < 0:
             assert isinstance(mesh, InternalMesh), "a ring makes its mesh internal"
-            found.append(replace(ring_gear(pin, mesh, mates), name=f"the ring gear on {pin}"))
+            found.append(ring_gear(pin, mesh, mates)._replace(name=f"the ring gear on {pin}"))
             continue
         tip = 0.5 * train.module * teeth + train.module
         found.append(Gear(f"the gear on {pin}", pin, tip, mates=mates))

@@ -7,7 +7,7 @@ speed.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from gearlink.core.linkages.band_dwell import ToleranceDwell, Valley, longest_in_band
 from gearlink.core.linkages.fourbar import FourBar, solve
@@ -84,4 +84,4 @@ class ByRoots:
         low = after - _TURN
         valley = Valley(self._angle, self._speed, first, second, low, after, abs(mean_ratio))
         found = longest_in_band(valley, tolerance)
-        return replace(found, output_angle=forward * found.output_angle)
+        return found._replace(output_angle=forward * found.output_angle)

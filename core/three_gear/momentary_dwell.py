@@ -14,14 +14,13 @@ r1 (crank-rocker), the lower ones for a longer one (drag link).
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.fourbar import FourBar
 
 
-@dataclass(frozen=True, slots=True)
-class Tangency:
+class Tangency(NamedTuple):
     """Where the output just stops: the frame length [mm] of that, cosine and sine of beta, and e_t [mm]."""
 
     frame: float
@@ -30,8 +29,7 @@ class Tangency:
     pole_offset: float
 
 
-@dataclass(frozen=True, slots=True)
-class Intermediates:
+class Intermediates(NamedTuple):
     """The thesis's steps to the frame of a momentary dwell: K, L, M [mm^6], beta, alpha [rad], AF, FE, EG, GD [mm]."""
 
     k: float

@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.checks import check_linkage
@@ -78,8 +79,7 @@ class GearTrain:
         return self.sense * (self.idler + self.output) / self.output
 
 
-@dataclass(frozen=True, slots=True)
-class Extremes:
+class Extremes(NamedTuple):
     """Greatest and least value of a ratio over the turn and the crank angles [rad] in [0, 2 pi) of both."""
 
     greatest: float

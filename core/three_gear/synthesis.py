@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
@@ -31,7 +30,7 @@ _TURN = 2.0 * math.pi
 
 def with_analysis(synthesis: str, outline: Outline) -> dict[str, Outline]:
     """What a synthesis shows: its own outline, the analysis of what it finds, and its gears."""
-    return {synthesis: outline, "analyze": replace(outline, tables=("motion",)), "gear": _GEARS}
+    return {synthesis: outline, "analyze": outline._replace(tables=("motion",)), "gear": _GEARS}
 
 
 class Synthesis(ThreeGearFourBar):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.band_dwell import ToleranceDwell, Valley, longest_in_band
@@ -60,7 +59,7 @@ def tolerance_dwell(linkage: FourBar, train: GearTrain, tolerance: float) -> Tol
     """
     ahead = forward(linkage, train)
     found = longest_in_band(_valley(linkage, ahead), tolerance)
-    return replace(found, output_angle=train.sense * ahead.sense * found.output_angle)
+    return found._replace(output_angle=train.sense * ahead.sense * found.output_angle)
 
 
 def _valley(linkage: FourBar, train: GearTrain) -> Valley:

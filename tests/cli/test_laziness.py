@@ -105,6 +105,8 @@ _DATA = {"gears.backlash", "gears.internal", "gears.drawing", "gears.allowances"
 _RINGS = {"gears.internal_mesh", "gears.ring_cutter", "gears.internal", "gears.mesh_phase"}
 _TOOLS = {"gears.tools", "gears.root_fillet", "gears.data", "gears.load"}
 _TRAINS = {"gears.train", "gears.train_parts", "gears.spec_parts", "gears.pair_keys"}
+_SECTIONS = {"gears.spec_parts", "gears.train_parts", "linkages.spec_sections", "three_gear.task_spec"}
+"""Models of sections and keys that most files do not have: making them takes longer than most results."""
 _GENERAL = {f"three_gear.{name}" for name in ("families", "internal_families", "internal_dwell", "candidates")}
 
 
@@ -112,9 +114,15 @@ _GENERAL = {f"three_gear.{name}" for name in ("families", "internal_families", "
 @pytest.mark.parametrize(
     ("line", "unused"),
     [
-        ("synth dwell designs/candy_feed.yaml", _RINGS | _TOOLS | _GENERAL | _TRAINS | {"three_gear.window_dwell"}),
+        (
+            "synth dwell designs/candy_feed.yaml",
+            _RINGS | _TOOLS | _GENERAL | _TRAINS | {"three_gear.window_dwell"},
+        ),
         ("analyze designs/wide_lever.yaml", _RINGS | _TOOLS | _DATA | _TRAINS),
-        ("gear designs/ty460_input_gears.yaml", _RINGS | {"gears.backlash", "gears.drawing", "linkages", "cams"}),
+        (
+            "gear designs/ty460_input_gears.yaml",
+            _RINGS | {"gears.backlash", "gears.drawing", "linkages", "cams"},
+        ),
         ("crank designs/ty460_slider_crank.yaml", _RINGS | _TOOLS | _DATA | {"gears.pair", "cams"}),
         ("press designs/ty460.yaml", _RINGS | _TOOLS | _DATA | {"gears.pair", "loads.machine"}),
     ],
@@ -122,7 +130,8 @@ _GENERAL = {f"three_gear.{name}" for name in ("families", "internal_families", "
 def test_a_command_imports_no_room_that_it_does_not_enter(line: str, unused: set[str]) -> None:
     """Rings, tooth data, general families, loads and studies are imported by designs that have them."""
     (modules,) = modules_after(f"{line} --format json")
-    assert not {f"gearlink.core.{name}" for name in unused | _SEARCHES} & modules
+    assert not {f"gearlink.core.{name}" for name in unused | _SEARCHES | _SECTIONS} & modules
+    assert "pydantic.type_adapter" not in modules, "a section is validated by its own model"
 
 
 def test_checks_of_scalar_designs_import_no_numpy() -> None:
@@ -145,7 +154,9 @@ def test_what_is_known_of_files_needs_no_models(lines: list[str], besides: set[s
 
 
 def test_version_imports_no_typer() -> None:
-    assert installed(loaded_after(*VERSION)) <= {"gearlink"}
+    modules = loaded_after(*VERSION)
+    assert installed(modules) <= {"gearlink"}
+    assert "signal" not in modules, "whose enumerations take a tenth of the answer's time"
 
 
 @pytest.mark.slow
