@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -79,10 +80,33 @@ def save(make: Callable[[], Figure], name: str, stream: IO[bytes], ending: str, 
 
     The same figure gives the same bytes; `dpi` counts for png alone.
     """
+    _load_without_documents()
     with fonts_of(name):
         made = make()
         made.set_dpi(dpi if ending == "png" else DPI)
         made.savefig(stream, format=ending, metadata=_FIXED_METADATA[ending], **_PACKING.get(ending, {}))
+
+
+def _load_without_documents() -> None:
+    """Import what figures are made of, without the texts of `help` on every artist's properties.
+
+    Those are a fifth of the import: its documented function `kwdoc` reads the docstrings of all setters, and nobody
+    asks for them in a process that writes a picture.
+    """
+    if "matplotlib.figure" in sys.modules:
+        return
+    import matplotlib.artist as artists
+
+    def nothing(artist: Any) -> str:  # noqa: ARG001 - the name is part of what is replaced
+        return ""
+
+    described = artists.kwdoc
+    artists.kwdoc = nothing
+    try:
+        import matplotlib.backends.backend_agg
+        import matplotlib.figure  # noqa: F401
+    finally:
+        artists.kwdoc = described
 
 
 @contextmanager

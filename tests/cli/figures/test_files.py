@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -70,3 +72,15 @@ def test_every_panel_is_drawn_once(
     plot = ("--plot", "--plot-format", ending, "--out", tmp_path)
     assert gearlink("crank", designs / "ty460_slider_crank.yaml", *plot).status == 0
     assert len(drawn) == 1
+
+
+def test_matplotlib_is_loaded_without_its_help_and_left_as_it_is() -> None:
+    code = """
+from gearlink.cli.figures.write import _load_without_documents
+_load_without_documents()
+from matplotlib.artist import kwdoc
+from matplotlib.lines import Line2D
+assert "antialiased" not in Line2D.set.__doc__
+assert "antialiased" in kwdoc(Line2D)
+"""
+    subprocess.run([sys.executable, "-c", code], check=True)
