@@ -200,6 +200,8 @@ class Bench:
 
     def _first(self, name: str, good: Callable[[Remedy], bool]) -> Remedy:
         for remedy in self._closed(name):
+            if self._left <= 0 and self._design.effort and remedy not in self._trials:
+                return ()  # the few of a closed form count where each takes as long as many
             if good(remedy):
                 return remedy
         found = (self._along(way, good) for way in self._design.ways_of(name))

@@ -106,6 +106,11 @@ class LoadsBase(Design):
         return 1
 
     @property
+    def effort(self) -> int:
+        """Loads are computed over every turn of the period."""
+        return self.turns - 1 if "machine" in self.__dict__ else 0
+
+    @property
     def shaft_inertia(self) -> float:
         """Inertia of what turns evenly with the input, reduced to it [kg m^2]."""
         return 0.0

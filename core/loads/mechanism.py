@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from gearlink.core.loads.kinematics import Point, Turn, carried
-from gearlink.core.numerics.arrays import Mask, Points, Reals
+from gearlink.core.numerics.arrays import Mask, Points, Reals, units
 
 FRAME = "frame"
 
@@ -29,7 +29,7 @@ class Link:
     @cached_property
     def unit(self) -> Points:
         """e^(i t)."""
-        return np.asarray(np.exp(1j * self.turn.value))
+        return units(self.turn.value)
 
     def at(self, arm: complex) -> Point:
         """A point given in link coordinates [m], computed once."""

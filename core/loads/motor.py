@@ -18,11 +18,12 @@ from gearlink.core.errors import NoSolution
 from gearlink.core.loads.flywheel import Function
 from gearlink.core.loads.machine import Panels, fewest_samples, to_integral
 from gearlink.core.numerics.arrays import Reals
-from gearlink.core.numerics.extremes import maximum_over, minimum_over
+from gearlink.core.numerics.extremes import extremes_over
 
 _TURNS = 60
 _STEPS = 40
 _SETTLED = 4e-15
+_ROUNDING = 1e-12
 
 
 @lru_cache
@@ -100,9 +101,57 @@ class MotorRun:
             rates.append(found[2])
         return edges[-1] - energy, slope, np.array(edges), np.array(rates)
 
+    def _rates(self, values: Reals) -> tuple[Reals, Reals]:
+        """dE/dphi at the nodes of all panels where the energies there are these, and its derivative by them."""
+        load, inertia = self._given
+        speed = np.sqrt(2.0 * values / inertia)
+        return self.slope * (self.no_load - speed) - load, -self.slope / (inertia * speed)
+
+    def _joined(self, values: Reals) -> tuple[Reals, Reals, float]:
+        """One of Newton's steps on the whole period: energies at the edges and at the nodes, and P'.
+
+        v = a + g e at the nodes of a panel that starts with the energy e, c + d e at its end; the ends are joined.
+        """
+        matrix, weights = _collocation(self.panels.order)
+        rate, fall = self._rates(values)
+        h = np.diff(self.panels.edges)[:, None]
+        system = np.eye(self.panels.order) - (h * fall)[:, None, :] * matrix
+        right = np.stack([h * (rate @ matrix.T) - values, np.ones_like(values)], axis=-1)
+        change, share = np.moveaxis(np.linalg.solve(system, right), -1, 0)
+        ahead = (h[:, 0] * ((rate + fall * change) @ weights)).tolist()
+        left = (1.0 + h[:, 0] * ((fall * share) @ weights)).tolist()
+        end, slope = 0.0, 1.0
+        for c, d in zip(ahead, left, strict=True):
+            end, slope = c + d * end, d * slope
+        edges = [end / (1.0 - slope) if slope != 1.0 else math.inf]
+        for c, d in zip(ahead, left, strict=True):
+            edges.append(c + d * edges[-1])
+        return np.array(edges), values + change + share * np.array(edges[:-1])[:, None], slope
+
+    def _at_once(self) -> tuple[Reals, Reals, float] | None:
+        """The periodic run from one of even speed, all panels together; None where that does not lead to it."""
+        load, inertia = self._given
+        even = self.no_load - self.panels.integral(load.ravel()) / (float(self.panels.edges[-1]) * self.slope)
+        values, last = 0.5 * inertia * even**2, math.inf
+        for _ in range(_STEPS if even > 0.0 else 0):
+            edges, found, slope = self._joined(values)
+            if not (found > 0.0).all() or not (edges > 0.0).all() or not slope < 1.0:
+                return None
+            step, values = float(np.max(np.abs(found - values)) / np.max(found)), found
+            if step <= _SETTLED or (step >= last and step < _ROUNDING):
+                return edges, self._rates(values)[0], slope
+            last = step
+        return None
+
     @cached_property
     def _periodic(self) -> tuple[Reals, Reals, float]:
         """Energies at the edges, rates at the nodes, and P' of the periodic run."""
+        with np.errstate(all="ignore"):  # energies that are none are looked for after every step
+            found = self._at_once()
+        return found or self._turn_by_turn()
+
+    def _turn_by_turn(self) -> tuple[Reals, Reals, float]:
+        """The same by whole turns one after the other, each panel by panel: slower, and certain to tell what stalls."""
         load, inertia = self._given
         fastest = self.no_load - float(load.min()) / self.slope
         if fastest <= 0.0:
@@ -149,11 +198,9 @@ class MotorRun:
         """Least and greatest speed [rad/s]."""
         end, samples = float(self.panels.edges[-1]), max(360, 10 * (len(self.panels.edges) - 1))
         fewest = fewest_samples(self.breaks)
-        low, high = (
-            search(self.speed, 0.0, end, joints=self.breaks, samples=samples, fewest=fewest).value
-            for search in (minimum_over, maximum_over)
-        )
-        return low, high
+        wanted = [(self.speed, False), (self.speed, True)]
+        low, high = extremes_over(wanted, 0.0, end, joints=self.breaks, samples=samples, fewest=fewest)
+        return low.value, high.value
 
     @cached_property
     def rms_torque(self) -> float:

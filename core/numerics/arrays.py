@@ -31,3 +31,28 @@ def turn_degrees(samples: int | None = None, turns: int = 1) -> Reals:
     rows = row_numbers(samples, count)
     angles: Reals = np.arange(rows.start, rows.stop, dtype=np.float64) * (360.0 * turns / count)
     return angles
+
+
+def turned(angles: Reals) -> tuple[Reals, Reals]:
+    """Cosine and sine, to some ulp of 1, by one tangent of half the angle: it costs an eighth of e^(i angle).
+
+    Example
+        >>> [round(float(each), 15) for each in turned(np.array(np.pi / 3.0))]
+        [0.5, 0.866025403784439]
+    """
+    half = np.tan(0.5 * angles)
+    square = half * half
+    share = 1.0 / (1.0 + square)
+    return np.asarray((1.0 - square) * share), np.asarray((half + half) * share)
+
+
+def units(angles: Reals) -> Points:
+    """e^(i angle) by `turned`.
+
+    Example
+        >>> units(np.array([0.0, -0.5 * np.pi])).round(15).tolist()
+        [(1+0j), -1j]
+    """
+    found = np.empty(angles.shape, dtype=np.complex128)
+    found.real, found.imag = turned(angles)
+    return found

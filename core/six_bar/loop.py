@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.dyad import close_dyad, require_lengths
-from gearlink.core.numerics.arrays import Points, Reals
+from gearlink.core.numerics.arrays import Points, Reals, turned, units
 from gearlink.core.results import cached_property
 from gearlink.core.six_bar.relations import LINKS, Row, reduced
 
@@ -247,19 +247,6 @@ class SixBar:
         return found
 
 
-def turned(angles: Reals) -> tuple[Reals, Reals]:
-    """Cosine and sine, to some ulp of 1, by one tangent of half the angle: it costs an eighth of e^(i angle).
-
-    Example
-        >>> [round(float(each), 15) for each in turned(np.array(np.pi / 3.0))]
-        [0.5, 0.866025403784439]
-    """
-    half = np.tan(0.5 * angles)
-    square = half * half
-    share = 1.0 / (1.0 + square)
-    return np.asarray((1.0 - square) * share), np.asarray((half + half) * share)
-
-
 def _closing(cos: Reals, sin: Reals, x: Reals, y: Reals) -> Reals:
     """Newton's step of the free directions, (2, N), where the loop is open by x, y and its links run so."""
     determinant = sin[0] * cos[1] - sin[1] * cos[0]
@@ -269,7 +256,7 @@ def _closing(cos: Reals, sin: Reals, x: Reals, y: Reals) -> Reals:
 
 def pins(bar: SixBar, phi: Reals, angles: Reals) -> Points:
     """The pins A to F; (6, N) array [mm]."""
-    links = np.vstack([bar.lengths[1] * np.exp(1j * phi), bar.numbers[0][:3, None] * np.exp(1j * angles[:3])])
+    links = np.vstack([bar.lengths[1] * units(phi), bar.numbers[0][:3, None] * units(angles[:3])])
     walked = np.cumsum(links, axis=0)
     ends = np.zeros((1, phi.size)), np.full((1, phi.size), bar.lengths[0])
     return np.vstack([ends[0], walked, ends[1]]).astype(np.complex128)

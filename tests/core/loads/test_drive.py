@@ -131,6 +131,18 @@ def test_rms_torque_of_the_motor_is_over_time() -> None:
     assert run.rms_torque == pytest.approx(math.sqrt(squares / whole), rel=1e-9)
 
 
+@pytest.mark.parametrize("name", ["loaded_feed", "loaded_six_bar", "loaded_swing_cycle"])
+def test_all_panels_at_once_are_those_turn_by_turn(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Energies to 1e-14, rates, which cancel, to 1e-12 of the greatest; turns are taken only where that does not do."""
+    run = factory.design(name, command="loads").running.motor_run
+    (edges, rates, slope), turns = run._at_once(), run._turn_by_turn()
+    assert edges == pytest.approx(turns[0], rel=1e-14)
+    assert np.abs(rates - turns[1]).max() < 1e-12 * np.abs(rates).max()
+    assert slope == pytest.approx(turns[2], rel=1e-12)
+    monkeypatch.setattr(MotorRun, "_turn_by_turn", None)
+    assert run.range[0] < run.range[1]
+
+
 def test_zone_of_constant_torque_has_its_closed_form() -> None:
     """w = w_inf + (w_a - w_inf) e^(-k t/J) in each zone; constant inertia."""
     k, no_load, inertia = 2.0, 20.0, 0.7

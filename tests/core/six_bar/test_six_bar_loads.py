@@ -42,6 +42,20 @@ def test_mean_power_is_that_of_the_load_and_friction_adds_to_it(name: str) -> No
     assert rubbing.power_identity <= 1e-12
 
 
+def test_a_trial_of_loads_counts_the_turns_of_its_period() -> None:
+    """Fifty turns take as long as fifty trials of one: three changes may be tried, not a hundred and fifty."""
+    trains = [worked(SWING)["trains"][0] | {"pins": ["E", "F", "A"], "gears": [20, 30, 40]},
+              {"pins": ["A", "B"], "module": 2, "gears": [22, 20]}]  # fmt: skip
+    links = {"coupler_1": 180, "coupler_2": 180, "coupler_3": 180}
+    section = {"links": {"coupler_2": {"mass": 1.5, "inertia": 0.004, "center": [60, 0]}}}
+    more = {"trains": trains, "links": links, "start": {"coupler_1": 240, "output": -60}, "input_speed": 60}
+    loads = design(SWING, command="loads", assembly=None, loads=section, **more)
+    assert loads.effort == 0
+    _ = loads.machine
+    assert loads.turns == 50
+    assert loads.effort == 49
+
+
 def test_the_worked_six_bar_works_against_its_brush() -> None:
     """Over a turn the drive gives 8 N m times all that the output swings, between its standstills by the geometry."""
     loads = design("loaded_six_bar", command="loads", loads__friction=None)
