@@ -156,6 +156,7 @@ class Bench:
         self._trials: dict[Remedy, Design | None] = {}
         self._candidates: dict[str, tuple[list[Remedy], Iterator[Remedy]]] = {}
         self._grades: dict[tuple[Remedy, str, int], int] = {}
+        self._refused: set[Remedy] = set()  # whatever finding they are tried for, the same check is refused again
 
     @cached_property
     def _commands(self) -> tuple[str, ...]:
@@ -263,9 +264,11 @@ class Bench:
             trial = self._trial(remedy)
             before = 0 if trial is None else trial.effort
             try:
-                self._grades[key] = 0 if trial is None else self._graded(trial, found, index)
+                out = trial is None or remedy in self._refused
+                self._grades[key] = 0 if trial is None or out else self._graded(trial, found, index)
             except NoSolution:
                 self._grades[key] = 0
+                self._refused.add(remedy)
             self._left -= 0 if trial is None else trial.effort - before
         return self._grades[key]
 

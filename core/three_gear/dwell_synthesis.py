@@ -91,6 +91,9 @@ class DwellSynthesis(BackStepFamily):
 
     # The links
 
+    _no_idler: NoSolution | None = None
+    """Why no idler was found: another check of the same design does not try some hundred of them again."""
+
     def crank_angle_for(self, i3: float) -> float:
         """phi12 that meets the wish in the symmetric family."""
         if self._wish.angle is not None:
@@ -173,12 +176,16 @@ class DwellSynthesis(BackStepFamily):
 
     def chosen_idler(self) -> int:
         """The smallest that keeps the limits; a refusal names the longest window that one within them reaches."""
+        if self._no_idler is not None:
+            raise self._no_idler
         try:
             return super().chosen_idler()
         except MissingSection:
             raise
         except NoSolution as error:
-            raise NoSolution(error.message + self._best_within_limits(), key=error.key) from error
+            words = self._best_within_limits() if self.advises else ""
+            self._no_idler = NoSolution(error.message + words, key=error.key)
+            raise self._no_idler from error
 
     def _best_within_limits(self) -> str:
         """The longest window at the asked tolerance, of the smallest idler that keeps the limits.
@@ -210,6 +217,11 @@ class DwellSynthesis(BackStepFamily):
     def trials(self) -> int:
         """A dwell within a tolerance is sought anew for each of them, which takes some hundredths of a second."""
         return 150 if self._wish.angle is not None and not self.general else 8
+
+    @property
+    def effort(self) -> int:
+        """Where no idler serves, all of them were tried, which takes as long as two other trials."""
+        return 0 if self._no_idler is None else 1
 
     # What is reached
 

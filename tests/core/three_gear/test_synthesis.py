@@ -486,3 +486,24 @@ def test_the_root_of_the_dwell_is_solved_once(monkeypatch):
     made.require("synth dwell")
     assert [made.check(name) for name in made.outline("synth dwell").checks]
     assert len(solved) == 1
+
+
+def test_idlers_that_do_not_serve_are_tried_once(monkeypatch):
+    """However many checks ask for them; a trial, which nobody reads, seeks no words for its refusal either."""
+    from gearlink.core.three_gear import synthesis
+
+    tried = []
+
+    def refused(linkage_of, *rest, **more):
+        tried.append(linkage_of)
+        raise NoSolution("no idler serves", key="gears.idler")
+
+    monkeypatch.setattr(synthesis, "smallest_idler", refused)
+    machine = factory.design("standing_feed", command="synth dwell")
+    machine.advises = False
+    assert machine.effort == 0
+    for _ in range(3):
+        with pytest.raises(NoSolution, match=r"^no idler serves$"):
+            _ = machine.idler_teeth
+    assert len(tried) == 1
+    assert machine.effort == 1
