@@ -30,10 +30,11 @@ def kinds(incomplete: str) -> Offer:
 
 def explained(incomplete: str) -> Offer:
     """Everything that `explain` knows."""
-    from gearlink.cli.commands.explain import names, plain_names
+    from gearlink.cli.commands.explain import names, plain_names, symbols
 
     known = names() if "." in incomplete else plain_names()  # paths of keys only where one is begun: they take a second
-    return _beginning(incomplete, ((name, "") for name in known))
+    more = ((symbol, words) for symbol, words in symbols() if incomplete)  # many, and short
+    return _beginning(incomplete, (*((name, "") for name in known), *more))
 
 
 def laws(incomplete: str) -> Offer:

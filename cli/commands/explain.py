@@ -104,6 +104,14 @@ def _symbols(name: str) -> Iterator[Topic]:
             yield Topic("symbol", name, f"{quantity}: {topic.title}", topic.paragraphs)
 
 
+def symbols() -> Iterator[tuple[str, str]]:
+    """Symbols that are one word, each with the quantity that it stands for."""
+    from gearlink.core.nomenclature import TERMS
+
+    for quantity, entry in TERMS.items():
+        yield from ((symbol, quantity) for symbol in entry.symbol.split(", ") if symbol and " " not in symbol)
+
+
 def _keys(name: str) -> Iterator[Topic]:
     """Keys of design files by path, `gears.module`, or by their last word; one topic where several kinds agree."""
     from gearlink.cli.texts.spec_keys import known_keys

@@ -36,6 +36,8 @@ def test_kinds_have_a_summary_each() -> None:
 def test_codes_quantities_and_laws_to_explain() -> None:
     assert "GL301" in words(completing.explained("gl30"))
     assert "frame_length" in words(completing.explained("frame_"))
+    assert {("phi12", "back_step_crank_angle"), ("phi13", "dwell_angle")} <= set(completing.explained("phi1"))
+    assert "phi13" not in words(completing.explained("")), "symbols are many: one is offered once it is begun"
     assert words(completing.laws("modified-s")) == ["modified-sine"]
     assert words(completing.charts("back")) == ["back-step"]
 

@@ -97,9 +97,7 @@ def test_entries_stay_the_users_own(batch: Any, state: Path) -> None:
 def test_a_study_is_computed_again_where_its_base_has_changed(gearlink: Any, state: Path, tmp_path: Path) -> None:
     base, study, cache = tmp_path / "base.yml", tmp_path / "study.yaml", tmp_path / "kept"
     base.write_text("{kind: slider-crank, stroke: 310, rod: 520, offset: 50}")
-    study.write_text(
-        "kind: study\nof: base.yml\nvariables: {rod: {values: [500, 510]}}\nminimize: {crank_length: 1}\n"
-    )
+    study.write_text("kind: study\nof: base.yml\nvariables: {rod: {values: [500, 510]}}\nminimize: {crank_length: 1}\n")
 
     def run() -> Any:
         (found,) = gearlink("batch", study, "--cache", cache, "--format", "json").json["designs"]
