@@ -19,7 +19,7 @@ _SARIF_LEVEL = {"fail": "error", "warn": "warning"}
 def _findings(outcome: Outcome) -> Iterator[tuple[str, str, str, str, int, int]]:
     """Status, code, name, message, line, column of everything to repair."""
     for error in outcome.errors:
-        yield "fail", error.code, "input", error.message, error.line, error.column
+        yield "fail", error.code, "input", error.as_sentence, error.line, error.column
     for check, (line, column) in zip(outcome.to_repair, outcome.places, strict=True):
         yield check.status, check.code, check.name, check.message, line, column
 

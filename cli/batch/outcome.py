@@ -53,7 +53,7 @@ class Outcome:
     @property
     def findings(self) -> list[str]:
         """Every error, or everything to repair, the worst first."""
-        errors = [f"{error.line}:{error.column} {error.code}: {error.message}" for error in self.errors]
+        errors = [f"{error.line}:{error.column} {error.code}: {error.as_sentence}" for error in self.errors]
         worst_first = sorted(self.to_repair, key=lambda check: check.status != "fail")
         return errors + [f"{check.code} {check.name}: {check.message}" for check in worst_first]
 

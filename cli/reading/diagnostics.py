@@ -30,6 +30,11 @@ class Diagnostic:
     help: str = ""
     severity: str = "error"
 
+    @property
+    def as_sentence(self) -> str:
+        """Message and remedy in one line, for lists of findings."""
+        return f"{self.message}; {self.help}" if self.help else self.message
+
     def as_json(self) -> dict[str, str | int]:
         """The record as it stands in the `errors` of a JSON result; with `help` where a remedy is known."""
         record: dict[str, str | int] = {
