@@ -8,7 +8,7 @@ PYTEST := PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -q
 # Long runs: tests of a module stay in one process, which keeps what they share.
 LONG := $(PYTEST) -n auto --maxprocesses 4 --dist loadfile
 
-.PHONY: demo test test-core test-pages test-rest check check-full format lint types docs bench bench-guard stress clean
+.PHONY: demo test test-core test-rest check check-full format lint types docs bench bench-guard stress clean
 
 $(READY): pyproject.toml
 	$(PYTHON) -c 'import sys; sys.exit("gearlink needs Python 3.11 or newer" if sys.version_info < (3, 11) else 0)'
@@ -35,19 +35,17 @@ demo: $(READY)
 DEMO_DWELL := idler_teeth crank_length coupler_length frame_length tolerance_dwell_angle frame_length_interval gear_gap
 DEMO_CAM := follower_stroke max_pressure_angle min_curvature_radius min_radius max_radius
 
-# Three processes, each with its part of the tests: nothing is collected twice, and no test waits to be handed out, which
-# took a tenth of the time. A test that waits for ever ends its part with the stacks of all threads.
+# Two processes, each with its half of the tests: nothing is collected twice, and no test waits to be handed out, which
+# took a tenth of the time. A test that waits for ever ends its half with the stacks of all threads.
 test: $(READY)
-	@echo 'Three parts, each shown when it has ended.'
+	@echo 'Two halves, each shown when it has ended.'
 	@$(MAKE) --no-print-directory --keep-going --jobs=$(shell getconf _NPROCESSORS_ONLN) \
-	$(if $(filter output-sync,$(.FEATURES)),--output-sync) test-core test-pages test-rest
+	$(if $(filter output-sync,$(.FEATURES)),--output-sync) test-core test-rest
 
-PAGES := tests/cli/commands tests/cli/figures
 test-core: TESTS = tests/core
-test-pages: TESTS = $(PAGES)
-test-rest: TESTS = tests $(addprefix --ignore=,tests/core $(PAGES))
-test-core test-pages test-rest: $(READY)
-	$(PYTEST) $(TESTS) --timeout 200 --timeout-method thread
+test-rest: TESTS = tests --ignore=tests/core
+test-core test-rest: $(READY)
+	$(PYTEST) -p no:logging $(TESTS) --timeout 200 --timeout-method thread
 
 check: lint types test
 

@@ -33,25 +33,10 @@ QUICK = {
 }
 """Worked designs of `make test` where any of its kind serves: each kind, each form, none that is searched for long."""
 
-COSTLY = {
-    "five_bar_function",
-    "loaded_gripper",
-    "loaded_press",
-    "loaded_six_bar",
-    "loaded_swing_cycle",
-    "wide_swing_slider_cam",
-}
-"""Worked designs whose results take half of the time of all: `make test` has them in the tests of their own rooms."""
-
 
 def each_kind(paths: Iterable[Path]) -> list[Any]:
     """Design files for `pytest.mark.parametrize`: those of QUICK, the others in `make check-full` alone."""
     return [path if path.stem in QUICK else pytest.param(path, marks=pytest.mark.slow) for path in paths]
-
-
-def all_but_costly(paths: Iterable[Path]) -> list[Any]:
-    """The same for all but the designs of COSTLY."""
-    return [pytest.param(path, marks=pytest.mark.slow) if path.stem in COSTLY else path for path in paths]
 
 
 def design(given: str | Mapping[str, Any], /, *, command: str = "analyze", **keys: Any) -> Any:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 from functools import cache
 from graphlib import CycleError, TopologicalSorter
@@ -37,8 +38,24 @@ def _modules() -> dict[str, Path]:
 MODULES = _modules()
 
 
-def _imported(node: ast.AST) -> Iterator[str]:
-    """Modules that a piece of code imports when it runs, at its head or inside a function; annotations do not run."""
+_TYPING = re.compile(r"^( *)if TYPE_CHECKING:\n(?:\1 +.*\n|\n)+", re.MULTILINE)
+_IMPORT = re.compile(r"^ *(?:from gearlink\.([\w.]+) import (\([^)]*\)|.*)|import gearlink\.([\w.]+))", re.MULTILINE)
+
+
+def _imported(text: str) -> Iterator[str]:
+    """Modules that a piece of code imports when it runs, at its head or inside a function; annotations do not run.
+
+    By the lines, as the formatter writes them: to parse all modules takes twenty times as long.
+    """
+    for base, names, module in _IMPORT.findall(_TYPING.sub("", text)):
+        if module:
+            yield module
+        for name in re.findall(r"(\w+)(?: as \w+)?", re.sub("#.*", "", names)):
+            yield f"{base}.{name}" if f"{base}.{name}" in MODULES else base
+
+
+def _parsed(node: ast.AST) -> Iterator[str]:
+    """The same by walking the statements."""
     for child in ast.iter_child_nodes(node):
         if isinstance(child, ast.expr):
             continue  # imports are statements
@@ -50,16 +67,24 @@ def _imported(node: ast.AST) -> Iterator[str]:
                 yield f"{base}.{alias.name}" if f"{base}.{alias.name}" in MODULES else base
         elif isinstance(child, ast.Import):
             yield from (alias.name.removeprefix("gearlink.") for alias in child.names)
-        yield from _imported(child)
+        yield from _parsed(child)
 
 
 @cache
 def arrows() -> dict[str, set[str]]:
     """Which module imports which."""
     return {
-        name: {other for other in _imported(ast.parse(path.read_text(encoding="utf-8"))) if other in MODULES} - {name}
+        name: {other for other in _imported(path.read_text(encoding="utf-8")) if other in MODULES} - {name}
         for name, path in MODULES.items()
     }
+
+
+@pytest.mark.slow
+def test_lines_tell_what_statements_import() -> None:
+    for name, path in MODULES.items():
+        text = path.read_text(encoding="utf-8")
+        parsed = {other for other in _parsed(ast.parse(text)) if other in MODULES} - {name}
+        assert arrows()[name] == parsed, name
 
 
 def _room(module: str) -> str:

@@ -30,6 +30,7 @@ def test_the_workflow_runs_the_checks_on_every_python() -> None:
     assert least == ">=3.11"
 
 
+@pytest.mark.slow
 def test_the_action_runs_a_batch(tmp_path: Path) -> None:
     action = _read("action.yml")
     defaults = {name: given["default"] for name, given in action["inputs"].items()}

@@ -3,6 +3,7 @@
 import importlib.util
 import sys
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.internal.cache import LRUCache
@@ -40,6 +41,7 @@ def test_examples_do_not_depend_on_loaded_modules(tmp_path, monkeypatch):
     assert examples() == before
 
 
+@pytest.mark.slow
 def test_they_would_if_hypothesis_were_left_to_itself(tmp_path, monkeypatch):
     """So the test above can fail: this is what conftest.py switches off."""
     before = examples()

@@ -9,6 +9,7 @@ from gearlink.cli.options import Options
 from gearlink.core.three_gear.dwell_synthesis import DwellSynthesis
 
 
+@pytest.mark.quick(12)
 @pytest.mark.parametrize("path", sorted(DESIGNS.glob("*.yaml")), ids=lambda path: path.stem)
 def test_a_worked_design_is_the_one_that_the_program_reads(path):
     loaded, kind = open_design(str(path), Options())

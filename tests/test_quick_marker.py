@@ -8,6 +8,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 ROOT = Path(__file__).parents[1]
 
 CASES = """
@@ -75,6 +77,7 @@ def test_even_spread_of_the_cases_is_quick(tmp_path: Path) -> None:
     assert sorted(collected(tmp_path)) == sorted([*wanted, "test_without_cases"])
 
 
+@pytest.mark.slow
 def test_all_cases_are_in_the_full_run(tmp_path: Path) -> None:
     wanted = [f"{name}[{i}]" for name in KEPT for i in range(10)]
     assert sorted(collected(tmp_path, "-m", "not stress")) == sorted([*wanted, "test_without_cases"])

@@ -220,6 +220,7 @@ def test_tables_fit_the_width(
     assert "\x1b" not in ended.out
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("width", [1, 20, 45, 60])
 def test_a_narrow_terminal_keeps_every_number(
     gearlink: Any, designs: Path, monkeypatch: pytest.MonkeyPatch, width: int
@@ -278,6 +279,7 @@ def test_closed_pipe_is_no_error() -> None:
 _FAILS = "designs/thesis_example_3_as_printed.yaml"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("line", "status"),
     mostly_slow(
@@ -420,6 +422,7 @@ def test_a_process_with_too_little_memory_says_so() -> None:
     assert ended.stderr.startswith(b"error: the memory of this process is limited to 195 MB")
 
 
+@pytest.mark.slow
 def test_the_least_memory_suffices() -> None:
     line = f"ulimit -v {400 << 10}; {sys.executable} -m gearlink.cli.main crank designs/ty460_slider_crank.yaml"
     ended = subprocess.run(["bash", "-c", line], capture_output=True, cwd=ROOT, check=False)

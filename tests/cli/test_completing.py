@@ -110,6 +110,7 @@ def _script(shell: str) -> str:
     return f'{sys.executable} -c "{code}"'
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("shell", "line", "wanted"),
     mostly_slow(

@@ -15,6 +15,8 @@ import pytest
 
 FOLDER = Path(__file__).parents[1] / "reference" / "contract"
 CASES = [(path.stem, case) for path in sorted(FOLDER.glob("*.json")) for case in json.loads(path.read_text())]
+LONG = {"cam-gripper-cams", "swing-twin-rocker-pneumatic-120", "dwell-b1-5", "dwell-a3-3"}
+"""A fifth of a second each; their numbers are in the reference cases of their rooms too."""
 
 
 def close(got: Any, want: Any, rtol: float, atol: float) -> bool:
@@ -33,7 +35,14 @@ def row_of(table: dict[str, Any], key: dict[str, float]) -> dict[str, Any]:
     raise AssertionError(f"no row {key}")
 
 
-@pytest.mark.parametrize(("group", "case"), CASES, ids=[f"{group}-{case['id']}" for group, case in CASES])
+@pytest.mark.parametrize(
+    ("group", "case"),
+    [
+        pytest.param(group, case, id=name, marks=[pytest.mark.slow] if name in LONG else [])
+        for group, case in CASES
+        for name in [f"{group}-{case['id']}"]
+    ],
+)
 def test_case(group: str, case: dict[str, Any], gearlink: Any, tmp_path: Path) -> None:
     path = tmp_path / "design.yaml"
     text = json.dumps(case["spec"], indent=1)

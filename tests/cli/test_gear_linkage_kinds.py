@@ -262,6 +262,7 @@ def test_opening_five_bar_names_the_worst_angle(gearlink, tmp_path):
     assert "35.3553391 mm" in error["message"]
 
 
+@pytest.mark.slow
 def test_five_bar_with_an_idler_has_two_meshes(gearlink, tmp_path):
     path = tmp_path / "design.yaml"
     text = PATH.replace("output: 20}\nlinks", "output: 20, idler: 18}\nlinks").replace(

@@ -12,7 +12,6 @@ from tempfile import TemporaryDirectory
 
 import factory
 import pytest
-from sweeps import mostly_slow
 
 ROOT = Path(__file__).resolve().parents[2]
 _PROBE = """
@@ -55,6 +54,7 @@ SCALAR_LINES = [
 ]
 CHECKS = ["check designs/wide_lever.yaml", "check designs/two_gear_ring.yaml"]
 LINES = ["crank designs/ty460_slider_crank.yaml", "press designs/ty460.yaml"]
+PICTURES = [f"{line} --plot --quiet --out OUT" for line in LINES]
 VERSION = ["--version"]
 ASKED = [*(f"explain {name}" for name in ("GL301", "contact_ratio", "gears.module", "gear-pair")), "schema gear-pair"]
 NEW = ["new gear-pair"]
@@ -76,7 +76,17 @@ def as_json(lines: list[str]) -> list[str]:
 def ladder() -> dict[str, set[str]]:
     """Modules after each line in one process, those first that need least: what a line may not import none before it
     may either, so that a process for each line would say no more."""
-    lines = [*VERSION, *ASKED, *NEW, *as_json(SCALAR_LINES), *CHECKS, *as_json(SWEEP_LINES), *EXPORTS, *LINES]
+    lines = [
+        *VERSION,
+        *ASKED,
+        *NEW,
+        *as_json(SCALAR_LINES),
+        *CHECKS,
+        *as_json(SWEEP_LINES),
+        *EXPORTS,
+        *LINES,
+        *PICTURES,
+    ]
     with TemporaryDirectory() as folder:
         found = modules_after(*(line.replace("OUT", folder) for line in lines))
     return dict(zip(lines, found, strict=True))
@@ -110,7 +120,7 @@ _SECTIONS = {"gears.spec_parts", "gears.train_parts", "linkages.spec_sections", 
 _GENERAL = {f"three_gear.{name}" for name in ("families", "internal_families", "internal_dwell", "candidates")}
 
 
-@pytest.mark.quick(3)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("line", "unused"),
     [
@@ -182,9 +192,8 @@ def test_curves_as_svg_and_csv_import_no_dxf_library() -> None:
     assert not packages(loaded_after(*EXPORTS)) & {"ezdxf", "scipy", "matplotlib"}
 
 
-@pytest.mark.parametrize("line", mostly_slow(LINES, 1))
-def test_a_picture_imports_neither_pyplot_nor_scipy(line: str, tmp_path: Path) -> None:
-    (drawn,) = modules_after(f"{line} --plot --quiet --out {tmp_path}")
+def test_a_picture_imports_neither_pyplot_nor_scipy() -> None:
+    drawn = loaded_after(*PICTURES)
     assert "matplotlib.figure" in drawn
     assert not drawn & {"matplotlib.pyplot", "scipy"}
 

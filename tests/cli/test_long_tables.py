@@ -39,7 +39,7 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     return lengths
 
 
-@pytest.mark.quick(3)
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("path", each_kind(DESIGNS), ids=lambda path: path.stem)
 @pytest.mark.usefixtures("asked")
 def test_parts_hold_the_rows_of_the_whole(path: Path) -> None:

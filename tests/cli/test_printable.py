@@ -154,6 +154,7 @@ def test_every_finding_of_a_design_is_shown(gearlink: Any, designs: Path) -> Non
     assert sorted(row["finding"].partition(": ")[2] for row in rows) == sorted(findings)
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(
     "line",
     mostly_slow(["report", "animate --format html", "crank --format json", "crank --format csv", "crank --plot"], 4),

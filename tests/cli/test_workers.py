@@ -187,6 +187,7 @@ with workers(2) as pool:
 """
 
 
+@pytest.mark.slow
 def test_one_that_is_killed_while_it_writes_its_result_breaks_the_executor(tmp_path: Path) -> None:
     """The result before it was whole; its own and what had not begun are lost, and nothing waits for them."""
     command = [sys.executable, "-c", KILLED, str(tmp_path / "begun")]

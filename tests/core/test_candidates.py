@@ -39,8 +39,11 @@ def rows_of(name: str, command: str = "analyze") -> list[dict[str, Any]]:
     return [dict(zip(table.columns, row, strict=True)) for row in zip(*table.data, strict=True)]
 
 
-@pytest.mark.quick(2)
-@pytest.mark.parametrize(("name", "command", "keys", "quantity"), CASES, ids=[case[0] for case in CASES])
+@pytest.mark.parametrize(
+    ("name", "command", "keys", "quantity"),
+    CASES,
+    ids=[case[0] for case in CASES],
+)
 def test_rows_are_designs_of_their_own(name: str, command: str, keys: dict[str, str], quantity: str) -> None:
     found = rows_of(name, command)
     assert len(found) >= 6
@@ -69,6 +72,7 @@ def test_the_rods_of_every_rule() -> None:
     assert math.isclose(found["least-ripple"]["dwell_ripple"], least, rel_tol=1e-9)
 
 
+@pytest.mark.slow
 def test_searches_of_a_five_bar(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(five_bar_candidates, "_RATIOS", ())
     found = rows_of("five_bar_points")

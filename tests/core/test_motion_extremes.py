@@ -15,6 +15,7 @@ from sweeps import mostly_slow
 TURN = 2.0 * math.pi
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("name", "table", "angle", "curves"),
     [

@@ -38,7 +38,7 @@ TABLES = [
 ]  # fmt: skip
 
 
-@pytest.mark.quick(4)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("name", "table", "angle", "rates"), TABLES)
 def test_tables_carry_time_and_real_speeds_where_the_input_speed_is_named(name, table, angle, rates):
     timed, plain = design(name, input_speed=SPEED).table(table, samples=24), design(name).table(table, samples=24)
@@ -62,7 +62,7 @@ SLOPES = [
 ]  # fmt: skip
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("name", "table", "angle", "pairs"), SLOPES)
 def test_every_rate_is_the_slope_of_its_column(name, table, angle, pairs):
     found = design(name).table(table, samples=12_000)
@@ -81,7 +81,7 @@ EXTREMES = [
 ]
 
 
-@pytest.mark.quick(3)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("name", "table", "columns"), EXTREMES)
 def test_extremes_and_their_places_against_a_fine_table(name, table, columns):
     made = design(name)

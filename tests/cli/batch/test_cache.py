@@ -273,7 +273,7 @@ GOOD = Outcome(
 WRONG = Outcome("f.yaml", "", "a", "", 2, errors=(Diagnostic("GL105", "m", "f.yaml", 2, 3),))
 
 
-@pytest.mark.parametrize("good", [GOOD, WRONG])
+@pytest.mark.parametrize("good", [pytest.param(GOOD, marks=pytest.mark.slow), WRONG])
 def test_outcomes_come_back(good: Outcome) -> None:
     assert repr(restored(as_bytes([good]))) == repr([good])
 

@@ -312,6 +312,7 @@ def test_a_gif_has_the_pictures_and_the_time_asked_for(gearlink: Any, designs: P
     assert sum(times) == 2000
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("path", mostly_slow(MOVING[::9] + MOVING, len(MOVING[::9])), ids=lambda path: path.stem)
 def test_every_design_becomes_a_gif(gearlink: Any, tmp_path: Path, path: Path) -> None:
     ended = gearlink("animate", path, "--out", tmp_path, "--quiet", "--fps", 2, "--seconds", 1, "--size", "240x180")

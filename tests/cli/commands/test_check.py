@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from factory import DESIGNS, QUICK, all_but_costly
+from factory import DESIGNS, QUICK
 from sweeps import ALL
 
 from gearlink.cli.commands import check
@@ -171,7 +171,24 @@ def test_no_such_place(gearlink: Any, tmp_path: Path) -> None:
     assert "GL101" in ended.err
 
 
-@pytest.mark.parametrize("path", all_but_costly(sorted(DESIGNS.glob("*.yaml"))), ids=lambda path: path.stem)
+ITS_OWN_CHECKS = {
+    "wide_swing_cycle",
+    "wide_swing_oscillating_cam",
+    "loaded_oscillating_cam",
+    "ring_feed_tolerances",
+    "thesis_example_3_as_printed",
+}
+"""Designs with checks that no design of QUICK has."""
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        path if path.stem in QUICK | ITS_OWN_CHECKS else pytest.param(path, marks=pytest.mark.slow)
+        for path in sorted(DESIGNS.glob("*.yaml"))
+    ],
+    ids=lambda path: path.stem,
+)
 def test_every_worked_design_is_checked_without_its_tables_and_findings_stand_in_its_file(
     path: Path, gearlink: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:

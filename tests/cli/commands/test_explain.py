@@ -252,6 +252,7 @@ def test_no_paragraph_repeats_the_headline(gearlink: Any) -> None:
     assert gearlink("explain", "dwell_angle").out.count("crank angle until the output regains its place") == 1
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("path", each_kind(sorted(DESIGNS.glob("*.yaml"))), ids=lambda path: path.stem)
 def test_every_column_of_a_worked_design_has_words(path: Path) -> None:
     name = path.stem
@@ -264,7 +265,6 @@ def test_every_column_of_a_worked_design_has_words(path: Path) -> None:
             assert [each for each in columns if not (column_words(each) or each in TERMS)] == [], table
 
 
-@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["ring_pair", "rack_drive"])
 def test_every_column_of_the_tables_of_a_gear_pair_has_words(name: str) -> None:
     made = design(name, command="gear")
@@ -274,6 +274,7 @@ def test_every_column_of_the_tables_of_a_gear_pair_has_words(name: str) -> None:
         assert [each for each in columns if not (column_words(each) or each in TERMS)] == [], table
 
 
+@pytest.mark.slow
 def test_every_column_of_the_search_for_teeth_has_words(gearlink: Any) -> None:
     found = gearlink("gears", "--ratio", 3, "--center-distance", 120, "--format", "json").json
     columns = found["tables"]["candidates"]["columns"] if isinstance(found["tables"], dict) else found["columns"]

@@ -135,6 +135,7 @@ def test_kinds_with_sheets() -> None:
     ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "keys"), [("candy_feed", {"input_speed": 90.0}), ("ty460_slider_crank", {})])
 def test_the_lowest_panel_has_the_time_beside_the_angle_where_the_speed_is_known(name: str, keys: Any) -> None:
     made = design(name, **keys)
@@ -154,6 +155,7 @@ def test_the_lowest_panel_has_the_time_beside_the_angle_where_the_speed_is_known
         assert time == pytest.approx((0.0, made.turn_time), rel=1e-12)
 
 
+@pytest.mark.slow
 def test_extremes_are_named_within_their_panels() -> None:
     """Two columns leave half of a page's width."""
     figure = motion_sheet.draw(design(worked("ty460")))

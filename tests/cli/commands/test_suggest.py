@@ -83,6 +83,7 @@ def test_refused_design_is_repaired(gearlink: Any, tmp_path: Path) -> None:
     assert ended.json["suggestions"][0]["path"] == "unloader.pivot_ratio"
 
 
+@pytest.mark.slow
 def test_key_that_is_left_out(gearlink: Any, designs: Path) -> None:
     arguments = ("swing", designs / "wide_swing_twin_cam.yaml", "--set", "cam.rocker_radius=80", "--suggest")
     ended = gearlink(*arguments, "--format", "json")
@@ -117,6 +118,7 @@ def test_quantity_stays_alone_on_standard_output(gearlink: Any, loop: Path) -> N
     assert "cycle_angle: 150 -> 101" in ended.err
 
 
+@pytest.mark.slow
 def test_what_cannot_be_repaired_keeps_its_status(gearlink: Any, designs: Path, tmp_path: Path) -> None:
     path = designs / "wide_swing_twin_rocker.yaml"
     ended = gearlink("swing", path, "--set", "limits.pressure_angle=1", "--suggest", "--format", "json")
@@ -143,7 +145,7 @@ def test_figure_is_that_of_the_repaired_design(gearlink: Any, tmp_path: Path, mo
     assert (command, value_at(spec, change["path"])) == ("gear", change["new"])
 
 
-@pytest.mark.quick(5)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("command", COMMANDS)
 def test_every_command_on_a_design_has_the_option(gearlink: Any, designs: Path, command: str) -> None:
     name, path = next(
@@ -191,6 +193,7 @@ links: {crank: 18, frame: 121.4}
 TWICE_WRONG = "kind: gear-pair\nmodule: 4\nteeth: [10, 12]\nprofile_shift: [0, 0]\n"
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("command", "text"), [("analyze", COLLIDING), ("gear", TWICE_WRONG)])
 def test_the_printed_options_repair_the_design(gearlink: Any, tmp_path: Path, command: str, text: str) -> None:
     path = tmp_path / "wrong.yaml"

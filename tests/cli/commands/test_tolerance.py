@@ -121,6 +121,7 @@ tolerance: {sources: {center_distance: {plus_minus: 0.03}}, samples: 32, sobol: 
 """
 
 
+@pytest.mark.slow
 def test_the_same_bytes_by_whatever_computes(gearlink: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "pair.yaml"
     path.write_text(PAIR)
@@ -135,6 +136,7 @@ def test_the_same_bytes_by_whatever_computes(gearlink: Any, tmp_path: Path, monk
     assert len({one.out for one in ended}) == 1
 
 
+@pytest.mark.slow
 def test_samples_of_a_register_are_the_same_by_whatever_computes(
     gearlink: Any, spec: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -263,6 +265,7 @@ UNKNOWN_NAMES = [
 ]
 
 
+@pytest.mark.quick(4)
 @pytest.mark.parametrize(("name", "setting", "code", "words"), UNKNOWN_NAMES)
 def test_names_that_the_design_does_not_have_are_refused_by_check_and_batch(
     gearlink: Any, tmp_path: Path, designs: Path, name: str, setting: str, code: str, words: str

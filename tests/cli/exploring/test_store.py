@@ -16,7 +16,7 @@ from typing import Any
 
 import pytest
 import yaml
-from sweeps import mostly_slow
+from sweeps import ALL, mostly_slow
 
 ROOT = Path(__file__).resolve().parents[3]
 STUDY: dict[str, Any] = {
@@ -53,7 +53,7 @@ def test_the_same_with_one_two_and_seven_processes_shares_and_any_executor(
     gearlink: Any, study: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     alone = json_of(gearlink, study, "--jobs", 1)
-    for jobs in (2, 7):
+    for jobs in (2, 7) if ALL else (2,):
         store = tmp_path / f"{jobs}.sqlite"
         assert json_of(gearlink, study, "--jobs", jobs, "--store", store) == alone
         assert json_of(gearlink, store) == alone
@@ -113,6 +113,7 @@ def chunks(store: Path) -> int:
         return -1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", mostly_slow([*range(20)], 1))
 def test_killed_at_any_moment_and_continued_it_is_the_same(
     gearlink: Any, study: Path, tmp_path: Path, seed: int

@@ -53,7 +53,7 @@ def table(path: Path) -> list[dict[str, str]]:
     return list(csv.DictReader(line for line in path.read_text().splitlines() if not line.startswith("#")))
 
 
-@pytest.mark.quick(5)
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(
     ("design", "parts"),
     [
@@ -251,6 +251,7 @@ def test_what_a_refusal_of_too_many_points_recommends_works(
         assert asked(int(remedy[3]) + 1, "--tolerance", 10).status == ExitCode.WRONG_INPUT
 
 
+@pytest.mark.slow
 def test_a_gear_of_a_thousand_teeth_is_written_in_bounded_work(gearlink: Any, tmp_path: Path) -> None:
     """Each vertex is written once: what copied the polyline for every vertex called numpy 40,000 times."""
     many = ("--set", "teeth=[1000, 1000]", "--set", "center_distance=4000", "--part", "gear1", "--out", tmp_path)
@@ -316,6 +317,7 @@ def test_a_file_in_the_way_of_the_folder(gearlink: Any, tmp_path: Path) -> None:
     assert "cannot write" in ended.err
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", ["../../x", "a--b -->", "ü漢字", "</svg>", "line\\nbreak"])
 def test_a_name_breaks_no_file(gearlink: Any, tmp_path: Path, name: str) -> None:
     formats = [word for form in ("dxf", "svg", "csv") for word in ("--as", form)]

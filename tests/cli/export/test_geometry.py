@@ -112,7 +112,7 @@ DISC_CAMS = [
 ]
 
 
-@pytest.mark.quick(4)
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("form", FORMS)
 @pytest.mark.parametrize(("build", "name"), DISC_CAMS)
 def test_disc_cams_follow_the_kernel(build: Any, name: str, form: CurveForm) -> None:
@@ -142,7 +142,7 @@ def test_the_reached_error_is_the_error(build: Any, name: str) -> None:
     assert 0.98 * exported.error <= found <= exported.error
 
 
-@pytest.mark.quick(3)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("build", "name"), DISC_CAMS)
 @pytest.mark.parametrize("form", FORMS)
 def test_the_roller_touches_the_drawn_profile(build: Any, name: str, form: CurveForm) -> None:
@@ -205,7 +205,7 @@ def test_circles_touch_the_profile() -> None:
 SMOOTH = [("main_cam", press), ("return_cam", gripper), ("main_cam", lambda: swing(0)), ("gear1", pair)]
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("form", FORMS)
 @pytest.mark.parametrize(("name", "build"), SMOOTH)
 def test_a_smaller_tolerance_gives_a_smaller_error(name: str, build: Any, form: CurveForm) -> None:

@@ -30,6 +30,7 @@ def rack_part(given: Any, form: CurveForm = CurveForm.POLYLINE) -> Any:
     return contour(parts.makers(design(given))["rack"](), 1e-3, form)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("given", [worked("rack_drive"), BENT], ids=["spur", "helical"])
 @pytest.mark.parametrize("form", list(CurveForm))
 def test_the_outline_is_closed_and_has_its_teeth_and_lines(given: Any, form: CurveForm) -> None:

@@ -32,6 +32,7 @@ FIGURES = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("command", "name", "ending"), mostly_slow(FIGURES, 1))
 def test_one_file_the_same_every_time(
     gearlink: Any, designs: Path, tmp_path: Path, command: str, name: str, ending: str
@@ -61,6 +62,7 @@ def test_nothing_half_written_remains(
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ending", mostly_slow(["svg", "png", "pdf"], 1))
 def test_every_panel_is_drawn_once(
     gearlink: Any, designs: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, ending: str

@@ -216,7 +216,7 @@ def test_every_command_draws(command: str) -> None:
     assert f"TY-460: {command}" in figure.get_suptitle()
 
 
-@pytest.mark.quick(2)
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "drawn"), odd_sheets(ODD))
 def test_odd_designs_draw_without_warnings(name: str, drawn: Any) -> None:
     keys, commands = ODD[name]
@@ -236,6 +236,7 @@ def test_no_legend_lies_on_curves(command: str) -> None:
             assert axes.get_legend().get_window_extent().y0 >= axes.get_window_extent().y1 - 1.0
 
 
+@pytest.mark.slow
 def test_the_shaft_is_drawn_where_the_file_gives_one() -> None:
     axes = panel(sheet("ty460", "cam", cam__shaft_radius=35.0).figure, "Main and return cam")
     (shaft,) = [patch for patch in axes.patches if getattr(patch, "radius", 0.0) == 35.0]

@@ -76,7 +76,7 @@ ODD = [
 ]
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(("keys", "drawn"), odd_sheets(ODD))
 def test_odd_pairs_draw(keys, drawn):
     drawn(DATA, "gear", **keys)
@@ -126,6 +126,7 @@ def test_safeties_stand_with_what_they_rest_on():
     assert panel(figure, "Blocking contour").patches
 
 
+@pytest.mark.slow
 def test_sliding_without_bounds_leaves_its_panel_and_is_not_cut_off():
     """Beside the base circle of 12 teeth sliding grows beyond bounds: the curve stays true, the panel ends."""
     made, figure = sheet({**DATA, "teeth": [12, 80], "profile_shift": [0.32, 0.0]}, "gear")
@@ -138,6 +139,7 @@ def test_sliding_without_bounds_leaves_its_panel_and_is_not_cut_off():
     assert drawn.max() <= axes.get_ylim()[1]
 
 
+@pytest.mark.slow
 def test_words_of_a_table_keep_clear_of_rules_and_of_each_other() -> None:
     """The names of meshes in the head, and every line between its rules."""
     _, figure = placed_sheet("candy_feed", "gear")
@@ -150,6 +152,7 @@ def test_words_of_a_table_keep_clear_of_rules_and_of_each_other() -> None:
     assert pitch > 1.3 * max(text.get_fontsize() for text in axes.texts)
 
 
+@pytest.mark.slow
 def test_the_nearest_limits_are_named_within_the_plot() -> None:
     """One lies near the left edge."""
     _, figure = placed_sheet("gear_pair", "gear")

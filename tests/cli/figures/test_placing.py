@@ -42,6 +42,7 @@ def test_what_is_filled_reaches_as_far_as_matplotlib_says(ours: Any, theirs: Any
     assert _limits(ours) == pytest.approx(_limits(theirs), rel=1e-12)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("name", "command"), [("ty460", "cam"), ("candy_feed", "synth dwell"), ("swing_gripper", "gripper")]
 )
@@ -66,6 +67,7 @@ def test_words_beside_panels_are_clear_of_all_numbers_and_in_a_line(name: str, c
         assert max(ends) - min(ends) <= 0.5
 
 
+@pytest.mark.slow
 def test_a_remark_below_a_table_keeps_clear_of_the_table_beside_it() -> None:
     made = settled(sheet("gear_pair", "gear").figure)
     renderer = FigureCanvasAgg(made).get_renderer()

@@ -31,7 +31,7 @@ def keys(case):
     return dict(zip(("stroke", "rod", "offset"), case, strict=True))
 
 
-@pytest.mark.quick(4)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("case", CASES)
 def test_curves(case):
     made, figure = sheet(DATA, "crank", **keys(case))
@@ -48,6 +48,7 @@ def test_curves(case):
         assert np.abs(slope - velocity)[2:-2].max() < 2e-3 * np.abs(velocity).max()
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("case", CASES)
 def test_positions_have_the_lengths_of_the_links(case):
     made, figure = sheet(DATA, "crank", **keys(case))

@@ -48,6 +48,7 @@ def test_marks_and_lines_are_the_kept_designs(study: Exploration) -> None:
     assert scatter[0].get_xlabel() == "frame length [mm]"
 
 
+@pytest.mark.slow
 def test_picture_and_page(gearlink: Any, tmp_path: Path) -> None:
     path = tmp_path / "study.yaml"
     path.write_text(json.dumps(KEYS))

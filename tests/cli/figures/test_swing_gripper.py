@@ -47,6 +47,7 @@ def test_law_is_that_of_the_motion_table(gripper: Sheet, order: int, ylabel: str
     np.testing.assert_allclose(line.get_ydata()[::4], expected, rtol=1e-12, atol=1e-12)
 
 
+@pytest.mark.slow
 def test_axes_on_the_right_are_the_rates_in_time() -> None:
     made, figure = placed_sheet(PAPER, "gripper")
     figure.canvas.draw()
@@ -188,7 +189,7 @@ def test_every_command_draws(command: str) -> None:
     assert f"paper: {command}" in figure.get_suptitle()
 
 
-@pytest.mark.quick(2)
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "drawn"), odd_sheets(ODD))
 def test_odd_designs_draw_without_warnings(name: str, drawn: Any) -> None:
     keys, commands = ODD[name]
@@ -201,7 +202,6 @@ def test_torques_are_left_out_where_the_file_has_none() -> None:
     assert not any(axes.get_title(loc="left").startswith("Torques") for axes in figure.axes)
 
 
-@pytest.mark.quick(1)
 @pytest.mark.parametrize("command", ["gripper", "analyze"])
 @pytest.mark.parametrize(
     "keys",

@@ -58,7 +58,7 @@ def test_every_command_draws(command, tmp_path):
     assert list(tmp_path.iterdir()) == [path]
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("case", "drawn"), odd_sheets(ODD))
 @pytest.mark.parametrize("command", ["analyze", pytest.param("gear", marks=pytest.mark.slow)])
 def test_odd_designs_draw(case, command, drawn):
@@ -94,6 +94,7 @@ def test_mechanism_is_to_scale():
     np.testing.assert_allclose(np.abs(circle), 18.0, rtol=1e-12)
 
 
+@pytest.mark.slow
 def test_letters_keep_off_the_links():
     axes = panel(placed_sheet(data(PRINTED)).figure, "Mechanism")
     chain = next(line for line in axes.lines if line.get_linewidth() > 2.0)

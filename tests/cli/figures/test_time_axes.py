@@ -43,6 +43,7 @@ def rows(axes: Any) -> list[Any]:
     return [child for child in axes.child_axes if child.get_gid() in (time_axes.ROW, time_axes.UNEVEN)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "command", "keys"), mostly_slow(CASES, 4))
 def test_charts_over_the_input_are_in_time_as_well(name: str, command: str, keys: dict[str, Any]) -> None:
     _, figure = sheet(name, command, **keys)
@@ -56,6 +57,7 @@ def test_charts_over_the_input_are_in_time_as_well(name: str, command: str, keys
         assert not any(rows(axes) for axes in sheet(name, command).figure.axes)
 
 
+@pytest.mark.slow
 def test_a_turn_of_the_axis_is_a_turn_in_time() -> None:
     _, figure = placed_sheet("candy_feed", "analyze", **GIVEN)
     charts = [axes for axes in figure.axes if rows(axes)]

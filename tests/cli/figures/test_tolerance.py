@@ -43,6 +43,7 @@ def test_percentiles_over_the_cycle_are_those_of_the_table() -> None:
     assert begins.get_xdata()[0] == pytest.approx(224.849, abs=0.01)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", ["candy_feed_tolerances", "ty460_register", "swing_gripper_register"])
 def test_register_sheet_shows_every_source(name: str) -> None:
     design, figure = sheet(name, "register")

@@ -22,6 +22,7 @@ def drawn(name: str, command: str, **keys: Any) -> Sheet:
     return sheet(f"wide_swing_{name}", command, **keys)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", mostly_slow(["twin_cam", "slider", "twin_rocker", "oscillating_cam"], 2))
 def test_law_is_the_table_s(name: str) -> None:
     made, figure = drawn(name, "swing")
@@ -177,7 +178,7 @@ ODD = [
 ]
 
 
-@pytest.mark.quick(2)
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "keys", "place"), odd_sheets(ODD))
 @pytest.mark.parametrize("command", ["swing", pytest.param("cam", marks=pytest.mark.slow)])
 def test_odd_designs_draw(name: str, keys: dict[str, Any], command: str, place: Any) -> None:

@@ -43,6 +43,7 @@ def pages(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("width", "height"), [(1280, 900), (390, 800)])
 def test_report_fits_and_its_film_is_in_view(window: Browser, pages: Path, width: int, height: int) -> None:
     window.size(width, height)
@@ -59,6 +60,7 @@ def test_report_fits_and_its_film_is_in_view(window: Browser, pages: Path, width
     assert window.problems() == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("width", "height"), [(1280, 900), (390, 700), (800, 420)])
 def test_player_needs_no_scrolling(window: Browser, pages: Path, width: int, height: int) -> None:
     window.size(width, height)

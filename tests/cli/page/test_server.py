@@ -91,21 +91,32 @@ def test_a_file_becomes_pieces_and_a_wrong_one_a_caret(tmp_path: Path) -> None:
     assert said["stale"] == ["head", "film", "piece-0-results", "input", "piece-0-sheet"]  # all, as they came
 
 
-def test_a_sheet_is_drawn_where_its_panels_were_and_again_where_they_moved(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Both end with the bytes of a report; only what moves the panels is drawn twice."""
-    sheets, crank = Remembered(), {"kind": "slider-crank", "name": "crank", "stroke": 310, "rod": 520}
-    first, like, wide = (design(crank, rod=rod) for rod in (520, 521, 52000))
+CRANK = {"kind": "slider-crank", "name": "crank", "stroke": 310, "rod": 520}
+
+
+def test_a_sheet_is_drawn_where_its_panels_were(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Both end with the bytes of a report."""
+    sheets = Remembered()
+    first, like = (design(CRANK, rod=rod) for rod in (520, 521))
     assert sheets.at_once("crank", first, ()) == sheet("crank", first)
     with monkeypatch.context() as patch:
         patch.setattr(ConstrainedLayoutEngine, "execute", None)  # whoever placed panels would fail
         drawn = sheets.at_once("crank", like, ())
     assert sheets.moved("crank", like, ()) == ""
     assert drawn == sheet("crank", like)
+
+
+@pytest.mark.slow
+def test_a_sheet_is_drawn_again_where_its_panels_moved() -> None:
+    """Only what moves the panels is drawn twice."""
+    sheets, wide = Remembered(), design(CRANK, rod=52000)
+    sheets.at_once("crank", design(CRANK), ())
     whole = sheet("crank", wide)
     assert sheets.at_once("crank", wide, ()) != whole
     assert sheets.moved("crank", wide, ()) == whole
 
 
+@pytest.mark.slow
 def test_words_of_a_title_do_not_move_panels(monkeypatch: pytest.MonkeyPatch) -> None:
     """The title of a wide swing names its angle: another angle must not cost another layout."""
     sheets = Remembered()

@@ -714,6 +714,7 @@ def test_a_name_that_cannot_head_a_picture(gearlink: Any, tmp_path: Path, name: 
     assert list(tmp_path.iterdir()) == [path]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name", mostly_slow(["中" * 200, "e\u0301" * 100, "x" * 200, "a\u200bb\u202ec", r'"a\nb\tc"'], 1)
 )
@@ -727,6 +728,7 @@ def test_any_name_of_letters_heads_every_page(gearlink: Any, tmp_path: Path, nam
     assert len(list(tmp_path.rglob("*.*"))) >= 5
 
 
+@pytest.mark.slow
 def test_a_file_name_that_is_no_text_heads_pages_too(gearlink: Any, tmp_path: Path) -> None:
     path = tmp_path / "bad\udcff.yaml"
     path.write_text(SLIDER_CRANK.removesuffix("name: "))

@@ -40,7 +40,7 @@ def _deep(folder: Path, names: list[str]) -> None:
         os.close(before)
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("command", [("check",), ("batch",), ("batch", "--out", "out")])
 def test_a_thousand_folders_deep(gearlink: Any, here: Path, command: tuple[str, ...]) -> None:
     _deep(here / "files", ["d"] * 1200)

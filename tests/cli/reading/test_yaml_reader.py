@@ -307,7 +307,6 @@ ATTACKS = {
 }
 
 
-@pytest.mark.quick(12)
 @pytest.mark.skipif(not yaml.__with_libyaml__, reason="the pure Python parser needs a minute for 1 MiB")
 @pytest.mark.parametrize("name", ATTACKS)
 def test_attacks_are_refused_at_once(name: str) -> None:
@@ -319,6 +318,7 @@ def test_attacks_are_refused_at_once(name: str) -> None:
     assert len(wrong.as_text()) < 1_000
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not yaml.__with_libyaml__, reason="the pure Python parser needs a minute for 1 MiB")
 @pytest.mark.parametrize("name", mostly_slow(["many elements", "empty lines", "odd keys"], 1))
 def test_attacks_take_little_memory(name: str) -> None:
@@ -332,6 +332,7 @@ def test_attacks_take_little_memory(name: str) -> None:
     assert peak < PEAK_BYTES
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", [name for name in ATTACKS if name.startswith(("deep", "alias"))])
 def test_nesting_attacks_on_the_pure_python_parser(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(yaml_reader, "EventParser", yaml.SafeLoader)

@@ -43,6 +43,7 @@ def test_each_unit_has_its_own_scale() -> None:
     assert scales(report) == {"mm": 200.0, "1": 1.0, "mm/s": 5000.0, "-": 0.0}
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(
     ("command", "design"),
     [

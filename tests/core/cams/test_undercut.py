@@ -53,6 +53,7 @@ def test_critical_roller_radius() -> None:
     assert top.value == pytest.approx(exact["kappa_max"], rel=1e-13)
 
 
+@pytest.mark.slow
 def test_swallowtail_begins_at_the_critical_radius() -> None:
     critical = float(CASES["UND-01"]["expected"]["r_g_crit"])
     beta = math.radians(60.0)

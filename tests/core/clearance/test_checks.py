@@ -107,6 +107,7 @@ def test_shafts_of_a_drag_link_that_overlap() -> None:
     assert check.value == pytest.approx(15.0 - 2.9 - 14.0, abs=1e-12)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("teeth", "frame"), [((25, 75), 79.0), ((20, 60), 64.0)])
 def test_rim_of_a_ring_gear_over_the_axis_of_the_rocker(teeth: tuple[int, int], frame: float) -> None:
     keys = {"gears__planet": teeth[0], "gears__ring": teeth[1], "links__frame": frame}

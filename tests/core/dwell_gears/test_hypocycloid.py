@@ -119,6 +119,7 @@ def test_widest_offset_against_sampling():
 RODS = [3.0 + 11.0 * i / 150 for i in range(151)]
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("degrees", [120.0, 90.0, 45.0])
 def test_minimax_and_least_ripple_against_a_scan(degrees):
     angle = math.radians(degrees)
@@ -138,6 +139,7 @@ def test_minimax_and_least_ripple_against_a_scan(degrees):
     assert calm.rod == pytest.approx(tangent_circle(1.0, 3, angle), rel=1e-8)
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("tolerance", [0.001, 0.01, 0.0111, 0.05])
 def test_widest_dwell_against_a_scan(tolerance):
     found = HypocycloidSlider(1.0, 3, widest_dwell(1.0, 3, tolerance)).dwell_angle(tolerance)

@@ -38,6 +38,7 @@ def hurried() -> Iterator[None]:
     sys.setswitchinterval(usual)
 
 
+@pytest.mark.slow
 def test_threads_share_what_a_gripper_keeps(hurried: None) -> None:
     alone = [single(base(), each, NAMES, ()) for each in changes()]
     shared = base()

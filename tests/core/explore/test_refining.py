@@ -36,6 +36,7 @@ def best(found: Exploration) -> float:
     return float(values[0])
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("wish", "end"), [("minimize", 130.0), ("maximize", 180.0)])
 def test_an_end_of_the_range_is_reached_and_never_left(wish: str, end: float) -> None:
     found = study(**{wish: {"frame_length": 0.001}})

@@ -67,6 +67,7 @@ def test_found_links_keep_what_they_promise(best: Any) -> None:
     assert all(low - 1e-12 <= place <= high + 1e-12 for place in places)
 
 
+@pytest.mark.slow
 def test_no_change_of_the_links_lowers_the_error(best: Any) -> None:
     fit, wanted = best.function_fit, best.wanted
     rng = np.random.default_rng(3)
@@ -193,6 +194,7 @@ def test_timed_design() -> None:
     assert made.table("search").length == 1
 
 
+@pytest.mark.slow
 def test_budget_is_kept_and_what_was_reached_is_told() -> None:
     made = design("five_bar_timed_points", target__budget=0.05)
     rounds = made.search_rounds

@@ -107,6 +107,7 @@ def test_distance_is_that_of_the_nearest_branch(bar):
     assert np.abs(points(bar, phi, OFFSET) - targets) == pytest.approx(away, abs=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("ratio", "targets", "degrees", "known"),
     mostly_slow(
@@ -168,6 +169,7 @@ def test_winding_near_a_dead_point():
     ] == (pytest.approx([0.0] * 181, abs=1e-9))
 
 
+@pytest.mark.slow
 def test_a_long_range_of_the_input_takes_bounded_work(monkeypatch: pytest.MonkeyPatch) -> None:
     """Ten turns of the input: candidates are dropped at the positions before their whole motion is followed."""
     calls = 0

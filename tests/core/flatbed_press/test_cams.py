@@ -342,6 +342,7 @@ def test_base_radius_by_curvature_against_the_roots_of_its_own_equation(cam):
     assert design.cam_base_radius >= max(needed) * (1.0 - 1e-12)
 
 
+@pytest.mark.slow
 def test_base_radius_that_is_named_keeps_the_roller():
     small = press(base_radius=40.0, lead_in=12.0)
     failed = [check for check in small.check("cam-undercut") if check.status == "fail"]

@@ -161,6 +161,7 @@ def test_a_mesh_that_does_not_exist_and_gears_that_are_not_given_are_refused() -
         made.report("register")
 
 
+@pytest.mark.slow
 def test_samples_of_the_chain_are_the_budget() -> None:
     """Sources of this size are linear; cam error and backlash are counted in both. A quantile of 2^14 samples: 2 %."""
     sizes = {key: one for key, one in SOURCES.items() if not key.startswith("pins")}

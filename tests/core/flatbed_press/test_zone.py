@@ -107,6 +107,7 @@ def tangent():
         return radius_of_tangency()
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("share", [1e-3, 1e-5, 1e-7, 1e-9, 1e-11])
 def test_nearly_double_equality_is_not_stepped_over(tangent, share):
     radius, phi = tangent

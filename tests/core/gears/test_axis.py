@@ -139,6 +139,7 @@ STUDIES |= {
 }
 
 
+@pytest.mark.quick(4)
 @pytest.mark.parametrize("name", STUDIES)
 @pytest.mark.parametrize("count", [64, pytest.param(16384, marks=pytest.mark.slow)])
 def test_refusals_statuses_and_values_are_those_of_the_class(name: str, count: int) -> None:
@@ -146,6 +147,7 @@ def test_refusals_statuses_and_values_are_those_of_the_class(name: str, count: i
     agree(sampled(base, "gear", variables, quantities, count))
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", ["distance", "profile", "helix", "ring"])
 def test_no_bit_depends_on_the_neighbours(name: str) -> None:
     base, variables, quantities = STUDIES[name]

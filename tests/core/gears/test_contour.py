@@ -119,6 +119,7 @@ def test_the_free_region_is_free_and_ends_at_its_limits() -> None:
             assert not found.is_free(replace(found.data, pair=pair))
 
 
+@pytest.mark.slow
 def test_lines_that_run_along_the_diagonals_are_found_too() -> None:
     """The root fillet of gear 1 goes on beyond the last diagonal that it crosses twice."""
     found = contour((23, 71), (0.3, 0.2))

@@ -46,6 +46,7 @@ def ulps(value: float, true: mp.mpf) -> float:
     return float(abs(mp.mpf(value) - true) / mp.mpf(math.ulp(float(true))))
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize(("low", "high"), ANGLES)
 def test_involute_against_many_digits(low, high):
     rng = random.Random(1)

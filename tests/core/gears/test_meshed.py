@@ -101,6 +101,7 @@ def pair_of_the_same_data(one, places, keys):
     return design({"kind": "gear-pair", "module": 2.0, "teeth": list(teeth), **own})
 
 
+@pytest.mark.quick(9)
 @pytest.mark.parametrize("helix", [0.0, 17.0])
 @pytest.mark.parametrize("name", KINDS)
 def test_a_mesh_is_the_gear_pair_of_the_same_data(name, helix):
@@ -455,8 +456,9 @@ def test_what_a_quantity_needs_is_said():
          "bending"),
         ("mutilated", {"load": {"torque": 90.0}, "face_width": [9.0, 9.0], "material": {"contact_limit": 500.0}},
          "pitting"),
-        ("function", {"tool": {"rounding": 0.38}, "addendum": 1.17, "profile_shift": [-0.3, 0.3]},
-         "fillet-interference"),
+        pytest.param(
+            "function", {"tool": {"rounding": 0.38}, "addendum": 1.17, "profile_shift": [-0.3, 0.3]},
+            "fillet-interference", marks=pytest.mark.slow),  # of all other checks together
         ("ring", {"assembly": "radial"}, "radial-assembly"),
         ("ring", {"ring": 54, "tool": {}}, "tip-fouling"),
     ],

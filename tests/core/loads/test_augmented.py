@@ -162,6 +162,7 @@ def _angle_beyond(sine: Any, cosine: Any, tangent: float) -> Any:
     return beyond + beyond**3 / 6.0
 
 
+@pytest.mark.quick(10)
 @pytest.mark.parametrize("case", CASES, ids=lambda case: str(case["name"]))
 @pytest.mark.parametrize("phi", [0.4, 2.9, 5.1])
 def test_forces_against_the_augmented_system(case: dict[str, Any], phi: float) -> None:

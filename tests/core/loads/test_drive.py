@@ -200,6 +200,7 @@ def test_a_motor_that_stalls_is_refused_at_its_key() -> None:
 # Pins, counterweights
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize(("name", "expected"), DATA["bearings"]["expected"].items())
 def test_bearing_loads_against_the_reference(name: str, expected: dict[str, float]) -> None:
     """The reference took 4096 rows: peaks to 1e-5, the kinks of the travel to 1e-6."""

@@ -122,6 +122,7 @@ def test_many_zones_take_few_rows() -> None:
     assert many.input_torque_max == pytest.approx(one.input_torque_max, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_hardly_any_friction_changes_hardly_anything() -> None:
     """Where forces turn as well as a zone ends, two breaks are one but for rounding; 1e-5 of the surplus."""
     free, rubbing = (

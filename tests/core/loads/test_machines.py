@@ -101,12 +101,16 @@ def held() -> Any:
     return factory.design("loaded_press", command="loads", loads__roller=ROLLER | {"preload": 5000})
 
 
-def test_a_follower_that_changes_cams_strikes(free: Any, held: Any) -> None:
-    """Each change of sign of the follower's force is one; a preload that holds both rollers leaves none."""
+def test_a_follower_that_changes_cams_strikes(free: Any) -> None:
+    """Each change of sign of the follower's force is one."""
     rows = np.linspace(0.0, 2.0 * math.pi, 2001)
     changes = np.count_nonzero(np.diff(np.sign(free.side_force(rows))))
     *_, found = free.check("load-reversal")
     assert (found.status, found.value) == ("warn", changes)
+
+
+@pytest.mark.slow
+def test_a_preload_that_holds_both_rollers_leaves_no_strike(held: Any) -> None:
     assert len(list(held.check("load-reversal"))) == len(held.meshes_found)
 
 

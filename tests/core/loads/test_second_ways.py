@@ -57,7 +57,7 @@ def test_both_input_torques_agree_in_every_kind(kind: str) -> None:
     assert _design(kind).power_identity <= 1e-12
 
 
-@pytest.mark.quick(3)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("kind", [kind for kind in LOADS if kind not in ("gear-pair", "flatbed-press")])
 def test_friction_in_every_kind_takes_power(kind: str) -> None:
     free, rubbing = (

@@ -255,6 +255,14 @@ def test_device_leaves_its_reserve_alone(base: str) -> None:
     assert design.contact_force_max == pytest.approx(design.design.contact_force, rel=1e-9)
 
 
+def test_the_arm_at_which_both_change_sides_is_named() -> None:
+    geometry = factory.design("wide_swing_slider_cam", slider__middle_angle=90)
+    (found,) = geometry.findings("swing", "side-change")
+    assert (found.code, found.status) == ("GL514", "fail")
+    assert found.remedy == (("slider.middle_angle", 73.18),)
+
+
+@pytest.mark.slow
 def test_device_and_roller_change_sides_together() -> None:
     """Where the slider is not fastest at mid-swing the device pushes the roller off its profile between the two."""
     apart = factory.design(
@@ -263,10 +271,6 @@ def test_device_and_roller_change_sides_together() -> None:
     law, cam = apart.design.motion.slider, apart.cam
     between = np.array([0.5 * (law.middle_place + apart.design.slot_of(cam)[0])])
     assert apart.design.unloading.contact_force(cam, between)[0] < 0.0
-    geometry = factory.design("wide_swing_slider_cam", slider__middle_angle=90)
-    (found,) = geometry.findings("swing", "side-change")
-    assert (found.code, found.status) == ("GL514", "fail")
-    assert found.remedy == (("slider.middle_angle", 73.18),)
     (loss,) = [f for f in apart.findings("loads", "contact-loss") if f.value == apart.least_contact_force]
     assert (loss.status, loss.remedy) == ("fail", (("slider.middle_angle", 73.18),))
     # under a spring that pulls little at mid-swing the slider's mass makes the rocker slowest there
@@ -309,6 +313,7 @@ def test_joints_whose_neighbours_are_unknown_are_left_out() -> None:
         assert ("D" in columns) == (base == "wide_swing_oscillating_cam")
 
 
+@pytest.mark.slow
 def test_standstills_of_the_cam_are_no_noise() -> None:
     """Beside a standstill the roller's way has no digits of its own; forces there are those of the limit."""
     design = factory.design("loaded_oscillating_cam", command="loads")
@@ -322,6 +327,7 @@ def test_standstills_of_the_cam_are_no_noise() -> None:
     assert "cam_torque_max" not in found
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(
     ("base", "changes"),
     [

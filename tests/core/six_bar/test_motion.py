@@ -294,6 +294,7 @@ def test_gears_of_one_plane_are_judged() -> None:
     assert six_bar(CLOSED).gear_gap is None  # trains that share the pin B lie in planes of their own
 
 
+@pytest.mark.slow
 def test_a_motion_of_many_turns_is_not_followed_for_seconds_to_find_a_remedy() -> None:
     """By counts, which do not depend on the machine: places that were followed, 25 in the time of a trial."""
     machine = six_bar(

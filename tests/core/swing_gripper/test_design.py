@@ -189,6 +189,7 @@ _NO_CAM = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", ["gripper", "analyze"])
 @pytest.mark.parametrize(("changes", "key", "words"), _NO_CAM, ids=["relative pole", "size"])
 def test_the_motion_is_shown_though_the_cam_is_impossible(command: str, changes: dict, key: str, words: str) -> None:

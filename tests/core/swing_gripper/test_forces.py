@@ -181,6 +181,7 @@ def test_rollers_on_one_side_are_refused() -> None:
     assert refused.value.key == "cam.return_roller.angle"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", mostly_slow(["gripper", "analyze", "cam"], 1))
 def test_rollers_on_one_side_leave_the_kinematics(command: str) -> None:
     """A failed check beside what stands: law, linkage and cams, with an angle of the roller that closes both."""

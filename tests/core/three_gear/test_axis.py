@@ -232,6 +232,10 @@ TASKS |= {
 }
 
 
+QUICK_TASKS = {"dwell", "dwell, ratio", "momentary", "window", "tolerance", "back-step, idler sought"}
+"""Each way to find a drive once."""
+
+
 def study(name: str, count: int) -> Problem:
     command, section, variables = TASKS[name]
     wish = section.get("dwell", {})
@@ -240,8 +244,9 @@ def study(name: str, count: int) -> Problem:
     return sampled({**BASE, **section}, command, variables, [*QUANTITIES, *own], count)
 
 
-@pytest.mark.quick(5)
-@pytest.mark.parametrize("name", TASKS)
+@pytest.mark.parametrize(
+    "name", [name if name in QUICK_TASKS else pytest.param(name, marks=pytest.mark.slow) for name in TASKS]
+)
 @pytest.mark.parametrize("count", [32, pytest.param(16384, marks=pytest.mark.slow)])
 def test_refusals_statuses_and_values_are_those_of_the_classes(name: str, count: int) -> None:
     agree(study(name, count), unsure=1.0 if name == "window, unequal" else 0.02)
@@ -287,7 +292,7 @@ def test_no_bit_depends_on_the_neighbours(name: str) -> None:
     bits_stand_alone(study(name, 1024))
 
 
-@pytest.mark.parametrize("name", ["analysis, band", "dwell, band", "dwell"])
+@pytest.mark.parametrize("name", ["analysis, band", pytest.param("dwell, band", marks=pytest.mark.slow), "dwell"])
 def test_a_start_that_is_one_of_two_is_left_to_the_class(name: str) -> None:
     command, section, variables = TASKS[name]
     made = sampled({**BASE, **section}, command, variables, ["tolerance_dwell_start", "tolerance_dwell_angle"], 64)

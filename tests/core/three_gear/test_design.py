@@ -125,7 +125,7 @@ def test_motion_table_against_the_cosine_rule(name, assembly):
     np.testing.assert_allclose(rows[:5, 1], np.cumsum([0.0, *(float(mp.degrees(s)) for s in steps)]), atol=1e-10)
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("assembly", BOTH)
 @pytest.mark.parametrize("name", DESIGNS)
 def test_extremes_and_standstills_against_a_search(name, assembly):
@@ -371,7 +371,7 @@ def test_shafts_that_the_file_does_not_name():
     )
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("assembly", BOTH)
 @pytest.mark.parametrize("name", DESIGNS)
 def test_nearest_approach_of_idler_and_input_shaft_by_a_search(name, assembly):

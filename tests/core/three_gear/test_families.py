@@ -112,6 +112,7 @@ def test_balanced_momentary_dwell_is_balanced(radii: tuple[float, float, float])
     assert crank * crank + frame * frame == pytest.approx(b * b + c * c, rel=1e-12)
 
 
+@pytest.mark.slow
 @settings(max_examples=12)
 @given(gears, st.floats(0.3, 0.95), st.floats(0.1, 3.0))
 def test_no_frame_stands_longer(radii: tuple[float, float, float], share: float, tolerance: float) -> None:

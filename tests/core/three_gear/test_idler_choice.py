@@ -106,6 +106,7 @@ def test_a_task_that_no_idler_can_do_keeps_its_own_refusal():
     assert caught.value.key == ""
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("radius", [10.0, 37.0])
 def test_the_idler_clears_the_shafts_of_the_file(radius):
     """Brute force over the idlers: limits and shafts; 37 mm is more than the idler beside the output shaft leaves."""
@@ -125,6 +126,7 @@ def test_the_idler_clears_the_shafts_of_the_file(radius):
     assert bool(good) == ("fail" not in found["shaft-clearance"])
 
 
+@pytest.mark.slow
 def test_more_teeth_on_crank_and_output_make_room_for_the_input_shaft():
     """The idler keeps r1 - m from the crank's axis where it folds: only larger gears 1 and 5 help."""
     data = {"kind": "three-gear-four-bar", "gears": {"module": 2, "crank": 40, "output": 40}, "dwell": {"angle": 90.0}}

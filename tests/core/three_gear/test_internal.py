@@ -198,7 +198,7 @@ def brute_window(linkage: FourBar, train: GearTrain, tolerance: float) -> float:
     return best * math.tau / count
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(("radii", "crank"), [((24.0, 17.0, -54.0), 22.0), ((30.0, 20.0, -70.0), 27.0)])
 def test_no_frame_has_a_longer_window(radii: tuple[float, float, float], crank: float) -> None:
     """The whole turning range of frames, by brute force."""
@@ -366,6 +366,7 @@ def test_tooth_force_accelerates_the_output(gears: Any, links: Any, radius: floa
     assert [check.status for check in found.check("power-identity")] == ["pass"]
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("command", "options"), [("tolerance", ("--samples", "16")), ("register", ())])
 def test_tolerances_of_a_ring_are_answered(
     command: str, options: tuple[str, ...], gearlink: Any, tmp_path: Path

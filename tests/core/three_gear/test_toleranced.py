@@ -64,6 +64,7 @@ COUNTS = (12 if ALL else 4, pytest.param(256, marks=pytest.mark.slow))
 """Samples that are computed alone as well."""
 
 
+@pytest.mark.quick(6)
 @pytest.mark.parametrize("name", DRIVES)
 def test_without_deviations_the_general_class_is_the_ordinary_one(name: str) -> None:
     nominal = DRIVES[name]()
@@ -75,6 +76,7 @@ def test_without_deviations_the_general_class_is_the_ordinary_one(name: str) -> 
         assert got == pytest.approx(wanted, rel=1e-12, abs=1e-12, nan_ok=True), quantity
 
 
+@pytest.mark.quick(4)
 @pytest.mark.parametrize("name", DRIVES)
 @pytest.mark.parametrize("count", COUNTS)
 def test_many_drives_at_once_are_those_computed_alone(name: str, count: int) -> None:

@@ -49,6 +49,7 @@ def test_sizes_scatter_together_as_the_copula_of_openturns(row: dict[str, Any]) 
     assert found.half_width < 1e-3
 
 
+@pytest.mark.slow
 def test_sobol_indices_of_a_kinked_swing_are_those_of_salib() -> None:
     """Other estimators on other points of the same drive: each within both intervals together."""
     data = {

@@ -161,6 +161,7 @@ def test_sobol_indices_cover_and_are_never_negative(name: str) -> None:
     assert {place: count for place, count in hits.items() if not 930 <= count <= most.get(place, 970)} == {}
 
 
+@pytest.mark.slow
 def test_no_estimate_of_a_study_is_off_in_the_mean() -> None:
     """The mean of 30 studies within four standard errors of the truth, and the intervals of some such size."""
     rows = [estimates(seed, 2**13) for seed in range(30)]

@@ -91,6 +91,7 @@ def study(law: dict[str, Any], **section: Any) -> Any:
     return factory.design(CANDY | {"tolerance": given | section}, command="tolerance")
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(
     "law",
     [{"law": "uniform"}, {"law": "triangular", "mode": 0.01}, {"cp": 1.33, "cpk": 0.8, "shift": "up"}],
@@ -119,6 +120,7 @@ def _process(law: dict[str, Any], limit: float) -> dict[str, Any]:
     return law | ({"mode": law["mode"] * limit / 0.02} if "mode" in law else {})
 
 
+@pytest.mark.slow
 def test_correlated_parts_need_finer_grades() -> None:
     """Crank and frame that both come out too long add up; apart they nearly cancel by their squares."""
     group = [{"sources": ["links.crank", "links.frame"], "rho": 0.99}]

@@ -108,6 +108,7 @@ def test_cheapest_grades_are_those_of_all_choices() -> None:
     assert found.cost == pytest.approx(case["expected"][1], abs=1e-9)
 
 
+@pytest.mark.slow
 def test_allocation_reaches_its_target() -> None:
     sources = {key: value | {"grades": [5, 11]} for key, value in FOUR.items()}
     made = study(CANDY, sources=sources, require=["back_step_angle <= 20.36 deg"], target_yield=0.99, samples=2**15)

@@ -41,6 +41,7 @@ def study(name: str, **section: Any) -> Any:
     return factory.design(name, command="tolerance", tolerance=section)
 
 
+@pytest.mark.quick(5)
 @pytest.mark.parametrize("name", mostly_slow(list(STUDIES), len(STUDIES) - 3))
 def test_samples_spread_as_the_slopes_say_and_are_the_same_from_their_text(name: str) -> None:
     keys, wish = STUDIES[name]

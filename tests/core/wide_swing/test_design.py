@@ -274,7 +274,7 @@ def test_contradictions_of_the_file(changes: dict[str, Any], words: str) -> None
         design(**changes)
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("factor", [1e-6, 1e-3, 1e6])
 def test_similar_designs(factor: float) -> None:
     """Lengths scale; angles, zones, ratios and findings stay."""
@@ -506,6 +506,7 @@ class TestSections:
         assert errors[1] / errors[4] == pytest.approx(100.0, rel=0.02)
         assert "iteration_error" not in design().outline("swing").quantities
 
+    @pytest.mark.slow
     def test_every_quantity_of_every_outline_is_known(self) -> None:
         rocker = design(layout="twin-rocker", swing=150.0, cycle_angle=90.0, unloader=SPRING)
         marched = design(method="iteration", iteration_steps=10)

@@ -100,6 +100,7 @@ def _by_dalembert(layout: str, swing: float, cycle: float, k: float, rate: float
         return float(1000 * (mp.mpf("0.5") * acceleration - device) / lever)
 
 
+@pytest.mark.quick(8)
 @pytest.mark.parametrize(("layout", "swing", "cycle"), [("twin-cam", 120.0, 100.0), ("twin-rocker", 150.0, 60.0)])
 @pytest.mark.parametrize("k", [0.0625, 0.25, 0.4375, 0.75])
 @pytest.mark.parametrize(("reserve", "share"), [(0.3, 1.0), (0.3, 0.5), (0.0, 0.9), (0.1, 1.2)])

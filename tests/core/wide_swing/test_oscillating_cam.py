@@ -169,6 +169,7 @@ def test_bulging_end_is_covered_and_hollow_end_is_not() -> None:
     assert cam.roller_radius / float(cam.points(np.array([first])).curvature_radius[0]) == pytest.approx(0.75, rel=0.03)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("cam", [example(), example(assembly=-1), example(roller=2.0)])
 def test_least_radius_is_that_of_the_points_that_are_touched(cam: OscillatingCam) -> None:
     """What the table prints where it gives a profile is nowhere a smaller bulge than the quantity says."""

@@ -65,6 +65,7 @@ def test_profile_stands_on_the_normal_and_the_pressure_angle_on_the_arm() -> Non
         assert abs(float(at.pressure_angle[0])) == pytest.approx(angle, abs=1e-6)
 
 
+@pytest.mark.slow
 def test_roller_nowhere_enters_the_profile() -> None:
     made = cam()
     (first, start), (end, last) = made.contact
