@@ -351,8 +351,12 @@ class OscillatingCam:
         rate: tuple[Reals, Reals],
         k: Reals,
     ) -> Reals:
-        """delta; where cam and rocker stand still the ratio of their accelerations takes the velocities' place."""
-        end = (k == 0.0) | (k == 1.0)
+        """delta; where cam and rocker stand still the ratio of their accelerations takes the velocities' place.
+
+        Notes
+            So it does next to a standstill, where the ratio of the velocities has no right digits: off by 1e-8 there.
+        """
+        end = np.minimum(k, 1.0 - k) <= _AT_STOP
         cam, rocker = np.where(end, chi[1], chi[0]), np.where(end, rate[1], rate[0])
         across, along = self.ratio * (cam + rocker) - cam * np.cos(phi), cam * np.sin(phi)
         side = np.where(along < 0.0, -1.0, 1.0)

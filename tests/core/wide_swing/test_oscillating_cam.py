@@ -11,6 +11,7 @@ import math
 from pathlib import Path
 from typing import Any
 
+import factory
 import mpmath as mp
 import numpy as np
 import pytest
@@ -186,3 +187,26 @@ def test_standing_roller_that_covers_all_is_refused_with_a_number() -> None:
     limit = float(refused.value.message.split("less than ")[1].split(" mm")[0])
     assert example(150.0).transition_zone == 0.5
     assert example(0.999 * limit).transition_zone < 0.5
+
+
+def test_next_to_a_standstill_the_pressure_angle_is_that_of_the_stop() -> None:
+    """Both speeds vanish there: their ratio is rounding, and what divides by a cosine of it took 2 % more."""
+    near = 10.0 ** -np.linspace(8.0, 17.0, 200)
+    for cam in (CAM, example()):
+        start, end = cam.pressure_angle(np.array([0.0, 1.0]))
+        assert cam.pressure_angle(near) == pytest.approx(start, abs=1e-7)
+        assert cam.pressure_angle(1.0 - near) == pytest.approx(end, abs=1e-7)
+
+
+def test_greatest_contact_force_is_the_same_in_other_units() -> None:
+    """Above its lift-off speed the force is greatest at the end of the stroke; all lengths 1.7 times as long."""
+    data = factory.worked("wide_swing_oscillating_cam")
+    force = factory.design(data, command="swing", unloader__residual=0.34).contact_force
+    sizes = [(section, key) for section in ("drive", "cam", "unloader") for key in data[section]]
+    larger = {
+        f"{section}__{key}": 1.7 * data[section][key]
+        for section, key in sizes
+        if key not in ("stroke", "type", "pivot_ratio", "reserve")
+    }
+    made = factory.design(data, command="swing", unloader__residual=0.34, inertia=0.2 * 1.7**2, **larger)
+    assert made.contact_force == pytest.approx(1.7 * force, rel=1e-9)
