@@ -65,18 +65,20 @@ def _sections(loaded: LoadedFile, kind: Kind, spec: Any, options: Options) -> li
     """
     from gearlink.cli.page.side_by_side import side_by_side
 
-    studies: dict[str, Design] = {}
-    commands = (*spec.commands(), *_budgets(kind, spec, studies))
+    commands = (*spec.commands(), *_budgets(kind, spec))
 
-    def built(command: str) -> Part:
+    def built(command: str) -> Part | None:
+        study: Any = kind.design(command, spec) if command == "tolerance" else None
+        if study is not None and not study.is_short:
+            return None
         asked = options._replace(tables=_tables(kind, command, spec))
-        return build(loaded, kind, command, spec, asked, made=studies.get(command))
+        return build(loaded, kind, command, spec, asked, made=study)
 
     made = side_by_side(lambda i: _section(built(commands[i]), filmed=i == 0), len(commands))
     if made is None:
         parts = [built(command) for command in commands]
         made = [_section(part, filmed=i == 0) for i, part in enumerate(parts)]
-    return made
+    return [section for section in made if section is not None]
 
 
 def _tables(kind: Kind, command: str, spec: Any) -> tuple[str, ...]:
@@ -85,22 +87,21 @@ def _tables(kind: Kind, command: str, spec: Any) -> tuple[str, ...]:
     return shown
 
 
-def _budgets(kind: Kind, spec: Any, studies: dict[str, Design]) -> Iterator[str]:
+def _budgets(kind: Kind, spec: Any) -> Iterator[str]:
     """Register budget and tolerance study of a file that has them; samples that take long have their own command."""
     if getattr(spec, "tolerance", None) is None:
         return
     if getattr(spec, "register_", None) is not None and "register" in kind.commands:
         yield "register"
-    study: Any = kind.design("tolerance", spec)
-    if study.is_short:
-        studies["tolerance"] = study
-        yield "tolerance"
+    yield "tolerance"
 
 
-def _section(part: Part, *, filmed: bool) -> Section:
+def _section(part: Part | None, *, filmed: bool) -> Section | None:
     from gearlink.cli.page import sections
     from gearlink.cli.page.sheets import sheet
 
+    if part is None:
+        return None
     design, report = part
     film = sections.film(design) if filmed else ""
     drawn = sheet(report.command, design, report.checks)

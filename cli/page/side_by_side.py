@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Any, TypeAlias
 
 from gearlink.core.errors import GearlinkError
@@ -43,7 +44,7 @@ def side_by_side(make: Make, count: int) -> list[Any] | None:
             found = {0: make(0)} | _taken()
             for other in others:
                 found |= other.result()
-            if None in found.values():
+            if len(found) < count:
                 raise _Refused("a piece cannot be made")
     except GearlinkError:
         return None
@@ -54,12 +55,10 @@ def side_by_side(make: Make, count: int) -> list[Any] | None:
 
 
 def _taken() -> dict[int, Any]:
-    """Make what nobody has taken until nothing is left; None for what was refused."""
+    """Make what nobody has taken until nothing is left; what was refused is missing."""
     ((make, following),) = _TASKS
     found: dict[int, Any] = {}
     while number := os.read(following, 1):
-        try:
+        with suppress(GearlinkError):
             found[number[0]] = make(number[0])
-        except GearlinkError:
-            found[number[0]] = None
     return found
