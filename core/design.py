@@ -66,7 +66,7 @@ def placed(path: str) -> Any:
 
 
 class UnknownName(GearlinkError):
-    """A quantity or table was asked for that this design does not have."""
+    """A quantity, table or command was asked for that this design does not have."""
 
     def __init__(self, what: str, name: str, known: Sequence[str]) -> None:
         super().__init__(f"this design has no {what} named {named(name)}")
@@ -291,6 +291,8 @@ class Design:
             NoSolution - where no mechanism exists
         """
         self._require_names(quantities, tables)
+        if not (quantities or only or command in self.outlines):
+            raise UnknownName("command", command, tuple(self.outlines))
         outline = Outline(tuple(quantities)) if quantities or only else self.outline(command)
         asked = dict.fromkeys([*(() if findings_only else outline.tables), *tables])
         found: Iterable[Quantity | None] = ()

@@ -78,6 +78,11 @@ def test_changed_leaves_the_design_as_it_is(designs: Path) -> None:
     assert other.crank_length != before == crank.crank_length
 
 
+def test_a_command_of_another_kind_is_refused(designs: Path) -> None:
+    with pytest.raises(gearlink.GearlinkError, match="this design has no command named 'gripper'"):
+        gearlink.load(designs / "ty460.yaml").report("gripper")
+
+
 def test_only_what_the_door_made_can_be_changed() -> None:
     kind = KINDS["slider-crank"]
     bare = kind.design_class("crank")(kind.spec_model()(**CRANK))
