@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from factory import design
 
 from gearlink.core.linkages import fourbar_sweep
 from gearlink.core.linkages.fourbar import FourBar
@@ -136,3 +137,21 @@ def test_the_direction_in_which_the_output_is_counted_does_not_change_its_errors
     for name in ("crank", "idler_output", "output_gear", "pin_a"):
         one, other = (getattr(register_gains(each, angles, sign), name) for each, sign in ((drive, 1), (back, -1)))
         assert other == pytest.approx(-one, abs=1e-13), name
+
+
+SOURCES: dict[str, Any] = {
+    key: {"plus_minus": 0.01} for key in ("links.crank", "links.frame", "centers.crank_idler", "centers.idler_output")
+} | {f"pins.{pin}": {"clearance": [0.0, 0.01]} for pin in "ABCD"}
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_sampled_sources_move_the_output_as_their_gains_say(sign: int) -> None:
+    """Over h = 1 um the difference is off by h^2 and eps/h; a pin of the loop moves along its own direction alone."""
+    made = design("candy_feed", command="register", tolerance={"sources": SOURCES}, register={"at": 0})
+    phi, h, none = np.radians([60.0, 250.0]), 1e-3, dict.fromkeys(SOURCES, np.zeros(1))
+    for one in made.contributions(phi, sign):
+        for way in (1.0, 1j) if np.iscomplexobj(one.gain) else (1.0 + 0j,):
+            parts = none | {one.source: np.array([h * way if one.source.startswith("pins") else h])}
+            back = none | {one.source: -parts[one.source]}
+            ends = [made.sampled_errors(phi, sign, each)[:, 0] for each in (parts, back)]
+            assert (ends[0] - ends[1]) / (2.0 * h) == pytest.approx((one.gain * way).real, abs=1e-7), one.source
