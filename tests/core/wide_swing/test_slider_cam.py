@@ -49,6 +49,18 @@ def test_roller_is_fastest_on_the_line_of_centres() -> None:
     assert made.rocker_radius == pytest.approx(A / (1.0 + float(b.max()) * GAMMA / ANGLE), rel=1e-8)
 
 
+def test_each_half_goes_on_through_the_middle_of_its_symmetric_stroke() -> None:
+    """Beyond mid-swing as before it: the rates of the view are those of its angle, by differences over h."""
+    made, h = cam(), 1e-5
+    for late in (False, True):
+        half = HalfLaw(made.law, made.middle, late)
+        for k in (0.2, 0.45, 0.55, 0.8):
+            low, at, high = (half.middle_view(np.array([k + side * h])) for side in (-1, 0, 1))
+            assert (high.angle - low.angle) / (2.0 * h) == pytest.approx(half.swing * at.velocity, rel=1e-7)
+            assert (high.velocity - low.velocity) / (2.0 * h) == pytest.approx(at.acceleration, rel=1e-6, abs=1e-6)
+            assert at.velocity + at.deficit == pytest.approx(half.velocity_peak, rel=1e-13)
+
+
 def test_profile_stands_on_the_normal_and_the_pressure_angle_on_the_arm() -> None:
     made, h = cam(), 1e-5
     for k in (0.05, 0.3, 0.55, 0.8, 0.95):
