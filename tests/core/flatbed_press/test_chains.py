@@ -24,7 +24,7 @@ from sweeps import examples
 from gearlink.core.errors import NoSolution
 from gearlink.core.flatbed_press.chains import BedChain, CylinderChain, difference
 from gearlink.core.linkages.fourbar import FourBar
-from gearlink.core.linkages.slider_crank import crank_length
+from gearlink.core.linkages.slider_crank import SliderCrank
 
 REFERENCE = json.loads((Path(__file__).parents[2] / "reference" / "flatbed_press.json").read_text())
 EXPECTED = REFERENCE["flatbed_press"][0]["expect"]
@@ -39,7 +39,7 @@ def _digits():
 
 
 def bed_of(press: Press) -> BedChain:
-    crank = crank_length(press.stroke / 2.0, press.rod, press.offset)
+    crank = SliderCrank(press.stroke / 2.0, press.rod, press.offset).crank_length
     return BedChain(FourBar(*press.bed), math.radians(press.crank_offset_angle), crank, press.rod, press.offset)
 
 

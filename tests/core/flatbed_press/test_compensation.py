@@ -26,7 +26,7 @@ from gearlink.core.flatbed_press.chains import BedChain, CylinderChain
 from gearlink.core.flatbed_press.compensation import Compensation
 from gearlink.core.flatbed_press.zone import equal_speed_angle, zone_end
 from gearlink.core.linkages.fourbar import FourBar
-from gearlink.core.linkages.slider_crank import crank_length
+from gearlink.core.linkages.slider_crank import SliderCrank
 
 REFERENCE = json.loads((Path(__file__).parents[2] / "reference" / "flatbed_press.json").read_text())
 EXPECTED = REFERENCE["flatbed_press"][0]["expect"]
@@ -48,7 +48,7 @@ def _digits():
 
 
 def follower(press: Press, *, start=None, end=None, length=420.0, **changes) -> Compensation:
-    crank = crank_length(press.stroke / 2.0, press.rod, press.offset)
+    crank = SliderCrank(press.stroke / 2.0, press.rod, press.offset).crank_length
     bed = BedChain(FourBar(*press.bed), math.radians(press.crank_offset_angle), crank, press.rod, press.offset)
     cylinder = CylinderChain(
         FourBar(*press.cylinder), math.radians(press.initial_crank_angle), press.radius, press.gear_ratio

@@ -22,7 +22,7 @@ from gearlink.core.errors import NoSolution
 from gearlink.core.flatbed_press.chains import BedChain, CylinderChain, difference
 from gearlink.core.flatbed_press.zone import equal_speed_angle, equal_speed_angles, forward_stroke_end, zone_end
 from gearlink.core.linkages.fourbar import FourBar
-from gearlink.core.linkages.slider_crank import crank_length
+from gearlink.core.linkages.slider_crank import SliderCrank
 
 REFERENCE = json.loads((Path(__file__).parents[2] / "reference" / "flatbed_press.json").read_text())
 EXACT = REFERENCE["flatbed_press"][0]["expect"]["sync_exact"]
@@ -35,7 +35,7 @@ def _digits():
 
 
 def chains(press: Press) -> tuple[BedChain, CylinderChain]:
-    crank = crank_length(press.stroke / 2.0, press.rod, press.offset)
+    crank = SliderCrank(press.stroke / 2.0, press.rod, press.offset).crank_length
     bed = BedChain(FourBar(*press.bed), math.radians(press.crank_offset_angle), crank, press.rod, press.offset)
     angle = math.radians(press.initial_crank_angle)
     return bed, CylinderChain(FourBar(*press.cylinder), angle, press.radius, press.gear_ratio)
