@@ -6,7 +6,7 @@ import json
 import os
 from collections.abc import Mapping
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from gearlink.cli.evaluate import named, require_command
 from gearlink.cli.reading.design_file import load as load_file
@@ -20,12 +20,18 @@ if TYPE_CHECKING:
 
     from gearlink.core.design import Design
 
+    class Opened(Design):
+        """A design of some kind: type checkers know the methods of all, and take quantities by name for any type."""
+
+        def __getattr__(self, name: str) -> Any: ...
+
+
 _KEYWORDS = "<design>"
 Values = Mapping[str, Any]
 """Values by the dotted paths of a design file, as for `--set`: {"gears.crank": 42, "teeth[1]": 20}."""
 
 
-def load(source: str | os.PathLike[str], values: Values | None = None, *, command: str | None = None) -> Design:
+def load(source: str | os.PathLike[str], values: Values | None = None, *, command: str | None = None) -> Opened:
     """The design of a file.
 
     Parameters
@@ -33,7 +39,7 @@ def load(source: str | os.PathLike[str], values: Values | None = None, *, comman
         values : values put over those of the file, by dotted path, in the units of design files
         command : str - a command of its kind, such as "analyze"; by default the first that the file asks for
     Returns
-        Design - its quantities are attributes in mm and radians, computed when asked for; `quantity` and `table`
+        a design; its quantities are attributes in mm and radians, computed when asked for; `quantity` and `table`
         give them in the units of design files
     Raises
         GearlinkError - with file, line, column and key of the first thing that is wrong
@@ -45,7 +51,7 @@ def load(source: str | os.PathLike[str], values: Values | None = None, *, comman
     return _opened(load_file(source, overrides=_settings(values)), command)
 
 
-def design(command: str | None = None, **keys: Any) -> Design:
+def design(command: str | None = None, **keys: Any) -> Opened:
     """The design that the keys of a design file describe.
 
     Parameters
@@ -61,7 +67,7 @@ def design(command: str | None = None, **keys: Any) -> Design:
     return _opened(parse(_text(keys, indent=1).encode(), _KEYWORDS), command)
 
 
-def changed(design: Design, values: Values) -> Design:
+def changed(design: Design, values: Values) -> Opened:
     """A design like another with some values of its file changed; the other stays as it is.
 
     Parameters
@@ -95,12 +101,12 @@ def figure(design: Design, command: str | None = None) -> Figure:
     return draw(command or vars(design)["_command"], design)
 
 
-def _opened(loaded: LoadedFile, command: str | None) -> Design:
+def _opened(loaded: LoadedFile, command: str | None) -> Opened:
     kind = KINDS[read_kind(loaded, tuple(KINDS))]
     spec = named(validate(loaded, kind.spec_model()), "-" if loaded.file == _KEYWORDS else loaded.file)
     wanted = command or spec.commands()[0]
     require_command(loaded, kind, wanted)
-    made: Design = _placed(kind.class_for(wanted, spec))(spec)
+    made = cast("Opened", _placed(kind.class_for(wanted, spec))(spec))
     vars(made).update(_loaded=loaded, _command=wanted)
     return made
 

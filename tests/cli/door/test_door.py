@@ -169,3 +169,19 @@ def test_kernels_stand_in_their_packages() -> None:
 def test_designs_travel_between_processes(designs: Path) -> None:
     crank: Any = pickle.loads(pickle.dumps(gearlink.load(designs / "ty460_slider_crank.yaml")))
     assert crank.crank_length == gearlink.load(designs / "ty460_slider_crank.yaml").crank_length
+
+
+@pytest.mark.slow
+def test_type_checkers_take_quantities_by_name_and_know_what_all_designs_have(designs: Path, tmp_path: Path) -> None:
+    page = tmp_path / "page.py"
+    page.write_text(
+        "import gearlink\n"
+        "press = gearlink.changed(gearlink.load('ty460.yaml'), {'speed': 5000})\n"
+        "length: float = press.crank_length\n"
+        "unit: str = press.quantity('crank_length')\n"
+        "gearlink.load(3)\n"
+    )
+    options = ["--strict", "--cache-dir", str(tmp_path / "cache"), str(page)]
+    shown = subprocess.run([sys.executable, "-m", "mypy", *options], cwd=designs.parent, capture_output=True, text=True)
+    wrong = [line.split(":")[1] for line in shown.stdout.splitlines() if ": error:" in line]
+    assert wrong == ["4", "5"], shown.stdout + shown.stderr
