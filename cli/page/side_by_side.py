@@ -27,11 +27,14 @@ def side_by_side(make: Make, count: int) -> list[Any] | None:
         make : gives what can be sent from a process to another
         count : int - below 256
     Returns
-        what was made, in order; None on a machine with a single processor, and where a piece was refused
+        what was made, in order; None on a machine with a single processor, and where a piece was refused or a
+        process died
     """
     spare = len(os.sched_getaffinity(0)) - 1 if sys.platform == "linux" else 0
     if min(spare, count - 1) < 1:
         return None
+    from concurrent.futures import BrokenExecutor
+
     from gearlink.cli.workers import workers
 
     following, write = os.pipe()  # a byte is read by one process alone
@@ -46,7 +49,7 @@ def side_by_side(make: Make, count: int) -> list[Any] | None:
                 found |= other.result()
             if len(found) < count:
                 raise _Refused("a piece cannot be made")
-    except GearlinkError:
+    except (GearlinkError, BrokenExecutor):
         return None
     finally:
         os.close(following)

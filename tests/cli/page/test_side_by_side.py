@@ -45,6 +45,18 @@ def test_nothing_is_given_where_a_piece_is_refused(which: int) -> None:
     assert side_by_side(make, 4) is None
 
 
+def test_nothing_is_given_where_a_process_dies() -> None:
+    here = os.getpid()
+
+    def make(i: int) -> int:
+        if os.getpid() != here:
+            os._exit(9)
+        time.sleep(0.1)
+        return i
+
+    assert side_by_side(make, 3) is None
+
+
 def test_a_single_processor_or_piece_is_left_to_the_caller(monkeypatch: pytest.MonkeyPatch) -> None:
     assert side_by_side(lambda i: i, 1) is None
     monkeypatch.setattr("os.sched_getaffinity", lambda _: {0})
