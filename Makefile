@@ -45,7 +45,7 @@ test: $(READY)
 test-core: TESTS = tests/core
 test-rest: TESTS = tests --ignore=tests/core
 test-core test-rest: $(READY)
-	$(PYTEST) -p no:logging $(TESTS) --timeout 200 --timeout-method thread
+	$(PYTEST) -p no:logging $(TESTS) --patience 200
 
 check: lint types test
 

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import faulthandler
 import gc
 import io
 import json
+import math
 import os
+import time
 from collections.abc import Generator
 from dataclasses import dataclass
 from functools import wraps
@@ -72,6 +75,42 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         for i, item in enumerate(found):
             if i not in kept:
                 item.add_marker("slow")
+
+
+# A test that waits for ever
+
+REARMED = 20.0
+"""The watch over the tests is set anew with the first test that begins so many seconds later: a timer thread for each
+test took a millisecond of each, of most of them a third."""
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption(
+        "--patience", type=float, help="seconds after which a test that does not end is shown and ends all"
+    )
+
+
+class Watch:
+    """Shows the stacks of all threads and ends the run when a test takes longer than `patience` seconds."""
+
+    def __init__(self, patience: float, stderr: int) -> None:
+        self.patience, self.stderr, self.set = patience, stderr, -math.inf
+
+    @pytest.hookimpl(tryfirst=True)
+    def pytest_runtest_logstart(self) -> None:
+        if (now := time.monotonic()) > self.set + REARMED:
+            self.set = now
+            faulthandler.dump_traceback_later(self.patience + REARMED, exit=True, file=self.stderr)
+
+    def pytest_unconfigure(self) -> None:
+        faulthandler.cancel_dump_traceback_later()
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    if (patience := config.getoption("--patience", None)) is not None:
+        with config.pluginmanager.getplugin("capturemanager").global_and_fixture_disabled():
+            stderr = os.dup(2)
+        config.pluginmanager.register(Watch(patience, stderr))
 
 
 # What the tests cost
