@@ -105,6 +105,11 @@ class Design:
         """What was computed of this design so far, in trials, where that differs much from one to the next."""
         return 0
 
+    @property
+    def costly(self) -> bool:
+        """Whether to compute this design takes as long as tens of trials of others."""
+        return False
+
     def outline(self, command: str) -> Outline:
         """The outline of a command."""
         return self.outlines[command]
@@ -186,6 +191,15 @@ class Design:
         ):
             if wrong := [name for name in names if name not in known]:
                 raise UnknownName(what, wrong[0], known)
+        for name in tables:
+            self.require_table(name)
+
+    def require_table(self, _name: str, /) -> None:
+        """Refuse a table that needs a section which the file does not have, before anything is computed.
+
+        Raises
+            MissingSection
+        """
 
     def table_in_parts(self, name: str, samples: int) -> Table:
         """A table by name that holds some ten thousand of its rows at a time, where they can be computed so."""

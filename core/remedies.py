@@ -26,6 +26,8 @@ _GROWTH = 1.35
 _FARTHEST, _LEAST_STEPS = 3.0, 30
 _RANK = {"pass": 0, "warn": 1, "fail": 2}
 _PASSES, _HOLDS = 2, 1
+_COSTLY = 4
+"""Trials that are costly, of a design that is not."""
 REFUSAL = "refusal"
 """Name under which a design gives candidates where it is refused."""
 
@@ -153,6 +155,7 @@ class Bench:
         self._command = command
         self._patient = patient
         self._left = 0
+        self._costly = 0
         self._trials: dict[Remedy, Design | None] = {}
         self._candidates: dict[str, tuple[list[Remedy], Iterator[Remedy]]] = {}
         self._grades: dict[tuple[Remedy, str, int], int] = {}
@@ -243,12 +246,19 @@ class Bench:
         """The design after a remedy; None where the file cannot say so."""
         if remedy not in self._trials:
             spec = changed(self._design.spec, remedy) if remedy else None
-            trial = None if spec is None else self._design.varied(spec)
+            trial = None if spec is None else self._affordable(self._design.varied(spec))
             if trial is not None:
                 self._left -= 1
                 trial.advises = False
             self._trials[remedy] = trial
         return self._trials[remedy]
+
+    def _affordable(self, trial: Design) -> Design | None:
+        """The trial; None where it costs much more than the design, and as much was spent already."""
+        if trial.costly and not self._design.costly:
+            self._costly += 1
+            return trial if self._costly <= _COSTLY else None
+        return trial
 
     def _stands(self, remedy: Remedy) -> bool:
         trial = self._trial(remedy)

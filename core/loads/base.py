@@ -107,10 +107,10 @@ class LoadsBase(Design):
 
     @property
     def effort(self) -> int:
-        """Loads are computed over every turn of the period; with friction they take some ten times as long."""
+        """Loads are computed over every turn of the period; with friction they take some twenty times as long."""
         if "machine" not in self.__dict__:
             return 0
-        return (self.turns - 1) * (10 if self.machine.friction is not None else 1)
+        return (self.turns - 1) * (20 if self.machine.friction is not None else 1)
 
     @property
     def shaft_inertia(self) -> float:

@@ -61,6 +61,7 @@ BALANCE = (
 PIN = ("peak", "equivalent", "travel", "life", "bearing_pressure")
 MESH = ("tooth_force_max", "reversals")
 TABLES = ("torque", "joints", "teeth", "frame", "speed", "spectrum", "harmonics")
+OF_VIBRATION = ("spectrum", "harmonics")
 VIBRATION = (
     "natural_frequency",
     "frequency_ratio",
@@ -216,9 +217,17 @@ class LoadsDesign(BalancedLoads):
     @property
     def vibrating_given(self) -> Vibrating:
         """The same, refused where the file does not give it."""
+        self._require_vibration()
+        return self.vibrating
+
+    def _require_vibration(self) -> None:
         if self.section.vibration is None:
             raise MissingSection("this table needs loads.vibration: {frequency: Hz}", key="loads")
-        return self.vibrating
+
+    def require_table(self, name: str, /) -> None:
+        """Those of the vibration need its section."""
+        if name in OF_VIBRATION:
+            self._require_vibration()
 
     speed_unit_name: ClassVar[str] = "1/min"
 

@@ -223,6 +223,11 @@ class DwellSynthesis(BackStepFamily):
         """Where no idler serves, all of them were tried, which takes as long as two other trials."""
         return 0 if self._no_idler is None else 1
 
+    @property
+    def costly(self) -> bool:
+        """Unequal gears, of which each idler that is tried is a search of its own: some tenths of a second."""
+        return self.general and self.spec.gears.idler is None
+
     # What is reached
 
     @cached_property

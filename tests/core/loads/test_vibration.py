@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 from gearlink.core.cams.laws import law
-from gearlink.core.errors import NoSolution
+from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.loads.vibration import Oscillator, Panelled, PeriodicResponse, harmonics, speed_limit
 
 DATA = json.loads((Path(__file__).parents[2] / "reference" / "loads.json").read_text())
@@ -221,3 +221,11 @@ def test_a_machine_whose_speed_jumps_has_no_vibration_here() -> None:
     with pytest.raises(NoSolution) as error:
         _ = design.natural_frequency
     assert error.value.key == "loads.vibration"
+
+
+@pytest.mark.parametrize("table", ["spectrum", "harmonics"])
+def test_tables_of_a_vibration_that_is_not_given_are_refused_before_any_force(table: str) -> None:
+    loads = factory.design("loaded_six_bar", command="loads", loads__vibration=None)
+    with pytest.raises(MissingSection, match=r"loads\.vibration"):
+        loads.report("loads", tables=(table,))
+    assert "machine" not in loads.__dict__
