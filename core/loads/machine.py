@@ -125,10 +125,21 @@ class Machine:
 
     def _reactions(self, phi: Reals) -> Reactions:
         if phi.size > _BLOCK:  # for the memory's sake
-            parts = [self._reactions(phi[start : start + _BLOCK]) for start in range(0, phi.size, _BLOCK)]
-            unknowns = {name: np.hstack([part.unknowns[name] for part in parts]) for name in parts[0].unknowns}
-            return Reactions(unknowns, np.hstack([part.torque for part in parts]), self.at(phi))
+            return self._by_blocks(phi)
         return with_friction(self.at(phi), self.masses, self.applied(phi), self.gravity, self.speed, self.friction)
+
+    def _by_blocks(self, phi: Reals) -> Reactions:
+        """The same of many rows; of a block nothing is kept but its forces."""
+        torque, unknowns = np.empty(phi.size), dict[str, Reals]()
+        for start in range(0, phi.size, _BLOCK):
+            rows = slice(start, start + _BLOCK)
+            part = replace(self, kept={}, kept_few={})._reactions(phi[rows])
+            torque[rows] = part.torque
+            for name, values in part.unknowns.items():
+                if name not in unknowns:
+                    unknowns[name] = np.empty((len(values), phi.size))
+                unknowns[name][:, rows] = values
+        return Reactions(unknowns, torque, self.at(phi))
 
     def torque(self, phi: Reals) -> Reals:
         """Input torque at the constant speed [N m]; with friction, that of the reactions."""

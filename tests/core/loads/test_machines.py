@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import math
+import weakref
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +17,8 @@ from gearlink.core.flatbed_press.chains import Travel
 from gearlink.core.flatbed_press.loads import PressLoads
 from gearlink.core.loads import friction
 from gearlink.core.loads.kinematics import Turn
-from gearlink.core.loads.mechanism import Contact
+from gearlink.core.loads.mechanism import Contact, Link, Mechanism
+from gearlink.core.numerics.arrays import Reals
 
 PRESS = json.loads((Path(__file__).parents[2] / "reference" / "loads.json").read_text())["press"]
 
@@ -186,3 +189,29 @@ def test_spur_gears_have_no_axial_force() -> None:
     )
     assert design.raw("axial_force_max") is None
     assert "mesh_12_axial" not in design.table("teeth", samples=2).columns
+
+
+def test_of_many_rows_the_links_are_held_once_and_once_more_for_the_block_in_hand() -> None:
+    """The forces are those of each block alone, to the last bit."""
+    machine = factory.design("loaded_six_bar", command="loads").machine
+    made: list[weakref.ref[Link]] = []
+    most = 0
+
+    def counted(phi: Reals) -> Mechanism:
+        nonlocal most
+        most = max(most, 1 + sum(each() is not None for each in made))
+        found = machine.kinematics(phi)
+        made.append(weakref.ref(found.links["output"]))
+        return found
+
+    phi = np.linspace(0.0, 6.0, 4 * 4096 + 5)
+    assert machine.locking[0] < 1.0
+    held = replace(machine, kinematics=counted, kept={}, kept_few={})
+    vars(held)["locking"] = machine.locking
+    found = held.reactions(phi)
+    assert (len(made), most) == (6, 2)
+    for rows in (slice(0, 4096), slice(4 * 4096, None)):
+        alone = machine.reactions(phi[rows])
+        assert np.array_equal(found.torque[rows], alone.torque)
+        for name, values in alone.unknowns.items():
+            assert np.array_equal(found.unknowns[name][:, rows], values), name
