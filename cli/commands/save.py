@@ -62,7 +62,7 @@ def save(
     assert options.save is not None
     text = complete(loaded, kind, command, design, options.save, options.round, changes)
     again = "analyze" if "analyze" in kind.commands else command
-    failing = _failing_when_rounded(kind, again, text, options)
+    rounded = _as_rounded(kind, again, text, options)
     if options.save == STREAM:
         sys.stdout.write(text)
     else:
@@ -70,35 +70,48 @@ def save(
         if not options.quiet:
             path = visible(str(options.save))
             print(f"wrote {path}; try: gearlink {again} {path}", file=sys.stderr)
-    worse = [check for check in failing if check.code not in _codes(design, command)]
+    worse = [] if rounded is None else _worse(rounded, again, design, command)
     for check in worse:
         print(f"rounded to {options.round:g} mm it fails {check.code} {check.name}: {check.message}", file=sys.stderr)
     return ExitCode.FINDING if worse else ExitCode.OK
 
 
-def _failing_when_rounded(kind: Kind, command: str, text: str, options: Options) -> list[Check]:
-    """The checks that the rounded design fails.
+def _as_rounded(kind: Kind, command: str, text: str, options: Options) -> Design | None:
+    """The rounded design, computed; None where nothing is rounded.
 
     Raises
         DesignFileError - GL115 where rounding leaves no mechanism
     """
     if options.round is None:
-        return []
+        return None
     try:
-        return _failing(kind, command, validate(parse(text.encode(), str(options.save)), kind.spec_model()))
+        design = kind.design(command, validate(parse(text.encode(), str(options.save)), kind.spec_model()))
+        design.require(command)
+        _failing(design, command)
     except (DesignFileError, NoSolution) as error:
         reason = error.message if isinstance(error, NoSolution) else error.diagnostics[0].message
         words = f"rounded to {options.round:g} mm there is no such mechanism: {reason}; take a smaller step"
         raise DesignFileError([Diagnostic("GL115", words, file="<command line>", key="--round")]) from error
+    return design
 
 
-def _failing(kind: Kind, command: str, spec: Any) -> list[Check]:
-    report = kind.design(command, spec).report(command, findings_only=True)
-    return [check for check in report.checks if check.status == "fail"]
+def _worse(rounded: Design, again: str, design: Design, command: str) -> list[Check]:
+    """What the rounded design fails and the design does not; remedies are sought of that alone."""
+    failing = _failing(rounded, again)
+    known = {code for codes in _failing(design, command).values() for code in codes}
+    new = {code for codes in failing.values() for code in codes} - known
+    found = [check for name, codes in failing.items() if codes & new for check in rounded.findings(again, name)]
+    return [check for check in found if check.status == "fail" and check.code in new]
 
 
-def _codes(design: Design, command: str) -> set[str]:
-    return {check.code for check in design.report(command, findings_only=True).checks if check.status == "fail"}
+def _failing(design: Design, command: str) -> dict[str, set[str]]:
+    """The codes of what fails, by check; advice, which nobody reads, is not sought."""
+    advises, design.advises = design.advises, False
+    try:
+        found = {name: design.check(name) for name in design.outline(command).checks}
+    finally:
+        design.advises = advises
+    return {name: {each.code for each in checks if each.status == "fail"} for name, checks in found.items()}
 
 
 def complete(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import cache
 from typing import TYPE_CHECKING
 
 from gearlink.core.cams.disc_cams import DiscCams
@@ -11,6 +12,8 @@ from gearlink.core.results import cached_property
 from gearlink.core.swing_gripper.motion import require
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from gearlink.core.cams.disc_cam import DiscCam
     from gearlink.core.cams.profile import RollerPath
     from gearlink.core.numerics.arrays import Reals
@@ -144,8 +147,15 @@ class GripperCams(DiscCams):
         """Smallest radius of each profile [mm]."""
         return tuple(cam.min_radius for cam in self.discs)
 
-    def center_remedy(self, limit: float) -> str:
-        """Where the smallest cams stand that keep a pressure angle [deg] over the turn, to a tenth of a millimetre."""
+    @cached_property
+    def center_remedy(self) -> Callable[[float], str]:
+        """Where the smallest cams stand that keep a pressure angle [deg] over the turn, to a tenth of a millimetre.
+
+        Sought once for each limit, however many checks tell of it.
+        """
+        return cache(self._center_remedy)
+
+    def _center_remedy(self, limit: float) -> str:
         longer = "lengthen the phase in which it occurs"
         try:
             center = self.center_for(0.99 * limit)

@@ -86,6 +86,28 @@ def test_a_rounding_that_breaks_a_check_is_said(gearlink: Any, tmp_path: Path) -
     assert gearlink("analyze", path).status == 1
 
 
+def test_what_failed_before_it_was_rounded_seeks_no_remedy_again(
+    gearlink: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Nor a better place of the cams: the remedies of the design as it is are the ones that are shown."""
+    from gearlink.core.remedies import Bench
+    from gearlink.core.swing_gripper.cams import GripperCams
+
+    sought: list[Any] = []
+    centers: list[float] = []
+    monkeypatch.setattr(Bench, "remedy", lambda *asked: sought.append(asked) or ())
+    monkeypatch.setattr(GripperCams, "_center_remedy", lambda _, limit: centers.append(limit) or "move the cams")
+    line = ["analyze", DESIGNS / "swing_gripper.yaml", "--set", "limits.pressure_angle=5", "--format", "json"]
+    ended = gearlink(*line)
+    assert ended.status == 1
+    first = len(sought), sorted(centers)
+    assert first[0] > 0
+    assert centers
+    assert len(centers) == len(set(centers))
+    gearlink(*line, "--save", tmp_path / "full.yaml", "--round", "0.1")
+    assert (len(sought), sorted(centers)) == (2 * first[0], sorted(2 * first[1]))
+
+
 @pytest.mark.parametrize("step", ["100", "40"])
 def test_a_rounding_that_leaves_no_mechanism_writes_nothing(gearlink: Any, tmp_path: Path, step: str) -> None:
     path = tmp_path / "full.yaml"
