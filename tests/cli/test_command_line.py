@@ -327,6 +327,7 @@ def test_a_width_of_nothing_is_an_unknown_width(gearlink: Any, crank: Path, monk
     assert gearlink("crank", crank).out == usual != ""
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("share", ["١/٢", "1/²", "1/+2", " 1/2", "0/2", "3/2", "1", "1/"])
 def test_a_share_is_written_in_plain_digits(gearlink: Any, crank: Path, share: str) -> None:
     ended = gearlink("batch", crank, "--shard", share)

@@ -44,6 +44,7 @@ def names(folder: Path) -> set[str]:
     return {path.name for path in folder.iterdir()}
 
 
+@pytest.mark.quick(12)
 @pytest.mark.parametrize("place", ["-", ""])
 @pytest.mark.parametrize("line", FOLDERS.values(), ids=FOLDERS)
 def test_what_is_no_folder_is_refused_before_anything_is_written(
@@ -57,6 +58,7 @@ def test_what_is_no_folder_is_refused_before_anything_is_written(
     assert names(box) == {"crank.yaml"}
 
 
+@pytest.mark.quick(5)
 @pytest.mark.parametrize("line", FILES.values(), ids=FILES)
 @pytest.mark.parametrize(
     ("place", "words"),

@@ -169,6 +169,7 @@ def test_a_file_name_that_is_no_utf8(gearlink: Any, tmp_path: Path, line: str) -
     assert "\udcff" not in ended.out + ended.err
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", ["##vso[task.x]", "a##[error]\u202eb\u200b", "20° ###"])
 def test_json_keeps_the_name_and_shows_nothing_that_steers(
     gearlink: Any, designs: Path, tmp_path: Path, name: str

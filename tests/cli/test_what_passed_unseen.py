@@ -69,6 +69,7 @@ def test_a_lead_in_brings_the_speed_to_the_zone(gearlink: Any, designs: Path) ->
     assert gearlink("check", designs / "ty460.yaml", *settings).status == 0
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("wish", ["dwell_tolerance=0.5", "dwell_backlash=0.5"])
 @pytest.mark.parametrize("name", ["tolerance_dwell_angle", "acceleration_ratio_max"])
 def test_a_synthesis_honours_the_wishes_of_an_analysis(gearlink: Any, tmp_path: Path, wish: str, name: str) -> None:

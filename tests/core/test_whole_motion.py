@@ -30,6 +30,7 @@ def slope_error(values, rate, step):
     return np.max(np.abs(slope - rate[1:-1])) / np.max(np.abs(rate))
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(("name", "members"), LINKS)
 def test_every_link_moves_as_its_angle_says(name, members):
     found, step = design(name).table("links", samples=7200), math.radians(0.05)

@@ -54,6 +54,7 @@ def test_zero_free_length() -> None:
     assert pendulum_stretch_ratio(3.0, 2.0) * (longest - 2.0) == pytest.approx(2.0, rel=8 * ROUNDING)
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("swing", [0.01, 1.0, 3.0, math.radians(300.0)])
 def test_touching_pins(swing: float) -> None:
     """N at lambda = 1 by adaptive quadrature: l = 2 sin(phi/2), E = 2 [sin(gamma/4) - sin(phi/2)]."""

@@ -35,7 +35,7 @@ designs. `loads` has the design and, for a flywheel or a motor, the forces of se
 speed. All other commands, and so the limit that a reader waits for, keep 2 s.
 """
 MEGABYTES = 200.0
-FEW, MANY = 20, int(os.environ.get("GEARLINK_MUTATIONS", "6000"))
+FEW, MANY = 10, int(os.environ.get("GEARLINK_MUTATIONS", "6000"))
 CONTROLS = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f]")
 FORMATS = ("json", "json", "json", "table", "csv", "md")
 

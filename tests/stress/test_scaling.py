@@ -115,6 +115,7 @@ def traced(sweep: Callable[[int], float], count: int) -> float:
     return peak / 2.0**20
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", SWEEPS)
 def test_memory_in_use_stays(name: str) -> None:
     """A sweep of twenty blocks needs what one of four blocks needs."""

@@ -116,6 +116,7 @@ def test_motion_of_whole_drives() -> None:
     worst.check("worst whole drives", len(drawn), MOTION_LIMITS)
 
 
+@pytest.mark.quick(2)
 @LONGER_NUMBERS
 @pytest.mark.parametrize(
     ("links", "ratio", "carrier", "phi"),

@@ -149,6 +149,7 @@ class TestBroken:
         assert word in again.err
         assert again.err.count("note:") == 1
 
+    @pytest.mark.quick(2)
     @pytest.mark.parametrize("data", [b"", b"{", b"[" * 200_000, b"\xff" * 100, b'{"status": 77}'])
     def test_bytes(self, batch: Any, tmp_path: Path, data: bytes) -> None:
         first = batch()
@@ -204,6 +205,7 @@ class TestKey:
         key = own_key()
         assert (tmp_path / ".local" / "state" / "gearlink" / "cache.key").read_bytes() == key
 
+    @pytest.mark.quick(3)
     @pytest.mark.parametrize(
         ("spoil", "word"),
         [

@@ -239,12 +239,14 @@ class TestFormats:
         assert lines
         assert all(pattern.fullmatch(line) for line in lines)
 
+    @pytest.mark.quick(3)
     @pytest.mark.parametrize("form", ["table", "csv", "md", "github", "junit", "sarif"])
     def test_a_wrong_file_is_told_its_remedy(self, gearlink: Any, tmp_path: Path, form: str) -> None:
         (tmp_path / "a.yaml").write_text("kind: slider-crank\nstroek: 310\nrod: 520\noffset: 50\n")
         out = gearlink("batch", tmp_path, "--format", form).out
         assert "unknown key 'stroek'; did you mean 'stroke'?" in " ".join(out.split()).replace("&apos;", "'")
 
+    @pytest.mark.quick(2)
     @pytest.mark.parametrize("form", ["table", "csv", "md"])
     def test_readers(self, gearlink: Any, folder: Path, form: str) -> None:
         out = gearlink("batch", folder, "--format", form).out

@@ -105,6 +105,7 @@ def test_links_keep_their_length(path: Path) -> None:
             assert telescope or float(np.ptp(lengths)) <= room
 
 
+@pytest.mark.quick(3)
 @each_design
 def test_nothing_jumps_at_the_seam(path: Path) -> None:
     scene = build(design_of(path), np.array([0.0, 1.0]))
@@ -119,6 +120,7 @@ def test_nothing_jumps_at_the_seam(path: Path) -> None:
     assert all(abs(mark.point[1] - mark.point[0]) <= room for mark in scene.marks)
 
 
+@pytest.mark.quick(3)
 @each_design
 def test_nothing_jumps_within_the_loop(path: Path) -> None:
     count = 240
@@ -130,6 +132,7 @@ def test_nothing_jumps_within_the_loop(path: Path) -> None:
         assert float(np.abs(np.diff(body.turn)).max()) <= 20.0 * TURN / count
 
 
+@pytest.mark.quick(3)
 @each_design
 def test_pictures_are_as_many_as_teeth_need(path: Path) -> None:
     scene = build(design_of(path), np.arange(96) / 96.0)
@@ -153,6 +156,7 @@ def test_the_three_gears_roll_on_each_other(designs: Path) -> None:
     np.testing.assert_allclose(np.abs(output.place - idler.place), 112.0, rtol=1e-13)
 
 
+@pytest.mark.quick(5)
 @pytest.mark.parametrize(
     "name",
     [
@@ -276,6 +280,7 @@ def test_bed_and_cylinder_run_together_in_the_zone() -> None:
     assert float(np.ptp(gap)) < 1e-9 * 420.0
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("without", [("cam",), ("input_gears",), ("cam", "input_gears")])
 def test_a_press_without_its_optional_sections_moves(tmp_path: Path, without: tuple[str, ...]) -> None:
     spec = yaml.safe_load((DESIGNS / "ty460.yaml").read_text())
@@ -371,6 +376,7 @@ def test_page_and_picture_place_parts_alike(designs: Path) -> None:
         assert np.abs(there - stage.pixels(placed(body, 2))).max() < 0.05
 
 
+@pytest.mark.quick(3)
 @each_design
 def test_all_that_moves_stays_on_the_picture(path: Path) -> None:
     stage = Stage(build(design_of(path), np.arange(24) / 24.0), path.stem, 640, 480)

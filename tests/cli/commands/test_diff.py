@@ -232,6 +232,7 @@ RESULT = (
 )
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(
     ("old", "new", "status"),
     [
@@ -295,6 +296,7 @@ def test_a_mechanism_that_does_not_exist(gearlink: Any, two: Any) -> None:
 # The comparison itself
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize(
     ("old", "new", "equal"),
     [

@@ -58,6 +58,7 @@ def test_law_over_the_swing_is_that_of_the_design() -> None:
             assert value == pytest.approx(made.quantity(name.replace("-", "_")).value, rel=1e-13)
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("name", NEW)
 def test_tables_and_gaps(gearlink: Any, name: str) -> None:
     chart = CHARTS[name]

@@ -40,6 +40,7 @@ def test_sums_of_teeth_by_brute_force(internal: bool, helix: float, module: floa
         assert inside == (total in found), total
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(
     ("internal", "ratio", "tolerance"), [(False, 3.2, 0.1), (False, 0.6, 0.02), (True, 5.5, 0.02), (True, 1.3, 0.3)]
 )

@@ -129,6 +129,7 @@ def test_check_makes_a_study_ready_and_does_not_search(
     assert (ended.status, [each["code"] for each in ended.json["findings"]]) == (2, ["GL155"])
 
 
+@pytest.mark.quick(4)
 @pytest.mark.parametrize("command", ["check", "diff", "batch"])
 @pytest.mark.parametrize(
     ("keys", "code"),

@@ -275,6 +275,7 @@ def finished(tmp_path_factory: pytest.TempPathFactory) -> bytes:
     return (folder / "s").read_bytes()
 
 
+@pytest.mark.quick(7)
 @pytest.mark.parametrize(
     ("change", "value"),
     [

@@ -358,6 +358,7 @@ def test_flanks_are_involutes(spec: dict[str, Any], number: int) -> None:
     assert np.abs(from_space - half_space).max() < 1e-12
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("form", FORMS)
 @pytest.mark.parametrize("spec", PAIRS)
 def test_tooth_thickness_on_the_reference_circle(spec: dict[str, Any], form: CurveForm) -> None:

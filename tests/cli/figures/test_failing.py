@@ -48,6 +48,7 @@ def test_the_least_transmission_angle_is_the_foot_of_its_curve(name: str) -> Non
     assert np.min(line.get_ydata()) == pytest.approx(least, abs=1e-2)
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", ["ty460_slider_crank", "hypocycloid_slider", "mutilated_gear_press", "six_bar_swing"])
 def test_a_design_that_passes_has_no_red(name: str) -> None:
     assert red(sheet(name).figure) == []

@@ -139,6 +139,7 @@ def test_the_rim_of_the_file_is_drawn_and_exported():
     assert (ring.outer, ring.inner) == (90.0, pytest.approx(abs(made.raw("tip_radius")[1])))
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("name", [name for name in DRAWN if name != "mutilated"])
 def test_rexs_has_the_shifts_widths_and_hands_of_the_file(name):
     data = DRAWN[name]

@@ -308,7 +308,10 @@ ATTACKS = {
 
 
 @pytest.mark.skipif(not yaml.__with_libyaml__, reason="the pure Python parser needs a minute for 1 MiB")
-@pytest.mark.parametrize("name", ATTACKS)
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(name, marks=pytest.mark.slow) if name in ("empty lines", "quotes") else name for name in ATTACKS],
+)
 def test_attacks_are_refused_at_once(name: str) -> None:
     text, code = ATTACKS[name]
     start = time.process_time()

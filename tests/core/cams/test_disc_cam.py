@@ -43,6 +43,7 @@ def lobes(size: float, depth: float, roller: float) -> DiscCam:
     return DiscCam("two lobes", path, 1, roller)
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("sense", [1, -1])
 @pytest.mark.parametrize(("radius", "offset", "roller"), [(60.0, 20.0, 15.0), (100.0, 5.0, 80.0), (0.05, 0.01, 0.02)])
 def test_eccentric_circle(radius, offset, roller, sense):
@@ -84,6 +85,7 @@ def test_least_convex_radius_of_two_lobes(size, depth):
     assert (cam.max_radius, cam.min_radius) == pytest.approx((0.9 * size + depth, 0.9 * size - depth), rel=1e-13)
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("roller", [44.8, 50.0, 60.0])
 def test_roller_that_cuts_through_the_neck_from_the_other_side(roller):
     # No cusp: the least convex radius is 64 mm. But the neck is 2 x 40 mm wide, and the roller takes its radius

@@ -128,8 +128,7 @@ def moments(shares: tuple[Fraction, ...], x: float) -> list[mpmath.mpf]:
     ]
 
 
-@pytest.mark.quick(2)
-@pytest.mark.parametrize("name", mostly_slow(list(SHARES), 3))
+@pytest.mark.parametrize("name", mostly_slow(list(SHARES), 1))
 def test_integrals_of_the_acceleration(name: str) -> None:
     shares = SHARES[name]
     rule, follower = law(name), law(f"velocity-{name}")
@@ -150,6 +149,7 @@ def differentiated(coefficients: list[Fraction], times: int) -> list[Fraction]:
     return coefficients
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", COEFFICIENTS)
 @given(x=IN_UNIT)
 @examples(50)
@@ -225,6 +225,7 @@ def test_float_and_array_agree(x: float, rule: Law) -> None:
         assert many[0] == pytest.approx(one, rel=0.0, abs=2 * EPS * peak)
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("rule", ALL, ids=named)
 def test_order_skips_but_does_not_change(rule: Law) -> None:
     full = rule.evaluate(0.3)
@@ -232,6 +233,7 @@ def test_order_skips_but_does_not_change(rule: Law) -> None:
         assert rule.evaluate(0.3, order) == full[: order + 1]
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("rule", ALL, ids=named)
 def test_ends(rule: Law) -> None:
     start, end = rule.evaluate(0.0, 2), rule.evaluate(1.0, 2)

@@ -188,6 +188,7 @@ def test_mirrored_machine_has_the_mirrored_cam() -> None:
     assert other.cam_angles == pytest.approx(one.cam_angles[::-1], abs=1e-6)
 
 
+@pytest.mark.slow
 def test_a_wider_limit_gives_a_smaller_cam() -> None:
     radii = [smallest_cam(math.radians(limit)).prime_radius for limit in (20.0, 25.0, 30.0, 40.0)]
     assert radii == sorted(radii, reverse=True)

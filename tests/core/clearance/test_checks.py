@@ -222,6 +222,7 @@ def test_a_shaft_and_a_ring(reach: Reach, radius: float, gap: float, angle: floa
         assert found.angle == angle
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("frame", [12.0, 40.0, 55.5])
 @pytest.mark.parametrize(
     ("start", "end"), [(0.0, 360.0), (10.0, 170.0), (-30.0, 5.0), (175.0, 190.0), (350.0, 800.0), (361.0, 539.0)]

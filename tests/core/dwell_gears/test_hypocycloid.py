@@ -146,6 +146,7 @@ def test_widest_dwell_against_a_scan(tolerance):
     assert found >= max(HypocycloidSlider(1.0, 3, rod).dwell_angle(tolerance) for rod in RODS)
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("rod", [7.0, 8.0, 7.3, 6.5])
 def test_dwell_angle_against_sampling(rod):
     slider, tolerance = HypocycloidSlider(1.0, 3, rod), 0.013

@@ -239,6 +239,7 @@ def test_wrong_wishes(keys: dict[str, Any], words: str) -> None:
         factory.design("mutilated_gear_times", **keys)
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("reduction", [1e-6, 1e-4, 0.006])
 def test_loads_over_too_many_motions_are_refused(reduction: float) -> None:
     """The wheel turns once in so few input turns: the memory would grow with the motions of a period."""

@@ -28,6 +28,7 @@ def test_fronts_of_record(case: dict) -> None:
     assert front(np.array(case["input"]["objectives"], dtype=float)).tolist() == case["expected"]
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("objectives", [1, 2, 3, 4, 6])
 @pytest.mark.parametrize(("designs", "values"), mostly_slow([(1, 3), (60, 3), (400, 8), (1500, 60)], 3))
 def test_fronts_against_all_pairs(objectives: int, designs: int, values: int) -> None:

@@ -248,6 +248,7 @@ def test_whole_turns_count_as_errors():
     assert position_errors(FUNCTION, wound)[1] == pytest.approx(-2.0 * math.pi, abs=1e-14)
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(
     ("pairs", "words"),
     [

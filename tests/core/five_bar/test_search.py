@@ -97,6 +97,7 @@ def test_descent_reaches_a_path_that_exists():
     assert cost[0] < 1e-24
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("bar", BARS)
 def test_distance_is_that_of_the_nearest_branch(bar):
     """Points all about a path that crosses itself; the nearest place of a grid may lie on the wrong branch."""

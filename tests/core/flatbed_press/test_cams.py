@@ -85,6 +85,7 @@ def test_both_cams_have_the_same_largest_and_least_radius():
 # Geometry
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("name", ZONES)
 @pytest.mark.parametrize("cam", ["main_cam", "return_cam"])
 def test_profile_is_the_envelope_of_the_roller(name, cam):
@@ -138,6 +139,7 @@ def test_profile_pressure_angle_and_curvature_of_the_return_by_numerical_derivat
             assert at.curvature_radius[0] == pytest.approx(float(radius), rel=1e-11)
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", ZONES)
 def test_extremes_pass_a_dense_table_by_a_hair(name):
     design = of(name)
@@ -302,6 +304,7 @@ def sized(limit, **cam):
     return factory.design(data, size={"pressure_angle": limit}, limits={"pressure_angle": limit})
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("limit", [4.0, 8.0, 12.0])
 def test_cams_keep_the_limit_and_touch_it(limit):
     design = sized(limit)
@@ -391,6 +394,7 @@ def test_sized_cams_leave_the_shaft_its_hub():
 # The return cam's own quantities
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", ZONES)
 def test_quantities_of_the_return_cam(name):
     design = of(name)

@@ -185,6 +185,7 @@ def test_bed_travels_its_stroke_and_no_more(name):
     assert bed.travel(0.0, 1).first == pytest.approx(0.0, abs=1e-13 * press.stroke)
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("name", PRESSES)
 @pytest.mark.parametrize(("k", "tolerance"), [(1e-3, 1e-13), (2.0**-10, 0.0), (1e3, 1e-13)])
 def test_scale(name, k, tolerance):

@@ -195,6 +195,7 @@ def test_polynomial_transitions_are_those_of_their_ends(name, transition):
         close(segment.lift(theta, 2), derivatives(lambda x: at(shape, x), u), size)
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", ZONES)
 def test_arc_is_a_circle_in_the_plot_of_mm_over_degrees(name):
     lift = of(name, transition="arc")
@@ -242,6 +243,7 @@ def test_an_arc_of_no_slope_is_level():
 # Joints
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("transition", ["arc", "parabola", "quartic"])
 @pytest.mark.parametrize("lead_in", [0.0, 5.0, 12.0])
 @pytest.mark.parametrize("name", ZONES)
@@ -359,6 +361,7 @@ def test_extremes_of_the_lift_against_a_fine_table(name, lead_in):
     assert high >= values.max() - 1e-13
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("name", ZONES)
 @pytest.mark.parametrize("k", [1e-3, 1e3])
 def test_scale(name, k):

@@ -95,6 +95,7 @@ def test_contract(case):
 # A second way
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", PRESSES)
 def test_positions_against_the_cosine_rule(name):
     oracle = PRESSES[name]

@@ -74,6 +74,7 @@ def test_contributions_of_the_printed_budget() -> None:
         assert 10.0 * float(np.ptp(relative)) == pytest.approx(wanted[one.source], abs=0.051), one.source
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("pin", "ABCDEFGHMN")
 def test_every_pin_has_a_gain(pin: str) -> None:
     sources = {f"pins.{pin}": {"clearance": [0.01, 0.03]}}
@@ -120,6 +121,7 @@ def test_gains_are_the_slopes_of_the_exact_chain() -> None:
             assert (ends[0] - ends[1]) / (2.0 * h) == pytest.approx((one.gain * axis).real, abs=2e-8), one.source
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("sign", [1, -1])
 @pytest.mark.parametrize("mesh", ["mesh_12", "mesh_34", "rack_lower", "rack_upper"])
 def test_backlash_of_one_mesh_is_the_hand_formula(mesh: str, sign: int) -> None:

@@ -53,6 +53,7 @@ def test_report_takes_the_first_equality_and_not_a_later_one():
     assert round(math.degrees(equal_speed_angle(*chains(TY460)))) == 34
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", PRESSES)
 def test_start_and_end_against_the_cosine_rule(name):
     press = PRESSES[name]
@@ -134,6 +135,7 @@ def test_beyond_the_tangency_the_zone_starts_at_the_next_equality(tangent):
 # Refusals
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(
     ("radius", "initial"), [(160.0, 57.109), (160.0, 57.109 - 360.0), (170.0, 57.109), (250.0, 57.109), (250.0, 359.5)]
 )

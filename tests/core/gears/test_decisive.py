@@ -91,6 +91,7 @@ def test_findings_of_a_pair_form_no_measures() -> None:
     assert "contact_ratio" not in DERIVED
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("helix", [0.0, 25.0])
 @pytest.mark.parametrize("second", [57, -83])
 def test_pin_nearest_to_its_circle_of_all(helix: float, second: int) -> None:

@@ -62,6 +62,7 @@ def least_corner_gap(mesh, steps=6000):
     return worst
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("teeth", [(40, 45), (40, 46), (40, 50), (60, 64), (60, 70), (35, 70)])
 def test_tip_fouling_by_turning_the_pinion(teeth):
     mesh = InternalMesh(1.0, teeth)

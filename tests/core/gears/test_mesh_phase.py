@@ -50,6 +50,7 @@ def test_external_phase_agrees_with_the_mesh_geometry(pair: GearPair) -> None:
     assert pitches == pytest.approx(round(pitches), abs=1e-9)
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("place", [0.0, 0.31, 0.77, 5.2])
 def test_external_teeth_touch_and_do_not_cross(place: float) -> None:
     pair = GearPair.from_shift(2.0, (20, 41))

@@ -123,6 +123,7 @@ def test_a_mesh_is_the_gear_pair_of_the_same_data(name, helix):
     )
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("name", KINDS)
 def test_checks_are_those_of_the_gear_pair(name):
     keys = DRAWN | {"profile_shift": shifts_of(name), "helix_angle": 12.0}
@@ -151,6 +152,7 @@ def bisected_distance(module, teeth, shifts, helix):
     return abs(0.5 * module / math.cos(beta) * total * math.cos(transverse) / math.cos(low))
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("helix", [0.0, 17.0])
 @pytest.mark.parametrize(
     ("name", "link"),
@@ -231,6 +233,7 @@ def _free_turn(module, teeth, shifts, helix, distance, tips):
     return sum(room)
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("helix", [0.0, 20.0])
 @pytest.mark.parametrize("name", ["sun", "ring"])
 def test_backlash_is_what_turned_teeth_leave(name, helix):
@@ -300,6 +303,7 @@ def test_a_synthesis_needs_shifts_that_cancel():
 # What is not asked for is not computed
 
 
+@pytest.mark.quick(8)
 @pytest.mark.parametrize("name", KINDS)
 def test_a_design_without_the_keys_computes_nothing_of_them(name):
     one = made(name)

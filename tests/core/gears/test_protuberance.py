@@ -49,6 +49,7 @@ def cuts(gear: RackCutRoot, radius: float) -> bool:
     return bool((tip | flank).any())
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(
     ("teeth", "shift", "undercut", "angle", "helix"),
     [

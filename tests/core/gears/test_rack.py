@@ -57,6 +57,7 @@ def placed(made: Any, travel: float) -> tuple[Any, Any]:
     return teeth * cmath.exp(1j * travel / pair.reference_radius[0]), rack + 1j * (mesh.first_space[1] + travel)
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("keys", SHAPES)
 def test_teeth_touch_where_the_line_of_action_says_and_never_cross(keys: dict[str, Any]) -> None:
     made = gear(keys)

@@ -84,6 +84,7 @@ class Cutter:
         return np.where(in_sector, self.rounding - np.abs(away), deep)
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("keys", CUTTERS)
 def test_the_outline_is_the_envelope_of_the_rolling_cutter(keys: dict[str, Any]) -> None:
     made = design(DATA | keys, command="gear")

@@ -31,6 +31,7 @@ def spec(teeth: Any, shift: list[float], **keys: Any) -> dict[str, Any]:
     return {"kind": "gear-pair", "module": 1, "teeth": teeth, "profile_shift": shift, **keys}
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("case", SHARES, ids=lambda case: case["name"])
 def test_shares_in_forty_digits(case: dict[str, Any]) -> None:
     known = case["input"]

@@ -74,6 +74,7 @@ def test_tool_touches_every_point_and_cuts_none(teeth, shift):
     assert np.abs(distance).max() < 2e-7 * max(1.0, teeth / 10) ** 2
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("teeth", [5, 12, 17, 18, 25, 72, 300])
 @pytest.mark.parametrize("shift", [-0.3, 0.0, 0.2, 0.6])
 def test_undercut_begins_at_the_least_shift(teeth, shift):

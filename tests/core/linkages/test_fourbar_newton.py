@@ -204,6 +204,7 @@ def test_refined_reference_cases(name: str) -> None:
     assert abs(math.remainder(float(c) + given_["theta0"] - expected["theta4"], math.tau)) <= 2 * EPS
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(("dev", "steps"), [(0.5, 1), (1e-2, 1), (1e-4, 1), (1e-5, 2), (1e-6, 2)])
 def test_refinement_reaches_two_eps_next_to_both_dead_points(dev: float, steps: int) -> None:
     rng = np.random.default_rng(7)

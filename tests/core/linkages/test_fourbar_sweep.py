@@ -77,6 +77,7 @@ def test_sweep_and_scalar_agree(linkage: FourBar) -> None:
     compare(linkage, got, states, ("coupler_angle", "rocker_angle"))
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("linkage", LINKAGES)
 def test_inverse_sweep_and_scalar_agree(linkage: FourBar) -> None:
     psi = sweep.solve(linkage, angles_of(linkage, 300)).rocker_angle
@@ -102,6 +103,7 @@ def test_inverse_of_a_drag_link_returns_the_crank_with_its_turns(assembly: int) 
     assert np.max(np.abs(back.crank_acceleration)) <= 512 * EPS
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("linkage", LINKAGES)
 def test_unit_vectors_against_mpmath(linkage: FourBar) -> None:
     phi = np.append(angles_of(linkage, 40), [0.0, 1e-8])
@@ -145,6 +147,7 @@ def test_example_three_of_the_thesis() -> None:
         assert getattr(got, name) == pytest.approx(table[:, column], abs=8 * EPS)
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("linkage", LINKAGES[:4])
 def test_angles_are_continuous_over_several_turns(linkage: FourBar) -> None:
     phi = np.radians(np.arange(-1080.0, 1081.0))

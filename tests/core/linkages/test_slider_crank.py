@@ -99,6 +99,7 @@ def test_crank_against_the_bracketed_root_finder():
         assert SliderCrank(stroke, 520.0, 50.0).crank_length == pytest.approx(root, rel=4 * EPS, abs=0.0)
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("gap", [1e-3, 1e-6, 1e-9, 1e-12, 1e-15])
 @pytest.mark.parametrize(("rod", "offset"), [(200.5, 5.0), (520.0, -50.0), (100.0, 99.0), (100.0, 0.0), (1.0, 1e-9)])
 def test_up_to_the_largest_stroke(rod, offset, gap):
@@ -165,6 +166,7 @@ def exact_depth(psi, crank, rod, offset):
     return mp.sqrt(mp.mpf(rod) ** 2 - (crank * mp.cos(psi) + offset) ** 2) - crank * mp.sin(psi)
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(
     ("crank", "rod", "offset"), [(154.21159203908383, 520.0, 50.0), (50.0, 120.0, -30.0), (99.0, 200.0, 100.0)]
 )

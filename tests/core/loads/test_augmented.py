@@ -172,12 +172,14 @@ def test_forces_against_the_augmented_system(case: dict[str, Any], phi: float) -
     _compare(Augmented(factory.design(spec, command="loads"), phi))
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("degrees", [20.0, 80.0, 250.0, 310.0])
 def test_press_against_the_augmented_system(degrees: float) -> None:
     """Twelve links with racks and a roller, main and return cam in turn: 36 equations, 36 constraints."""
     _compare(Augmented(factory.design("loaded_press", command="loads"), np.radians(degrees)))
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("name", SIX_BARS)
 def test_six_bars_against_the_augmented_system(name: str) -> None:
     """Rings, free gears and carriers of every kind, at one input angle each."""

@@ -63,6 +63,7 @@ def test_textbook_torque_of_three_waves() -> None:
     assert share == pytest.approx(expected["exact"]["fluctuation_load_600_sin"], rel=1e-11)
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(("fluctuation", "inertia"), DATA["flywheel"]["expected"]["flywheel_inertia"].items())
 def test_flywheel_with_variable_inertia(fluctuation: str, inertia: float) -> None:
     """The two ways meet: the flywheel for a fluctuation leaves just that fluctuation, and the mean speed."""

@@ -120,6 +120,7 @@ def _close(found: Any, wanted: Any) -> None:
     assert np.abs(found - wanted).max() <= 1e-8 * max(np.abs(wanted).max(), 1e-3)
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(("offset", "inertia", "angle"), [(0.0, 0.05, 73.18), (40.0, 0.02, 76.0), (-30.0, 0.3, -70.0)])
 def test_slider(offset: float, inertia: float, angle: float) -> None:
     """Rod, slider, guide, contact, shafts and torque."""
@@ -171,6 +172,7 @@ def test_slider(offset: float, inertia: float, angle: float) -> None:
     assert stroke.design.power_identity <= 1e-12
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(("assembly", "way"), [(1, "outward"), (-1, "outward"), (1, "homeward")])
 def test_cam_on_a_crank_rocker(assembly: int, way: str) -> None:
     """Crank, coupler, cam, contact, shafts and torque; the cam turns clockwise in the stroke."""

@@ -140,7 +140,7 @@ def test_a_dwell_through_the_end_of_the_period_has_no_step() -> None:
     assert design.dwell_twist < 1e-2
 
 
-@pytest.mark.parametrize("damping", [0.0, 0.03])
+@pytest.mark.parametrize("damping", [0.03, pytest.param(0.0, marks=pytest.mark.slow)])
 def test_a_gear_out_of_balance_leaves_the_vibration_of_the_output(damping: float) -> None:
     """Its period is nine turns; the output moves as in one."""
     idler = {"mass": 0.9, "inertia": 0.0023, "center": [1, 0]}

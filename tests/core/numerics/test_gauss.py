@@ -17,6 +17,7 @@ def test_nodes_are_the_roots_of_the_legendre_polynomial():
             assert w == pytest.approx(float(2 / ((1 - root**2) * slope**2)), rel=2e-16)
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("degree", range(20))
 def test_polynomials_are_exact(degree):
     exact = (3.0 ** (degree + 1) - 1.0) / (degree + 1)

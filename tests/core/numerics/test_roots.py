@@ -137,6 +137,7 @@ def test_maximum_at_an_end():
 # Newton's steps inside a bracket
 
 
+@pytest.mark.quick(4)
 @pytest.mark.parametrize("start", [1e-9, 0.3, 2.9])
 @pytest.mark.parametrize(
     ("f", "root"),

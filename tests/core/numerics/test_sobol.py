@@ -13,6 +13,7 @@ def _rng(seed: int) -> np.random.Generator:
     return np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(0,)))
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("bits", [30, 32, 53])
 @pytest.mark.parametrize("dimensions", [1, 2, 13, MOST_DIMENSIONS])
 def test_points_are_those_of_scipy(dimensions: int, bits: int) -> None:

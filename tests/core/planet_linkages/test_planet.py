@@ -247,6 +247,7 @@ def test_line_of_the_crank_passes_the_pitch_point_at_the_extremes():
         assert abs(across) < 1e-12 * made.frame_length
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("swing", [30.0, 101.175579601631, 160.0, 240.0])
 def test_synthesis_reaches_the_swing_on_the_real_motion(swing):
     links = {k: v for k, v in LEVER.items() if k != "crank"}

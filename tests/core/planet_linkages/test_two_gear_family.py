@@ -100,6 +100,7 @@ def test_momentary_frame(case: Any) -> None:
             assert kernel.solved(family, kernel.back_step_of, step, "this") == pytest.approx(frame, rel=1e-11)
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("family", list(families(24, 1)))
 def test_the_number_of_standstills_changes_at_the_momentary_dwell_alone(family: Family) -> None:
     low, high = kernel.frame_range(family)

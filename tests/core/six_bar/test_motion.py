@@ -16,7 +16,7 @@ import pytest
 from factory import changed, design, worked
 from hypothesis import given
 from hypothesis import strategies as st
-from sweeps import examples
+from sweeps import examples, mostly_slow
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.six_bar import loop
@@ -91,7 +91,7 @@ def test_transmission_is_the_acute_angle_of_the_dyad() -> None:
     assert bar.transmission(turned) == pytest.approx(np.full(TURNS.shape, math.radians(40.0)), abs=1e-13)
 
 
-@pytest.mark.parametrize("name", [CLOSED, FOLLOWED])
+@pytest.mark.parametrize("name", mostly_slow([CLOSED, FOLLOWED], 1))
 def test_rates_against_forty_digits(name: str) -> None:
     machine = six_bar(name)
     bar = machine.bar
@@ -146,6 +146,7 @@ def polished(bar: SixBar, rows: Any, phi: Any, near: Any, ties: Any) -> list[Any
     return list(found)
 
 
+@pytest.mark.slow
 def test_a_place_costs_few_steps_and_rests_by_itself(monkeypatch: pytest.MonkeyPatch) -> None:
     """Over fifty turns: some four steps a place, and the standstills of all turns in the calls of one."""
     links = {"coupler_1": 180, "coupler_2": 180, "coupler_3": 180}

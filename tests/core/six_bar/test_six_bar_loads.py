@@ -19,6 +19,7 @@ SWING = "six_bar_swing"
 TURNS = {"both trains on one link, two turns": 2, "free gear on B": 3, "free gear on F": 3}
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("name", SIX_BARS)
 def test_both_torques_agree_at_every_angle(name: str) -> None:
     """Virtual power and reactions, 1e-12 of the largest, over the whole period."""
@@ -67,6 +68,7 @@ def test_the_worked_six_bar_works_against_its_brush() -> None:
     assert 2.0 * np.pi * loads.input_torque_mean == pytest.approx(8.0 * travel, rel=1e-12)
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", SIX_BARS)
 def test_links_move_as_their_rates_say(name: str) -> None:
     """Places, turns and their rates against differences of sixth order over 1e-3 rad: 1e-9 of the largest."""

@@ -33,6 +33,7 @@ ANGLE = 32 * EPS * 180.0
 CURVATURE = 1e-14
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("row", TABLE, ids=lambda row: str(row["theta_deg"]))
 def test_both_cams_of_the_table(row: dict) -> None:
     angle = np.radians([float(row["theta_deg"])])
@@ -274,6 +275,7 @@ def test_the_centre_that_is_recommended_keeps_the_limit(limit: float) -> None:
     assert all(c.status != "fail" for c in repaired.check("pressure-angle"))
 
 
+@pytest.mark.slow
 def test_the_recommended_centre_of_the_mirrored_machine_is_the_mirrored_centre() -> None:
     assert abs(mirrored().cams.center_for(28.0) - DESIGN.cams.center_for(28.0).conjugate()) <= 1e-10
 

@@ -58,6 +58,7 @@ def test_worst_torque_of_the_turn() -> None:
     assert EXAMPLE.closure.inertia_torques(np.array([275.0]))[0][0] == pytest.approx(least, rel=1e-11, abs=0.0)
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize(("start", "end"), [(0.0, 100.0), (112.0, 162.0), (170.0, 290.0)])
 @pytest.mark.parametrize(
     "masses",

@@ -60,6 +60,7 @@ def test_reference_values() -> None:
             assert values[0] == pytest.approx(float(case["expected"][name]), rel=0.0, abs=8 * EPS * scale[order]), name
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("phase", range(6))
 @pytest.mark.parametrize("order", [0, 1])
 def test_every_derivative_integrates_to_the_one_before(phase: int, order: int) -> None:
@@ -76,6 +77,7 @@ def test_every_derivative_integrates_to_the_one_before(phase: int, order: int) -
     assert np.abs(inside - first - gained[:-1]).max() <= 1e-13 * peaks(EXAMPLE)[order]
 
 
+@pytest.mark.quick(11)
 @pytest.mark.parametrize("run_up", RUN_UPS, ids=str)
 def test_joints_are_continuous_for_every_run_up(run_up: object) -> None:
     motion = made(run_up, run_up)
@@ -83,6 +85,7 @@ def test_joints_are_continuous_for_every_run_up(run_up: object) -> None:
         assert np.abs(motion.joints()[:, order]).max() <= 16 * EPS * peaks(motion)[order]
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("rise", RISES)
 def test_joints_are_continuous_for_every_return(rise: str) -> None:
     motion = made(return_=rise)

@@ -36,6 +36,7 @@ def apart(one, other):
     return np.abs(np.remainder(one - other + math.pi, 2.0 * math.pi) - math.pi)
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("row", TABLE, ids=lambda row: str(row["theta_deg"]))
 def test_positions_of_the_table(row: dict) -> None:
     motion = LINKAGE.motion(np.array([float(row["theta_deg"])]), 2)
@@ -117,6 +118,7 @@ def test_both_ways_agree_on_the_example() -> None:
     assert ways.residual.max() <= 16 * EPS * 780.0
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("direction", [137.0, 60.0, 40.0, 26.0, 24.4])
 def test_both_ways_agree_near_dead_points(direction: float) -> None:
     linkage = machine(output_direction=direction, limits={"transmission_angle": 1.0}).linkage

@@ -38,6 +38,7 @@ def ulps(found: float, true: mp.mpf) -> float:
     return float(abs(mp.mpf(found) - true) / mp.mpf(math.ulp(float(true))))
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(
     ("i3", "h"), [((-4.0, -0.5), (0.1, 1.55)), ((-4.0, -0.5), (1e-5, 0.1)), ((-100.0, -4.0), (0.01, 1.5))]
 )

@@ -141,6 +141,7 @@ def test_standstills_agree_with_a_search_at_40_digits():
     assert places == pytest.approx(exact, abs=1e-13)
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("assembly", [1, -1])
 @pytest.mark.parametrize(
     ("eccentricity", "off"),
@@ -157,6 +158,7 @@ def test_rounded_momentary_dwell_is_one(eccentricity, off, assembly):
     assert abs(least.least) < 1e-9
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("assembly", [1, -1])
 @pytest.mark.parametrize("eccentricity", [6.0, 10.0, 16.0, 18.0, 24.9])
 @pytest.mark.parametrize("off", [1e-7, 1e-5, 1e-3, 1e-2])

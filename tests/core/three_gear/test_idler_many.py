@@ -25,6 +25,7 @@ def of_back_step(degrees: float) -> Any:
     return many.frame_ratio(n, many.half_angle_for_back_step(n, np.full(n.shape, math.radians(degrees))))
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("degrees", [1.0, 30.0, 90.0, 135.0, 179.0, 181.0, 240.0, 300.0, 340.0])
 @pytest.mark.parametrize("family", [of_dwell, of_back_step])
 def test_the_frame_ratio_rises_with_the_idler(family: Any, degrees: float) -> None:

@@ -111,6 +111,7 @@ def test_analysis_of_the_links_finds_what_was_asked_for(task, assembly):
             assert other == pytest.approx(quantity.value, rel=1e-9, abs=1e-12), quantity.name
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("assembly", [1, -1])
 @pytest.mark.parametrize("task", ["dwell", "long dwell", "short dwell"])
 def test_output_regains_its_place_after_the_dwell(task, assembly):
@@ -152,6 +153,7 @@ def test_speeds_of_the_band_at_their_mean(low, high, assembly):
     assert value(made, "motion") == ("unidirectional" if low else "momentary-dwell")
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("assembly", [1, -1])
 @pytest.mark.parametrize("teeth", [(20, 20, 60), (20, 33, 17), (60, 30, 20), (40, 17, 40)])
 @pytest.mark.parametrize("share", [0.02, 0.5, 0.98])
@@ -179,6 +181,7 @@ def mirrored_extreme(made, name):
     return (360.0 - value(made, name)) % 360.0 if name.endswith("_at") else -value(made, name)
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("task", TASKS)
 def test_mirror_image(task):
     synth, sections = TASKS[task]
@@ -201,6 +204,7 @@ def test_mirror_image(task):
         assert (check.code, check.status) == (image.code, image.status)
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("k", [1e-3, 1e3])
 @pytest.mark.parametrize("task", TASKS)
 def test_scale(task, k):
@@ -362,6 +366,7 @@ def test_back_step_beyond_its_crank_angle():
     assert refusal.value.key == "back_step.angle"
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(
     ("low", "high", "key"), [(300.0, 100.0, "speed.max"), (100.0, 100.0, "speed.max"), (-1.0, 9.0, "speed.min")]
 )
@@ -374,6 +379,7 @@ def test_speeds_that_are_no_band(low, high, key, idler):
         assert refusal.value.key == key
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("idler", [None, 60])
 @pytest.mark.parametrize("task", [task for task, (synth, _) in TASKS.items() if synth != "synth momentary-dwell"])
 def test_unequal_teeth_are_refused_by_every_result(task, idler):
@@ -431,6 +437,7 @@ def test_limits_that_no_idler_keeps():
 # Advice
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("limit", [0.0, 3.3, 20.0])
 @pytest.mark.parametrize(("task", "idler"), [("dwell", 50), ("back-step", 45), ("crank angle", 47), ("speeds", 22)])
 def test_idler_that_is_named_keeps_the_gears_apart(task, idler, limit):

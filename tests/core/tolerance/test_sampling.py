@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy.special import ndtri
+from sweeps import ALL
 
 from gearlink.core.tolerance.sampling import REPLICATIONS, estimate, replications, rounded_up, share_estimate
 from gearlink.core.tolerance_study.sensitivity import _indices
@@ -46,14 +47,16 @@ def test_published_failure_probabilities(name: str) -> None:
 
 
 def test_intervals_cover() -> None:
-    """95 % nominal over 1,000 studies: between 93 and 97 %, each of 16 replications of 256 points."""
-    exact, hits = 0.25 * math.pi, 0
-    for seed in range(1000):
+    """95 % nominal over 1,000 studies, a fifth of them in `make test`: between 93 and 97 %.
+
+    Each has 16 replications of 256 points."""
+    exact, hits, studies = 0.25 * math.pi, 0, 1000 if ALL else 200
+    for seed in range(studies):
         rng = np.random.default_rng(seed)
         shares = [float(np.mean(np.hypot(*rng.random((2, 256))) <= 1.0)) for _ in range(REPLICATIONS)]
         _, low, high = share_estimate(np.array(shares), 16 * 256)
         hits += low <= exact <= high
-    assert 930 <= hits <= 970
+    assert 0.93 * studies <= hits <= 0.97 * studies
 
 
 def test_a_study_without_a_failure_does_not_promise_everything() -> None:

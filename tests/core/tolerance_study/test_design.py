@@ -127,6 +127,7 @@ def test_correlated_sources_scatter_together() -> None:
     assert of_both == pytest.approx(math.sqrt(2.0) * sigma, rel=5e-3)
 
 
+@pytest.mark.slow
 def test_sobol_indices_of_a_linear_quantity_are_its_shares() -> None:
     made = study(CANDY, sources=FOUR, require=["back_step_angle <= 20.4 deg"], samples=2**13, sobol=True)
     found = rows(made.table_contributions())

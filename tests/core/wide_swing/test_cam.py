@@ -182,6 +182,7 @@ def test_run_out_mirrors_the_run_up(layout: Layout) -> None:
     np.testing.assert_allclose(out.curvature_radius, up.curvature_radius, rtol=1e-14)
 
 
+@pytest.mark.slow
 @given(scale=st.floats(1e-3, 1e4))
 @examples(20)
 def test_lengths_scale(scale: float) -> None:

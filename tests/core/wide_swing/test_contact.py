@@ -107,6 +107,7 @@ def test_roller_too_large() -> None:
         contact_end(replace(large, roller_radius=1.0001 * limit))
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(("case", "layout"), BOTH)
 @pytest.mark.parametrize("zone", [0.2, 0.04, 1e-3])
 def test_largest_roller_has_the_zone_that_was_asked_for(case: str, layout: Layout, zone: float) -> None:

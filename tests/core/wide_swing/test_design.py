@@ -557,6 +557,7 @@ def test_least_ratio_of_a_spring_far_from_its_own() -> None:
     )
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(("radius", "status"), [(70.0, "fail"), (74.0, "fail"), (74.55, "pass")])
 def test_shorter_rocker_is_judged_as_its_table_shows_it(radius: float, status: str) -> None:
     """Below (18), 74.550035 mm, contact lasts to mid-swing with 90 deg there; rounded to 74.55 nothing changes."""

@@ -51,6 +51,7 @@ def test_invariants_along_the_march() -> None:
     np.testing.assert_allclose(legacy.acceleration, c, atol=2e-3)
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(("device", "swing"), DEVICES)
 def test_passes_follow_the_contraction(device: Device, swing: float) -> None:
     b = ElasticLaw(device, math.radians(swing)).velocity_peak

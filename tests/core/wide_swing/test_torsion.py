@@ -26,6 +26,7 @@ EXPECTED = next(
 HARMONIC = acceleration_series(lambda k: 0.5 * math.pi**2 * np.cos(math.pi * k))
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("stiffness", [10, 20, 40])
 def test_reference(stiffness: int) -> None:
     coefficient, place = dynamic_coefficient(HARMONIC, float(stiffness))
@@ -44,10 +45,10 @@ def test_series_is_the_law(law: ElasticLaw) -> None:
 
 
 @pytest.mark.parametrize(
-    ("stiffness", "damping"), mostly_slow([(3.0 * math.pi, 0.0), (5.0, 0.7), (12.0, 0.0), (25.0, 0.08)], 2)
+    ("stiffness", "damping"), mostly_slow([(5.0, 0.7), (3.0 * math.pi, 0.0), (12.0, 0.0), (25.0, 0.08)], 1)
 )
 def test_response_by_integrating_the_differential_equation(stiffness: float, damping: float) -> None:
-    """The first case is an undamped resonance with the third harmonic."""
+    """The second case is an undamped resonance with the third harmonic."""
     from scipy.integrate import solve_ivp
 
     law = ElasticLaw(Spring(4.0, 0.5), math.radians(180.0))
