@@ -35,6 +35,7 @@ def workers(count: int) -> Iterator[Executor]:
     context = get_context("fork" if sys.platform == "linux" else None)
     pool = _Workers(count, mp_context=context, initializer=_begin)
     results = pool._result_queue
+    _close_by_one(results._writer)  # type: ignore[attr-defined]
     try:
         yield pool
     except BaseException:
@@ -47,6 +48,21 @@ def workers(count: int) -> Iterator[Executor]:
         raise
     finally:
         pool.shutdown()
+
+
+def _close_by_one(connection: Connection) -> None:
+    """Let a connection be closed by one thread alone.
+
+    The thread that watches, the one that leaves the block and the executor's own shutdown may close it at the same
+    moment; the second would close whatever has the same number of a descriptor by then.
+    """
+    lock, close = threading.Lock(), connection.close
+
+    def locked() -> None:
+        with lock:
+            close()
+
+    connection.close = locked  # type: ignore[method-assign]
 
 
 class _Workers(ProcessPoolExecutor):

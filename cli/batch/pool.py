@@ -91,6 +91,7 @@ def _in_processes(left: list[Sequence[Path]], options: BatchOptions, jobs: int) 
     """
     while left:
         given: dict[Future[list[Outcome]], Sequence[Path]] = {}
+        finished: set[int] = set()
         try:
             with workers(min(jobs, len(left))) as pool:
                 with suppress(BrokenExecutor):
@@ -98,11 +99,11 @@ def _in_processes(left: list[Sequence[Path]], options: BatchOptions, jobs: int) 
                         given[pool.submit(_chunk, files, options)] = files
                 for future in as_completed(given):
                     if not isinstance(future.exception(), BrokenExecutor):
+                        finished.add(id(given[future]))
                         yield len(given[future]), future.result()
         except OSError:  # at the first submission, which starts the processes
-            yield from ((1, outcomes(path, options)) for files in left for path in files)
+            yield from ((1, outcomes(path, options)) for files in left if id(files) not in finished for path in files)
             return
-        finished = {id(files) for future, files in given.items() if future.exception() is None}
         left = [files for files in left if id(files) not in finished]
         for path in (path for files in left[:jobs] for path in files):
             yield 1, _alone(path, options)

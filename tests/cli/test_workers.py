@@ -7,20 +7,25 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 import time
+from multiprocessing import Pipe
+from multiprocessing.connection import Connection
 from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
 from sweeps import mostly_slow
 
-from gearlink.cli.workers import _end, workers
+from gearlink.cli.workers import _close_by_one, _end, workers
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="forked processes, /proc")
 
 # Two workers hold a half-written file each when the parent says that it is ready.
 PARENT = """
 import sys, time
+from multiprocessing import Pipe
+from multiprocessing.connection import Connection
 from pathlib import Path
 from gearlink.cli.files import leave_nothing_behind, write_atomically
 from gearlink.cli.workers import workers
@@ -119,6 +124,8 @@ class _Deaf:
 # second, a megabyte, and is ended there.
 HALF = """
 import sys, threading, time
+from multiprocessing import Pipe
+from multiprocessing.connection import Connection
 from pathlib import Path
 from gearlink.cli.workers import workers
 
@@ -156,6 +163,8 @@ def test_half_a_result_is_not_waited_for(tmp_path: Path) -> None:
 KILLED = """
 import os, signal, sys, threading, time
 from concurrent.futures import BrokenExecutor
+from multiprocessing import Pipe
+from multiprocessing.connection import Connection
 from pathlib import Path
 from gearlink.cli.workers import workers
 
@@ -200,3 +209,28 @@ def test_they_do_not_answer_an_interrupt() -> None:
         process = pool.submit(os.getpid).result()
         os.kill(process, signal.SIGINT)
         assert pool.submit(os.getpid).result() == process
+
+
+def test_a_connection_is_closed_by_one_thread_alone() -> None:
+    """Without the lock several threads close the same number of a descriptor, the later ones someone else's."""
+    wrong: list[OSError] = []
+
+    def close(start: threading.Barrier, connection: Connection) -> None:
+        start.wait()
+        try:
+            connection.close()
+        except OSError as error:
+            wrong.append(error)
+
+    for _ in range(40):
+        reader, writer = Pipe(duplex=False)
+        _close_by_one(writer)
+        start = threading.Barrier(4)
+        threads = [threading.Thread(target=close, args=(start, writer)) for _ in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        reader.close()
+        assert writer.closed
+    assert not wrong

@@ -10,6 +10,8 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -299,6 +301,28 @@ def test_interrupt_keeps_what_is_finished(tmp_path: Path, designs: Path) -> None
     # processes had in hand, a quarter of a second each, not what was left.
     later = _written(out_files) - begun
     assert later < 600, f"{later} of 1500 results written after the interrupt"
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="forked processes")
+def test_what_is_finished_is_not_computed_again_where_processes_fail(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from gearlink.cli.batch import pool
+    from gearlink.cli.batch.options import BatchOptions
+    from gearlink.cli.batch.outcome import Outcome
+
+    real = pool.workers
+
+    @contextmanager
+    def failing(count: int) -> Iterator[Any]:
+        with real(count) as executor:
+            yield executor
+        raise OSError("no descriptors are left")
+
+    monkeypatch.setattr(pool, "outcomes", lambda path, _: [Outcome(str(path), "", path.stem, "", 0)])
+    monkeypatch.setattr(pool, "workers", failing)
+    results, _ = pool.run_files([tmp_path / f"{i:03}" for i in range(100)], BatchOptions(jobs=2))
+    assert len(results) == len({result.file for result in results}) == 100
 
 
 @pytest.mark.quick(1)
