@@ -24,8 +24,6 @@ pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="forked processe
 # Two workers hold a half-written file each when the parent says that it is ready.
 PARENT = """
 import sys, time
-from multiprocessing import Pipe
-from multiprocessing.connection import Connection
 from pathlib import Path
 from gearlink.cli.files import leave_nothing_behind, write_atomically
 from gearlink.cli.workers import workers
@@ -124,8 +122,6 @@ class _Deaf:
 # second, a megabyte, and is ended there.
 HALF = """
 import sys, threading, time
-from multiprocessing import Pipe
-from multiprocessing.connection import Connection
 from pathlib import Path
 from gearlink.cli.workers import workers
 
@@ -136,13 +132,17 @@ class Late:
 def wait():
     reads_on.wait(30.0)
 
+def late():
+    time.sleep(0.1)  # until the other call is handed on, which the reading thread does too
+    return Late()
+
 def large():
     begun.touch()
     return bytes(1 << 20)
 
 begun, reads_on = Path(sys.argv[1]), threading.Event()
 with workers(1) as pool:
-    pool.submit(Late)
+    pool.submit(late)
     pool.submit(large)
     while not begun.exists():
         time.sleep(0.01)
@@ -163,8 +163,6 @@ def test_half_a_result_is_not_waited_for(tmp_path: Path) -> None:
 KILLED = """
 import os, signal, sys, threading, time
 from concurrent.futures import BrokenExecutor
-from multiprocessing import Pipe
-from multiprocessing.connection import Connection
 from pathlib import Path
 from gearlink.cli.workers import workers
 
