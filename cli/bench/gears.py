@@ -9,10 +9,10 @@ from typing import Any
 
 from gearlink.cli.bench.timing import Family, Method, measure, mpmath
 from gearlink.core.errors import NoSolution
-from gearlink.core.gears.contour import BlockingContour
 from gearlink.core.gears.data import GearData
-from gearlink.core.gears.pair import GearPair
-from gearlink.core.gears.search import Wish, candidates, pairs_of_teeth
+from gearlink.core.gears.mesh.pair import GearPair
+from gearlink.core.gears.shifts.contour import BlockingContour
+from gearlink.core.gears.shifts.search import Wish, candidates, pairs_of_teeth
 
 WISH = Wish(ratio=3.2, distance=120.0, modules=(2.0, 2.5, 3.0, 4.0, 5.0))
 _MOST = 100

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearlink.cli.bench.timing import Family, Method, Row, measure, mpmath, numpy_pass, sample_of, worst
-from gearlink.core.gears.involute import inverse_involute as scalar
-from gearlink.core.gears.involute_sweep import inverse_involute
+from gearlink.core.gears.tooth.involute import inverse_involute as scalar
+from gearlink.core.gears.tooth.involute_sweep import inverse_involute
 
 Array = NDArray[np.float64]
 

@@ -12,7 +12,7 @@ from gearlink.cli.options import Options
 from gearlink.cli.typer_options import takes
 
 if TYPE_CHECKING:
-    from gearlink.core.gears.search import Wish
+    from gearlink.core.gears.shifts.search import Wish
 
 
 @takes("format", "color", "quiet")
@@ -43,7 +43,7 @@ def gears(
 
     Example: gearlink gears --ratio 3.2 --center-distance 120
     """
-    from gearlink.core.gears.search import MODULES, Wish
+    from gearlink.core.gears.shifts.search import MODULES, Wish
 
     wish = Wish(
         ratio=ratio,
@@ -66,7 +66,7 @@ def run_gears(wish: Wish, options: Options) -> int:
 
     from gearlink.cli.commands.design import print_report
     from gearlink.cli.patience import patience
-    from gearlink.core.gears.search import candidates, table_of
+    from gearlink.core.gears.shifts.search import candidates, table_of
     from gearlink.core.report import Report
 
     with patience("searching for gears", quiet=options.quiet):

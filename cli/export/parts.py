@@ -7,12 +7,12 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.errors import MissingSection, at_key
-from gearlink.core.gears.internal_mesh import InternalMesh
-from gearlink.core.gears.teeth import rim_radius
+from gearlink.core.gears.mesh.internal_mesh import InternalMesh
+from gearlink.core.gears.tooth.teeth import rim_radius
 
 if TYPE_CHECKING:
     from gearlink.cli.export.contour import Part
-    from gearlink.core.gears.pair import GearPair
+    from gearlink.core.gears.mesh.pair import GearPair
 
 Makers = dict[str, Callable[[], "Part"]]
 
@@ -213,7 +213,7 @@ def is_ring(mesh: Any) -> bool:
 
 def _planet(mesh: Any) -> GearPair:
     """The planet of an internal mesh without shift, as one of two equal external gears: its teeth are the same."""
-    from gearlink.core.gears.pair import GearPair
+    from gearlink.core.gears.mesh.pair import GearPair
 
     teeth = (mesh.teeth[0], mesh.teeth[0])
     profile = {"addendum": mesh.addendum, "clearance": mesh.clearance}

@@ -16,8 +16,8 @@ from xml.sax.saxutils import escape, quoteattr
 
 from gearlink.cli.export.parts import is_ring, pair_hands, train_hands
 from gearlink.core.errors import NoSolution
-from gearlink.core.gears.mesh_phase import signed_pair
-from gearlink.core.gears.pair import GearPair
+from gearlink.core.gears.mesh.pair import GearPair
+from gearlink.core.gears.outline.mesh_phase import signed_pair
 from gearlink.core.version import VERSION
 
 _VERSION = "1.7"

@@ -13,7 +13,7 @@ from gearlink.cli.export.contour import Circle, Part
 from gearlink.cli.export.gear_parts import SENSES
 from gearlink.cli.export.sampling import Points, Reals, Stretch
 from gearlink.core.dwell_gears.wheel import end_tooth_radius
-from gearlink.core.gears.tooth_profile import ToothProfile
+from gearlink.core.gears.outline.tooth_profile import ToothProfile
 from gearlink.core.numerics.roots import bracketed_root
 
 if TYPE_CHECKING:

@@ -13,8 +13,8 @@ if TYPE_CHECKING:
     from matplotlib.lines import Line2D
 
     from gearlink.core.gears.along_path import AlongPath, Place
-    from gearlink.core.gears.contour import BlockingContour
     from gearlink.core.gears.data import GearData
+    from gearlink.core.gears.shifts.contour import BlockingContour
 
 _LOOKS = (
     ("undercut", style.RED, "-", "undercut"),

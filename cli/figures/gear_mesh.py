@@ -17,8 +17,8 @@ from gearlink.cli.scenes.gear_pair import pair_scene
 from gearlink.cli.scenes.scene import Body, Points, Scene
 from gearlink.core.errors import NoSolution
 from gearlink.core.gears.checks import gear_quantity
-from gearlink.core.gears.mesh_geometry import MeshGeometry
-from gearlink.core.gears.pair import GearPair
+from gearlink.core.gears.mesh.pair import GearPair
+from gearlink.core.gears.outline.mesh_geometry import MeshGeometry
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -86,7 +86,7 @@ def _axis_distance(axes: Axes, pair: GearPair) -> None:
 
 
 def _teeth(mesh: Mesh, gear: int, chord: float, count: int, first: float) -> Points | None:
-    from gearlink.core.gears.tooth_profile import ToothProfile, outline
+    from gearlink.core.gears.outline.tooth_profile import ToothProfile, outline
 
     try:
         profile = ToothProfile.of(mesh.pair, gear)
@@ -136,7 +136,7 @@ def _zone_teeth(axes: Axes, mesh: Mesh, gear: int, high: float) -> None:
 
 def _zone_ring(axes: Axes, mesh: Mesh) -> None:
     """The teeth of a ring, and its body out to the rim."""
-    from gearlink.core.gears.ring_profile import RingProfile
+    from gearlink.core.gears.outline.ring_profile import RingProfile
 
     pair, geometry = mesh.pair, mesh.geometry
     center = geometry.axes[1]

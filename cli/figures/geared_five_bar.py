@@ -11,7 +11,7 @@ from gearlink.cli.figures import linkage, panels, scene_axes, style, time_axes
 from gearlink.cli.scenes.geared_five_bar import build
 from gearlink.core.five_bar.design import GearedFiveBar
 from gearlink.core.five_bar.path_motion import PathFiveBar
-from gearlink.core.gears.mesh_phase import signed_pair
+from gearlink.core.gears.outline.mesh_phase import signed_pair
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -9,7 +9,7 @@ import numpy as np
 
 from gearlink.cli.figures import linkage, panels, scene_axes, style, time_axes
 from gearlink.cli.scenes.geared_six_bar import build
-from gearlink.core.gears.mesh_phase import signed_pair
+from gearlink.core.gears.outline.mesh_phase import signed_pair
 from gearlink.core.six_bar.design import GearedSixBar
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ import numpy as np
 from gearlink.cli.figures import linkage, panels, scene_axes, style
 from gearlink.cli.scenes.hypocycloid_dwell import build
 from gearlink.core.dwell_gears.hypocycloid_design import HypocycloidDwell
-from gearlink.core.gears.mesh_phase import signed_pair
+from gearlink.core.gears.outline.mesh_phase import signed_pair
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

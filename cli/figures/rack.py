@@ -11,13 +11,13 @@ from gearlink.cli.figures import panels, scene_axes, style
 from gearlink.cli.figures.gear_mesh import COLORS, Mesh, gear_zone
 from gearlink.cli.figures.path_of_contact import contact_path, zone_frame, zone_size
 from gearlink.cli.scenes.rack import rack_body, rack_scene
-from gearlink.core.gears.rack_geometry import RackGeometry
+from gearlink.core.gears.rack.geometry import RackGeometry
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from gearlink.core.gears.design import GearPairDesign
-    from gearlink.core.gears.rack import RackMesh
+    from gearlink.core.gears.rack.mesh import RackMesh
 
 
 def rack_and_gear(axes: Axes, design: GearPairDesign) -> None:

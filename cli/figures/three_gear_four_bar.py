@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from gearlink.cli.figures import failing, linkage, panels, style, time_axes
 from gearlink.cli.figures.three_gear_mechanism import mechanism, words
-from gearlink.core.gears.mesh_phase import signed_pair
+from gearlink.core.gears.outline.mesh_phase import signed_pair
 from gearlink.core.three_gear.design import ThreeGearFourBar
 
 if TYPE_CHECKING:

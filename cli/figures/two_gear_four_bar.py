@@ -11,7 +11,7 @@ import numpy as np
 
 from gearlink.cli.figures import linkage, panels, scene_axes, style, time_axes
 from gearlink.cli.scenes.two_gear_four_bar import build
-from gearlink.core.gears.mesh_phase import signed_pair
+from gearlink.core.gears.outline.mesh_phase import signed_pair
 from gearlink.core.planet_linkages.two_gear_design import TwoGearFourBar
 
 if TYPE_CHECKING:

@@ -34,7 +34,7 @@ from gearlink.cli.scenes.scene import (
     wheel,
 )
 from gearlink.core.flatbed_press.positions import bed_positions, cylinder_positions
-from gearlink.core.gears.mesh_phase import driven_turn
+from gearlink.core.gears.outline.mesh_phase import driven_turn
 
 if TYPE_CHECKING:
     from gearlink.core.flatbed_press.design import FlatbedPress

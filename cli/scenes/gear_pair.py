@@ -9,12 +9,12 @@ import numpy as np
 from gearlink.cli.scenes.colors import BLUE, ORANGE
 from gearlink.cli.scenes.gears import gear, holes_for
 from gearlink.cli.scenes.scene import TURN, Mark, Reals, Scene, track
-from gearlink.core.gears.mesh_geometry import MeshGeometry
-from gearlink.core.gears.mesh_phase import driven_turn
+from gearlink.core.gears.outline.mesh_geometry import MeshGeometry
+from gearlink.core.gears.outline.mesh_phase import driven_turn
 
 if TYPE_CHECKING:
     from gearlink.core.gears.design import GearPairDesign
-    from gearlink.core.gears.pair import GearPair
+    from gearlink.core.gears.mesh.pair import GearPair
 
 _MOST_PITCHES = 36
 

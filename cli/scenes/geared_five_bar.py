@@ -27,12 +27,12 @@ from gearlink.cli.scenes.scene import (
     standing,
     track,
 )
-from gearlink.core.gears.mesh_phase import driven_turn, ring_turn
+from gearlink.core.gears.outline.mesh_phase import driven_turn, ring_turn
 from gearlink.core.linkages.dyad import close_dyad
 
 if TYPE_CHECKING:
     from gearlink.core.five_bar.design import GearedFiveBar
-    from gearlink.core.gears.meshed import AnyMesh
+    from gearlink.core.gears.train.meshed import AnyMesh
 
 
 def build(design: GearedFiveBar, fraction: Reals) -> Scene:

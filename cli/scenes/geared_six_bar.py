@@ -10,12 +10,12 @@ import numpy as np
 from gearlink.cli.scenes.colors import BLUE, GREEN, ORANGE, PURPLE, RED
 from gearlink.cli.scenes.gears import gear
 from gearlink.cli.scenes.scene import TURN, Chain, Chart, Curve, Part, Points, Readout, Reals, Scene, letters, loop
-from gearlink.core.gears.internal_mesh import InternalMesh
-from gearlink.core.gears.mesh_phase import driven_turn, ring_turn
+from gearlink.core.gears.mesh.internal_mesh import InternalMesh
+from gearlink.core.gears.outline.mesh_phase import driven_turn, ring_turn
 from gearlink.core.six_bar.loop import pins
 
 if TYPE_CHECKING:
-    from gearlink.core.gears.pair import GearPair
+    from gearlink.core.gears.mesh.pair import GearPair
     from gearlink.core.six_bar.design import GearedSixBar
 
 _COLORS = ((BLUE, ORANGE, PURPLE), (GREEN, RED, PURPLE))

@@ -10,10 +10,10 @@ import numpy as np
 from gearlink.cli.scenes.colors import WHITE, pale
 from gearlink.cli.scenes.scene import TURN, Body, Points, Reals, circle
 from gearlink.core.errors import NoSolution
-from gearlink.core.gears.internal_mesh import InternalMesh
-from gearlink.core.gears.pair import GearPair
-from gearlink.core.gears.ring_profile import RingProfile
-from gearlink.core.gears.teeth import rim_radius
+from gearlink.core.gears.mesh.internal_mesh import InternalMesh
+from gearlink.core.gears.mesh.pair import GearPair
+from gearlink.core.gears.outline.ring_profile import RingProfile
+from gearlink.core.gears.tooth.teeth import rim_radius
 
 _HOLES = (5, 4, 6, 3, 7, 8, 9, 10, 11, 12)
 _MOST_TEETH = 600
@@ -66,7 +66,7 @@ def gear(
 
 def _teeth(pair: GearPair, number: int) -> Points | None:
     """All teeth of a gear; None where they are too fine, or the tool leaves none."""
-    from gearlink.core.gears.tooth_profile import ToothProfile, outline
+    from gearlink.core.gears.outline.tooth_profile import ToothProfile, outline
 
     if pair.teeth[number] > _MOST_TEETH:
         return None

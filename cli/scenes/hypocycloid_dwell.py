@@ -25,7 +25,7 @@ from gearlink.cli.scenes.scene import (
     standing,
     track,
 )
-from gearlink.core.gears.mesh_phase import ring_turn
+from gearlink.core.gears.outline.mesh_phase import ring_turn
 
 if TYPE_CHECKING:
     from gearlink.core.dwell_gears.hypocycloid_design import HypocycloidDwell

@@ -72,7 +72,7 @@ def _wheel(design: MutilatedGearDwell, center: Points, turn: Reals) -> Body:
     The first and the last tooth of a group are cut down so far that they pass the resting gear; the model says no
     more of them, nor of the locking arcs.
     """
-    from gearlink.core.gears.tooth_profile import ToothProfile, tooth_space
+    from gearlink.core.gears.outline.tooth_profile import ToothProfile, tooth_space
 
     gears, mesh = design.spec.gears, design.mesh
     root = mesh.root_radius[0]

@@ -11,11 +11,11 @@ from gearlink.cli.scenes.colors import BLUE, ORANGE, pale
 from gearlink.cli.scenes.gears import gear
 from gearlink.cli.scenes.scene import TURN, Body, Mark, Points, Reals, Scene, track
 from gearlink.core.errors import NoSolution
-from gearlink.core.gears.rack_geometry import RackGeometry
-from gearlink.core.gears.rack_profile import RackProfile
+from gearlink.core.gears.rack.geometry import RackGeometry
+from gearlink.core.gears.rack.profile import RackProfile
 
 if TYPE_CHECKING:
-    from gearlink.core.gears.rack import RackMesh
+    from gearlink.core.gears.rack.mesh import RackMesh
 
 _CHORD = 0.012
 _MOST_TEETH = 600

@@ -11,7 +11,7 @@ from gearlink.cli.scenes.colors import BLUE, DWELL, GREEN, ORANGE, STEP
 from gearlink.cli.scenes.gears import gear
 from gearlink.cli.scenes.linkages import Joints, coupler_windings, crank_readout, over_crank, whole_turn
 from gearlink.cli.scenes.scene import TURN, Band, Curve, Readout, Reals, Scene, bands, fixed_circle
-from gearlink.core.gears.mesh_phase import driven_turn, ring_turn
+from gearlink.core.gears.outline.mesh_phase import driven_turn, ring_turn
 from gearlink.core.three_gear.sweep import output_motion
 
 if TYPE_CHECKING:

@@ -14,12 +14,12 @@ from itertools import chain, combinations
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from gearlink.core.clearance.reach import Reach
-from gearlink.core.gears.teeth import rim_radius
+from gearlink.core.gears.tooth.teeth import rim_radius
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
-    from gearlink.core.gears.internal_mesh import InternalMesh
-    from gearlink.core.gears.pair import GearPair
+    from gearlink.core.gears.mesh.internal_mesh import InternalMesh
+    from gearlink.core.gears.mesh.pair import GearPair
 
 LEAST_SHAFT_MODULES = 2.0
 

@@ -14,11 +14,11 @@ from gearlink.core.dwell_gears.bodies import hypocycloid_layout
 from gearlink.core.dwell_gears.codes import DWELL_QUALITY
 from gearlink.core.dwell_gears.hypocycloid import HypocycloidSlider
 from gearlink.core.errors import NoSolution, at_key
-from gearlink.core.gears.meshed import QUANTITIES as OF_MESH
-from gearlink.core.gears.meshed import Meshed
-from gearlink.core.gears.single_mesh import MESH_CHECKS
-from gearlink.core.gears.train_names import TRAIN_CHECKS
-from gearlink.core.gears.train_ways import train_ways
+from gearlink.core.gears.train.meshed import QUANTITIES as OF_MESH
+from gearlink.core.gears.train.meshed import Meshed
+from gearlink.core.gears.train.names import TRAIN_CHECKS
+from gearlink.core.gears.train.single_mesh import MESH_CHECKS
+from gearlink.core.gears.train.ways import train_ways
 from gearlink.core.linkages.checks import transmission_check
 from gearlink.core.motion_extremes import names
 from gearlink.core.numerics.rows import row_numbers

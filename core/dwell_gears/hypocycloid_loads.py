@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from gearlink.core.dwell_gears.hypocycloid_design import HypocycloidDwell
-from gearlink.core.gears.mesh_phase import signed_pair
+from gearlink.core.gears.outline.mesh_phase import signed_pair
 from gearlink.core.loads.design import LoadsDesign, loads_outline
 from gearlink.core.results import cached_property
 

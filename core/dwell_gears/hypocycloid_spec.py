@@ -7,7 +7,7 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.gears.train_keys import TrainKeys
+from gearlink.core.gears.train.keys import TrainKeys
 from gearlink.core.linkages.spec_parts import LinkageLimits
 from gearlink.core.spec import Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth
 

@@ -14,11 +14,11 @@ from gearlink.core.dwell_gears.codes import GAP, START_SHOCK
 from gearlink.core.dwell_gears.mutilated import MutilatedGear, teeth_for_times
 from gearlink.core.errors import at_key
 from gearlink.core.gears.checks import GEAR_CHECKS
-from gearlink.core.gears.meshed import QUANTITIES as OF_MESH
-from gearlink.core.gears.meshed import Meshed
-from gearlink.core.gears.single_mesh import MESH_CHECKS
-from gearlink.core.gears.train_names import TRAIN_CHECKS
-from gearlink.core.gears.train_ways import train_ways
+from gearlink.core.gears.train.meshed import QUANTITIES as OF_MESH
+from gearlink.core.gears.train.meshed import Meshed
+from gearlink.core.gears.train.names import TRAIN_CHECKS
+from gearlink.core.gears.train.single_mesh import MESH_CHECKS
+from gearlink.core.gears.train.ways import train_ways
 from gearlink.core.linkages.checks import check_linkage, transmission_check
 from gearlink.core.linkages.codes import TARGET
 from gearlink.core.linkages.dyad import acute
@@ -33,7 +33,7 @@ from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
     from gearlink.core.dwell_gears.mutilated_spec import MutilatedGearDwellSpec
-    from gearlink.core.gears.pair import GearPair
+    from gearlink.core.gears.mesh.pair import GearPair
 
 _TURN = 2.0 * math.pi
 _SHOWN_CYCLES = 100

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.gears.tooth_profile import ToothProfile, outline
+from gearlink.core.gears.outline.tooth_profile import ToothProfile, outline
 
 if TYPE_CHECKING:
-    from gearlink.core.gears.pair import GearPair
+    from gearlink.core.gears.mesh.pair import GearPair
 
 _CHORD = 1e-4  # of the module
 
@@ -28,7 +28,7 @@ def free_radius(mesh: GearPair) -> float:
     Notes
         To 1e-4 of the module, on the safe side.
     Example
-        >>> from gearlink.core.gears.pair import GearPair
+        >>> from gearlink.core.gears.mesh.pair import GearPair
         >>> mesh = GearPair.from_shift(3.0, (80, 20))
         >>> mesh.root_radius[0] < free_radius(mesh) < mesh.tip_radius[0]
         True
@@ -51,7 +51,7 @@ def end_tooth_radius(mesh: GearPair) -> float:
     Parameters
         mesh : GearPair - wheel and driven gear
     Example
-        >>> from gearlink.core.gears.pair import GearPair
+        >>> from gearlink.core.gears.mesh.pair import GearPair
         >>> mesh = GearPair.from_shift(3.0, (80, 20))
         >>> end_tooth_radius(mesh) == free_radius(mesh)
         True

@@ -13,11 +13,11 @@ from gearlink.core.errors import NoSolution
 from gearlink.core.five_bar import bodies, tables
 from gearlink.core.five_bar.codes import CLOSURE
 from gearlink.core.five_bar.parts import MESHES, FiveBarParts
-from gearlink.core.gears.meshed import QUANTITIES as OF_MESH
-from gearlink.core.gears.meshed import named
-from gearlink.core.gears.single_mesh import MESH_CHECKS
-from gearlink.core.gears.train_names import TRAIN_CHECKS
-from gearlink.core.gears.train_ways import train_ways
+from gearlink.core.gears.train.meshed import QUANTITIES as OF_MESH
+from gearlink.core.gears.train.meshed import named
+from gearlink.core.gears.train.names import TRAIN_CHECKS
+from gearlink.core.gears.train.single_mesh import MESH_CHECKS
+from gearlink.core.gears.train.ways import train_ways
 from gearlink.core.linkages.checks import target_check, transmission_check
 from gearlink.core.motion_extremes import WithExtremes, names
 from gearlink.core.real_speed import OUTPUT_SPEEDS, OutputSpeed, RealSpeed, per_time

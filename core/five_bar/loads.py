@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.five_bar.design import GearedFiveBar
-from gearlink.core.gears.mesh_phase import signed_pair
+from gearlink.core.gears.outline.mesh_phase import signed_pair
 from gearlink.core.loads.design import LoadsDesign, loads_outline
 from gearlink.core.loads.periods import homecoming, is_directed
 from gearlink.core.results import cached_property

@@ -11,8 +11,8 @@ from gearlink.core.design import Found, placed
 from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.five_bar.function_motion import FunctionFiveBar
 from gearlink.core.five_bar.path_motion import PathFiveBar
-from gearlink.core.gears.meshed import Meshed
-from gearlink.core.gears.single_mesh import mesh_quantity
+from gearlink.core.gears.train.meshed import Meshed
+from gearlink.core.gears.train.single_mesh import mesh_quantity
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:

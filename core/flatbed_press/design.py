@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from gearlink.core.flatbed_press.compensation import Compensation
     from gearlink.core.flatbed_press.spec import FlatbedPressSpec
     from gearlink.core.gears.data import GearData
-    from gearlink.core.gears.pair import GearPair
+    from gearlink.core.gears.mesh.pair import GearPair
     from gearlink.core.linkages.slider_crank import SliderCrank
 
 _SYNC = ("sync_start", "sync_end", "cam_sync_start", "cam_sync_end", "compensation")

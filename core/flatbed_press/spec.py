@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.gears.pair_keys import PairKeys
+from gearlink.core.gears.keys.pair import PairKeys
 from gearlink.core.spec import (
     AcuteAngle,
     Angle,

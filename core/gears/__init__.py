@@ -1,6 +1,7 @@
 """Involute gears: single tooth, pair, mesh, true profile, checks and remedies.
 
-Begin with `pair` (a gear pair as a record) and `design` (the kind `gear-pair`).
+A package a subject: `tooth`, `mesh`, `outline`, `rating`, `measures`, `shifts`, `rack`, `train`, and the `keys` of
+design files. Begin with `mesh.pair` (a gear pair as a record) and `design` (the kind `gear-pair`).
 """
 
 from __future__ import annotations
@@ -9,9 +10,9 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from gearlink.core.gears.pair import GearPair as GearPair
+    from gearlink.core.gears.mesh.pair import GearPair as GearPair
 
-_PLACES = {"GearPair": "pair"}
+_PLACES = {"GearPair": "mesh.pair"}
 
 
 def __getattr__(name: str) -> Any:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.gears.data import GearData
-from gearlink.core.gears.flank_strength import hertz_pressure
+from gearlink.core.gears.rating.flank_strength import hertz_pressure
 from gearlink.core.report import Table
 from gearlink.core.results import cached_property
 

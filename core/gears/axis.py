@@ -30,8 +30,8 @@ from gearlink.core.gears.data import MAGNITUDES
 from gearlink.core.gears.drawing_checks import FilletMeasure, fillet_measured
 from gearlink.core.gears.drawing_names import PLACES
 from gearlink.core.gears.from_spec import both
-from gearlink.core.gears.pair_sweep import GearPairs, PathsOfContact
-from gearlink.core.gears.ring_sweep import InternalInterferences, RingPairs
+from gearlink.core.gears.mesh.pair_sweep import GearPairs, PathsOfContact
+from gearlink.core.gears.mesh.ring_sweep import InternalInterferences, RingPairs
 from gearlink.core.nomenclature import term
 from gearlink.core.numerics.arrays import Mask, Reals
 from gearlink.core.report import Rule

@@ -21,7 +21,7 @@ from gearlink.core.remedies import Way, down, up
 from gearlink.core.report import Check, Status, safely_above
 
 if TYPE_CHECKING:
-    from gearlink.core.gears.pair import GearPair
+    from gearlink.core.gears.mesh.pair import GearPair
 
 
 class GearQuantities:

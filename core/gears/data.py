@@ -7,19 +7,20 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.gears.contact import PathOfContact
 from gearlink.core.gears.drawing_names import PLACES
-from gearlink.core.gears.flank_strength import FlankStrength
-from gearlink.core.gears.inspection import Ball, chord, preferred_pin
-from gearlink.core.gears.load import Load, Material
-from gearlink.core.gears.pair import GearPair, Pair
-from gearlink.core.gears.root_stress import RootStress
-from gearlink.core.gears.tools import RackTool
+from gearlink.core.gears.measures.inspection import Ball, chord, preferred_pin
+from gearlink.core.gears.mesh.contact import PathOfContact
+from gearlink.core.gears.mesh.pair import GearPair
+from gearlink.core.gears.mesh.pitch_pair import Pair
+from gearlink.core.gears.rating.flank_strength import FlankStrength
+from gearlink.core.gears.rating.load import Load, Material
+from gearlink.core.gears.rating.root_stress import RootStress
+from gearlink.core.gears.tooth.tools import RackTool
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
-    from gearlink.core.gears.backlash import Backlash
-    from gearlink.core.gears.internal import InternalInterference
+    from gearlink.core.gears.measures.backlash import Backlash
+    from gearlink.core.gears.mesh.ring_interference import InternalInterference
 
 Both = tuple[float | None, float | None]
 _OF_TIP_LOAD = frozenset(("tip_form_factor", "tip_stress_correction_factor", "contact_ratio_factor_bending"))
@@ -83,7 +84,7 @@ class GearData:
         """The interferences of a pinion in a ring; None for an external pair."""
         if not self.pair.internal:
             return None
-        from gearlink.core.gears.internal import InternalInterference
+        from gearlink.core.gears.mesh.ring_interference import InternalInterference
 
         return InternalInterference(self.pair)
 
@@ -190,7 +191,7 @@ class GearData:
         if self.allowances is None and self.distance_allowance is None and not both_given:
             return None
         one, other = self.allowances or ((0.0, 0.0), (0.0, 0.0))
-        from gearlink.core.gears.backlash import Backlash
+        from gearlink.core.gears.measures.backlash import Backlash
 
         return Backlash(
             pair=self.pair,

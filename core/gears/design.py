@@ -13,14 +13,14 @@ from gearlink.core.gears.data import GearData
 from gearlink.core.gears.drawing_checks import pair_check, rests_on
 from gearlink.core.gears.drawing_names import DERIVED, DRAWING_CHECKS, DRAWING_QUANTITIES, lacking
 from gearlink.core.gears.from_spec import data_of, pair_of
-from gearlink.core.gears.pair import GearPair
+from gearlink.core.gears.mesh.pair import GearPair
 from gearlink.core.remedies import Way, down, either, shared, up
 from gearlink.core.report import Check, Remedy, Table
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
-    from gearlink.core.gears.contour import BlockingContour
-    from gearlink.core.gears.rack import RackMesh
+    from gearlink.core.gears.rack.mesh import RackMesh
+    from gearlink.core.gears.shifts.contour import BlockingContour
     from gearlink.core.gears.spec import GearPairSpec
 
 _SHIFTS = (
@@ -116,8 +116,8 @@ class GearPairDesign(GearQuantities, Design):
         """The mesh of a gear on a rack; None for two gears."""
         if not self.spec.rack:
             return None
-        from gearlink.core.gears.rack import RackMesh
-        from gearlink.core.gears.rack_rating import RackData
+        from gearlink.core.gears.rack.mesh import RackMesh
+        from gearlink.core.gears.rack.rating import RackData
 
         data = self.data
         assert isinstance(data, RackData)
@@ -196,7 +196,7 @@ class GearPairDesign(GearQuantities, Design):
 
     def table_candidates(self, _samples: int | None = None) -> Table:
         """The shares of the shift sum side by side."""
-        from gearlink.core.gears.candidates import candidates_table
+        from gearlink.core.gears.shifts.candidates import candidates_table
 
         with at_key(self._placed_by):
             return candidates_table(self._two_gears("candidates"))
@@ -204,7 +204,7 @@ class GearPairDesign(GearQuantities, Design):
     @cached_property
     def contour(self) -> BlockingContour:
         """The blocking contour about the design."""
-        from gearlink.core.gears.contour import BlockingContour
+        from gearlink.core.gears.shifts.contour import BlockingContour
 
         return BlockingContour(self._two_gears("contour"))
 

@@ -10,7 +10,7 @@ from gearlink.core.gears.data import GearData
 from gearlink.core.report import Table
 
 if TYPE_CHECKING:
-    from gearlink.core.gears.rack import RackMesh
+    from gearlink.core.gears.rack.mesh import RackMesh
 
 Row = tuple[str, str, Any, Any, str]
 

@@ -9,12 +9,12 @@ from typing import Any, NamedTuple, Protocol
 
 from gearlink.core.gears.checks import FILLET_NOISE, MORE_CONTACT, Limits, gear_check
 from gearlink.core.gears.codes import BACKLASH, BENDING, CONTACT_RATIO, FILLET, INSPECTION, PITTING, TIP_FOULING
-from gearlink.core.gears.contact import PathOfContact
 from gearlink.core.gears.data import GearData
 from gearlink.core.gears.drawing_names import DRAWING_CHECKS
-from gearlink.core.gears.inspection import preferred_pin
-from gearlink.core.gears.load import Factors
-from gearlink.core.gears.pair import GearPair
+from gearlink.core.gears.measures.inspection import preferred_pin
+from gearlink.core.gears.mesh.contact import PathOfContact
+from gearlink.core.gears.mesh.pair import GearPair
+from gearlink.core.gears.rating.load import Factors
 from gearlink.core.report import Check, Rule, Status, safely_above
 
 _TOUCHING = 1.2
@@ -144,7 +144,7 @@ def _cutter(data: GearData) -> Iterator[Check]:
     pair, shaped = data.pair, data.pair.shaped
     if shaped is None or pair.cutter is None:
         return
-    from gearlink.core.gears.internal import InternalInterference
+    from gearlink.core.gears.mesh.ring_interference import InternalInterference
 
     cutting = GearPair(
         module=pair.module,

@@ -7,18 +7,19 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.errors import NoSolution, at_key
-from gearlink.core.gears.allowances import js7, thickness_allowances
 from gearlink.core.gears.data import GearData
-from gearlink.core.gears.load import Factors, Load, Material, torque_of
-from gearlink.core.gears.pair import GearPair, Pair
-from gearlink.core.gears.tools import PinionCutter, RackTool, usual_rounding
+from gearlink.core.gears.measures.allowances import js7, thickness_allowances
+from gearlink.core.gears.mesh.pair import GearPair
+from gearlink.core.gears.mesh.pitch_pair import Pair
+from gearlink.core.gears.rating.load import Factors, Load, Material, torque_of
+from gearlink.core.gears.tooth.tools import PinionCutter, RackTool, usual_rounding
 
 if TYPE_CHECKING:
-    from gearlink.core.gears.material_spec import MaterialSpec
-    from gearlink.core.gears.pair_keys import PairKeys
-    from gearlink.core.gears.rack_rating import RackData
+    from gearlink.core.gears.keys.material import MaterialSpec
+    from gearlink.core.gears.keys.pair import PairKeys
+    from gearlink.core.gears.keys.sections import AllowanceSpec, LoadSpec, ToolSpec
+    from gearlink.core.gears.rack.rating import RackData
     from gearlink.core.gears.spec import GearPairSpec
-    from gearlink.core.gears.spec_parts import AllowanceSpec, LoadSpec, ToolSpec
 
 _MOST_SHIFT = 5.0
 _AGREE = 1e-6
@@ -94,7 +95,7 @@ def pair_at(given: PairKeys, teeth: tuple[int, int], distance: float | None = No
 
 def _on_rack(spec: GearPairSpec, known: dict[str, Any]) -> GearPair:
     """The gear on a rack, as gear 1 of a pair; x_1 = (a - r_1)/m where the distance to the datum line is given."""
-    from gearlink.core.gears.rack import beside_a_rack
+    from gearlink.core.gears.rack.mesh import beside_a_rack
 
     if spec.profile_shift is not None:
         return beside_a_rack(known, spec.profile_shift[0])
@@ -117,8 +118,8 @@ def _shared(spec: GearPairSpec, pair: GearPair, split: str) -> GearPair:
     Raises
         NoSolution - where the criterion has no share
     """
-    from gearlink.core.gears.candidates import strength_of
-    from gearlink.core.gears.shift_split import Diagonal
+    from gearlink.core.gears.shifts.candidates import strength_of
+    from gearlink.core.gears.shifts.shift_split import Diagonal
 
     diagonal = Diagonal(pair)
     with at_key("shift_split"):
@@ -164,7 +165,7 @@ def data_of(spec: GearPairSpec | PairKeys, pair: GearPair) -> GearData:
 
 
 def _rack_data() -> type[RackData]:
-    from gearlink.core.gears.rack_rating import RackData
+    from gearlink.core.gears.rack.rating import RackData
 
     return RackData
 

@@ -16,7 +16,7 @@ from gearlink.core.report import Table
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
-    from gearlink.core.gears.pair import GearPair
+    from gearlink.core.gears.mesh.pair import GearPair
     from gearlink.core.gears.spec import GearPairSpec
     from gearlink.core.loads.mechanism import Mechanism
     from gearlink.core.numerics.arrays import Reals

@@ -7,8 +7,8 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.gears.key_types import Shift, SignedTeeth, TwoShifts
-from gearlink.core.gears.pair_keys import PairKeys
+from gearlink.core.gears.keys.pair import PairKeys
+from gearlink.core.gears.keys.types import Shift, SignedTeeth, TwoShifts
 from gearlink.core.spec import (
     Deferred,
     DrawingLimits,
@@ -34,17 +34,17 @@ class GearPairSpec(TolerancedSpec, PairKeys):
         None, description="working centre distance; with profile_shift the difference is backlash"
     )
     profile_shift: TwoShifts | None = Field(None, description="profile shift coefficients of gear 1 and 2 (ISO signs)")
-    helix_hand: Annotated[Any, Deferred("gears.key_types:TwoHands")] | None = Field(
+    helix_hand: Annotated[Any, Deferred("gears.keys.types:TwoHands")] | None = Field(
         None, description="hands of helix of gear 1 and 2, for drawing and exports"
     )
-    tip_shortening: Annotated[Any, Deferred("gears.key_types:TipShortening")] | None = Field(
+    tip_shortening: Annotated[Any, Deferred("gears.keys.types:TipShortening")] | None = Field(
         None,
         description="full (default of external pairs), none (of internal ones), or tip alterations k of both gears",
     )
-    tip_diameter: Annotated[Any, Deferred("gears.key_types:TwoLengths")] | None = Field(
+    tip_diameter: Annotated[Any, Deferred("gears.keys.types:TwoLengths")] | None = Field(
         None, description="tip diameters, in place of tip_shortening"
     )
-    rim_thickness: Annotated[Any, Deferred("gears.key_types:RimOrTwo")] | None = Field(
+    rim_thickness: Annotated[Any, Deferred("gears.keys.types:RimOrTwo")] | None = Field(
         None,
         description="thickness of the rim under the tooth roots, of both or of each: for Y_B, and the back of a ring "
         "or rack in exports, which left out is 2 modules",
@@ -52,10 +52,10 @@ class GearPairSpec(TolerancedSpec, PairKeys):
     rack_teeth: Annotated[int, Field(ge=1, le=10_000, json_schema_extra={"unit": "teeth"})] | None = Field(
         None, description="teeth of the rack in pictures and exports; left out: as many as gear 1 has"
     )
-    cutter: Annotated[Any, Deferred("gears.spec_parts:CutterSpec")] | None = Field(
+    cutter: Annotated[Any, Deferred("gears.keys.sections:CutterSpec")] | None = Field(
         None, description="pinion cutter of a ring: only then its fillets are known"
     )
-    span_teeth: Annotated[Any, Deferred("gears.key_types:TwoSpans")] | None = Field(
+    span_teeth: Annotated[Any, Deferred("gears.keys.types:TwoSpans")] | None = Field(
         None, description="teeth that the span measurement of each gear goes over; left out: chosen"
     )
     assembly: Literal["axial", "radial"] = Field("axial", description="how pinion and ring are put together")

@@ -11,10 +11,10 @@ from gearlink.core.clearance.checks import SHAFT_WAYS, shaft_checks
 from gearlink.core.design import Found, Outline, placed
 from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.gears.checks import GEAR_CHECKS
-from gearlink.core.gears.meshed import QUANTITIES as OF_MESH
-from gearlink.core.gears.meshed import Meshed
-from gearlink.core.gears.train_names import TRAIN_CHECKS
-from gearlink.core.gears.train_ways import train_ways
+from gearlink.core.gears.train.meshed import QUANTITIES as OF_MESH
+from gearlink.core.gears.train.meshed import Meshed
+from gearlink.core.gears.train.names import TRAIN_CHECKS
+from gearlink.core.gears.train.ways import train_ways
 from gearlink.core.linkages.checks import check_linkage, target_check, transmission_check
 from gearlink.core.linkages.fourbar import FourBar, solve
 from gearlink.core.linkages.output_rates import OutputRates
@@ -30,7 +30,7 @@ from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
-    from gearlink.core.gears.pair import GearPair
+    from gearlink.core.gears.mesh.pair import GearPair
     from gearlink.core.planet_linkages.rocker_spec import GearedRockerSpec
 
 _LINK_TOLERANCE = 1e-9

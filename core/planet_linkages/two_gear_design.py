@@ -10,11 +10,11 @@ from gearlink.core.clearance.bodies import Layout
 from gearlink.core.clearance.checks import SHAFT_WAYS, shaft_checks
 from gearlink.core.design import Outline, placed
 from gearlink.core.errors import MissingSection, NoSolution, at_key
-from gearlink.core.gears.meshed import QUANTITIES as OF_MESH
-from gearlink.core.gears.meshed import Meshed
-from gearlink.core.gears.single_mesh import MESH_CHECKS
-from gearlink.core.gears.train_names import TRAIN_CHECKS
-from gearlink.core.gears.train_ways import train_ways
+from gearlink.core.gears.train.meshed import QUANTITIES as OF_MESH
+from gearlink.core.gears.train.meshed import Meshed
+from gearlink.core.gears.train.names import TRAIN_CHECKS
+from gearlink.core.gears.train.single_mesh import MESH_CHECKS
+from gearlink.core.gears.train.ways import train_ways
 from gearlink.core.linkages import standstills
 from gearlink.core.linkages.checks import check_linkage, transmission_check
 from gearlink.core.linkages.feed import FEED_QUANTITIES, FeedResults

@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.gears.train_keys import TrainKeys
+from gearlink.core.gears.train.keys import TrainKeys
 from gearlink.core.linkages.dwell_band_spec import DwellBand
 from gearlink.core.linkages.spec_parts import LinkageLimits, require_rim
 from gearlink.core.spec import Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth

@@ -13,7 +13,7 @@ import numpy as np
 
 from gearlink.core.clearance.bodies import Gear, Layout, least_shaft, ring_gear, shafts_at
 from gearlink.core.clearance.reach import Reach, constant
-from gearlink.core.gears.internal_mesh import InternalMesh
+from gearlink.core.gears.mesh.internal_mesh import InternalMesh
 from gearlink.core.numerics.extremes import extremes_over
 from gearlink.core.six_bar.loop import pins
 from gearlink.core.six_bar.spec import PINS

@@ -11,9 +11,9 @@ from gearlink.core.clearance.bodies import Layout
 from gearlink.core.clearance.checks import SHAFT_WAYS, collision_check, shaft_checks
 from gearlink.core.design import Design, Outline, placed
 from gearlink.core.errors import NoSolution, at_key
-from gearlink.core.gears.internal_mesh import InternalMesh
-from gearlink.core.gears.pair import GearPair
-from gearlink.core.gears.single_mesh import MESH_CHECKS, mesh_checks, mesh_quantity
+from gearlink.core.gears.mesh.internal_mesh import InternalMesh
+from gearlink.core.gears.mesh.pair import GearPair
+from gearlink.core.gears.train.single_mesh import MESH_CHECKS, mesh_checks, mesh_quantity
 from gearlink.core.linkages.checks import transmission_check
 from gearlink.core.linkages.output_rates import OutputRates
 from gearlink.core.motion_extremes import names

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from gearlink.core.design_axis import Evaluated, kept_inside
-from gearlink.core.gears.unshifted import MOST_TEETH, UnshiftedMeshes
+from gearlink.core.gears.train.unshifted import MOST_TEETH, UnshiftedMeshes
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.spec_paths import number_at
 from gearlink.core.three_gear.axis_batch import LIMITS, SHAFTS, TEETH, Batch

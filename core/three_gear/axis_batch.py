@@ -11,7 +11,7 @@ import numpy as np
 
 from gearlink.core.clearance.bodies import LEAST_SHAFT_MODULES
 from gearlink.core.design_axis import Evaluated, Findings
-from gearlink.core.gears.unshifted import Mesh, UnshiftedMeshes
+from gearlink.core.gears.train.unshifted import Mesh, UnshiftedMeshes
 from gearlink.core.linkages.checks import WINDOW_FIT
 from gearlink.core.linkages.codes import DWELL_EDGE, DWELL_WINDOW, GEAR_COLLISION, SHAFT_CLEARANCE, TRANSMISSION_ANGLE
 from gearlink.core.numerics.arrays import Mask, Reals

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from gearlink.core.clearance.bodies import Gear, Layout, Shaft, least_shaft
 from gearlink.core.clearance.reach import constant, coupler_joint, crank_pin
-from gearlink.core.gears.teeth import rim_radius
+from gearlink.core.gears.tooth.teeth import rim_radius
 from gearlink.core.linkages.codes import GEAR_COLLISION
 from gearlink.core.three_gear.motion import tip_radius
 
@@ -57,7 +57,7 @@ def _gear(name: str, axis: str, teeth: float, train: GearTrain, module: float, r
     """A gear by its teeth; a ring for negative ones. Rings stand in a plane of their own, apart from the other gear."""
     if teeth > 0:
         return Gear(name, axis, tip_radius(teeth, module), mates=mates)
-    from gearlink.core.gears.internal_mesh import InternalMesh
+    from gearlink.core.gears.mesh.internal_mesh import InternalMesh
 
     mesh = InternalMesh(module, (int(train.idler), int(-teeth)), rim=rim)
     return Gear(f"{name}, a ring,", axis, mesh.rim_radius, mesh.tip_radius[1], mates)

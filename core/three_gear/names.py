@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from gearlink.core.gears.meshed import named
-from gearlink.core.gears.single_mesh import MESH_CHECKS
+from gearlink.core.gears.train.meshed import named
+from gearlink.core.gears.train.single_mesh import MESH_CHECKS
 from gearlink.core.linkages.feed import FEED_QUANTITIES
 from gearlink.core.motion_extremes import names
 from gearlink.core.real_speed import OUTPUT_SPEEDS

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from gearlink.core.gears.involute_sweep import involute
+from gearlink.core.gears.tooth.involute_sweep import involute
 from gearlink.core.linkages import fourbar_sweep
 from gearlink.core.linkages.loop_gains import closed_pin
 from gearlink.core.numerics.arrays import Points, Reals

@@ -7,7 +7,7 @@ from typing import Annotated, Any, ClassVar, Literal, TypeAlias
 from pydantic import AfterValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from gearlink.core.gears.train_keys import TrainKeys
+from gearlink.core.gears.train.keys import TrainKeys
 from gearlink.core.linkages.spec_parts import DwellTolerance, LinkageLimits, require_rim
 from gearlink.core.real_speed import other_speed
 from gearlink.core.spec import Assembly, Deferred, DrivenSpec, Length, PressureAngle, Spec, Teeth

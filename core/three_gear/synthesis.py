@@ -111,7 +111,7 @@ class Synthesis(ThreeGearFourBar):
         teeth = (gears.crank, idler, gears.output)
         own = None
         if self.own_teeth:
-            from gearlink.core.gears.train import Train
+            from gearlink.core.gears.train.meshes import Train
 
             own = dict(zip(MESHES, Train(gears, teeth, (None, None)).pairs(), strict=True))
         found = layout(linkage, GearTrain(*teeth), self.spec, own).shaft_pairs

@@ -9,8 +9,8 @@ import pytest
 
 from gearlink.core.cams.profile import profile, translating
 from gearlink.core.errors import NoSolution
-from gearlink.core.gears.involute import inverse_involute, involute
-from gearlink.core.gears.pair import GearPair
+from gearlink.core.gears.mesh.pair import GearPair
+from gearlink.core.gears.tooth.involute import inverse_involute, involute
 from gearlink.core.linkages import fourbar, slider_crank
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.linkages.slider_crank import SliderCrank

@@ -18,7 +18,7 @@ from stress.worst import COUNTS, EPS, LONG, LONGER_NUMBERS, MANY, Worst
 from gearlink.core.cams.laws import law
 from gearlink.core.cams.profile import oscillating, profile, translating
 from gearlink.core.errors import NoSolution
-from gearlink.core.gears.pair import GearPair
+from gearlink.core.gears.mesh.pair import GearPair
 from gearlink.core.linkages import fourbar, slider_crank
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.linkages.slider_crank import SliderCrank

@@ -29,7 +29,7 @@ from stress.test_random_drives import (
 from stress.worst import EPS, LONGER_NUMBERS, Worst
 
 from gearlink.core.cams.profile import oscillating, profile, translating
-from gearlink.core.gears.pair import GearPair
+from gearlink.core.gears.mesh.pair import GearPair
 from gearlink.core.linkages import fourbar
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.linkages.slider_crank import SliderCrank

@@ -11,9 +11,9 @@ from typing import Any
 import pytest
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.gears import search
-from gearlink.core.gears.pair import GearPair
-from gearlink.core.gears.search import Wish, candidates, pairs_of_teeth, teeth_sums
+from gearlink.core.gears.mesh.pair import GearPair
+from gearlink.core.gears.shifts import search
+from gearlink.core.gears.shifts.search import Wish, candidates, pairs_of_teeth, teeth_sums
 
 
 @pytest.mark.parametrize(

@@ -19,8 +19,8 @@ from gearlink.cli.export import parts, step
 from gearlink.cli.export.contour import Contour, contour
 from gearlink.cli.export.options import CurveForm
 from gearlink.cli.export.rexs import as_rexs
-from gearlink.core.gears.involute import involute
-from gearlink.core.gears.tooth_profile import ToothProfile
+from gearlink.core.gears.outline.tooth_profile import ToothProfile
+from gearlink.core.gears.tooth.involute import involute
 
 HELICAL = """kind: gear-pair
 name: h & <b>

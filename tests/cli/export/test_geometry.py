@@ -26,9 +26,9 @@ from gearlink.cli.export.contour import Contour, contour
 from gearlink.cli.export.options import CurveForm
 from gearlink.cli.export.sampling import Stretch, TooFine, sample
 from gearlink.cli.export.svg import bezier
-from gearlink.core.gears.involute import involute
-from gearlink.core.gears.mesh_geometry import MeshGeometry
-from gearlink.core.gears.pair import GearPair
+from gearlink.core.gears.mesh.pair import GearPair
+from gearlink.core.gears.outline.mesh_geometry import MeshGeometry
+from gearlink.core.gears.tooth.involute import involute
 
 ROOT = Path(__file__).resolve().parents[3]
 CASES = ROOT / "tests" / "reference" / "contract"

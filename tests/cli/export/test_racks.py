@@ -21,7 +21,7 @@ from gearlink.cli.export.contour import contour
 from gearlink.cli.export.options import CurveForm
 from gearlink.cli.figures.path_of_contact import zone_size
 from gearlink.cli.scenes.gear_pair import build
-from gearlink.core.gears.rack_geometry import RackGeometry
+from gearlink.core.gears.rack.geometry import RackGeometry
 
 BENT = worked("rack_drive") | {"helix_angle": 12, "tool": {"addendum": 1.3, "rounding": 0.2}}
 

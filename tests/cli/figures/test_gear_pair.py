@@ -16,9 +16,9 @@ from sheets import odd_sheets, panel, placed_sheet, points, sheet, tagged, words
 from gearlink.cli.figures.gear_mesh import Mesh, mesh_figure
 from gearlink.cli.figures.write import write_plot
 from gearlink.cli.options import Options
-from gearlink.core.gears.mesh_geometry import MeshGeometry
-from gearlink.core.gears.pair import GearPair
-from gearlink.core.gears.rack_geometry import RackGeometry
+from gearlink.core.gears.mesh.pair import GearPair
+from gearlink.core.gears.outline.mesh_geometry import MeshGeometry
+from gearlink.core.gears.rack.geometry import RackGeometry
 
 DATA = {"kind": "gear-pair", "name": "pair", "module": 4.0, "teeth": [20, 31], "profile_shift": [0.3, 0.1]}
 

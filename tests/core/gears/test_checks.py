@@ -15,7 +15,7 @@ from pydantic import ValidationError
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, gear_check, gear_quantity
-from gearlink.core.gears.pair import GearPair
+from gearlink.core.gears.mesh.pair import GearPair
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.spec import GearLimits
 

@@ -12,8 +12,8 @@ from pydantic import ValidationError
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.gears.drawing_names import DERIVED
-from gearlink.core.gears.inspection import PREFERRED_PINS, Ball, preferred_pin
-from gearlink.core.gears.pair import GearPair
+from gearlink.core.gears.measures.inspection import PREFERRED_PINS, Ball, preferred_pin
+from gearlink.core.gears.mesh.pair import GearPair
 from gearlink.core.results import observed
 from tests.factory import design
 from tests.sweeps import ALL

@@ -15,12 +15,12 @@ from typing import Any
 import pytest
 from factory import design
 
-from gearlink.core.gears.allowances import thickness_allowances
-from gearlink.core.gears.involute import involute
-from gearlink.core.gears.pair import GearPair
-from gearlink.core.gears.ring_cutter import ShapedRing
-from gearlink.core.gears.root_fillet import RackCutRoot
-from gearlink.core.gears.tools import PinionCutter, RackTool
+from gearlink.core.gears.measures.allowances import thickness_allowances
+from gearlink.core.gears.mesh.pair import GearPair
+from gearlink.core.gears.mesh.ring_cutter import ShapedRing
+from gearlink.core.gears.tooth.involute import involute
+from gearlink.core.gears.tooth.root_fillet import RackCutRoot
+from gearlink.core.gears.tooth.tools import PinionCutter, RackTool
 
 CASES = json.loads((Path(__file__).parents[2] / "reference" / "gears.json").read_text())["cases"]
 PAIRS = [case for case in CASES if isinstance(case["input"].get("teeth"), list) and "module" in case["input"]]

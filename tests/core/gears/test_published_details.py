@@ -15,12 +15,12 @@ from typing import Any
 import pytest
 from factory import design
 
-from gearlink.core.gears import teeth
 from gearlink.core.gears.data import GearData
-from gearlink.core.gears.involute import inverse_involute, involute
-from gearlink.core.gears.load import Material
-from gearlink.core.gears.pair import GearPair
-from gearlink.core.gears.root_stress import RootStress
+from gearlink.core.gears.mesh.pair import GearPair
+from gearlink.core.gears.rating.load import Material
+from gearlink.core.gears.rating.root_stress import RootStress
+from gearlink.core.gears.tooth import teeth
+from gearlink.core.gears.tooth.involute import inverse_involute, involute
 
 CASES = json.loads((Path(__file__).parents[2] / "reference" / "gears.json").read_text())["cases"]
 KEYS = (

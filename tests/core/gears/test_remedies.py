@@ -9,7 +9,7 @@ import pytest
 from factory import design
 
 from gearlink.core.gears.checks import gear_check
-from gearlink.core.gears.pair import GearPair
+from gearlink.core.gears.mesh.pair import GearPair
 from gearlink.core.report import Check
 from gearlink.core.spec import GearLimits
 from gearlink.core.spec_paths import changed

@@ -13,8 +13,8 @@ from factory import design
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.gears.checks import gear_check
-from gearlink.core.gears.internal_mesh import InternalMesh
-from gearlink.core.gears.pair import GearPair
+from gearlink.core.gears.mesh.internal_mesh import InternalMesh
+from gearlink.core.gears.mesh.pair import GearPair
 from gearlink.core.spec import GearLimits
 
 WIDEST = math.pi / (4.0 * math.tan(math.radians(20.0)))

@@ -22,7 +22,7 @@ from oracles.three_gear import Drive
 from sweeps import mostly_slow
 
 from gearlink.core.errors import MissingSection, NoSolution
-from gearlink.core.gears.pair import GearPair
+from gearlink.core.gears.mesh.pair import GearPair
 from gearlink.core.three_gear.names import MESHES
 
 ROOT = Path(__file__).parents[3]

@@ -15,7 +15,7 @@ from pydantic import ValidationError
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.gears.data import PLACES
-from gearlink.core.gears.train_names import TRAIN_QUANTITIES
+from gearlink.core.gears.train.names import TRAIN_QUANTITIES
 from gearlink.core.three_gear.by_roots import ByRoots
 from gearlink.core.three_gear.tolerance_axis import ThreeGearSamples
 

@@ -1,0 +1,4 @@
+"""Two gears in mesh: distances, shifts and tips, contact, rings, what a pair must satisfy to exist.
+
+Begin with `pair`; `pair_sweep` and `ring_sweep` are the same for arrays.
+"""

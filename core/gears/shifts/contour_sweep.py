@@ -1,0 +1,108 @@
+"""The lines of the blocking contour along many rows of shifts at once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from gearlink.core.errors import NoSolution
+from gearlink.core.gears.data import GearData
+from gearlink.core.gears.shifts.candidates import strengths
+from gearlink.core.gears.shifts.contour_lines import Line
+from gearlink.core.gears.shifts.data_sweep import GearDatas, shifted
+from gearlink.core.numerics.arrays import Mask, Reals
+from gearlink.core.numerics.roots_sweep import bracketed_roots
+from gearlink.core.results import cached_property
+
+
+def _fillet(data: GearDatas, gear: int) -> Any:
+    form: Any = data.pair.form_radius_of(gear)
+    found: Any = data.path.used_root_radius[gear] - form
+    if data.pair.shaped is not None:  # a ring that its cutter cannot shape leaves no fillet to either gear
+        shaped: Any = data.pair.form_radius_of(1)
+        found = np.where(np.isnan(shaped), np.nan, found)
+    return np.where(data.pair.interference_margin[1 - gear] < 0.0, np.nan, found)
+
+
+def _sliding(data: GearDatas) -> Any:
+    one, other = data.pair.specific_sliding
+    return one - other
+
+
+def _root_stress(data: GearDatas) -> Any:
+    found = strengths(data)
+    assert found is not None
+    return np.log(found[0] / found[1])
+
+
+_AT_ONCE: dict[str, Callable[[GearDatas], Any]] = {
+    "fillet 1": lambda data: _fillet(data, 0),
+    "fillet 2": lambda data: _fillet(data, 1),
+    "equal sliding": _sliding,
+    "equal root stress": _root_stress,
+}
+"""Of the lines whose value asks first whether a pair has it."""
+
+
+def values_of(line: Line, data: GearDatas) -> Reals:
+    """The values of a line, not a number where a pair has none."""
+    pair = data.pairs
+    try:
+        found = _AT_ONCE.get(line.name, line.value)(data)
+    except NoSolution:  # a cutter that no ring can be shaped with
+        found = np.nan
+    there = pair.exist & pair.have_flanks if line.needs_flanks else pair.exist
+    return np.where(there, found, np.nan)
+
+
+@dataclass(frozen=True)
+class Rows:
+    """Points in rows through the plane of both shifts.
+
+    Parameters
+        data : GearData - of one pair
+        along : (N, M) array [module] - places along each row
+        place : function of (row numbers, places along them) that gives x_1 and x_2
+    """
+
+    data: GearData
+    along: Reals
+    place: Callable[[Any, Reals], tuple[Reals, Reals]]
+
+    def at(self, rows: Any, along: Reals) -> GearDatas:
+        """The pairs at places along some rows."""
+        return shifted(self.data, *self.place(rows, along))
+
+    @cached_property
+    def _grid(self) -> GearDatas:
+        count, points = self.along.shape
+        return self.at(np.repeat(np.arange(count), points), self.along.ravel())
+
+    def crossings(self, line: Line) -> tuple[Any, Reals]:
+        """Where a line crosses the rows: their numbers, rising, and the places along them.
+
+        Notes
+            As the crossings of one row by scalars: between neighbours of different sign, to the last bits.
+        """
+        with np.errstate(all="ignore"):
+            values = values_of(line, self._grid).reshape(self.along.shape)
+            one, other = values[:, :-1], values[:, 1:]
+            rows, steps = np.nonzero((one == 0.0) | ((one < 0.0) & (other > 0.0)) | ((one > 0.0) & (other < 0.0)))
+            ends = one[rows, steps], other[rows, steps]
+            low, high = self.along[rows, steps], self.along[rows, steps + 1]
+            roots = bracketed_roots(lambda at: values_of(line, self.at(rows, at)), low, high, ends=ends)
+        found = ~np.isnan(roots)  # the value may end within the step
+        return rows[found], roots[found]
+
+    def are_free(self, lines: Sequence[Line], rows: Any, along: Reals) -> Mask:
+        """Whether no line that limits is violated at places along some rows, and the teeth mesh."""
+        with np.errstate(all="ignore"):
+            data = self.at(rows, along)
+            free: Mask = np.asarray(data.pair.contact_ratio) > 0.0
+            for line in lines:
+                if line.limits:
+                    free &= ~(values_of(line, data) < 0.0)
+        return free
