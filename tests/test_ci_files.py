@@ -44,6 +44,31 @@ def test_the_action_runs_a_batch(tmp_path: Path) -> None:
     assert (ended.returncode, ended.stderr) == (0, "")
 
 
+def test_the_action_takes_every_line_of_its_paths(tmp_path: Path) -> None:
+    """`read` stops at the first line unless told otherwise; designs of the others would pass unseen."""
+    called = tmp_path / "gearlink" / "bin" / "gearlink"
+    called.parent.mkdir(parents=True)
+    called.write_text('#!/bin/sh\nfor word; do echo "$word"; done\n')
+    called.chmod(0o755)
+    given = {
+        "RUNNER_TEMP": str(tmp_path),
+        "PATHS": "a.yaml b.yaml\n  --executor=c.yaml\n",
+        "FAIL_ON": "failure",
+        "CACHE": "",
+    }
+    command = [
+        "bash",
+        "--noprofile",
+        "--norc",
+        "-eo",
+        "pipefail",
+        "-c",
+        _read("action.yml")["runs"]["steps"][-1]["run"],
+    ]
+    words = subprocess.run(command, env=given, capture_output=True, text=True, check=True).stdout.split("\n")
+    assert words[words.index("--") + 1 :] == ["a.yaml", "b.yaml", "--executor=c.yaml", ""]
+
+
 def test_the_hook_checks_design_files() -> None:
     (hook,) = _read(".pre-commit-hooks.yaml")
     assert (hook["id"], hook["entry"]) == ("gearlink-check", "gearlink check")

@@ -73,7 +73,7 @@ class Part:
 
 @dataclass(frozen=True)
 class Line:
-    """One curve without gaps.
+    """One curve without gaps; a closed one runs counter-clockwise.
 
     Attributes
         layer : str
@@ -96,6 +96,15 @@ class Line:
     def control(self) -> Points:
         """Control points of the pieces' cubics as those of one B-spline."""
         return self._whole([piece.control[0] for piece in self.pieces])
+
+    @property
+    def area(self) -> float:
+        """The area inside a closed line by its chords, negative where it runs clockwise [mm^2]."""
+        return 0.5 * float(np.sum((self.nodes[:-1].conj() * self.nodes[1:]).imag))
+
+    def reversed(self) -> Line:
+        """The same curve, run through backwards."""
+        return replace(self, pieces=tuple(piece.backwards() for piece in self.pieces[::-1]), turns=self.turns[::-1])
 
     def _whole(self, rows: list[Points]) -> Points:
         points = self.repeated(np.concatenate([row[:-1] for row in rows]))
@@ -157,7 +166,8 @@ class Contour:
 
     def _line(self, layer: str, run: list[Sampled]) -> Line:
         gap = abs(run[-1].nodes[0, -1] - _step(self.turns) * run[0].nodes[0, 0])
-        return Line(layer, tuple(run), self.part.closed and bool(gap <= JOIN), self.turns)
+        line = Line(layer, tuple(run), self.part.closed and bool(gap <= JOIN), self.turns)
+        return line.reversed() if line.closed and line.area < 0.0 else line
 
     @property
     def points(self) -> int:

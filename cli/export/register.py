@@ -35,6 +35,8 @@ def _export(
 ) -> None:
     """Write the profiles of cams and gears as DXF, SVG, CSV or STEP, NAME-PART.dxf for each part; gears as REXS.
 
+    Closed outlines run counter-clockwise, also round a hole; the rows of a CSV of a cam follow its angle.
+
     STEP (solids) needs cadquery-ocp: pip install cadquery-ocp. REXS 1.7 is one file for all gears.
 
     Exit status 1: the files were written, but a roller cuts into its profile.

@@ -80,11 +80,16 @@ class Sampled:
 
     def mirrored(self) -> Sampled:
         """The mirror image about the x axis, run through backwards."""
+        back = self.backwards()
+        return replace(back, nodes=back.nodes.conj(), control=back.control.conj())
+
+    def backwards(self) -> Sampled:
+        """The same, run through backwards."""
         return replace(
             self,
             parameter=self.parameter[::-1],
-            nodes=self.nodes[:, ::-1].conj(),
-            control=self.control[:, ::-1].conj(),
+            nodes=self.nodes[:, ::-1],
+            control=self.control[:, ::-1],
             knots=(self.knots[-1] - self.knots)[::-1] if self.knots.size else self.knots,
         )
 

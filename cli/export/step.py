@@ -98,7 +98,7 @@ def _profile(contour: Contour) -> list[tuple[Points, Any]]:
     """Control points and knots of each stretch of the profile, all round; of a hole the other way round."""
     (line,) = (line for line in contour.lines if line.layer == "PROFILE")
     assert contour.form is CurveForm.SPLINE, "chosen by the command"
-    curves = [(turn * piece.control[0], piece.knots) for turn in contour.turns.tolist() for piece in line.pieces]
+    curves = [(turn * piece.control[0], piece.knots) for turn in line.turns.tolist() for piece in line.pieces]
     if contour.part.rim:
         return [(control[::-1], (knots[-1] - knots)[::-1]) for control, knots in reversed(curves)]
     return curves

@@ -160,7 +160,8 @@ def test_svg_is_to_scale_and_holds_the_points_of_the_csv(gearlink: Any, tmp_path
     assert data.startswith("M")
     assert data.endswith("Z")
     drawn = [tuple(map(float, pair.split())) for pair in data[1:-1].split("L")]
-    rows = table(tmp_path / "TY-460-main_cam.csv")[:-1]
+    # Outlines run counter-clockwise, rows with the angle of the cam, which turns that way under its roller.
+    rows = table(tmp_path / "TY-460-main_cam.csv")[:0:-1]
     assert len(drawn) == len(rows)
     for (x, y), row in zip(drawn, rows, strict=True):
         assert x == pytest.approx(float(row["x [mm]"]), rel=0.0, abs=5.1e-7)

@@ -455,6 +455,14 @@ def read_back(tmp_path: Path, design: Any, name: str, form: CurveForm) -> tuple[
     return exported, document
 
 
+@pytest.mark.parametrize("form", FORMS)
+def test_closed_outlines_run_counter_clockwise(form: CurveForm) -> None:
+    """A tool path lies on one side of its contour: cams and gears must agree on which."""
+    cases = [(press(), "main_cam"), (gripper(), "main_cam"), (pair(), "gear1")]
+    for points in (points for case in cases for points in drawn(made(*case, form), "PROFILE")):
+        assert np.sum((points[:-1].conj() * points[1:]).imag) / (2 * math.pi * np.abs(points).min() ** 2) > 1.0
+
+
 DXF_PARTS = [
     (press, "main_cam"),
     (press, "gear1"),

@@ -40,6 +40,7 @@ def test_the_outline_is_closed_and_has_its_teeth_and_lines(given: Any, form: Cur
     nodes, profile = lines["PROFILE"].nodes, design(given).rack.profile
     assert lines["PROFILE"].closed
     assert nodes[0] == nodes[-1]
+    assert np.sum((nodes[:-1].conj() * nodes[1:]).imag) > 0.0, "counter-clockwise, as gears and cams are"
     assert (nodes.imag.max(), nodes.imag.min()) == pytest.approx((3.0, profile.root - 12.0), rel=1e-12)
     assert np.ptp(nodes.real) == pytest.approx(30 * math.pi * 3 / math.cos(beta))
     assert np.count_nonzero(np.diff((nodes.imag > 0.0).astype(int)) == 1) == 30

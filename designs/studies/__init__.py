@@ -1,0 +1,1 @@
+"""Worked studies of `gearlink explore`."""
