@@ -18,12 +18,12 @@ from gearlink.cli.render.errors import show_refusal
 from gearlink.core.errors import named
 
 if TYPE_CHECKING:
-    from gearlink.cli.figures.sheet_list import Makers
+    from gearlink.cli.figures.sheets.sheet_list import Makers
 
 
 def run_sheet(source: str, names: Sequence[str], options: Options) -> int:
     """Write NAME-SHEET.png for each sheet asked for, or for all that the design has; gives the exit status."""
-    from gearlink.cli.figures.sheet_list import sheets_of
+    from gearlink.cli.figures.sheets.sheet_list import sheets_of
 
     try:
         loaded, kind = open_design(source, options)
@@ -54,7 +54,7 @@ def _chosen(made: Makers, names: Sequence[str], kind: str) -> list[str]:
 
 
 def _write(made: Makers, name: str, spec: Any, options: Options) -> Path:
-    from gearlink.cli.figures.placing import settled
+    from gearlink.cli.figures.drawing.placing import settled
     from gearlink.cli.figures.write import save
 
     ending = options.plot_format.value

@@ -39,9 +39,9 @@ def contour_file(design: Any, form: FileFormat) -> tuple[bytes, str]:
 
 
 def _svg(design: Any) -> bytes:
-    from gearlink.cli.figures import panels
-    from gearlink.cli.figures.gear_contour import contour_plot
-    from gearlink.cli.figures.placing import settled
+    from gearlink.cli.figures.drawing import panels
+    from gearlink.cli.figures.drawing.placing import settled
+    from gearlink.cli.figures.gears.contour import contour_plot
     from gearlink.cli.figures.write import save
 
     def made() -> Figure:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.figures import panels, style
-from gearlink.cli.figures.placing import settled
+from gearlink.cli.figures.drawing import panels, style
+from gearlink.cli.figures.drawing.placing import settled
 from gearlink.cli.figures.write import save
 from gearlink.cli.files import safe_stem, write_atomically
 from gearlink.cli.options import Options

@@ -6,10 +6,10 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.figures import panels
-from gearlink.cli.figures.gear_mesh import Mesh, mesh_zone, values, whole_gears
-from gearlink.cli.figures.gear_values import gear_text, headed, math_symbol, ruled, value_rows
-from gearlink.cli.figures.path_of_contact import zone_legend
+from gearlink.cli.figures.drawing import panels
+from gearlink.cli.figures.gears.mesh import Mesh, mesh_zone, values, whole_gears
+from gearlink.cli.figures.gears.path_of_contact import zone_legend
+from gearlink.cli.figures.gears.values import gear_text, headed, math_symbol, ruled, value_rows
 from gearlink.core.errors import NoSolution
 
 if TYPE_CHECKING:
@@ -30,8 +30,8 @@ def draw(command: str, design: GearPairDesign) -> Figure:
     """The figure of `gear` or `analyze` on a gear pair."""
     title = f"{design.spec.name}: {command}"
     if design.rack is not None:
-        from gearlink.cli.figures.gear_contour import path_plot
-        from gearlink.cli.figures.rack import rack_and_gear, rack_zone
+        from gearlink.cli.figures.gears.contour import path_plot
+        from gearlink.cli.figures.gears.rack import rack_and_gear, rack_zone
 
         rack = design.rack
         teeth = [gear_text(rack.pair.teeth[0]), "rack"]
@@ -40,7 +40,7 @@ def draw(command: str, design: GearPairDesign) -> Figure:
         rows = value_rows(teeth, [f"{rack.pair.module:g}"] * 2, [rack.quantity]) + _rating(design)
         drawings = (partial(rack_and_gear, design=design), partial(rack_zone, rack=rack))
         return _sheet(title, drawings, (head, rows), drawing, [partial(path_plot, data=design.data)])
-    from gearlink.cli.figures.gear_contour import contour_plot, path_plot
+    from gearlink.cli.figures.gears.contour import contour_plot, path_plot
 
     mesh, data = Mesh(design.gear_pair), design.data
     plots = [partial(contour_plot, contour=design.contour), partial(path_plot, data=data)]

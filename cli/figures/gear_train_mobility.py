@@ -6,7 +6,7 @@ import cmath
 import math
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.figures import linkage, panels, style
+from gearlink.cli.figures.drawing import linkage, panels, style
 from gearlink.core.linkages.mobility import pin_names
 from gearlink.core.linkages.mobility_design import GearTrainMobility
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.cli.figures import linkage, panels, scene_axes, style, time_axes
+from gearlink.cli.figures.drawing import linkage, panels, scene_axes, style, time_axes
 from gearlink.cli.scenes.geared_five_bar import build
 from gearlink.core.five_bar.design import GearedFiveBar
 from gearlink.core.five_bar.path_motion import PathFiveBar
@@ -40,7 +40,7 @@ def draw(command: str, design: GearedFiveBar) -> Figure:
     title = f"{design.spec.name}: {command}"
     meshes = list(design.meshes.items())
     if command == "gear":
-        from gearlink.cli.figures.gear_mesh import Mesh, mesh_figure
+        from gearlink.cli.figures.gears.mesh import Mesh, mesh_figure
 
         return mesh_figure(title, [Mesh(signed_pair(mesh), label.replace("_", "-")) for label, mesh in meshes])
     if design.is_path:

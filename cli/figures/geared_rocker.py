@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.cli.figures import linkage, panels, scene_axes, style, time_axes
+from gearlink.cli.figures.drawing import linkage, panels, scene_axes, style, time_axes
 from gearlink.cli.scenes.geared_rocker import build
 from gearlink.core.planet_linkages.rocker_design import GearedRocker
 
@@ -32,7 +32,7 @@ def draw(command: str, design: GearedRocker) -> Figure:
     """The sheet of a command on a geared rocker."""
     title = f"{design.spec.name}: {command}"
     if command == "gear":
-        from gearlink.cli.figures.gear_mesh import Mesh, mesh_figure
+        from gearlink.cli.figures.gears.mesh import Mesh, mesh_figure
 
         return mesh_figure(title, [Mesh(design.mesh, "", ("2", "5"))])
     return linkage.sheet(title, design, mechanism, _WORDS, [_angles, linkage.over_crank, _speed, _acceleration])

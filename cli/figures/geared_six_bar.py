@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.cli.figures import linkage, panels, scene_axes, style, time_axes
+from gearlink.cli.figures.drawing import linkage, panels, scene_axes, style, time_axes
 from gearlink.cli.scenes.geared_six_bar import build
 from gearlink.core.gears.outline.mesh_phase import signed_pair
 from gearlink.core.six_bar.design import GearedSixBar
@@ -32,7 +32,7 @@ def draw(command: str, design: GearedSixBar) -> Figure:
     """The sheet of a command on a geared six-bar."""
     title = f"{design.spec.name}: {command}"
     if command == "gear":
-        from gearlink.cli.figures.gear_mesh import Mesh, mesh_figure
+        from gearlink.cli.figures.gears.mesh import Mesh, mesh_figure
 
         return mesh_figure(
             title, [Mesh(signed_pair(mesh), pins, (pins[0], pins[1])) for pins, mesh in design.meshes.items()]

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.cli.figures import linkage, panels, scene_axes, style
+from gearlink.cli.figures.drawing import linkage, panels, scene_axes, style
 from gearlink.cli.scenes.hypocycloid_dwell import build
 from gearlink.core.dwell_gears.hypocycloid_design import HypocycloidDwell
 from gearlink.core.gears.outline.mesh_phase import signed_pair
@@ -31,7 +31,7 @@ _WORDS = {
 def draw(command: str, design: HypocycloidDwell) -> Figure:
     """The sheet of a command on a hypocycloid dwell."""
     if command == "gear":
-        from gearlink.cli.figures.gear_mesh import Mesh, mesh_figure
+        from gearlink.cli.figures.gears.mesh import Mesh, mesh_figure
 
         return mesh_figure(f"{design.spec.name}: {command}", [Mesh(signed_pair(design.mesh), "", ("2", "ring"))])
     return linkage.sheet(

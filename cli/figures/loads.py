@@ -7,7 +7,8 @@ from collections.abc import Callable
 from itertools import cycle
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.figures import loads_contact, panels, style, time_axes
+from gearlink.cli.figures import loads_contact
+from gearlink.cli.figures.drawing import panels, style, time_axes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

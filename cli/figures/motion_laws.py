@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from itertools import cycle, islice
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.figures import panels, style
+from gearlink.cli.figures.drawing import panels, style
 from gearlink.core.cams.law_tables import MotionLaws
 
 if TYPE_CHECKING:

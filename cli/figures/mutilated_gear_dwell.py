@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.cli.figures import linkage, panels, scene_axes, style, time_axes
+from gearlink.cli.figures.drawing import linkage, panels, scene_axes, style, time_axes
 from gearlink.cli.scenes.mutilated_gear_dwell import build, mesh_scene
 from gearlink.core.dwell_gears.mutilated_design import MutilatedGearDwell
 
@@ -29,7 +29,7 @@ def draw(command: str, design: MutilatedGearDwell) -> Figure:
     """The sheet of a command on a mutilated-gear dwell."""
     title = f"{design.spec.name}: {command}"
     if command == "gear":
-        from gearlink.cli.figures.gear_mesh import Mesh, mesh_figure
+        from gearlink.cli.figures.gears.mesh import Mesh, mesh_figure
 
         return mesh_figure(title, [Mesh(design.mesh, "", ("1, wheel", "2, driven"), mesh_scene(design))])
     charts = [_angles, _speeds, *([] if design.linkage is None else [_transmission])]

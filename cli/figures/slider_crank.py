@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.cli.figures import linkage, panels, scene_axes, style, time_axes
+from gearlink.cli.figures.drawing import linkage, panels, scene_axes, style, time_axes
 from gearlink.cli.scenes.slider_crank import build
 from gearlink.core.linkages import slider_crank_sweep
 

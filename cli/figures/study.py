@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from gearlink.cli.figures import style
+from gearlink.cli.figures.drawing import style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from gearlink.cli.figures import failing, linkage, panels, style, time_axes
+from gearlink.cli.figures.drawing import failing, linkage, panels, style, time_axes
 from gearlink.cli.figures.three_gear_mechanism import mechanism, words
 from gearlink.core.gears.outline.mesh_phase import signed_pair
 from gearlink.core.three_gear.design import ThreeGearFourBar
@@ -20,7 +20,7 @@ def draw(command: str, design: ThreeGearFourBar) -> Figure:
     """The figure of a command on a three-gear four-bar."""
     title = f"{design.spec.name}: {command}"
     if command == "gear":
-        from gearlink.cli.figures.gear_mesh import Mesh, mesh_figure
+        from gearlink.cli.figures.gears.mesh import Mesh, mesh_figure
 
         names = (("crank-idler", ("3", "1") if design.crank_teeth < 0 else ("1", "3")), ("idler-output", ("3", "5")))
         meshes = zip(design.meshes.values(), names, strict=True)

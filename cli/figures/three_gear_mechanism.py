@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.cli.figures import panels, scene_axes, style
+from gearlink.cli.figures.drawing import panels, scene_axes, style
 from gearlink.cli.scenes.three_gear_four_bar import build
 from gearlink.core.three_gear.design import ThreeGearFourBar
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.figures import panels, style
+from gearlink.cli.figures.drawing import panels, style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.cli.figures import linkage, panels, scene_axes, style, time_axes
+from gearlink.cli.figures.drawing import linkage, panels, scene_axes, style, time_axes
 from gearlink.cli.scenes.two_gear_four_bar import build
 from gearlink.core.gears.outline.mesh_phase import signed_pair
 from gearlink.core.planet_linkages.two_gear_design import TwoGearFourBar
@@ -36,7 +36,7 @@ def draw(command: str, design: TwoGearFourBar) -> Figure:
     """The sheet of a command on a two-gear four-bar."""
     title = f"{design.spec.name}: {command}"
     if command == "gear":
-        from gearlink.cli.figures.gear_mesh import Mesh, mesh_figure
+        from gearlink.cli.figures.gears.mesh import Mesh, mesh_figure
 
         return mesh_figure(title, [Mesh(signed_pair(design.mesh), "", ("2", "5"))])
     charts: list[linkage.Panel] = [

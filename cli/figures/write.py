@@ -10,7 +10,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
-from gearlink.cli.figures.placing import Places, settled
+from gearlink.cli.figures.drawing.placing import Places, settled
 from gearlink.cli.files import safe_stem, write_atomically
 from gearlink.cli.options import DPI, Options
 
@@ -40,7 +40,7 @@ def draw(command: str, design: Design, checks: Sequence[Check] = (), known: Plac
     Parameters
         known : where the panels stood in the figure of a like design, which leaves out the layout
     """
-    from gearlink.cli.figures import style
+    from gearlink.cli.figures.drawing import style
 
     made = panels(command, design)
     failed = dict.fromkeys(f"{check.code} {check.name}" for check in checks if check.status == "fail")

@@ -9,7 +9,8 @@ from collections.abc import Callable, Sequence
 from html import escape
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.figures import placing, write
+from gearlink.cli.figures import write
+from gearlink.cli.figures.drawing import placing
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -110,7 +111,7 @@ def charts(made: Figure) -> list[dict[str, Any]]:
 
 def _times(axes: Axes) -> dict[str, Any]:
     """Both ends of the x axis in ms, where it is in time as well and runs evenly."""
-    from gearlink.cli.figures.time_axes import ROW
+    from gearlink.cli.figures.drawing.time_axes import ROW
 
     rows: list[Any] = [child for child in axes.child_axes if child.get_gid() == ROW]
     return {"ms": [float(end) for end in rows[0].get_xlim()]} if rows else {}

@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 from factory import design, worked
 
-from gearlink.cli.figures import cam_sheets, motion_sheet, time_axes, timing_sheet
-from gearlink.cli.figures.sheet_list import sheets_of
+from gearlink.cli.figures.drawing import time_axes
+from gearlink.cli.figures.sheets import cam_sheets, motion_sheet, timing_sheet
+from gearlink.cli.figures.sheets.sheet_list import sheets_of
 
 SMOOTH = [
     ("candy_feed", "synth dwell"),

@@ -19,7 +19,7 @@ from oracles.sections import section_area
 from gearlink.cli.export import parts
 from gearlink.cli.export.contour import contour
 from gearlink.cli.export.options import CurveForm
-from gearlink.cli.figures.path_of_contact import zone_size
+from gearlink.cli.figures.gears.path_of_contact import zone_size
 from gearlink.cli.scenes.gear_pair import build
 from gearlink.core.gears.rack.geometry import RackGeometry
 

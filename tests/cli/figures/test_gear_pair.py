@@ -13,7 +13,7 @@ from factory import design
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from sheets import odd_sheets, panel, placed_sheet, points, sheet, tagged, words
 
-from gearlink.cli.figures.gear_mesh import Mesh, mesh_figure
+from gearlink.cli.figures.gears.mesh import Mesh, mesh_figure
 from gearlink.cli.figures.write import write_plot
 from gearlink.cli.options import Options
 from gearlink.core.gears.mesh.pair import GearPair

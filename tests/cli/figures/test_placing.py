@@ -15,8 +15,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 from sheets import sheet
 
-from gearlink.cli.figures import style
-from gearlink.cli.figures.placing import places, settled
+from gearlink.cli.figures.drawing import style
+from gearlink.cli.figures.drawing.placing import places, settled
 from gearlink.cli.moving.brush import thinned
 
 OUTLINE = 3.0 * np.exp(2j * np.pi * np.arange(7) / 7) + 1j

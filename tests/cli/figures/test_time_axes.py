@@ -13,7 +13,7 @@ import pytest
 from sheets import placed_sheet, sheet
 from sweeps import mostly_slow
 
-from gearlink.cli.figures import time_axes
+from gearlink.cli.figures.drawing import time_axes
 from gearlink.cli.page import sheets as page_sheets
 
 GIVEN = {"input_speed": 75.0}

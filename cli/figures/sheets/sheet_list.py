@@ -17,7 +17,7 @@ def sheets_of(design: Any) -> Makers:
     Raises
         NoSolution - where the mechanism cannot make its turn
     """
-    from gearlink.cli.figures import cam_sheets, motion_sheet, timing_sheet
+    from gearlink.cli.figures.sheets import cam_sheets, motion_sheet, timing_sheet
 
     found: Makers = {}
     if motion_sheet.courses(design):

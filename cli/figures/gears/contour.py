@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.figures import panels, style
+from gearlink.cli.figures.drawing import panels, style
 from gearlink.core.errors import NoSolution
 
 if TYPE_CHECKING:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.figures import style
+from gearlink.cli.figures.drawing import style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

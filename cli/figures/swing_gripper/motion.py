@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.cli.figures import panels, scene_axes, style, time_axes
+from gearlink.cli.figures.drawing import panels, scene_axes, style, time_axes
 from gearlink.cli.scenes.scene import Chain
 from gearlink.cli.scenes.swing_gripper import build, drum_center
 

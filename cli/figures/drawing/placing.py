@@ -29,7 +29,7 @@ def settled(made: Figure, known: Places | None = None) -> Figure:
     The solver of the constrained layout leaves last digits to chance; an SVG names its clips after them, and a
     drawing to scale widens its limits by them. So the limits are those from before the layout.
     """
-    from gearlink.cli.figures import style
+    from gearlink.cli.figures.drawing import style
 
     limits = [(axes.get_xlim(), axes.get_ylim()) for axes in made.axes]
     labels = _labels(made)

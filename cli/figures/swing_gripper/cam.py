@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.cli.figures import panels, scene_axes, style, time_axes
-from gearlink.cli.figures.swing_gripper_motion import phases
+from gearlink.cli.figures.drawing import panels, scene_axes, style, time_axes
+from gearlink.cli.figures.swing_gripper.motion import phases
 from gearlink.cli.scenes.scene import Chain, Scene, letters
 from gearlink.cli.scenes.swing_gripper import build
 

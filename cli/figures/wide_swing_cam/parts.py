@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.figures import failing, panels, style, time_axes
+from gearlink.cli.figures.drawing import failing, panels, style, time_axes
 from gearlink.core.errors import NoSolution
 
 if TYPE_CHECKING:

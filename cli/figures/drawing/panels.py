@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.figures import failing, style
+from gearlink.cli.figures.drawing import failing, style
 from gearlink.cli.scenes.colors import PHASE_TINTS
 
 if TYPE_CHECKING:

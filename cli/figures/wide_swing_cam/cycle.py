@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.figures import panels, style, time_axes
+from gearlink.cli.figures.drawing import panels, style, time_axes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

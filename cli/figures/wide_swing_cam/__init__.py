@@ -10,10 +10,10 @@ if TYPE_CHECKING:
 
     from gearlink.core.wide_swing.design import WideSwingDesign
 
-_MODULES = {"swing": "wide_swing_motion", "analyze": "wide_swing_motion", "cam": "wide_swing_profiles"}
+_MODULES = {"swing": "motion", "analyze": "motion", "cam": "profiles"}
 
 
 def draw(command: str, design: WideSwingDesign) -> Figure:
     """The figure of a command on a wide-swing mechanism."""
-    made: Figure = import_module(f"gearlink.cli.figures.{_MODULES[command]}").draw(command, design)
+    made: Figure = import_module(f"gearlink.cli.figures.wide_swing_cam.{_MODULES[command]}").draw(command, design)
     return made

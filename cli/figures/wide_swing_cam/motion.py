@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.figures import panels, scene_axes, style
-from gearlink.cli.figures.wide_swing_parts import (
+from gearlink.cli.figures.drawing import panels, scene_axes, style
+from gearlink.cli.figures.wide_swing_cam.parts import (
     cam_panel,
     cams_of,
     has_slots,

@@ -10,10 +10,10 @@ if TYPE_CHECKING:
 
     from gearlink.core.swing_gripper.design import SwingGripper
 
-_MODULES = {"gripper": "swing_gripper_motion", "analyze": "swing_gripper_motion", "cam": "swing_gripper_cam"}
+_MODULES = {"gripper": "motion", "analyze": "motion", "cam": "cam"}
 
 
 def draw(command: str, design: SwingGripper) -> Figure:
     """The figure of a command on a swing gripper."""
-    made: Figure = import_module(f"gearlink.cli.figures.{_MODULES[command]}").draw(command, design)
+    made: Figure = import_module(f"gearlink.cli.figures.swing_gripper.{_MODULES[command]}").draw(command, design)
     return made

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.cli.figures import panels, scene_axes, style
-from gearlink.cli.figures.gear_mesh import COLORS, Mesh, gear_zone
-from gearlink.cli.figures.path_of_contact import contact_path, zone_frame, zone_size
+from gearlink.cli.figures.drawing import panels, scene_axes, style
+from gearlink.cli.figures.gears.mesh import COLORS, Mesh, gear_zone
+from gearlink.cli.figures.gears.path_of_contact import contact_path, zone_frame, zone_size
 from gearlink.cli.scenes.rack import rack_body, rack_scene
 from gearlink.core.gears.rack.geometry import RackGeometry
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.cli.figures import style
+from gearlink.cli.figures.drawing import style
 from gearlink.cli.scenes.lettering import on_disc, shifts
 from gearlink.cli.scenes.scene import Body, Chain, Line, Part, Points, Scene, placed
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.figures import panels
-from gearlink.cli.figures.wide_swing_motion import legend_row
-from gearlink.cli.figures.wide_swing_parts import (
+from gearlink.cli.figures.drawing import panels
+from gearlink.cli.figures.wide_swing_cam.motion import legend_row
+from gearlink.cli.figures.wide_swing_cam.parts import (
     cam_panel,
     cams_of,
     curvature_panel,
@@ -38,7 +38,7 @@ def draw(command: str, design: WideSwingDesign) -> Figure:
     drawn = cams_of(design)
     rows = made.add_gridspec(3, 1, height_ratios=[2.3, 0.9, 4.2]) if whole else None
     if rows is not None:
-        from gearlink.cli.figures.wide_swing_cycle import contours_panel, cycle_panel
+        from gearlink.cli.figures.wide_swing_cam.cycle import contours_panel, cycle_panel
 
         contours_panel(made, rows[0], design)
         cycle_panel(made.add_subplot(rows[1]), design)

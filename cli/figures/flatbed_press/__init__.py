@@ -11,15 +11,15 @@ if TYPE_CHECKING:
     from gearlink.core.flatbed_press.design import FlatbedPress
 
 _MODULES = {
-    "press": "flatbed_press_motion",
-    "analyze": "flatbed_press_motion",
-    "cam": "flatbed_press_cam",
-    "gear": "flatbed_press_parts",
-    "crank": "flatbed_press_parts",
+    "press": "motion",
+    "analyze": "motion",
+    "cam": "cam",
+    "gear": "parts",
+    "crank": "parts",
 }
 
 
 def draw(command: str, design: FlatbedPress) -> Figure:
     """The figure of a command on a press."""
-    made: Figure = import_module(f"gearlink.cli.figures.{_MODULES[command]}").draw(command, design)
+    made: Figure = import_module(f"gearlink.cli.figures.flatbed_press.{_MODULES[command]}").draw(command, design)
     return made

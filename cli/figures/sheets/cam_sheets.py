@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.cli.figures import panels, style
+from gearlink.cli.figures.drawing import panels, style
 from gearlink.core.cams.disc_cam import DiscCam
 
 if TYPE_CHECKING:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Protocol
 
-from gearlink.cli.figures import style
+from gearlink.cli.figures.drawing import style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

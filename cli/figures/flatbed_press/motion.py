@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.cli.figures import failing, panels, scene_axes, style, time_axes
+from gearlink.cli.figures.drawing import failing, panels, scene_axes, style, time_axes
 from gearlink.cli.scenes.flatbed_press import LEVEL, UPRIGHT, Machine, bed_chain, build, cylinder_chain
 from gearlink.cli.scenes.scene import TURN, Chain, Scene
 

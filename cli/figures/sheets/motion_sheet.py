@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gearlink.cli.figures import panels, style, time_axes
+from gearlink.cli.figures.drawing import panels, style, time_axes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

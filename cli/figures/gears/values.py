@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.figures import style
+from gearlink.cli.figures.drawing import style
 from gearlink.core.errors import NoSolution
 from gearlink.core.nomenclature import term
 

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 def draw(command: str, design: FlatbedPress) -> Figure:
     """The pair of input gears, or the slider-crank D-E-F."""
     if command == "gear":
-        from gearlink.cli.figures.gear_mesh import Mesh, mesh_figure
+        from gearlink.cli.figures.gears.mesh import Mesh, mesh_figure
 
         return mesh_figure(f"{design.spec.name}: {command}", [Mesh(design.gear_pair)])
     from gearlink.cli.figures import slider_crank

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.cli.figures import panels, style
+from gearlink.cli.figures.drawing import panels, style
 from gearlink.cli.scenes.colors import PHASE_TINTS
 
 if TYPE_CHECKING:

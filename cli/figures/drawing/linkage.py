@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.figures import failing, panels, style, time_axes
+from gearlink.cli.figures.drawing import failing, panels, style, time_axes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.cli.figures import panels, scene_axes, style
-from gearlink.cli.figures.gear_values import gear_text, ruled, value_rows
-from gearlink.cli.figures.path_of_contact import contact_path, zone_frame, zone_legend, zone_size
+from gearlink.cli.figures.drawing import panels, scene_axes, style
+from gearlink.cli.figures.gears.path_of_contact import contact_path, zone_frame, zone_legend, zone_size
+from gearlink.cli.figures.gears.values import gear_text, ruled, value_rows
 from gearlink.cli.scenes.gear_pair import pair_scene
 from gearlink.cli.scenes.scene import Body, Points, Scene
 from gearlink.core.errors import NoSolution

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.cli.figures import style
+from gearlink.cli.figures.drawing import style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
