@@ -17,6 +17,7 @@ from gearlink.core.gears.checks import GEAR_QUANTITIES, measured, most_sliding
 from gearlink.core.gears.codes import (
     CONTACT_RATIO,
     FILLET,
+    INSPECTION,
     INTERFERENCE,
     PITTING,
     ROOT_CLEARANCE,
@@ -27,7 +28,7 @@ from gearlink.core.gears.codes import (
     UNDERCUT,
 )
 from gearlink.core.gears.data import MAGNITUDES
-from gearlink.core.gears.drawing_checks import FilletMeasure, fillet_measured
+from gearlink.core.gears.drawing_checks import FilletMeasure, fillet_measured, width_of_span
 from gearlink.core.gears.drawing_names import PLACES
 from gearlink.core.gears.from_spec import both
 from gearlink.core.gears.mesh.pair_sweep import GearPairs, PathsOfContact
@@ -235,6 +236,8 @@ class _Batch:
             yield from (self._sliding(gear) for gear in (0, 1))
         if FILLET.code in self.codes:
             yield from (self._fillet(gear) for gear in (0, 1))
+        if INSPECTION.code in self.codes and self.spec.face_width is not None:
+            yield from (self._span(gear, width) for gear, width in enumerate(both(self.spec.face_width)))
 
     def _gears_of(self, _rule: Rule) -> tuple[int, ...]:
         return 0, 1
@@ -271,6 +274,16 @@ class _Batch:
         self.near |= known & (_close(found.margin, found.limit) | _close(left, 0.0))
         fails, warns = found.bad & found.judged, found.bad & ~found.judged
         return Findings(FILLET.code, found.margin, found.limit, fails, warns, "mm")
+
+    def _span(self, gear: int, width: float) -> Findings:
+        """GL213: a span measurement that leaves the face of a helical gear."""
+        needed = self._spread(width_of_span(self.pairs, gear, self.pairs.span_teeth[gear]))
+        helical = self._spread(self.pairs.helix_angle != 0.0)
+        self.near |= helical & (self._spread(self.pairs.span_is_doubtful) | _close(needed, width))
+        warns = helical & (needed > width)
+        return Findings(
+            INSPECTION.code, np.full(needed.shape, width), needed, np.zeros(needed.shape, bool), warns, "mm"
+        )
 
 
 class _Rings(_Batch):

@@ -251,19 +251,22 @@ def _spanned(data: GearData, gear: int) -> Iterator[Check]:
     count = pair.span_teeth[gear]
     if pair.helix_angle == 0.0 or widths is None or count is None:
         return
-    angle, width = pair.base_helix_angle, widths[gear]
-
-    def needed(teeth: int) -> float:
-        return pair.span_over(gear, teeth) * math.sin(angle) + _TOUCHING * math.cos(angle)
-
-    if needed(count) <= width:
+    needed, width = width_of_span(pair, gear, count), widths[gear]
+    if needed <= width:
         return
     form, tip = pair.form_radius[gear] or pair.base_radius[gear], pair.tip_radius[gear]
-    fewer = [k for k in range(1, count) if needed(k) <= width and form < pair.span_contact(gear, k) < tip]
-    wanted = f"needs a face width of {safely_above(needed(count), 4)} mm, it has {width:g}"
+    lesser = [k for k in range(1, count) if form < pair.span_contact(gear, k) < tip]
+    fewer = [k for k in lesser if width_of_span(pair, gear, k) <= width]
+    wanted = f"needs a face width of {safely_above(needed, 4)} mm, it has {width:g}"
     over = f"measure over {fewer[-1]} teeth, or balls" if fewer else "measure over balls"
     text = f"the span of {data.called(gear)} over {count} teeth {wanted}: {over}"
-    yield INSPECTION.check("warn", text, width, needed(count), "mm")
+    yield INSPECTION.check("warn", text, width, needed, "mm")
+
+
+def width_of_span(pair: GearPair, gear: int, count: Any) -> Any:
+    """Face width that both planes of a span measurement over so many teeth touch [mm]; of many pairs an array."""
+    angle = pair.base_helix_angle
+    return pair.span_over(gear, count) * pair.fn.sin(angle) + _TOUCHING * pair.fn.cos(angle)
 
 
 def _amiss(data: GearData, gear: int) -> str | None:

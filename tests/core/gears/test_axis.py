@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from axes import agree, bits_stand_alone, sampled
 
-from gearlink.core.explore.chunks import chunk_of, together
+from gearlink.core.explore.chunks import chunk_of, evaluated, together
 from gearlink.core.explore.preparing import problem
 from gearlink.core.study.spec import StudySpec
 
@@ -137,6 +137,15 @@ STUDIES |= {
         RING_QUANTITIES,
     ),
 }
+
+
+def test_a_span_that_leaves_the_face_of_a_narrow_helical_gear_is_counted() -> None:
+    """GL213 of some designs and not of others, by the array form as by the class."""
+    base, variables, quantities = STUDIES["helix"]
+    made = sampled(base, "gear", variables, quantities, 24)
+    agree(made)
+    found = [each for each in evaluated(made, made.order.columns(np.arange(24))).findings if each.code == "GL213"]
+    assert 0 < sum(int(each.warns.sum()) for each in found) < 24
 
 
 @pytest.mark.quick(4)
