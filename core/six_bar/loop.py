@@ -144,7 +144,7 @@ class SixBar:
         """The dyad of the free links; `near` tells its side and its turns."""
         length, first, slopes, shares = self.numbers
         rows = [j - 2 for j in self.free]
-        angles: Reals = first[:, None] + slopes[:, None] * phi + shares @ near
+        angles: Reals = first[:, None] + slopes[:, None] * phi + _weighted(shares, near)
         moved = angles[rows].copy()
         angles[rows] = 0.0
         tied = [j for j in range(4) if j not in rows]
@@ -178,8 +178,9 @@ class SixBar:
         u, finest = near.copy(), np.full(phi.shape, np.inf)
         found, rows = u.copy(), np.arange(phi.size)
         for _ in range(_ROUNDS):
-            cos, sin = self._projections(base + shares @ u)
-            step = _closing(shares.T @ cos, shares.T @ sin, chord[0] + cos.sum(axis=0), chord[1] + sin.sum(axis=0))
+            cos, sin = self._projections(base + _weighted(shares, u))
+            ends = _weighted(shares.T, cos), _weighted(shares.T, sin)
+            step = _closing(*ends, chord[0] + cos.sum(axis=0), chord[1] + sin.sum(axis=0))
             size = np.abs(step).max(axis=0)
             if not np.isfinite(size).all():
                 break
@@ -189,7 +190,7 @@ class SixBar:
             # the next one would be as much shorter again, squared: s_(k+1) = s_k (s_k/s_(k-1))^2
             going = taken & (size**3 >= _REST * np.minimum(finest, _NEAR) ** 2)
             if not going.any():
-                return np.asarray(first[:, None] + slopes[:, None] * phi + shares @ found)
+                return first[:, None] + slopes[:, None] * phi + _weighted(shares, found)
             if not going.all():
                 u, base, rows, size = u[:, going], base[:, going], rows[going], size[going]
                 chord = chord[0][going], chord[1][going]
@@ -221,15 +222,16 @@ class SixBar:
         _, _, slopes, shares = self.numbers
         cos, sin = self._projections(angles)
         crank_x, crank_y = (self.lengths[1] * each for each in turned(phi))
-        ends = shares.T @ cos, shares.T @ sin
-        first = slopes[:, None] + shares @ _closing(*ends, -(crank_y + slopes @ sin), crank_x + slopes @ cos)
+        ends = _weighted(shares.T, cos), _weighted(shares.T, sin)
+        driven_x, driven_y = (_weighted(slopes[None], links)[0] for links in (cos, sin))
+        first = slopes[:, None] + _weighted(shares, _closing(*ends, -(crank_y + driven_y), crank_x + driven_x))
         square = first * first
         pulled = [-(part + (square * links).sum(axis=0)) for part, links in ((crank_x, cos), (crank_y, sin))]
-        second = shares @ _closing(*ends, pulled[0], pulled[1])
+        second = _weighted(shares, _closing(*ends, pulled[0], pulled[1]))
         along, across = 3.0 * first * second, first * square
         x = crank_y - (along * cos - across * sin).sum(axis=0)
         y = -crank_x - (along * sin + across * cos).sum(axis=0)
-        return first, second, shares @ _closing(*ends, x, y)
+        return first, second, _weighted(shares, _closing(*ends, x, y))
 
     def transmission(self, angles: Reals) -> Reals:
         """Angle between the velocities by which the two free directions close the loop, 0 to 90 deg [rad].
@@ -242,9 +244,17 @@ class SixBar:
         found = np.empty(angles.shape[1:])
         for start in range(0, found.size, _BLOCK):
             part = slice(start, start + _BLOCK)
-            x, y = (self.numbers[3].T @ each for each in self._projections(angles[:, part]))
+            x, y = (_weighted(self.numbers[3].T, each) for each in self._projections(angles[:, part]))
             found[part] = np.arctan2(np.abs(x[0] * y[1] - y[0] * x[1]), np.abs(x[0] * x[1] + y[0] * y[1]))
         return found
+
+
+def _weighted(weights: Reals, rows: Reals) -> Reals:
+    """The product of (M, K) and (K, N); unlike BLAS, no bit of a column depends on where it stands."""
+    total: Reals = weights[:, :1] * rows[0]
+    for k in range(1, len(rows)):
+        total += weights[:, k, None] * rows[k]
+    return total
 
 
 def _closing(cos: Reals, sin: Reals, x: Reals, y: Reals) -> Reals:
