@@ -33,14 +33,14 @@ _REASONS = """## Where a goal is missed, and why
   (2 to 3 us) for single positions.
 * **Times in ns and ms**, and those against pylinkage, are goals for an idle machine with AVX-512, where numpy's sine,
   cosine, arc tangent and square root take eight numbers at a time; AVX-512 and load are said under Machine. With it the
-  same code reached 0.98 passes for the four-bar, 0.031 of pylinkage's time, 8.7 ns for the inverse involute, 60 ns for
-  phi13 (with one step of third order more than now), 19 ns for the frame, 2.7 ms for the press and 1.43 passes for the
-  cam profile. Without it those functions take three to five times as long, and a goal in ns is not to be had from them;
-  what numba compiles does not lose as much. Compare the ratios to the numpy pass.
-* **phi13 and frame.** The times are those of calls that stand alone; in this table, between others, the caches are
-  cold and the arrays of results are new pages each time. phi13 is two steps of third order from a fitted start and one
-  that avoids cancellation (4 ulp at worst; without it 25 ulp). Bracketed steps took seven times as long. One design
-  alone goes through Python's own numbers: a bracket, then one step with an integral.
+  same code reached 0.98 passes for the four-bar, 0.031 of pylinkage's time, 8.7 ns for the inverse involute, 19 ns for
+  the frame, 2.7 ms for the press and 1.43 passes for the cam profile. Without it those functions take three to five
+  times as long, and a goal in ns is not to be had from them; what numba compiles does not lose as much. Compare the
+  ratios to the numpy pass.
+* **phi13 and frame.** The goals are those of calls that stand alone; in this table, between others, the caches are
+  cold and the arrays of results are new pages each time. phi13 of many designs freezes each that rests, so that its
+  last bit does not depend on its neighbours. One design alone goes through Python's own numbers: a bracket, then one
+  step with an integral.
 * **Cam profile.** Points alone take less than a pass. The whole profile in one go writes seven columns (two complex,
   three real) where the pass writes four into arrays that are there: new pages from the system, not arithmetic, are
   the remainder. In blocks it stays in the cache, at constant memory.
@@ -136,8 +136,6 @@ def goals(wide_vectors: bool) -> list[Goal]:
             _row("involute", "rational start, one Newton step", "nanoseconds"),
         ),
         Goal("its error", 2.0, "ulp", _row("involute", "rational start, one Newton step", "error")),
-        Goal("phi13, 1e5 designs", 60.0, "ns", _row("dwell", "phi13: vector steps of third order", "nanoseconds")),
-        Goal("its error", 4.0, "ulp", _row("dwell", "phi13: vector steps of third order", "error")),
         Goal("momentary frame, 1e5 designs", 20.0, "ns", _row("dwell", "frame: closed form", "nanoseconds")),
         *(
             Goal(

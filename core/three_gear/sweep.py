@@ -1,4 +1,4 @@
-"""The three-gear four-bar over arrays: motion over a turn, and the closed forms of the synthesis for many designs."""
+"""The three-gear four-bar over arrays: motion over a turn, and frames of the momentary dwell for many designs."""
 
 from __future__ import annotations
 
@@ -13,16 +13,9 @@ from gearlink.core.linkages import fourbar, fourbar_sweep
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.linkages.fourbar_refine import dead_point_distance
 from gearlink.core.numerics.arrays import Mask, Reals
-from gearlink.core.numerics.gauss import GAUSS_NODES, GAUSS_WEIGHTS
-from gearlink.core.three_gear.dwell_angle_sweep import regained
 from gearlink.core.three_gear.motion import GearTrain
-from gearlink.core.three_gear.symmetric_many import newton
 
 _BLOCK = 8192
-_INTEGRAL_BELOW = 0.2  # h [rad], as in `gearlink.core.three_gear.symmetric_back_step`
-_FAR_FROM_1 = -0.5  # i3 above which small dwell angles need the integral
-_NODES = np.array([-x for x in reversed(GAUSS_NODES)] + list(GAUSS_NODES))
-_WEIGHTS = np.array([*reversed(GAUSS_WEIGHTS), *GAUSS_WEIGHTS])
 
 
 @dataclass(frozen=True, slots=True)
@@ -148,86 +141,3 @@ def _momentary_block(given: list[Reals], frame: Reals, angle: Reals) -> Mask:
     if not exists.all():
         frame[~exists] = angle[~exists] = math.nan
     return exists
-
-
-def dwell_angles(i3: ArrayLike, back_step_crank_angle: ArrayLike) -> Reals:
-    """Dwell angle phi13 of the symmetric family (I = 1) for many ratios and crank angles of the back-step.
-
-    n [asin(k sin(y)) + asin(k sin(h))] = h + y,   phi13 = y + h,   h = phi12/2
-
-    Parameters
-        i3, back_step_crank_angle : arrays that broadcast [1, rad] - i3 < 0, 0 < phi12 < pi
-    Returns
-        dwell_angle : array [rad]
-    Raises
-        NoSolution - for a value outside its range
-    Notes
-        Steps of third order, all designs at once, see `gearlink.core.three_gear.dwell_angle_sweep`; Newton steps kept
-        inside a bracket for those that do not settle.
-    Example
-        >>> np.round(np.degrees(dwell_angles([-1.0, -2.0, -3.0], math.radians(90.0))), 9).tolist()
-        [131.409622109, 135.0, 136.359742972]
-
-    Source
-        own derivation; scalar form in `gearlink.core.three_gear.symmetric_back_step`
-    """
-    ratio, h = _pair(i3, 0.5 * np.asarray(back_step_crank_angle, dtype=float))
-    if h.size and not (h.min() > 0.0 and h.max() < 0.5 * math.pi):
-        raise NoSolution("crank angles of the back-step must lie above 0 and below 180 deg")
-    y, settled = regained(ratio.reshape(-1), h.reshape(-1))
-    if ratio.size and ratio.max() > _FAR_FROM_1:
-        settled &= (ratio.ravel() <= _FAR_FROM_1) | (h.ravel() >= _INTEGRAL_BELOW)
-    if not settled.all():
-        rest = np.flatnonzero(~settled)
-        y[rest] = _regained_by_bracket(ratio.flat[rest], h.flat[rest])
-    result = y.reshape(h.shape)
-    result += h
-    return result
-
-
-def _regained_by_bracket(ratio: Reals, h: Reals) -> Reals:
-    """Where the output regains its place: Newton steps kept inside the bracket [h, 3 h]."""
-    limit = 2.0 * math.pi * (1.0 - ratio) / (2.0 - ratio)
-    high = np.minimum(3.0 * h, limit - h)
-    return newton(_regains, h, high, np.minimum(2.0 * h, high), ratio, h)
-
-
-def _regains(y: Reals, ratio: Reals, h: Reals) -> tuple[Reals, Reals]:
-    return -_fallen(ratio, h, y), _speed(ratio, h, y)
-
-
-def _pair(i3: ArrayLike, angle: ArrayLike) -> tuple[Reals, Reals]:
-    """Ratios and angles, broadcast; ratios checked."""
-    ratio, phi = np.broadcast_arrays(np.asarray(i3, dtype=float), np.asarray(angle, dtype=float))
-    if ratio.size and not (ratio.min() > -np.inf and ratio.max() < 0.0):
-        raise NoSolution("i3 = -z3/z5 must be negative and finite in every design: external meshes")
-    return ratio, phi
-
-
-def _fallen(i3: Reals, h: Reals, y: Reals) -> Reals:
-    """How far the output at 270 deg + y stands below its place at 270 deg - h."""
-    n = 1.0 - i3
-    root = np.sqrt(i3 * (i3 - 2.0) * np.cos(h) ** 2 + np.cos(y) ** 2)
-    fallen = np.asarray(n * (np.arctan2(np.sin(y), root) + np.arctan(np.tan(h) / n)) - h - y)
-    small = h < _INTEGRAL_BELOW
-    if np.any(small):
-        fallen[small] = _fallen_by_integral(i3[small], h[small], y[small])
-    return fallen
-
-
-def _fallen_by_integral(i3: Reals, h: Reals, y: Reals) -> Reals:
-    """The same for small h, without its cancellation: the integral of the backward speed."""
-    i3, h, y = i3[:, None], h[:, None], y[:, None]
-    half, at = 0.5 * (y + h), 0.5 * (y - h) + 0.5 * (y + h) * _NODES
-    rest = i3 * (i3 - 2.0)
-    root = np.sqrt(rest * np.cos(h) ** 2 + np.cos(at) ** 2)
-    backward = rest * np.sin(h - at) * np.sin(h + at) / (root * (root + (1.0 - i3) * np.cos(at)))
-    result: Reals = (half * backward) @ _WEIGHTS
-    return result
-
-
-def _speed(i3: Reals, h: Reals, y: Reals) -> Reals:
-    """Speed ratio W at 270 deg + y, the derivative of -`_fallen` after y."""
-    cos_y = np.cos(y)
-    speed: Reals = 1.0 - (1.0 - i3) * cos_y / np.sqrt(i3 * (i3 - 2.0) * np.cos(h) ** 2 + cos_y**2)
-    return speed

@@ -166,9 +166,10 @@ def test_refuses_a_back_step_out_of_reach():
 @pytest.mark.parametrize(("i3", "phi12"), [(-0.04, 3.141), (-0.0156949174, 3.0441540192), (-1e-3, 3.1), (-0.19, 3.0)])
 def test_many_at_once_never_take_the_root_at_the_back_step_s_own_end(i3: float, phi12: float) -> None:
     # y = h solves the equation too; a start near 2 h once fell to it
-    from gearlink.core.three_gear.sweep import dwell_angles
+    from gearlink.core.three_gear import symmetric_many
 
-    assert float(dwell_angles(i3, phi12)) == pytest.approx(dwell_angle(i3, phi12), rel=4e-15 / -i3, abs=0.0)
+    found = symmetric_many.dwell_angle(np.array([1.0 - i3]), np.array([0.5 * phi12]))[0]
+    assert float(found) == pytest.approx(dwell_angle(i3, phi12), rel=4e-15 / -i3, abs=0.0)
 
 
 def test_an_idler_that_hardly_turns_the_output() -> None:
@@ -200,14 +201,3 @@ def test_dwell_angle_at_fifty_digits(many: float, few: float, share: float) -> N
         with mpmath.workdps(50):
             error = abs(regained_at_fifty_digits(i3, phi12, found) - mpmath.mpf(found))
         assert float(error) <= limit * math.ulp(found)
-
-
-def test_the_fitted_start_of_many_is_as_near_as_it_says() -> None:
-    from gearlink.core.three_gear.dwell_angle_sweep import _start, regained
-
-    i3, h = (a.ravel() for a in np.meshgrid(-np.geomspace(0.2, 12.0, 60), np.linspace(0.01, 1.57, 80)))
-    n, start = 1.0 - i3, np.empty(i3.size)
-    _start(n / (n + 1.0), h, start, [np.empty(i3.size) for _ in range(3)])
-    y, settled = regained(i3, h)
-    assert settled.all()
-    assert np.max(np.abs(start / y - 1.0)) < 0.0235
