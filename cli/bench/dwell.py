@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearlink.cli.bench.timing import Family, Method, Row, measure, mpmath, numpy_pass, sample_of, worst
-from gearlink.core.three_gear import symmetric_many
-from gearlink.core.three_gear.momentary_dwell import momentary_frame_length
+from gearlink.core.three_gear.dwell.momentary_dwell import momentary_frame_length
+from gearlink.core.three_gear.many import symmetric as symmetric_many
 from gearlink.core.three_gear.sweep import momentary_dwells
-from gearlink.core.three_gear.symmetric_back_step import dwell_angle
+from gearlink.core.three_gear.symmetric.back_step import dwell_angle
 
 Array = NDArray[np.float64]
 SIZES = (1, 1000, 100_000)

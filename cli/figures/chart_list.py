@@ -38,7 +38,7 @@ class DesignChart:
     parameter: Axis | None
     range: tuple[float, float]
     curves: tuple[float, ...] = ()
-    module: str = "three_gear.charts"
+    module: str = "three_gear.symmetric.charts"
     kind: str = "three-gear-four-bar"
 
     def values(self, x: Any, parameter: float | None) -> Any:
@@ -134,7 +134,7 @@ def _of_law(name: str, title: str, words: str, symbol: str, quantity: str) -> De
 def _of_dwell(name: str, title: str, function: str, x: Axis, parameter: Axis, *ends: tuple[float, ...]) -> DesignChart:
     """A chart of the dwell within a tolerance."""
     span, curves = ends
-    module = "three_gear.dwell_charts"
+    module = "three_gear.symmetric.dwell_charts"
     return DesignChart(name, title, "own derivation", function, x, _WINDOW, parameter, span, curves, module)  # type: ignore[arg-type]
 
 

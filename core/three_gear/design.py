@@ -23,16 +23,17 @@ from gearlink.core.real_speed import OutputSpeed, per_time
 from gearlink.core.remedies import down, either, up
 from gearlink.core.report import Check, safely_above, safely_below
 from gearlink.core.results import cached_property
-from gearlink.core.three_gear import bodies, dwells, motion, tables
+from gearlink.core.three_gear import bodies, motion, tables
 from gearlink.core.three_gear.codes import ACHIEVED, DWELL_TOLERANCE
+from gearlink.core.three_gear.dwell import dwells
+from gearlink.core.three_gear.dwell.momentary_dwell import crank_with_room
 from gearlink.core.three_gear.idler_choice import idler_for_ratio
-from gearlink.core.three_gear.momentary_dwell import crank_with_room
 from gearlink.core.three_gear.motion import Extremes, GearTrain
 from gearlink.core.three_gear.names import CHECKS, MESH_QUANTITIES, MESHES, QUANTITIES
 
 if TYPE_CHECKING:
     from gearlink.core.linkages.band_dwell import ToleranceDwell
-    from gearlink.core.three_gear.by_roots import ByRoots
+    from gearlink.core.three_gear.dwell.by_roots import ByRoots
     from gearlink.core.three_gear.spec import ThreeGearSpec
 
 _TEETH = (
@@ -203,7 +204,7 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
     @cached_property
     def by_roots(self) -> ByRoots:
         """Standstills as roots of the output's speed, for links that are not in proportion to the teeth."""
-        from gearlink.core.three_gear.by_roots import ByRoots
+        from gearlink.core.three_gear.dwell.by_roots import ByRoots
 
         return ByRoots(self.linkage, self.train)
 
@@ -248,7 +249,7 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
             return None
         if self.off_center:
             return self.by_roots.within(tolerance, self.speed_extremes, self.mean_ratio)
-        from gearlink.core.three_gear.tolerance_dwell import tolerance_dwell
+        from gearlink.core.three_gear.dwell.tolerance_dwell import tolerance_dwell
 
         with at_key("dwell_tolerance" if self.spec.dwell_backlash is None else "dwell_backlash"):
             return tolerance_dwell(self.linkage, self.train, tolerance)
@@ -262,7 +263,7 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
     def output_tolerance(self) -> float | None:
         """Tolerance of the output angle to either side [rad]: given, or from the play at the output gear."""
         if self.spec.dwell_backlash is not None:
-            from gearlink.core.three_gear.tolerance_dwell import tolerance_from_backlash
+            from gearlink.core.three_gear.dwell.tolerance_dwell import tolerance_from_backlash
 
             return tolerance_from_backlash(
                 self.spec.dwell_backlash, self.spec.gears.transverse_module * abs(self.output_teeth) / 2.0

@@ -74,7 +74,7 @@ def smallest_idler(
     Notes
         Closed forms and no search over the turn: all 384 idlers cost about 5 ms.
     Example
-        >>> from gearlink.core.three_gear.momentary_dwell import momentary_linkage
+        >>> from gearlink.core.three_gear.dwell.momentary_dwell import momentary_linkage
         >>> smallest_idler(lambda z: momentary_linkage(25.0, 1.25 * z, 75.0, 16.0), 20, 60, 2.5,
         ...                min_transmission_angle=math.radians(40.0), min_gear_gap=0.0)
         19

@@ -4,7 +4,7 @@
 
 with the coupler and rocker angles t2, t3 of `gearlink.core.linkages.fourbar`, their rates w2, w3 per crank speed, and
 i2 = -z1/z3, i3 = -z3/z5, I = i2 i3 = z1/z5, teeth negative for a gear in internal mesh with the idler. Standstills
-and back-step stand in `gearlink.core.three_gear.dwells`.
+and back-step stand in `gearlink.core.three_gear.dwell.dwells`.
 """
 
 from __future__ import annotations

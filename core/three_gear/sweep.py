@@ -96,7 +96,7 @@ def momentary_dwells(r1: ArrayLike, r3: ArrayLike, r5: ArrayLike, eccentricity: 
         ([False, True, True, False], [122.839414792, 115.522215625])
 
     Source
-        own derivation; scalar form in `gearlink.core.three_gear.momentary_dwell`
+        own derivation; scalar form in `gearlink.core.three_gear.dwell.momentary_dwell`
     """
     arrays = np.broadcast_arrays(*(np.asarray(x, dtype=float) for x in (r1, r3, r5, eccentricity)))
     if not all(x.size == 0 or (x.min() > 0.0 and x.max() < np.inf) for x in arrays):

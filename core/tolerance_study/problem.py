@@ -28,7 +28,7 @@ from gearlink.core.tolerance.spec import Tolerance
 ARRAY_SAMPLES, SCALAR_SAMPLES = 131_072, 4096
 MOST_WITH_INDICES = 32
 _ABOUT = ("tolerance", "register", "loads")  # commands about a design, and their sections: no sample is for them
-_AXES = {"three-gear-four-bar": "three_gear.tolerance_axis:ThreeGearSamples"}
+_AXES = {"three-gear-four-bar": "three_gear.as_made.samples:ThreeGearSamples"}
 
 
 @dataclass(frozen=True)

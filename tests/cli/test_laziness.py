@@ -121,9 +121,16 @@ _RINGS = {
 }
 _TOOLS = {"gears.tooth.tools", "gears.tooth.root_fillet", "gears.data", "gears.rating.load"}
 _TRAINS = {"gears.train.meshes", "gears.train.key_sections", "gears.keys.sections", "gears.keys.pair"}
-_SECTIONS = {"gears.keys.sections", "gears.train.key_sections", "linkages.spec_sections", "three_gear.task_spec"}
+_SECTIONS = {
+    "gears.keys.sections",
+    "gears.train.key_sections",
+    "linkages.spec_sections",
+    "three_gear.synthesis.task_spec",
+}
 """Models of sections and keys that most files do not have: making them takes longer than most results."""
-_GENERAL = {f"three_gear.{name}" for name in ("families", "internal_families", "internal_dwell", "candidates")}
+_GENERAL = {f"three_gear.synthesis.{name}" for name in ("families", "internal_families", "candidates")} | {
+    "three_gear.dwell.internal_dwell"
+}
 
 
 @pytest.mark.quick(1)
@@ -132,7 +139,7 @@ _GENERAL = {f"three_gear.{name}" for name in ("families", "internal_families", "
     [
         (
             "synth dwell designs/candy_feed.yaml",
-            _RINGS | _TOOLS | _GENERAL | _TRAINS | {"three_gear.window_dwell"},
+            _RINGS | _TOOLS | _GENERAL | _TRAINS | {"three_gear.symmetric.window_dwell"},
         ),
         ("analyze designs/wide_lever.yaml", _RINGS | _TOOLS | _DATA | _TRAINS),
         (

@@ -12,10 +12,10 @@ import numpy as np
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.checks import check_linkage
 from gearlink.core.linkages.fourbar import FourBar
-from gearlink.core.three_gear import symmetric_back_step
-from gearlink.core.three_gear import symmetric_family as family
-from gearlink.core.three_gear.momentary_dwell import eccentricity_range, momentary_linkage
+from gearlink.core.three_gear.dwell.momentary_dwell import eccentricity_range, momentary_linkage
 from gearlink.core.three_gear.motion import GearTrain
+from gearlink.core.three_gear.symmetric import back_step as symmetric_back_step
+from gearlink.core.three_gear.symmetric import family
 
 Random = np.random.Generator
 

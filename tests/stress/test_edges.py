@@ -14,8 +14,8 @@ from gearlink.core.gears.tooth.involute import inverse_involute, involute
 from gearlink.core.linkages import fourbar, slider_crank
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.linkages.slider_crank import SliderCrank
-from gearlink.core.three_gear.dwells import dwell_positions
-from gearlink.core.three_gear.momentary_dwell import momentary_frame_length, momentary_linkage
+from gearlink.core.three_gear.dwell.dwells import dwell_positions
+from gearlink.core.three_gear.dwell.momentary_dwell import momentary_frame_length, momentary_linkage
 from gearlink.core.three_gear.motion import GearTrain
 from gearlink.core.wide_swing.cam import WideSwingCam
 from gearlink.core.wide_swing.device import Pneumatic

@@ -23,7 +23,7 @@ from gearlink.core.linkages import fourbar, slider_crank
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.linkages.slider_crank import SliderCrank
 from gearlink.core.three_gear.sweep import momentary_dwells
-from gearlink.core.three_gear.symmetric_back_step import dwell_angle
+from gearlink.core.three_gear.symmetric.back_step import dwell_angle
 from gearlink.core.wide_swing.device import Pneumatic, Spring
 from gearlink.core.wide_swing.elastic_law import ElasticLaw
 

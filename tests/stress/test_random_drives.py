@@ -20,7 +20,8 @@ from gearlink.core.errors import NoSolution
 from gearlink.core.kinds import KINDS
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.planet_linkages.planet import PlanetLinkage
-from gearlink.core.three_gear import dwells, motion
+from gearlink.core.three_gear import motion
+from gearlink.core.three_gear.dwell import dwells
 from gearlink.core.three_gear.motion import GearTrain
 from gearlink.core.three_gear.sweep import output_motion
 

@@ -34,10 +34,10 @@ from gearlink.core.linkages import fourbar
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.linkages.slider_crank import SliderCrank
 from gearlink.core.planet_linkages.planet import PlanetLinkage
-from gearlink.core.three_gear.momentary_dwell import least_eccentricity
+from gearlink.core.three_gear.dwell.momentary_dwell import least_eccentricity
 from gearlink.core.three_gear.motion import GearTrain
 from gearlink.core.three_gear.sweep import momentary_dwells
-from gearlink.core.three_gear.symmetric_back_step import dwell_angle
+from gearlink.core.three_gear.symmetric.back_step import dwell_angle
 from gearlink.core.wide_swing.device import Spring
 from gearlink.core.wide_swing.elastic_law import ElasticLaw
 

@@ -18,7 +18,7 @@ from factory import design
 from gearlink.cli.figures.chart_list import CHARTS
 from gearlink.core.three_gear.motion import GearTrain
 from gearlink.core.three_gear.sweep import output_motion
-from gearlink.core.three_gear.symmetric_family import symmetric_linkage
+from gearlink.core.three_gear.symmetric.family import symmetric_linkage
 
 NEW = ("dwell-ratio", "dwell-tolerance", "dwell-frame", "velocity-peak", "acceleration-peak", "energy-parameter")
 

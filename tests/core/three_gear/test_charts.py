@@ -18,7 +18,9 @@ from hypothesis import strategies as st
 from sweeps import examples
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.three_gear import charts, symmetric_back_step, symmetric_family
+from gearlink.core.three_gear.symmetric import back_step as symmetric_back_step
+from gearlink.core.three_gear.symmetric import charts
+from gearlink.core.three_gear.symmetric import family as symmetric_family
 
 _CASES: dict[str, Any] = {
     case["id"]: case

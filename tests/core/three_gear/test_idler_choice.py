@@ -7,11 +7,11 @@ import pytest
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.three_gear.dwell.momentary_dwell import momentary_linkage
 from gearlink.core.three_gear.idler_choice import idler_for_ratio, smallest_idler
-from gearlink.core.three_gear.momentary_dwell import momentary_linkage
 from gearlink.core.three_gear.motion import GearTrain, gear_gap
-from gearlink.core.three_gear.symmetric_back_step import crank_angle_for_dwell
-from gearlink.core.three_gear.symmetric_family import (
+from gearlink.core.three_gear.symmetric.back_step import crank_angle_for_dwell
+from gearlink.core.three_gear.symmetric.family import (
     frame_ratio_for_back_step,
     frame_ratio_for_speed_band,
     symmetric_linkage,

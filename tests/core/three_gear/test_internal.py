@@ -23,9 +23,9 @@ from gearlink.core.errors import NoSolution
 from gearlink.core.linkages import standstills
 from gearlink.core.linkages.checks import check_linkage
 from gearlink.core.linkages.fourbar import FourBar
-from gearlink.core.three_gear import internal_dwell, internal_families
-from gearlink.core.three_gear.dwells import back_step, dwell_positions
-from gearlink.core.three_gear.families import back_step_of, ripple, solved
+from gearlink.core.three_gear.dwell import internal_dwell
+from gearlink.core.three_gear.dwell.dwells import back_step, dwell_positions
+from gearlink.core.three_gear.dwell.tolerance_dwell import tolerance_dwell
 from gearlink.core.three_gear.motion import (
     GearTrain,
     forward,
@@ -36,7 +36,8 @@ from gearlink.core.three_gear.motion import (
     speed_extremes,
 )
 from gearlink.core.three_gear.sweep import output_motion
-from gearlink.core.three_gear.tolerance_dwell import tolerance_dwell
+from gearlink.core.three_gear.synthesis import internal_families
+from gearlink.core.three_gear.synthesis.families import back_step_of, ripple, solved
 
 CASES = json.loads((Path(__file__).parents[2] / "reference" / "dwell.json").read_text())
 
@@ -387,7 +388,7 @@ def test_tolerances_of_a_ring_are_answered(
 
 
 def test_a_study_of_rings_is_left_to_the_design_classes() -> None:
-    from gearlink.core.three_gear.axis import axis
+    from gearlink.core.three_gear.many.axis import axis
 
     ring = made("analyze", dwell=None, links={"crank": 22, "frame": 53}).spec
     assert axis(ring, "analyze", ["links.crank"], ["frame_length"], []) is None

@@ -16,8 +16,8 @@ from pydantic import ValidationError
 from gearlink.core.errors import NoSolution
 from gearlink.core.gears.data import PLACES
 from gearlink.core.gears.train.names import TRAIN_QUANTITIES
-from gearlink.core.three_gear.by_roots import ByRoots
-from gearlink.core.three_gear.tolerance_axis import ThreeGearSamples
+from gearlink.core.three_gear.as_made.samples import ThreeGearSamples
+from gearlink.core.three_gear.dwell.by_roots import ByRoots
 
 GEARS = {"module": 2.5, "crank": 24, "idler": 28, "output": 60}
 DRAWN = {

@@ -16,7 +16,7 @@ from oracles.symmetric import momentary_frame_ratio
 from sweeps import examples
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.three_gear.momentary_dwell import (
+from gearlink.core.three_gear.dwell.momentary_dwell import (
     eccentricity_range,
     least_eccentricity,
     momentary_crank_angle,
@@ -27,7 +27,7 @@ from gearlink.core.three_gear.momentary_dwell import (
     wrap,
 )
 from gearlink.core.three_gear.motion import GearTrain, gear_gap, output_acceleration, output_speed, speed_extremes
-from gearlink.core.three_gear.symmetric_family import symmetric_linkage
+from gearlink.core.three_gear.symmetric.family import symmetric_linkage
 
 CASES = {
     case["id"]: case

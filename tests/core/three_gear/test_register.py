@@ -18,8 +18,8 @@ from factory import design
 from gearlink.core.linkages import fourbar_sweep
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.three_gear.motion import GearTrain
-from gearlink.core.three_gear.register_chain import Errors, output_error
-from gearlink.core.three_gear.register_gains import Drive, register_gains
+from gearlink.core.three_gear.register.chain import Errors, output_error
+from gearlink.core.three_gear.register.gains import Drive, register_gains
 
 CASES = json.loads((Path(__file__).parents[2] / "reference/tolerance.json").read_text(encoding="utf-8"))
 GAINS = [case for case in CASES if case["input"]["what"] == "drive-gains"]

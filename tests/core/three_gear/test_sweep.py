@@ -11,11 +11,11 @@ import pytest
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.fourbar import FourBar
-from gearlink.core.three_gear import symmetric_many
-from gearlink.core.three_gear.momentary_dwell import momentary_crank_angle, momentary_frame_length, tangency_range
+from gearlink.core.three_gear.dwell.momentary_dwell import momentary_crank_angle, momentary_frame_length, tangency_range
+from gearlink.core.three_gear.many import symmetric as symmetric_many
 from gearlink.core.three_gear.motion import GearTrain, output_acceleration, output_angle, output_speed
 from gearlink.core.three_gear.sweep import momentary_dwells, output_motion
-from gearlink.core.three_gear.symmetric_back_step import dwell_angle
+from gearlink.core.three_gear.symmetric.back_step import dwell_angle
 
 EX3 = FourBar(18.0, 50.0, 100.0, 121.4)
 TURN = np.arange(360) * (math.tau / 360)

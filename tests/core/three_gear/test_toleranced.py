@@ -20,8 +20,8 @@ from gearlink.core.linkages import fourbar
 from gearlink.core.linkages.fourbar import FourBar
 from gearlink.core.linkages.fourbar_lengths import Lengths, solve
 from gearlink.core.nomenclature import term
-from gearlink.core.three_gear.tolerance_axis import ThreeGearSamples
-from gearlink.core.three_gear.toleranced import TolerancedDrive
+from gearlink.core.three_gear.as_made.one import TolerancedDrive
+from gearlink.core.three_gear.as_made.samples import ThreeGearSamples
 
 NEAR = 1e-11
 NAMES = (

@@ -1,0 +1,250 @@
+"""Samples of a three-gear four-bar for the command tolerance: links, centre distances and pins as made."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from gearlink.core.clearance.bodies import Clearance
+from gearlink.core.design import in_unit
+from gearlink.core.design_axis import Evaluated, Findings
+from gearlink.core.errors import NoSolution
+from gearlink.core.linkages.fourbar_lengths import Lengths
+from gearlink.core.nomenclature import term
+from gearlink.core.numerics.arrays import Mask, Points, Reals
+from gearlink.core.report import Check
+from gearlink.core.results import cached_property
+from gearlink.core.spec_paths import replaced
+from gearlink.core.three_gear import motion
+from gearlink.core.three_gear.as_made.many import DriveSamples
+from gearlink.core.three_gear.as_made.one import TolerancedDrive
+from gearlink.core.three_gear.design import ThreeGearFourBar
+from gearlink.core.tolerance.sources import GearOfSource, Parts
+
+_KEYS = ("links.crank", "links.frame", "centers.crank_idler", "centers.idler_output")
+_PINS = ("A", "B", "C", "D")
+_ARRAYS = (
+    "back_step_angle",
+    "back_step_crank_angle",
+    "dwell_angle",
+    "dwell_angle_approximate",
+    "speed_ratio_max",
+    "speed_ratio_min",
+    "acceleration_ratio_max",
+    "acceleration_ratio_min",
+    "nonuniformity",
+    "min_transmission_angle",
+    "gear_gap",
+    "tolerance_dwell_angle",
+)
+_LENGTHS = {"crank_length": 0, "coupler_length": 1, "rocker_length": 2, "frame_length": 3}
+_SWING = "dwell_swing"
+_VARYING = {"GL301", "GL302", "GL303"}
+
+
+class ThreeGearSamples:
+    """The samples of one drive.
+
+    Parameters
+        nominal : ThreeGearFourBar
+    Notes
+        A pin's play at A or D shifts the loop as a whole; at B and C only its component along the coupler and along
+        the rocker counts, since the gears stand on the pins. Gear teeth scatter in `register` alone.
+    """
+
+    extra = (_SWING,)
+
+    def __init__(self, nominal: ThreeGearFourBar) -> None:
+        if nominal.spec.gears.helix_angle:
+            raise NoSolution("tolerance and register know spur gears: leave helix_angle out", key="gears.helix_angle")
+        if nominal.off_center:
+            raise NoSolution(
+                "tolerance and register know meshes whose profile shifts add up to 0", key="gears.profile_shift"
+            )
+        self.nominal = nominal
+        links = nominal.linkage
+        self._lengths = (links.crank, links.coupler, links.rocker, links.frame)
+
+    @cached_property
+    def parts(self) -> Parts:
+        """Centre distances, pins and gears."""
+        gears, nominal = self.nominal.spec.gears, self.nominal
+        alpha = math.radians(gears.pressure_angle)
+        teeth = {"crank": nominal.crank_teeth, "idler": nominal.idler_teeth, "output": nominal.output_teeth}
+        return Parts(
+            {"crank_idler": self._lengths[1], "idler_output": self._lengths[2]},
+            _PINS,
+            {name: GearOfSource(gears.module, gears.module * abs(z), alpha) for name, z in teeth.items()},
+        )
+
+    def serves(self, keys: Sequence[str], names: Sequence[str]) -> bool:
+        """Links, centre distances and pins, and what depends on them alone."""
+        known = {*_KEYS, *(f"{group}.{pin}" for group in ("pins", "bearings") for pin in _PINS)}
+        return known.issuperset(keys) and {*_ARRAYS, *_LENGTHS, _SWING}.issuperset(names)
+
+    def evaluate(self, columns: Mapping[str, Reals | Points], names: Sequence[str]) -> Evaluated:
+        """The drives as made; one without a turning crank is refused."""
+        samples = self._samples(columns)
+        lengths = [np.broadcast_to(length, (samples.count,)) for length in _four(samples.links)]
+        exists = _turns(lengths, self._kind)
+        with np.errstate(invalid="ignore", divide="ignore"):  # of drives that do not exist
+            values = {name: self._quantity(name, samples, lengths) for name in names}
+            findings = list(self._findings(samples))
+        for index in np.flatnonzero(samples.unsettled & exists):
+            exists[index] &= self._replace(int(index), samples, values)
+        for value in values.values():
+            value[~exists] = np.nan
+        return Evaluated(values, findings, np.where(exists, 0, 1), ("links",))
+
+    def _samples(self, columns: Mapping[str, Any]) -> DriveSamples:
+        a, b, c, d = self._lengths
+        crank, frame = columns.get("links.crank", a), columns.get("links.frame", d)
+        coupler, rocker = columns.get("centers.crank_idler", b), columns.get("centers.idler_output", c)
+        loop: Any = frame
+        for group in ("pins", "bearings"):
+            loop = loop + columns.get(f"{group}.D", 0.0) - columns.get(f"{group}.A", 0.0)
+            coupler = coupler + np.real(columns.get(f"{group}.B", 0.0))
+            rocker = rocker + np.real(columns.get(f"{group}.C", 0.0))
+        one, two, three, four = np.broadcast_arrays(crank, coupler, rocker, np.abs(loop))
+        links = Lengths(one, two, three, four, self.nominal.spec.assembly)
+        return DriveSamples(self.nominal, links, np.angle(loop))
+
+    def _quantity(self, name: str, samples: DriveSamples, lengths: list[Reals]) -> Reals:
+        if name in _LENGTHS:
+            return lengths[_LENGTHS[name]].copy()
+        value: Reals = samples.swing(*self._window) if name == _SWING else getattr(samples, name)
+        return np.array(np.degrees(value) if term(name).unit == "deg" else value)
+
+    @cached_property
+    def _window(self) -> tuple[float, float]:
+        """Crank angles that the dwell is meant for: within the tolerance where one is given, else phi13."""
+        nominal = self.nominal
+        if nominal.tolerance_dwell is not None:
+            return nominal.tolerance_dwell.start, nominal.tolerance_dwell.crank_angle
+        if nominal.back_step is None or nominal.dwell_angle is None:
+            raise NoSolution(
+                "dwell_swing needs a dwell: a back-step, or dwell_tolerance in the file", key="tolerance.require"
+            )
+        return nominal.back_step.start, nominal.dwell_angle
+
+    def _replace(self, index: int, samples: DriveSamples, values: Mapping[str, Reals]) -> bool:
+        """Compute one drive alone; False where it does not exist."""
+        part = samples.links.part(index)
+        turned = float(np.broadcast_to(samples.frame_turn, samples.count)[index])
+        made = self._made(self.nominal.spec, part, turned, _SWING in values)
+        try:
+            for name in values:
+                if name not in _LENGTHS:
+                    found = made.raw(name)
+                    values[name][index] = math.nan if found is None else in_unit(found, term(name).unit)
+        except NoSolution:
+            return False
+        return True
+
+    def _made(self, spec: Any, links: Lengths, frame_turn: float, in_window: bool) -> TolerancedDrive:
+        a, b, c, d = (float(length) for length in _four(links))
+        start, length = self._window if in_window else (0.0, 0.0)
+        return TolerancedDrive(spec, (a, b, c, d), (start - frame_turn, length))
+
+    def design(self, values: Mapping[str, float | complex]) -> TolerancedDrive:
+        """One drive as made, with any real key of the file changed."""
+        own = {key: value for key, value in values.items() if key in _KEYS or key.startswith(("pins.", "bearings."))}
+        spec = self.nominal.spec
+        for key in values.keys() - own.keys():
+            spec = replaced(spec, key, values[key])
+        crank = {"links.crank": self._lengths[0]}  # of one drive, also where no length differs
+        samples = self._samples({key: np.array([value]) for key, value in (crank | own).items()})
+        turned = float(np.broadcast_to(samples.frame_turn, samples.count)[0])
+        return self._made(spec, samples.links.part(0), turned, self.has_window)
+
+    @property
+    def has_window(self) -> bool:
+        """Whether the nominal drive dwells."""
+        return self.nominal.tolerance_dwell is not None or self.nominal.dwell_angle is not None
+
+    # Over the cycle
+
+    @cached_property
+    def reference(self) -> float | None:
+        """Where the dwell begins; the outputs of drives without one count from crank angle 0."""
+        return math.degrees(self._window[0]) if self.has_window else None
+
+    def course(self, columns: Mapping[str, Reals | Points], input_angle: Reals) -> Reals:
+        """By how much the outputs lie above that of the nominal drive [rad]."""
+        samples = self._samples(columns)
+        exists = _turns([np.broadcast_to(length, (samples.count,)) for length in _four(samples.links)], self._kind)
+        with np.errstate(invalid="ignore"):
+            start = self._off(samples, self._window[0] if self.has_window else 0.0)
+            off = np.array([self._off(samples, float(phi)) - start for phi in input_angle])
+        off[:, ~exists] = np.nan
+        return off
+
+    def _off(self, samples: DriveSamples, phi: float) -> Reals:
+        """Output angle of the drives at a crank angle of the machine, less that of the nominal one."""
+        here = np.broadcast_to(phi - samples.frame_turn, (samples.count,))
+        nominal = motion.output_angle(self.nominal.linkage, samples.train, phi)
+        off: Reals = samples.counted * (samples.angle_at(here, phi) - nominal)
+        return off
+
+    @cached_property
+    def _kind(self) -> str:
+        return self.nominal.linkage.kind()
+
+    # Findings
+
+    def _findings(self, samples: DriveSamples) -> Iterator[Findings]:
+        spec, count = self.nominal.spec, samples.count
+        if self.nominal.gear_gap is not None:
+            yield _below("GL301", samples.gear_gap, spec.limits.gear_gap, "mm")
+        limit = spec.limits.transmission_angle
+        yield _below("GL303", np.degrees(samples.min_transmission_angle), limit, "deg", limit + 5.0)
+        for pair in self.nominal.layout.shaft_pairs:
+            yield self._shaft(pair, samples)
+        varying = _VARYING if self.nominal.gear_gap is not None else _VARYING - {"GL301"}
+        for name in self.nominal.outlines["analyze"].checks:
+            for check in self.nominal.check(name):
+                if check.code not in varying:
+                    yield _same(check, count)
+
+    def _shaft(self, pair: Clearance, samples: DriveSamples) -> Findings:
+        """GL302 of two bodies, as `gearlink.core.clearance.bodies.least_gap` has it."""
+        ends, one, other = "".join(sorted((pair.one.axis, pair.other.axis))), pair.one, pair.other
+        nearest, farthest = samples.distances()[ends]
+        within = np.maximum(one.inner - (farthest + other.outer), other.inner - (farthest + one.outer))
+        gap = np.maximum(nearest - (one.outer + other.outer), within)
+        limit = self.nominal.layout.least_shaft * len(pair.bare)
+        low: Mask = gap < limit
+        return Findings("GL302", gap, np.full(gap.shape, limit), low & (not pair.bare), low & bool(pair.bare), "mm")
+
+
+def _four(links: Lengths) -> tuple[Reals, Reals, Reals, Reals]:
+    return links.crank, links.coupler, links.rocker, links.frame
+
+
+def _turns(lengths: list[Reals], kind: str) -> Mask:
+    """Where the linkage is of the nominal kind: the crank (of a drag link the frame) shortest, by Grashof's rule."""
+    a, b, c, d = lengths
+    shortest, p, q, r = (a, b, c, d) if kind == "crank-rocker" else (d, a, b, c)
+    longest = np.maximum(np.maximum(p, q), r)
+    good: Mask = (
+        (shortest > 0.0) & (shortest < np.minimum(np.minimum(p, q), r)) & (shortest + 2.0 * longest < p + q + r)
+    )
+    return good
+
+
+def _below(code: str, value: Reals, limit: float, unit: str, warning: float | None = None) -> Findings:
+    fails: Mask = ~(value >= limit)
+    warns = np.zeros_like(fails) if warning is None else ~fails & (value < warning)
+    return Findings(code, np.asarray(value), np.full(value.shape, limit), fails, warns, unit)
+
+
+def _same(check: Check, count: int) -> Findings:
+    """A finding that no tolerance of these changes."""
+    fails, warns = np.full(count, check.status == "fail"), np.full(count, check.status == "warn")
+    value = np.full(count, math.nan if check.value is None else check.value)
+    return Findings(
+        check.code, value, np.full(count, math.nan if check.limit is None else check.limit), fails, warns, check.unit
+    )

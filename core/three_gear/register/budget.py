@@ -1,0 +1,197 @@
+"""The register budget of a three-gear four-bar: what the errors of its parts cost at the output while it dwells."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gearlink.core.errors import NoSolution
+from gearlink.core.linkages.standstills import zeros_over_turn
+from gearlink.core.numerics.arrays import Reals
+from gearlink.core.results import cached_property
+from gearlink.core.spec_paths import changed
+from gearlink.core.three_gear import motion
+from gearlink.core.three_gear.as_made.samples import ThreeGearSamples
+from gearlink.core.three_gear.design import ThreeGearFourBar
+from gearlink.core.three_gear.register.chain import Errors, output_error
+from gearlink.core.three_gear.register.gains import Drive, register_gains
+from gearlink.core.three_gear.synthesis.back_step import BackStepSynthesis
+from gearlink.core.three_gear.synthesis.dwell import DwellSynthesis
+from gearlink.core.three_gear.synthesis.momentary import MomentaryDwellSynthesis
+from gearlink.core.three_gear.synthesis.variable_speed import VariableSpeedSynthesis
+from gearlink.core.tolerance.budget import Contribution
+from gearlink.core.tolerance.register_design import RegisterDesign, contribution, no_such_place
+from gearlink.core.tolerance.sources import Parts
+
+if TYPE_CHECKING:
+    from gearlink.core.three_gear.spec import ThreeGearSpec
+
+_SIZES = {
+    "links.crank": "crank",
+    "links.frame": "frame",
+    "centers.crank_idler": "crank_idler",
+    "centers.idler_output": "idler_output",
+}
+_GEARS = {"crank": "crank_gear", "idler": "idler", "output": "output_gear"}
+_PINS = {"A": "pin_a", "B": "crank_idler", "C": "idler_output", "D": "pin_d"}
+_SYNTHESES = {
+    "synth dwell": DwellSynthesis,
+    "synth back-step": BackStepSynthesis,
+    "synth variable-speed": VariableSpeedSynthesis,
+    "synth momentary-dwell": MomentaryDwellSynthesis,
+}
+
+
+class ThreeGearRegister(RegisterDesign):
+    """Error of the output at its reference circle over the dwell."""
+
+    kind = "three-gear-four-bar"
+    spec: ThreeGearSpec
+    default_at = "dwell"
+
+    def __init__(self, spec: Any) -> None:
+        asked = spec.syntheses() if spec.links is None else ()
+        if asked:  # done once; its links are what scatters
+            found = _SYNTHESES[asked[0]](spec).completion()
+            spec = changed(spec, [(one.path, one.value) for one in found])
+        super().__init__(spec)
+
+    @cached_property
+    def design(self) -> ThreeGearFourBar:
+        """The drive."""
+        return ThreeGearFourBar(self.spec)
+
+    @cached_property
+    def parts(self) -> Parts:
+        """Centre distances, pins and gears."""
+        return ThreeGearSamples(self.design).parts
+
+    @cached_property
+    def drive(self) -> Drive:
+        """The drive at the radius that is asked for."""
+        design, gears = self.design, self.spec.gears
+        radius = self.section.radius or 0.5 * gears.module * abs(design.output_teeth)
+        return Drive(design.linkage, design.train, math.radians(gears.pressure_angle), radius)
+
+    def stretch(self, at: str) -> tuple[float, float]:
+        """The dwell: within the tolerance where the file gives one, else phi13."""
+        if at != "dwell":
+            raise no_such_place(at, ("dwell",))
+        design = self.design
+        if design.tolerance_dwell is not None:
+            start, length = design.tolerance_dwell.start, design.tolerance_dwell.crank_angle
+        elif design.back_step is not None and design.dwell_angle is not None:
+            start, length = design.back_step.start, design.dwell_angle
+        else:
+            raise NoSolution("this drive has no dwell: give dwell_tolerance, or --at an input angle", key="register.at")
+        return start, start + length
+
+    def contributions(self, input_angle: Reals, torque_sign: int) -> list[Contribution]:
+        """Every source of the file that moves the output."""
+        gains = register_gains(self.drive, input_angle, torque_sign)
+        found = []
+        for source in self.sources:
+            group, _, name = source.key.partition(".")
+            if source.kind == "gear":
+                found.append(contribution(source, getattr(gains, _GEARS[name])))
+            elif source.kind == "pin":
+                found.append(contribution(source, getattr(gains, _PINS[name])))
+            elif source.key in _SIZES:
+                found.append(contribution(source, getattr(gains, _SIZES[source.key])))
+            else:
+                raise NoSolution(
+                    f"{group}.{name} does not move the output: leave it out of a register", key="tolerance.sources"
+                )
+        if self.section.stiffness is not None and self.output_torque is not None:
+            found.append(self._wind_up(input_angle))
+        return found
+
+    def _wind_up(self, input_angle: Reals) -> Contribution:
+        """Twist of the output shaft under the torque that moves it: the same in every machine, so without scatter."""
+        assert self.output_torque is not None
+        assert self.section.stiffness is not None
+        torque = np.array([self.output_torque(float(phi)) for phi in input_angle])
+        return Contribution(
+            "wind-up of the output shaft", self.drive.radius * torque / self.section.stiffness, 1.0, 0.0, mean=1.0
+        )
+
+    # Torque and backlash
+
+    @cached_property
+    def backlash(self) -> dict[str, float]:
+        """Circumferential backlash of both meshes [mm]."""
+        return self.section.backlash_of(("crank_idler", "idler_output"))
+
+    @cached_property
+    def dead_band(self) -> float | None:
+        """The jump at the radius that is asked for [mm]."""
+        if not self.backlash:
+            return None
+        reference = 0.5 * self.spec.gears.module * abs(self.design.output_teeth)
+        return sum(self.backlash.values()) * self.drive.radius / reference
+
+    @cached_property
+    def output_torque(self) -> Any:
+        """Torque on the output over the crank angle [N m], None where the file says nothing of it.
+
+        T = J W' w^2 + T_f sign(W) + T_load
+        """
+        section, speed = self.section, self.spec.input_speed
+        design, train = self.design, self.design.train
+        if section.output_inertia is None and not section.friction and not section.load:
+            return None
+        rate = 1.0 if speed is None else speed * math.pi / 30.0
+        inertia = (section.output_inertia or 0.0) * rate * rate
+        if speed is None and section.output_inertia is not None and (section.friction or section.load):
+            raise NoSolution("inertia beside friction or load needs input_speed (1/min)", key="input_speed")
+
+        def torque(phi: float) -> float:
+            speed_ratio = motion.output_speed(design.linkage, train, phi)
+            friction = math.copysign(section.friction, speed_ratio) if speed_ratio else 0.0
+            return inertia * motion.output_acceleration(design.linkage, train, phi) + friction + section.load
+
+        return torque
+
+    @cached_property
+    def flips(self) -> list[float] | None:
+        """Crank angles at which the output's torque turns [rad]."""
+        return None if self.output_torque is None else zeros_over_turn(self.output_torque)
+
+    @property
+    def against_flips(self) -> str:
+        """The friction that keeps the sign in a drive that never turns back."""
+        section, speed = self.section, self.spec.input_speed
+        if self.design.motion == "back-step" or section.output_inertia is None or speed is None:
+            return "brake the output, or preload the gears"
+        extremes = self.design.acceleration_extremes
+        rate = speed * math.pi / 30.0
+        most = section.output_inertia * rate * rate * max(abs(extremes.greatest), abs(extremes.least))
+        return f"a friction torque above {most:.4g} N m on the output keeps the sign"
+
+    # Monte-Carlo of the exact chain
+
+    def sampled_errors(self, input_angle: Reals, torque_sign: int, parts: Mapping[str, Any]) -> Reals:
+        """Errors of the output by the exact chain."""
+        return output_error(self.drive, input_angle[:, None], torque_sign, Errors(self._errors(parts)))
+
+    def _errors(self, parts: Mapping[str, Any]) -> dict[str, Any]:
+        """Errors by the names of the chain."""
+        found: dict[str, Any] = {}
+        for source in self.sources:
+            name, error = source.key.partition(".")[2], parts[source.key]
+            if source.kind in ("size", "center"):
+                _add(found, _SIZES[source.key], error)
+            elif source.kind == "gear":
+                _add(found, _GEARS[name], error)
+            elif name in ("A", "D"):
+                _add(found, "loop", error if name == "A" else -error)
+            else:
+                _add(found, _PINS[name], error.real)
+        return found
+
+
+def _add(found: dict[str, Any], name: str, value: Any) -> None:
+    found[name] = found[name] + value if name in found else value

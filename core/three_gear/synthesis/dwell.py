@@ -1,0 +1,348 @@
+"""`synth dwell`: links whose output is back at its place after a crank angle, or stays within a tolerance over one."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+from gearlink.core.design import Found, Outline
+from gearlink.core.errors import MissingSection, NoSolution, at_key
+from gearlink.core.linkages.band_dwell import ToleranceDwell
+from gearlink.core.linkages.checks import dwell_edge_check, dwell_window_check
+from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.numerics.roots import bracketed_root
+from gearlink.core.report import Check, safely_below
+from gearlink.core.results import cached_property
+from gearlink.core.three_gear.codes import BACK_STEP
+from gearlink.core.three_gear.dwell.momentary_dwell import wrap
+from gearlink.core.three_gear.idler_choice import LEAST_IDLER
+from gearlink.core.three_gear.motion import GearTrain, output_angle
+from gearlink.core.three_gear.names import CHECKS, QUANTITIES
+from gearlink.core.three_gear.symmetric import back_step as symmetric_back_step
+from gearlink.core.three_gear.synthesis.back_step import BackStepFamily
+from gearlink.core.three_gear.synthesis.base import with_analysis
+from gearlink.core.three_gear.synthesis.forms import forms_for
+
+if TYPE_CHECKING:
+    from gearlink.core.three_gear.synthesis.families import Family
+
+MARGIN = 0.01
+_ROUNDING = 1e-9
+_PLAIN_TOLERANCE = math.radians(1.0)  # of a dwell that names none
+
+_WORDS = "angle, or window and tolerance (deg)"
+_DWELL = (
+    "dwell_tolerance",
+    "window_limit",
+    "frame_ratio_interval",
+    "frame_length_interval",
+)
+
+
+class DwellSynthesis(BackStepFamily):
+    """`synth dwell`: phi13 is given, or a window, a tolerance, or both."""
+
+    task = "dwell"
+    outlines = with_analysis(
+        "synth dwell", Outline((*QUANTITIES, *_DWELL), ("dwell-window", "dwell-edge", "back-step", *CHECKS))
+    )
+
+    # The wish
+
+    @property
+    def _wish(self) -> Any:
+        return self.section("dwell", _WORDS)
+
+    @cached_property
+    def window(self) -> float | None:
+        """Crank angle [rad] over which the output is to stay within the tolerance."""
+        return None if self._wish.window is None else math.radians(self._wish.window)
+
+    @cached_property
+    def asked_tolerance(self) -> float | None:
+        """Tolerance of the output to either side [rad] that the file names."""
+        if self._wish.tolerance is not None:
+            return math.radians(self._wish.tolerance)
+        return super().output_tolerance
+
+    @property
+    def _band(self) -> float | None:
+        """The tolerance that the links are designed for; a phi13 is designed for none."""
+        return None if self._wish.angle is not None else self.asked_tolerance
+
+    @cached_property
+    def general(self) -> bool:
+        """Unequal gears that ask for a window are balanced where the file does not say otherwise."""
+        gears, wish = self.spec.gears, self.spec.dwell
+        unequal = wish is not None and wish.angle is None and gears.crank != gears.output
+        return unequal or super().general
+
+    def completion(self) -> Iterator[Found]:
+        """The tolerance besides the links, so that an analysis measures the dwell by it."""
+        yield from super().completion()
+        if self._wish.tolerance is not None:
+            yield Found("dwell_tolerance", float(self._wish.tolerance), "from dwell.tolerance")
+        if self._wish.window is not None and self._band is not None:
+            yield Found("dwell_window", float(self._wish.window), "from dwell.window")
+
+    def _key(self) -> str:
+        return "dwell.tolerance" if self._wish.window is None else "dwell.window"
+
+    # The links
+
+    _no_idler: NoSolution | None = None
+    """Why no idler was found: another check of the same design does not try some hundred of them again."""
+
+    def crank_angle_for(self, i3: float) -> float:
+        """phi12 that meets the wish in the symmetric family."""
+        if self._wish.angle is not None:
+            with at_key("dwell.angle"):
+                return symmetric_back_step.crank_angle_for_dwell(i3, math.radians(self._wish.angle))
+        from gearlink.core.three_gear.symmetric import window_dwell
+
+        with at_key(self._key()):
+            if self.window is None:
+                window_dwell.check_tolerance(i3, self.asked_tolerance or 0.0)  # of which `window_limit` tells too
+                return window_dwell.crank_angle_for_tolerance(i3, self._aimed_at())
+            self._refuse_even_motion(1.0)
+            if self._band is not None:
+                window_dwell.check_reach(i3, self.window, self._band)
+            return symmetric_back_step.crank_angle_for_window(i3, self.window)
+
+    def in_family(self, family: Family, train: GearTrain) -> FourBar:
+        """phi13, the window of equal ripple, or the back-step that fills the band: the root of the one unknown."""
+        from gearlink.core.three_gear.synthesis.families import back_step_of, dwell_angle_of, ripple, solved, window_of
+
+        wish = self._wish
+        if wish.angle is not None:
+            with at_key("dwell.angle"):
+                words = f"a dwell angle of {wish.angle:g} deg"
+                return solved(family, dwell_angle_of(train), math.radians(wish.angle), words)
+        with at_key(self._key()):
+            if self.window is None:
+                words = f"a back-step of twice the tolerance, {math.degrees(2.0 * self._aimed_at()):.6g} deg,"
+                return solved(family, back_step_of(train), 2.0 * self._aimed_at(), words)
+            self._refuse_even_motion(abs(train.ratio))
+            if self.spec.gears.idler is None:
+                self._refuse_short_reach(family, train)
+            words = f"a window of {wish.window:g} deg"
+            linkage = solved(family, window_of(train), self.window, words)
+            self._refuse_narrow_band(family, train, ripple(linkage, train).tolerance)
+            return linkage
+
+    def _aimed_at(self) -> float:
+        tolerance = self.asked_tolerance
+        assert tolerance is not None
+        return tolerance * (1.0 - (MARGIN if self._wish.margin is None else self._wish.margin))
+
+    def _refuse_even_motion(self, ratio: float) -> None:
+        band, window = self._band, self.window
+        if band is not None and window is not None and ratio * window <= 2.0 * band:
+            raise NoSolution(
+                f"an even motion stays within +-{math.degrees(band):.9g} deg over that window: it needs no linkage; "
+                "ask for a longer window or a smaller tolerance"
+            )
+
+    def _refuse_short_reach(self, family: Family, train: GearTrain) -> None:
+        """While an idler is sought: the window that fills the band tells sooner than the band that a window takes."""
+        band, window = self._band, self.window
+        if band is None or window is None:
+            return
+        from gearlink.core.three_gear.synthesis.families import back_step_of, ripple, solved
+
+        try:
+            longest = ripple(solved(family, back_step_of(train), 2.0 * band, "this tolerance"), train).crank_angle
+        except NoSolution:
+            return  # no band of this family is as wide
+        if longest < window * (1.0 - _ROUNDING):
+            raise NoSolution(
+                f"the output cannot stay within +-{math.degrees(band):.9g} deg over {self._wish.window:g} deg with "
+                f"these gears: at most over {math.degrees(longest):.5g} deg; ask for that"
+            )
+
+    def _refuse_narrow_band(self, family: Family, train: GearTrain, least: float) -> None:
+        band = self._band
+        if band is None or least <= band:
+            return
+        from gearlink.core.three_gear.synthesis.families import back_step_of, ripple, solved
+
+        longest = ripple(solved(family, back_step_of(train), 2.0 * band, "this tolerance"), train).crank_angle
+        raise NoSolution(
+            f"the output cannot stay within +-{math.degrees(band):.9g} deg over {self._wish.window:g} deg with these "
+            f"gears: at most over {math.degrees(longest):.5g} deg, or within +-{math.degrees(least):.5g} deg; ask for "
+            "one of these"
+        )
+
+    def chosen_idler(self) -> int:
+        """The smallest that keeps the limits; a refusal names the longest window that one within them reaches."""
+        if self._no_idler is not None:
+            raise self._no_idler
+        try:
+            return super().chosen_idler()
+        except MissingSection:
+            raise
+        except NoSolution as error:
+            words = self._best_within_limits() if self.advises else ""
+            self._no_idler = NoSolution(error.message + words, key=error.key)
+            raise self._no_idler from error
+
+    def _best_within_limits(self) -> str:
+        """The longest window at the asked tolerance, of the smallest idler that keeps the limits.
+
+        That idler was tried with the default margin, which costs a third of a percent of the window.
+        """
+        if self.window is None or self._band is None or self.general:
+            return ""
+        tolerance = self._wish.model_copy(update={"window": None})
+        longest = DwellSynthesis(self.spec.model_copy(update={"dwell": tolerance}))
+        try:
+            idler, limit = longest.idler_teeth, longest.window_limit
+        except NoSolution:
+            return ""
+        assert limit is not None
+        return (
+            f"; within the limits the output stays within +-{math.degrees(self._band):.9g} deg over at most "
+            f"{safely_below(0.996 * math.degrees(limit))} deg (idler {idler})"
+        )
+
+    def depends_on_idler(self, refusal: NoSolution) -> bool:
+        """A window that the smallest idler does not reach, no idler does: it falls with the idler's teeth."""
+        if refusal.key not in ("dwell.window", "dwell.tolerance"):
+            return super().depends_on_idler(refusal)
+        self.linkage_of(LEAST_IDLER)  # its refusal names the best that can be had
+        return True
+
+    @property
+    def trials(self) -> int:
+        """A dwell within a tolerance is sought anew for each of them, which takes some hundredths of a second."""
+        return 150 if self._wish.angle is not None and not self.general else 8
+
+    @property
+    def effort(self) -> int:
+        """Where no idler serves, all of them were tried, which takes as long as two other trials."""
+        return 0 if self._no_idler is None else 1
+
+    @property
+    def costly(self) -> bool:
+        """Unequal gears, of which each idler that is tried is a search of its own: some tenths of a second."""
+        return self.general and self.spec.gears.idler is None
+
+    # What is reached
+
+    @cached_property
+    def dwell_angle(self) -> float | None:
+        """As asked for, where phi12 was solved for it."""
+        self.linkage  # noqa: B018 - a task without a mechanism is refused here as well
+        return super().dwell_angle if self._wish.angle is None else math.radians(self._wish.angle)
+
+    @property
+    def dwell_tolerance(self) -> float | None:
+        """Half of what the output covers in the window, which is half the back-step [rad]."""
+        return None if self.back_step is None else 0.5 * self.back_step.angle
+
+    @property
+    def output_tolerance(self) -> float | None:
+        """Tolerance that the dwell is measured at [rad]: the one asked for, else the one reached."""
+        return self.asked_tolerance or self.dwell_tolerance
+
+    @cached_property
+    def tolerance_dwell(self) -> ToleranceDwell | None:
+        """The longest dwell within the tolerance; without a tolerance that of the band which the back-step fills."""
+        step = self.back_step
+        if self.asked_tolerance is not None or step is None:
+            return super().tolerance_dwell
+        if self.general:
+            from gearlink.core.three_gear.synthesis.families import ripple
+
+            found = ripple(self.linkage, self.train)
+            return ToleranceDwell(found.start, found.crank_angle, found.output_angle)
+        phi13 = symmetric_back_step.dwell_angle(self.i3, step.crank_angle)
+        start = wrap(step.start - (phi13 - step.crank_angle))
+        middle = output_angle(self.linkage, self.train, start) + 0.5 * step.angle
+        return ToleranceDwell(start, 2.0 * phi13 - step.crank_angle, middle)
+
+    @cached_property
+    def window_limit(self) -> float | None:
+        """Longest window that these gears reach at the asked tolerance [rad]."""
+        band = self._band
+        if band is None:
+            return None
+        if not self.general:
+            from gearlink.core.three_gear.symmetric import window_dwell
+
+            with at_key(self._key()):
+                return window_dwell.longest_window(self.i3, band)
+        from gearlink.core.three_gear.synthesis.families import back_step_of, ripple, solved
+
+        family = self._family(self.idler_teeth)
+        return ripple(solved(family, back_step_of(self.train), 2.0 * band, "this tolerance"), self.train).crank_angle
+
+    @cached_property
+    def frame_ratio_interval(self) -> list[float] | None:
+        """Frames over crank between which window and tolerance are met: of the symmetric family, else at this crank."""
+        if self.window is None or self._band is None:
+            return None
+        if not self.general:
+            from gearlink.core.three_gear.symmetric import window_dwell
+
+            return list(window_dwell.frame_ratio_interval(self.i3, self.window, self._band))
+        interval = self.frame_length_interval
+        return None if interval is None else [length / self.linkage.crank for length in interval]
+
+    @cached_property
+    def frame_length_interval(self) -> list[float] | None:
+        """Frames [mm] between which this crank meets window and tolerance.
+
+        At the one the back-step fills the band (the longer one, but with a ring gear round the train), at the other the
+        window is just as long as asked.
+        """
+        window, band = self.window, self._band
+        if window is None or band is None:
+            return None
+        from gearlink.core.three_gear.dwell.tolerance_dwell import tolerance_dwell
+        from gearlink.core.three_gear.synthesis.families import back_step_of, solved
+
+        links, train = self.linkage, self.train
+        radii = self._radii(self.idler_teeth)
+        family = forms_for(*radii).with_crank(*radii, links.crank, self.spec.assembly)
+
+        def spare(frame: float) -> float:
+            return tolerance_dwell(family.linkage(frame), train, band).crank_angle - window
+
+        filled = solved(family, back_step_of(train), 2.0 * band, "this tolerance").frame
+        end = family.ends()[0]
+        just = end if spare(end) >= 0.0 else bracketed_root(spare, end, links.frame)
+        return sorted((just, filled))
+
+    # Checks
+
+    def check_dwell_window(self) -> Iterator[Check]:
+        """GL313 where the file asks for both window and tolerance."""
+        dwell = self.tolerance_dwell
+        if self.window is None or self._band is None or dwell is None:
+            return
+        yield dwell_window_check(dwell.crank_angle, self.window, self._band)
+
+    def check_dwell_edge(self) -> Iterator[Check]:
+        """GL314 where the file asks for a tolerance: how near the window is to its jump."""
+        step, band = self.back_step, self._band
+        if step is None or band is None:
+            return
+        yield dwell_edge_check(0.5 * step.angle / band, self.frame_length_interval)
+
+    def check_back_step(self) -> Iterator[Check]:
+        """GL315 where phi13 is asked for: what the output does meanwhile."""
+        step = self.back_step
+        if self._wish.angle is None or step is None:
+            return
+        half, limit = 0.5 * step.angle, self.asked_tolerance or _PLAIN_TOLERANCE
+        whole = math.degrees(step.angle)
+        text = f"over the dwell angle of {self._wish.angle:g} deg the output steps back by {whole:.6g} deg and returns"
+        bad = half > limit
+        if bad:
+            text += (
+                f", +-{math.degrees(half):.6g} deg about its middle: it does not stand. For one that stays within a "
+                "tolerance ask for dwell: {window: deg, tolerance: deg}"
+            )
+        yield BACK_STEP.check("warn" if bad else "pass", text, math.degrees(half), math.degrees(limit), "deg")
