@@ -92,13 +92,13 @@ KINDS: dict[str, Kind] = {
         ),
         Kind(
             "slider-crank",
-            "linkages.slider_crank_spec:SliderCrankSpec",
+            "linkages.slider_crank.spec:SliderCrankSpec",
             {
-                "crank": "linkages.slider_crank_design:SliderCrankDesign",
-                "analyze": "linkages.slider_crank_design:SliderCrankDesign",
-                "loads": "linkages.slider_crank_loads:SliderCrankLoads",
+                "crank": "linkages.slider_crank.design:SliderCrankDesign",
+                "analyze": "linkages.slider_crank.design:SliderCrankDesign",
+                "loads": "linkages.slider_crank.loads:SliderCrankLoads",
             },
-            "linkages.slider_crank_axis:axis",
+            "linkages.slider_crank.axis:axis",
         ),
         Kind(
             "flatbed-press",
@@ -131,13 +131,13 @@ KINDS: dict[str, Kind] = {
                 "swing": _SWING,
                 "cam": _SWING,
                 "analyze": _SWING,
-                "loads": "wide_swing.loads:WideSwingLoads",
+                "loads": "wide_swing.loads.design:WideSwingLoads",
             },
         ),
         Kind(
             "gear-train-mobility",
-            "linkages.mobility_spec:GearTrainMobilitySpec",
-            {"analyze": "linkages.mobility_design:GearTrainMobility"},
+            "linkages.mobility.spec:GearTrainMobilitySpec",
+            {"analyze": "linkages.mobility.design:GearTrainMobility"},
         ),
         Kind(
             "mutilated-gear-dwell",

@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.wide_swing.elastic_law import ElasticLaw, Pneumatic
-from gearlink.core.wide_swing.iteration import legacy_law
+from gearlink.core.wide_swing.law.elastic_law import ElasticLaw, Pneumatic
+from gearlink.core.wide_swing.law.iteration import legacy_law
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "wide_swing.md"
 NODES = (2, 4, 8, 16, 32, 64)

@@ -131,8 +131,8 @@ def nested_search(r1: float, r3: float, r5: float, eccentricity: float) -> float
     """Frame length at which the least output speed of the turn is zero: a search over frames round one over angles."""
     from scipy.optimize import brentq, minimize_scalar
 
-    from gearlink.core.linkages import fourbar
-    from gearlink.core.linkages.fourbar import FourBar
+    from gearlink.core.linkages.fourbar import position as fourbar
+    from gearlink.core.linkages.fourbar.position import FourBar
     from gearlink.core.three_gear.motion import GearTrain
 
     train = GearTrain(r1, r3, r5)

@@ -10,8 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearlink.cli.bench.timing import EPS, Family, Method, Row, measure, mpmath, numpy_pass, sample_of
-from gearlink.core.linkages import fourbar, fourbar_newton, fourbar_refine, fourbar_sweep
-from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.fourbar import newton as fourbar_newton
+from gearlink.core.linkages.fourbar import position as fourbar
+from gearlink.core.linkages.fourbar import refine as fourbar_refine
+from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
+from gearlink.core.linkages.fourbar.position import FourBar
 
 Array = NDArray[np.float64]
 LINKAGE = FourBar(18.0, 50.0, 100.0, 121.4)

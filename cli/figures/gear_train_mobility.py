@@ -7,8 +7,8 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.figures.drawing import linkage, panels, style
-from gearlink.core.linkages.mobility import pin_names
-from gearlink.core.linkages.mobility_design import GearTrainMobility
+from gearlink.core.linkages.mobility.design import GearTrainMobility
+from gearlink.core.linkages.mobility.freedom import pin_names
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -76,7 +76,7 @@ def _speeds(axes: Axes, design: MutilatedGearDwell) -> None:
 def _transmission(axes: Axes, design: MutilatedGearDwell) -> None:
     """The four-bar over its own turn, which it passes in parts, one a cycle."""
     from gearlink.core.linkages.dyad import acute
-    from gearlink.core.linkages.fourbar import solve
+    from gearlink.core.linkages.fourbar.position import solve
 
     assert design.linkage is not None, "as for the chart"
     degrees = np.arange(721) * 0.5

@@ -9,13 +9,13 @@ import numpy as np
 
 from gearlink.cli.figures.drawing import linkage, panels, scene_axes, style, time_axes
 from gearlink.cli.scenes.slider_crank import build
-from gearlink.core.linkages import slider_crank_sweep
+from gearlink.core.linkages.slider_crank import sweep as slider_crank_sweep
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from gearlink.core.linkages.slider_crank_design import SliderCrankDesign
+    from gearlink.core.linkages.slider_crank.design import SliderCrankDesign
 
 _TURN = 2.0 * math.pi
 

@@ -20,8 +20,8 @@ from gearlink.cli.scenes.scene import (
     loop,
     track,
 )
-from gearlink.core.linkages import fourbar_sweep
-from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
+from gearlink.core.linkages.fourbar.position import FourBar
 
 
 @dataclass(frozen=True, slots=True)

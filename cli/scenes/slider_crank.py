@@ -22,10 +22,10 @@ from gearlink.cli.scenes.scene import (
     loop,
     track,
 )
-from gearlink.core.linkages.slider_crank_sweep import slider
+from gearlink.core.linkages.slider_crank.sweep import slider
 
 if TYPE_CHECKING:
-    from gearlink.core.linkages.slider_crank_design import SliderCrankDesign
+    from gearlink.core.linkages.slider_crank.design import SliderCrankDesign
 
 
 def build(design: SliderCrankDesign, fraction: Reals) -> Scene:

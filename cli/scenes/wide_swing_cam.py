@@ -34,8 +34,8 @@ from gearlink.cli.scenes.scene import (
 )
 
 if TYPE_CHECKING:
+    from gearlink.core.wide_swing.cams.outline import AnyCam
     from gearlink.core.wide_swing.design import WideSwingDesign
-    from gearlink.core.wide_swing.outline import AnyCam
 
 
 @dataclass(frozen=True)
@@ -82,7 +82,7 @@ class Cycle:
 
     def _back(self, at: Reals) -> Reals:
         """k where the cam that swings back stands as it did in the stroke."""
-        from gearlink.core.linkages import fourbar_sweep
+        from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
 
         drive = self.design.motion.drive
         k = np.linspace(0.0, 1.0, 20001)
@@ -102,7 +102,7 @@ class Cycle:
         """Angle of an evenly turning cam from mid-swing of the stroke that it guides, the return of the last [rad]."""
         motion = self.design.motion
         if self.design.spec.slider is not None:
-            from gearlink.core.wide_swing.outline import middle_of
+            from gearlink.core.wide_swing.cams.outline import middle_of
 
             share = middle_of(self.design.cam)
             late, share = (0.5 * self.turned, 1.0 - share) if back else (0.0, share)
@@ -163,7 +163,7 @@ def _cam(cycle: Cycle, cam: AnyCam, turn: Reals, color: str, *, mirrored: bool =
     """The closed contour of a cycle; else that of a stroke, open as it is known, and spokes to the cam axis."""
     if cycle.whole:
         return [_closed(cycle, turn, color, late=mirrored)]
-    from gearlink.core.wide_swing.outline import contour
+    from gearlink.core.wide_swing.cams.outline import contour
 
     run_up, slot, run_out = contour(cam, cycle.design.slot_of(cam), 160)
     outline = np.concatenate([run_up, slot[1:], run_out[1:]])

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from gearlink.core.linkages.fourbar import FourBar
-from gearlink.core.linkages.nearest_passes import joint_to_crank_pivot
+from gearlink.core.linkages.fourbar.nearest_passes import joint_to_crank_pivot
+from gearlink.core.linkages.fourbar.position import FourBar
 
 _TURN = 2.0 * math.pi
 

@@ -22,9 +22,9 @@ from gearlink.core.gears.train.ways import train_ways
 from gearlink.core.linkages.checks import check_linkage, transmission_check
 from gearlink.core.linkages.codes import TARGET
 from gearlink.core.linkages.dyad import acute
-from gearlink.core.linkages.fourbar import FourBar, solve
-from gearlink.core.linkages.nearest_passes import joint_to_crank_pivot
-from gearlink.core.linkages.swing import rocker_swing
+from gearlink.core.linkages.fourbar.nearest_passes import joint_to_crank_pivot
+from gearlink.core.linkages.fourbar.position import FourBar, solve
+from gearlink.core.linkages.fourbar.swing import rocker_swing
 from gearlink.core.numerics.rows import row_numbers
 from gearlink.core.real_speed import RealSpeed, per_time
 from gearlink.core.remedies import Way, down, either, up

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.dwell_gears.mutilated_design import MutilatedGearDwell
 from gearlink.core.errors import MissingSection, NoSolution
-from gearlink.core.linkages.fourbar_loads import MM, four_bar, four_bar_pins
+from gearlink.core.linkages.fourbar.loads import MM, four_bar, four_bar_pins
 from gearlink.core.loads.design import LoadsDesign, loads_outline
 from gearlink.core.loads.periods import homecoming
 from gearlink.core.loads.sources import mass_of
@@ -23,7 +23,7 @@ from gearlink.core.results import cached_property
 if TYPE_CHECKING:
     from gearlink.core.dwell_gears.loads_spec import MutilatedLoads as Section
     from gearlink.core.dwell_gears.mutilated_spec import MutilatedGearDwellSpec
-    from gearlink.core.linkages.fourbar import FourBar
+    from gearlink.core.linkages.fourbar.position import FourBar
     from gearlink.core.loads.mechanism import Connection, Mechanism
     from gearlink.core.numerics.arrays import Reals
 

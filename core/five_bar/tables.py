@@ -17,7 +17,7 @@ def path(design: GearedFiveBar, samples: int | None = None) -> Table:
     import numpy as np
 
     from gearlink.core.five_bar.path import sweep
-    from gearlink.core.linkages.fourbar_refine import dead_point_distance
+    from gearlink.core.linkages.fourbar.refine import dead_point_distance
     from gearlink.core.numerics.arrays import turn_degrees
 
     turns = design.shown_turns

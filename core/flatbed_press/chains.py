@@ -13,9 +13,10 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from gearlink.core.errors import NoSolution, at_key
-from gearlink.core.linkages import fourbar, slider_crank
-from gearlink.core.linkages.fourbar import FourBar
-from gearlink.core.linkages.fourbar_loop import rocker_and_rate, rocker_rate
+from gearlink.core.linkages.fourbar import position as fourbar
+from gearlink.core.linkages.fourbar.loop import rocker_and_rate, rocker_rate
+from gearlink.core.linkages.fourbar.position import FourBar
+from gearlink.core.linkages.slider_crank import position as slider_crank
 from gearlink.core.results import cached_property
 
 
@@ -94,7 +95,7 @@ class CylinderChain:
 
     def jerk(self, input_angle: Any) -> Any:
         """Third derivative of the cylinder's travel, over an array of input angles [mm/rad^3]."""
-        from gearlink.core.linkages import fourbar_sweep
+        from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
 
         state = fourbar_sweep.solve(self.linkage, self.initial_angle - input_angle, 3)
         return self.radius * self.gear_ratio * state.rocker_jerk
@@ -176,7 +177,8 @@ class BedChain:
         Source
             own derivation: the chain rule once more
         """
-        from gearlink.core.linkages import fourbar_sweep, slider_crank_sweep
+        from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
+        from gearlink.core.linkages.slider_crank import sweep as slider_crank_sweep
 
         state = fourbar_sweep.solve(self.linkage, self.initial_crank_angle + input_angle, 3)
         psi = state.rocker_angle - self.crank_offset_angle
@@ -231,7 +233,7 @@ def _solver(angle: Any) -> Any:
     """The scalar kernel for a float; the array kernel, and numpy with it, only for arrays."""
     if isinstance(angle, (float, int)):
         return fourbar
-    from gearlink.core.linkages import fourbar_sweep
+    from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
 
     return fourbar_sweep
 
@@ -239,7 +241,7 @@ def _solver(angle: Any) -> Any:
 def _slider(angle: Any) -> Any:
     if isinstance(angle, (float, int)):
         return slider_crank.slider
-    from gearlink.core.linkages import slider_crank_sweep
+    from gearlink.core.linkages.slider_crank import sweep as slider_crank_sweep
 
     return slider_crank_sweep.slider
 

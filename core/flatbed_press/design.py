@@ -13,7 +13,7 @@ from gearlink.core.flatbed_press.cams import PressCams
 from gearlink.core.flatbed_press.motion import PressMotion
 from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantities, gear_quantity
 from gearlink.core.gears.drawing_names import DERIVED, DRAWING_CHECKS, DRAWING_QUANTITIES, lacking
-from gearlink.core.linkages.slider_crank_design import SLIDER_QUANTITIES, SliderCrankQuantities
+from gearlink.core.linkages.slider_crank.design import SLIDER_QUANTITIES, SliderCrankQuantities
 from gearlink.core.motion_extremes import WithExtremes, names
 from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from gearlink.core.flatbed_press.spec import FlatbedPressSpec
     from gearlink.core.gears.data import GearData
     from gearlink.core.gears.mesh.pair import GearPair
-    from gearlink.core.linkages.slider_crank import SliderCrank
+    from gearlink.core.linkages.slider_crank.position import SliderCrank
 
 _SYNC = ("sync_start", "sync_end", "cam_sync_start", "cam_sync_end", "compensation")
 _CHAINS = ("min_transmission_angle_bed", "min_transmission_angle_cylinder")

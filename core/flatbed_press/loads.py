@@ -121,7 +121,7 @@ class PressLoads(CamLoadsDesign):
 
     def _bed_chain(self, phi: Reals) -> tuple[dict[str, Link], Travel]:
         """The links from gear 2 to the bed, and the lift of the follower."""
-        from gearlink.core.linkages import fourbar_sweep
+        from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
         from gearlink.core.loads.kinematics import Point, Turn, carried, fixed, slider, standing, steady
         from gearlink.core.loads.mechanism import Link
 
@@ -287,7 +287,7 @@ class PressLoads(CamLoadsDesign):
     # Cylinder
 
     def _cylinder_chain(self, links: dict[str, Link], phi: Reals) -> list[Connection]:
-        from gearlink.core.linkages import fourbar_sweep
+        from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
         from gearlink.core.loads.kinematics import Turn, fixed, from_start, mixed, steady
         from gearlink.core.loads.mechanism import FRAME, Link, Mesh, Pin
 
@@ -324,7 +324,7 @@ def _unit(direction: float | None, default: float) -> complex:
 
 
 def _start(chain: Any) -> float:
-    from gearlink.core.linkages import fourbar
+    from gearlink.core.linkages.fourbar import position as fourbar
 
     return fourbar.solve(chain.linkage, chain.initial_angle).rocker_angle
 

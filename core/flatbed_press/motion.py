@@ -9,8 +9,8 @@ from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.flatbed_press.chains import BedChain, CylinderChain, difference
 from gearlink.core.flatbed_press.zone import equal_speed_angle, zone_end
 from gearlink.core.linkages.dyad import acute
-from gearlink.core.linkages.fourbar import FourBar
-from gearlink.core.linkages.slider_crank import SliderCrank
+from gearlink.core.linkages.fourbar.position import FourBar
+from gearlink.core.linkages.slider_crank.position import SliderCrank
 from gearlink.core.report import safely_above
 from gearlink.core.results import cached_property
 

@@ -13,9 +13,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from gearlink.core.flatbed_press.chains import BedChain, CylinderChain
-from gearlink.core.linkages import fourbar_sweep, slider_crank_sweep
 from gearlink.core.linkages.dyad import acute
-from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
+from gearlink.core.linkages.fourbar.position import FourBar
+from gearlink.core.linkages.slider_crank import sweep as slider_crank_sweep
 from gearlink.core.numerics.arrays import Points, Reals
 
 _TURN = 2.0 * math.pi

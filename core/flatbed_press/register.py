@@ -16,8 +16,8 @@ from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.flatbed_press.chains import difference
 from gearlink.core.flatbed_press.design import FlatbedPress
 from gearlink.core.flatbed_press.register_chain import PressErrors, register_error
-from gearlink.core.linkages import fourbar_sweep
-from gearlink.core.linkages.loop_gains import LoopGains, loop_gains
+from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
+from gearlink.core.linkages.fourbar.loop_gains import LoopGains, loop_gains
 from gearlink.core.linkages.standstills import zeros_over_turn
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.results import cached_property

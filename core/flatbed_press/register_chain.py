@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 
 from gearlink.core.flatbed_press.chains import BedChain, CylinderChain, difference
-from gearlink.core.linkages import fourbar_sweep
-from gearlink.core.linkages.fourbar import FourBar
-from gearlink.core.linkages.loop_gains import closed_pin
+from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
+from gearlink.core.linkages.fourbar.loop_gains import closed_pin
+from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.numerics.arrays import Points, Reals
 
 

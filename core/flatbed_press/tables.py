@@ -8,7 +8,7 @@ from gearlink.core.report import Table
 
 if TYPE_CHECKING:
     from gearlink.core.flatbed_press.design import FlatbedPress
-    from gearlink.core.linkages.fourbar import FourBar
+    from gearlink.core.linkages.fourbar.position import FourBar
 
 
 def positions(design: FlatbedPress, samples: int | None = None) -> Table:
@@ -41,7 +41,8 @@ def chains(design: FlatbedPress, samples: int | None = None) -> Table:
     """Accelerations of bed and cylinder and the directions of all links over the input angle, with the time."""
     import numpy as np
 
-    from gearlink.core.linkages import fourbar_sweep, slider_crank_sweep
+    from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
+    from gearlink.core.linkages.slider_crank import sweep as slider_crank_sweep
     from gearlink.core.numerics.arrays import turn_degrees
 
     motion, degrees = design.motion, turn_degrees(samples)
@@ -73,8 +74,8 @@ def chains(design: FlatbedPress, samples: int | None = None) -> Table:
 def _transmission(linkage: FourBar, crank_angle: Any) -> Any:
     import numpy as np
 
-    from gearlink.core.linkages import fourbar_sweep
-    from gearlink.core.linkages.fourbar_refine import dead_point_distance
+    from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
+    from gearlink.core.linkages.fourbar.refine import dead_point_distance
 
     return np.degrees(dead_point_distance(fourbar_sweep.solve(linkage, crank_angle).transmission_angle))
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.flatbed_press.chains import BedChain, CylinderChain
-from gearlink.core.linkages.slider_crank import dead_center_extended, dead_center_folded
+from gearlink.core.linkages.slider_crank.position import dead_center_extended, dead_center_folded
 from gearlink.core.numerics.roots import bracketed_root, maximum, newton_root
 from gearlink.core.report import safely_below
 

@@ -1,7 +1,6 @@
 """Linkages of any machine: four-bar, slider-crank, dyad, standstills, mobility.
 
-Begin with `fourbar` (one position, `math` alone) or `fourbar_sweep` (arrays); the second way is `fourbar_newton`.
-The kinds `slider-crank` and `gear-train-mobility`, which are bare linkages, stand here too.
+Begin with `fourbar`. The kinds `slider-crank` and `gear-train-mobility`, which are bare linkages, stand here too.
 """
 
 from __future__ import annotations
@@ -10,10 +9,10 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from gearlink.core.linkages.fourbar import FourBar as FourBar
-    from gearlink.core.linkages.slider_crank import SliderCrank as SliderCrank
+    from gearlink.core.linkages.fourbar.position import FourBar as FourBar
+    from gearlink.core.linkages.slider_crank.position import SliderCrank as SliderCrank
 
-_PLACES = {"FourBar": "fourbar", "SliderCrank": "slider_crank"}
+_PLACES = {"FourBar": "fourbar.position", "SliderCrank": "slider_crank.position"}
 
 
 def __getattr__(name: str) -> Any:

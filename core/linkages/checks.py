@@ -10,7 +10,7 @@ from gearlink.core.linkages.codes import DWELL_EDGE, DWELL_WINDOW, TARGET, TRANS
 from gearlink.core.report import Check, safely_above, without_noise
 
 if TYPE_CHECKING:
-    from gearlink.core.linkages.fourbar import FourBar
+    from gearlink.core.linkages.fourbar.position import FourBar
 
 _POOR = math.radians(3.0)
 EDGE = 0.992  # back-step over band from which on a frame a little off may lose a quarter of the window
@@ -79,7 +79,7 @@ def check_linkage(linkage: FourBar) -> str:
     Raises
         NoSolution - for a linkage whose crank does not turn fully, and for a change-point linkage
     Example
-        >>> from gearlink.core.linkages.fourbar import FourBar
+        >>> from gearlink.core.linkages.fourbar.position import FourBar
         >>> check_linkage(FourBar(18.0, 50.0, 100.0, 121.4))
         'crank-rocker'
 

@@ -8,8 +8,8 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.gears.outline.mesh_phase import signed_pair
-from gearlink.core.linkages.fourbar import FourBar, solve
-from gearlink.core.linkages.fourbar_loads import MM, four_bar, four_bar_pins, full_balance
+from gearlink.core.linkages.fourbar.loads import MM, four_bar, four_bar_pins, full_balance
+from gearlink.core.linkages.fourbar.position import FourBar, solve
 from gearlink.core.loads.design import BALANCE, LoadsDesign, loads_outline
 from gearlink.core.loads.periods import homecoming, is_directed
 from gearlink.core.planet_linkages.rocker_design import GearedRocker

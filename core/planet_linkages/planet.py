@@ -6,7 +6,7 @@ coupler:
     W = (1 - i) w_carrier + i w_coupler,   i = -z2/z5 (external mesh), +z2/z5 (ring gear 5)
 
 In the two-gear four-bar the carrier is the crank (gear 5 on A, gear 2 at B); in the geared rocker it is the rocker
-(gear 5 on D, gear 2 at C). Angles and links as in `gearlink.core.linkages.fourbar`; rates are per crank speed.
+(gear 5 on D, gear 2 at C). Angles and links as in `gearlink.core.linkages.fourbar.position`; rates are per crank speed.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.fourbar import FourBar, solve
+from gearlink.core.linkages.fourbar.position import FourBar, solve
 
 Carrier = Literal["crank", "rocker"]
 

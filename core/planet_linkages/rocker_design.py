@@ -16,10 +16,10 @@ from gearlink.core.gears.train.meshed import Meshed
 from gearlink.core.gears.train.names import TRAIN_CHECKS
 from gearlink.core.gears.train.ways import train_ways
 from gearlink.core.linkages.checks import check_linkage, target_check, transmission_check
-from gearlink.core.linkages.fourbar import FourBar, solve
+from gearlink.core.linkages.fourbar.position import FourBar, solve
+from gearlink.core.linkages.fourbar.swing import rocker_swing
 from gearlink.core.linkages.output_rates import OutputRates
 from gearlink.core.linkages.standstills import Turning, turnings
-from gearlink.core.linkages.swing import rocker_swing
 from gearlink.core.motion_extremes import names
 from gearlink.core.planet_linkages.bodies import rocker_layout
 from gearlink.core.planet_linkages.planet import PlanetLinkage
@@ -241,8 +241,8 @@ class GearedRocker(OutputRates, RealSpeed, Meshed):
         """Rocker and output over a turn of the crank; the output angle counts from its place at crank angle 0."""
         import numpy as np
 
-        from gearlink.core.linkages import fourbar_sweep
-        from gearlink.core.linkages.fourbar_refine import dead_point_distance
+        from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
+        from gearlink.core.linkages.fourbar.refine import dead_point_distance
         from gearlink.core.numerics.arrays import turn_degrees
 
         degrees, ratio = turn_degrees(samples), self.gear_ratio
@@ -267,7 +267,7 @@ class GearedRocker(OutputRates, RealSpeed, Meshed):
         """Angle, speed, acceleration and jerk of every link over a turn of the crank."""
         import numpy as np
 
-        from gearlink.core.linkages.link_motion import columns, combined, four_bar_motions
+        from gearlink.core.linkages.fourbar.link_motion import columns, combined, four_bar_motions
         from gearlink.core.numerics.arrays import turn_degrees
 
         degrees = turn_degrees(samples)

@@ -6,7 +6,7 @@ import math
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages import standstills
-from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.planet_linkages.planet import PlanetLinkage
 

@@ -18,10 +18,10 @@ from gearlink.core.gears.train.ways import train_ways
 from gearlink.core.linkages import standstills
 from gearlink.core.linkages.checks import check_linkage, transmission_check
 from gearlink.core.linkages.feed import FEED_QUANTITIES, FeedResults
-from gearlink.core.linkages.fourbar import FourBar, solve
+from gearlink.core.linkages.fourbar.position import FourBar, solve
+from gearlink.core.linkages.fourbar.swing import rocker_swing
 from gearlink.core.linkages.output_rates import OutputRates
 from gearlink.core.linkages.standstills import BackStep, Turning
-from gearlink.core.linkages.swing import rocker_swing
 from gearlink.core.motion_extremes import names
 from gearlink.core.planet_linkages.bodies import two_gear_layout
 from gearlink.core.planet_linkages.codes import DWELL_CONDITION
@@ -276,8 +276,8 @@ class TwoGearFourBar(OutputRates, FeedResults, Meshed):
         """Output angle, speed and acceleration, coupler speed and transmission angle over a turn of the crank."""
         import numpy as np
 
-        from gearlink.core.linkages import fourbar_sweep
-        from gearlink.core.linkages.fourbar_refine import dead_point_distance
+        from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
+        from gearlink.core.linkages.fourbar.refine import dead_point_distance
         from gearlink.core.numerics.arrays import turn_degrees
 
         degrees, ratio = turn_degrees(samples), self.gear_ratio
@@ -303,7 +303,7 @@ class TwoGearFourBar(OutputRates, FeedResults, Meshed):
         """Angle, speed, acceleration and jerk of every link over a turn of the crank."""
         import numpy as np
 
-        from gearlink.core.linkages.link_motion import columns, combined, four_bar_motions
+        from gearlink.core.linkages.fourbar.link_motion import columns, combined, four_bar_motions
         from gearlink.core.numerics.arrays import turn_degrees
 
         degrees = turn_degrees(samples)

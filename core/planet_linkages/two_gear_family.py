@@ -22,7 +22,7 @@ from dataclasses import dataclass
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages import standstills
 from gearlink.core.linkages.band_dwell import ToleranceDwell, Valley, longest_in_band
-from gearlink.core.linkages.fourbar import FourBar, solve
+from gearlink.core.linkages.fourbar.position import FourBar, solve
 from gearlink.core.linkages.standstills import BackStep, Turning
 from gearlink.core.numerics.gauss import integral
 from gearlink.core.numerics.roots import bracketed_root, roots_on

@@ -10,7 +10,7 @@ from gearlink.core.design import Found, Outline
 from gearlink.core.errors import MissingSection, NoSolution, at_key
 from gearlink.core.linkages.band_dwell import ToleranceDwell
 from gearlink.core.linkages.checks import dwell_edge_check, dwell_window_check, target_check
-from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.planet_linkages import two_gear_family as kernel
 from gearlink.core.planet_linkages.two_gear_design import CHECKS, QUANTITIES, TwoGearFourBar

@@ -304,7 +304,7 @@ class GearedSixBar(OutputRates, RealSpeed, Design):
         """Angle, speed, acceleration and jerk of the couplers and the output."""
         import numpy as np
 
-        from gearlink.core.linkages.link_motion import columns
+        from gearlink.core.linkages.fourbar.link_motion import columns
 
         degrees = self._rows(samples)
         angle, *rates_ = self.course.rates(np.radians(degrees))

@@ -14,9 +14,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from gearlink.core.errors import at_key
-from gearlink.core.linkages.fourbar import FourBar
-from gearlink.core.linkages.fourbar_refine import dead_point_distance
-from gearlink.core.linkages.fourbar_sweep import FourBarInverseSweep, solve_inverse
+from gearlink.core.linkages.fourbar.position import FourBar
+from gearlink.core.linkages.fourbar.refine import dead_point_distance
+from gearlink.core.linkages.fourbar.sweep import FourBarInverseSweep, solve_inverse
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.extremes import Extreme
 from gearlink.core.results import cached_property

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from gearlink.core.linkages import fourbar_newton
-from gearlink.core.linkages.fourbar_refine import refine
+from gearlink.core.linkages.fourbar import newton as fourbar_newton
+from gearlink.core.linkages.fourbar.refine import refine
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.swing_gripper.linkage import GripperLinkage, GripperMotion
 

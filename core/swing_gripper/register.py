@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.loop_gains import LoopGains, closed_pin, loop_gains
+from gearlink.core.linkages.fourbar.loop_gains import LoopGains, closed_pin, loop_gains
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.results import cached_property
 from gearlink.core.swing_gripper.design import SwingGripper

@@ -12,7 +12,7 @@ from gearlink.core.linkages.codes import GEAR_COLLISION
 from gearlink.core.three_gear.motion import tip_radius
 
 if TYPE_CHECKING:
-    from gearlink.core.linkages.fourbar import FourBar
+    from gearlink.core.linkages.fourbar.position import FourBar
     from gearlink.core.report import Check
     from gearlink.core.three_gear.motion import GearTrain
     from gearlink.core.three_gear.spec import ThreeGearSpec

@@ -16,9 +16,9 @@ from gearlink.core.gears.train.single_mesh import MESH_CHECKS
 from gearlink.core.gears.train.ways import train_ways
 from gearlink.core.linkages.checks import check_linkage, dwell_window_check, transmission_check
 from gearlink.core.linkages.feed import FeedResults
-from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.fourbar.position import FourBar
+from gearlink.core.linkages.fourbar.swing import rocker_swing
 from gearlink.core.linkages.standstills import BackStep
-from gearlink.core.linkages.swing import rocker_swing
 from gearlink.core.real_speed import OutputSpeed, per_time
 from gearlink.core.remedies import down, either, up
 from gearlink.core.report import Check, safely_above, safely_below

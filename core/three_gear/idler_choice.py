@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.three_gear.motion import GearTrain, gear_gap
 
 LEAST_IDLER = 17

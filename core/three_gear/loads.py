@@ -6,8 +6,8 @@ import math
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from gearlink.core.linkages.fourbar import solve
-from gearlink.core.linkages.fourbar_loads import MM, four_bar, four_bar_pins, full_balance
+from gearlink.core.linkages.fourbar.loads import MM, four_bar, four_bar_pins, full_balance
+from gearlink.core.linkages.fourbar.position import solve
 from gearlink.core.loads.design import BALANCE, LoadsDesign, loads_outline
 from gearlink.core.loads.periods import homecoming, is_directed
 from gearlink.core.results import cached_property

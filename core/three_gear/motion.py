@@ -2,7 +2,7 @@
 
     phi5 = I phi + (1 - i2) i3 t2 + (1 - i3) t3,   W = I + (1 - i2) i3 w2 + (1 - i3) w3
 
-with the coupler and rocker angles t2, t3 of `gearlink.core.linkages.fourbar`, their rates w2, w3 per crank speed, and
+with the coupler and rocker angles t2, t3 of `linkages.fourbar.position`, their rates w2, w3 per crank speed, and
 i2 = -z1/z3, i3 = -z3/z5, I = i2 i3 = z1/z5, teeth negative for a gear in internal mesh with the idler. Standstills
 and back-step stand in `gearlink.core.three_gear.dwell.dwells`.
 """
@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.checks import check_linkage
-from gearlink.core.linkages.fourbar import FourBar, FourBarState, solve
+from gearlink.core.linkages.fourbar.position import FourBar, FourBarState, solve
 from gearlink.core.linkages.standstills import zeros_over_turn
 
 

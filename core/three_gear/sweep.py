@@ -9,9 +9,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.linkages import fourbar, fourbar_sweep
-from gearlink.core.linkages.fourbar import FourBar
-from gearlink.core.linkages.fourbar_refine import dead_point_distance
+from gearlink.core.linkages.fourbar import position as fourbar
+from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
+from gearlink.core.linkages.fourbar.position import FourBar
+from gearlink.core.linkages.fourbar.refine import dead_point_distance
 from gearlink.core.numerics.arrays import Mask, Reals
 from gearlink.core.three_gear.motion import GearTrain
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from gearlink.core.report import Table
 
 if TYPE_CHECKING:
-    from gearlink.core.linkages.link_motion import Motion
+    from gearlink.core.linkages.fourbar.link_motion import Motion
     from gearlink.core.three_gear.design import ThreeGearFourBar
 
 
@@ -38,7 +38,7 @@ def links(design: ThreeGearFourBar, samples: int | None = None) -> Table:
     """
     import numpy as np
 
-    from gearlink.core.linkages.link_motion import columns, four_bar_motions
+    from gearlink.core.linkages.fourbar.link_motion import columns, four_bar_motions
     from gearlink.core.numerics.arrays import turn_degrees
 
     degrees = turn_degrees(samples)
@@ -55,8 +55,8 @@ def _gears(design: ThreeGearFourBar, crank: Any, motions: dict[str, Motion]) -> 
     """Idler and output gear, 0 at crank angle 0: w3 = (1 + r1/r3) w2 - (r1/r3) w1, and thesis (4-24)."""
     import numpy as np
 
-    from gearlink.core.linkages.fourbar import solve
-    from gearlink.core.linkages.link_motion import combined
+    from gearlink.core.linkages.fourbar.link_motion import combined
+    from gearlink.core.linkages.fourbar.position import solve
 
     start, still = solve(design.linkage, 0.0), np.zeros_like(crank)
     steady = (crank, np.ones_like(crank), still, still)

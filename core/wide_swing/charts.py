@@ -10,8 +10,8 @@ from numpy.typing import ArrayLike
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.numerics.arrays import Reals
-from gearlink.core.wide_swing.device import Pneumatic
-from gearlink.core.wide_swing.elastic_law import ElasticLaw
+from gearlink.core.wide_swing.law.device import Pneumatic
+from gearlink.core.wide_swing.law.elastic_law import ElasticLaw
 
 
 def velocity_peak(swing: ArrayLike, pivot_ratio: float) -> Reals:

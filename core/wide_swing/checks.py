@@ -13,8 +13,8 @@ from gearlink.core.report import Check, Status, safely_above, safely_below
 from gearlink.core.wide_swing import codes, cycle_checks, remedies
 
 if TYPE_CHECKING:
+    from gearlink.core.wide_swing.cams.outline import AnyCam
     from gearlink.core.wide_swing.design import WideSwingDesign
-    from gearlink.core.wide_swing.outline import AnyCam
 
 # Device and stroke
 

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.fourbar import FourBar
-from gearlink.core.linkages.fourbar_sweep import solve
+from gearlink.core.linkages.fourbar.position import FourBar
+from gearlink.core.linkages.fourbar.sweep import solve
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.results import cached_property
 

@@ -11,7 +11,7 @@ from gearlink.core.errors import at_key
 from gearlink.core.numerics.rows import row_numbers
 from gearlink.core.report import Table
 from gearlink.core.results import cached_property
-from gearlink.core.wide_swing.closed_cam import ClosedCam
+from gearlink.core.wide_swing.cams.closed_cam import ClosedCam
 
 if TYPE_CHECKING:
     from gearlink.core.numerics.arrays import Points, Reals

@@ -12,7 +12,7 @@ from gearlink.core.report import Check, safely_below
 from gearlink.core.wide_swing import codes
 
 if TYPE_CHECKING:
-    from gearlink.core.wide_swing.closed_cam import ClosedCam
+    from gearlink.core.wide_swing.cams.closed_cam import ClosedCam
     from gearlink.core.wide_swing.design import WideSwingDesign
 
 _CUT = 1e-7

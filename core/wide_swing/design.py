@@ -17,12 +17,12 @@ from gearlink.core.wide_swing.unloading import Unloading
 if TYPE_CHECKING:
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.report import Quantity
-    from gearlink.core.wide_swing.cam import Layout, WideSwingCam
+    from gearlink.core.wide_swing.cams.cam import Layout, WideSwingCam
+    from gearlink.core.wide_swing.cams.oscillating_cam import OscillatingCam
+    from gearlink.core.wide_swing.cams.outline import AnyCam
+    from gearlink.core.wide_swing.cams.slider_cam import SliderCam
     from gearlink.core.wide_swing.cycle import WholeCycle
-    from gearlink.core.wide_swing.oscillating_cam import OscillatingCam
-    from gearlink.core.wide_swing.outline import AnyCam
     from gearlink.core.wide_swing.places import Places
-    from gearlink.core.wide_swing.slider_cam import SliderCam
     from gearlink.core.wide_swing.spec import SwingCam, WideSwingSpec
 
 _CAM = ("max_pressure_angle", "min_curvature_radius", "max_radius", "min_radius")
@@ -88,7 +88,7 @@ class WideSwingDesign(Design):
         return self._even("twin-cam", self.motion.return_angle, None)
 
     def _even(self, layout: Layout, angle: float, rocker_radius: float | None) -> WideSwingCam:
-        from gearlink.core.wide_swing.cam import WideSwingCam
+        from gearlink.core.wide_swing.cams.cam import WideSwingCam
 
         section, law = self.section, self.motion.plain_law
         with at_key("cycle_angle" if self.spec.cycle is None else "cycle"):
@@ -104,7 +104,7 @@ class WideSwingDesign(Design):
     @cached_property
     def oscillating_cam(self) -> OscillatingCam:
         """The cam on the rocker of a crank-rocker."""
-        from gearlink.core.wide_swing.oscillating_cam import OscillatingCam
+        from gearlink.core.wide_swing.cams.oscillating_cam import OscillatingCam
 
         section, law, drive = self.section, self.motion.plain_law, self.motion.drive
         with at_key("drive"):
@@ -113,7 +113,7 @@ class WideSwingDesign(Design):
     @cached_property
     def slider_cam(self) -> SliderCam:
         """The cam of a rocker that drives a slider."""
-        from gearlink.core.wide_swing.slider_cam import SliderCam
+        from gearlink.core.wide_swing.cams.slider_cam import SliderCam
 
         section, law, angle = self.section, self.motion.slider, self.motion.cycle_angle
         with at_key("cycle_angle"):
@@ -160,7 +160,7 @@ class WideSwingDesign(Design):
     @cached_property
     def start_radius_estimate(self) -> float:
         """R of (23) [mm]."""
-        from gearlink.core.wide_swing.contact import start_radius_estimate
+        from gearlink.core.wide_swing.cams.contact import start_radius_estimate
 
         with self._profile_key:
             return start_radius_estimate(self.even_cam)
@@ -168,7 +168,7 @@ class WideSwingDesign(Design):
     @cached_property
     def middle_radius_estimate(self) -> float:
         """R of (27) [mm]."""
-        from gearlink.core.wide_swing.contact import middle_radius_estimate
+        from gearlink.core.wide_swing.cams.contact import middle_radius_estimate
 
         with self._profile_key:
             return middle_radius_estimate(self.even_cam)

@@ -13,8 +13,8 @@ from gearlink.core.wide_swing.remedies import drive_repair, slider_repair, with_
 if TYPE_CHECKING:
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.wide_swing.crank_rocker import CrankRockerDrive
-    from gearlink.core.wide_swing.device import Device
-    from gearlink.core.wide_swing.elastic_law import ElasticLaw
+    from gearlink.core.wide_swing.law.device import Device
+    from gearlink.core.wide_swing.law.elastic_law import ElasticLaw
     from gearlink.core.wide_swing.slider import SliderLaw
     from gearlink.core.wide_swing.spec import SwingSlider, WideSwingSpec
 
@@ -35,7 +35,7 @@ class Motion:
     @cached_property
     def device(self) -> Device:
         """The unloading device, without dimension."""
-        from gearlink.core.wide_swing.device import Pneumatic, Spring
+        from gearlink.core.wide_swing.law.device import Pneumatic, Spring
 
         unloader = self.spec.unloader
         with at_key("unloader.pivot_ratio"):
@@ -51,14 +51,14 @@ class Motion:
     @property
     def usual_pivot_ratio(self) -> float:
         """Least pivot ratio of this device, or of a usual cylinder where the file says too little of a spring."""
-        from gearlink.core.wide_swing.device import least_pivot_ratio_pneumatic
+        from gearlink.core.wide_swing.law.device import least_pivot_ratio_pneumatic
 
         return self.min_pivot_ratio or least_pivot_ratio_pneumatic(self.swing)
 
     @cached_property
     def min_pivot_ratio(self) -> float | None:
         """Least pivot ratio of a device that just fits, (3) or (4) solved, where the file says enough of it."""
-        from gearlink.core.wide_swing import device
+        from gearlink.core.wide_swing.law import device
 
         unloader = self.spec.unloader
         with at_key("unloader"):
@@ -77,7 +77,7 @@ class Motion:
     @cached_property
     def plain_law(self) -> ElasticLaw:
         """The law of motion that the device gives a rocker alone."""
-        from gearlink.core.wide_swing.elastic_law import ElasticLaw
+        from gearlink.core.wide_swing.law.elastic_law import ElasticLaw
 
         device = self.device
         with at_key("swing"):
@@ -147,7 +147,7 @@ class Motion:
     @cached_property
     def drive(self) -> CrankRockerDrive:
         """The crank-rocker that carries the cam; its refusal names the length to change."""
-        from gearlink.core.linkages.fourbar import FourBar
+        from gearlink.core.linkages.fourbar.position import FourBar
         from gearlink.core.wide_swing.crank_rocker import CrankRockerDrive
 
         section = self.spec.drive
@@ -198,6 +198,6 @@ class Motion:
         return self._time_of(self.cycle_angle)
 
     def _time_of(self, angle: float) -> float:
-        from gearlink.core.wide_swing.balancing import stroke_time
+        from gearlink.core.wide_swing.law.balancing import stroke_time
 
         return stroke_time(angle, self.spec.speed * 2.0 * math.pi / 60.0)

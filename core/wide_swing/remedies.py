@@ -13,8 +13,8 @@ from gearlink.core.spec_paths import changed, number_at
 
 if TYPE_CHECKING:
     from gearlink.core.report import Remedy
+    from gearlink.core.wide_swing.cams.outline import AnyCam
     from gearlink.core.wide_swing.design import WideSwingDesign
-    from gearlink.core.wide_swing.outline import AnyCam
     from gearlink.core.wide_swing.spec import SwingDrive, SwingSlider
 
 Change: TypeAlias = tuple[str, float | None]
@@ -198,7 +198,7 @@ def even_middle_angle(section: SwingSlider) -> float | None:
     """
     import numpy as np
 
-    from gearlink.core.linkages.slider_crank_sweep import slider
+    from gearlink.core.linkages.slider_crank.sweep import slider
     from gearlink.core.numerics.roots import bracketed_root
 
     def bend(angle: float) -> float:

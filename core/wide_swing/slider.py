@@ -12,16 +12,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.slider_crank_sweep import slider
+from gearlink.core.linkages.slider_crank.sweep import slider
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.elliptic import complete_integral, incomplete_integral, jacobi_sn_cn
 from gearlink.core.numerics.extremes import maximum_over
 from gearlink.core.numerics.periodic import CosineSeries, cosine_series
 from gearlink.core.report import safely_above
 from gearlink.core.results import cached_property
-from gearlink.core.wide_swing.device import Device, DeviceGeometry
-from gearlink.core.wide_swing.elastic_law import ElasticLaw
-from gearlink.core.wide_swing.kept import Kept, kept_for
+from gearlink.core.wide_swing.law.device import Device, DeviceGeometry
+from gearlink.core.wide_swing.law.elastic_law import ElasticLaw
+from gearlink.core.wide_swing.law.kept import Kept, kept_for
 
 _NEWTON_STEPS = 60
 # A step as small is as good as none: subnormal numbers have no full set of digits to settle in.
@@ -112,7 +112,7 @@ class SliderLaw:
     Notes
         The integral runs over the whole stroke; b(1/2) is neither the velocity at mid-swing nor the peak.
     Example
-        >>> from gearlink.core.wide_swing.elastic_law import Pneumatic
+        >>> from gearlink.core.wide_swing.law.elastic_law import Pneumatic
         >>> drive = SliderDrive(crank=1.0, rod=3.0, middle_angle=math.pi / 2)
         >>> law = SliderLaw(Pneumatic(2.5), math.radians(120), drive)
         >>> round(law.energy_parameter, 12), round(law.middle_place, 12)

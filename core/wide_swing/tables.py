@@ -8,8 +8,8 @@ from gearlink.core.numerics.rows import row_numbers
 from gearlink.core.report import Table
 
 if TYPE_CHECKING:
+    from gearlink.core.wide_swing.cams.outline import AnyCam
     from gearlink.core.wide_swing.design import WideSwingDesign
-    from gearlink.core.wide_swing.outline import AnyCam
 
 
 def _k(samples: int | None) -> Any:
@@ -65,7 +65,7 @@ def contact(design: WideSwingDesign, samples: int | None = None) -> Table:
 def _force(design: WideSwingDesign, cam: AnyCam, k: Any, share: Any) -> Any:
     import numpy as np
 
-    from gearlink.core.wide_swing.outline import middle_of
+    from gearlink.core.wide_swing.cams.outline import middle_of
 
     touching = design.touches(cam, k) & (k != middle_of(cam))
     force = np.full_like(k, np.nan)
@@ -77,7 +77,7 @@ def balance(design: WideSwingDesign, _samples: int | None = None) -> Table:
     """Torque on the rocker axis with and without the device, over the speed."""
     import numpy as np
 
-    from gearlink.core.wide_swing.balancing import drive_balancing_ratio, speed_sweep
+    from gearlink.core.wide_swing.law.balancing import drive_balancing_ratio, speed_sweep
 
     share, spec, motion = _speed_shares(), design.spec, design.motion
     inertia, losses = design.unloading.even_inertia, (spec.unloader.residual, spec.unloader.reserve)
@@ -97,7 +97,7 @@ def balance(design: WideSwingDesign, _samples: int | None = None) -> Table:
 
 def iteration(design: WideSwingDesign, _samples: int | None = None) -> Table:
     """Steps of the iteration against its error (run time against error of the source's own method)."""
-    from gearlink.core.wide_swing.iteration import legacy_law
+    from gearlink.core.wide_swing.law.iteration import legacy_law
 
     motion, steps = design.motion, (5, 10, 20, 50, 100, 200)
     laws = [legacy_law(motion.device, motion.swing, steps=n) for n in steps]

@@ -11,9 +11,9 @@ from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
     from gearlink.core.numerics.arrays import Reals
-    from gearlink.core.wide_swing.iteration import LegacyLaw
+    from gearlink.core.wide_swing.cams.outline import AnyCam
+    from gearlink.core.wide_swing.law.iteration import LegacyLaw
     from gearlink.core.wide_swing.motion import Motion
-    from gearlink.core.wide_swing.outline import AnyCam
     from gearlink.core.wide_swing.spec import SwingShaft, WideSwingSpec
 
 
@@ -39,21 +39,21 @@ class Unloading:
     @cached_property
     def force(self) -> float | None:
         """Force of a pneumatic device, with its reserve [N]."""
-        from gearlink.core.wide_swing.device import force
+        from gearlink.core.wide_swing.law.device import force
 
         return self._whole * force(*self._sizing) if self.spec.unloader.type == "pneumatic" else None
 
     @cached_property
     def spring_rate(self) -> float | None:
         """Rate of a spring, with its reserve [N/mm]."""
-        from gearlink.core.wide_swing.device import spring_rate
+        from gearlink.core.wide_swing.law.device import spring_rate
 
         return self._whole * spring_rate(*self._sizing) if self.spec.unloader.type == "spring" else None
 
     @cached_property
     def iteration(self) -> LegacyLaw:
         """The source's own iteration, for comparison."""
-        from gearlink.core.wide_swing.iteration import legacy_law
+        from gearlink.core.wide_swing.law.iteration import legacy_law
 
         return legacy_law(self.motion.device, self.motion.swing, steps=self.spec.iteration_steps)
 
@@ -67,14 +67,14 @@ class Unloading:
     @cached_property
     def power_peak(self) -> float:
         """max(b c)."""
-        from gearlink.core.wide_swing.balancing import power_peak
+        from gearlink.core.wide_swing.law.balancing import power_peak
 
         return power_peak(self.motion.rocker_alone("power_peak"))
 
     @cached_property
     def drive_torque_peak(self) -> float:
         """Torque of the cam shaft without the device and without `linkage_share` at the design speed [N m]."""
-        from gearlink.core.wide_swing.balancing import drive_torque_peak
+        from gearlink.core.wide_swing.law.balancing import drive_torque_peak
 
         motion, law = self.motion, self.motion.rocker_alone("drive_torque_peak")
         return drive_torque_peak(self.spec.inertia, law, motion.stroke_time, motion.device_angle)
@@ -143,7 +143,7 @@ class Unloading:
         """
         import numpy as np
 
-        from gearlink.core.wide_swing.outline import middle_of
+        from gearlink.core.wide_swing.cams.outline import middle_of
 
         motion = self.motion
         speed_ratio = speed_ratio * (motion.device_angle / cam.cycle_angle)

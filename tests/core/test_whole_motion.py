@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from factory import design
 
-from gearlink.core.linkages.fourbar import solve
+from gearlink.core.linkages.fourbar.position import solve
 
 LINKS = [
     ("thesis_example_3_as_printed", ["coupler", "rocker", "idler", "output"]),

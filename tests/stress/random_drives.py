@@ -11,7 +11,7 @@ import numpy as np
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.checks import check_linkage
-from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.three_gear.dwell.momentary_dwell import eccentricity_range, momentary_linkage
 from gearlink.core.three_gear.motion import GearTrain
 from gearlink.core.three_gear.symmetric import back_step as symmetric_back_step

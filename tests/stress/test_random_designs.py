@@ -19,13 +19,14 @@ from gearlink.core.cams.laws import law
 from gearlink.core.cams.profile import oscillating, profile, translating
 from gearlink.core.errors import NoSolution
 from gearlink.core.gears.mesh.pair import GearPair
-from gearlink.core.linkages import fourbar, slider_crank
-from gearlink.core.linkages.fourbar import FourBar
-from gearlink.core.linkages.slider_crank import SliderCrank
+from gearlink.core.linkages.fourbar import position as fourbar
+from gearlink.core.linkages.fourbar.position import FourBar
+from gearlink.core.linkages.slider_crank import position as slider_crank
+from gearlink.core.linkages.slider_crank.position import SliderCrank
 from gearlink.core.three_gear.sweep import momentary_dwells
 from gearlink.core.three_gear.symmetric.back_step import dwell_angle
-from gearlink.core.wide_swing.device import Pneumatic, Spring
-from gearlink.core.wide_swing.elastic_law import ElasticLaw
+from gearlink.core.wide_swing.law.device import Pneumatic, Spring
+from gearlink.core.wide_swing.law.elastic_law import ElasticLaw
 
 pytestmark = LONGER_NUMBERS
 

@@ -18,7 +18,7 @@ from stress.worst import COUNTS, EPS, LONG, LONGER_NUMBERS, MANY, Worst
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.kinds import KINDS
-from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.planet_linkages.planet import PlanetLinkage
 from gearlink.core.three_gear import motion
 from gearlink.core.three_gear.dwell import dwells

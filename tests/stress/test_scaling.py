@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 
 from gearlink.core.cams.profile import profile, translating
-from gearlink.core.linkages import fourbar_sweep
-from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
+from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.numerics.blocks import BLOCK
 from gearlink.core.three_gear.motion import GearTrain
 from gearlink.core.three_gear.sweep import output_motion

@@ -30,16 +30,16 @@ from stress.worst import EPS, LONGER_NUMBERS, Worst
 
 from gearlink.core.cams.profile import oscillating, profile, translating
 from gearlink.core.gears.mesh.pair import GearPair
-from gearlink.core.linkages import fourbar
-from gearlink.core.linkages.fourbar import FourBar
-from gearlink.core.linkages.slider_crank import SliderCrank
+from gearlink.core.linkages.fourbar import position as fourbar
+from gearlink.core.linkages.fourbar.position import FourBar
+from gearlink.core.linkages.slider_crank.position import SliderCrank
 from gearlink.core.planet_linkages.planet import PlanetLinkage
 from gearlink.core.three_gear.dwell.momentary_dwell import least_eccentricity
 from gearlink.core.three_gear.motion import GearTrain
 from gearlink.core.three_gear.sweep import momentary_dwells
 from gearlink.core.three_gear.symmetric.back_step import dwell_angle
-from gearlink.core.wide_swing.device import Spring
-from gearlink.core.wide_swing.elastic_law import ElasticLaw
+from gearlink.core.wide_swing.law.device import Spring
+from gearlink.core.wide_swing.law.elastic_law import ElasticLaw
 
 
 @pytest.fixture(autouse=True)

@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from gearlink.core.flatbed_press.design import FlatbedPress
-    from gearlink.core.linkages.slider_crank_design import SliderCrankDesign
+    from gearlink.core.linkages.slider_crank.design import SliderCrankDesign
 
 
 def draw(command: str, design: FlatbedPress) -> Figure:
@@ -24,8 +24,8 @@ def draw(command: str, design: FlatbedPress) -> Figure:
 
 def _slider_crank(design: FlatbedPress) -> SliderCrankDesign:
     """D-E-F as a design of its own: its slider makes half the bed's stroke."""
-    from gearlink.core.linkages.slider_crank_design import SliderCrankDesign
-    from gearlink.core.linkages.slider_crank_spec import SliderCrankSpec
+    from gearlink.core.linkages.slider_crank.design import SliderCrankDesign
+    from gearlink.core.linkages.slider_crank.spec import SliderCrankSpec
 
     part = design.slider_crank
     spec = SliderCrankSpec(

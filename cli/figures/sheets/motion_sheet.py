@@ -121,7 +121,7 @@ def _angles() -> Reals:
 
 
 def _three_gears(design: Any) -> list[Course]:
-    from gearlink.core.linkages import fourbar_sweep
+    from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
 
     train, x = design.train, _angles()
     state = fourbar_sweep.solve(design.linkage, np.radians(x), 3)
@@ -148,7 +148,7 @@ def _planets(design: Any) -> list[Course]:
 
 
 def _slider_crank(design: Any) -> list[Course]:
-    from gearlink.core.linkages import slider_crank_sweep
+    from gearlink.core.linkages.slider_crank import sweep as slider_crank_sweep
 
     x, part = _angles(), design.slider_crank
     rates = slider_crank_sweep.slider(np.radians(x), part.crank_length, part.rod, part.offset, 3)

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from gearlink.core.wide_swing.closed_cam import ClosedCam
+    from gearlink.core.wide_swing.cams.closed_cam import ClosedCam
     from gearlink.core.wide_swing.cycle import WholeCycle
     from gearlink.core.wide_swing.design import WideSwingDesign
 

@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from gearlink.core.wide_swing.cams.outline import AnyCam
     from gearlink.core.wide_swing.design import WideSwingDesign
-    from gearlink.core.wide_swing.outline import AnyCam
 
 _SLOT_VIEW = 3.2
 """Half the width of the enlarged view about mid-swing, in roller radii."""
@@ -61,7 +61,7 @@ def _slot_panel(axes: Axes, design: WideSwingDesign, cam: AnyCam, mirror: float)
     """The slot that the roller needs at mid-swing, enlarged."""
     import numpy as np
 
-    from gearlink.core.wide_swing.outline import middle_of
+    from gearlink.core.wide_swing.cams.outline import middle_of
 
     start, end = design.slot_of(cam)
     cam_panel(axes, design, "Slot at mid-swing", cam, mirror)

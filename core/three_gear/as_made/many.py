@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gearlink.core.linkages.fourbar_lengths import Lengths, Places, solve
+from gearlink.core.linkages.fourbar.lengths import Lengths, Places, solve
 from gearlink.core.numerics.arrays import Mask, Reals
 from gearlink.core.results import cached_property
 from gearlink.core.three_gear.as_made.near_drives import REST, STEPS, NearDrives, Seen, Stop

@@ -13,7 +13,7 @@ from gearlink.core.design import placed
 from gearlink.core.errors import at_key
 from gearlink.core.linkages.band_dwell import ToleranceDwell
 from gearlink.core.linkages.checks import check_linkage
-from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.linkages.standstills import BackStep
 from gearlink.core.results import cached_property
 from gearlink.core.three_gear import motion

@@ -12,7 +12,7 @@ from gearlink.core.clearance.bodies import Clearance
 from gearlink.core.design import in_unit
 from gearlink.core.design_axis import Evaluated, Findings
 from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.fourbar_lengths import Lengths
+from gearlink.core.linkages.fourbar.lengths import Lengths
 from gearlink.core.nomenclature import term
 from gearlink.core.numerics.arrays import Mask, Points, Reals
 from gearlink.core.report import Check

@@ -10,7 +10,7 @@ import math
 from dataclasses import dataclass
 
 from gearlink.core.linkages.band_dwell import ToleranceDwell, Valley, longest_in_band
-from gearlink.core.linkages.fourbar import FourBar, solve
+from gearlink.core.linkages.fourbar.position import FourBar, solve
 from gearlink.core.linkages.standstills import BackStep, back_steps, standstills, turnings
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.results import cached_property

@@ -11,7 +11,7 @@ import math
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.checks import check_linkage
-from gearlink.core.linkages.fourbar import FourBar, solve
+from gearlink.core.linkages.fourbar.position import FourBar, solve
 from gearlink.core.linkages.standstills import BackStep
 from gearlink.core.numerics.gauss import integral
 from gearlink.core.numerics.roots import bracketed_root

@@ -21,7 +21,7 @@ from gearlink.core.three_gear.dwell.momentary_dwell import Tangency, crank_angle
 from gearlink.core.three_gear.motion import GearTrain, output_acceleration, output_speed
 
 if TYPE_CHECKING:
-    from gearlink.core.linkages.fourbar import FourBar
+    from gearlink.core.linkages.fourbar.position import FourBar
 
 _NEWTON_STEPS = 4
 _ZERO = 1e-11  # speed ratio at a standstill, of the terms that cancel there

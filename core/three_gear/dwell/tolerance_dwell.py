@@ -6,7 +6,7 @@ import math
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.band_dwell import ToleranceDwell, Valley, longest_in_band
-from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.three_gear.dwell.dwells import back_step, dwell_positions
 from gearlink.core.three_gear.motion import GearTrain, forward, mean_ratio, output_angles, output_speed, speed_extremes
 

@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 
 from gearlink.core.gears.tooth.involute_sweep import involute
-from gearlink.core.linkages import fourbar_sweep
-from gearlink.core.linkages.loop_gains import closed_pin
+from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
+from gearlink.core.linkages.fourbar.loop_gains import closed_pin
 from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.three_gear.register.gains import Drive, gear_angles, signs
 
@@ -51,7 +51,7 @@ def output_error(drive: Drive, crank_angle: Reals, torque_sign: int, errors: Err
     Notes
         The eccentricity of a gear moves with the angle that is sought: steps of a contraction by e/r, to rest.
     Example
-        >>> from gearlink.core.linkages.fourbar import FourBar
+        >>> from gearlink.core.linkages.fourbar.position import FourBar
         >>> from gearlink.core.three_gear.motion import GearTrain
         >>> linkage = FourBar(38.94178567, 112.0, 112.0, 153.53024891)
         >>> drive = Drive(linkage, GearTrain(40, 72, 40), math.radians(20.0), 40.0)

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gearlink.core.linkages import fourbar_sweep
-from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
+from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.three_gear.motion import GearTrain
 

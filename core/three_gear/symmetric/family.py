@@ -16,7 +16,7 @@ import math
 from typing import NamedTuple
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.fourbar.position import FourBar
 
 
 class SpeedLimits(NamedTuple):

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.design import Outline
 from gearlink.core.errors import NoSolution, at_key
-from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.linkages.standstills import BackStep
 from gearlink.core.report import Check
 from gearlink.core.results import cached_property

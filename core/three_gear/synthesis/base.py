@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from gearlink.core.design import Found, Outline
 from gearlink.core.errors import MissingSection, NoSolution, at_key
-from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.report import Table
 from gearlink.core.results import cached_property
 from gearlink.core.three_gear.bodies import layout

@@ -18,7 +18,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.linkages.standstills import BackStep
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.report import safely_above, safely_below

@@ -8,7 +8,7 @@ import math
 from collections.abc import Callable
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.three_gear.dwell.internal_dwell import shape, tangency
 from gearlink.core.three_gear.synthesis.families import Family
 

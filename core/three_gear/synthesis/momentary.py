@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from gearlink.core.design import Outline, placed
 from gearlink.core.errors import NoSolution, at_key
-from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.report import safely_below
 from gearlink.core.results import cached_property
 from gearlink.core.three_gear.dwell import momentary_dwell

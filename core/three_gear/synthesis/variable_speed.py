@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.design import Found, Outline
 from gearlink.core.errors import NoSolution, at_key
-from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.real_speed import other_speed
 from gearlink.core.results import cached_property
 from gearlink.core.three_gear.dwell import dwells

@@ -19,7 +19,7 @@ from sweeps import mostly_slow
 from gearlink.cli.figures.three_gear_mechanism import dwell_position
 from gearlink.cli.figures.write import write_plot
 from gearlink.cli.options import Options
-from gearlink.core.linkages.fourbar import solve
+from gearlink.core.linkages.fourbar.position import solve
 
 MOMENTARY, STEADY = "synth momentary-dwell", "synth variable-speed"
 PRINTED = "{gears: {module: 2.5, crank: 20, idler: 20, output: 60}, links: {crank: 18.0, frame: 121.4}}"

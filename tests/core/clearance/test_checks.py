@@ -15,7 +15,7 @@ from pydantic import ValidationError
 
 from gearlink.core.clearance.bodies import Gear, Shaft, least_gap
 from gearlink.core.clearance.reach import Reach, constant, coupler_joint, crank_pin
-from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.fourbar.position import FourBar
 
 IDLER = {
     "kind": "geared-five-bar",

@@ -20,7 +20,7 @@ from sweeps import examples
 
 from gearlink.core.dwell_gears.mutilated import MutilatedGear, teeth_for_times
 from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.fourbar import FourBar, solve
+from gearlink.core.linkages.fourbar.position import FourBar, solve
 
 REFERENCE = Path(__file__).parents[2] / "reference"
 CASES = {case["id"]: case for case in json.loads((REFERENCE / "gear_linkage.json").read_text())["cases"]}

@@ -28,7 +28,7 @@ from gearlink.core.five_bar.path import distances, extent, points, sweep
 from gearlink.core.five_bar.path_motion import PathFiveBar
 from gearlink.core.five_bar.positions import five_bar_for_positions, position_errors
 from gearlink.core.linkages.dyad import close_dyad, transmission_angle
-from gearlink.core.linkages.fourbar import FourBar, solve
+from gearlink.core.linkages.fourbar.position import FourBar, solve
 from gearlink.core.numerics.halton import halton
 from gearlink.core.numerics.harmonic_sum import HarmonicSum
 

@@ -23,8 +23,8 @@ from sweeps import examples
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.flatbed_press.chains import BedChain, CylinderChain, difference
-from gearlink.core.linkages.fourbar import FourBar
-from gearlink.core.linkages.slider_crank import SliderCrank
+from gearlink.core.linkages.fourbar.position import FourBar
+from gearlink.core.linkages.slider_crank.position import SliderCrank
 
 REFERENCE = json.loads((Path(__file__).parents[2] / "reference" / "flatbed_press.json").read_text())
 EXPECTED = REFERENCE["flatbed_press"][0]["expect"]

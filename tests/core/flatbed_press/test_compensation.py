@@ -25,8 +25,8 @@ from gearlink.core.errors import NoSolution
 from gearlink.core.flatbed_press.chains import BedChain, CylinderChain
 from gearlink.core.flatbed_press.compensation import Compensation
 from gearlink.core.flatbed_press.zone import equal_speed_angle, zone_end
-from gearlink.core.linkages.fourbar import FourBar
-from gearlink.core.linkages.slider_crank import SliderCrank
+from gearlink.core.linkages.fourbar.position import FourBar
+from gearlink.core.linkages.slider_crank.position import SliderCrank
 
 REFERENCE = json.loads((Path(__file__).parents[2] / "reference" / "flatbed_press.json").read_text())
 EXPECTED = REFERENCE["flatbed_press"][0]["expect"]

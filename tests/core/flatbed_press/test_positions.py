@@ -19,7 +19,7 @@ from gearlink.core.flatbed_press.positions import (
     cylinder_positions,
     least_transmission_input,
 )
-from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.fourbar.position import FourBar
 
 PHI = np.radians(np.arange(0.0, 360.0, 7.5))
 

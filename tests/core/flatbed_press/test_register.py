@@ -17,9 +17,9 @@ import pytest
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.flatbed_press.register import PressGains
-from gearlink.core.linkages import fourbar
-from gearlink.core.linkages.fourbar import FourBar
-from gearlink.core.linkages.loop_gains import loop_gains
+from gearlink.core.linkages.fourbar import position as fourbar
+from gearlink.core.linkages.fourbar.loop_gains import loop_gains
+from gearlink.core.linkages.fourbar.position import FourBar
 
 CASES = json.loads((Path(__file__).parents[2] / "reference/tolerance.json").read_text(encoding="utf-8"))
 LINKS = dict(zip("abcd", ("crank", "coupler", "rocker", "frame"), strict=True))

@@ -26,8 +26,8 @@ from hypothesis import strategies as st
 from sweeps import examples
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.fourbar import FourBar, FourBarState, inverse_reading, solve, solve_inverse
-from gearlink.core.linkages.fourbar_loop import rocker_and_rate, rocker_rate
+from gearlink.core.linkages.fourbar.loop import rocker_and_rate, rocker_rate
+from gearlink.core.linkages.fourbar.position import FourBar, FourBarState, inverse_reading, solve, solve_inverse
 
 EPS = 2.0**-52
 REFERENCE = Path(__file__).parents[2] / "reference"

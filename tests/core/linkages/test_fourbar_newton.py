@@ -24,9 +24,11 @@ from hypothesis import strategies as st
 from sweeps import examples
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.linkages import fourbar, fourbar_newton, fourbar_sweep
-from gearlink.core.linkages.fourbar import FourBar
-from gearlink.core.linkages.fourbar_vectors import loop_step, unit_vector
+from gearlink.core.linkages.fourbar import newton as fourbar_newton
+from gearlink.core.linkages.fourbar import position as fourbar
+from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
+from gearlink.core.linkages.fourbar.position import FourBar
+from gearlink.core.linkages.fourbar.vectors import loop_step, unit_vector
 from gearlink.core.numerics.double_double import cos_sin, two_product, two_sum
 
 EPS = 2.0**-52

@@ -24,9 +24,9 @@ from oracles.closing import assembles
 from sweeps import examples
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.linkages import fourbar
-from gearlink.core.linkages import fourbar_sweep as sweep
-from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.fourbar import position as fourbar
+from gearlink.core.linkages.fourbar import sweep as sweep
+from gearlink.core.linkages.fourbar.position import FourBar
 
 EPS = 2.0**-52
 REFERENCE = Path(__file__).parents[2] / "reference"

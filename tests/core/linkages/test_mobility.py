@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.mobility import common_links, linkage_mobility, pin_names, train_change
+from gearlink.core.linkages.mobility.freedom import common_links, linkage_mobility, pin_names, train_change
 
 REFERENCE = Path(__file__).parents[2] / "reference"
 CASES = {case["id"]: case for case in json.loads((REFERENCE / "gear_linkage.json").read_text())["cases"]}

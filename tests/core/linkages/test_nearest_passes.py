@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from sweeps import examples
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.nearest_passes import joint_to_crank_pivot
+from gearlink.core.linkages.fourbar.nearest_passes import joint_to_crank_pivot
 
 EPS = 2.0**-52
 

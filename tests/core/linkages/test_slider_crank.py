@@ -20,8 +20,9 @@ from hypothesis import strategies as st
 from sweeps import examples
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.linkages import slider_crank, slider_crank_sweep
-from gearlink.core.linkages.slider_crank import SliderCrank
+from gearlink.core.linkages.slider_crank import position as slider_crank
+from gearlink.core.linkages.slider_crank import sweep as slider_crank_sweep
+from gearlink.core.linkages.slider_crank.position import SliderCrank
 from gearlink.core.numerics.roots import bracketed_root
 
 EPS = 2.0**-52

@@ -16,8 +16,8 @@ import numpy as np
 import pytest
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.fourbar import FourBar
-from gearlink.core.linkages.fourbar_loads import four_bar, full_balance
+from gearlink.core.linkages.fourbar.loads import four_bar, full_balance
+from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.loads.dynamics import Mass, shaking
 from gearlink.core.loads.flywheel import Energy
 from gearlink.core.loads.machine import Panels

@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.fourbar import FourBar, solve
+from gearlink.core.linkages.fourbar.position import FourBar, solve
 from gearlink.core.linkages.standstills import standstills, turnings
 from gearlink.core.numerics.roots import maximum
 from gearlink.core.planet_linkages.planet import PlanetLinkage, standstill_coupler_ratio

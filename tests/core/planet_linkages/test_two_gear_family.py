@@ -21,8 +21,8 @@ import pytest
 from scipy.ndimage import maximum_filter1d, minimum_filter1d
 
 from gearlink.core.errors import MissingSection, NoSolution
-from gearlink.core.linkages import fourbar_sweep
-from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
+from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.linkages.standstills import standstills
 from gearlink.core.planet_linkages import two_gear_family as kernel
 from gearlink.core.planet_linkages.planet import PlanetLinkage

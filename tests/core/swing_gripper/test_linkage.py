@@ -21,7 +21,7 @@ from oracles.gripper import CASES, TABLE, machine, mirrored, turned
 from sweeps import examples
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.linkages import fourbar_sweep
+from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
 from gearlink.core.swing_gripper.loop import two_ways
 from gearlink.core.swing_gripper.swing import DEAD_POINT, clear_turn, require_swing
 

@@ -15,7 +15,7 @@ import pytest
 from sweeps import ALL
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.fourbar import FourBar, solve
+from gearlink.core.linkages.fourbar.position import FourBar, solve
 from gearlink.core.three_gear.dwell.dwells import back_step, dwell_angle, dwell_positions, motion
 from gearlink.core.three_gear.dwell.momentary_dwell import momentary_linkage, tangency
 from gearlink.core.three_gear.motion import GearTrain, output_acceleration, output_angle, output_speed, speed_extremes

@@ -6,7 +6,7 @@ import factory
 import pytest
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.three_gear.dwell.momentary_dwell import momentary_linkage
 from gearlink.core.three_gear.idler_choice import idler_for_ratio, smallest_idler
 from gearlink.core.three_gear.motion import GearTrain, gear_gap

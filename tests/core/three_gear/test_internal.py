@@ -22,7 +22,7 @@ from pydantic import ValidationError
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages import standstills
 from gearlink.core.linkages.checks import check_linkage
-from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.three_gear.dwell import internal_dwell
 from gearlink.core.three_gear.dwell.dwells import back_step, dwell_positions
 from gearlink.core.three_gear.dwell.tolerance_dwell import tolerance_dwell

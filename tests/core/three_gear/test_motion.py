@@ -17,7 +17,7 @@ from sweeps import examples
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.checks import check_linkage
-from gearlink.core.linkages.fourbar import FourBar, solve
+from gearlink.core.linkages.fourbar.position import FourBar, solve
 from gearlink.core.three_gear.motion import (
     GearTrain,
     acceleration_extremes,

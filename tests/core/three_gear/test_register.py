@@ -15,8 +15,8 @@ import numpy as np
 import pytest
 from factory import design
 
-from gearlink.core.linkages import fourbar_sweep
-from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
+from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.three_gear.motion import GearTrain
 from gearlink.core.three_gear.register.chain import Errors, output_error
 from gearlink.core.three_gear.register.gains import Drive, register_gains

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.three_gear.dwell.momentary_dwell import momentary_crank_angle, momentary_frame_length, tangency_range
 from gearlink.core.three_gear.many import symmetric as symmetric_many
 from gearlink.core.three_gear.motion import GearTrain, output_acceleration, output_angle, output_speed

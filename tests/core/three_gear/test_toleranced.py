@@ -16,9 +16,9 @@ import pytest
 from sweeps import ALL
 
 from gearlink.core.design import in_unit
-from gearlink.core.linkages import fourbar
-from gearlink.core.linkages.fourbar import FourBar
-from gearlink.core.linkages.fourbar_lengths import Lengths, solve
+from gearlink.core.linkages.fourbar import position as fourbar
+from gearlink.core.linkages.fourbar.lengths import Lengths, solve
+from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.nomenclature import term
 from gearlink.core.three_gear.as_made.one import TolerancedDrive
 from gearlink.core.three_gear.as_made.samples import ThreeGearSamples

@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 from sweeps import examples
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.wide_swing.balancing import (
+from gearlink.core.wide_swing.law.balancing import (
     balancing_ratio,
     drive_balancing_ratio,
     drive_torque_peak,
@@ -26,7 +26,7 @@ from gearlink.core.wide_swing.balancing import (
     speed_sweep,
     stroke_time,
 )
-from gearlink.core.wide_swing.elastic_law import ElasticLaw, Pneumatic, force
+from gearlink.core.wide_swing.law.elastic_law import ElasticLaw, Pneumatic, force
 
 ROUNDING = 1e-14
 CASES = {

@@ -25,8 +25,8 @@ from sweeps import examples
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.report import safely_below
-from gearlink.core.wide_swing.cam import Layout, WideSwingCam
-from gearlink.core.wide_swing.elastic_law import ElasticLaw, MiddleView, Pneumatic, Spring
+from gearlink.core.wide_swing.cams.cam import Layout, WideSwingCam
+from gearlink.core.wide_swing.law.elastic_law import ElasticLaw, MiddleView, Pneumatic, Spring
 
 POINT, ANGLE, BEND, EDGE = 1e-14, 1e-14, 1e-13, 1e-13
 CASES = {

@@ -18,7 +18,7 @@ from sweeps import examples
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.numerics.roots import bracketed_root
-from gearlink.core.wide_swing.device import (
+from gearlink.core.wide_swing.law.device import (
     DeviceGeometry,
     Pneumatic,
     Spring,

@@ -29,8 +29,8 @@ from oracles.unloading_limits import (
 from sweeps import examples, mostly_slow
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.wide_swing.device import Device
-from gearlink.core.wide_swing.elastic_law import ElasticLaw, Pneumatic, Spring, least_pivot_ratio_pneumatic
+from gearlink.core.wide_swing.law.device import Device
+from gearlink.core.wide_swing.law.elastic_law import ElasticLaw, Pneumatic, Spring, least_pivot_ratio_pneumatic
 
 LAW, PEAK, NEAR_ONE = 1e-14, 1e-15, 1e-12
 CASES = {

@@ -18,10 +18,10 @@ import pytest
 from oracles.unloading_limits import pendulum_stretch_ratio
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.fourbar import FourBar
+from gearlink.core.linkages.fourbar.position import FourBar
+from gearlink.core.wide_swing.cams.oscillating_cam import OscillatingCam
 from gearlink.core.wide_swing.crank_rocker import CrankRockerDrive
-from gearlink.core.wide_swing.elastic_law import ElasticLaw, Pneumatic, Spring
-from gearlink.core.wide_swing.oscillating_cam import OscillatingCam
+from gearlink.core.wide_swing.law.elastic_law import ElasticLaw, Pneumatic, Spring
 
 EXPECTED = next(
     case["outputs_float"]

@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 from sweeps import examples
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.wide_swing.elastic_law import ElasticLaw, Pneumatic, Spring
+from gearlink.core.wide_swing.law.elastic_law import ElasticLaw, Pneumatic, Spring
 from gearlink.core.wide_swing.slider import SliderDrive, SliderLaw, reference_inertia
 
 EXPECTED = next(

@@ -15,10 +15,10 @@ import pytest
 from factory import design
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.wide_swing.cam import WideSwingCam
-from gearlink.core.wide_swing.elastic_law import ElasticLaw, Pneumatic
+from gearlink.core.wide_swing.cams.cam import WideSwingCam
+from gearlink.core.wide_swing.cams.slider_cam import HalfLaw, SliderCam
+from gearlink.core.wide_swing.law.elastic_law import ElasticLaw, Pneumatic
 from gearlink.core.wide_swing.slider import SliderDrive, SliderLaw
-from gearlink.core.wide_swing.slider_cam import HalfLaw, SliderCam
 
 GAMMA, ANGLE, A, R = math.radians(120.0), math.radians(150.0), 200.0, 8.0
 DRIVE = SliderDrive(150.0, 450.0, math.radians(90.0))

@@ -15,7 +15,7 @@ import pytest
 from sweeps import mostly_slow
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.wide_swing.elastic_law import ElasticLaw, Pneumatic, Spring
+from gearlink.core.wide_swing.law.elastic_law import ElasticLaw, Pneumatic, Spring
 from gearlink.core.wide_swing.torsion import TorsionResponse, acceleration_series, dynamic_coefficient
 
 EXPECTED = next(

@@ -1,0 +1,78 @@
+"""A four-bar as links under load: what all machines that hold one give to `gearlink.core.loads`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
+from gearlink.core.linkages.fourbar.position import FourBar
+from gearlink.core.loads.dynamics import Mass
+from gearlink.core.loads.kinematics import Turn, carried, fixed, steady
+from gearlink.core.loads.mechanism import FRAME, Link, Pin
+from gearlink.core.numerics.arrays import Reals
+
+MM = 1e-3
+
+
+def four_bar(linkage: FourBar, phi: Reals) -> dict[str, Link]:
+    """Crank, coupler and rocker at crank angles, A at 0 and D on +x; lengths in m.
+
+    Parameters
+        linkage : FourBar [mm]
+        phi : (N,) array [rad] - crank angles, which are the input angles
+    Returns
+        links : crank (A->B), coupler (B->C), rocker (D->C)
+    Raises
+        NoSolution - where the linkage does not close
+    Example
+        >>> import numpy as np
+        >>> links = four_bar(FourBar(18.0, 50.0, 100.0, 121.4), np.array([0.0]))
+        >>> round(float(links["rocker"].turn.first[0]), 9)
+        -0.174081238
+    """
+    sweep = fourbar_sweep.solve(linkage, phi, 2)
+    crank = Link(fixed(0j, phi), steady(phi))
+    origin = carried(crank.origin, crank.turn, linkage.crank * MM)
+    coupler = Link(origin, Turn(sweep.coupler_angle, sweep.coupler_velocity, sweep.coupler_acceleration))
+    rocker = Link(
+        fixed(linkage.frame * MM, phi), Turn(sweep.rocker_angle, sweep.rocker_velocity, sweep.rocker_acceleration)
+    )
+    return {"crank": crank, "coupler": coupler, "rocker": rocker}
+
+
+def four_bar_pins(links: dict[str, Link], linkage: FourBar) -> list[Pin]:
+    """A, B, C, D of these links."""
+    return [
+        Pin("A", FRAME, "crank", links["crank"].origin.value),
+        Pin("B", "crank", "coupler", links["coupler"].origin.value),
+        Pin("C", "coupler", "rocker", links["rocker"].at(linkage.rocker * MM).value),
+        Pin("D", FRAME, "rocker", links["rocker"].origin.value),
+    ]
+
+
+def full_balance(linkage: FourBar, masses: Mapping[str, Mass], at_c: float = 0.0) -> dict[str, complex]:
+    """Mass moments of the counterweights that take the whole shaking force of a four-bar away.
+
+    U_1 = -[m1 z1 + m2 a (1 - z2/b)],  U_3 = -[m3 z3 + m2 c z2/b + m_C c]
+
+    Parameters
+        linkage : FourBar [mm]
+        masses : by link - crank, coupler, rocker, in SI units
+        at_c : float [kg] - mass of what turns on C
+    Returns
+        moments : complex [kg m] by link - of crank and rocker, in their coordinates
+    Example
+        >>> moments = full_balance(FourBar(40.0, 120.0, 100.0, 140.0), {"crank": Mass(2.0, 0.0, 0.01)})
+        >>> moments["crank"].real, abs(moments["rocker"])
+        (-0.02, 0.0)
+
+    Source
+        linearly independent vectors (Berkof and Lowen, 1969)
+    """
+    a, b, c = linkage.crank * MM, linkage.coupler * MM, linkage.rocker * MM
+    crank, coupler, rocker = (masses.get(name, Mass()) for name in ("crank", "coupler", "rocker"))
+    share = coupler.center / b
+    return {
+        "crank": -(crank.mass * crank.center + coupler.mass * a * (1.0 - share)),
+        "rocker": -(rocker.mass * rocker.center + coupler.mass * c * share + at_c * c),
+    }

@@ -1,0 +1,216 @@
+"""Gear trains on a linkage as a design: degrees of freedom, and why a train does not fit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+from gearlink.core.design import Design, Outline
+from gearlink.core.errors import NoSolution, at_key
+from gearlink.core.linkages.codes import MOBILITY, TRAIN_FIT
+from gearlink.core.linkages.mobility import freedom as mobility
+from gearlink.core.report import Check, Table
+from gearlink.core.results import cached_property
+
+if TYPE_CHECKING:
+    from gearlink.core.linkages.mobility.spec import Gear, GearTrainMobilitySpec, Train
+
+# As for a gear pair that is given by shifts and centre distance: a share of the module.
+_DISTANCE_TOLERANCE = 1e-6
+
+
+class GearTrainMobility(Design):
+    """A pin-jointed linkage with gear trains on its pins."""
+
+    kind = "gear-train-mobility"
+    spec: GearTrainMobilitySpec
+    outlines = {
+        "analyze": Outline(
+            ("link_count", "linkage_mobility", "train_count", "fixed_ends", "mobility_changes", "mobility"),
+            ("train-fit", "mobility"),
+            ("trains",),
+        )
+    }
+
+    @cached_property
+    def links(self) -> dict[str, tuple[str, ...]]:
+        """Pins of each link."""
+        return {name: tuple(link.pins) for name, link in self.spec.links.items()}
+
+    @property
+    def link_count(self) -> int:
+        """Links, the frame among them."""
+        return len(self.links)
+
+    @cached_property
+    def linkage_mobility(self) -> int:
+        """Degrees of freedom of the linkage alone."""
+        with at_key("links"):
+            return mobility.linkage_mobility(self.links)
+
+    @property
+    def train_count(self) -> int:
+        """Gear trains."""
+        return len(self.spec.trains)
+
+    @cached_property
+    def fixed_ends(self) -> list[int]:
+        """R of each train: gears that are fixed to a link."""
+        self.require_names()
+        return [sum(gear.fixed_to is not None for gear in train.gears) for train in self.spec.trains]
+
+    @cached_property
+    def mobility_changes(self) -> list[int]:
+        """What each train adds to the degrees of freedom."""
+        changes = []
+        for i, fixed in enumerate(self.fixed_ends):
+            with at_key(f"trains[{i}].gears"):
+                changes.append(mobility.train_change(fixed))
+        return changes
+
+    @cached_property
+    def mobility(self) -> int:
+        """Degrees of freedom of the whole."""
+        return self.linkage_mobility + sum(self.mobility_changes)
+
+    def table_trains(self, _samples: int | None = None) -> Table:
+        """A row per train: its gears, where they sit, fixed ends, change of the degrees of freedom."""
+        trains = self.spec.trains
+        columns: dict[str, tuple[list[Any], str]] = {
+            "train": ([float(i) for i in range(1, len(trains) + 1)], "1"),
+            "gears": ([_words(train) for train in trains], "1"),
+            "fixed_ends": ([float(fixed) for fixed in self.fixed_ends], "1"),
+            "change": ([float(change) for change in self.mobility_changes], "1"),
+        }
+        return Table.of("trains", columns)
+
+    # Checks
+
+    def check_train_fit(self) -> Iterator[Check]:
+        """GL308: what keeps a train from running on the linkage, one finding per reason."""
+        self.require_names()
+        for i, train in enumerate(self.spec.trains, start=1):
+            reasons = [*self._fixing(train), *self._meshes(train)]
+            for reason in reasons:
+                yield TRAIN_FIT.check("fail", f"train {i}: {reason}")
+            if not reasons:
+                yield TRAIN_FIT.check("pass", f"train {i} fits: {_words(train)}")
+
+    def check_mobility(self) -> Check:
+        """GL309: degrees of freedom against those that are wanted."""
+        found, wanted = self.mobility, self.spec.mobility
+        terms = "".join(f" {change:+d}" for change in self.mobility_changes)
+        text = f"{found} degrees of freedom: linkage {self.linkage_mobility}, trains{terms or ' none'}"
+        if found == wanted:
+            return MOBILITY.check("pass", text, float(found), float(wanted))
+        text += f"; {wanted} wanted: {self._mobility_remedy(found - wanted)}"
+        return MOBILITY.check("fail", text, float(found), float(wanted))
+
+    def _mobility_remedy(self, excess: int) -> str:
+        """What brings the degrees of freedom to those that are wanted, by the rule of composition."""
+        count = abs(excess)
+        times = "one end gear" if count == 1 else f"{count} end gears"
+        if excess < 0:
+            return f"free {times} from the link" if sum(self.fixed_ends) >= count else "add a link or free a joint"
+        free = 2 * self.train_count - sum(self.fixed_ends)
+        if free >= count:
+            return f"fix {times} to the link at its pin"
+        more = count - free
+        ends = "both ends of every train and " if free else ""
+        return f"fix {ends}both ends of {more} more train{'s' if more > 1 else ''}, each of which takes 1 away"
+
+    def _fixing(self, train: Train) -> Iterator[str]:
+        """Why the fixing of the gears does not fit."""
+        for j, gear in enumerate(train.gears, start=1):
+            if gear.fixed_to is None:
+                continue
+            if 1 < j < len(train.gears):
+                yield (
+                    f"gear {j} stands between others and is fixed to {gear.fixed_to}; only end gears may be: end the "
+                    "train there and begin the next with the same gear"
+                )
+            if gear.at not in self.links[gear.fixed_to]:
+                able = " or ".join(name for name, pins in self.links.items() if gear.at in pins)
+                yield f"gear {j} sits on pin {gear.at}, which {gear.fixed_to} does not carry: fix it to {able}"
+        first, last = train.gears[0].fixed_to, train.gears[-1].fixed_to
+        if first is not None and first == last and all(gear.at in self.links[first] for gear in train.gears):
+            yield (
+                f"both ends are fixed to {first}, which carries the whole train: it cannot turn against it and takes "
+                "no freedom away, free one end or fix it to another link"
+            )
+
+    def _meshes(self, train: Train) -> Iterator[str]:
+        """Why neighbours cannot stay in mesh."""
+        for j, (one, other) in enumerate(pairwise(train.gears), start=1):
+            if one.at == other.at:
+                yield f"gears {j} and {j + 1} sit on the same pin {one.at}: neighbours need a link between their pins"
+                continue
+            common = mobility.common_links(self.links, one.at, other.at)
+            if not common:
+                yield (
+                    f"no link carries both pin {one.at} and pin {other.at}, so gears {j} and {j + 1} do not keep their "
+                    "distance: put them on two pins of one link"
+                )
+                continue
+            yield from self._distance(train.module, one, other, common[0], f"gears {j} and {j + 1}")
+
+    def _distance(self, module: float | None, one: Gear, other: Gear, link: str, which: str) -> Iterator[str]:
+        """Why the centre distance is not the link's length or another mesh's, where the file tells them."""
+        if module is None or one.teeth is None or other.teeth is None:
+            return
+        if one.ring and other.ring:
+            yield f"{which} are both ring gears, which cannot mesh: leave out ring at one of them"
+            return
+        distance, length = _center_distance(module, one, other), self.spec.links[link].length
+        if length is not None:
+            if abs(distance - length) > _DISTANCE_TOLERANCE * module:
+                yield (
+                    f"{which} mesh at {distance:.9g} mm, but {link} is {length:.9g} mm long: make it {distance:.9g} mm "
+                    "or change the teeth"
+                )
+            return
+        first, apart = self._first_distance[frozenset((one.at, other.at))]
+        if abs(distance - apart) > _DISTANCE_TOLERANCE * module:
+            yield (
+                f"{which} mesh at {distance:.9g} mm, but train {first} holds {one.at} and {other.at} {apart:.9g} mm "
+                "apart: change module or teeth of one of the two"
+            )
+
+    @cached_property
+    def _first_distance(self) -> dict[frozenset[str], tuple[int, float]]:
+        """For two pins the first train that tells their distance [mm], counted from 1, and the distance."""
+        found: dict[frozenset[str], tuple[int, float]] = {}
+        for i, train in enumerate(self.spec.trains, start=1):
+            for one, other in pairwise(train.gears):
+                if train.module is not None and one.teeth is not None and other.teeth is not None:
+                    distance = _center_distance(train.module, one, other)
+                    found.setdefault(frozenset((one.at, other.at)), (i, distance))
+        return found
+
+    def require_names(self) -> None:
+        """Refuse gears on pins or links that the linkage does not have."""
+        pins = mobility.pin_names(self.links)
+        for i, train in enumerate(self.spec.trains):
+            for j, gear in enumerate(train.gears):
+                place = f"trains[{i}].gears[{j}]"
+                if gear.at not in pins:
+                    raise NoSolution(f"the linkage has no pin {gear.at}; it has {', '.join(pins)}", key=f"{place}.at")
+                if gear.fixed_to is not None and gear.fixed_to not in self.links:
+                    known = ", ".join(self.links)
+                    raise NoSolution(
+                        f"the linkage has no link {gear.fixed_to}; it has {known}", key=f"{place}.fixed_to"
+                    )
+
+
+def _center_distance(module: float, one: Gear, other: Gear) -> float:
+    """Of two gears whose teeth are known [mm]; a ring gear has the other within it."""
+    assert one.teeth is not None, "asked for only with teeth"
+    assert other.teeth is not None, "asked for only with teeth"
+    teeth = abs(one.teeth - other.teeth) if one.ring or other.ring else one.teeth + other.teeth
+    return module * teeth / 2.0
+
+
+def _words(train: Train) -> str:
+    """A train in words: the pins in mesh order, a fixed gear with its link."""
+    return " - ".join(gear.at + (f" (on {gear.fixed_to})" if gear.fixed_to else "") for gear in train.gears)

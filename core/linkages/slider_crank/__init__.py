@@ -1,0 +1,4 @@
+"""The offset slider-crank, and the kind `slider-crank`.
+
+Begin with `position` (`math` alone) or `design` (the kind).
+"""

@@ -1,0 +1,160 @@
+"""The offset slider-crank as a design: crank length from stroke, and the motion of its slider."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from gearlink.core.design import Design, Outline, placed
+from gearlink.core.linkages.checks import transmission_check
+from gearlink.core.linkages.slider_crank.position import SliderCrank, slider
+from gearlink.core.motion_extremes import names
+from gearlink.core.real_speed import SLIDER_SPEEDS, SliderSpeed, per_time
+from gearlink.core.remedies import down, either, up
+from gearlink.core.report import Check, Table
+from gearlink.core.results import cached_property
+
+if TYPE_CHECKING:
+    from gearlink.core.linkages.slider_crank.spec import SliderCrankSpec
+    from gearlink.core.linkages.standstills import Turning
+
+SLIDER_QUANTITIES = ("quick_return_ratio", "dead_center_extended", "dead_center_folded", "max_stroke")
+_SIZES = ("crank_length", "stroke", *SLIDER_QUANTITIES)
+_MOTION = (
+    "forward_angle",
+    "return_angle",
+    *names("velocity", "acceleration"),
+    "min_transmission_angle",
+    "input_speed",
+    "turn_time",
+    "forward_time",
+    "return_time",
+    *SLIDER_SPEEDS,
+)
+
+
+class SliderCrankQuantities:
+    """Quantities of a design that has a `slider_crank`."""
+
+    crank_length: float = placed("slider_crank.crank_length")
+    quick_return_ratio: float = placed("slider_crank.quick_return_ratio")
+    dead_center_extended: float = placed("slider_crank.dead_center_extended")
+    dead_center_folded: float = placed("slider_crank.dead_center_folded")
+    max_stroke: float = placed("slider_crank.max_stroke")
+
+
+class SliderCrankDesign(SliderSpeed, SliderCrankQuantities, Design):
+    """The slider-crank of a design file; its crank turns counter-clockwise, F lies below D on x = -offset."""
+
+    kind = "slider-crank"
+    spec: SliderCrankSpec
+    outlines = {
+        "crank": Outline(_SIZES),
+        "analyze": Outline((*_SIZES, *_MOTION), ("transmission-angle",), ("motion",)),
+    }
+    extra_tables = ("candidates",)
+    ways = {"transmission-angle": (up("rod"), down("stroke"), down("crank"), *either("offset"))}
+
+    def table_candidates(self, _samples: int | None = None) -> Table:
+        """The stroke by other rods and offsets side by side."""
+        from gearlink.core.candidates import Sought, nothing_sought, pairs, table
+
+        if self.spec.crank is not None:
+            raise nothing_sought("give stroke in place of crank")
+        rod, offset = self.spec.rod, self.spec.offset
+        rods = [round(share * rod, 6) for share in (0.7, 0.85, 1.0, 1.2, 1.5)]
+        keys = {"rod": ("rod", "mm"), "offset": ("offset", "mm")}
+        shown = ("crank_length", "quick_return_ratio", "velocity_max", "velocity_min", "acceleration_max")
+        found = (*shown, "acceleration_min", "min_transmission_angle")
+        return table(self, Sought("analyze", keys, pairs(rods, sorted({0.0, 0.5 * offset, offset})), found))
+
+    @cached_property
+    def slider_crank(self) -> SliderCrank:
+        """The kernel's view of the spec."""
+        return self.spec.slider_crank()
+
+    @property
+    def stroke(self) -> float | None:
+        """Stroke of a given crank [mm]; None where the file gives it."""
+        return None if self.spec.crank is None else self.slider_crank.stroke
+
+    def depth(self, angle: float, order: int) -> float:
+        """Depth of the slider below D, or its derivative of an order up to 3 [mm/rad^order]."""
+        return slider(angle, self.crank_length, self.spec.rod, self.spec.offset, order)[order]
+
+    @property
+    def _dead_centers(self) -> tuple[float, float]:
+        """Input angles with the slider nearest to D and farthest from it [rad]."""
+        folded, extended = self.dead_center_folded, self.dead_center_extended
+        return 0.5 * math.pi - folded, 1.5 * math.pi - extended
+
+    @property
+    def forward_angle(self) -> float:
+        """Input angle of the stroke away from D [rad]."""
+        near, far = self._dead_centers
+        return far - near
+
+    @property
+    def return_angle(self) -> float:
+        """Input angle of the stroke towards D [rad]."""
+        return 2.0 * math.pi - self.forward_angle
+
+    @cached_property
+    def fastest(self) -> list[Turning]:
+        """Extremes of the slider's velocity per input angle away from D, greatest first, then least."""
+        return self._turnings(1)
+
+    @cached_property
+    def hardest(self) -> list[Turning]:
+        """Extremes of its acceleration per square of the input angle."""
+        return self._turnings(2)
+
+    def _turnings(self, order: int) -> list[Turning]:
+        from gearlink.core.linkages.standstills import SLIDER_GRID, turnings
+
+        found = turnings(lambda x: self.depth(x, order), lambda x: self.depth(x, order + 1), SLIDER_GRID)
+        found.sort(key=lambda turning: turning.value)
+        return [found[-1], found[0]]
+
+    velocity_max: float = placed("fastest.0.value")
+    velocity_max_at: float = placed("fastest.0.place")
+    velocity_min: float = placed("fastest.1.value")
+    velocity_min_at: float = placed("fastest.1.place")
+    acceleration_max: float = placed("hardest.0.value")
+    acceleration_max_at: float = placed("hardest.0.place")
+    acceleration_min: float = placed("hardest.1.value")
+    acceleration_min_at: float = placed("hardest.1.place")
+    forward_time: float | None = per_time("forward_angle", -1)
+    return_time: float | None = per_time("return_angle", -1)
+
+    @property
+    def min_transmission_angle(self) -> float:
+        """Least angle between the rod and the normal of the slide line over the turn [rad]: 90 deg less the rod's."""
+        return self.slider_crank.fn.acos((self.crank_length + abs(self.spec.offset)) / self.spec.rod)
+
+    def table_motion(self, samples: int | None = None) -> Table:
+        """The slider over a turn of the crank; displacement counts from the dead centre nearest to D."""
+        import numpy as np
+
+        from gearlink.core.linkages.slider_crank.sweep import slider as sweep
+        from gearlink.core.numerics.arrays import turn_degrees
+
+        degrees, (crank, rod, offset) = turn_degrees(samples), (self.crank_length, self.spec.rod, self.spec.offset)
+        angles = np.radians(degrees)
+        depth, velocity, acceleration = sweep(angles, crank, rod, offset, 2)
+        lean = np.degrees(np.arcsin((crank * np.cos(angles) + offset) / rod))
+        columns = {
+            "input_angle": (degrees, "deg"),
+            "displacement": (depth - self.depth(self._dead_centers[0], 0), "mm"),
+            "velocity": (velocity, "mm/rad"),
+            "acceleration": (acceleration, "mm/rad^2"),
+            "rod_angle": (lean, "deg"),
+            "transmission_angle": (90.0 - np.abs(lean), "deg"),
+        }
+        rates = {"slider_velocity": ("velocity", 1), "slider_acceleration": ("acceleration", 2)}
+        return Table.of("motion", self.timed(columns, "input_angle", rates))
+
+    def check_transmission_angle(self) -> Check:
+        """GL303: the rod against the slide line."""
+        remedy = "lengthen the rod, or bring the slide line nearer"
+        return transmission_check(self.min_transmission_angle, self.spec.limits.transmission_angle, remedy)

@@ -1,0 +1,250 @@
+"""What an unloading device does to the torques of a wide-swing mechanism over the speed.
+
+The device is tuned to one speed n0, at which it carries the whole inertia load; at any other the drive is left
+with the difference J gamma c (1/T^2 - 1/T0^2).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from gearlink.core.errors import NoSolution
+from gearlink.core.numerics.arrays import Reals
+from gearlink.core.numerics.extremes import maximum_over
+from gearlink.core.wide_swing.law.elastic_law import ElasticLaw
+
+
+@dataclass(frozen=True, slots=True)
+class SpeedSweep:
+    """Torque peaks on the rocker axis over the speed.
+
+    Fields
+        speed_ratio : (N,) array - n/n0
+        torque_without, torque_with : (N,) arrays [N m] - peak without the device and with it
+        balancing_ratio : (N,) array - K_y = without over with; infinite where nothing is left
+    """
+
+    speed_ratio: Reals
+    torque_without: Reals
+    torque_with: Reals
+    balancing_ratio: Reals
+
+
+def stroke_time(cycle_angle: float, speed: float) -> float:
+    """Time of one stroke.
+
+    T = phi_ud/omega
+
+    Parameters
+        cycle_angle : float [rad] - phi_ud
+        speed : float [rad/s] - of the cam
+    Returns
+        T : float [s]
+    Raises
+        NoSolution - when one is not positive
+    Example
+        >>> round(stroke_time(math.radians(120), 2 * math.pi * 1.66), 15)
+        0.200803212851406
+
+    Source
+        wide-swing dissertation, chapter 2
+    """
+    if not (0.0 < cycle_angle < math.inf and 0.0 < speed < math.inf):
+        raise NoSolution(
+            f"cycle angle {math.degrees(cycle_angle):.6g} deg and speed {speed * 30.0 / math.pi:.6g} rev/min: "
+            "both must be above 0"
+        )
+    return cycle_angle / speed
+
+
+def inertia_torque_peak(inertia: float, law: ElasticLaw, time: float) -> float:
+    """Largest inertia torque of the rocker over a stroke.
+
+    M_in = J gamma C/T^2
+
+    Parameters
+        inertia : float [kg m^2] - J
+        law : ElasticLaw
+        time : float [s] - T of one stroke
+    Returns
+        torque : float [N m]
+    Raises
+        NoSolution - when inertia or time is not positive
+    Example
+        >>> from gearlink.core.wide_swing.law.elastic_law import Pneumatic
+        >>> law = ElasticLaw(Pneumatic(2.5), math.radians(120))
+        >>> round(inertia_torque_peak(0.5, law, 0.20080321285140562), 9)
+        113.235429407
+
+    Source
+        wide-swing dissertation (1)
+    """
+    if not (0.0 < inertia < math.inf and 0.0 < time < math.inf):
+        raise NoSolution(f"moment of inertia {inertia:.6g} kg m^2 and time {time:.6g} s must both be above 0")
+    return inertia * law.swing * law.acceleration_peak / time**2
+
+
+def balancing_ratio(speed_ratio: Reals, residual_fraction: float = 0.0, reserve: float = 0.0) -> Reals:
+    """How many times the device lowers the torque on the rocker axis.
+
+    K_y1 = n^2/(|n^2 - (1 + rho) n0^2| + f n0^2)
+
+    Parameters
+        speed_ratio : (N,) array - n/n0, 0 or more
+        residual_fraction : float - f, what friction, force error and linkage inertia leave at n0, as a part of
+            the inertia torque there; 1/4.6 and 1/3.4 were measured
+        reserve : float - rho, force of the device above the one that balances at n0, as a share of it
+    Returns
+        ratio : (N,) array - infinite at n0 when f = rho = 0
+    Raises
+        NoSolution - when a speed or f is negative
+    Notes
+        Below 1, where the device harms, for n < n0 sqrt((1 + rho + f)/2).
+    Example
+        >>> balancing_ratio(np.array([0.5, 1.0]), 0.25).round(12).tolist()
+        [0.25, 4.0]
+
+    Source
+        wide-swing dissertation, chapter 5; own derivation
+    """
+    left = _left(speed_ratio, residual_fraction, reserve)
+    with np.errstate(divide="ignore"):
+        result: Reals = speed_ratio**2 / left
+    return result
+
+
+def _left(speed_ratio: Reals, residual_fraction: float, reserve: float) -> Reals:
+    """Torque that is left on the rocker axis, as a part of the inertia torque at n0."""
+    if min(residual_fraction, reserve) < 0.0 or bool(np.any(speed_ratio < 0.0)):
+        raise NoSolution("speeds, the residual fraction and the reserve must be 0 or more")
+    left: Reals = np.abs((speed_ratio - 1.0) * (speed_ratio + 1.0) - reserve) + residual_fraction
+    return left
+
+
+def speed_sweep(
+    inertia: float,
+    law: ElasticLaw,
+    time: float,
+    speed_ratio: Reals,
+    residual_fraction: float = 0.0,
+    reserve: float = 0.0,
+) -> SpeedSweep:
+    """Torque peaks on the rocker axis with and without the device over the speed.
+
+    M_in = J gamma C/T^2, M_1 = M_in/K_y1
+
+    Parameters
+        inertia : float [kg m^2] - J
+        law : ElasticLaw
+        time : float [s] - T0 of one stroke at the design speed
+        speed_ratio : (N,) array - n/n0
+        residual_fraction, reserve : float - f and rho of `balancing_ratio`
+    Returns
+        sweep : SpeedSweep
+    Raises
+        NoSolution - when inertia or time is not positive, or a speed or f is negative
+    Example
+        >>> from gearlink.core.wide_swing.law.elastic_law import Pneumatic
+        >>> law = ElasticLaw(Pneumatic(2.5), math.radians(120))
+        >>> sweep = speed_sweep(0.5, law, 0.20080321285140562, np.array([0.5, 1.2]))
+        >>> sweep.torque_without.round(6).tolist(), sweep.torque_with.round(6).tolist()
+        ([28.308857, 163.059018], [84.926572, 49.823589])
+
+    Source
+        wide-swing dissertation, chapter 5; own derivation
+    """
+    ratio = balancing_ratio(speed_ratio, residual_fraction, reserve)
+    design = inertia_torque_peak(inertia, law, time)
+    left = _left(speed_ratio, residual_fraction, reserve)
+    return SpeedSweep(speed_ratio, design * speed_ratio**2, design * left, ratio)
+
+
+def power_peak(law: ElasticLaw) -> float:
+    """Largest product of velocity and acceleration invariants: the peak of the power of the inertia load.
+
+    max(b c)
+
+    Parameters
+        law : ElasticLaw
+    Returns
+        peak : float
+    Notes
+        pi^3/8 = 3.876 for the harmonic law.
+    Example
+        >>> from gearlink.core.wide_swing.law.elastic_law import Pneumatic
+        >>> round(power_peak(ElasticLaw(Pneumatic(2.5), math.radians(120))), 12)
+        4.608259092935
+    """
+
+    def product(k: Reals) -> Reals:
+        _, b, c = law.invariants(k)
+        return b * c
+
+    return maximum_over(product, 0.0, 0.5, samples=128).value
+
+
+def drive_torque_peak(inertia: float, law: ElasticLaw, time: float, cycle_angle: float) -> float:
+    """Largest torque on the cam shaft of an even drive, without a device and without its links' own torque.
+
+    M_dr = J gamma^2 max(b c)/(T^2 phi_ud)
+
+    Parameters
+        inertia : float [kg m^2] - J
+        law : ElasticLaw
+        time : float [s] - T of one stroke
+        cycle_angle : float [rad] - phi_ud
+    Returns
+        torque : float [N m]
+    Raises
+        NoSolution - when inertia or time is not positive
+    Notes
+        With the device the peak is this one over `balancing_ratio`, besides what the rest of the linkage adds:
+        `drive_balancing_ratio`.
+    Example
+        >>> from gearlink.core.wide_swing.law.elastic_law import Pneumatic
+        >>> law = ElasticLaw(Pneumatic(2.5), math.radians(120))
+        >>> round(drive_torque_peak(0.5, law, 0.20080321285140562, math.radians(120)), 9)
+        119.680719711
+
+    Source
+        wide-swing dissertation, chapter 5; own derivation
+    """
+    share = inertia_torque_peak(inertia, law, time) / law.acceleration_peak
+    return share * law.swing / cycle_angle * power_peak(law)
+
+
+def drive_balancing_ratio(
+    speed_ratio: Reals, linkage_fraction: float, residual_fraction: float = 0.0, reserve: float = 0.0
+) -> Reals:
+    """How many times the device lowers the torque on the cam shaft.
+
+    K_y2 = n^2 (1 + g)/(|n^2 - (1 + rho) n0^2| + f n0^2 + g n^2)
+
+    Parameters
+        speed_ratio : (N,) array - n/n0, 0 or more
+        linkage_fraction : float - g, torque of the links that the device does not unload, as a part of the
+            rocker's inertia torque on the same shaft and at the same speed
+        residual_fraction, reserve : float - f and rho of `balancing_ratio`
+    Returns
+        ratio : (N,) array - infinite at n0 when f = g = rho = 0
+    Raises
+        NoSolution - when a speed or g is negative
+    Notes
+        Assumes that both peaks fall together, so it is the least favourable case.
+    Example
+        >>> drive_balancing_ratio(np.array([1.0]), 0.25).tolist()
+        [5.0]
+
+    Source
+        wide-swing dissertation, chapter 5; own derivation
+    """
+    if linkage_fraction < 0.0:
+        raise NoSolution("the linkage fraction must be 0 or more")
+    square = speed_ratio**2
+    left = _left(speed_ratio, residual_fraction, reserve) + linkage_fraction * square
+    with np.errstate(divide="ignore"):
+        result: Reals = square * (1.0 + linkage_fraction) / left
+    return result

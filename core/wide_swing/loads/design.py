@@ -1,0 +1,391 @@
+"""The loads of a wide-swing mechanism: rocker with its device, cam shaft, and the roller between them.
+
+The input angle is that of the cam, from the start of the working stroke; torques are positive in the sense of that
+stroke. With `cycle` the whole turn is computed, with `cycle_angle` the working stroke alone. In a stroke its own cam
+guides the rocker, and in the rest after it that cam's arc holds it against the device.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from typing import TYPE_CHECKING, Any
+
+from gearlink.core.design import placed
+from gearlink.core.errors import MissingSection, NoSolution
+from gearlink.core.loads.cam_checks import CAM_CHECKS
+from gearlink.core.loads.design import LoadsDesign, loads_outline
+from gearlink.core.report import Quantity
+from gearlink.core.results import cached_property
+from gearlink.core.wide_swing.design import WideSwingDesign
+from gearlink.core.wide_swing.loads import checks as loads_checks
+from gearlink.core.wide_swing.loads import tables as loads_tables
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from gearlink.core.loads.dynamics import Mass
+    from gearlink.core.loads.kinematics import Turn
+    from gearlink.core.loads.machine import Machine
+    from gearlink.core.loads.mechanism import Connection, Link, Mechanism
+    from gearlink.core.loads.vibrating import Vibrating
+    from gearlink.core.numerics.arrays import Points, Reals
+    from gearlink.core.report import Remedy
+    from gearlink.core.wide_swing.cams.outline import AnyCam
+    from gearlink.core.wide_swing.loads.spec import SwingLoads as Section
+    from gearlink.core.wide_swing.loads.stroke import SwingStroke
+    from gearlink.core.wide_swing.spec import WideSwingSpec
+
+_MM = 1e-3
+_RPM = 2.0 * math.pi / 60.0
+_CONTACT = (
+    "contact_force_max",
+    "hertz_pressure_max",
+    "shear_depth",
+    "roller_speed_max",
+    "entrainment_speed_max",
+    "cam_torque_max",
+    "cam_torque_min",
+    "cam_torque_rms",
+    "lift_off_speed",
+)
+_OF_TURN = ("bearings", "flywheel", "motor")
+_PINS = ("O", "O_return", "D", "E", "F", "A", "B", "C")
+
+
+class WideSwingLoads(LoadsDesign):
+    """Cam on O, rocker on D; a twin-cam with its whole cycle has a second cam that turns the other way, on O_return.
+
+    A slider hangs on the rocker by a rod from E to F; a cam on a crank-rocker is driven by its crank, A to B, and its
+    coupler, B to C.
+    """
+
+    kind = "wide-swing-cam"
+    spec: WideSwingSpec
+    section: Section
+    section_example = "roller: {width: 20}"
+    links = ("rocker", "cam", "return_cam", "rod", "slider", "crank", "coupler")
+    sliding = ("slider",)
+    output = "rocker"
+    pins, meshes = _PINS, ()
+    stands = True
+    outlines = loads_outline(_PINS, (), _CONTACT, CAM_CHECKS[:2], ("torque", "contact_stroke"))
+    extra_tables = (*LoadsDesign.extra_tables, "contact_stroke")
+
+    @cached_property
+    def design(self) -> WideSwingDesign:
+        """The geometry."""
+        return WideSwingDesign(self.spec)
+
+    @property
+    def cam(self) -> AnyCam:
+        """The cam of the working stroke."""
+        return self.design.cam
+
+    @property
+    def whole(self) -> bool:
+        """Whether the file gives the whole turn."""
+        return self.spec.cycle is not None
+
+    @cached_property
+    def strokes(self) -> tuple[SwingStroke, ...]:
+        """The working stroke, and with a cycle the return stroke."""
+        from gearlink.core.wide_swing.loads.stroke import SwingStroke
+
+        main = SwingStroke("main", self.cam, 0.0, self)
+        if not self.whole:
+            return (main,)
+        back = self.design.return_cam or self.cam
+        return main, SwingStroke("return", back, sum(self.design.motion.cycle_angles[:2]), self)
+
+    @property
+    def has_return_cam(self) -> bool:
+        """Whether a second cam turns the other way."""
+        return self.whole and self.spec.layout == "twin-cam"
+
+    @cached_property
+    def own_links(self) -> tuple[str, ...]:
+        """Rocker and cam, and what the file has besides."""
+        spec = self.spec
+        has = {"return_cam": self.has_return_cam}
+        has |= dict.fromkeys(("rod", "slider"), spec.slider is not None)
+        has |= dict.fromkeys(("crank", "coupler"), spec.drive is not None)
+        for name in self.section.links.model_fields_set:
+            if not has.get(name, True):
+                raise NoSolution(f"this mechanism has no {name}: leave its mass out", key=f"loads.links.{name}")
+        return tuple(name for name in self.links if has.get(name, True))
+
+    @cached_property
+    def speed(self) -> float:
+        """Speed of the cam [rad/s]."""
+        return self.spec.speed * _RPM
+
+    @cached_property
+    def masses(self) -> dict[str, Mass]:
+        """Rocker and slider of their own sections, and what the file gives the others."""
+        from gearlink.core.loads.dynamics import Mass
+
+        found = super().masses
+        if self.spec.inertia:
+            found["rocker"] = Mass(0.0, self.spec.inertia)
+        if self.spec.slider is not None:
+            found["slider"] = Mass(self.spec.slider.mass)
+        return found
+
+    @cached_property
+    def machine(self) -> Machine:
+        """Everything, with the device."""
+        from dataclasses import replace
+        from functools import partial
+
+        from gearlink.core.wide_swing.loads.links import pull_of_device
+
+        self._require_turn()
+        self._require_own_directions()
+        for stroke in self.strokes:
+            stroke.cam.require_profile()
+        return replace(
+            super().machine, more=partial(pull_of_device, self), stroke=0.0 if self.whole else self.cam.cycle_angle
+        )
+
+    def _require_turn(self) -> None:
+        """Refuse what a stroke alone cannot tell."""
+        given = next((key for key in _OF_TURN if getattr(self.section, key)), None)
+        if self.whole or given is None:
+            return
+        spec, message = self.spec, f"{given} needs the whole turn of the cam: give cycle in place of cycle_angle"
+        if spec.drive is not None or spec.slider is not None:
+            other = "slider" if spec.drive is None else "drive"
+            message = (
+                f"{given} needs the whole turn of the cam, and with {other} the stroke alone is known: leave it out"
+            )
+        raise MissingSection(message, key=f"loads.{given}")
+
+    def _require_own_directions(self) -> None:
+        """Refuse a direction of what is not there, and a weight whose direction the file leaves open."""
+        for name in ("slider", "drive"):
+            key, has = f"{name}_direction", getattr(self.spec, name) is not None
+            given = getattr(self.section, key) is not None
+            if given and not has:
+                raise NoSolution(f"this mechanism has no {name}: leave {key} out", key=f"loads.{key}")
+            if has and not given and any(self.section.gravity):
+                words = f"the weight depends on which way the {name} stands: give loads.{key}"
+                raise MissingSection(words, key="loads.gravity")
+
+    @property
+    def own_joints(self) -> list[float]:
+        """The ends of the strokes, and where the rollers change sides."""
+        from gearlink.core.wide_swing.cams.outline import middle_of
+
+        ends = [
+            stroke.start + share * stroke.cam.cycle_angle
+            for stroke in self.strokes
+            for share in (0.0, middle_of(stroke.cam), 1.0)
+        ]
+        return [angle for angle in ends if angle > 0.0]
+
+    @property
+    def dwell_zones(self) -> list[tuple[float, float]]:
+        """Both rests of a whole turn."""
+        if not self.whole:
+            return []
+        working, far, back, near = self.design.motion.cycle_angles
+        return [(working, far), (working + far + back, near)]
+
+    @property
+    def own_directions(self) -> tuple[str, ...]:
+        """That of the device, and those of slider and drive where the file has them."""
+        others = tuple(f"{name}_direction" for name in ("slider", "drive") if getattr(self.spec, name) is not None)
+        return ("device_direction", *others)
+
+    @property
+    def unknown_joints(self) -> tuple[str, ...]:
+        """Those of a link on which something pulls whose direction the file leaves open."""
+        section, spec = self.section, self.spec
+        slider_open = spec.slider is not None and section.slider_direction is None
+        found = ["D"] if section.device_direction is None or slider_open else []
+        if spec.drive is not None and section.drive_direction is None:
+            found.append("O")
+        return tuple(found)
+
+    # Motion
+
+    def _share(self, phi: Reals) -> tuple[Any, Reals]:
+        """Number of the phase in which input angles lie (0 to 3), and the fraction of the phase that has passed."""
+        import numpy as np
+
+        motion = self.design.motion
+        angles = motion.cycle_angles if self.whole else (self.cam.cycle_angle,)
+        edges = np.concatenate(([0.0], np.cumsum(angles)))
+        turned = np.mod(phi, 2.0 * math.pi) if self.whole else phi
+        sector = np.searchsorted(edges[1:-1], turned, side="right")
+        width = np.where(np.diff(edges) > 0.0, np.diff(edges), 1.0)
+        # The phases add up to the turn but for rounding, and what asks on which side of its end a stroke changes sign
+        # looks a millionth of a radian beyond it, where the rocker rests.
+        return sector, np.clip((turned - edges[sector]) / width[sector], 0.0, 1.0)
+
+    def _rocker(self, sector: Any, share: Reals) -> tuple[Turn, Points, Points]:
+        """The rocker's angle, the centre of the guided roller [m], and the direction in which its cam pushes it."""
+        import numpy as np
+
+        from gearlink.core.loads.kinematics import Turn
+
+        motion, rows = self.design.motion, len(share)
+        turn, place, normal = np.zeros((3, rows)), *np.zeros((2, rows), dtype=np.complex128)
+        for number, stroke in enumerate(self.strokes):
+            moving, resting = sector == 2 * number, sector == 2 * number + 1
+            swing, angle = (motion.swing if number == 0 else -motion.swing), stroke.cam.cycle_angle
+            if moving.any():
+                a, b, c = motion.law.invariants(share[moving], 2)
+                turn[:, moving] = (a - 0.5) * swing, swing / angle * b, swing / angle**2 * c
+                place[moving], normal[moving] = stroke.roller(share[moving])
+            if resting.any():
+                turn[0, resting] = 0.5 * swing
+                place[resting], normal[resting] = stroke.roller(np.ones(np.count_nonzero(resting)), resting=True)
+        return Turn(*turn), place, normal
+
+    def kinematics(self, phi: Reals) -> Mechanism:
+        """Rocker and cams at input angles."""
+        import numpy as np
+
+        from gearlink.core.loads.kinematics import fixed
+        from gearlink.core.loads.mechanism import FRAME, Link, Mechanism, Pin, SharedContact
+        from gearlink.core.wide_swing.loads.links import SLIDER_DIRECTION, with_slider
+
+        sector, share = self._share(phi)
+        turn, place, normal = self._rocker(sector, share)
+        links, connections, sense, crank = self._driven(phi)
+        pivot = fixed(complex(self._side * self.cam.center_distance * _MM), phi)
+        links["rocker"] = Link(pivot, turn)
+        connections.append(Pin("D", FRAME, "rocker", pivot.value))
+        shares: dict[str, Reals] = {"cam": np.ones(len(phi))}
+        if self.has_return_cam:
+            shares = {"cam": 1.0 * (sector < 2), "return_cam": 1.0 * (sector >= 2)}
+        travel = {}
+        if self.spec.slider is not None:
+            direction = math.radians(_or(self.section.slider_direction, SLIDER_DIRECTION))
+            hung, joints = with_slider(links["rocker"], self.design.motion.slider.drive, direction)
+            links |= hung
+            connections += joints
+            travel["slider"] = cmath.rect(1.0, direction)
+        connections.append(SharedContact("roller", "rocker", place, normal, shares))
+        drive = "crank" if self.spec.drive is not None else "cam"
+        return Mechanism(links, connections, drive, sense, crank, travel)
+
+    @property
+    def _side(self) -> float:
+        """Side of the cam's axis on which the rocker's lies, and sense in which an even cam of the stroke turns."""
+        return -1.0 if self.spec.layout == "twin-cam" else 1.0
+
+    def _driven(self, phi: Reals) -> tuple[dict[str, Link], list[Connection], float, complex]:
+        """The cams with what drives them, their pins, the sense of the driven link and its pivot [m]."""
+        from gearlink.core.loads.kinematics import fixed
+        from gearlink.core.wide_swing.cams.outline import middle_of
+        from gearlink.core.wide_swing.loads.links import DRIVE_DIRECTION, with_drive, with_shafts
+
+        axis = fixed(0j, phi)
+        if self.spec.drive is not None:
+            direction = math.radians(_or(self.section.drive_direction, DRIVE_DIRECTION))
+            return with_drive(phi, axis, self.design.motion.drive, direction)
+        middles = [stroke.start + middle_of(stroke.cam) * stroke.cam.cycle_angle for stroke in self.strokes]
+        links, connections = with_shafts(phi, axis, self._side, middles[: 1 + self.has_return_cam])
+        return links, connections, self._side, 0j
+
+    # The stroke
+
+    def inertia_torque(self, k: Reals) -> Reals:
+        """Torque on the rocker that moves it, and its slider, in the working stroke at the design speed [N m]."""
+        motion = self.design.motion
+        return motion.inertia * motion.swing / motion.working_time**2 * motion.torque(k)
+
+    @property
+    def own_forces(self) -> bool:
+        """Whether more acts than the inertia of rocker and slider, and the device."""
+        others = set(self.machine.masses) - {"rocker", "slider"}
+        return self.machine.sources.any or self.machine.friction is not None or bool(others)
+
+    def _greatest(self, name: str, *, curved: bool = False) -> float:
+        """Greatest value over the strokes of a method of theirs, where the roller touches."""
+        import numpy as np
+
+        return max(
+            stroke.greatest(lambda k, stroke=stroke: np.abs(getattr(stroke, name)(k)), curved=curved)  # type: ignore[misc]
+            for stroke in self.strokes
+        )
+
+    @cached_property
+    def contact_force_max(self) -> float:
+        """Greatest force of the roller on any of the cams over the strokes [N]."""
+        return self._pressed("force") if self.own_forces else self.design.contact_force
+
+    def _pressed(self, name: str) -> float:
+        return max(stroke.pressed[name].value for stroke in self.strokes)
+
+    @cached_property
+    def least_contact_force(self) -> float:
+        """Least force of the roller where it touches the cam of a stroke [N]."""
+        return min(stroke.pressed["least_force"].value for stroke in self.strokes)
+
+    lift_off_speed: float = placed("design.unloading.lift_off_speed")
+
+    @cached_property
+    def hertz_pressure_max(self) -> float | None:
+        """Greatest pressure of roller and cam [N/mm^2]."""
+        return None if self.section.roller is None else self._pressed("pressure")
+
+    @cached_property
+    def shear_depth(self) -> float | None:
+        """Greatest depth of the greatest shear stress [mm]; with a drive, that where the pressure is greatest."""
+        if self.section.roller is None:
+            return None
+        if self.spec.drive is not None:
+            return self.strokes[0].shear_depth_at_greatest_pressure
+        return self._pressed("shear_depth")
+
+    @property
+    def roller_speed_max(self) -> float:
+        """Greatest speed of the roller where it touches [1/min]."""
+        return self._greatest("roller_speed") / _RPM
+
+    @property
+    def entrainment_speed_max(self) -> float:
+        """Greatest entrainment speed where the roller touches [mm/s]."""
+        return self._greatest("entrainment", curved=True)
+
+    cam_torque_max: float = placed("input_torque_max")
+    cam_torque_min: float = placed("input_torque_min")
+    cam_torque_rms: float = placed("input_torque_rms")
+
+    # Vibration
+
+    @cached_property
+    def vibrating(self) -> Vibrating:
+        """The rocker on the shaft that drives it."""
+        from gearlink.core.wide_swing.loads.vibration import SwingVibrating
+
+        return SwingVibrating(self)
+
+    def quantity(self, name: str) -> Quantity | None:
+        """The speed of lift-off is the cam's."""
+        from dataclasses import replace
+
+        found = super().quantity(name)
+        return replace(found, unit="1/min") if found is not None and name == "lift_off_speed" else found
+
+    def raw(self, name: str) -> Any:
+        """A stroke alone has no turns to count; a crank drives no cam shaft."""
+        no_shaft = self.spec.drive is not None and name.startswith("cam_torque")
+        return None if no_shaft or (name.endswith(".travel") and not self.whole) else super().raw(name)
+
+    def candidates(self, check: str, /) -> Iterable[Remedy]:
+        """Of a slider whose arm stands ill that comes first."""
+        return (*loads_checks.candidates(self, check), *super().candidates(check))
+
+    rows = loads_tables.rows
+    table_contact_stroke, table_harmonics = loads_tables.contact_stroke, loads_tables.harmonics
+    check_contact_pressure, check_contact_loss = loads_checks.contact_pressure, loads_checks.contact_loss
+    check_resonance = loads_checks.resonance
+
+
+def _or(given: float | None, otherwise: float) -> float:
+    return otherwise if given is None else given
