@@ -21,6 +21,7 @@ from gearlink.core.loads.kinematics import dot
 from gearlink.core.loads.mechanism import Coupling, Mechanism, Pin
 from gearlink.core.loads.sources import Sources
 from gearlink.core.numerics.arrays import Reals
+from gearlink.core.numerics.roots_sweep import narrowed, next_share
 from gearlink.core.numerics.together import Search, together
 
 Kinematics: TypeAlias = Callable[[Reals], Mechanism]
@@ -34,7 +35,7 @@ _STEPS = 150
 _KEPT = 24
 _ROWS_KEPT = 100_000
 _BLOCK = 4096
-_APART = 64.0
+_APART, _BESIDE = 64.0, 8.0
 _FEW = 340
 """Rows at most of what a search looks at on the way; the grids that searches begin with are kept apart from it."""
 
@@ -326,37 +327,56 @@ def zeros(f: Callable[[Reals], Reals], period: float, turns: int = 1) -> list[fl
 
     Notes
         Brackets from 720 rows a turn; a zero that is touched without a change of sign is none.
+    Source
+        T. R. Chandrupatla, Adv. Eng. Softw. 28 (1997) 145-149
     """
     return zeros_of([f], period, turns)[0]
 
 
-def zeros_of(functions: Sequence[Callable[[Reals], Reals]], period: float, turns: int = 1) -> list[list[float]]:
-    """The zeros of several functions, searched together."""
-    return together(functions, [_zeros(period, turns) for _ in functions])
+def zeros_of(
+    functions: Sequence[Callable[[Reals], Reals]],
+    period: float,
+    turns: int = 1,
+    *,
+    jumps: Sequence[float] = (),
+    any_zero: bool = False,
+) -> list[list[float]]:
+    """The zeros of several functions, searched together.
+
+    Parameters
+        functions, period, turns : as of `zeros`
+        jumps : floats - where they may jump, so that one across 0 is not sought by halving
+        any_zero : bool - any place will do where a function is 0 over a way, else the first or the last one
+    """
+    return together(functions, [_zeros(period, turns, jumps, any_zero=any_zero) for _ in functions])
 
 
-def _zeros(period: float, turns: int) -> Search[list[float]]:
-    grid = np.linspace(0.0, period, 720 * turns + 1)
+def _zeros(period: float, turns: int, jumps: Sequence[float], *, any_zero: bool) -> Search[list[float]]:
+    grid, beside = np.linspace(0.0, period, 720 * turns + 1), _BESIDE * float(np.spacing(period))
+    if jumps:
+        sides = np.add.outer(np.asarray(jumps), [-beside, beside]).ravel()
+        grid = np.unique(np.concatenate((grid, sides[(sides > 0.0) & (sides < period)])))
     values = yield grid
     rows = np.flatnonzero((values[:-1] > 0.0) != (values[1:] > 0.0))
     if rows.size == 0:
         return []
-    low, high, f_low, f_high = grid[rows], grid[rows + 1], values[rows], values[rows + 1]
-    up, last = f_high > 0.0, low
-    for step in range(_STEPS):
-        # Illinois' false position, halved every third time, so that a jump is found as well. One end is above 0 and the
-        # other is not, so that the share lies in [0, 1]; where halving has made both 0, the middle is taken.
-        share, apart = np.full_like(low, 0.5), f_low - f_high
-        if step % 3:
-            np.divide(f_low, apart, out=share, where=apart != 0.0)
-        place = low + (high - low) * share
-        value = yield place
-        after = (value > 0.0) == up
-        f_high = np.where(after, value, 0.5 * f_high)
-        f_low = np.where(after, 0.5 * f_low, value)
-        low, high = np.where(after, low, place), np.where(after, place, high)
-        near = 4.0 * np.spacing(period)
-        if step % 3 and np.all((np.abs(place - last) <= near) | (high - low <= near)):
-            break
-        last = place
-    return [float(each) for each in last]
+    # A value is above 0 or it is not: where the function leaves 0 is found, and so is a jump. Each bracket rests by
+    # itself, so that what jumps does not have the others computed again.
+    b, a, fb, fa = grid[rows], grid[rows + 1], values[rows], values[rows + 1]
+    found, left, near = np.empty(rows.size), np.arange(rows.size), 4.0 * np.spacing(period)
+    share: Reals = np.full(rows.size, 0.5)
+    for _ in range(_STEPS):
+        x = a + share * (b - a)
+        fx = yield x
+        with np.errstate(all="ignore"):
+            a, b, c, fa, fb, fc = narrowed(x, a, b, fx, fa, fb)
+            width = np.abs(b - a)
+            found[left] = np.where(np.abs(fa) < np.abs(fb), a, b)
+            going = (width > near) & (fx != 0.0) if any_zero else width > near
+            left = left[going]
+            if not left.size:
+                break
+            a, b, c, fa, fb, fc, width = (each[going] for each in (a, b, c, fa, fb, fc, width))
+            least = np.minimum(0.5, 0.5 * near / width)
+            share = np.minimum(1.0 - least, np.maximum(least, next_share(a, b, c, fa, fb, fc)))
+    return found.tolist()

@@ -34,7 +34,8 @@ def places_of(functions: Sequence[tuple[Function, float]], machine: Machine) -> 
     loaded = [k for k, (_, size) in enumerate(functions) if size != 0.0]
     signs = [partial(_without_noise, *functions[k]) for k in loaded]
     found: list[list[float]] = [[] for _ in functions]
-    for k, zeros in zip(loaded, zeros_of(signs, machine.period, machine.turns), strict=True):
+    every = zeros_of(signs, machine.period, machine.turns, jumps=machine.breaks, any_zero=True) if loaded else []
+    for k, zeros in zip(loaded, every, strict=True):
         f, size = functions[k]
         if not machine.stroke and (not zeros or min(zeros[0], machine.period - zeros[-1]) > _STEP):
             # The ends of the period are one place: a sign that changes there is seen from neither side.

@@ -45,23 +45,23 @@ def bracketed_roots(
             x = np.where(rests, best, a + share * (b - a))
             fx = f(x)
             valid &= rests | (fx == fx)
-            a, b, c, fa, fb, fc = _narrowed(x, a, b, fx, fa, fb)
+            a, b, c, fa, fb, fc = narrowed(x, a, b, fx, fa, fb)
             nearest = np.abs(fa) < np.abs(fb)
             best = np.where(rests, best, np.where(nearest, a, b))
             reach = 2.0 * np.spacing(np.abs(best))
             rests |= ~valid | (np.where(nearest, fa, fb) == 0.0) | (np.abs(b - a) <= reach)
             least = np.minimum(0.5, reach / np.abs(b - a))
-            share = np.minimum(1.0 - least, np.maximum(least, _share(a, b, c, fa, fb, fc)))
+            share = np.minimum(1.0 - least, np.maximum(least, next_share(a, b, c, fa, fb, fc)))
     return np.where(valid, best, np.nan)
 
 
-def _narrowed(x: Reals, a: Reals, b: Reals, fx: Reals, fa: Reals, fb: Reals) -> tuple[Reals, ...]:
+def narrowed(x: Reals, a: Reals, b: Reals, fx: Reals, fa: Reals, fb: Reals) -> tuple[Reals, ...]:
     """The brackets from x on, with the places before and the values at all three."""
     same = (fx > 0.0) == (fa > 0.0)
     return x, np.where(same, b, a), np.where(same, a, b), fx, np.where(same, fb, fa), np.where(same, fa, fb)
 
 
-def _share(a: Reals, b: Reals, c: Reals, fa: Reals, fb: Reals, fc: Reals) -> Reals:
+def next_share(a: Reals, b: Reals, c: Reals, fa: Reals, fb: Reals, fc: Reals) -> Reals:
     """How far from a to b the next place is: by inverse quadratic interpolation where that is safe, else half."""
     xi, phi = (a - b) / (c - b), (fa - fb) / (fc - fb)
     safe = (phi * phi < xi) & ((1.0 - phi) * (1.0 - phi) < 1.0 - xi)

@@ -17,6 +17,7 @@ from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.elliptic import complete_integral, incomplete_integral, jacobi_sn_cn
 from gearlink.core.numerics.extremes import maximum_over
 from gearlink.core.numerics.periodic import CosineSeries, cosine_series
+from gearlink.core.numerics.rising import RisingTable
 from gearlink.core.report import safely_above
 from gearlink.core.results import cached_property
 from gearlink.core.wide_swing.law.device import Device, DeviceGeometry
@@ -24,6 +25,7 @@ from gearlink.core.wide_swing.law.elastic_law import ElasticLaw
 from gearlink.core.wide_swing.law.kept import Kept, kept_for
 
 _NEWTON_STEPS = 60
+_GRID = np.linspace(0.0, math.pi, 257)
 # A step as small is as good as none: subnormal numbers have no full set of digits to settle in.
 _FAINTEST = 1e-300
 
@@ -317,17 +319,31 @@ class SliderLaw:
 
     def _invert(self, k: Reals, clock: CosineSeries, side: float) -> Reals:
         """Angle v = pi/2 - |u| counted from one end of the stroke, by Newton steps."""
-        grid = np.linspace(0.0, math.pi, 65)
-        v = np.interp(k, self._time_of(grid, clock) / clock.total, grid)
-        settled = np.zeros(k.shape, dtype=np.bool_)
+        v = (self._from_start if side > 0.0 else self._from_end).places_of(k)
+        left = np.arange(k.size)
         for _ in range(_NEWTON_STEPS):
-            step = (self._time_of(v, clock) - k * clock.total) / self._slowness(side * np.cos(v), np.sin(v))
+            at = v[left]
+            step = (self._time_of(at, clock) - k[left] * clock.total) / self._slowness(side * np.cos(at), np.sin(at))
             # a step past an end of the stroke stops there; the next one starts from the end
-            v = np.where(settled, v, np.clip(v - step, 0.0, math.pi))
-            settled |= np.abs(step) <= 1e-13 * v + _FAINTEST
-            if settled.all():
+            v[left] = at = np.clip(at - step, 0.0, math.pi)
+            left = left[~(np.abs(step) <= 1e-13 * at + _FAINTEST)]
+            if not left.size:
                 return v
         raise NoSolution(f"the law of motion did not settle in {_NEWTON_STEPS} Newton steps; report this design")
+
+    @cached_property
+    def _from_start(self) -> RisingTable:
+        """Fractions of the stroke by the angle v from the start."""
+        return self._table(self.clock, 1.0)
+
+    @cached_property
+    def _from_end(self) -> RisingTable:
+        """The same, backwards from the end."""
+        return self._table(self._clock_from_end, -1.0)
+
+    def _table(self, clock: CosineSeries, side: float) -> RisingTable:
+        slopes = self._slowness(side * np.cos(_GRID), np.sin(_GRID)) / clock.total
+        return RisingTable(_GRID, self._time_of(_GRID, clock) / clock.total, slopes)
 
     def _time_of(self, v: Reals, clock: CosineSeries) -> Reals:
         complement = self._half.modulus_complement

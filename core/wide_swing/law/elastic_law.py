@@ -20,6 +20,7 @@ from gearlink.core.errors import NoSolution
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.elliptic import complete_integral, incomplete_integral, jacobi_sn_cn
 from gearlink.core.numerics.periodic import CosineSeries, cosine_series, midpoint_mean
+from gearlink.core.numerics.rising import RisingTable
 from gearlink.core.numerics.roots import roots_on
 from gearlink.core.results import cached_property
 from gearlink.core.wide_swing.law.device import (
@@ -50,7 +51,7 @@ __all__ = [
 ]
 
 _NEWTON_STEPS = 40
-_GRID = np.linspace(0.0, 0.5 * math.pi, 33)
+_GRID = np.linspace(0.0, 0.5 * math.pi, 129)
 # A step as small is as good as none: subnormal numbers have no full set of digits to settle in.
 _FAINTEST = 1e-300
 
@@ -345,7 +346,7 @@ class ElasticLaw:
             raise NoSolution("the fraction of the stroke k must lie between 0 and 1")
         second = k > 0.5
         folded = np.where(second, 1.0 - k, k)
-        near_start = folded < 0.25
+        near_start = folded <= 0.25
         v = self._invert(folded[near_start], from_middle=False)
         u = self._invert(0.5 - folded[~near_start], from_middle=True)
         sine, cosine = np.empty_like(folded), np.empty_like(folded)
@@ -358,30 +359,36 @@ class ElasticLaw:
         if not k.size:
             return k
         scale = self.swing * self._rate
-        angle = np.interp(k, self._from_middle if from_middle else self._from_start, _GRID)
-        settled = np.zeros(k.shape, dtype=np.bool_)
+        angle = (self._from_middle if from_middle else self._from_start).places_of(k)
+        # counted from mid-swing k itself is known to its last bit only
+        floor = 4e-16 * scale if from_middle else 0.0
+        left = np.arange(k.size)
         for _ in range(_NEWTON_STEPS):
-            sine, cosine = (np.sin(angle), np.cos(angle)) if from_middle else (np.cos(angle), np.sin(angle))
-            excess = self._time_of(angle, from_middle=from_middle) - k * scale
+            at = angle[left]
+            sine, cosine = (np.sin(at), np.cos(at)) if from_middle else (np.cos(at), np.sin(at))
+            excess = self._time_of(at, from_middle=from_middle) - k[left] * scale
             step = excess / self.slowness(sine, cosine)
             # a step past an end of the half stroke stops there; the next one starts from the end
-            angle = np.where(settled, angle, np.clip(angle - step, 0.0, 0.5 * math.pi))
-            # counted from mid-swing k itself is known to its last bit only
-            floor = 4e-16 * scale if from_middle else 0.0
-            settled |= (np.abs(step) <= 1e-13 * angle + _FAINTEST) | (np.abs(excess) <= floor)
-            if settled.all():
+            angle[left] = at = np.clip(at - step, 0.0, 0.5 * math.pi)
+            left = left[~((np.abs(step) <= 1e-13 * at + _FAINTEST) | (np.abs(excess) <= floor))]
+            if not left.size:
                 return angle
         raise NoSolution(f"the law of motion did not settle in {_NEWTON_STEPS} Newton steps; report this design")
 
     @cached_property
-    def _from_start(self) -> Reals:
-        """Fractions of the stroke to the angles of the grid, counted from the start."""
-        return self._time_of(_GRID, from_middle=False) / (self.swing * self._rate)
+    def _from_start(self) -> RisingTable:
+        """Fractions of the stroke by the angle from the start."""
+        return self._table(np.cos(_GRID), np.sin(_GRID), from_middle=False)
 
     @cached_property
-    def _from_middle(self) -> Reals:
+    def _from_middle(self) -> RisingTable:
         """The same, counted from mid-swing."""
-        return self._time_of(_GRID, from_middle=True) / (self.swing * self._rate)
+        return self._table(np.sin(_GRID), np.cos(_GRID), from_middle=True)
+
+    def _table(self, sine: Reals, cosine: Reals, *, from_middle: bool) -> RisingTable:
+        scale = self.swing * self._rate
+        times = self._time_of(_GRID, from_middle=from_middle)
+        return RisingTable(_GRID, times / scale, self.slowness(sine, cosine) / scale)
 
     def _time_of(self, angle: Reals, *, from_middle: bool) -> Reals:
         """gamma sqrt(N) times the fraction of the stroke to u from mid-swing, or to v from the start."""

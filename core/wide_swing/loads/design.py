@@ -241,7 +241,7 @@ class WideSwingLoads(LoadsDesign):
                 place[moving], normal[moving] = stroke.roller(share[moving])
             if resting.any():
                 turn[0, resting] = 0.5 * swing
-                place[resting], normal[resting] = stroke.roller(np.ones(np.count_nonzero(resting)), resting=True)
+                place[resting], normal[resting] = stroke.roller(np.ones(1), resting=True)
         return Turn(*turn), place, normal
 
     def kinematics(self, phi: Reals) -> Mechanism:
