@@ -19,7 +19,7 @@ def shares_by(jobs: int, factory: str, dask: str, *, words: str, quiet: bool) ->
     """Compute the replications of `tolerance` and `register` by what a command line names.
 
     Parameters
-        jobs : int - processes, 0: as many as pay
+        jobs : int - processes, 0: chosen by the work to be done
         factory : str - "module:factory" of an executor, empty for processes
         dask : str - address of a scheduler, empty for none
         words : str - what is going on, said on a terminal once it takes more than a second
@@ -29,13 +29,13 @@ def shares_by(jobs: int, factory: str, dask: str, *, words: str, quiet: bool) ->
     from gearlink.core.tolerance.shares import COMPUTED_BY
 
     def compute(function: Callable[[int], Any], numbers: Sequence[int]) -> list[Any]:
-        told = _Told(words, len(numbers), quiet=quiet)
+        progress = _Progress(words, len(numbers), quiet=quiet)
         try:
             if factory or dask:
-                return _on_executor(function, numbers, factory, dask, told)
-            return _in_processes(function, numbers, jobs, told)
+                return _on_executor(function, numbers, factory, dask, progress)
+            return _in_processes(function, numbers, jobs, progress)
         finally:
-            told.end()
+            progress.end()
 
     token = COMPUTED_BY.set(compute)
     try:
@@ -44,39 +44,39 @@ def shares_by(jobs: int, factory: str, dask: str, *, words: str, quiet: bool) ->
         COMPUTED_BY.reset(token)
 
 
-def _in_processes(function: Callable[[int], Any], numbers: Sequence[int], jobs: int, told: _Told) -> list[Any]:
+def _in_processes(function: Callable[[int], Any], numbers: Sequence[int], jobs: int, progress: _Progress) -> list[Any]:
     from gearlink.cli.workers import workers
 
     found: list[Any] = []
     if jobs == 0:
         start = perf_counter()
-        found = _here(function, numbers[:1], told)
+        found = _here(function, numbers[:1], progress)
         jobs = processors() if (perf_counter() - start) * (len(numbers) - 1) > _WORTH_SECONDS else 1
     rest = numbers[len(found) :]
     if jobs == 1:
-        return found + _here(function, rest, told)
+        return found + _here(function, rest, progress)
     with workers(min(jobs, len(rest))) as pool:
-        return found + _given(pool, function, rest, told)
+        return found + _given(pool, function, rest, progress)
 
 
 def _on_executor(
-    function: Callable[[int], Any], numbers: Sequence[int], factory: str, dask: str, told: _Told
+    function: Callable[[int], Any], numbers: Sequence[int], factory: str, dask: str, progress: _Progress
 ) -> list[Any]:
     from gearlink.cli.executors import executor_of
 
     with executor_of(factory, dask) as (made, _), made() as pool:
-        return _given(pool, function, numbers, told)
+        return _given(pool, function, numbers, progress)
 
 
-def _here(function: Callable[[int], Any], numbers: Sequence[int], told: _Told) -> list[Any]:
+def _here(function: Callable[[int], Any], numbers: Sequence[int], progress: _Progress) -> list[Any]:
     found = []
     for number in numbers:
         found.append(function(number))
-        told.done(1)
+        progress.done(1)
     return found
 
 
-def _given(pool: Executor, function: Callable[[int], Any], numbers: Sequence[int], told: _Told) -> list[Any]:
+def _given(pool: Executor, function: Callable[[int], Any], numbers: Sequence[int], progress: _Progress) -> list[Any]:
     """Shares by an executor, in order; where its workers die, what is missing is computed here."""
     found: dict[int, Any] = {}
     try:
@@ -86,15 +86,15 @@ def _given(pool: Executor, function: Callable[[int], Any], numbers: Sequence[int
             ended, left = wait(left, timeout=0.5)
             for future in ended:
                 found[asked[future]] = future.result()
-            told.done(len(ended))
+            progress.done(len(ended))
     except BrokenExecutor as error:
         print(f"a worker ended ({error}); the shares that are missing are computed here", file=sys.stderr)
     missing = [number for number in numbers if number not in found]
-    found.update(zip(missing, _here(function, missing, told), strict=True))
+    found.update(zip(missing, _here(function, missing, progress), strict=True))
     return [found[number] for number in numbers]
 
 
-class _Told:
+class _Progress:
     """A line on standard error, where that is a terminal, from the first second on."""
 
     def __init__(self, words: str, total: int, *, quiet: bool) -> None:

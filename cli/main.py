@@ -7,6 +7,7 @@ import io
 import os
 import sys
 
+from gearlink.cli import process
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import leave_nothing_behind
 
@@ -37,6 +38,7 @@ def _prepare_process() -> None:
     environment names, and a wrong name must not keep matplotlib from loading. The matrices here are too small for
     threads, and those of OpenBLAS wait for ever where the memory of the process is limited.
     """
+    process.runs_the_command_alone = True
     gc.set_threshold(50_000, 20, 100)
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")

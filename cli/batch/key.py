@@ -38,8 +38,8 @@ def own_key() -> bytes:
 
 def _state_home() -> Path:
     """Where programs keep a user's state; by the standard a relative path in the variable counts as none."""
-    told = os.environ.get("XDG_STATE_HOME", "")
-    return Path(told) if os.path.isabs(told) else Path.home() / ".local" / "state"
+    state = os.environ.get("XDG_STATE_HOME", "")
+    return Path(state) if os.path.isabs(state) else Path.home() / ".local" / "state"
 
 
 def _make(path: Path) -> None:

@@ -98,12 +98,12 @@ def _write(stream: IO[bytes], stage: Stage, asked: Asked, options: Options) -> N
     from gearlink.cli.moving.raster import Raster
 
     raster, count = Raster(stage), stage.count
-    told = counted(range(count), "drawing", quiet=options.quiet)
+    pictures = counted(range(count), "drawing", quiet=options.quiet)
     if asked.format == "mp4":
         from gearlink.cli.moving.video import write_mp4
 
-        write_mp4(stream, raster, asked.fps, told)
+        write_mp4(stream, raster, asked.fps, pictures)
     else:
         from gearlink.cli.moving.gif import write_gif
 
-        write_gif(stream, raster, count, asked.fps, told)
+        write_gif(stream, raster, count, asked.fps, pictures)

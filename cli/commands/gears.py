@@ -39,7 +39,7 @@ def gears(
 
     x1 is shared for equal sliding; margin is how far it may move until undercut, a thin tip, a root fillet or a small
     contact ratio is met, negative where one is met already. Of more than 1000 pairs the nearest to the ratio are shown.
-    Exit status 1: no pair meets the wish.
+    Exit status 1: no pair meets the conditions.
 
     Example: gearlink gears --ratio 3.2 --center-distance 120
     """
@@ -76,7 +76,8 @@ def run_gears(wish: Wish, options: Options) -> int:
         return ExitCode.OK
     if not options.quiet:
         print(
-            "no pair meets the wish: widen --shift-sum or --ratio-tolerance, or name other --modules", file=sys.stderr
+            "no pair meets these conditions: widen --shift-sum or --ratio-tolerance, or name other --modules",
+            file=sys.stderr,
         )
     return ExitCode.FINDING
 

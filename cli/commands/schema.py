@@ -39,7 +39,7 @@ def write_schema(kind_name: str | None, folder: Path) -> int:
         print(f"wrote {visible(str(schema))}", file=sys.stderr)
         line = json.dumps({"yaml.schemas": {f"./{schema.name}": list(PATTERNS)}}, indent=2)
         if settings.exists():
-            print(f"{visible(str(settings))} is left as it is; it wants\n{line}", file=sys.stderr)
+            print(f"{visible(str(settings))} is left as it is; it needs\n{line}", file=sys.stderr)
         else:
             write_atomically(settings, lambda stream: stream.write(f"{line}\n".encode()))
             print(f"wrote {visible(str(settings))}", file=sys.stderr)

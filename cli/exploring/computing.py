@@ -32,7 +32,7 @@ class Means:
     """By what chunks are computed.
 
     Parameters
-        jobs : int - processes; 0: as many as pay
+        jobs : int - processes; 0: chosen by the work to be done
         executor : makes an executor and names it, in place of processes; None: none
         workers : int - of that executor
     """

@@ -15,7 +15,7 @@ class Exploring:
     Fields
         store : Path or None - where finished chunks are kept
         resume, merge : bool
-        jobs : int - processes, 0: as many as pay
+        jobs : int - processes, 0: chosen by the work to be done
         executor : str - "module:factory"; empty for processes
         dask : str - address of a scheduler; empty for none
         show : str - index of a design, or mK for the nearest miss of row K of the table why; empty for none

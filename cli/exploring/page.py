@@ -84,6 +84,6 @@ def _beside(value: float, limit: float | None) -> str:
         >>> _beside(44.7, 45.0), _beside(44.9999987, 45.0), _beside(45.0, 45.0)
         ('44.7 (limit 45)', '44.999999 (limit 45)', '45 (limit 45)')
     """
-    told = (digits for digits in range(5, 18) if number(value, digits) != number(limit, digits))
-    digits = next(told, 5)
+    apart = (digits for digits in range(5, 18) if number(value, digits) != number(limit, digits))
+    digits = next(apart, 5)
     return f"{number(value, digits)} (limit {number(limit, digits)})"

@@ -86,7 +86,7 @@ def width_of(contour: Contour, width: float | None) -> float:
     part = contour.part
     if not part.closed or len(contour.lines) == 0 or not contour.lines[0].closed:
         raise NoStep(
-            f"the profile of {part.name} is open, a solid wants a closed one: take another --part, or --as dxf"
+            f"the profile of {part.name} is open, a solid needs a closed one: take another --part, or --as dxf"
         )
     across = part.width if width is None else width
     if across is None:

@@ -10,6 +10,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
+from gearlink.cli import process
 from gearlink.cli.figures.drawing.placing import Places, settled
 from gearlink.cli.files import safe_stem, write_atomically
 from gearlink.cli.options import DPI, Options
@@ -90,10 +91,10 @@ def save(make: Callable[[], Figure], name: str, stream: IO[bytes], ending: str, 
 def _load_without_documents() -> None:
     """Import what figures are made of, without the texts of `help` on every artist's properties.
 
-    Those are a fifth of the import: its documented function `kwdoc` reads the docstrings of all setters, and nobody
-    asks for them in a process that writes a picture.
+    Those are a fifth of the import: matplotlib's `kwdoc` reads the docstrings of all setters. Nobody asks for them in
+    a process of the command; in one of Python or a notebook, somebody may, and nothing is left out.
     """
-    if "matplotlib.figure" in sys.modules:
+    if not process.runs_the_command_alone or "matplotlib.figure" in sys.modules:
         return
     import matplotlib.artist as artists
 

@@ -24,10 +24,10 @@ _WORTH_PROCESSES, _SHARE = 48, 6
 """Pictures from which on several processes pay, and how many of them one draws at a time."""
 
 
-def write_gif(stream: IO[bytes], raster: Raster, count: int, fps: int, told: Iterable[int]) -> None:
-    """Write the pictures; `told` counts them and may show how far the work is."""
+def write_gif(stream: IO[bytes], raster: Raster, count: int, fps: int, counted: Iterable[int]) -> None:
+    """Write the pictures; `counted` counts them and may show how far the work is."""
     palette = _with_white(raster.picture(0).quantize(_COLORS, method=Image.Quantize.MEDIANCUT))
-    made = _frames(raster, palette, told, count)
+    made = _frames(raster, palette, counted, count)
     first = next(made)
     first.save(stream, "GIF", save_all=True, append_images=made, duration=durations(count, fps), loop=0, optimize=False)
 
@@ -40,11 +40,11 @@ def _with_white(picture: Picture) -> Picture:
     return picture
 
 
-def _frames(raster: Raster, palette: Picture, told: Iterable[int], count: int) -> Iterator[Picture]:
+def _frames(raster: Raster, palette: Picture, counted: Iterable[int], count: int) -> Iterator[Picture]:
     """The pictures in the colours of the palette, drawn in several processes where there are processors for them."""
     jobs = processors() if sys.platform == "linux" else 1  # elsewhere a process does not begin with what this one has
     if jobs < 2 or count < _WORTH_PROCESSES:
-        yield from (_quantized(raster, palette, i) for i in told)
+        yield from (_quantized(raster, palette, i) for i in counted)
         return
     from gearlink.cli.workers import workers
 
@@ -53,7 +53,7 @@ def _frames(raster: Raster, palette: Picture, told: Iterable[int], count: int) -
     blank = _quantized(raster, palette, 0)
     try:
         with workers(jobs) as pool:
-            for _, pixels in zip(told, _in_order(pool, count, jobs), strict=True):
+            for _, pixels in zip(counted, _in_order(pool, count, jobs), strict=True):
                 made = blank.copy()
                 made.frombytes(pixels)
                 yield made

@@ -28,7 +28,7 @@ def ffmpeg() -> str:
     return found
 
 
-def write_mp4(stream: IO[bytes], raster: Raster, fps: int, told: Iterable[int]) -> None:
+def write_mp4(stream: IO[bytes], raster: Raster, fps: int, counted: Iterable[int]) -> None:
     """Write the pictures as H.264.
 
     Raises
@@ -42,7 +42,7 @@ def write_mp4(stream: IO[bytes], raster: Raster, fps: int, told: Iterable[int]) 
         command = [program, "-v", "error", "-y", *raw, "-an", *coded, str(path)]
         with tempfile.TemporaryFile() as said:
             running = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=said)
-            _feed(running, raster, told)
+            _feed(running, raster, counted)
             if running.wait() != 0 or not path.is_file():
                 said.seek(0)
                 words = said.read().decode(errors="replace").strip().splitlines() or ["no word of why"]
@@ -51,10 +51,10 @@ def write_mp4(stream: IO[bytes], raster: Raster, fps: int, told: Iterable[int]) 
             shutil.copyfileobj(made, stream)
 
 
-def _feed(running: subprocess.Popen[bytes], raster: Raster, told: Iterable[int]) -> None:
+def _feed(running: subprocess.Popen[bytes], raster: Raster, counted: Iterable[int]) -> None:
     assert running.stdin is not None, "opened as a pipe"
     try:
-        for i in told:
+        for i in counted:
             running.stdin.write(raster.picture(i).tobytes())
     except BrokenPipeError:
         pass  # ffmpeg has ended early; its status and last words say why

@@ -53,7 +53,7 @@ def _below(folder: Path) -> list[Path]:
     """Design files below a folder, however deep; links to folders are not followed.
 
     A folder that cannot be read, and a link that leads nowhere, stand among the files: whoever reads them as such
-    is told why they cannot be read.
+    is given the reason why they cannot be read.
     """
     found, waiting = [], [os.fspath(folder)]
     while waiting:

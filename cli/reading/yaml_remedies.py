@@ -116,7 +116,7 @@ def hidden_culprit(source: Source, at: int, since: int) -> Diagnostic | None:
         start = source.line_start(number)
         if (column := _odd_column(line)) is not None:
             char = line[column]
-            message = f"{odd_character(char)} where YAML wants a plain sign"
+            message = f"{odd_character(char)} where YAML needs a plain sign"
             return source.report("GL103", message, start + column, help=odd_remedy(char))
         if glued := _GLUED.match(line):
             message = f"no space after the colon of {glued[1]!r}"

@@ -14,7 +14,7 @@ from gearlink.core.kinds import FILES, Kind
 
 
 def index_text() -> str:
-    """What belongs into its file."""
+    """What belongs in its file."""
     parts = [f'"{name}": {_in_lines(value)}' for name, value in asdict(made()).items()]
     return "{" + ",\n".join(parts) + "}\n"
 
@@ -27,7 +27,7 @@ def _in_lines(value: dict[str, Any] | list[str]) -> str:
 
 
 def schemas_text() -> str:
-    """What belongs into the file of the schemas: each definition once, whatever kinds have it."""
+    """What belongs in the file of the schemas: each definition once, whatever kinds have it."""
     definitions: dict[str, str] = {}
     kinds = {}
     for kind in FILES.values():

@@ -24,7 +24,7 @@ STUDIES: tuple[Rule, ...] = (
         "GL152",
         "quantity or check unknown, or not to be compared",
         "An objective, a definition or a condition names a quantity that the kind does not have, a list without an "
-        "index or a word where a number is wanted, or cannot be read; or a check has no such code.",
+        "index or a word where a number is needed, or cannot be read; or a check has no such code.",
         "What cannot be computed cannot be sought.",
         "Take the nearest name of the message. Expressions have numbers, quantities, [i] (from 0), + - * /, min, max, "
         "abs, sqrt and brackets.",

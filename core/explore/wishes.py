@@ -178,7 +178,7 @@ def condition(text: str, names: Names, place: Place) -> Condition:
     if amount is not None:
         limit = float(amount[1])
         if not np.isfinite(limit):
-            raise FaultFound(Fault("GL152", f"{amount[1]} is beyond all numbers", place))
+            raise FaultFound(Fault("GL152", f"{amount[1]} is too large for a number", place))
         return Condition(text, expression, sign, limit, _same_unit(left, expression, amount[2] or "", names, place))
     if sign != "==" or not _WORD.fullmatch(right):
         message = f"{_short(right)!r} is no number" + ("" if sign == "==" else ": words are compared by == alone")

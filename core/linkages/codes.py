@@ -96,7 +96,7 @@ DWELL_WINDOW = Rule(
 DWELL_EDGE = Rule(
     "GL314",
     "dwell close to its jump",
-    "The back-step nearly fills the band, or the frame lengths that meet the wish lie close together.",
+    "The back-step nearly fills the band, or the frame lengths that meet the request lie close together.",
     "The window is longest where the back-step just fits the band. A frame a little off makes it exceed the band, and "
     "the window falls at once to three quarters.",
     "Ask for less: a shorter window, or with a tolerance alone margin at its default; or hold the frame to the "

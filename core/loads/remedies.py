@@ -33,7 +33,7 @@ def _wider(design: LoadsDesign) -> Iterator[Remedy]:
     """p ~ 1/sqrt(width)"""
     allowed, found = design.section.material.allowed_pressure, design.raw("hertz_pressure_max")
     found = found if isinstance(found, list) else [found]
-    if None in found:  # an undercut, which no width mends
+    if None in found:  # an undercut, which no width repairs
         return
     worst = max(found)
     yield (("loads.roller.width", at_least(design.section.roller.width * (worst / (_HOLDS * allowed)) ** 2)),)

@@ -40,9 +40,9 @@ class Closure:
 
     @property
     def stands(self) -> bool:
-        """Whether the file tells masses and spring of cams that can be, and the spring presses both rollers."""
-        told = None not in (self.spec.inertia, self.spec.spring)
-        return told and self.cams.stand and self.refusal is None
+        """Whether the file gives masses and spring of cams that can be, and the spring presses both rollers."""
+        given = None not in (self.spec.inertia, self.spec.spring)
+        return given and self.cams.stand and self.refusal is None
 
     @cached_property
     def spring(self) -> ClosingSpring:

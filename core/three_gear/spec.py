@@ -124,7 +124,7 @@ class ThreeGearSpec(DrivenSpec):
                 "GL111", "dwell_tolerance and dwell_backlash exclude each other: give one", {"key": "dwell_backlash"}
             )
         if self.dwell is not None and self.dwell.tolerance is not None and self.dwell_tolerance is not None:
-            message = "dwell_tolerance and dwell.tolerance are the same wish: give one"
+            message = "dwell_tolerance and dwell.tolerance ask for the same: give one"
             raise PydanticCustomError("GL111", message, {"key": "dwell_tolerance"})
         if self.dwell_window is not None and self.dwell_tolerance is None and self.dwell_backlash is None:
             message = "dwell_window goes with dwell_tolerance or dwell_backlash: give one of them"

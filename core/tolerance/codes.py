@@ -20,7 +20,7 @@ NOT_LINEAR = Rule(
     "slopes do not explain the scatter",
     "The variance by the slopes at the nominal design is less than nine tenths of the sampled one (a warning).",
     "Linear shares then point at the wrong part: the quantity has a kink, or bends within the tolerances.",
-    "Ask for Sobol' indices (--sobol), which hold without lines.",
+    "Ask for Sobol' indices (--sobol), which need no linear response.",
     "sum (slope sigma)^2 >= 0.9 variance of the samples",
     "own choice",
     ("linear-shares",),
@@ -43,7 +43,7 @@ REGISTER_BUDGET = Rule(
     "The errors of the parts add up to more than register.tolerance over the stretch that prints or holds: 99.73 % of "
     "the machines do not keep it, or at worst one does not (a warning).",
     "Colours no longer fall on each other, or the sheet is handed over where the next gripper does not expect it.",
-    "Mend what stands first in the table budget.",
+    "Improve first what stands first in the table budget.",
     "what 99.73 % keep over the stretch, relative to its start, <= register.tolerance; worst case: a warning",
     "ISO/IEC Guide 98-3, 5.1.2; own derivation of the gains",
     ("register-budget",),

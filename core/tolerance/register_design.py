@@ -293,7 +293,9 @@ class RegisterDesign(Design):
         if status != "pass":
             sign = self.band.index(band)
             first = max(self.budgets[sign].rows, key=lambda row: row.share)
-            text += f"; {limit:g} mm are allowed: mend {first.source} first ({100 * first.share:.3g} % of the variance)"
+            text += (
+                f"; {limit:g} mm are allowed: improve {first.source} first ({100 * first.share:.3g} % of the variance)"
+            )
             text += f", or allow {safely_above(band if status == 'fail' else worst)} mm"
         yield REGISTER_BUDGET.check(status, text, band, limit, "mm")
 

@@ -147,7 +147,7 @@ def _pressure_remedy(design: WideSwingDesign) -> str:
     if design.spec.cycle is not None:
         return "change swing, or give that stroke another angle in cycle"
     keys = "cycle_angle" if design.spec.drive is None else "drive.crank"
-    return f"change {keys} or swing; a twin-cam wants a swing near 2 acos(r/a)"
+    return f"change {keys} or swing; a twin-cam needs a swing near 2 acos(r/a)"
 
 
 def cam_undercut(design: WideSwingDesign) -> Iterator[Check]:

@@ -22,7 +22,7 @@ PROFILE_EXISTS = Rule(
     "The pitch curve makes a loop, or the run-up takes no cam angle, or a twin-rocker turns no faster than its cam (no "
     "value is given then).",
     "A cam with a loop cannot be made.",
-    "Enlarge cycle_angle or reduce the swing; a twin-rocker wants a swing above 100 deg.",
+    "Enlarge cycle_angle or reduce the swing; a twin-rocker needs a swing above 100 deg.",
     "Phi = phi_ud/2 - xi > 0, and (dTheta/dtheta) rho^2/(1 - cos phi) > 0 over the stroke",
     "wide-swing dissertation (21), (22), (25); the loop: own derivation",
     ("profile-exists",),

@@ -257,7 +257,7 @@ def _check_stroke(stroke: float, rod: float, offset: float) -> None:
     if not stroke < largest:
         raise NoSolution(
             f"stroke {stroke:.6g} mm is too long for rod {rod:.6g} mm and offset {offset:.6g} mm: it must stay below "
-            f"{largest:.9g} mm; shorten it, lengthen the rod or lessen the offset"
+            f"{largest:.9g} mm; shorten it, lengthen the rod or reduce the offset"
         )
 
 

@@ -59,10 +59,12 @@ class ThreeGearSamples:
 
     def __init__(self, nominal: ThreeGearFourBar) -> None:
         if nominal.spec.gears.helix_angle:
-            raise NoSolution("tolerance and register know spur gears: leave helix_angle out", key="gears.helix_angle")
+            raise NoSolution(
+                "tolerance and register take spur gears only: leave helix_angle out", key="gears.helix_angle"
+            )
         if nominal.off_center:
             raise NoSolution(
-                "tolerance and register know meshes whose profile shifts add up to 0", key="gears.profile_shift"
+                "tolerance and register take only meshes whose profile shifts add up to 0", key="gears.profile_shift"
             )
         self.nominal = nominal
         links = nominal.linkage

@@ -44,7 +44,7 @@ class Intermediates(NamedTuple):
 
 
 def intermediates(r1: float, r3: float, r5: float, eccentricity: float) -> Intermediates:
-    """The steps of thesis (4-26) to (4-33), with its slips put right.
+    """The steps of thesis (4-26) to (4-33), with its slips corrected.
 
     K cos^4 b + L cos^2 b + M = 0,   sin alpha = r1 sin b/e,   AF = r1 cos b - e cos alpha,
     FE = 2 r3 cos b,   EG = r5 cos b,   GD = r5 sin b,   AD = sqrt((AF + FE + EG)^2 + GD^2)

@@ -51,10 +51,10 @@ def contact_loss(design: WideSwingLoads) -> Iterator[Check]:
     least = design.least_contact_force
     text = f"with all that acts the roller presses its cam with at least {least:.5g} N"
     if least < 0.0:
-        mend = "raise unloader.reserve, or lessen loads.forces"
+        remedy = "raise unloader.reserve, or reduce loads.forces"
         if design.spec.slider is not None and changes_apart(design):
-            mend = f"the device changes sides before or after the roller; {side_words(design.spec.slider)}"
-        message = f"{text}: it leaves the profile; {mend}"
+            remedy = f"the device changes sides before or after the roller; {side_words(design.spec.slider)}"
+        message = f"{text}: it leaves the profile; {remedy}"
         yield codes.CONTACT_LOSS.check("fail", message, least, 0.0, "N")
     else:
         yield codes.CONTACT_LOSS.check("pass", text, least, 0.0, "N")

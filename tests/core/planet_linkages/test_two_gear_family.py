@@ -250,7 +250,7 @@ def test_dwell_design(data: dict[str, Any]) -> None:
 @pytest.mark.parametrize("data", [SUNS, RINGS])
 @pytest.mark.parametrize("tolerance", [1e-6, 0.5, 5.0])
 def test_window_as_long_as_the_limit(data: dict[str, Any], tolerance: float) -> None:
-    """There the frames that meet the wish shrink to one, and the check of the edge says so."""
+    """There the frames that meet the request shrink to one, and the check of the edge says so."""
     limit = math.degrees(made("dwell", data, dwell={"tolerance": tolerance}).window_limit) * (1.0 - 1e-9)
     design = made("dwell", data, dwell={"window": limit, "tolerance": tolerance})
     low, high = design.frame_length_interval
