@@ -14,6 +14,7 @@ the band by a last bit leaves only phi13 of it: the window jumps there, so no de
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.numerics.roots import bracketed_root
@@ -154,6 +155,7 @@ def check_reach(i3: float, window: float, tolerance: float) -> None:
     )
 
 
+@lru_cache
 def greatest_ratio(window: float, tolerance: float) -> float | None:
     """Greatest -i3 with which the output can stay within +- tolerance over a window.
 
@@ -163,7 +165,8 @@ def greatest_ratio(window: float, tolerance: float) -> float | None:
         ratio : float - greatest idler teeth over output teeth; infinite where every ratio will do, None where none
             from 0.1 to 1000 does
     Notes
-        Bracketed root: the longest window falls as -i3 grows.
+        Bracketed root: the longest window falls as -i3 grows. Kept, for where an idler is sought all that are refused
+        ask for it.
     Example
         >>> round(greatest_ratio(math.radians(70.0), math.radians(0.5)), 6)
         2.020462
