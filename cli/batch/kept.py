@@ -6,6 +6,7 @@ import json
 import math
 from collections.abc import Sequence
 from dataclasses import fields, is_dataclass
+from functools import cache
 from types import NoneType, UnionType
 from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
 
@@ -58,11 +59,11 @@ def _restored(kind: Any, value: Any) -> Any:
     """A value as the type says: dataclasses from mappings, tuples from lists, all else as it is."""
     if kind is _Column:
         return _column(value)
-    if is_dataclass(kind):
-        types = get_type_hints(kind, localns=_NAMES)
-        if not isinstance(value, dict) or value.keys() != {field.name for field in fields(kind)}:
-            raise ValueError(f"no {kind.__name__}")  # type: ignore[union-attr]
-        return kind(**{name: _restored(types[name], value[name]) for name in value})  # type: ignore[operator]
+    if isinstance(kind, type) and is_dataclass(kind):
+        types = _types(kind)
+        if not isinstance(value, dict) or value.keys() != types.keys():
+            raise ValueError(f"no {kind.__name__}")
+        return kind(**{name: _restored(types[name], value[name]) for name in value})
     origin, inner = get_origin(kind), get_args(kind)
     if origin in (Union, UnionType):
         return _first_that_fits(inner, value)
@@ -73,6 +74,13 @@ def _restored(kind: Any, value: Any) -> Any:
     if not fits:
         raise ValueError(f"{value!r:.60} is no {getattr(kind, '__name__', kind)}")
     return value
+
+
+@cache
+def _types(kind: type) -> dict[str, Any]:
+    """The fields of a dataclass and their types, which stand in its module as words."""
+    hints = get_type_hints(kind, localns=_NAMES)
+    return {field.name: hints[field.name] for field in fields(kind)}
 
 
 def _first_that_fits(kinds: Sequence[Any], value: Any) -> Any:

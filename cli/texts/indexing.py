@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import asdict
 from typing import Any
 
@@ -52,10 +52,11 @@ def made() -> Index:
     from gearlink.core.cams.laws import REST_TO_REST, REST_TO_SPEED
     from gearlink.core.nomenclature import TERMS
 
+    shown = _shown()
     checks = dict.fromkeys(check for text in explanations().values() for check in text.checks)
     return Index(
         {check: [kind.name for kind in FILES.values() if _makes(kind, check)] for check in checks},
-        {name: list(_givers(name)) for name in TERMS},
+        {name: list(_givers(name, shown)) for name in TERMS},
         [*REST_TO_REST, *REST_TO_SPEED, "half-345", "half-4567", "velocity-345", "velocity-4567"],
         {kind.name: _first_command(kind, worked_design(kind)) for kind in FILES.values()},
     )
@@ -68,20 +69,29 @@ def _makes(kind: Kind, check: str) -> bool:
     return check in shown or any(hasattr(cls, "check_" + check.replace("-", "_")) for cls in classes)
 
 
-def _givers(name: str) -> Iterator[str]:
-    """Kinds that have the quantity and the commands that show it."""
+def _shown() -> dict[str, tuple[dict[str, set[str]], set[str]]]:
+    """Of each kind the quantities that each command always shows, and all that it has."""
+    found = {}
     for kind in FILES.values():
-        always, known = [], False
-        for command in kind.commands:
-            cls = kind.design_class(command)
-            shown = {quantity.rpartition(".")[2] for quantity in cls.outlines[command].quantities}
-            known = known or name in {q.rpartition(".")[2] for q in cls.quantity_names()}
-            if name in shown:
-                always.append(command)
+        classes = {command: kind.design_class(command) for command in kind.commands}
+        always = {command: _ends(cls.outlines[command].quantities) for command, cls in classes.items()}
+        known = {name for cls in set(classes.values()) for name in _ends(cls.quantity_names())}
+        found[kind.name] = always, known
+    return found
+
+
+def _ends(paths: Iterable[str]) -> set[str]:
+    return {path.rpartition(".")[2] for path in paths}
+
+
+def _givers(name: str, shown: dict[str, tuple[dict[str, set[str]], set[str]]]) -> Iterator[str]:
+    """Kinds that have the quantity and the commands that show it."""
+    for kind, (by_command, known) in shown.items():
+        always = [command for command, names in by_command.items() if name in names]
         if always:
-            yield f"{kind.name} ({', '.join(always)})"
-        elif known:
-            yield f"{kind.name} (where the file has the sections for it)"
+            yield f"{kind} ({', '.join(always)})"
+        elif name in known:
+            yield f"{kind} (where the file has the sections for it)"
 
 
 def _first_command(kind: Kind, text: str) -> str:

@@ -122,7 +122,8 @@ def roots_on(f: Callable[[float], float], grid: Sequence[float]) -> list[float]:
         >>> roots_on(lambda x: x * x - 2.0, [-2.0, 0.0, 2.0])
         [-1.414213562373095, 1.414213562373095]
     """
-    return [bracketed_root(f, grid[i], grid[i + 1]) for i in sign_changes([f(x) for x in grid])]
+    values = [f(x) for x in grid]
+    return [bracketed_root(f, grid[i], grid[i + 1], ends=(values[i], values[i + 1])) for i in sign_changes(values)]
 
 
 def maximum(f: Callable[[float], float], low: float, high: float) -> tuple[float, float]:

@@ -13,15 +13,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.fourbar.position import FourBar, solve
+from gearlink.core.linkages.fourbar.loop import rates_of
+from gearlink.core.linkages.fourbar.position import FourBar, FourBarState, solve
 
 Carrier = Literal["crank", "rocker"]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class PlanetLinkage:
     """A four-bar and the ratio of the gear on its coupler.
 
@@ -51,6 +53,10 @@ class PlanetLinkage:
                 "more teeth than the gear in it"
             )
 
+    @cached_property
+    def _start(self) -> FourBarState:
+        return solve(self.linkage, 0.0)
+
     def angle(self, crank_angle: float) -> float:
         """Angle of the output gear, 0 at the crank angle 0, continuous over any number of turns.
 
@@ -70,7 +76,7 @@ class PlanetLinkage:
         Source
             thesis 2.2.1, integrated
         """
-        here, start = solve(self.linkage, crank_angle), solve(self.linkage, 0.0)
+        here, start = solve(self.linkage, crank_angle), self._start
         rocker = here.rocker_angle - start.rocker_angle
         carrier = crank_angle if self.carrier == "crank" else rocker
         return (1.0 - self.ratio) * carrier + self.ratio * (here.coupler_angle - start.coupler_angle)
@@ -83,9 +89,9 @@ class PlanetLinkage:
         Source
             thesis 2.2.1
         """
-        state = solve(self.linkage, crank_angle, 1)
-        carrier = 1.0 if self.carrier == "crank" else state.rocker_velocity
-        return (1.0 - self.ratio) * carrier + self.ratio * state.coupler_velocity
+        coupler, rocker = rates_of(self.linkage.reading, crank_angle, 1)
+        carrier = 1.0 if self.carrier == "crank" else rocker
+        return (1.0 - self.ratio) * carrier + self.ratio * coupler
 
     def acceleration(self, crank_angle: float) -> float:
         """Acceleration ratio of the output gear at constant crank speed, dW/dphi [1/rad].
@@ -93,9 +99,9 @@ class PlanetLinkage:
         Raises
             NoSolution - where the linkage does not close
         """
-        state = solve(self.linkage, crank_angle, 2)
-        carrier = 0.0 if self.carrier == "crank" else state.rocker_acceleration
-        return (1.0 - self.ratio) * carrier + self.ratio * state.coupler_acceleration
+        coupler, rocker = rates_of(self.linkage.reading, crank_angle, 2)
+        carrier = 0.0 if self.carrier == "crank" else rocker
+        return (1.0 - self.ratio) * carrier + self.ratio * coupler
 
     def jerk(self, crank_angle: float) -> float:
         """Jerk ratio of the output gear at constant crank speed, d2W/dphi2 [1/rad^2].
@@ -103,9 +109,9 @@ class PlanetLinkage:
         Raises
             NoSolution - where the linkage does not close
         """
-        state = solve(self.linkage, crank_angle, 3)
-        carrier = 0.0 if self.carrier == "crank" else state.rocker_jerk
-        return (1.0 - self.ratio) * carrier + self.ratio * state.coupler_jerk
+        coupler, rocker = rates_of(self.linkage.reading, crank_angle, 3)
+        carrier = 0.0 if self.carrier == "crank" else rocker
+        return (1.0 - self.ratio) * carrier + self.ratio * coupler
 
     def mean_ratio(self) -> float:
         """Net output turns per crank turn.

@@ -18,6 +18,7 @@ from gearlink.core.gears.train.ways import train_ways
 from gearlink.core.linkages import standstills
 from gearlink.core.linkages.checks import check_linkage, transmission_check
 from gearlink.core.linkages.feed import FEED_QUANTITIES, FeedResults
+from gearlink.core.linkages.fourbar.loop import rates_of
 from gearlink.core.linkages.fourbar.position import FourBar, solve
 from gearlink.core.linkages.fourbar.swing import rocker_swing
 from gearlink.core.linkages.output_rates import OutputRates
@@ -188,10 +189,8 @@ class TwoGearFourBar(OutputRates, FeedResults, Meshed):
     @cached_property
     def coupler_turnings(self) -> list[Turning]:
         """Extremes of the coupler's speed per crank speed; those of the output lie at the same crank angles."""
-        return standstills.turnings(
-            lambda phi: solve(self.linkage, phi, 1).coupler_velocity,
-            lambda phi: solve(self.linkage, phi, 2).coupler_acceleration,
-        )
+        links = self.linkage.reading
+        return standstills.turnings(lambda phi: rates_of(links, phi, 1)[0], lambda phi: rates_of(links, phi, 2)[0])
 
     @cached_property
     def speed_turnings(self) -> list[Turning]:

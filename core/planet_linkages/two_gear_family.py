@@ -22,7 +22,8 @@ from dataclasses import dataclass
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages import standstills
 from gearlink.core.linkages.band_dwell import ToleranceDwell, Valley, longest_in_band
-from gearlink.core.linkages.fourbar.position import FourBar, solve
+from gearlink.core.linkages.fourbar.loop import rates_of
+from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.linkages.standstills import BackStep, Turning
 from gearlink.core.numerics.gauss import integral
 from gearlink.core.numerics.roots import bracketed_root, roots_on
@@ -290,7 +291,5 @@ def _never(family: Family) -> str:
 
 def coupler_turnings(drive: PlanetLinkage) -> list[Turning]:
     """Extremes of the coupler's speed per crank speed; those of the output lie at the same crank angles."""
-    links = drive.linkage
-    return standstills.turnings(
-        lambda phi: solve(links, phi, 1).coupler_velocity, lambda phi: solve(links, phi, 2).coupler_acceleration
-    )
+    links = drive.linkage.reading
+    return standstills.turnings(lambda phi: rates_of(links, phi, 1)[0], lambda phi: rates_of(links, phi, 2)[0])

@@ -16,6 +16,7 @@ from typing import NamedTuple
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.checks import check_linkage
+from gearlink.core.linkages.fourbar.loop import rates_of
 from gearlink.core.linkages.fourbar.position import FourBar, FourBarState, solve
 from gearlink.core.linkages.standstills import zeros_over_turn
 
@@ -147,8 +148,7 @@ def output_speed(linkage: FourBar, train: GearTrain, crank_angle: float) -> floa
     Source
         thesis (4-24)
     """
-    state = solve(linkage, crank_angle, 1)
-    return train.ratio + _blend(train, state.coupler_velocity, state.rocker_velocity)
+    return train.ratio + _blend(train, *rates_of(linkage.reading, crank_angle, 1))
 
 
 def output_acceleration(linkage: FourBar, train: GearTrain, crank_angle: float) -> float:
@@ -168,8 +168,7 @@ def output_acceleration(linkage: FourBar, train: GearTrain, crank_angle: float) 
     Source
         thesis (4-25)
     """
-    state = solve(linkage, crank_angle, 2)
-    return _blend(train, state.coupler_acceleration, state.rocker_acceleration)
+    return _blend(train, *rates_of(linkage.reading, crank_angle, 2))
 
 
 def output_jerk(linkage: FourBar, train: GearTrain, crank_angle: float) -> float:
@@ -189,8 +188,7 @@ def output_jerk(linkage: FourBar, train: GearTrain, crank_angle: float) -> float
     Source
         thesis (4-25), differentiated
     """
-    state = solve(linkage, crank_angle, 3)
-    return _blend(train, state.coupler_jerk, state.rocker_jerk)
+    return _blend(train, *rates_of(linkage.reading, crank_angle, 3))
 
 
 def mean_ratio(linkage: FourBar, train: GearTrain) -> float:

@@ -73,6 +73,14 @@ def solve_loop(reading: Reading, phi: float, order: int, motion: tuple[float, fl
     return result
 
 
+def rates_of(reading: Reading, phi: float, order: int) -> tuple[float, float]:
+    """Rates of coupler and rocker of that order by the driving angle: those of `solve_loop`, to the last bit, without
+    its angles."""
+    sin_phi, cc, ss, n2, r, z = _triangle(reading, phi, order)
+    *_, coupler, rocker = _rates(reading, sin_phi, (cc, ss), n2, r, z, order, (1.0, 0.0, 0.0))
+    return coupler, rocker
+
+
 def rocker_and_rate(reading: Reading, phi: float) -> tuple[float, float]:
     """Rocker angle and its rate by the driving angle: those of `solve_loop`, to the last bit, and nothing else."""
     s, e = reading.s, reading.e
