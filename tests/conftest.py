@@ -28,6 +28,17 @@ ROOT = Path(__file__).resolve().parents[1]
 # The collector finds little here and walks all modules, specs and figures to say so: as the program itself does.
 gc.set_threshold(50_000, 20, 100)
 
+
+@pytest.hookimpl(trylast=True)
+def pytest_unconfigure() -> None:
+    """What the run has kept is left to the end of the process: pytest and the interpreter walk it five times before
+    they end, which took a twelfth of `make test`. Young rings that nothing holds are still looked at, and with them
+    what they never closed; `make check-full` looks at all."""
+    if not sweeps.ALL:
+        gc.collect(1)
+        gc.freeze()
+
+
 # Commands that are run in the process of the tests fork workers. A thread of OpenBLAS that is at work just then leaves
 # its locks taken in the fork, which waits for them for ever. The program leaves them out likewise; no numpy is loaded
 # yet.

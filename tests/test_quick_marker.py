@@ -72,12 +72,23 @@ def collected(folder: Path, *options: str) -> list[str]:
     return [line.partition("::")[2] for line in ended.stdout.splitlines() if "::" in line]
 
 
-def test_even_spread_of_the_cases_is_quick(tmp_path: Path) -> None:
-    wanted = [f"{name}[{i}]" for name, kept in KEPT.items() for i in kept]
-    assert sorted(collected(tmp_path)) == sorted([*wanted, "test_without_cases"])
+def quick_cases() -> list[str]:
+    return sorted([*(f"{name}[{i}]" for name, kept in KEPT.items() for i in kept), "test_without_cases"])
+
+
+def test_even_spread_of_the_cases_is_quick(tmp_path: Path, request: pytest.FixtureRequest) -> None:
+    """What the hook of conftest.py leaves unmarked of the cases that pytest makes of a module."""
+    path = tmp_path / "test_cases.py"
+    path.write_text(CASES)
+    items = list(request.session.genitems(pytest.Module.from_parent(request.session, path=path)))
+    hooks = request.config.pluginmanager.get_plugin(str(ROOT / "tests" / "conftest.py"))
+    hooks.pytest_collection_modifyitems(items)
+    kept = [item for item in items if not item.get_closest_marker("slow")]
+    assert sorted(item.nodeid.rpartition("test_cases.py::")[2] for item in kept) == quick_cases()
 
 
 @pytest.mark.slow
 def test_all_cases_are_in_the_full_run(tmp_path: Path) -> None:
+    assert sorted(collected(tmp_path)) == quick_cases()
     wanted = [f"{name}[{i}]" for name in KEPT for i in range(10)]
     assert sorted(collected(tmp_path, "-m", "not stress")) == sorted([*wanted, "test_without_cases"])

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from sweeps import mostly_slow
+from sweeps import ALL, mostly_slow
 
 from gearlink.cli.commands.chart import Marked
 from gearlink.cli.figures.chart_list import CHARTS
@@ -87,11 +87,13 @@ def test_a_mark_outside_the_range_widens_it() -> None:
     mostly_slow([("back-step", "png"), ("back-step", "pdf"), *((name, "svg") for name in CHARTS)], 1),
 )
 def test_every_chart_is_drawn_the_same_every_time(gearlink: Any, tmp_path: Path, name: str, ending: str) -> None:
-    for folder in ("a", "b"):
+    folders = ["a", *(["b"] if ALL else [])]
+    for folder in folders:
         command = ("chart", name, "--plot", "--plot-format", ending, "--out", tmp_path / folder, "--format", "csv")
         assert gearlink(*command).status == 0
-    first, second = (tmp_path / folder / f"{name}-chart.{ending}" for folder in ("a", "b"))
-    assert first.read_bytes() == second.read_bytes()
+    first, *again = ((tmp_path / folder / f"{name}-chart.{ending}").read_bytes() for folder in folders)
+    assert first
+    assert all(other == first for other in again)
 
 
 def test_without_a_name_the_charts_are_listed(gearlink: Any) -> None:

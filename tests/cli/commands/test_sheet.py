@@ -84,7 +84,7 @@ def test_radii_of_each_degree_lie_on_the_pitch_curve() -> None:
     for name in ("ty460", "swing_gripper"):
         for cam in cam_sheets.discs(design(worked(name))):
             radii = cam_sheets.pitch_radii(cam)
-            theta = np.linspace(0.0, 2.0 * math.pi, 200001)
+            theta = np.linspace(0.0, 2.0 * math.pi, 50001)
             pitch, _ = cam.points(theta)
             angle = np.mod(np.angle(pitch / pitch[0]), 2.0 * math.pi)
             for degree in range(0, 360, 37):

@@ -11,6 +11,9 @@ import pytest
 from matplotlib.figure import Figure
 from sweeps import mostly_slow
 
+from gearlink.cli import process
+from gearlink.cli.figures import write
+
 MAGIC = {"png": b"\x89PNG\r\n", "svg": b"<?xml", "pdf": b"%PDF-"}
 FIGURES = [
     ("crank", "ty460_slider_crank", "png"),
@@ -76,6 +79,15 @@ def test_every_panel_is_drawn_once(
     assert len(drawn) == 1
 
 
+def test_python_code_loads_matplotlib_as_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The command's own process, which leaves out its help, stands in test_laziness.py."""
+    monkeypatch.delitem(sys.modules, "matplotlib.figure")
+    assert not process.runs_the_command_alone
+    write._load_without_documents()
+    assert "matplotlib.figure" not in sys.modules
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize("alone", [True, False])
 def test_the_command_loads_matplotlib_without_its_help_and_python_code_with_it(designs: Path, alone: bool) -> None:
     """In a notebook `help` of matplotlib is whole, whatever is called; a command leaves `kwdoc` as it was."""

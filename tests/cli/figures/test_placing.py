@@ -44,7 +44,7 @@ def test_what_is_filled_reaches_as_far_as_matplotlib_says(ours: Any, theirs: Any
 
 @pytest.mark.quick(1)
 @pytest.mark.parametrize(
-    ("name", "command"), [("ty460", "cam"), ("candy_feed", "synth dwell"), ("swing_gripper", "gripper")]
+    ("name", "command"), [("candy_feed", "synth dwell"), ("ty460", "cam"), ("swing_gripper", "gripper")]
 )
 def test_words_beside_panels_are_clear_of_all_numbers_and_in_a_line(name: str, command: str) -> None:
     made = sheet(name, command).figure

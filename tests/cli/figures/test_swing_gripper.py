@@ -182,7 +182,7 @@ ODD: dict[str, tuple[dict[str, Any], tuple[str, ...]]] = {
 }
 
 
-@pytest.mark.parametrize("command", mostly_slow(["gripper", "cam", "analyze"], 1))
+@pytest.mark.parametrize("command", mostly_slow(["gripper", "cam", "analyze"], 0))
 def test_every_command_draws(command: str) -> None:
     figure = placed_sheet(PAPER, command).figure
     figure.savefig(io.BytesIO(), format="png", dpi=40)

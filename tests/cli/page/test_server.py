@@ -11,6 +11,7 @@ from typing import Any
 
 import pytest
 from factory import design
+from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 from gearlink.cli.commands.watch import _make, run_watch
@@ -94,6 +95,20 @@ def test_a_file_becomes_pieces_and_a_wrong_one_a_caret(tmp_path: Path) -> None:
 CRANK = {"kind": "slider-crank", "name": "crank", "stroke": 310, "rod": 520}
 
 
+@pytest.fixture
+def one_panel(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Sheets of one panel, whose numbers beside it take more room where the rod is long."""
+
+    def panels(command: str, made: Any) -> Figure:
+        figure = Figure(figsize=(3, 2), layout="constrained")
+        axes = figure.add_subplot(xlabel="crank angle [deg]", ylabel="rod [mm]")
+        axes.plot(range(30), [made.spec.rod * 1.001**i for i in range(30)])
+        return figure
+
+    monkeypatch.setattr("gearlink.cli.figures.write.panels", panels)
+
+
+@pytest.mark.usefixtures("one_panel")
 def test_a_sheet_is_drawn_where_its_panels_were(monkeypatch: pytest.MonkeyPatch) -> None:
     """Both end with the bytes of a report."""
     sheets = Remembered()
@@ -106,7 +121,7 @@ def test_a_sheet_is_drawn_where_its_panels_were(monkeypatch: pytest.MonkeyPatch)
     assert drawn == sheet("crank", like)
 
 
-@pytest.mark.slow
+@pytest.mark.usefixtures("one_panel")
 def test_a_sheet_is_drawn_again_where_its_panels_moved() -> None:
     """Only what moves the panels is drawn twice."""
     sheets, wide = Remembered(), design(CRANK, rod=52000)
@@ -114,6 +129,7 @@ def test_a_sheet_is_drawn_again_where_its_panels_moved() -> None:
     whole = sheet("crank", wide)
     assert sheets.at_once("crank", wide, ()) != whole
     assert sheets.moved("crank", wide, ()) == whole
+    assert sheets.moved("crank", wide, ()) == "", "they stand where they were placed last"
 
 
 @pytest.mark.slow

