@@ -6,6 +6,7 @@ import json
 from typing import Any
 
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
+from gearlink.cli.reading.places import is_named_pipe
 
 LARGEST = 1 << 26
 """Bytes; the results of a batch of some thousand designs, tables left out of account."""
@@ -46,7 +47,7 @@ def incomparable(file: str, message: str) -> DesignFileError:
 
 def _text(file: str) -> bytes | None:
     """What a file holds that begins as a JSON object does."""
-    if file == "-":
+    if file == "-" or is_named_pipe(file):
         return None
     try:
         with open(file, "rb") as stream:

@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from gearlink.cli.cluster import processor
+from gearlink.cli.reading.places import is_named_pipe
 from gearlink.core.errors import GearlinkError
 from gearlink.core.explore.chunks import Chunk, Miss
 from gearlink.core.explore.preparing import problem_of
@@ -168,6 +169,8 @@ def _refused(path: Path, error: sqlite3.Error) -> CannotStore:
 
 def is_store(source: str) -> bool:
     """Whether a file is a store rather than the text of a study."""
+    if is_named_pipe(source):
+        return False
     try:
         with open(source, "rb") as stream:
             return stream.read(len(_MAGIC)) == _MAGIC

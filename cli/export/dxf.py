@@ -14,6 +14,7 @@ from gearlink.cli.export.contour import Contour, Line, extents
 from gearlink.cli.export.header import describe
 from gearlink.cli.export.options import CurveForm
 from gearlink.cli.export.sampling import Points
+from gearlink.cli.quiet import without_notes
 from gearlink.core.errors import GearlinkError
 
 if TYPE_CHECKING:
@@ -70,7 +71,8 @@ def as_dxf(contour: Contour, spec: Any) -> bytes:
 def _ezdxf() -> Iterator[Any]:
     """ezdxf, writing no dates and no random identities as long as it is used here."""
     try:
-        ezdxf: Any = import_module("ezdxf")
+        with without_notes("ezdxf"):
+            ezdxf: Any = import_module("ezdxf")
     except ImportError as error:
         raise NoDxf("DXF needs the library ezdxf: pip install ezdxf, or take --as svg or csv") from error
     before = ezdxf.options.write_fixed_meta_data_for_testing

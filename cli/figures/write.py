@@ -14,6 +14,7 @@ from gearlink.cli import process
 from gearlink.cli.figures.drawing.placing import Places, settled
 from gearlink.cli.files import safe_stem, write_atomically
 from gearlink.cli.options import DPI, Options
+from gearlink.cli.quiet import without_notes
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -96,7 +97,8 @@ def _load_without_documents() -> None:
     """
     if not process.runs_the_command_alone or "matplotlib.figure" in sys.modules:
         return
-    import matplotlib.artist as artists
+    with without_notes("matplotlib"):
+        import matplotlib.artist as artists
 
     def nothing(artist: Any) -> str:  # noqa: ARG001 - the name is part of what is replaced
         return ""
@@ -113,7 +115,8 @@ def _load_without_documents() -> None:
 @contextmanager
 def fonts_of(name: str) -> Iterator[None]:
     """Fonts that have the letters of a name, where some are installed; a script that none has is drawn as boxes."""
-    import matplotlib
+    with without_notes("matplotlib"):
+        import matplotlib
 
     style: Any = {**_FIXED_STYLE, "font.family": families(name)}
     with matplotlib.rc_context(style), warnings.catch_warnings():
@@ -125,7 +128,8 @@ def families(name: str) -> list[str]:
     """The usual font, and one for the script of the name where it needs one that is installed."""
     if name.isascii():
         return ["sans-serif"]
-    from matplotlib.font_manager import get_font_names
+    with without_notes("matplotlib"):
+        from matplotlib.font_manager import get_font_names
 
     installed = set(get_font_names())
     return ["sans-serif", *(font for font in _ASIAN_FONTS if font in installed)]

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
 
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic, Source
 from gearlink.cli.reading.loaded_file import KeyPath, LoadedFile, Override, parse_path
-from gearlink.cli.reading.places import ENDINGS, astray
+from gearlink.cli.reading.places import ENDINGS, astray, is_named_pipe
 from gearlink.cli.reading.yaml_reader import (
     CONTROL,
     MAX_BYTES,
@@ -46,6 +46,9 @@ def load(source: str | os.PathLike[str], *, overrides: Sequence[str] = (), stdin
         DesignFileError - with everything that keeps it from being read (GL101 to GL104, GL110, GL114)
     """
     name = "<stdin>" if source == "-" else os.fspath(source)
+    if source != "-" and is_named_pipe(name):
+        message = "a pipe, for whose writer nothing waits here: give - and the pipe as standard input"
+        raise DesignFileError([Diagnostic("GL101", message, name)])
     if target := astray(name):
         message = f"a link to {target}, which is no design file ({', '.join(ENDINGS)})"
         raise DesignFileError([Diagnostic("GL101", message, name)])

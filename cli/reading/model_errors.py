@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.reading.diagnostics import Diagnostic
 from gearlink.cli.reading.loaded_file import KeyPath, LoadedFile, parse_path
-from gearlink.cli.reading.model_shapes import allowed_range, fields_at, takes_truth_value, unit_at
+from gearlink.cli.reading.model_shapes import allowed_range, fields_at, meaning_at, takes_truth_value, unit_at
 from gearlink.cli.reading.value_words import (
     WANTED,
     bound,
@@ -148,7 +148,8 @@ class _Wording:
         if first.value is None:
             message = f"{name} is empty: it must be {listed}"
         code = "GL108" if only_choice and isinstance(first.value, (str, int, float)) else "GL107"
-        return self._say(code, first, message, self._value_remedy(group, wanted))
+        about = "" if only_choice else meaning_at(self.model, first.path, self.loaded.data)
+        return self._say(code, first, message, self._value_remedy(group, wanted) or about)
 
     def _value_remedy(self, group: list[_Finding], wanted: list[str]) -> str:
         kinds, value = {f.kind for f in group}, group[0].value
@@ -173,11 +174,9 @@ class _Wording:
         *parent, last = finding.path
         if isinstance(last, int):
             return self._say("GL106", finding, f"{format_path(finding.path)} is missing: the list is too short")
-        fields = fields_at(self.model, tuple(parent), self.loaded.data)
-        meaning = fields[last].description if last in fields else None
         where = f" in '{format_path(tuple(parent))}'" if parent else ""
         message = f"the key '{last}' is missing{where}"
-        return self._say("GL106", finding, message, f"{last}: {meaning}" if meaning else "")
+        return self._say("GL106", finding, message, meaning_at(self.model, finding.path, self.loaded.data))
 
     def _unknown(self, finding: _Finding) -> Diagnostic:
         *parent, last = finding.path
@@ -222,7 +221,8 @@ class _Wording:
     def _no_tag(self, finding: _Finding) -> Diagnostic:
         path = (*finding.path, finding.context.get("discriminator", "").strip("'"))
         where = f" in '{format_path(finding.path)}'" if finding.path else ""
-        return self.loaded.report("GL106", f"the key '{path[-1]}' is missing{where}", path)
+        about = meaning_at(self.model, path, self.loaded.data)
+        return self.loaded.report("GL106", f"the key '{path[-1]}' is missing{where}", path, help=about)
 
     def _wrong_length(self, finding: _Finding) -> Diagnostic:
         context = finding.context
@@ -230,7 +230,7 @@ class _Wording:
         wanted = f"at least {least}" if most is None else f"at most {most}"
         count = context.get("actual_length")
         message = f"{format_path(finding.path)} must have {wanted} entries, not {count}"
-        return self._say("GL107", finding, message)
+        return self._say("GL107", finding, message, meaning_at(self.model, finding.path, self.loaded.data))
 
     def _not_finite(self, finding: _Finding) -> Diagnostic:
         return self._say(

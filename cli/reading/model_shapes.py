@@ -15,6 +15,7 @@ from gearlink.core.spec import Deferred
 if TYPE_CHECKING:
     from gearlink.cli.reading.loaded_file import KeyPath
 
+_MOST_KEYS = 12
 Shape = tuple[Any, tuple[Any, ...]]
 """A type without unions around it, and the constraints that its annotations carry."""
 
@@ -36,12 +37,42 @@ def fields_at(model: type[BaseModel], path: KeyPath, data: Any) -> dict[str, Fie
 
 def allowed_range(model: type[BaseModel], path: KeyPath, data: Any) -> str:
     """The range of a number that is bounded on both sides, or nothing."""
+    low, high = _limits(model, path, data)
+    return f"{low} {'' if high.startswith('to') else 'and '}{high}" if low and high else ""
+
+
+def meaning_at(model: type[BaseModel], path: KeyPath, data: Any) -> str:
+    """What a key is for: its words, its unit and limits, or the keys of a section; of an element those of its list.
+
+    Example
+        >>> from gearlink.core.linkages.slider_crank_spec import SliderCrankSpec
+        >>> meaning_at(SliderCrankSpec, ("rod",), {})
+        'rod: connecting rod (mm, above 0)'
+    """
+    while path and isinstance(path[-1], int):
+        path = path[:-1]
+    name = str(path[-1]) if path else ""
+    field = fields_at(model, path[:-1], data).get(name)
+    if field is None:
+        return ""
+    unit = unit_at(model, path, data)
+    number = ", ".join(filter(None, ["" if unit == "1" else unit, " ".join(filter(None, _limits(model, path, data)))]))
+    words = (field.description or "").removesuffix(f" [{unit}]")
+    words = f"{words} ({number})" if words and number else words or number
+    inner = fields_at(model, path, None)
+    keys = sorted(inner, key=lambda key: not inner[key].is_required())  # those that it needs first
+    listed = keys and f"its keys are {', '.join(keys[:_MOST_KEYS])}{', ...' if len(keys) > _MOST_KEYS else ''}"
+    text = "; ".join(filter(None, [words, listed or ""]))
+    return f"{name}: {text}" if text else ""
+
+
+def _limits(model: type[BaseModel], path: KeyPath, data: Any) -> tuple[str, str]:
     low = high = ""
     for _, constraints in _shapes_at(model, path, data)[0]:
         for constraint in constraints:
             low = _limit(constraint, ("gt", "above"), ("ge", "from")) or low
             high = _limit(constraint, ("lt", "below"), ("le", "to")) or high
-    return f"{low} {'' if high.startswith('to') else 'and '}{high}" if low and high else ""
+    return low, high
 
 
 def unit_at(model: type[BaseModel], path: KeyPath, data: Any) -> str:

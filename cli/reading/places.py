@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import glob
 import os
+import stat
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -39,6 +40,16 @@ def astray(name: str) -> str:
         return ""
     target = os.path.realpath(name)
     return "" if target.endswith(ENDINGS) or not os.path.exists(target) else target
+
+
+def is_named_pipe(name: str) -> bool:
+    """Whether a file waits for ever for someone who writes: a pipe on the disk, not one that a shell has opened."""
+    if name.startswith(("/dev/", "/proc/")):  # <(command) of a shell, /dev/stdin
+        return False
+    try:
+        return stat.S_ISFIFO(os.stat(name).st_mode)
+    except (OSError, ValueError):
+        return False
 
 
 def _matched(pattern: str) -> list[Path]:

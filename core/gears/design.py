@@ -137,14 +137,14 @@ class GearPairDesign(GearQuantities, Design):
 
     def raw(self, name: str) -> Any:
         """Every quantity is the pair's."""
-        with at_key(self._placed_by):
+        with at_key(self._decided_by(name)):
             if self.spec.rack and self.rack is not None:
                 return self.rack.quantity(name)
             return gear_quantity(self.gear_pair, name) if name in GEAR_QUANTITIES else self.data.quantity(name)
 
     def check(self, name: str) -> list[Check]:
         """Every check is the pair's."""
-        with at_key(self._placed_by):
+        with at_key(self._decided_by(name)):
             if self.spec.rack and self.rack is not None:
                 return list(self.rack.checks(name, self.spec.limits))
             return pair_check(name, self.data, self.spec.limits, radial=self.spec.assembly == "radial")
@@ -217,6 +217,11 @@ class GearPairDesign(GearQuantities, Design):
         """How far the design is from each line of the contour, at the same shift sum."""
         with at_key(self._placed_by):
             return self.contour.margin_table()
+
+    def _decided_by(self, name: str) -> str:
+        """The key that decides whether a quantity or a check exists."""
+        at_limits = "backlash" in name and self.spec.center_distance_allowance is not None
+        return "center_distance_allowance" if at_limits else self._placed_by
 
     @property
     def _placed_by(self) -> str:

@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages import standstills
 from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.planet_linkages.planet import PlanetLinkage
+from gearlink.core.report import safely_above
 
 _STEPS = 48
 # The swing is sought up to this share of the longest crank; beyond it the transmission angle is below a degree.
 _LARGEST = 1.0 - 1e-6
+# And from this share on: the swing of a vanishing crank is zero, but its linkage has no extremes to find.
+_SMALLEST = 1e-6
 
 
 def extreme_crank_angles(drive: PlanetLinkage) -> list[float]:
@@ -104,8 +108,7 @@ def crank_for_swing(coupler: float, rocker: float, frame: float, assembly: int, 
         crank = limit * i / _STEPS
         value = excess(crank)
         if value >= 0.0:
-            # The swing of a vanishing crank is zero, but its linkage has no extremes to find: start a little above.
-            start = low if low > 0.0 else limit * 1e-6
+            start = low if low > 0.0 else _least_crank(excess, limit, swing)
             return bracketed_root(excess, start, crank)
         low, below_low = crank, value
         greatest = max(greatest, below_low)
@@ -115,3 +118,18 @@ def crank_for_swing(coupler: float, rocker: float, frame: float, assembly: int, 
         f"{math.floor(reach * 10.0) / 10.0:g} deg at most; ask for less, or take more teeth on the coupler gear (now "
         f"z2/z5 = {abs(ratio):.6g})"
     )
+
+
+def _least_crank(excess: Callable[[float], float], limit: float, swing: float) -> float:
+    """A crank that swings the output less than is asked for.
+
+    Raises
+        NoSolution - where even the shortest that is tried swings it farther
+    """
+    crank = limit * _SMALLEST
+    if (over := excess(crank)) >= 0.0:
+        raise NoSolution(
+            f"a swing of {math.degrees(swing):.6g} deg is next to a standstill: ask for "
+            f"{safely_above(math.degrees(over + swing), 3)} deg or more"
+        )
+    return crank

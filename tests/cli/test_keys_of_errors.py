@@ -1,0 +1,81 @@
+"""What is refused stands at the key to change, in words of its own; and nothing waits or speaks that should not."""
+
+from __future__ import annotations
+
+import logging
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from gearlink.cli.quiet import without_notes
+
+_ALLOWED = """\
+{kind: gear-pair, module: 1e-5, teeth: [23, 71], profile_shift: [0.35, 0.15], center_distance_allowance: js7}
+"""
+_ROCKER = """\
+{kind: geared-rocker, gears: {module: 2.4, coupler: 30, output: 20}, links: {coupler: 70, frame: 80},
+ target: {swing: 1e-5}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "key", "words"),
+    [
+        (_ALLOWED, "center_distance_allowance", "centre distance at a limit of its allowance: -0.0"),
+        (_ROCKER, "target.swing", "next to a standstill: ask for 0.000248 deg or more"),
+    ],
+)
+def test_the_key_that_is_to_change(gearlink: Any, tmp_path: Path, text: str, key: str, words: str) -> None:
+    path = tmp_path / "design.yaml"
+    path.write_text(text)
+    ended = gearlink("check", path, "--format", "json")
+    assert ended.status == 2
+    (found,) = [each for each in ended.json["findings"] if each["status"] == "error"]
+    assert found["key"] == key
+    assert words in found["message"]
+    assert "sign change" not in found["message"]
+
+
+def test_the_least_swing_that_is_named_is_taken(gearlink: Any, tmp_path: Path) -> None:
+    path = tmp_path / "design.yaml"
+    path.write_text(_ROCKER.replace("1e-5", "0.000248"))
+    assert gearlink("analyze", path, "--quantity", "crank_length").status == 0
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no named pipes")
+@pytest.mark.parametrize("words", [["check"], ["gear"], ["diff", "{}"], ["explore"]])
+def test_a_pipe_that_nobody_fills_is_not_waited_for(gearlink: Any, tmp_path: Path, words: list[str]) -> None:
+    pipe = tmp_path / "design.yaml"
+    os.mkfifo(pipe)
+    ended = gearlink(*(word.format(pipe) for word in words), pipe)
+    assert ended.status == 2
+    assert "give - and the pipe as standard input" in ended.out + ended.err
+
+
+def test_a_pipe_that_a_shell_has_opened_is_read(gearlink: Any) -> None:
+    reading, writing = os.pipe()
+    with open(writing, "w") as stream:
+        stream.write("{kind: gear-pair, module: 4, teeth: [17, 40], profile_shift: [0, 0]}")
+    ended = gearlink("gear", f"/dev/fd/{reading}", "--quantity", "center_distance")
+    os.close(reading)
+    assert (ended.status, ended.out) == (0, "114.0 mm\n")
+
+
+def test_libraries_keep_their_notes_while_they_are_loaded() -> None:
+    logger = logging.getLogger("gearlink.test")
+    with without_notes("gearlink.test"):
+        assert not logger.isEnabledFor(logging.WARNING)
+    assert logger.isEnabledFor(logging.WARNING)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("words", [["cam", "--plot", "--quantity", "min_radius"], ["export", "--part", "main_cam"]])
+def test_a_home_that_cannot_be_written_changes_nothing(designs: Path, tmp_path: Path, words: list[str]) -> None:
+    command = [sys.executable, "-m", "gearlink.cli.main", *words, str(designs / "ty460.yaml"), "-q"]
+    home = {"HOME": "/dev/null/home", "PATH": os.environ["PATH"]}
+    ended = subprocess.run(command, cwd=tmp_path, env=home, capture_output=True, text=True)
+    assert (ended.returncode, ended.stderr) == (0, "")
