@@ -46,7 +46,7 @@ class MomentaryDwells:
 def output_motion(linkage: FourBar, train: GearTrain, crank_angle: ArrayLike) -> OutputMotion:
     """Output angle, speed and acceleration ratio and transmission angle over an array of crank angles.
 
-    phi5 = I phi + (1 - i2) i3 t2 + (1 - i3) t3, and its first and second derivative after phi
+    phi5 = I phi + (1 - i2) i3 t2 + (1 - i3) t3, and its first and second derivative with respect to phi
 
     Parameters
         linkage : FourBar

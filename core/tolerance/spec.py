@@ -29,8 +29,6 @@ Width = Annotated[float, Field(gt=0, json_schema_extra={"unit": "mm"})]
 Positive = Annotated[float, Field(gt=0, json_schema_extra=_ONE)]
 Grade = Annotated[int, Field(json_schema_extra=_ONE)]
 Torque = Annotated[float, Field(json_schema_extra={"unit": "N m"})]
-Coefficient = Annotated[float, Field(ge=-1, le=1, json_schema_extra=_ONE)]
-Seed = Annotated[int, Field(ge=0, le=2**32 - 1, json_schema_extra=_ONE)]
 Share = Annotated[float, Field(gt=0, lt=1, json_schema_extra={"unit": "1"})]
 Pair = Annotated[list[Deviation], Field(min_length=2, max_length=2)]
 

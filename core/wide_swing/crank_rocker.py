@@ -77,7 +77,7 @@ class CrankRockerDrive:
         return self._middle[1]
 
     def motion(self, k: Reals, order: int = 2) -> tuple[Reals, ...]:
-        """Cam angle from k = 1/2, counted in its direction of motion, and its derivatives after k.
+        """Cam angle from k = 1/2, counted in its direction of motion, and its derivatives with respect to k.
 
         Parameters
             k : (N,) array - fraction of the stroke

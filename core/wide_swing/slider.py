@@ -87,7 +87,7 @@ class SliderDrive:
             )
 
     def depth(self, phi: Reals, order: int = 0) -> tuple[Reals, ...]:
-        """Slider position at rocker angles phi from mid-swing, with derivatives after phi up to 2 [mm]."""
+        """Slider position at rocker angles phi from mid-swing, with derivatives with respect to phi up to 2 [mm]."""
         return slider(phi + (self.middle_angle - 0.5 * math.pi), self.crank, self.rod, self.offset, order)
 
     def dead_centers(self) -> tuple[float, float]:
@@ -168,7 +168,7 @@ class SliderLaw:
         return abs(self._stroke)
 
     def _slider_rate(self, phi: Reals) -> tuple[Reals, Reals]:
-        """b_kp and its derivative after a."""
+        """b_kp and its derivative with respect to a."""
         _, first, second = self.drive.depth(phi, 2)
         return self.swing / self.stroke * first, self.swing**2 / self.stroke * second
 

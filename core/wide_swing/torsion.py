@@ -1,7 +1,7 @@
 """Dynamic coefficient of a wide-swing drive: what its torsional elasticity adds to the calculated torque.
 
 q'' + 2 zeta w q' + w^2 q = -gamma c(k) (1/T^2 - 1/T0^2), torque M = -J w^2 q; in units of the calculated torque's
-scale y'' + 2 zeta W y' + W^2 y = W^2 c(k) with W = w T and derivatives after k.
+scale y'' + 2 zeta W y' + W^2 y = W^2 c(k) with W = w T and derivatives with respect to k.
 """
 
 from __future__ import annotations

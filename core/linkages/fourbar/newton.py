@@ -19,21 +19,8 @@ from numpy.typing import ArrayLike, NDArray
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.fourbar import position as fourbar
 from gearlink.core.linkages.fourbar.position import FourBar
-from gearlink.core.linkages.fourbar.refine import dead_point_distance, loop_residual, position_error, refine
 from gearlink.core.linkages.fourbar.vectors import loop_opening, loop_rates, loop_step, unit_rates, unit_vector
 from gearlink.core.numerics.arrays import Reals
-
-__all__ = [
-    "NewtonSweep",
-    "dead_point_distance",
-    "loop_rates",
-    "loop_residual",
-    "polish",
-    "position_error",
-    "refine",
-    "solve",
-    "start_is_safe",
-]
 
 MOST_ITERATIONS = 20
 _EPS = 2.0**-52

@@ -10,8 +10,6 @@ from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.double_double import Pair, add, cos_sin, two_product
 
-_EPS = 2.0**-52
-
 
 def dead_point_distance(transmission_angle: ArrayLike) -> Reals:
     """Distance of the transmission angle from a dead point.
@@ -28,29 +26,6 @@ def dead_point_distance(transmission_angle: ArrayLike) -> Reals:
     """
     gamma = np.asarray(transmission_angle, dtype=np.float64)
     return np.minimum(gamma, np.pi - gamma)
-
-
-def position_error(transmission_angle: ArrayLike) -> Reals:
-    """Error to expect of coupler and rocker angle from any plain floating-point formula.
-
-    8 eps/dev, and not above sqrt(eps)
-
-    Parameters
-        transmission_angle : array [rad]
-    Returns
-        error : array [rad]
-    Notes
-        Rounding of the vector B->D dominates; no arrangement of the formula avoids it, `refine` does. Velocities
-        lose eps/dev^2 of their size, accelerations and jerks some times that.
-    Example
-        >>> bool(position_error(np.radians(179.0)) < 2e-13)
-        True
-
-    Source
-        own derivation; the factor 8 was measured
-    """
-    dev = dead_point_distance(transmission_angle)
-    return np.minimum(8.0 * _EPS / np.maximum(dev, _EPS), np.sqrt(_EPS))
 
 
 def loop_residual(

@@ -159,7 +159,7 @@ def unit_vectors(linkage: FourBar, crank_angle: Reals, order: int = 2, out: Real
 
 
 def _driven(rows: list[Reals], velocity: ArrayLike, acceleration: ArrayLike, jerk: ArrayLike) -> list[Reals]:
-    """Rows whose derivatives after the driving angle became time derivatives for the driver's motion."""
+    """Rows whose derivatives with respect to the driving angle became time derivatives for the driver's motion."""
     motion = (velocity, acceleration, jerk)
     if all(np.ndim(x) == 0 for x in motion) and motion == (1.0, 0.0, 0.0):
         return rows

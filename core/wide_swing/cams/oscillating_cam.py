@@ -37,9 +37,9 @@ class Step:
 
     Fields
         view : MiddleView - of the rocker's motion
-        chi : three (N,) arrays [rad] - cam angle from mid-swing and its derivatives after k
+        chi : three (N,) arrays [rad] - cam angle from mid-swing and its derivatives with respect to k
         arm : (N,) complex array - roller centre from the cam axis
-        first, second : (N,) complex arrays - its derivatives after k in the cam, both turned back with the cam
+        first, second : (N,) complex arrays - its derivatives with respect to k in the cam, turned back with the cam
         along : (N,) complex array - unit vector of its way, at a stop the limit of the way there
     """
 

@@ -147,11 +147,6 @@ class ElasticLaw:
         """Quadrature nodes over half the stroke that the law took."""
         return self.clock.nodes
 
-    @property
-    def achieved_difference(self) -> float:
-        """Relative change of the integral at the last doubling of the nodes."""
-        return self.clock.difference
-
     @cached_property
     def energy_parameter(self) -> float:
         """N = 2 P r_d T^2/(J gamma^2), or 2 c r_d^2 T^2/(J gamma^2) (dissertation (6), (11)) [-]."""
