@@ -9,12 +9,14 @@ import sys
 import time
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
 import yaml
 
-pytestmark = pytest.mark.slow
+from gearlink.cli import cluster as clusters
+from gearlink.cli.reading.diagnostics import DesignFileError
 
 STUDY: dict[str, Any] = {
     "kind": "study",
@@ -44,6 +46,7 @@ def run(*words: object) -> subprocess.Popen[str]:
     return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
 
+@pytest.mark.slow
 def test_explore_and_batch_on_a_cluster_that_loses_a_worker(cluster: Any, tmp_path: Path) -> None:
     study = tmp_path / "study.yaml"
     study.write_text(yaml.safe_dump(STUDY, sort_keys=False))
@@ -60,6 +63,7 @@ def test_explore_and_batch_on_a_cluster_that_loses_a_worker(cluster: Any, tmp_pa
     assert '"result": "pass"' in out or '"result":"pass"' in out or '"warn"' in out
 
 
+@pytest.mark.slow
 def test_no_scheduler_is_said(gearlink: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("distributed")
     study = tmp_path / "study.yaml"
@@ -67,3 +71,83 @@ def test_no_scheduler_is_said(gearlink: Any, tmp_path: Path, monkeypatch: pytest
     monkeypatch.setattr("gearlink.cli.cluster._SECONDS", 1)
     ended = gearlink("explore", study, "--dask", "tcp://127.0.0.1:9", "--format", "json")
     assert (ended.status, ended.json["errors"][0]["code"]) == (2, "GL115")
+
+
+# What a client is asked, by a client of our own
+
+
+class Client:
+    """A client of `distributed` whose workers run these programs."""
+
+    programs: list[dict[str, str]] = []
+    answers = True
+
+    def __init__(self, address: str, timeout: int) -> None:
+        if not self.answers:
+            raise OSError("timed out")
+        self.address, self.timeout, self.open = address, timeout, False
+
+    def __enter__(self) -> Client:
+        self.open = True
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.open = False
+
+    def run(self, function: Any) -> dict[str, dict[str, str]]:
+        assert function is clusters.program
+        return {f"tcp://w{i}": found for i, found in enumerate(self.programs)}
+
+
+@pytest.fixture
+def distributed(monkeypatch: pytest.MonkeyPatch) -> type[Client]:
+    made = type("Client", (Client,), {})
+    monkeypatch.setitem(sys.modules, "distributed", SimpleNamespace(Client=made))
+    return made
+
+
+def refusal(address: str) -> Any:
+    with pytest.raises(DesignFileError) as refused, clusters.client(address):
+        pass
+    (found,) = refused.value.diagnostics
+    return found
+
+
+def test_workers_with_the_same_program_are_taken(distributed: type[Client]) -> None:
+    distributed.programs = [clusters.program(), clusters.program()]
+    with clusters.client("tcp://here:1") as client:
+        assert (client.address, client.timeout, client.open) == ("tcp://here:1", 20, True)
+    assert not client.open
+
+
+@pytest.mark.parametrize("name", ["gearlink", "numpy", "cpu"])
+def test_a_worker_with_another_program_is_refused(distributed: type[Client], name: str) -> None:
+    """Last bits depend on each of the three."""
+    own = clusters.program()
+    distributed.programs = [own, {**own, name: "another"}]
+    found = refusal("tcp://here:1")
+    assert (found.code, found.key) == ("GL158", "tcp://here:1")
+    assert found.message == f"the worker tcp://w1 has {name} another; this is {own[name]}"
+    assert "same versions" in found.help
+
+
+def test_where_no_client_can_be_had(distributed: type[Client], monkeypatch: pytest.MonkeyPatch) -> None:
+    distributed.answers = False
+    found = refusal("tcp://there:2")
+    assert (found.code, found.key) == ("GL115", "tcp://there:2")
+    assert found.message == "no Dask scheduler answers at tcp://there:2: timed out"
+    monkeypatch.setitem(sys.modules, "distributed", None)  # not installed
+    found = refusal("tcp://there:2")
+    assert (found.code, found.key) == ("GL115", "--dask")
+    assert "pip install distributed" in found.message
+
+
+def test_the_processor_is_named_by_its_widest_vectors(monkeypatch: pytest.MonkeyPatch) -> None:
+    import numpy as np
+
+    features = np._core._multiarray_umath.__cpu_features__ if np.__version__ >= "2" else {}
+    known = ("AVX512_SKX", "AVX512F", "AVX2", "SVE", "ASIMD")
+    widest = next((name for name in known if features.get(name)), "")
+    machine, _, found = clusters.processor().partition(" ")
+    assert machine
+    assert not features or found == widest

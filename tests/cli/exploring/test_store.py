@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import os
 import random
+import shutil
 import signal
 import sqlite3
 import struct
@@ -155,6 +156,32 @@ def test_interrupted_it_says_how_to_continue(study: Path, tmp_path: Path) -> Non
     assert process.returncode == 130, err
     assert b"--resume" in err
     assert chunks(store) > 0
+
+
+def test_what_a_killed_run_leaves_on_the_disk_is_continued(
+    gearlink: Any, study: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Its files as they stand while a chunk is computed, which is all that is left of a process that is killed then."""
+    store, killed = tmp_path / "s.sqlite", tmp_path / "killed.sqlite"
+    ran: list[int] = []
+    from gearlink.cli.exploring import computing
+
+    real = computing.computed
+
+    def computed(text: str, number: int) -> Any:
+        if ran == [0, 1]:
+            for path in tmp_path.glob("s.sqlite*"):
+                shutil.copy(path, tmp_path / path.name.replace("s.", "killed.", 1))
+        ran.append(number)
+        return real(text, number)
+
+    monkeypatch.setattr(computing, "computed", computed)
+    alone = json_of(gearlink, study, "--jobs", 1, "--store", store)
+    whole = list(ran)
+    assert whole == [*range(len(whole))]
+    ran.clear()
+    assert json_of(gearlink, study, "--jobs", 1, "--store", killed, "--resume") == alone
+    assert ran == whole[2:]
 
 
 def test_finished_chunks_are_not_computed_again(

@@ -50,6 +50,38 @@ def test_reference() -> None:
     assert max(found.errors) == pytest.approx(-min(found.errors), rel=1e-12)
 
 
+OPEN = FunctionFiveBar(1.0, 0.2, 3.0, 2.8, 2.5, 1.8, 0.4, 1)
+"""It turns all the way, with gears under which the phase counts the turns of its start."""
+
+
+@pytest.mark.parametrize("turns", [-1, 0, 1, 5])
+def test_whole_turns_of_the_start_are_taken_out_with_the_phase(turns: int) -> None:
+    """The phase is the coupler's direction at input angle 0: begun turns later, the same motion has another."""
+    start = 0.7 + math.tau * turns
+    psi = OPEN.output_angles([start, start + 0.5])
+    wanted = Wanted("exp", (0.0, 0.1), 0.5, psi[1] - psi[0])
+    logs = map(math.log, (OPEN.coupler, OPEN.follower, OPEN.output, OPEN.frame))
+    ((made, begun),) = function_fit._moving(OPEN, np.array([*logs, OPEN.phase, start, 0.0]), wanted)
+    assert begun == pytest.approx(0.7, abs=1e-12)
+    for swing in (0.0, 0.2, 0.5):
+        assert made.joint(begun + swing) == pytest.approx(OPEN.joint(start + swing), abs=1e-12)
+
+
+def test_the_links_of_the_file_are_the_first_start(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of the first round alone; they move as in the file."""
+    psi = OPEN.output_angles([0.7, 1.2])
+    wanted = Wanted("exp", (0.0, 0.1), 0.5, psi[1] - psi[0])
+    begun: list[Any] = []
+    monkeypatch.setattr(function_fit, "_descended", lambda x, *_: begun.append(x) or (x[:0], np.empty(0)))
+    for number in (0, 1):
+        assert list(function_fit._round(OPEN, 0.7, wanted, 0.0, number)) == []
+    ((made, start),) = function_fit._moving(OPEN, begun[0][0], wanted)
+    assert start == pytest.approx(0.7, abs=1e-15)
+    for swing in (0.0, 0.2, 0.5):
+        assert made.joint(start + swing) == pytest.approx(OPEN.joint(start + swing), abs=1e-12)
+    assert begun[1][0][0] != pytest.approx(begun[0][0][0], abs=1e-3)
+
+
 @pytest.fixture(scope="module")
 def best() -> Any:
     return design("five_bar_function")

@@ -19,6 +19,8 @@ import pytest
 from numpy.polynomial import chebyshev
 
 from gearlink.core.errors import GearlinkError
+from gearlink.core.wide_swing import remedies as swing_remedies
+from gearlink.core.wide_swing.loads import checks as swing_load_checks
 
 DEGREE = 90
 K = np.array([0.03, 0.11, 0.24, 0.37, 0.44, 0.58, 0.66, 0.79, 0.92, 0.985])
@@ -264,6 +266,43 @@ def test_the_arm_at_which_both_change_sides_is_named() -> None:
     assert found.remedy == (("slider.middle_angle", 73.18),)
 
 
+HEAVY = {"type": "spring", "pivot_ratio": 4, "stretch_ratio": 0.5, "arm": 80, "reserve": 0.3}
+"""A spring that pulls little at mid-swing, under which the slider's mass makes the rocker slowest there."""
+
+
+def test_a_lighter_slider_lets_both_change_sides_together() -> None:
+    """Not half the mass but a fifth of it; the arm stands already where the slider is fastest."""
+    heavy = factory.design("wide_swing_slider_cam", slider__middle_angle=73.18, unloader=HEAVY)
+    (found,) = heavy.check("side-change")
+    assert (found.code, found.status) == ("GL514", "fail")
+    assert "a lighter slider" in found.message
+    ways = list(swing_remedies.candidates(heavy, "side-change"))
+    assert ways == [(("slider.mass", pytest.approx(share * heavy.spec.slider.mass)),) for share in (0.5, 0.2, 0.1)]
+    found = [
+        factory.design("wide_swing_slider_cam", slider__middle_angle=73.18, slider__mass=mass, unloader=HEAVY)
+        for ((_, mass),) in ways[:2]
+    ]
+    assert [check.status for made in found for check in made.check("side-change")] == ["fail", "pass"]
+
+
+def test_lost_contact_is_repaired_by_the_arm_alone_or_with_more_reserve() -> None:
+    apart = factory.design(
+        "wide_swing_slider_cam", command="loads", slider__middle_angle=90, loads={"roller": {"width": 20}}
+    )
+    (loss,) = [f for f in apart.check("contact-loss") if f.value == apart.least_contact_force]
+    assert (loss.code, loss.status) == ("GL608", "fail")
+    assert "make slider.middle_angle 73.18" in loss.message
+    ways = list(swing_load_checks.candidates(apart, "contact-loss"))
+    arm, reserve, mass = ("slider.middle_angle", 73.18), apart.spec.unloader.reserve, apart.spec.slider.mass
+    assert ways[:3] == [
+        (arm,),
+        (arm, ("unloader.reserve", pytest.approx(reserve + 0.25))),
+        (arm, ("unloader.reserve", pytest.approx(reserve + 1.0))),
+    ]
+    assert ways[3] == (arm, ("slider.mass", pytest.approx(0.5 * mass)))
+    assert list(swing_load_checks.candidates(apart, "resonance")) == []
+
+
 @pytest.mark.slow
 def test_device_and_roller_change_sides_together() -> None:
     """Where the slider is not fastest at mid-swing the device pushes the roller off its profile between the two."""
@@ -276,8 +315,7 @@ def test_device_and_roller_change_sides_together() -> None:
     (loss,) = [f for f in apart.findings("loads", "contact-loss") if f.value == apart.least_contact_force]
     assert (loss.status, loss.remedy) == ("fail", (("slider.middle_angle", 73.18),))
     # under a spring that pulls little at mid-swing the slider's mass makes the rocker slowest there
-    spring = {"type": "spring", "pivot_ratio": 4, "stretch_ratio": 0.5, "arm": 80, "reserve": 0.3}
-    heavy = factory.design("wide_swing_slider_cam", slider__middle_angle=73.18, unloader=spring)
+    heavy = factory.design("wide_swing_slider_cam", slider__middle_angle=73.18, unloader=HEAVY)
     assert heavy.cam.middle < 0.3
     (found,) = heavy.findings("swing", "side-change")
     assert (found.status, found.remedy) == ("fail", (("slider.mass", 1.2),))

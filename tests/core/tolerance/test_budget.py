@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from typing import Any
 
@@ -10,6 +11,7 @@ import numpy as np
 import pytest
 
 from gearlink.core.tolerance.budget import Contribution, budget, normal_band
+from gearlink.core.tolerance.shares import COMPUTED_BY
 
 COVERED = math.erf(3.0 / math.sqrt(2.0))  # 99.73 %
 CANDY: dict[str, Any] = {
@@ -18,6 +20,9 @@ CANDY: dict[str, Any] = {
     "gears": {"module": 2.0, "crank": 40, "idler": 72, "output": 40},
     "links": {"crank": 38.94178567, "frame": 153.53024891},
 }
+
+
+SMALL = {"sources": {"links.crank": {"plus_minus": 0.02}}, "samples": 64, "seed": 5}
 
 
 def register(sources: dict[str, Any], **section: Any) -> Any:
@@ -73,6 +78,26 @@ def test_samples_of_the_chain_keep_the_band(law: dict[str, Any]) -> None:
     """A quantile of 2^15 samples of a normal error: some thousandths."""
     sources = {"links.crank": {"plus_minus": 0.02} | law, "links.frame": {"limits": [-0.01, 0.05]}}
     assert register(sources, method="mc").band == pytest.approx(register(sources).band, rel=0.01)
+
+
+def test_a_share_that_is_computed_elsewhere_is_that_of_the_design() -> None:
+    """What is sent is the design's text: the same file, so the same samples to the last bit."""
+    made = factory.design(CANDY | {"tolerance": SMALL, "register": {"method": "mc"}}, command="register")
+    sent: list[Any] = []
+
+    def elsewhere(function: Any, numbers: Any) -> list[Any]:
+        sent.append(function.args)
+        return [function(number) for number in list(numbers)[:2]]
+
+    token = COMPUTED_BY.set(elsewhere)
+    try:
+        found = made.sampled_band
+    finally:
+        COMPUTED_BY.reset(token)
+    ((_, _, text),) = sent
+    assert json.loads(text) == json.loads(made.spec.model_dump_json(exclude_unset=True, by_alias=True))
+    here = np.mean([made.sampled_share(number) for number in range(2)], axis=0)
+    assert found == [float(one.max()) for one in here]
 
 
 def test_a_measured_part_is_an_error_without_scatter() -> None:
