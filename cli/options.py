@@ -134,7 +134,9 @@ OPTIONS = {
     "quantities": Option(
         ("--quantity",), "print only this quantity (repeatable)", str, "NAME", repeatable=True, offers="quantities"
     ),
-    "tables": Option(("--table",), "add a table (repeatable)", str, "NAME", repeatable=True, offers="tables"),
+    "tables": Option(
+        ("--table",), "add a table; in csv alone (repeatable)", str, "NAME", repeatable=True, offers="tables"
+    ),
     "samples": Option(("--samples",), "rows per turn or stroke", int, least=2, most=10_000_000),
     "strict": Option(("--strict",), "treat a warning as a failure"),
     "color": Option(("--no-color",), "no colours, as with NO_COLOR=1", stands_for=False),

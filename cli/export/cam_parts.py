@@ -41,7 +41,7 @@ def disc_cam(name: str, cam: DiscCam) -> Part:
         title=cam.name,
         stretches=tuple(rounded),
         closed=True,
-        circles=(Circle("BASE_CIRCLE", cam.min_radius),),
+        circles=(Circle("BASE_CIRCLE", cam.min_radius),) if cam.min_radius > 0.0 else (),  # else the roller covers it
         notes=(
             f"roller radius {cam.roller_radius:.9g} mm, cam turns {'counter-' if cam.sense > 0 else ''}clockwise",
             "frame: cam axis at the origin, x parallel to the machine's x at cam angle 0",

@@ -45,7 +45,7 @@ def meaning_at(model: type[BaseModel], path: KeyPath, data: Any) -> str:
     """What a key is for: its words, its unit and limits, or the keys of a section; of an element those of its list.
 
     Example
-        >>> from gearlink.core.linkages.slider_crank_spec import SliderCrankSpec
+        >>> from gearlink.core.linkages.slider_crank.spec import SliderCrankSpec
         >>> meaning_at(SliderCrankSpec, ("rod",), {})
         'rod: connecting rod (mm, above 0)'
     """

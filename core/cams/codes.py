@@ -23,7 +23,8 @@ CAM_UNDERCUT = Rule(
     "roller undercuts the cam",
     "The roller is as large as the least convex curvature radius of the pitch curve, or cuts into the profile "
     "elsewhere.",
-    "The cutter removes part of the profile: the follower does not make the motion that was asked for.",
+    "The cutter removes part of the profile: the follower does not make the motion that was asked for. The tables show "
+    "the envelope with its loop; what the roller leaves lies between the smallest and the largest radius.",
     "Take a roller below 0.8 of the least curvature radius, or enlarge the base circle.",
     "r_g/rho_min < 1 (warns above 0.8), and |C(phi) - P(t)| >= r_g for all profile points P and roller centres C",
     "VDI 2142; own derivation of the cut elsewhere",

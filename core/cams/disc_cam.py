@@ -130,8 +130,14 @@ class DiscCam:
         return profile.normals(cam_angle, self.path(cam_angle, 1), sense=self.sense)
 
     def radius(self, cam_angle: Reals) -> Reals:
-        """Distance of the profile from the cam axis [mm] at cam angles."""
-        return np.abs(self.points(cam_angle)[1])
+        """Distance of the roller from the cam axis [mm] at cam angles.
+
+        Notes
+            Where the pitch curve is farthest from the axis or nearest to it, its normal passes through the axis:
+            the extremes of |P| - r_g are those of the profile. Where the profile loops, the body that the roller
+            leaves has the same least radius and stays within the greatest; the loop does not.
+        """
+        return np.abs(profile.pitch_points(cam_angle, self.path(cam_angle, 1), sense=self.sense)) - self.roller_radius
 
     @cached_property
     def max_pressure_angle(self) -> Extreme:
@@ -145,7 +151,7 @@ class DiscCam:
 
     @cached_property
     def max_radius(self) -> float:
-        """Largest radius of the profile [mm]."""
+        """Largest radius of the profile; where that loops, of its parts that no roller cuts away at most [mm]."""
         return maximum_over(self.radius, joints=self.bounds, samples=SAMPLES).value
 
     @cached_property

@@ -59,7 +59,7 @@ def test_eccentric_circle(radius, offset, roller, sense):
     assert math.cos(cam.max_pressure_angle.place) == pytest.approx(0.0, abs=1e-6)
     assert cam.min_curvature_radius.value == pytest.approx(radius, rel=1e-12)
     assert cam.max_radius == pytest.approx(radius - roller + offset, rel=1e-13)
-    assert cam.min_radius == pytest.approx(abs(radius - roller - offset), rel=1e-13)
+    assert cam.min_radius == pytest.approx(radius - roller - offset, rel=1e-13)
     assert cam.undercut.depth <= 1e-12 * radius
 
 
@@ -83,6 +83,20 @@ def test_least_convex_radius_of_two_lobes(size, depth):
     cam = lobes(size, depth, 0.1 * size)
     assert cam.min_curvature_radius.value == pytest.approx(tip, rel=1e-13)
     assert (cam.max_radius, cam.min_radius) == pytest.approx((0.9 * size + depth, 0.9 * size - depth), rel=1e-13)
+
+
+def test_radii_of_a_profile_that_loops_hold_the_body():
+    """Against the body itself: along each ray from the axis it reaches to the first roller."""
+    cam = lobes(100.0, 10.0, 87.0)  # least radius of curvature 80.7 mm
+    pitch, _profile = cam.points(np.linspace(0.0, 2.0 * math.pi, 1441))
+    along = pitch * np.exp(-1j * np.linspace(0.0, math.pi, 181))[:, None]
+    inside = 87.0**2 - along.imag**2
+    reach = np.where(inside > 0.0, along.real - np.sqrt(np.abs(inside)), np.inf).min(
+        axis=1, where=along.real > 0.0, initial=np.inf
+    )
+    assert (cam.max_radius, cam.min_radius) == pytest.approx((23.0, 3.0), abs=1e-12)
+    assert reach.min() == pytest.approx(cam.min_radius, abs=1e-9)
+    assert reach.max() < cam.max_radius, "the roller cuts the tip off"
 
 
 @pytest.mark.quick(2)
