@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
 from gearlink.core.numerics.arrays import Reals
 
 _STEPS = 200
+_NEWTON_STEPS = 60
+_RESTS = 1e-9  # of x, the last Newton step; the error that it leaves is its square
 
 
 def bracketed_roots(
@@ -53,6 +56,45 @@ def bracketed_roots(
             least = np.minimum(0.5, reach / np.abs(b - a))
             share = np.minimum(1.0 - least, np.maximum(least, next_share(a, b, c, fa, fb, fc)))
     return np.where(valid, best, np.nan)
+
+
+def newton_roots(
+    function: Callable[..., tuple[Reals, Reals]], low: Reals, high: Reals, start: Reals, *given: Reals
+) -> Reals:
+    """Roots of rising functions by Newton's method inside brackets; a step that leaves its bracket halves it.
+
+    Parameters
+        function : of x and `given` - value and slope
+        low, high : (N,) arrays - function(low) <= 0 <= function(high)
+        start : (N,) array - inside
+        given : (N,) arrays that the function takes as well
+    Returns
+        x : (N,) array - each as if it stood alone
+    Example
+        >>> ends = np.zeros(2), np.full(2, 5.0)
+        >>> newton_roots(lambda x, c: (x * x - c, 2.0 * x), *ends, np.ones(2), np.array([2.0, 9.0]))
+        array([1.41421356, 3.        ])
+    """
+    result = np.array(start)
+    live: Any = np.arange(result.size)
+    x, low, high = result, np.array(low), np.array(high)
+    for _ in range(_NEWTON_STEPS):
+        value, slope = function(x, *given)
+        low, high = np.where(value < 0.0, x, low), np.where(value < 0.0, high, x)
+        with np.errstate(all="ignore"):
+            new = x - value / slope
+        new = np.where((new >= low) & (new <= high), new, 0.5 * (low + high))
+        new = np.where(value == 0.0, x, new)
+        moves = np.abs(new - x) > _RESTS * np.abs(new)
+        result[live] = new
+        if not moves.any():
+            break
+        if not moves.all():
+            live, x, low, high = live[moves], new[moves], low[moves], high[moves]
+            given = tuple(row[moves] for row in given)
+        else:
+            x = new
+    return result
 
 
 def narrowed(x: Reals, a: Reals, b: Reals, fx: Reals, fa: Reals, fb: Reals) -> tuple[Reals, ...]:

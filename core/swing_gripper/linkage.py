@@ -88,7 +88,7 @@ class GripperLinkage:
             degrees : (N,) array [deg]
             order : 0, 1 or 2
         Raises
-            NoSolution - where the linkage does not close; `gripper_swing.require_swing` says why beforehand
+            NoSolution - where the linkage does not close; `swing.require_swing` says why beforehand
         """
         beta = self.law.evaluate(degrees, order)
         return self.at(degrees, beta)

@@ -1,4 +1,4 @@
-"""The three-gear four-bar as a design: analysis of given links. Its syntheses: `three_gear_synthesis`."""
+"""The three-gear four-bar as a design: analysis of given links. Its syntheses: `synthesis`."""
 
 from __future__ import annotations
 

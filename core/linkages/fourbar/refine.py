@@ -68,7 +68,7 @@ def refine(
 
     Parameters
         linkage : FourBar
-        crank_angle, coupler_angle, rocker_angle : arrays that broadcast [rad] - a position from `fourbar.solve`
+        crank_angle, coupler_angle, rocker_angle : arrays that broadcast [rad] - a position from `position.solve`
         steps : int - one suffices for a transmission angle 1e-4 rad and more off a dead point, two for 1e-6
     Returns
         coupler_angle, rocker_angle : arrays [rad] - within two eps (one unit in the last place of pi/2 to pi)

@@ -77,7 +77,7 @@ def solve(
         velocity, acceleration, jerk : float or array that broadcasts [rad/s, rad/s2, rad/s3] - motion of the
             crank; the defaults give the derivatives with respect to the crank angle
     Returns
-        sweep : FourBarSweep - angles continuous in the crank angle as in `fourbar.solve`
+        sweep : FourBarSweep - angles continuous in the crank angle as in `position.solve`
     Raises
         NoSolution - when the linkage does not close at one of the angles, or rates are wanted at a dead point
     Example
@@ -86,7 +86,7 @@ def solve(
         [146.168778, 148.374385]
 
     Source
-        as `fourbar.solve`
+        as `position.solve`
     """
     angle = np.asarray(crank_angle, dtype=np.float64)
     rows = _sweep(linkage.reading, np.ascontiguousarray(angle).ravel(), order, _write_angles, None)
@@ -111,9 +111,9 @@ def solve_inverse(
         order : 0..3
         velocity, acceleration, jerk : float or array that broadcasts - motion of the rocker
     Returns
-        sweep : FourBarInverseSweep - angles continuous in the rocker angle as in `fourbar.solve_inverse`
+        sweep : FourBarInverseSweep - angles continuous in the rocker angle as in `position.solve_inverse`
     Raises
-        NoSolution - as in `fourbar.solve_inverse`
+        NoSolution - as in `position.solve_inverse`
     Example
         >>> drag = FourBar(50.0, 45.0, 48.0, 20.0)
         >>> turn = np.array([0.0, 3.0, 12.5])
@@ -230,7 +230,7 @@ def _refuse(reading: Reading, phi: Reals, order: int, p: Reals, q: Reals, n: Rea
 
 
 def _write_angles(reading: Reading, phi: Reals, rows: Scratch, out: Reals) -> int:
-    """Coupler, rocker and transmission angle, continuous as in `fourbar_loop.solve_loop`."""
+    """Coupler, rocker and transmission angle, continuous as in `loop.solve_loop`."""
     t, tt, one, n, r, z, x, y, nu, *_ = rows
     a, d, s = reading.a, reading.d, float(reading.s)
     winding: Reals | float = 0.0
@@ -290,7 +290,7 @@ def _write_vectors(reading: Reading, _phi: Reals, rows: Scratch, out: Reals) -> 
 
 
 def _rates(reading: Reading, rows: Scratch, out: Reals) -> None:
-    """Pairs (coupler, rocker) of derivatives, as many as `out` has rows for; see `fourbar_loop._rates`.
+    """Pairs (coupler, rocker) of derivatives, as many as `out` has rows for; see `loop._rates`.
 
     Rows used: 1/n^2 = one m and 1/R = one r in place of n and R, g' and h.
     """

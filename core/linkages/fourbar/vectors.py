@@ -72,7 +72,7 @@ def loop_rates(
     Raises
         NoSolution - where coupler and rocker align exactly
     Notes
-        Independent of the rates of `fourbar.solve`, which differentiate the angles of a triangle.
+        Independent of the rates of `position.solve`, which differentiate the angles of a triangle.
     Example
         >>> linkage = FourBar(18.0, 50.0, 100.0, 121.4)
         >>> from gearlink.core.linkages.fourbar.position import solve

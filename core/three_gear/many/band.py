@@ -12,9 +12,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from gearlink.core.numerics.arrays import Mask, Reals
-from gearlink.core.numerics.roots_sweep import bracketed_roots
+from gearlink.core.numerics.roots_sweep import bracketed_roots, newton_roots
 from gearlink.core.three_gear.many.general import Drives, output_angle, speed, wrapped
-from gearlink.core.three_gear.many.symmetric import newton
 
 _TURN = 2.0 * math.pi
 _FIT = 1e-13
@@ -166,5 +165,5 @@ def _reach(drives: Drives, level: Reals, left: Reals, right: Reals, sign: float 
         return sign * (output_angle(x, some) - level), sign * speed(x, some)[0]
 
     at_left, at_right = above(left, level, *drives)[0], above(right, level, *drives)[0]
-    found = newton(above, left, right, 0.5 * (left + right), level, *drives)
+    found = newton_roots(above, left, right, 0.5 * (left + right), level, *drives)
     return np.where(at_left >= 0.0, left, np.where(at_right <= 0.0, right, found))

@@ -1,7 +1,7 @@
 """Motion of three-gear four-bars of any teeth for arrays of designs: speeds, their extremes, standstills, back-step.
 
-The equations are those of `fourbar_loop`, `motion` and `dwells` for arrays of linkages. Roots freeze each design that
-rests, as in `symmetric_many`.
+The equations are those of `linkages.fourbar.loop`, `motion` and `dwells` for arrays of linkages. Roots freeze each design that
+rests, as in `many.symmetric`.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from gearlink.core.numerics.arrays import Mask, Reals
-from gearlink.core.three_gear.many.symmetric import newton
+from gearlink.core.numerics.roots_sweep import newton_roots
 
 _TURN = 2.0 * math.pi
 _LONGEST_STEP, _RESTS, _MOST_STEPS = 0.6, 1e-8, 40
@@ -61,7 +61,7 @@ def transmission(links: Drives) -> Reals:
 
 
 def _loop(phi: Reals, links: Drives) -> tuple[Any, ...]:
-    """sin and cos of phi, squares of the half angle's, n^2, R and z of `fourbar_loop`."""
+    """sin and cos of phi, squares of the half angle's, n^2, R and z of `linkages.fourbar.loop`."""
     a, b, c, d = links[:4]
     half_sin, half_cos = np.sin(0.5 * phi), np.cos(0.5 * phi)
     ss, cc = half_sin * half_sin, half_cos * half_cos
@@ -195,4 +195,4 @@ def dwell_angle(start: Reals, width: Reals, links: Drives) -> Reals:
         return output_angle(start + x, drives) - level, speed(start + x, drives)[0]
 
     high = np.full(width.shape, _TURN)
-    return newton(gained, width, high, np.minimum(1.5 * width, 0.5 * (width + high)), start, level, *links)
+    return newton_roots(gained, width, high, np.minimum(1.5 * width, 0.5 * (width + high)), start, level, *links)

@@ -1,55 +1,20 @@
 """Closed forms and roots of the symmetric family (I = 1, equal gears 1 and 5) for arrays of designs.
 
-With n = 1 - i3 and h = phi12/2, as in `symmetric_back_step`, whose equations stand here for arrays. Roots are Newton's
+With n = 1 - i3 and h = phi12/2, as in `symmetric.back_step`, whose equations stand here for arrays. Roots are Newton's
 inside a bracket; a design that rests is frozen, so that its last bit does not depend on its neighbours.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from gearlink.core.numerics.arrays import Mask, Reals
+from gearlink.core.numerics.roots_sweep import newton_roots
 
-_RESTS = 1e-9  # of x, the last step; the error that it leaves is its square
-_MOST_STEPS = 60
 _QUARTER = 0.5 * math.pi
-
-
-def newton(function: Callable[..., tuple[Reals, Reals]], low: Reals, high: Reals, start: Reals, *given: Reals) -> Reals:
-    """Roots of rising functions by Newton's method inside brackets; a step that leaves its bracket halves it.
-
-    Parameters
-        function : of x and `given` - value and slope
-        low, high : (N,) arrays - function(low) <= 0 <= function(high)
-        start : (N,) array - inside
-        given : (N,) arrays that the function takes as well
-    Returns
-        x : (N,) array - each as if it stood alone
-    """
-    result = np.array(start)
-    live: Any = np.arange(result.size)
-    x, low, high = result, np.array(low), np.array(high)
-    for _ in range(_MOST_STEPS):
-        value, slope = function(x, *given)
-        low, high = np.where(value < 0.0, x, low), np.where(value < 0.0, high, x)
-        with np.errstate(all="ignore"):
-            new = x - value / slope
-        new = np.where((new >= low) & (new <= high), new, 0.5 * (low + high))
-        new = np.where(value == 0.0, x, new)
-        moves = np.abs(new - x) > _RESTS * np.abs(new)
-        result[live] = new
-        if not moves.any():
-            break
-        if not moves.all():
-            live, x, low, high = live[moves], new[moves], low[moves], high[moves]
-            given = tuple(row[moves] for row in given)
-        else:
-            x = new
-    return result
 
 
 def half_angle_for_dwell(n: Reals, phi13: Reals) -> Reals:
@@ -58,9 +23,9 @@ def half_angle_for_dwell(n: Reals, phi13: Reals) -> Reals:
     n [asin(k sin(y)) + asin(k sin(h))] = phi13,   y = phi13 - h
 
     Source
-        thesis (4-16), as `symmetric_back_step.crank_angle_for_dwell`
+        thesis (4-16), as `back_step.crank_angle_for_dwell`
     """
-    return newton(_missing_dwell, 0.25 * phi13, np.minimum(0.5 * phi13, _QUARTER), phi13 / 3.0, n, phi13)
+    return newton_roots(_missing_dwell, 0.25 * phi13, np.minimum(0.5 * phi13, _QUARTER), phi13 / 3.0, n, phi13)
 
 
 def _missing_dwell(h: Reals, n: Reals, phi13: Reals) -> tuple[Reals, Reals]:
@@ -80,22 +45,22 @@ def dwell_angle(n: Reals, h: Reals) -> Reals:
     """phi13 [rad] of a back-step over 2 h: the same equation solved for y.
 
     Source
-        as `symmetric_back_step.dwell_angle`
+        as `back_step.dwell_angle`
     """
     limit = 2.0 * math.pi * n / (n + 1.0)
     high = np.minimum(3.0 * h, limit - h)
     # At y = h the value is least: beyond it it rises, and the root lies at about 2 h.
-    return h + newton(_regained, h, high, np.minimum(2.0 * h, high), n, h)
+    return h + newton_roots(_regained, h, high, np.minimum(2.0 * h, high), n, h)
 
 
 def half_angle_for_window(n: Reals, window: Reals) -> Reals:
     """h [rad] of the back-step whose band the output touches twice over a window [rad]: y = window/2 is given.
 
     Source
-        as `symmetric_back_step.crank_angle_for_window`
+        as `back_step.crank_angle_for_window`
     """
     y = 0.5 * window
-    return newton(_missing_window, y / 3.0, np.minimum(y, _QUARTER), np.minimum(0.5 * y, 0.9 * _QUARTER), n, y)
+    return newton_roots(_missing_window, y / 3.0, np.minimum(y, _QUARTER), np.minimum(0.5 * y, 0.9 * _QUARTER), n, y)
 
 
 def _missing_window(h: Reals, n: Reals, y: Reals) -> tuple[Reals, Reals]:
@@ -127,10 +92,10 @@ def half_angle_for_back_step(n: Reals, angle: Reals) -> Reals:
     2 n atan(tan(h)/n) - 2 h = angle
 
     Source
-        thesis (4-19), as `symmetric_back_step.crank_angle_for_back_step`
+        thesis (4-19), as `back_step.crank_angle_for_back_step`
     """
     start = np.minimum(np.cbrt(1.5 * angle / (1.0 - 1.0 / (n * n))), 0.9 * _QUARTER)
-    return newton(_missing_back_step, np.zeros(n.shape), np.full(n.shape, _QUARTER), start, n, angle)
+    return newton_roots(_missing_back_step, np.zeros(n.shape), np.full(n.shape, _QUARTER), start, n, angle)
 
 
 def _missing_back_step(h: Reals, n: Reals, angle: Reals) -> tuple[Reals, Reals]:
@@ -164,5 +129,5 @@ def in_range(value: Reals, low: Any, high: Any) -> Mask:
 
 
 def window_limit(n: Reals) -> Reals:
-    """Upper limit of the window [rad], as `symmetric_back_step.window_limit`."""
+    """Upper limit of the window [rad], as `back_step.window_limit`."""
     return np.asarray(math.pi * (3.0 * n - 1.0) / (n + 1.0))
