@@ -14,10 +14,10 @@ from gearlink.cli.batch.options import BatchOptions
 from gearlink.cli.batch.outcome import Outcome
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import stem_of
-from gearlink.cli.processors import processors
+from gearlink.cli.parallel.processors import processors
+from gearlink.cli.parallel.workers import workers
 from gearlink.cli.progress import progress
 from gearlink.cli.reading.diagnostics import Diagnostic
-from gearlink.cli.workers import workers
 
 # Several processes pay when the rest would take this long in one; starting them costs some hundredths of a second.
 _WORTH_SECONDS = 0.15
@@ -113,7 +113,7 @@ def _in_processes(left: list[Sequence[Path]], options: BatchOptions, jobs: int) 
 def _on_cluster(files: Sequence[Path], options: BatchOptions) -> Iterator[tuple[int, list[Outcome]]]:
     """Every file by a worker of a Dask cluster, which must see it under the same path; what it loses, this process
     computes."""
-    from gearlink.cli.cluster import client
+    from gearlink.cli.parallel.cluster import client
 
     with client(options.dask) as cluster:
         pool = cluster.get_executor()

@@ -12,8 +12,8 @@ from gearlink.cli.commands.finding import Finding
 from gearlink.cli.evaluate import open_design, read_spec, refusals_located, refused_sections
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import Options
+from gearlink.cli.parallel.processors import processors
 from gearlink.cli.patience import patience
-from gearlink.cli.processors import processors
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import LoadedFile, parse_path
 from gearlink.cli.reading.places import design_files
@@ -66,7 +66,7 @@ def _in_processes(files: Sequence[str], options: Options, jobs: int) -> Iterator
     """What no process gives, for the system has none or one died, is found here."""
     from concurrent.futures import BrokenExecutor
 
-    from gearlink.cli.workers import workers
+    from gearlink.cli.parallel.workers import workers
 
     done = 0
     try:

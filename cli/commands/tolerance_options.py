@@ -64,7 +64,7 @@ def _tolerance(
     Example: gearlink tolerance designs/candy_feed_tolerances.yaml --worst-case
     """
     from gearlink.cli.commands.design import run_design
-    from gearlink.cli.computing_shares import shares_by
+    from gearlink.cli.parallel.shares import shares_by
 
     options = _keyed(options, "tolerance", {"samples": samples, "seed": seed, "sobol": sobol})
     added = (*(("corners",) if worst_case else ()), *(("allocation",) if allocate else ()))
@@ -95,7 +95,7 @@ def _register(
     Example: gearlink register designs/candy_feed_tolerances.yaml --at dwell
     """
     from gearlink.cli.commands.design import run_design
-    from gearlink.cli.computing_shares import shares_by
+    from gearlink.cli.parallel.shares import shares_by
 
     options = _keyed(options, "register", {"at": at, "method": method and method.value, "radius": radius})
     options = _keyed(options, "tolerance", {"samples": samples, "seed": seed})

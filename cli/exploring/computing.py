@@ -12,8 +12,8 @@ from time import perf_counter
 from typing import Any
 
 from gearlink.cli.exploring.store import Kept, Result
-from gearlink.cli.processors import processors
-from gearlink.cli.workers import workers
+from gearlink.cli.parallel.processors import processors
+from gearlink.cli.parallel.workers import workers
 from gearlink.core.explore.chunks import computed, designs_of
 from gearlink.core.explore.problem import Problem
 from gearlink.core.study.faults import BrokenPromise

@@ -114,7 +114,7 @@ def _keep(made: Problem, asked: Exploring) -> Opened:
 @contextmanager
 def _means(asked: Exploring) -> Iterator[Means]:
     if asked.dask or asked.executor:
-        from gearlink.cli.executors import executor_of
+        from gearlink.cli.parallel.executors import executor_of
 
         with executor_of(asked.executor, asked.dask) as (made, workers):
             yield Means(executor=made, workers=workers)

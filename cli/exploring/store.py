@@ -15,7 +15,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any, Protocol
 
-from gearlink.cli.cluster import processor
+from gearlink.cli.parallel.cluster import processor
 from gearlink.cli.reading.places import is_named_pipe
 from gearlink.core.errors import GearlinkError
 from gearlink.core.explore.chunks import Chunk, Miss

@@ -11,7 +11,7 @@ from typing import IO, TYPE_CHECKING
 from PIL import Image
 
 from gearlink.cli.moving.raster import Raster
-from gearlink.cli.processors import processors
+from gearlink.cli.parallel.processors import processors
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -46,7 +46,7 @@ def _frames(raster: Raster, palette: Picture, counted: Iterable[int], count: int
     if jobs < 2 or count < _WORTH_PROCESSES:
         yield from (_quantized(raster, palette, i) for i in counted)
         return
-    from gearlink.cli.workers import workers
+    from gearlink.cli.parallel.workers import workers
 
     global _drawn_from
     _drawn_from = raster, palette  # forked processes have it without its being sent

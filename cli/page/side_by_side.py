@@ -35,7 +35,7 @@ def side_by_side(make: Make, count: int) -> list[Any] | None:
         return None
     from concurrent.futures import BrokenExecutor
 
-    from gearlink.cli.workers import workers
+    from gearlink.cli.parallel.workers import workers
 
     following, write = os.pipe()  # a byte is read by one process alone
     os.write(write, bytes(range(count - 1, 0, -1)))

@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from importlib import import_module
 from typing import Any
 
-from gearlink.cli.cluster import client
+from gearlink.cli.parallel.cluster import client
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 
 _WORKERS = 8  # of an executor that does not say

@@ -17,7 +17,7 @@ from types import SimpleNamespace
 import pytest
 from sweeps import mostly_slow
 
-from gearlink.cli.workers import _close_by_one, _end, workers
+from gearlink.cli.parallel.workers import _close_by_one, _end, workers
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="forked processes, /proc")
 
@@ -26,7 +26,7 @@ PARENT = """
 import sys, time
 from pathlib import Path
 from gearlink.cli.files import leave_nothing_behind, write_atomically
-from gearlink.cli.workers import workers
+from gearlink.cli.parallel.workers import workers
 
 def hold(stream):
     stream.write(b"half")
@@ -95,8 +95,8 @@ def test_one_that_loses_a_signal_is_asked_again(
 ) -> None:
     """Python forgets a signal to a process that has just been forked; who would wait for it waits for ever."""
     clock = SimpleNamespace(monotonic=itertools.count(0.0, 0.3).__next__)  # seconds go by in a moment
-    monkeypatch.setattr("gearlink.cli.workers.time", clock)
-    monkeypatch.setattr("gearlink.cli.workers._AGAIN_SECONDS", 0.0)
+    monkeypatch.setattr("gearlink.cli.parallel.workers.time", clock)
+    monkeypatch.setattr("gearlink.cli.parallel.workers._AGAIN_SECONDS", 0.0)
     deaf = _Deaf(heeds)
     _end([deaf])  # type: ignore[list-item]
     assert (deaf.asked, deaf.forced) == (asked, forced)
@@ -123,7 +123,7 @@ class _Deaf:
 HALF = """
 import sys, threading, time
 from pathlib import Path
-from gearlink.cli.workers import workers
+from gearlink.cli.parallel.workers import workers
 
 class Late:
     def __reduce__(self):
@@ -164,7 +164,7 @@ KILLED = """
 import os, signal, sys, threading, time
 from concurrent.futures import BrokenExecutor
 from pathlib import Path
-from gearlink.cli.workers import workers
+from gearlink.cli.parallel.workers import workers
 
 class Late:
     def __reduce__(self):
