@@ -55,7 +55,7 @@ TOLERANCES: tuple[Rule, ...] = (
     Rule(
         "GL176",
         "correlations contradict each other",
-        "The correlations of the file make no positive matrix, or name what is no source.",
+        "The correlations of the file make no positive matrix, lie outside -1 to 1, or name what is no source.",
         "Three parts cannot all scatter against each other.",
         "Correlate what one machine makes in one setting; make rho smaller.",
     ),

@@ -33,9 +33,9 @@ DWELL_TOLERANCE = Rule(
     "tolerance in which a dwell has no end",
     "The band of the tolerance, or of the play, is as wide as what the output gains in a turn of the crank.",
     "The output would never leave its place: what is asked for is no dwell.",
-    "Give a smaller dwell_tolerance or dwell_backlash.",
+    "Give a smaller dwell_tolerance, dwell.tolerance or dwell_backlash.",
     "tol < pi mean_ratio; of a play j at the output gear tol = j/(2 r5)",
     "own derivation",
     ("dwell-tolerance",),
-    ("dwell_tolerance", "dwell_backlash"),
+    ("dwell_tolerance", "dwell.tolerance", "dwell_backlash"),
 )

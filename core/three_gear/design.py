@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from gearlink.core.clearance.bodies import Layout
 from gearlink.core.clearance.checks import SHAFT_WAYS, collision_check, shaft_checks
@@ -56,7 +56,7 @@ WAYS = {
         *SHAFT_WAYS,
     ),
     "transmission-angle": (*_LINKS, up("gears.idler", step=1), *_TEETH, down("momentary.eccentricity")),
-    "dwell-tolerance": (down("dwell_tolerance", step=0.01), down("dwell_backlash", step=0.01)),
+    "dwell-tolerance": tuple(down(key, step=0.01) for key in ("dwell_tolerance", "dwell.tolerance", "dwell_backlash")),
     **train_ways(3, *_TEETH),
 }
 
@@ -251,7 +251,7 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
             return self.by_roots.within(tolerance, self.speed_extremes, self.mean_ratio)
         from gearlink.core.three_gear.dwell.tolerance_dwell import tolerance_dwell
 
-        with at_key("dwell_tolerance" if self.spec.dwell_backlash is None else "dwell_backlash"):
+        with at_key(self._tolerance_key):
             return tolerance_dwell(self.linkage, self.train, tolerance)
 
     @property
@@ -268,7 +268,20 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
             return tolerance_from_backlash(
                 self.spec.dwell_backlash, self.spec.gears.transverse_module * abs(self.output_teeth) / 2.0
             )
-        return None if self.spec.dwell_tolerance is None else math.radians(self.spec.dwell_tolerance)
+        given = self.spec.dwell_tolerance if self.dwell_wish is None else self.dwell_wish.tolerance
+        return None if given is None else math.radians(given)
+
+    @property
+    def dwell_wish(self) -> Any:
+        """The file's section dwell with a tolerance, which is the same wish as dwell_tolerance; None without one."""
+        wish = self.spec.dwell
+        return None if wish is None or wish.tolerance is None else wish
+
+    @property
+    def _tolerance_key(self) -> str:
+        if self.spec.dwell_backlash is not None:
+            return "dwell_backlash"
+        return "dwell_tolerance" if self.dwell_wish is None else "dwell.tolerance"
 
     tolerance_dwell_angle: float | None = placed("tolerance_dwell.crank_angle")
     tolerance_dwell_start: float | None = placed("tolerance_dwell.start")

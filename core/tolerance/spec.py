@@ -129,9 +129,15 @@ class Correlation(Spec):
     """Sources that scatter together."""
 
     sources: Annotated[list[str], Field(min_length=2)] = Field(description="keys of `sources`")
-    rho: Annotated[float, Field(ge=-1, le=1, json_schema_extra=_ONE)] = Field(
+    rho: Annotated[float, Field(json_schema_extra={**_ONE, "minimum": -1, "maximum": 1})] = Field(
         description="correlation of each two of them (Gaussian copula)"
     )
+
+    @model_validator(mode="after")
+    def _a_correlation(self) -> Correlation:
+        if not -1.0 <= self.rho <= 1.0:
+            raise _wrong("GL176", f"rho {self.rho:g} is no correlation: it lies between -1 and 1", "rho")
+        return self
 
 
 class Cost(Spec):

@@ -83,6 +83,8 @@ def _served(spec: Any, command: str, paths: Sequence[str]) -> bool:
     def given(path: str) -> bool:
         return path in paths or number_at(spec, path) is not None
 
+    if command == "analyze" and given("dwell.tolerance"):  # measured by the class alone
+        return False
     if batch is Windows:
         window = given("dwell.window")
         if window == given("dwell.tolerance") or (window and given("dwell_tolerance")):

@@ -49,6 +49,11 @@ class Synthesis(ThreeGearFourBar):
         self.require_proportion()
 
     @property
+    def dwell_wish(self) -> Any:
+        """None: a synthesis takes the section that it needs; that of a dwell reads its own."""
+        return None
+
+    @property
     def _addendum(self) -> float:
         """Half of what the tips of gears 1 and 5 reach beyond their reference circles, in transverse modules."""
         return 0.5 * self.tip_excess / self.spec.gears.transverse_module

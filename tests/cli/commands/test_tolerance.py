@@ -70,6 +70,7 @@ def test_a_quoted_key_is_one_step_of_a_path(gearlink: Any, spec: Path) -> None:
         ("plus_minus: 0.02}\n  require", "plus_minus: 0.02, cp: 1, cpk: 2}\n  require", "GL172", (7, 5)),
         ("{plus_minus: 0.02}\n    links.frame", "{limits: [1, 1]}\n    links.frame", "GL171", (6, 5)),
         ("back_step_angle", "back_stp_angle", "GL152", (8, 13)),
+        ("  req", "  correlated: [{sources: [links.crank, links.frame], rho: 1.2}]\n  req", "GL176", (8, 54)),
     ],
 )
 def test_errors_have_a_place(gearlink: Any, spec: Path, old: str, new: str, code: str, place: tuple[int, int]) -> None:

@@ -386,6 +386,15 @@ def test_what_the_form_has_not_is_left_to_the_classes(change: dict[str, Any], se
     assert (made.axis is not None) is served
 
 
+def test_an_analysis_by_the_wish_for_a_dwell_is_left_to_the_classes() -> None:
+    links = {"links": {"crank": 38.0, "frame": 152.0}}
+    for more, served in (({"dwell_tolerance": 0.5}, True), ({"dwell": {"tolerance": 0.5}}, False)):
+        data = {"kind": "study", "design": {**BASE, **links, **more}, "command": "analyze"}
+        data |= {"maximize": {"tolerance_dwell_angle": 1}, "variables": {"gears.module": {"values": [2, 2.1]}}}
+        made = problem(StudySpec.model_validate_json(json.dumps(data)))
+        assert (made.axis is not None) is served
+
+
 def test_a_quantity_that_the_form_has_not_is_left_to_the_classes() -> None:
     data = {
         "kind": "study",

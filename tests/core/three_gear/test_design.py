@@ -452,6 +452,18 @@ def test_gear_gap_sweeps_nothing():
     assert math.isclose(found.gear_gap, -1.6, abs_tol=1e-12)
 
 
+def test_the_tolerance_of_the_wish_for_a_dwell_measures_an_analysis():
+    """`dwell.tolerance` and `dwell_tolerance` are one wish under two names; other syntheses leave the section alone."""
+    linkage = {"gears": {"module": 2, "crank": 40, "idler": 72, "output": 40}, "links": {"crank": 38, "frame": 152}}
+    given = design(**linkage, dwell_tolerance=0.5)
+    wished = design(**linkage, dwell={"tolerance": 0.5})
+    assert wished.raw("tolerance_dwell_angle") == given.raw("tolerance_dwell_angle")
+    assert [check.code for check in wished.check("dwell-tolerance")] == ["GL317"]
+    tasks = {"dwell": {"tolerance": 0.5}, "back_step": {"crank_angle": 90}}
+    other = design(command="synth back-step", **linkage, **tasks)
+    assert other.output_tolerance is None
+
+
 @pytest.mark.parametrize("key", ["dwell_tolerance", "dwell_backlash"])
 def test_a_tolerance_without_end_is_a_finding(key):
     """Half of the gain of a turn of example 3; a play counts at the output gear's circle, r5 = 75 mm."""
