@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from gearlink.core.loads.base import Wanted
+    from gearlink.core.loads.machine import Machine
     from gearlink.core.loads.vibrating import Vibrating
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.report import Remedy
@@ -119,21 +120,17 @@ class LoadsDesign(BalancedLoads):
         """
         import numpy as np
 
-        from gearlink.core.loads.dynamics import power_parts
+        from gearlink.core.numerics.blocks import BLOCK
 
-        machine = self.machine
+        machine, apart, sizes = self.machine, [0.0], [0.0]
         phi = np.linspace(0.0, machine.period, 360 * self.turns, endpoint=False)
-        found = machine.reactions(phi)
-        if machine.friction is None:
-            power = machine.reduced(phi).torque(machine.speed)
-        else:
-            from gearlink.core.loads.friction import losses
-
-            power = machine.reduced(phi).torque(machine.speed)
-            power = power + losses(found, machine.friction, machine.speed) / machine.speed
-        parts = power_parts(machine.at(phi), machine.masses, machine.applied(phi), machine.gravity, machine.speed)
-        size = max(*(float(np.max(np.abs(each))) for each in (found.torque, power)), _CANCELLED * float(np.max(parts)))
-        return float(np.max(np.abs(found.torque - power))) / size if size else 0.0
+        if machine.friction is not None and machine.locks:
+            machine.reactions(phi)  # which says so
+        for rows, block in machine.by_blocks(phi.size) if phi.size > 2 * BLOCK else [(slice(None), machine)]:
+            torque, power, parts = _both_torques(block, phi[rows])
+            apart.append(float(np.max(np.abs(torque - power))))
+            sizes += [*(float(np.max(np.abs(each))) for each in (torque, power)), _CANCELLED * float(np.max(parts))]
+        return max(apart) / max(sizes) if max(sizes) else 0.0
 
     @cached_property
     def nearest_locking(self) -> tuple[float, float | None]:
@@ -180,7 +177,7 @@ class LoadsDesign(BalancedLoads):
 
     def prepare(self, quantities: Iterable[str]) -> None:
         """Search extremes together, and then the reversals of pins, and those of meshes."""
-        from gearlink.core.loads.joints import find_reversals
+        from gearlink.core.loads.joints import find_reversals, find_ways
 
         names = tuple(quantities)
         super().prepare(names)
@@ -189,6 +186,8 @@ class LoadsDesign(BalancedLoads):
             pins = [self.pin(joint[4:]) for joint, _, name in asked if name in ("equivalent", "travel", "life")]
             meshes = [self.mesh(joint) for joint, _, name in asked if name == "reversals"]
             find_reversals(self.machine, [pin for pin in pins if pin], [mesh for mesh in meshes if mesh])
+            pressed = any(name in ("equivalent", "life") for _, _, name in asked)
+            find_ways(self.machine, [pin for pin in pins if pin], pressed=pressed)
 
     @property
     def quiet_zones(self) -> list[tuple[float, float]]:
@@ -384,3 +383,16 @@ class LoadsDesign(BalancedLoads):
     check_rigid_model, check_resonance = vibration_checks.rigid_model, vibration_checks.resonance
     check_residual_vibration = vibration_checks.residual_vibration
     check_impact, check_self_locking = checks.impact, checks.self_locking
+
+
+def _both_torques(machine: Machine, phi: Reals) -> tuple[Reals, Reals, Reals]:
+    """Input torque by the forces between the links and by virtual power, and the sizes of what cancels in it [N m]."""
+    from gearlink.core.loads.dynamics import power_parts
+
+    found, power = machine.reactions(phi), machine.reduced(phi).torque(machine.speed)
+    if machine.friction is not None:
+        from gearlink.core.loads.friction import losses
+
+        power = power + losses(found, machine.friction, machine.speed) / machine.speed
+    parts = power_parts(machine.at(phi), machine.masses, machine.applied(phi), machine.gravity, machine.speed)
+    return found.torque, power, parts

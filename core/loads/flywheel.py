@@ -15,7 +15,7 @@ from gearlink.core.loads.machine import NODES, PANEL, Machine, Panels, fewest_sa
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.extremes import Extreme, extremes_over
 
-_STEPS, _MOST_SAMPLED = 30, 10
+_STEPS = 30
 Function = Callable[[Reals], Reals]
 
 
@@ -47,14 +47,16 @@ class Energy:
         Notes
             Nothing more is computed than the load at the nodes of panels of a quarter of the usual width: the integral
             of the polynomials through them is as exact as Gauss' over wide ones. With friction to 1e-6 where the force
-            of a pin comes near 0. A period of very many turns keeps wide panels.
+            of a pin comes near 0.
         """
-        sampled = machine.turns <= _MOST_SAMPLED or machine.friction is not None
-        panels = Panels.over(machine.period, machine.breaks, 0.25 * PANEL) if sampled else machine.panels
-        found = cls.from_functions(
-            machine.load_torque, lambda phi: machine.reduced(phi).inertia, panels, tuple(machine.breaks)
-        )
-        return replace(found, sampled=machine.load_torque(panels.nodes)) if sampled else found
+        panels = Panels.over(machine.period, machine.breaks, 0.25 * PANEL)
+        sampled = machine.load_torque(panels.nodes)
+
+        def load(phi: Reals) -> Reals:
+            return sampled if phi is panels.nodes else machine.load_torque(phi)
+
+        found = cls.from_functions(load, lambda phi: machine.reduced(phi).inertia, panels, tuple(machine.breaks))
+        return replace(found, sampled=sampled)
 
     @classmethod
     def from_functions(

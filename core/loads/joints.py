@@ -7,9 +7,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.core.loads.machine import zeros, zeros_of
+from gearlink.core.loads.machine import Panels
 from gearlink.core.loads.mechanism import Pin, ToothDrive, rates
 from gearlink.core.loads.reversals import places, places_of
+from gearlink.core.loads.zeros import zeros, zeros_of
+from gearlink.core.numerics.blocks import BLOCK
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
@@ -17,6 +19,7 @@ if TYPE_CHECKING:
 
     from gearlink.core.loads.design import LoadsDesign
     from gearlink.core.loads.machine import Machine
+    from gearlink.core.loads.mechanism import Mechanism
     from gearlink.core.loads.spec import Bearing
     from gearlink.core.numerics.arrays import Points, Reals
 
@@ -45,7 +48,9 @@ class PinLoad:
 
     def rate(self, phi: Reals) -> Reals:
         """Relative turning per input angle."""
-        mechanism = self.design.machine.at(phi)
+        return self._rate(self.design.machine.at(phi))
+
+    def _rate(self, mechanism: Mechanism) -> Reals:
         pin = next(each for each in mechanism.connections if each.name == self.name)
         assert isinstance(pin, Pin), "only pins are asked for"
         return rates(mechanism, pin.first, pin.second)
@@ -66,18 +71,6 @@ class PinLoad:
         machine = self.design.machine
         return zeros(self.rate, machine.period, machine.turns)
 
-    def _mean(self, power: float) -> tuple[float, float]:
-        """Mean of |F|^p over the travel, scaled by the peak, and the travel [rad]."""
-        from gearlink.core.loads.machine import Panels
-
-        machine, peak = self.design.machine, self.peak or 1.0
-        panels = Panels.over(machine.period, sorted({*machine.breaks, *self.reversals} - {0.0, machine.period}))
-        way = np.abs(self.rate(panels.nodes))
-        travel = panels.integral(way)
-        if travel == 0.0:
-            return 0.0, 0.0
-        return panels.integral(way * (np.abs(self.force(panels.nodes)) / peak) ** power) / travel, travel
-
     @property
     def exponent(self) -> float:
         """3 for balls, 10/3 for rollers and needles."""
@@ -85,22 +78,37 @@ class PinLoad:
         return ROLLER if kind in ("roller", "needle") else BALL
 
     @cached_property
-    def equivalent(self) -> float | None:
-        """(int |F|^p |dt| / int |dt|)^(1/p) [N], over the relative turning; None for a pin that does not turn."""
-        if not self.known:
-            return None
-        mean, travel = self._mean(self.exponent)
-        return (self.peak or 0.0) * mean ** (1.0 / self.exponent) if travel > 0.0 else None
+    def way(self) -> float:
+        """Relative turning over the period, both senses counted [rad]."""
+        find_ways(self.design.machine, [self], pressed=False)
+        return float(vars(self)["way"])
 
     @cached_property
+    def _borne(self) -> float:
+        """|F|^p over that way, F in shares of the peak [rad]."""
+        find_ways(self.design.machine, [self])
+        return float(vars(self)["_borne"])
+
+    @cached_property
+    def equivalent(self) -> float | None:
+        """(int |F|^p |dt| / int |dt|)^(1/p) [N], over the relative turning; None for a pin that does not turn."""
+        if not self.known or self.way == 0.0:
+            return None
+        return float((self.peak or 0.0) * (self._borne / self.way) ** (1.0 / self.exponent))
+
+    @property
     def travel(self) -> float:
         """Relative turns per input turn, both senses counted."""
-        machine = self.design.machine
-        edges = sorted({0.0, machine.period, *self.reversals})
-        from gearlink.core.loads.machine import Panels
+        return self.way / self.design.machine.period
 
-        panels = Panels.over(machine.period, edges[1:-1])
-        return panels.integral(np.abs(self.rate(panels.nodes))) / machine.period
+    def rates_of(self, machine: Machine, phi: Reals, *, pressed: bool) -> tuple[Reals, ...]:
+        """Relative turning per input angle of both senses, and that times |F/peak|^p where `pressed`."""
+        mechanism = machine.at(phi)
+        way = np.abs(self._rate(mechanism))
+        if not pressed:
+            return (way,)
+        force = machine.reactions(phi).force(self.name)
+        return way, way * (np.abs(force) / (self.peak or 1.0)) ** self.exponent
 
     @cached_property
     def life(self) -> float | None:
@@ -126,8 +134,6 @@ class PinLoad:
     @cached_property
     def swing(self) -> float | None:
         """Angle of the oscillation [rad]; None for a pin that goes round."""
-        from gearlink.core.loads.machine import Panels
-
         if not self.reversals:
             return None
         edges = sorted({0.0, self.design.machine.period, *self.reversals})
@@ -188,3 +194,33 @@ def find_reversals(machine: Machine, pins: Sequence[PinLoad], meshes: Sequence[M
     rolling = [mesh for mesh in dict.fromkeys(meshes) if "reversal_places" not in vars(mesh)]
     for mesh, found in zip(rolling, places_of([(m.force, m.tooth_force_max) for m in rolling], machine), strict=True):
         vars(mesh)["reversal_places"] = found
+
+
+def find_ways(machine: Machine, pins: Sequence[PinLoad], *, pressed: bool = True) -> None:
+    """Integrate the turning of pins over the period, and what they bear meanwhile, and keep it there.
+
+    Notes
+        All look at the machine's panels, whose links and forces are computed once, a block of panels after the other. A
+        panel in which a pin turns back is looked at anew in parts.
+    """
+    asked = [(pin, pressed and pin.known) for pin in dict.fromkeys(pins)]
+    asked = [(pin, with_force) for pin, with_force in asked if not _has_way(pin, with_force)]
+    if not asked:
+        return
+    panels = machine.panels
+    parts: list[list[Reals]] = [[] for _ in asked]
+    for rows, part in machine.by_blocks(len(panels.edges) - 1, max(1, BLOCK // panels.order)):
+        some = panels.some(rows)
+        for found, (pin, with_force) in zip(parts, asked, strict=True):
+            found.append(np.array([some.each(v) for v in pin.rates_of(part, some.nodes, pressed=with_force)]))
+    for found, (pin, with_force) in zip(parts, asked, strict=True):
+        sums = np.concatenate(found, axis=1)
+        cut, more = panels.cut(pin.reversals)
+        sums[:, cut] = 0.0
+        again = [more.each(v) for v in pin.rates_of(machine, more.nodes, pressed=with_force)] if len(cut) else []
+        whole = [math.fsum([*one, *(again[i] if again else ())]) for i, one in enumerate(sums.tolist())]
+        vars(pin).update(zip(("way", "_borne"), whole, strict=False))
+
+
+def _has_way(pin: PinLoad, pressed: bool) -> bool:
+    return ("_borne" if pressed else "way") in vars(pin)

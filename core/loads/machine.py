@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
-from typing import Any, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -20,9 +20,8 @@ from gearlink.core.loads.friction import LOCKED, LOCKS, Coefficients, SelfLockin
 from gearlink.core.loads.kinematics import dot
 from gearlink.core.loads.mechanism import Coupling, Mechanism, Pin
 from gearlink.core.loads.sources import Sources
+from gearlink.core.loads.zeros import zeros_of
 from gearlink.core.numerics.arrays import Reals
-from gearlink.core.numerics.roots_sweep import narrowed, next_share
-from gearlink.core.numerics.together import Search, together
 
 Kinematics: TypeAlias = Callable[[Reals], Mechanism]
 TURN = 2.0 * math.pi
@@ -31,11 +30,10 @@ PANEL = math.radians(10.0)
 MANY = 100
 """Breaks of a period from which on fewer nodes and samples are taken between each two."""
 _FEW_NODES, _NARROW = 6, math.radians(1.0)
-_STEPS = 150
 _KEPT = 24
 _ROWS_KEPT = 100_000
 _BLOCK = 4096
-_APART, _BESIDE = 64.0, 8.0
+_APART = 64.0
 _FEW = 340
 """Rows at most of what a search looks at on the way; the grids that searches begin with are kept apart from it."""
 
@@ -106,12 +104,25 @@ class Machine:
 
     def reduced(self, phi: Reals) -> Reduced:
         """Inertia and load as the input feels them."""
-        found: Reduced = self._keep(
-            "reduced",
-            phi,
-            lambda: reduced(self.at(phi), self.masses, self.applied(phi), self.gravity, self.shaft_inertia),
-        )
+        found: Reduced = self._keep("reduced", phi, lambda: self._reduced(phi))
         return found
+
+    def _reduced(self, phi: Reals) -> Reduced:
+        if phi.size <= 2 * _BLOCK:
+            return reduced(self.at(phi), self.masses, self.applied(phi), self.gravity, self.shaft_inertia)
+        found = Reduced(*np.empty((4, phi.size)))
+        for rows, machine in self.by_blocks(phi.size):
+            part = machine._reduced(phi[rows])
+            for name in ("inertia", "slope", "weight", "applied"):
+                getattr(found, name)[rows] = getattr(part, name)
+        return found
+
+    def by_blocks(self, rows: int, block: int = _BLOCK) -> Iterator[tuple[slice, Machine]]:
+        """Slices of very many rows, and for each the machine with nothing kept, so that it ends with its block."""
+        for start in range(0, rows, block):
+            made = replace(self, kept={}, kept_few={})
+            vars(made).update({name: vars(self)[name] for name in ("locking", "breaks") if name in vars(self)})
+            yield slice(start, start + block), made
 
     def reactions(self, phi: Reals) -> Reactions:
         """All forces between the links at the constant speed.
@@ -132,9 +143,8 @@ class Machine:
     def _by_blocks(self, phi: Reals) -> Reactions:
         """The same of many rows; of a block nothing is kept but its forces."""
         torque, unknowns = np.empty(phi.size), dict[str, Reals]()
-        for start in range(0, phi.size, _BLOCK):
-            rows = slice(start, start + _BLOCK)
-            part = replace(self, kept={}, kept_few={})._reactions(phi[rows])
+        for rows, machine in self.by_blocks(phi.size):
+            part = machine._reactions(phi[rows])
             torque[rows] = part.torque
             for name, values in part.unknowns.items():
                 if name not in unknowns:
@@ -144,7 +154,17 @@ class Machine:
 
     def torque(self, phi: Reals) -> Reals:
         """Input torque at the constant speed [N m]; with friction, that of the reactions."""
-        return self.reduced(phi).torque(self.speed) if self.friction is None else self.reactions(phi).torque
+        if self.friction is None:
+            return self.reduced(phi).torque(self.speed)
+        if phi.size <= 2 * _BLOCK or self.locks:
+            return self.reactions(phi).torque
+        found: Reals = self._keep("torque", phi, lambda: self._torque_by_blocks(phi))
+        return found
+
+    def _torque_by_blocks(self, phi: Reals) -> Reals:
+        """The torque alone of many rows, without the links and the forces between them."""
+        parts = [machine._reactions(phi[rows]).torque for rows, machine in self.by_blocks(phi.size)]
+        return np.concatenate(parts)
 
     def load_torque(self, phi: Reals) -> Reals:
         """tau, what the input must hold without accelerating anything [N m]."""
@@ -244,6 +264,24 @@ class Machine:
         return self.panels.integral(f(self.panels.nodes)) / self.period
 
 
+class Parts(NamedTuple):
+    """Stretches anywhere with Gauss nodes.
+
+    Fields
+        nodes : (n * order,) array
+        widths : (n,) array
+        weights : (order,) array - of a stretch of length 1
+    """
+
+    nodes: Reals
+    widths: Reals
+    weights: Reals
+
+    def each(self, values: Reals) -> Reals:
+        """Integral over each stretch of a function given at the nodes."""
+        return np.asarray((values.reshape(-1, len(self.weights)) @ self.weights) * self.widths)
+
+
 @dataclass(frozen=True)
 class Panels:
     """An interval in panels with Gauss nodes.
@@ -282,13 +320,31 @@ class Panels:
         """Nodes of a panel."""
         return len(self.weights)
 
+    def some(self, rows: slice) -> Panels:
+        """Some of the panels, one after the other."""
+        last = min(rows.stop, len(self.edges) - 1)
+        return Panels(
+            self.edges[rows.start : last + 1], self.nodes[rows.start * self.order : last * self.order], self.weights
+        )
+
+    def cut(self, places: Sequence[float]) -> tuple[Any, Parts]:
+        """Numbers of the panels within which some of the places lie, and these panels in parts between the places."""
+        at = np.sort(np.asarray(places, dtype=float))
+        row, apart = self.row(at), _APART * float(np.spacing(self.edges[-1]))
+        inside = (at - self.edges[row] > apart) & (self.edges[row + 1] - at > apart)
+        at, rows = at[inside], np.unique(row[inside])
+        starts, ends = (np.sort(np.append(at, self.edges[rows + end])) for end in (0, 1))
+        x, _ = np.polynomial.legendre.leggauss(self.order)
+        nodes = (starts[:, None] + (ends - starts)[:, None] * (0.5 * (x + 1.0))).ravel()
+        return rows, Parts(nodes, ends - starts, self.weights)
+
     def row(self, phi: Reals) -> Any:
         """Number of the panel in which each place lies; the very end belongs to the last one."""
         return np.searchsorted(self.edges[1:-1], phi, side="right")
 
     def each(self, values: Reals) -> Reals:
         """Integral over each panel of a function given at the nodes."""
-        return np.asarray((values.reshape(-1, self.order) @ self.weights) * np.diff(self.edges))
+        return Parts(self.nodes, np.diff(self.edges), self.weights).each(values)
 
     def integral(self, values: Reals) -> float:
         """Integral over the whole of a function given at the nodes."""
@@ -320,63 +376,3 @@ def to_integral(order: int) -> Reals:
     x, _ = np.polynomial.legendre.leggauss(order)
     to_series = np.linalg.inv(np.polynomial.legendre.legvander(x, order - 1))
     return np.asarray(0.5 * np.polynomial.legendre.legint(to_series, lbnd=-1.0).T)
-
-
-def zeros(f: Callable[[Reals], Reals], period: float, turns: int = 1) -> list[float]:
-    """Places within a period where a function changes its sign, to the last bits, all at once.
-
-    Notes
-        Brackets from 720 rows a turn; a zero that is touched without a change of sign is none.
-    Source
-        T. R. Chandrupatla, Adv. Eng. Softw. 28 (1997) 145-149
-    """
-    return zeros_of([f], period, turns)[0]
-
-
-def zeros_of(
-    functions: Sequence[Callable[[Reals], Reals]],
-    period: float,
-    turns: int = 1,
-    *,
-    jumps: Sequence[float] = (),
-    any_zero: bool = False,
-) -> list[list[float]]:
-    """The zeros of several functions, searched together.
-
-    Parameters
-        functions, period, turns : as of `zeros`
-        jumps : floats - where they may jump, so that one across 0 is not sought by halving
-        any_zero : bool - any place will do where a function is 0 over a way, else the first or the last one
-    """
-    return together(functions, [_zeros(period, turns, jumps, any_zero=any_zero) for _ in functions])
-
-
-def _zeros(period: float, turns: int, jumps: Sequence[float], *, any_zero: bool) -> Search[list[float]]:
-    grid, beside = np.linspace(0.0, period, 720 * turns + 1), _BESIDE * float(np.spacing(period))
-    if jumps:
-        sides = np.add.outer(np.asarray(jumps), [-beside, beside]).ravel()
-        grid = np.unique(np.concatenate((grid, sides[(sides > 0.0) & (sides < period)])))
-    values = yield grid
-    rows = np.flatnonzero((values[:-1] > 0.0) != (values[1:] > 0.0))
-    if rows.size == 0:
-        return []
-    # A value is above 0 or it is not: where the function leaves 0 is found, and so is a jump. Each bracket rests by
-    # itself, so that what jumps does not have the others computed again.
-    b, a, fb, fa = grid[rows], grid[rows + 1], values[rows], values[rows + 1]
-    found, left, near = np.empty(rows.size), np.arange(rows.size), 4.0 * np.spacing(period)
-    share: Reals = np.full(rows.size, 0.5)
-    for _ in range(_STEPS):
-        x = a + share * (b - a)
-        fx = yield x
-        with np.errstate(all="ignore"):
-            a, b, c, fa, fb, fc = narrowed(x, a, b, fx, fa, fb)
-            width = np.abs(b - a)
-            found[left] = np.where(np.abs(fa) < np.abs(fb), a, b)
-            going = (width > near) & (fx != 0.0) if any_zero else width > near
-            left = left[going]
-            if not left.size:
-                break
-            a, b, c, fa, fb, fc, width = (each[going] for each in (a, b, c, fa, fb, fc, width))
-            least = np.minimum(0.5, 0.5 * near / width)
-            share = np.minimum(1.0 - least, np.maximum(least, next_share(a, b, c, fa, fb, fc)))
-    return found.tolist()

@@ -8,7 +8,8 @@ from typing import TypeAlias
 
 import numpy as np
 
-from gearlink.core.loads.machine import Machine, zeros_of
+from gearlink.core.loads.machine import Machine
+from gearlink.core.loads.zeros import zeros_of
 from gearlink.core.numerics.arrays import Reals
 
 Function: TypeAlias = Callable[[Reals], Reals]

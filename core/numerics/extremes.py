@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearlink.core.numerics.arrays import Reals
-from gearlink.core.numerics.together import Function, Search, together
+from gearlink.core.numerics.together import Function, Search, together, values_of
 
 TURN = 2.0 * math.pi
 
@@ -96,7 +96,8 @@ def extremes_over(
 
     def answered(asked: _Asked) -> Reals:
         flat = asked.places.ravel()
-        values = {k: functions[k](flat) for k in dict.fromkeys(of[search] for search, _ in asked.parts)}
+        wanted_now = list(dict.fromkeys(of[search] for search, _ in asked.parts))
+        values = dict(zip(wanted_now, values_of([functions[k] for k in wanted_now], flat), strict=True))
         if asked.places.ndim == 1:
             return np.array([values[k] * sign for k, sign in zip(of, signs, strict=True)])
         answer = np.empty(asked.places.shape)

@@ -8,6 +8,7 @@ from typing import Any, TypeAlias, TypeVar
 import numpy as np
 
 from gearlink.core.numerics.arrays import Reals
+from gearlink.core.numerics.blocks import BLOCK
 
 Function: TypeAlias = Callable[[Reals], Reals]
 Found = TypeVar("Found")
@@ -40,9 +41,28 @@ def together(functions: Sequence[Function], searches: Sequence[Search[Found]]) -
         _advance(k, search, None, asked, found)
     while asked:
         places, parts = _joined(asked)
-        for k in list(asked):
-            values = functions[k](places)
+        of = list(asked)
+        for k, values in zip(of, values_of([functions[k] for k in of], places), strict=True):
             _advance(k, searches[k], values[parts[k]], asked, found)
+    return found
+
+
+def values_of(functions: Sequence[Function], places: Reals) -> list[Reals]:
+    """Values of functions at the same places; at very many of them block by block, for the memory's sake.
+
+    Parameters
+        functions, places : as of `together`; what the functions share is computed once a block
+    Example
+        >>> [float(values.sum()) for values in values_of([np.ones_like, np.zeros_like], np.arange(20_000.0))]
+        [20000.0, 0.0]
+    """
+    if places.size <= 2 * BLOCK:
+        return [f(places) for f in functions]
+    found = [np.empty(places.shape) for _ in functions]
+    for start in range(0, places.size, BLOCK):
+        rows = slice(start, start + BLOCK)
+        for values, f in zip(found, functions, strict=True):
+            values[rows] = f(places[rows])
     return found
 
 

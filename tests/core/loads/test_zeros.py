@@ -11,7 +11,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from gearlink.core.loads.machine import TURN, zeros, zeros_of
+from gearlink.core.loads.machine import TURN
+from gearlink.core.loads.zeros import zeros, zeros_of
 from gearlink.core.numerics.arrays import Reals
 
 _NEAR = 4.0 * float(np.spacing(TURN))
