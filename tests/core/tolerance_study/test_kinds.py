@@ -66,12 +66,14 @@ def test_every_kind_that_has_the_command_is_tried() -> None:
 
 @pytest.mark.slow
 def test_a_search_is_done_once_and_its_function_goes_on_judging() -> None:
-    """The found links scatter: the error of the search itself, 0.0002 deg, grows to some thousandths."""
+    """The found links scatter: the error of the search itself, below 0.0002 deg, grows to some thousandths."""
     sources = {key: {"plus_minus": 0.02} for key in ("links.coupler", "links.frame")}
     made = study("five_bar_function", sources=sources, samples=16)
     nominal = made.problem.nominal
     assert nominal.spec.target.function.links == "given"
-    assert math.degrees(nominal.structural_error) == pytest.approx(0.000197176, abs=5e-9)
+    searched = factory.design("five_bar_function").structural_error
+    assert nominal.structural_error == pytest.approx(searched, rel=1e-8)  # 3e-6 rad, of angles that end at 1e-16
+    assert math.degrees(searched) < 0.0002
     assert made.result.spreads["structural_error"].mean.value > 0.001
 
 
