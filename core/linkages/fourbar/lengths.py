@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from gearlink.core.linkages.fourbar.refine import dead_point_distance
 from gearlink.core.numerics.arrays import Points, Reals
 
 
@@ -114,3 +115,21 @@ def _rates(links: Lengths, e1: Points, e2: Points, e3: Points, order: int) -> Pl
     j2 = w2**3 + (a * from_rocker.imag - mixed2 * angle.real + mixed3) * to_coupler
     j3 = w3**3 + (a * from_coupler.imag - mixed2 + mixed3 * angle.real) * to_rocker
     return Places(e2, e3, w2, w3, g2, g3, j2, j3)
+
+
+def least_transmission_angle(crank: Reals, coupler: Reals, rocker: Reals, frame: Reals) -> Reals:
+    """Least transmission angle over the turn [rad], as `FourBar.min_transmission_angle`; NaN where the crank stops.
+
+    tan^2(gamma/2) = (x - (b - c))(x + (b - c))/((b + c - x)(b + c + x)),   x = |d - a| and d + a
+
+    Example
+        >>> lengths = (np.array([x]) for x in (18.0, 50.0, 100.0, 121.4))
+        >>> np.degrees(least_transmission_angle(*lengths)).round(6).tolist()
+        [46.113185]
+    """
+    found = []
+    for apart in (np.abs(frame - crank), frame + crank):
+        q = (apart - (coupler - rocker)) * (apart + (coupler - rocker))
+        p = (coupler + rocker - apart) * (coupler + rocker + apart)
+        found.append(dead_point_distance(2.0 * np.arctan2(np.sqrt(q), np.sqrt(p))))
+    return np.asarray(np.minimum(*found))

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gearlink.core.linkages.fourbar.lengths import Lengths, Places, solve
+from gearlink.core.linkages.fourbar.lengths import Lengths, Places, least_transmission_angle, solve
 from gearlink.core.numerics.arrays import Mask, Reals
 from gearlink.core.results import cached_property
 from gearlink.core.three_gear.as_made.near_drives import REST, STEPS, NearDrives, Seen, Stop
@@ -318,13 +318,7 @@ class DriveSamples(NearDrives):
     def min_transmission_angle(self) -> Reals:
         """Least transmission angle over the turn [rad]."""
         links = self.links
-        folded = []
-        for reach in (links.frame - links.crank, links.frame + links.crank):
-            opposite = np.sqrt((reach - links.coupler + links.rocker) * (reach + links.coupler - links.rocker))
-            adjacent = np.sqrt((links.coupler + links.rocker - reach) * (links.coupler + links.rocker + reach))
-            angle = 2.0 * np.arctan2(np.abs(opposite), np.abs(adjacent))
-            folded.append(np.minimum(angle, math.pi - angle))
-        return np.minimum(*folded)
+        return least_transmission_angle(links.crank, links.coupler, links.rocker, links.frame)
 
     @cached_property
     def gear_gap(self) -> Reals:

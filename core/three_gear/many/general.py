@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from gearlink.core.linkages.fourbar.lengths import least_transmission_angle
 from gearlink.core.numerics.arrays import Mask, Reals
 from gearlink.core.numerics.roots_sweep import newton_roots
 
@@ -46,18 +47,6 @@ def turns(links: Drives) -> tuple[Mask, Mask, Mask]:
     near = np.abs(margin) <= 1e-9 * lengths[3]
     good = margin > 0.0
     return good & (links.a == lengths[0]), good & (links.d == lengths[0]), near
-
-
-def transmission(links: Drives) -> Reals:
-    """Least transmission angle over the turn [rad], as `FourBar.min_transmission_angle`."""
-    a, b, c, d = links[:4]
-    found = []
-    for apart in (np.abs(d - a), d + a):
-        q = (apart - (b - c)) * (apart + (b - c))
-        p = (b + c - apart) * (b + c + apart)
-        gamma = 2.0 * np.arctan2(np.sqrt(q), np.sqrt(p))
-        found.append(np.minimum(gamma, math.pi - gamma))
-    return np.asarray(np.minimum(*found))
 
 
 def _loop(phi: Reals, links: Drives) -> tuple[Any, ...]:
@@ -114,7 +103,7 @@ def extreme(links: Drives, start: float, sign: float) -> tuple[Reals, Reals, Mas
     """
     phi = links.s * start
     rests = np.zeros(phi.shape, dtype=bool)
-    live = np.flatnonzero(np.isfinite(transmission(links)))
+    live = np.flatnonzero(np.isfinite(least_transmission_angle(*links[:4])))
     for _ in range(_MOST_STEPS):
         _, slope, bend = speed(phi[live], links.part(live))
         step = slope / bend

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from gearlink.core.linkages.fourbar.lengths import least_transmission_angle
 from gearlink.core.numerics.arrays import Mask, Reals
 from gearlink.core.three_gear.many import general as many
 from gearlink.core.three_gear.many.batch import Batch
@@ -38,7 +39,7 @@ class General(Batch):
     @cached_property
     def mu(self) -> Reals:
         """Of the folded and the stretched place."""
-        return many.transmission(self.drives)
+        return least_transmission_angle(*self.drives[:4])
 
     @cached_property
     def _extremes(self) -> tuple[tuple[Reals, Reals, Mask], tuple[Reals, Reals, Mask]]:

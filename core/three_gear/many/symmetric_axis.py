@@ -15,6 +15,7 @@ import numpy as np
 from gearlink.core.design_axis import Findings
 from gearlink.core.linkages.checks import EDGE, WINDOW_FIT
 from gearlink.core.linkages.codes import DWELL_EDGE
+from gearlink.core.linkages.fourbar.refine import dead_point_distance
 from gearlink.core.numerics.arrays import Mask, Reals
 from gearlink.core.three_gear.codes import ACHIEVED, BACK_STEP
 from gearlink.core.three_gear.many import symmetric as many
@@ -89,7 +90,7 @@ class Symmetric(Batch):
         """The triangle BCD is isosceles: half of gamma has the sine of half of BD over b."""
         (crank, frame), b = self.links, self.coupler
         at = [2.0 * np.arctan2(x, np.sqrt((2.0 * b - x) * (2.0 * b + x))) for x in (frame - crank, frame + crank)]
-        return np.asarray(np.minimum(*(np.minimum(gamma, math.pi - gamma) for gamma in at)))
+        return np.asarray(np.minimum(*map(dead_point_distance, at)))
 
     @cached_property
     def _steps_back(self) -> Mask:
