@@ -14,8 +14,9 @@ import factory
 import pytest
 
 from gearlink.core.errors import NoSolution
+from gearlink.core.explore import front
 from gearlink.core.explore.exploration import Exploration
-from gearlink.core.study.faults import WrongStudy
+from gearlink.core.study.faults import BrokenPromise, WrongStudy
 from gearlink.core.study.spec import StudySpec
 
 CASES = {c["name"]: c for c in json.loads((Path(__file__).parents[2] / "reference" / "explore.json").read_text())}
@@ -266,6 +267,26 @@ def test_what_a_section_makes_a_command_judge_is_asked(
 
 
 _PLAIN = {"flatbed-press": "crank_length", "swing-gripper": "total_swing", "wide-swing-cam": "velocity_peak"}
+
+
+@pytest.mark.parametrize(
+    ("other", "words"),
+    [
+        ({"gears.idler": 74}, "has frame_length"),
+        ({"dwell.angle": 359.9}, "is refused"),
+    ],
+)
+def test_a_design_that_its_own_class_sees_otherwise_is_a_fault_of_the_program(
+    monkeypatch: pytest.MonkeyPatch, other: dict[str, Any], words: str
+) -> None:
+    """Here the class is asked about another design than the search found."""
+    found = study(
+        variables={"gears.idler": {"values": [72]}}, minimize={"frame_length": "1 mm"}, checks={"must_pass": "none"}
+    )
+    single = front.single
+    monkeypatch.setattr(front, "single", lambda base, _, *asked: single(base, [*other.items()], *asked))
+    with pytest.raises(BrokenPromise, match=f"GL160: design 0 {words}"):
+        _ = found.found.rows
 
 
 def test_what_the_base_fails_is_said_to_be_left_out() -> None:

@@ -90,6 +90,17 @@ def test_reference_path():
         assert (point.real, point.imag) == pytest.approx((x, y), rel=1e-13)
 
 
+def test_the_room_in_which_a_five_bar_closes_is_that_of_a_fine_grid():
+    """GL305, which only passes: what does not close is refused before."""
+    made = factory.design("five_bar_path")
+    bar, (check,) = made.path_bar, made.check("closure")
+    ends = [bar.ends(bar.period * i / 4000) for i in range(4000)]
+    spans = [abs(one - other) for one, other in ends]
+    room = min(bar.coupler + bar.follower - max(spans), min(spans) - abs(bar.coupler - bar.follower))
+    assert (check.code, check.status, check.unit) == ("GL305", "pass", "mm")
+    assert check.value == pytest.approx(room, rel=1e-5)
+
+
 def test_reference_closure():
     (low, least), (high, greatest) = BAR.span_extremes
     assert (least, greatest) == pytest.approx((OUT["BD_min"], OUT["BD_max"]), rel=1e-14)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -169,12 +170,50 @@ def test_a_wrong_study_says_where(name: str) -> None:
     assert found.value.faults[0].place[0] == "tolerance"
 
 
-def test_too_many_sources_are_refused() -> None:
+def test_designs_as_made_that_do_not_exist_are_a_share() -> None:
+    """A frame longer than coupler + rocker - crank is no crank-rocker; uniform, so that its share is a length."""
+    made = study(
+        CANDY,
+        sources={"links.frame": {"plus_minus": 40.0, "law": "uniform"}},
+        require=["min_transmission_angle >= 1 deg"],
+        samples=64,
+    )
+    links = factory.design(CANDY).linkage
+    share = (links.frame + 40.0 - (links.coupler + links.rocker - links.crank)) / 80.0
+    (check,) = made.check("no-mechanism")
+    assert (check.code, check.status, check.limit) == ("GL177", "warn", 0.0)
+    assert check.value == pytest.approx(share, abs=1.0 / 64.0)
+
+
+def test_slopes_that_leave_a_tenth_of_the_variance_unexplained_are_told() -> None:
+    made = study(CANDY, sources=FOUR, require=["back_step_angle <= 20.4 deg"], samples=256)
+    assert list(made.check("linear-shares")) == []
+    slopes = made.slopes
+    for share, codes in ((0.85, ["GL178"]), (0.95, [])):
+        less = {
+            name: [replace(row, sigma=math.sqrt(share) * row.sigma) for row in rows] for name, rows in slopes.items()
+        }
+        vars(made)["slopes"] = less
+        found = list(made.check_linear_shares())
+        assert [check.code for check in found] == codes
+        assert all(check.value == pytest.approx(share, abs=0.02) for check in found)
+
+
+def test_too_many_sources_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     data = CANDY | {"limits": {"gear_gap": 0.0}}
     sources = {"links.crank": {"plus_minus": 0.1}} | {f"pins.{pin}": {"clearance": [0.0, 0.1]} for pin in "ABCD"}
     made = study(data, sources=sources, sobol=True, samples=16)
     assert made.problem.coordinates == 9
     assert np.isfinite(made.raw("yield"))
+    for most in (
+        "gearlink.core.tolerance_study.design.MOST_WITH_INDICES",
+        "gearlink.core.tolerance.sources.MOST_COORDINATES",
+    ):
+        monkeypatch.setattr(most, 8)
+        with pytest.raises(WrongStudy) as found:
+            _ = study(data, sources=sources, sobol=True, samples=16).problem
+        (fault,) = found.value.faults
+        assert (fault.code, fault.place) == ("GL175", ("tolerance", "sources"))
 
 
 def register(rho: float | None, method: str = "rss", **more: Any) -> Any:

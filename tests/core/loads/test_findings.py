@@ -1,0 +1,97 @@
+"""Findings of loads that no worked design has: where each begins, and the number that its message names."""
+
+from __future__ import annotations
+
+import math
+import re
+from types import SimpleNamespace
+from typing import Any
+
+import factory
+import pytest
+
+from gearlink.core.loads import cam_checks, checks
+
+FEED = "loaded_feed"
+
+
+def found(name: str, base: str = FEED, **keys: Any) -> Any:
+    (check,) = factory.design(base, command="loads", **keys).check(name)
+    return check
+
+
+def test_a_bearing_of_the_rating_that_is_named_lives_long_enough() -> None:
+    """And one of a hundredth less does not: the rating is rounded up to four digits."""
+    short = found("bearing-life", loads__bearings__C__dynamic_rating=900)
+    assert (short.code, short.status, short.limit, short.unit) == ("GL606", "fail", 20_000, "h")
+    named = float(re.findall(r"dynamic rating of ([\d.]+) N", short.message)[0])
+    long = found("bearing-life", loads__bearings__C__dynamic_rating=named)
+    assert 20_000 <= long.value < 20_000 * 1.02
+    assert long.status == "warn", "little above what is wanted"
+    assert found("bearing-life", loads__bearings__C__dynamic_rating=0.99 * named).status == "fail"
+
+
+def test_a_bearing_that_hardly_swings_has_no_life() -> None:
+    """Rolling bodies are to change places: 720 deg over their number, 20 deg where none is given."""
+
+    def swinging(swing: float, bodies: int | None, kind: str = "needle") -> list[tuple[str, float, float]]:
+        bearing = SimpleNamespace(kind=kind, rolling_bodies=bodies, life=None)
+        pin = SimpleNamespace(bearing=bearing, life=None, swing=math.radians(swing))
+        design = SimpleNamespace(section=SimpleNamespace(bearings={"C": bearing}), pins_found={"C": pin})
+        return [(each.status, each.value, each.limit) for each in checks.bearing_life(design)]
+
+    assert swinging(29.0, 24) == [("warn", pytest.approx(29.0), 30.0)]
+    assert swinging(31.0, 24) == []
+    assert swinging(19.0, None) == [("warn", pytest.approx(19.0), 20.0)]
+    assert swinging(1.0, 24, kind="plain") == []
+
+
+@pytest.mark.parametrize(
+    ("frequency", "off", "status"), [(6.5, 1.0 / 12.0, "warn"), (6.7, 0.7 / 6.0, "pass"), (5.9, 1.0 / 60.0, "warn")]
+)
+def test_a_harmonic_near_the_natural_frequency_is_a_resonance(frequency: float, off: float, status: str) -> None:
+    """At 120 rev/min the harmonics are the even numbers of hertz, here the third; nearer than a tenth counts."""
+    check = found("resonance", loads__vibration={"frequency": frequency, "damping": 0.01, "allowed_residual": 2})
+    assert (check.code, check.status, check.limit) == ("GL611", status, 0.1)
+    assert check.value == pytest.approx(off, abs=1e-12)
+    assert "number 3" in check.message
+
+
+def test_without_damping_a_resonance_has_no_limit() -> None:
+    check = found("resonance", loads__vibration={"frequency": 26, "damping": 0, "allowed_residual": 2})
+    assert (check.code, check.status) == ("GL611", "fail")
+    assert check.value < 1e-12
+    assert "number 13" in check.message
+
+
+@pytest.mark.parametrize(("frequency", "status"), [(19.9, "warn"), (20.1, "pass")])
+def test_links_count_as_rigid_from_ten_times_the_input_on(frequency: float, status: str) -> None:
+    check = found("rigid-model", loads__vibration={"frequency": frequency, "damping": 0.05})
+    assert (check.code, check.status, check.limit) == ("GL605", status, 10.0)
+    assert check.value == pytest.approx(frequency / 2.0)
+
+
+@pytest.mark.parametrize(("angle", "status"), [(11.53, "warn"), (11.55, "pass"), (90.0, "pass")])
+def test_forces_grow_as_one_over_the_sine_of_the_transmission_angle(angle: float, status: str) -> None:
+    """Five times those at a right angle are too much: arcsin(1/5) = 11.537 deg."""
+    (check,) = checks.force_amplification(SimpleNamespace(transmission_angle=math.radians(angle)))
+    assert (check.code, check.status, check.limit) == ("GL612", status, 5.0)
+    assert check.value == pytest.approx(1.0 / math.sin(math.radians(angle)))
+    assert list(checks.force_amplification(SimpleNamespace(transmission_angle=None))) == []
+
+
+@pytest.mark.parametrize(("given", "status"), [(1233.0, "warn"), (1234.6, "pass")])
+def test_a_preload_holds_both_rollers_or_says_what_would(given: float, status: str) -> None:
+    roller = SimpleNamespace(preload=given)
+    design = SimpleNamespace(preload_needed=1234.56, section=SimpleNamespace(roller=roller))
+    (check,) = cam_checks.preload(design)
+    assert (check.code, check.status, check.value, check.limit) == ("GL613", status, given, 1234.56)
+    assert ("set loads.roller.preload to 1235" in check.message) == (status == "warn")
+    roller.preload = None
+    assert list(cam_checks.preload(design)) == []
+
+
+def test_a_jump_of_speed_is_an_impact() -> None:
+    (check,) = checks.impact(SimpleNamespace(engagement_energy=3.25))
+    assert (check.code, check.status, check.value, check.unit) == ("GL614", "warn", 3.25, "J")
+    assert list(checks.impact(SimpleNamespace())) == []
