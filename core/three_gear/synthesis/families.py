@@ -86,6 +86,36 @@ class Ripple:
     output_angle: float
 
 
+def frames_of(crank: float, b: float, c: float) -> tuple[float, float]:
+    """The shortest and the longest frame in which a crank turns [mm].
+
+    Raises
+        NoSolution - for a crank that turns in none
+    """
+    least, high = max(abs(b - c) + crank, crank), b + c - crank
+    if not least < high:
+        raise NoSolution(
+            f"a crank of {crank:.9g} mm cannot turn with a coupler of {b:.9g} and a rocker of {c:.9g} mm: it must be "
+            f"shorter than {min(b, c):.9g} mm"
+        )
+    return least, high
+
+
+def longest_crank(frame: float, b: float, c: float) -> float:
+    """The longest crank that turns in a frame [mm].
+
+    Raises
+        NoSolution - for a frame in which none turns
+    """
+    high = min(frame - abs(b - c), b + c - frame, frame)
+    if not high > 0.0:
+        raise NoSolution(
+            f"no crank turns in a frame of {frame:.9g} mm with a coupler of {b:.9g} and a rocker of {c:.9g} mm: it "
+            f"must lie between {abs(b - c):.9g} and {b + c:.9g} mm"
+        )
+    return high
+
+
 def with_crank(r1: float, r3: float, r5: float, crank: float, assembly: int = 1) -> Family:
     """The linkages of a given crank.
 
@@ -96,12 +126,7 @@ def with_crank(r1: float, r3: float, r5: float, crank: float, assembly: int = 1)
         NoSolution - for a crank that cannot turn
     """
     b, c = r1 + r3, r3 + r5
-    least, high = max(abs(b - c) + crank, crank), b + c - crank
-    if not least < high:
-        raise NoSolution(
-            f"a crank of {crank:.9g} mm cannot turn with a coupler of {b:.9g} and a rocker of {c:.9g} mm: it must be "
-            f"shorter than {min(b, c):.9g} mm"
-        )
+    least, high = frames_of(crank, b, c)
     e_lo, e_up = _momentary_range(r1, r3, r5)
     low: float | None = least
     if crank <= e_lo:
@@ -119,12 +144,7 @@ def with_frame(r1: float, r3: float, r5: float, frame: float, assembly: int = 1)
         NoSolution - for a frame with which no crank-rocker exists
     """
     b, c = r1 + r3, r3 + r5
-    high = min(frame - abs(b - c), b + c - frame, frame)
-    if not high > 0.0:
-        raise NoSolution(
-            f"no crank turns in a frame of {frame:.9g} mm with a coupler of {b:.9g} and a rocker of {c:.9g} mm: it "
-            f"must lie between {abs(b - c):.9g} and {b + c:.9g} mm"
-        )
+    high = longest_crank(frame, b, c)
     try:
         low = eccentricity_for_frame(r1, r3, r5, frame)
     except NoSolution:

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.three_gear.dwell.internal_dwell import shape, tangency
-from gearlink.core.three_gear.synthesis.families import Family
+from gearlink.core.three_gear.synthesis.families import Family, frames_of, longest_crank
 
 
 def with_crank(r1: float, r3: float, r5: float, crank: float, assembly: int = 1) -> Family:
@@ -27,12 +27,7 @@ def with_crank(r1: float, r3: float, r5: float, crank: float, assembly: int = 1)
         (49.532212052, 26.0)
     """
     b, c = abs(r1 + r3), abs(r3 + r5)
-    short, long = max(abs(b - c) + crank, crank), b + c - crank
-    if not short < long:
-        raise NoSolution(
-            f"a crank of {crank:.9g} mm cannot turn with a coupler of {b:.9g} and a rocker of {c:.9g} mm: it must be "
-            f"shorter than {min(b, c):.9g} mm"
-        )
+    short, long = frames_of(crank, b, c)
 
     def linkage(d: float) -> FourBar:
         return FourBar(crank, b, c, d, assembly)
@@ -61,12 +56,7 @@ def with_frame(r1: float, r3: float, r5: float, frame: float, assembly: int = 1)
         NoSolution - for a frame with which no crank-rocker exists
     """
     b, c = abs(r1 + r3), abs(r3 + r5)
-    high = min(frame - abs(b - c), b + c - frame, frame)
-    if not high > 0.0:
-        raise NoSolution(
-            f"no crank turns in a frame of {frame:.9g} mm with a coupler of {b:.9g} and a rocker of {c:.9g} mm: it "
-            f"must lie between {abs(b - c):.9g} and {b + c:.9g} mm"
-        )
+    high = longest_crank(frame, b, c)
     why = f"no crank makes the output step back with a frame of {frame:.9g} mm"
     return _rising(r1, r3, r5, lambda e: FourBar(e, b, c, frame, assembly), min(high, abs(r1)), why)
 
