@@ -141,7 +141,7 @@ class LoadsBase(Design):
         if not self.masses and not sources.any and not self.shaft_inertia:
             raise MissingSection(
                 "without a mass, an inertia or a force there is no load: give loads.links or loads.forces",
-                key="loads.links" if "links" in self.section.model_fields_set else "loads",
+                key="loads.links" if "links" in type(self.section).model_fields else "loads",
             )
         return Machine(
             self.kinematics,

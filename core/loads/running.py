@@ -56,16 +56,16 @@ class Running:
             return self.motor_run
         if self.flywheel is None:
             return None
-        self._require_inertia("loads.flywheel")
+        self._require_inertia()
         return self.design.energy.run(self.inertia, abs(self.design.speed))
 
-    def _require_inertia(self, key: str) -> None:
+    def _require_inertia(self) -> None:
         least = self.design.reflected_inertia_min + self.inertia
         if not least > 0.0:
             raise MissingSection(
                 "without any inertia on the input its speed is not defined: give loads.flywheel: {inertia: kg m^2}, or "
                 "masses in loads.links",
-                key=key,
+                key="loads.flywheel",
             )
 
     @cached_property
@@ -88,7 +88,7 @@ class Running:
         """The run with the motor, over an angle that rises with time."""
         from gearlink.core.loads.motor import MotorRun
 
-        self._require_inertia("loads.flywheel" if self.flywheel else "loads.motor")
+        self._require_inertia()
         machine = self.design.machine
         forward = machine.speed > 0.0
         breaks = machine.breaks if forward else sorted(machine.period - angle for angle in machine.breaks)

@@ -15,7 +15,7 @@ import factory
 import numpy as np
 import pytest
 
-from gearlink.core.errors import NoSolution
+from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.linkages.fourbar.loads import four_bar, full_balance
 from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.loads.dynamics import Mass, shaking
@@ -189,6 +189,22 @@ def test_turning_the_other_way_is_the_mirror_image() -> None:
     two = factory.design({**mirrored, "loads": back}, command="loads")
     assert two.speed_min == pytest.approx(one.speed_min, rel=1e-10)
     assert two.motor_torque_rms == pytest.approx(one.motor_torque_rms, rel=1e-10)
+
+
+@pytest.mark.parametrize(
+    ("loads", "quantity", "key"),
+    [
+        ({}, "input_torque_max", "loads.links"),
+        ({"forces": [{"on": "output", "torque": -5}]}, "speed_min", "loads.flywheel"),
+    ],
+)
+def test_what_has_no_load_or_no_inertia_is_refused_at_the_key_that_mends_it(
+    loads: dict[str, Any], quantity: str, key: str
+) -> None:
+    drive = {"speed": 60, "motor": {"no_load_speed": 100, "slope": 2}}
+    with pytest.raises(MissingSection) as error:
+        factory.design({**FEED, "loads": {**drive, **loads}}, command="loads").raw(quantity)
+    assert error.value.key == key
 
 
 def test_a_motor_that_stalls_is_refused_at_its_key() -> None:
