@@ -275,21 +275,19 @@ def _with_intervals(table: Table, cells: list[list[str]]) -> tuple[Table, list[l
     rows = []
     for k, row in enumerate(cells):
         halves = {i: table.data[at[name + _HALF_WIDTH]][k] for name, i in at.items() if name + _HALF_WIDTH in at}
-        rows.append([_interval(row[i], halves.get(i)) for i in shown])
+        rows.append([_interval(row[i], table.data[i][k], halves.get(i)) for i in shown])
     units, data = tuple(table.units[i] for i in shown), tuple(table.data[i] for i in shown)
     return Table(table.name, tuple(table.columns[i] for i in shown), units, data), rows
 
 
-def _interval(cell: str, half: float | None) -> str:
-    """A value to the digits that its interval leaves it, as 20.3107 +-0.0005."""
-    if half is None or not math.isfinite(half):
-        return cell
-    if half <= 0.0 or cell == "-":
+def _interval(cell: str, value: Any, half: float | None) -> str:
+    """A value to the digits that its interval leaves it, as 20.3107 +-0.0005; its cell has six, often fewer."""
+    if half is None or not math.isfinite(half) or half <= 0.0 or not isinstance(value, float):
         return cell
     digits = max(0, -math.floor(math.log10(half)))
     if digits > _MOST_DIGITS:
         return cell
-    return f"{float(cell):.{digits}f} +-{half:.{digits}f}"
+    return f"{value:.{digits}f} +-{half:.{digits}f}"
 
 
 def _folds(table: Table, cells: Sequence[Sequence[str]], width: int) -> list[list[int]]:

@@ -35,3 +35,14 @@ def test_names_that_take_half_the_width_stand_once() -> None:
     signs, sources = [1.0, 1.0], ["a bearing with a long name", "another bearing with a long name"]
     table = Table("t", ("sign", "source", "gain", "share"), ("1",) * 4, (signs, sources, signs, signs))
     assert heads(table, 50) == [["sign", "source", "gain"], ["sign", "share"]]
+
+
+def test_an_estimate_has_the_digits_that_its_interval_leaves_it() -> None:
+    """From the value, not from its cell of six digits: 154.212000 +-0.000004 is off by a hundred times its interval."""
+    table = Table("t", ("name", "mean", "mean_pm"), ("1",) * 3, (["a", "b"], [154.21159079, 20.5], [4.45e-6, 0.0]))
+    console = Console(width=60, record=True, file=StringIO())
+    show_table(table, console)
+    assert [line.split()[1:] for line in console.export_text().splitlines()[-2:]] == [
+        ["154.211591", "+-0.000004"],
+        ["20.5"],
+    ]
