@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, TypeAlias
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.numerics.nearest_good import nearest_good
 from gearlink.core.remedies import REFUSAL, at_least, at_most, down, up
 from gearlink.core.spec_paths import changed, number_at
 
@@ -22,6 +21,7 @@ Change: TypeAlias = tuple[str, float | None]
 
 _STRICTLY = 1.0 + 1e-6
 _DEGREES, _RATIO = 0.5, 0.01
+_STEPS = 16
 _SAME_ANGLE = 0.011
 
 _CYCLE = down("cycle_angle", step=_DEGREES)
@@ -103,7 +103,7 @@ def _profile(design: WideSwingDesign) -> Iterator[Change]:
 def drive_crank(design: WideSwingDesign) -> float | None:
     """The longest crank of the drive below the one given whose cam has no loop [mm]; None where none was found."""
     crank = number_at(design.spec, "drive.crank") or 0.0
-    return nearest_good(crank, 0.05 * crank, _good(design, "drive.crank", lambda trial: trial.has_profile), 0.1)
+    return _nearest_good(crank, 0.05 * crank, _good(design, "drive.crank", lambda trial: trial.has_profile), 0.1)
 
 
 def _pressure(design: WideSwingDesign) -> Iterator[Change]:
@@ -114,7 +114,7 @@ def _pressure(design: WideSwingDesign) -> Iterator[Change]:
         return
     for path, step, bounds in _bearing(design):
         start = number_at(design.spec, path) or 0.0
-        found = (nearest_good(start, bound, _good(design, path, _pressure_holds), step) for bound in bounds)
+        found = (_nearest_good(start, bound, _good(design, path, _pressure_holds), step) for bound in bounds)
         values = [value for value in found if value is not None]
         yield from ((path, value) for value in sorted(values, key=lambda value, start=start: abs(value - start)))  # type: ignore[misc]
 
@@ -167,6 +167,37 @@ def _pressure_somewhere(cam: AnyCam) -> float:
     except NoSolution:
         return math.inf
     return float(np.abs(cam.pressure_angle(np.linspace(0.0, end, 17))).max()) if end > 0.0 else 0.0
+
+
+def _nearest_good(bad: float, limit: float, good: Callable[[float], bool], step: float) -> float | None:
+    """The multiple of `step` nearest to `bad` on the way to `limit` that is good; None where none is found.
+
+    Notes
+        Sixteen wide steps to the first good value, then halving back.
+    Example
+        >>> _nearest_good(100.0, 20.0, lambda x: x * x < 3000.0, 0.1), _nearest_good(1.0, 2.0, lambda x: x > 5.0, 0.1)
+        (54.7, None)
+    """
+    sense = math.copysign(1.0, limit - bad)
+
+    def value(count: int) -> float:
+        nearest = math.floor(sense * bad / step + 1e-9)
+        return round(sense * (nearest + count) * step, 9)
+
+    most = int(sense * (limit - bad) / step)
+    last, found = 0, None
+    for i in range(1, _STEPS + 1):
+        count = max(last + 1, most * i // _STEPS)
+        if count <= most and good(value(count)):
+            found = count
+            break
+        last = count
+    if found is None:
+        return None
+    while found - last > 1:
+        middle = (last + found) // 2
+        last, found = (last, middle) if good(value(middle)) else (middle, found)
+    return value(found)
 
 
 # Combined mechanisms
