@@ -179,8 +179,8 @@ def _deflection(axes: Axes, design: LoadsDesign) -> None:
     _over_turn(axes, design, "Deflection of the output, steady state", f"deflection [{unit}]")
     phi = np.linspace(0.0, design.machine.period, max(721, vibrating.rows(design.machine.period)))
     axes.axhline(0.0, color=style.BLACK, linewidth=0.8)
-    axes.plot(np.degrees(phi), vibrating.response.deflection(phi), color=style.PURPLE, linewidth=1.2)
-    for start, width in vibrating.dwells:
+    axes.plot(np.degrees(phi), vibrating.deflection(phi), color=style.PURPLE, linewidth=1.2)
+    for start, width in design.dwell_zones:
         for turn in (-1, 0):
             low = math.degrees(start + turn * design.machine.period)
             axes.axvspan(low, low + math.degrees(width), color=style.LIGHT, linewidth=0, zorder=0)

@@ -106,6 +106,11 @@ class LoadsBase(Design):
         return 1
 
     @property
+    def motion_turns(self) -> int:
+        """Input turns after which the links come home, gears that are out of balance apart; dwells begin with those."""
+        return self.turns
+
+    @property
     def effort(self) -> int:
         """Loads are computed over every turn of the period; with friction they take some twenty times as long."""
         if "machine" not in self.__dict__:

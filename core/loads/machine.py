@@ -33,6 +33,7 @@ _FEW_NODES, _NARROW = 6, math.radians(1.0)
 _KEPT = 24
 _ROWS_KEPT = 100_000
 _BLOCK = 4096
+_SUMS = ("reduced", "torque")
 _APART = 64.0
 _FEW = 340
 """Rows at most of what a search looks at on the way; the grids that searches begin with are kept apart from it."""
@@ -71,6 +72,7 @@ class Machine:
     more: Callable[[Mechanism, Reals], Sequence[Force | Torque]] | None = None
     kept: dict[tuple[str, bytes], Any] = field(default_factory=dict, repr=False)
     kept_few: dict[tuple[str, bytes], Any] = field(default_factory=dict, repr=False)
+    kept_sums: dict[tuple[str, bytes], Any] = field(default_factory=dict, repr=False)
 
     @property
     def period(self) -> float:
@@ -79,10 +81,12 @@ class Machine:
 
     def _keep(self, what: str, phi: Reals, make: Callable[[], Any]) -> Any:
         key = what, phi.tobytes()
-        kept = self.kept if phi.size > _FEW else self.kept_few
+        sums = what in _SUMS and phi.size > 2 * _BLOCK  # a few numbers a row, where links are hundreds
+        kept, most = (self.kept_sums, 10 * _ROWS_KEPT) if sums else (self.kept, _ROWS_KEPT)
+        kept = kept if phi.size > _FEW else self.kept_few
         if key not in kept:
             # The oldest go; of long arrays few are held, so that a table of a million rows does not fill the memory.
-            while kept and (len(kept) >= _KEPT or (len(kept) + 1) * phi.size > _ROWS_KEPT):
+            while kept and (len(kept) >= _KEPT or (len(kept) + 1) * phi.size > most):
                 del kept[next(iter(kept))]
             kept[key] = make()
         return kept[key]
@@ -120,7 +124,7 @@ class Machine:
     def by_blocks(self, rows: int, block: int = _BLOCK) -> Iterator[tuple[slice, Machine]]:
         """Slices of very many rows, and for each the machine with nothing kept, so that it ends with its block."""
         for start in range(0, rows, block):
-            made = replace(self, kept={}, kept_few={})
+            made = replace(self, kept={}, kept_few={}, kept_sums={})
             vars(made).update({name: vars(self)[name] for name in ("locking", "breaks") if name in vars(self)})
             yield slice(start, start + block), made
 
@@ -199,7 +203,7 @@ class Machine:
     def rubbing(self, share: float) -> Machine:
         """The machine with a share of its friction."""
         assert self.friction is not None, "asked for only where there is friction"
-        return replace(self, friction=self.friction.scaled(share), kept={}, kept_few={})
+        return replace(self, friction=self.friction.scaled(share), kept={}, kept_few={}, kept_sums={})
 
     @property
     def locks(self) -> bool:

@@ -71,6 +71,18 @@ class Vibrating:
         frequency = bounded(frequency, self.design.speed, f"loads.vibration.{given}")
         return Oscillator(frequency, damping)
 
+    @cached_property
+    def period(self) -> float:
+        """Input angle after which the output repeats [rad]: forces of gears out of balance do not move it."""
+        design = self.design
+        return design.machine.period * design.motion_turns / design.turns
+
+    @cached_property
+    def _breaks(self) -> list[float]:
+        """Places within it where its acceleration may jump [rad]."""
+        apart = 64.0 * float(np.spacing(self.period))
+        return [place for place in self.design.machine.breaks if place < self.period - apart]
+
     @property
     def frequency(self) -> float:
         """Natural frequency [Hz]."""
@@ -100,22 +112,21 @@ class Vibrating:
     @cached_property
     def response(self) -> PeriodicResponse:
         """The periodic steady state."""
-        machine = self.design.machine
-        breaks = tuple(machine.breaks)
-        return PeriodicResponse(self.bend, machine.period, breaks, self.oscillator, abs(machine.speed))
+        return PeriodicResponse(self.bend, self.period, tuple(self._breaks), self.oscillator, abs(self.design.speed))
 
     # Motions between the dwells
 
     @cached_property
     def dwells(self) -> list[tuple[float, float]]:
-        """Start and width of each dwell of the output within the period, ascending [rad]."""
-        period = self.design.machine.period
-        return sorted((start % period, width) for start, width in self.design.dwell_zones)
+        """Start and width of each dwell of the output within its own period, ascending [rad]."""
+        design, zones = self.design, self.design.dwell_zones
+        own = zones[: len(zones) * design.motion_turns // design.turns]
+        return sorted((start % self.period, width) for start, width in own)
 
     @cached_property
     def motions(self) -> list[tuple[float, float]]:
         """Start and end of each motion that ends in a dwell; the end lies within the period or after it [rad]."""
-        period, found = self.design.machine.period, []
+        period, found = self.period, []
         for i, (start, _) in enumerate(self.dwells):
             before, width = self.dwells[i - 1]
             left = before + width
@@ -123,11 +134,10 @@ class Vibrating:
         return found
 
     def _panelled(self, start: float, end: float, slowest: float) -> Panelled:
-        machine = self.design.machine
-        breaks = [place + turn for place in machine.breaks for turn in (-machine.period, 0.0, machine.period)]
-        breaks += [0.0, -machine.period]
+        breaks = [place + turn for place in self._breaks for turn in (-self.period, 0.0, self.period)]
+        breaks += [0.0, -self.period]
         return Panelled.of(
-            lambda phi: self.bend(np.mod(phi, machine.period)), start, end, breaks, self.oscillator.frequency / slowest
+            lambda phi: self.bend(np.mod(phi, self.period)), start, end, breaks, self.oscillator.frequency / slowest
         )
 
     @cached_property
@@ -194,7 +204,7 @@ class Vibrating:
 
     def deflection(self, phi: Reals) -> Reals:
         """Deflection in the steady state [deg or mm]."""
-        return self.response.deflection(np.mod(phi, self.design.machine.period))
+        return self.response.deflection(np.mod(phi, self.period))
 
     def rows(self, width: float) -> int:
         """Rows over an angle of the input [rad] in which each natural period is seen, at most 20000."""

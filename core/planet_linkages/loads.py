@@ -101,6 +101,11 @@ class TwoGearLoads(PlanetLinkageLoads):
         return homecoming(mean.denominator, "the output comes home", "gears")
 
     @property
+    def motion_turns(self) -> int:
+        """The links are home after every turn."""
+        return 1
+
+    @property
     def quiet_zones(self) -> list[tuple[float, float]]:
         """The dwell: within the tolerance of the file, else within the band that the back-step fills."""
         from gearlink.core.planet_linkages.two_gear_family import tolerance_dwell

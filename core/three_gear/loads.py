@@ -52,6 +52,11 @@ class ThreeGearLoads(LoadsDesign):
         return homecoming(turns, "idler and output gear come home", "gears.idler")
 
     @property
+    def motion_turns(self) -> int:
+        """The links are home after every turn."""
+        return 1
+
+    @property
     def quiet_zones(self) -> list[tuple[float, float]]:
         """The dwell: within the tolerance where the file gives one, else the back-step and the way back."""
         dwell, design = self.design.tolerance_dwell, self.design
