@@ -28,6 +28,20 @@ OUT = CASES["hypocycloid_3"]["outputs"]
 ARC = math.radians(120.0)
 
 
+@pytest.mark.parametrize("cusps", [3, 4, 5])
+def test_rates_are_each_other_s_slopes(cusps):
+    """Central differences over 1e-5 rad: 1e-8 of the largest, some tens of the planet's radius."""
+    slider = HypocycloidSlider(1.0, cusps, 4.0 * cusps)
+    t, h = np.linspace(-2.9, 3.1, 25), 1e-5
+    for rate, slope in (
+        (lambda x: -slider.deviation(x), slider.speed),
+        (slider.speed, slider.acceleration),
+        (slider.acceleration, slider.jerk),
+    ):
+        for x in t:
+            assert slope(x) == pytest.approx((rate(x + h) - rate(x - h)) / (2.0 * h), abs=1e-7)
+
+
 @pytest.mark.parametrize("rod", [7.0, 8.0, 7.5])
 def test_reference_deviations(rod):
     out, slider = OUT[f"L{rod}"], HypocycloidSlider(1.0, 3, rod)

@@ -15,7 +15,7 @@ import factory
 import numpy as np
 import pytest
 
-from gearlink.core.loads.dynamics import Force, shaking
+from gearlink.core.loads.dynamics import Force, Mass, Torque, power_parts, reduced, shaking
 from gearlink.core.loads.kinematics import cross
 from gearlink.core.loads.mechanism import FRAME, Guide, Mechanism, Pin
 
@@ -203,3 +203,22 @@ def test_shafts_in_each_other_load_the_frame_together(base: str, axis: str, othe
     for part in ("_x", "_y"):
         assert joints[f"{axis}_sum{part}"] == pytest.approx(joints[f"{axis}{part}"] + joints[f"{other}{part}"])
     assert joints[f"{axis}_sum"] == pytest.approx(np.hypot(joints[f"{axis}_sum_x"], joints[f"{axis}_sum_y"]))
+
+
+def test_parts_of_the_torque_are_counted_by_their_sizes() -> None:
+    """Of one inertia, one force or one torque alone nothing cancels: the size of what it takes."""
+    machine = factory.design("loaded_feed", command="loads").machine
+    phi = np.radians(np.arange(5.0, 360.0, 25.0))
+    at, speed = machine.at(phi), 12.0
+    turn = at.links["rocker"].turn
+    wheel = {"rocker": Mass(inertia=0.3)}
+    found = power_parts(at, wheel, (), -9.81j, speed)
+    assert found == pytest.approx(np.abs(0.5 * reduced(at, wheel, (), 0j).slope) * speed**2, rel=1e-13)
+    assert found == pytest.approx(0.3 * np.abs(turn.first * turn.second) * 144.0, rel=1e-13)
+    body = {"coupler": Mass(2.0, 0.0, 0.05 + 0.01j)}
+    center = at.links["coupler"].at(0.05 + 0.01j)
+    sizes = 2.0 * np.abs(center.first) * (np.abs(center.second) * 144.0 + 9.81)
+    assert power_parts(at, body, (), -9.81j, speed) == pytest.approx(sizes, rel=1e-13)
+    torque = (Torque("output", np.full(phi.size, -5.0)),)
+    turned = at.links["output"].turn.first
+    assert power_parts(at, {}, torque, 0j, speed) == pytest.approx(5.0 * np.abs(turned), rel=1e-13)

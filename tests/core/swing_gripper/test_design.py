@@ -143,6 +143,18 @@ def test_profile_keeps_the_roller_off_itself() -> None:
         assert gaps.min() == pytest.approx(30.0, rel=0.0, abs=1e-12)
 
 
+def test_speed_and_acceleration_of_the_tip_are_those_of_its_path() -> None:
+    """Second differences over a tenth of a degree, but at the joints of the law, where its jerk jumps."""
+    table = machine().table("tip", samples=3600)
+    step = 1e-3 * (table["time"][1] - table["time"][0])
+    place = table["tip_x"] + 1j * table["tip_y"]
+    first = (np.roll(place, -1) - np.roll(place, 1)) / (2.0 * step)
+    second = (np.roll(place, -1) - 2.0 * place + np.roll(place, 1)) / step**2
+    for found, wanted in ((table["tip_speed"], np.abs(first)), (table["tip_acceleration"], np.abs(second))):
+        off = np.abs(found - wanted)
+        assert np.quantile(off, 0.98) < 1e-4 * found.max()
+
+
 def test_rows_of_the_tables() -> None:
     design = machine()
     motion = design.table("motion", samples=24)

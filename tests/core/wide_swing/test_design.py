@@ -333,6 +333,11 @@ class TestLoops:
         assert refusal.value.key == "cam.rocker_radius"
         assert statuses(longer, "profile-exists") == ["fail"]
 
+    def test_at_the_angle_that_is_named_the_arm_is_as_long_as_the_centre_distance(self) -> None:
+        repaired = looped(cycle_angle=remedies.cycle_angle(looped()))
+        assert value(repaired, "rocker_radius") == pytest.approx(repaired.section.center_distance, rel=1e-12)
+        assert statuses(repaired, "profile-exists") == ["pass"]
+
     def test_positive_phase_angle_is_not_enough(self) -> None:
         """The source's condition Phi > 0 holds here, and for arms much longer than the distance the loop is gone."""
         assert value(looped(), "phase_angle") > 19.0
