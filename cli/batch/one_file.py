@@ -25,63 +25,77 @@ if TYPE_CHECKING:
 def outcomes(path: Path, options: BatchOptions) -> list[Outcome]:
     """What became of each command that a file asks for; nothing raised here ends a batch."""
     if options.cache is None:
-        return list(_computed(path, options))
+        return list(_Computing(path, options).outcomes())
     from gearlink.cli.batch.cache import cached_outcomes
 
-    return cached_outcomes(path, options, lambda: list(_computed(path, options)))
+    return cached_outcomes(path, options, lambda: list(_Computing(path, options).outcomes()))
 
 
-def _computed(path: Path, options: BatchOptions) -> Iterator[Outcome]:
-    file, kind_name, name, command = str(path), "", stem_of(path), ""
-    start = perf_counter()
+class _Computing:
+    """The results of one file, one after the other; what is raised becomes the outcome of its command."""
 
-    def ended(
+    def __init__(self, path: Path, options: BatchOptions) -> None:
+        self._path, self._options, self._file = path, options, str(path)
+        self._kind, self._name, self._command = "", stem_of(path), ""
+        self._start = perf_counter()
+
+    def outcomes(self) -> Iterator[Outcome]:
+        """Every command of the file, then what its sections name and the design does not have."""
+        try:
+            yield from self._commands()
+        except DesignFileError as error:
+            yield self._ended(ExitCode.WRONG_INPUT, errors=error.diagnostics)
+        except Exception as fault:
+            message = f"fault of the program: {type(fault).__name__}: {fault}"
+            yield self._ended(ExitCode.FAULT, errors=[Diagnostic("GL199", message, file=self._file)])
+
+    def _ended(
+        self,
         status: int,
         report: Report | None = None,
         errors: Sequence[Diagnostic] = (),
         places: tuple[tuple[int, int], ...] = (),
         fixes: tuple[tuple[Fix, ...], ...] = (),
     ) -> Outcome:
-        seconds = perf_counter() - start
-        return Outcome(file, kind_name, name, command, status, report, tuple(errors), places, fixes, seconds)
+        seconds, named = perf_counter() - self._start, (self._file, self._kind, self._name, self._command)
+        return Outcome(*named, status, report, tuple(errors), places, fixes, seconds)
 
-    try:
-        loaded, kind = open_design(file, options.design)
-        kind_name = kind.name
-        spec = read_spec(loaded, kind, file)
-        name = spec.name
+    def _commands(self) -> Iterator[Outcome]:
+        loaded, kind = open_design(self._file, self._options.design)
+        self._kind = kind.name
+        spec = read_spec(loaded, kind, self._file)
+        self._name = spec.name
         designs: dict[Any, Design] = {}  # commands of one class share its results
         refused = False
-        added = tuple(_added(kind, spec, options))
-        for command in (*spec.commands(), *added):
+        added = tuple(_added(kind, spec, self._options))
+        for self._command in (*spec.commands(), *added):
             try:
-                cls = kind.class_for(command, spec)
-                made = designs.get(cls)
-                design, report = build(
-                    loaded, kind, command, spec, options.design, findings_only=options.findings_only, made=made
-                )
-                designs[cls] = design
-                if options.out is not None:
-                    from gearlink.cli.batch.out import write_results
-
-                    write_results(path, design, report, options)
-                places, fixes = (_places(loaded, report), _fixes(loaded, report)) if options.with_places else ((), ())
-                yield ended(exit_status(report, strict=options.design.strict), report, (), places, fixes)
+                yield self._result(loaded, kind, spec, designs)
             except DesignFileError as error:
                 refused = True
-                yield ended(ExitCode.WRONG_INPUT, errors=error.diagnostics)
+                yield self._ended(ExitCode.WRONG_INPUT, errors=error.diagnostics)
             except CannotWrite as error:
-                yield ended(ExitCode.WRONG_INPUT, errors=[Diagnostic("GL116", str(error), file=file)])
-            start = perf_counter()
+                yield self._ended(ExitCode.WRONG_INPUT, errors=[Diagnostic("GL116", str(error), file=self._file)])
+            self._start = perf_counter()
         if not refused:
-            for section, wrong in refused_sections(loaded, kind, spec, added):
-                command = section
-                yield ended(ExitCode.WRONG_INPUT, errors=wrong)
-    except DesignFileError as error:
-        yield ended(ExitCode.WRONG_INPUT, errors=error.diagnostics)
-    except Exception as fault:
-        message = f"fault of the program: {type(fault).__name__}: {fault}"
-        yield ended(ExitCode.FAULT, errors=[Diagnostic("GL199", message, file=file)])
+            for self._command, wrong in refused_sections(loaded, kind, spec, added):
+                yield self._ended(ExitCode.WRONG_INPUT, errors=wrong)
+
+    def _result(self, loaded: LoadedFile, kind: Kind, spec: Any, designs: dict[Any, Design]) -> Outcome:
+        """The outcome of the command, its files written."""
+        command, options = self._command, self._options
+        cls = kind.class_for(command, spec)
+        only, made = options.findings_only, designs.get(cls)
+        design, report = build(loaded, kind, command, spec, options.design, findings_only=only, made=made)
+        designs[cls] = design
+        if options.out is not None:
+            from gearlink.cli.batch.out import write_results
+
+            write_results(self._path, design, report, options)
+        status = exit_status(report, strict=options.design.strict)
+        if not options.with_places:
+            return self._ended(status, report)
+        return self._ended(status, report, (), _places(loaded, report), _fixes(loaded, report))
 
 
 def _added(kind: Kind, spec: Any, options: BatchOptions) -> Iterator[str]:
