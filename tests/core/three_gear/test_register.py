@@ -17,7 +17,7 @@ from factory import design
 
 from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
 from gearlink.core.linkages.fourbar.position import FourBar
-from gearlink.core.three_gear.motion import GearTrain
+from gearlink.core.three_gear.motion import GearTrain, output_acceleration
 from gearlink.core.three_gear.register.chain import Errors, output_error
 from gearlink.core.three_gear.register.gains import Drive, register_gains
 
@@ -156,3 +156,24 @@ def test_sampled_sources_move_the_output_as_their_gains_say(sign: int) -> None:
             back = none | {one.source: -parts[one.source]}
             ends = [made.sampled_errors(phi, sign, each)[:, 0] for each in (parts, back)]
             assert (ends[0] - ends[1]) / (2.0 * h) == pytest.approx((one.gain * way).real, abs=1e-7), one.source
+
+
+def test_the_friction_that_is_named_keeps_the_sign_of_the_torque() -> None:
+    """J w^2 max |W'| of a drive that never turns back, at 90 1/min; where it is slowed the most, less than that lets
+    the torque turn."""
+    gears = {"module": 2.0, "crank": 40, "idler": 72, "output": 40}
+    one_way = {"kind": "three-gear-four-bar", "name": "a", "gears": gears, "links": {"crank": 20, "frame": 153.53}}
+    tolerance = {"sources": {"links.crank": {"plus_minus": 0.02}}}
+
+    def made(**section: float) -> Any:
+        given = {"tolerance": tolerance, "register": {"output_inertia": 0.02} | section}
+        return design(one_way | {"input_speed": 90} | given, command="register")
+
+    one = made()
+    drive, phi = one.design, np.linspace(0.0, 2.0 * math.pi, 7201)
+    change = [output_acceleration(drive.linkage, drive.train, float(x)) for x in phi]
+    inertia = 0.02 * (90.0 * 2.0 * math.pi / 60.0) ** 2
+    most, slowed = inertia * max(map(abs, change)), -inertia * min(change)
+    named = float(one.against_flips.split("above ")[1].split(" ")[0])
+    assert named == pytest.approx(most, rel=1e-3)
+    assert [len(made(friction=f).flips) for f in (most, 1.002 * slowed, 0.998 * slowed)] == [0, 0, 2]
