@@ -1,4 +1,4 @@
-"""Sections that the design files of several gear-linkages share."""
+"""Limits, value types and refusals that the specs of several gear-linkages share."""
 
 from __future__ import annotations
 
