@@ -61,13 +61,14 @@ def _csv(results: Sequence[Outcome]) -> str:
 
 
 def _counts(results: Sequence[Outcome]) -> str:
-    return ", ".join(f"{n} {verdict}" for verdict, n in summary(results).items() if n) or "nothing done"
+    counts = ", ".join(f"{n} {verdict}" for verdict, n in summary(results).items() if n) or "nothing done"
+    return f"{len(results)} result{'' if len(results) == 1 else 's'}: {counts}"
 
 
 def _markdown(results: Sequence[Outcome]) -> str:
     from gearlink.cli.render.markdown_report import markdown_table
 
-    return markdown_table(_HEADS, _rows(results)) + f"\n\n{len(results)} results: {_counts(results)}\n"
+    return markdown_table(_HEADS, _rows(results)) + f"\n\n{_counts(results)}\n"
 
 
 def _junit(results: Sequence[Outcome]) -> str:
@@ -113,7 +114,7 @@ def _show(results: Sequence[Outcome], options: BatchOptions) -> None:
         for finding in outcome.findings:
             console.print(Text(visible(finding)))
     style = max((outcome.verdict for outcome in results), key=list(_STYLE).index, default="pass")
-    console.print(Text(f"\n{len(results)} results: {_counts(results)}", style=_STYLE[style]))
+    console.print(Text(f"\n{_counts(results)}", style=_STYLE[style]))
 
 
 def _show_table(results: Sequence[Outcome], console: Console) -> None:

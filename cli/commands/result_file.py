@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import json
+from io import BytesIO
 from typing import Any
 
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
-from gearlink.cli.reading.places import is_named_pipe
+from gearlink.cli.reading.places import is_named_pipe, piped
 
 LARGEST = 1 << 26
 """Bytes; the results of a batch of some thousand designs, tables left out of account."""
@@ -49,8 +50,9 @@ def _text(file: str) -> bytes | None:
     """What a file holds that begins as a JSON object does."""
     if file == "-" or is_named_pipe(file):
         return None
+    held = piped(file, LARGEST + 1)
     try:
-        with open(file, "rb") as stream:
+        with BytesIO(held) if held is not None else open(file, "rb") as stream:
             data = stream.read(_HEAD)
             if data.lstrip()[:1] != b"{":
                 return None

@@ -169,7 +169,7 @@ def _refused(path: Path, error: sqlite3.Error) -> CannotStore:
 
 def is_store(source: str) -> bool:
     """Whether a file is a store rather than the text of a study."""
-    if is_named_pipe(source):
+    if is_named_pipe(source) or source.startswith(("/dev/fd/", "/proc/")):  # a pipe can be read but once
         return False
     try:
         with open(source, "rb") as stream:

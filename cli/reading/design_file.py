@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
 
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic, Source
 from gearlink.cli.reading.loaded_file import KeyPath, LoadedFile, Override, parse_path
-from gearlink.cli.reading.places import ENDINGS, astray, is_named_pipe
+from gearlink.cli.reading.places import ENDINGS, astray, is_named_pipe, piped
 from gearlink.cli.reading.yaml_reader import (
     CONTROL,
     MAX_BYTES,
@@ -61,6 +61,8 @@ def read_at_most(source: str | os.PathLike[str], limit: int, stdin: BinaryIO | N
     Raises
         DesignFileError - GL101 where it cannot be read
     """
+    if source != "-" and (held := piped(os.fspath(source), limit)) is not None:
+        return held[:limit]
     try:
         with nullcontext(stdin or sys.stdin.buffer) if source == "-" else open(source, "rb") as stream:
             return stream.read(limit)
@@ -268,7 +270,8 @@ def _with(node: Any, path: KeyPath, value: Any, name: str) -> Any:
             raise _NoPlace(f"{name} has {len(node)} elements, counted from [0]")
         return [*node[:step], _with(node[step], rest, value, inner), *node[step + 1 :]]
     if node is not None and not isinstance(node, dict):
-        raise _NoPlace(f"{name} is not a section, so it has no key '{step}'")
+        wanted = f": write {name}[{step}]" if isinstance(node, list) and step.isdecimal() and step.isascii() else ""
+        raise _NoPlace(f"{name} is not a section, so it has no key '{step}'{wanted}")
     section = {} if node is None else node
     return {**section, step: _with(section.get(step), rest, value, inner)}
 

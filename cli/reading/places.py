@@ -52,6 +52,29 @@ def is_named_pipe(name: str) -> bool:
         return False
 
 
+def piped(name: str, limit: int) -> bytes | None:
+    """What a pipe that a shell has opened holds, such as <(git show HEAD:a.yaml); None for what is none.
+
+    It can be read but once, and a file is looked at before it is read: the bytes are kept.
+    """
+    if not name.startswith(("/dev/fd/", "/proc/self/fd/")):
+        return None
+    try:
+        found = os.stat(name)
+        if not stat.S_ISFIFO(found.st_mode):
+            return None
+        key = (found.st_dev, found.st_ino)
+        if key not in _PIPED:
+            with open(name, "rb") as stream:
+                _PIPED[key] = stream.read(limit)
+    except OSError:
+        return None
+    return _PIPED[key]
+
+
+_PIPED: dict[tuple[int, int], bytes] = {}
+
+
 def _matched(pattern: str) -> list[Path]:
     try:
         return sorted(Path(name) for name in glob.glob(pattern, recursive=True))

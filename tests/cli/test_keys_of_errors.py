@@ -79,3 +79,27 @@ def test_a_home_that_cannot_be_written_changes_nothing(designs: Path, tmp_path: 
     home = {"HOME": "/dev/null/home", "PATH": os.environ["PATH"]}
     ended = subprocess.run(command, cwd=tmp_path, env=home, capture_output=True, text=True)
     assert (ended.returncode, ended.stderr) == (0, "")
+
+
+def _pipe_with(data: bytes) -> str:
+    reading, writing = os.pipe()
+    with open(writing, "wb") as stream:
+        stream.write(data)
+    return f"/dev/fd/{reading}"
+
+
+def test_two_pipes_that_a_shell_has_opened_are_compared(gearlink: Any, designs: Path) -> None:
+    """As in `gearlink diff <(git show HEAD:a.yaml) a.yaml`: what is looked at first is not lost."""
+    rack = (designs / "rack_drive.yaml").read_bytes()
+    assert gearlink("diff", _pipe_with(rack), _pipe_with(rack)).status == 0
+    result = gearlink("gear", designs / "rack_drive.yaml", "--format", "json").out.encode()
+    assert gearlink("diff", _pipe_with(result[:60_000]), designs / "rack_drive.yaml").status == 2
+    assert gearlink("explore", _pipe_with(b"{kind: study}")).err.count("'variables' is missing") == 1
+
+
+def test_a_batch_of_one_has_one_result(gearlink: Any, designs: Path) -> None:
+    assert "\n1 result: 1 pass" in gearlink("batch", designs / "rack_drive.yaml").out
+
+
+def test_an_element_is_named_in_brackets(gearlink: Any, designs: Path) -> None:
+    assert "write teeth[0]" in gearlink("gear", designs / "rack_drive.yaml", "--set", "teeth.0=20").err
