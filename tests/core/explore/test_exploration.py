@@ -256,9 +256,9 @@ def test_what_a_section_makes_a_command_judge_is_asked(
         for i, value in enumerate(values)
         if all(
             check.status != "fail"
-            for check in factory.design(data, command=command, **{path.replace(".", "__"): value})
-            .report(command)
-            .checks
+            for made in [factory.design(data, command=command, **{path.replace(".", "__"): value})]
+            for name in made.outline(command).checks
+            for check in made.check(name)
         )
     ]
     assert len(good) == 1

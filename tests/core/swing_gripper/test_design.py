@@ -272,7 +272,7 @@ def test_files_that_are_refused(changes: dict, words: str) -> None:
 def test_findings_say_what_to_change(changes: dict, code: str, status: str, words: str) -> None:
     made = machine(**changes)
     names = [name for name in rules()[code].checks if name in made.outline("gripper").checks]
-    found = [check for name in names for check in made.findings("gripper", name)]
+    found = [check for name in names for check in made.check(name)]
     bad = [check for check in found if check.status == status]
     assert bad, found
     assert any(re.search(words, check.message) for check in bad), bad
