@@ -171,8 +171,8 @@ class PressLoads(CamLoadsDesign):
             Pin("F", "EF", "carriage", f),
             Pin("F_pinion", "carriage", "pinion", f),
             *(Guide(f"guide_{name}", FRAME, name, links[name].origin.value, -1j) for name in self.sliding),
-            Rack("rack_lower", "rack", "pinion", f, -1j, 1.0 + 0j, r8, tangent),
-            Rack("rack_upper", "bed", "pinion", f, -1j, -1.0 + 0j, r8, tangent),
+            Rack("rack_lower", "rack", "pinion", f, -1j, 1.0 + 0j, r8, tangent, carrier="carriage"),
+            Rack("rack_upper", "bed", "pinion", f, -1j, -1.0 + 0j, r8, tangent, carrier="carriage"),
         ]
 
     def _follower(self, links: dict[str, Link], cam: Travel) -> list[Connection]:

@@ -208,7 +208,7 @@ class LoadsBase(Design):
     def _unless_locked(self, find: Callable[[], Any], otherwise: Any) -> Any:
         if self.section.friction is None:
             return find()
-        from gearlink.core.loads.friction import SelfLocking
+        from gearlink.core.loads.rubbing import SelfLocking
 
         try:
             return find()
@@ -224,7 +224,7 @@ class LoadsBase(Design):
     @cached_property
     def locks_between(self) -> bool:
         """Whether the machine locks itself at angles between those that are looked at first."""
-        from gearlink.core.loads.friction import SelfLocking
+        from gearlink.core.loads.rubbing import SelfLocking
 
         try:
             _ = self.torque_range

@@ -139,7 +139,7 @@ class LoadsDesign(BalancedLoads):
         Notes
             As `Machine.locking`, of some rows alone, where the machine locks itself.
         """
-        from gearlink.core.loads.friction import SelfLocking
+        from gearlink.core.loads.rubbing import SelfLocking
 
         if self.locked:
             return self.machine.locking

@@ -9,8 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -30,20 +29,14 @@ from gearlink.core.loads.mechanism import (
     Toothed,
     rates,
 )
-from gearlink.core.numerics.arrays import Reals
+from gearlink.core.loads.rubbing import Rubbing
+from gearlink.core.numerics.arrays import Mask, Reals
 
 if TYPE_CHECKING:
     from gearlink.core.loads.spec import Friction
 
-_PASSES, _PLAIN, _KEPT, _POWERS = 60, 4, 5, 20
-_SETTLED, _NEARLY, _BEYOND = 1e-14, 1e-11, 1e6
 _TEETH = ("mesh", "rack")
-LOCKS = 0.9
-"""A mechanism of which a pass leaves more of a change counts as self-locking."""
-LOCKED = (
-    "with this friction the mechanism locks itself: the forces grow from pass to pass; make pins thinner, or friction "
-    "smaller"
-)
+_CHANGES = 3
 
 
 @dataclass(frozen=True)
@@ -128,106 +121,8 @@ def relative(mechanism: Mechanism, connection: Connection, order: int = 1) -> Re
     return rates(mechanism, connection.first, connection.second, order)
 
 
-class SelfLocking(NoSolution):
-    """With its friction the mechanism locks itself: there are no forces with which it moves."""
-
-
-@dataclass(frozen=True)
-class Rubbing:
-    """What friction and separating forces do: each has the size of a joint's force, and acts by a response.
-
-    x = x_0 + sum f_j S_j,  f_j = mu_j |F_j(x)|
-
-    Fields
-        free : (n, N) array - x_0, the unknowns without them
-        responses : (m, n, N) array - S_j, the unknowns that a unit makes
-        shares : (m,) array - mu_j: mu r, mu, (1 - eta) r, and 1 of a mesh's separating force
-        places : (m, 2) array of int - unknowns whose magnitude F_j is; the same twice where it is one
-    """
-
-    free: Reals
-    responses: Reals
-    shares: Reals
-    places: Any
-
-    @cached_property
-    def _read(self) -> tuple[Reals, Reals]:
-        """The unknowns that sizes are read from, (N, m, 2), and what units make of them, (N, m, 2, m)."""
-        base = self.free[self.places].transpose(2, 0, 1)
-        response = self.responses[:, self.places, :].transpose(3, 1, 2, 0)
-        return base, np.ascontiguousarray(response)
-
-    @cached_property
-    def _single(self) -> Any:
-        return self.places[:, 0] == self.places[:, 1]
-
-    def forces(self, sizes: Reals) -> Reals:
-        """Parts of the joint forces at sizes (N, m), as (N, m, 2); of one unknown the second part is 0."""
-        base, response = self._read
-        count = len(self.shares)
-        flat = response.reshape(len(sizes), 2 * count, count)  # none where friction vanishes in rounding
-        found = base + (flat @ sizes[..., None]).reshape(base.shape)
-        found[:, self._single, 1] = 0.0
-        return np.asarray(found)
-
-    def rates(self, forces: Reals) -> Reals:
-        """Change of the sizes by the sizes, (N, m, m)."""
-        response = self._read[1]
-        length = np.hypot(forces[..., 0], forces[..., 1])
-        along = np.divide(forces, length[..., None], out=np.zeros_like(forces), where=length[..., None] > 0.0)
-        return np.asarray(self.shares[:, None] * np.einsum("nmk,nmkj->nmj", along, response))
-
-    def sizes(self, forces: Reals) -> Reals:
-        """f_j of joint forces, (N, m)."""
-        return np.asarray(self.shares * np.hypot(forces[..., 0], forces[..., 1]))
-
-    def unknowns(self, sizes: Reals) -> Reals:
-        """All unknowns at sizes, (n, N)."""
-        return np.asarray(self.free + np.einsum("jin,nj->in", self.responses, sizes))
-
-    def settled(self) -> Reals:
-        """The sizes that make themselves, (N, m).
-
-        Raises
-            SelfLocking - where no sizes do
-        Notes
-            A few passes first, which suffice where the friction is small; then Newton's steps, whose matrix is kept for
-            five, since near locking each pass takes off hardly anything. Relative to the greatest force: 1e-14.
-        """
-        found = np.zeros((self.free.shape[-1], len(self.shares)))
-        inverse = np.eye(len(self.shares))
-        scale = np.max(np.abs(self._read[0]), initial=0.0) * (self.shares + 1e-300)
-        for step in range(_PASSES):
-            forces = self.forces(found)
-            change = self.sizes(forces) - found
-            worst = float(np.max(np.abs(change) / scale, initial=0.0)) if scale.any() else 0.0
-            if worst <= _SETTLED:
-                return found
-            if not worst < _BEYOND:
-                break
-            if step >= _PLAIN:
-                if (step - _PLAIN) % _KEPT == 0:
-                    try:
-                        inverse = np.asarray(np.linalg.inv(np.eye(len(self.shares)) - self.rates(forces)))
-                    except np.linalg.LinAlgError:
-                        break
-                change = (inverse @ change[..., None])[..., 0]
-            found = found + change
-        else:
-            if worst <= _NEARLY:
-                return found
-        raise SelfLocking(LOCKED, key="loads.friction")
-
-    def ratio(self, sizes: Reals) -> Reals:
-        """What a pass leaves of a disturbance, at each row: the limit of the changes of two passes, (N,)."""
-        rates = self.rates(self.forces(sizes))
-        way, growth = np.ones(sizes.shape), np.zeros(len(sizes))
-        for step in range(2 * _POWERS):
-            way = np.einsum("nmj,nj->nm", rates, way)
-            length = np.max(np.abs(way), axis=1, initial=0.0)
-            growth += np.log(np.where(length > 0.0, length, 1e-300)) if step >= _POWERS else 0.0
-            way = way / np.where(length > 0.0, length, 1.0)[:, None]
-        return np.asarray(np.exp(growth / _POWERS))
+Pulled = Mapping[str, Mask]
+"""Rows at which the second roller of a contact carries, by the contact's name."""
 
 
 class Solution(NamedTuple):
@@ -236,6 +131,7 @@ class Solution(NamedTuple):
     mechanism: Mechanism
     system: System
     rubbing: Rubbing
+    pulled: Pulled
 
 
 def solution_of(
@@ -245,8 +141,12 @@ def solution_of(
     gravity: complex,
     speed: float,
     friction: Coefficients | None,
+    pulled: Pulled | None = None,
 ) -> Solution:
     """The solution without friction, and the responses to it and to the separating forces of the teeth.
+
+    Parameters
+        pulled : Pulled - left out: where the force without friction is negative
 
     Notes
         A system a row, solved once with all right sides. Where a second roller carries, its column takes the place of
@@ -265,12 +165,35 @@ def solution_of(
     solved = system.solve(sides)
     places = [(system.place(mesh.name),) * 2 for mesh in meshes] + [unit.places(system) for unit in rubbing]
     shares = np.array([1.0] * len(meshes) + [unit.share for unit in rubbing])
-    count = 1 + len(shares)
+    count, used = 1 + len(shares), {}
     for k, (name, _) in enumerate(backs, count):
         place = system.place(name)
-        _exchange(solved, k, place, _with_separation(solved, places[: len(meshes)], place))
+        free = _with_separation(solved, places[: len(meshes)], place) < 0.0
+        used[name] = free if pulled is None else pulled[name]
+        _exchange(solved, k, place, used[name])
     found = Rubbing(solved[0], solved[1:count], shares, np.array(places, dtype=np.intp).reshape(-1, 2))
-    return Solution(mechanism, system, found)
+    return Solution(mechanism, system, found, used)
+
+
+def _rubbing_solution(
+    mechanism: Mechanism, masses: Masses, applied: Applied, gravity: complex, speed: float, friction: Coefficients
+) -> tuple[Solution, Reals]:
+    """The solution with the rollers that carry once there is friction, and the sizes that make themselves.
+
+    Notes
+        Where the friction outweighs what a pair of rollers bears, the other roller carries than without it.
+    """
+    found = solution_of(mechanism, masses, applied, gravity, speed, friction)
+    for _ in range(_CHANGES):
+        sizes = found.rubbing.settled()
+        unknowns = found.rubbing.unknowns(sizes) if found.pulled else found.rubbing.free
+        pulled = {name: unknowns[found.system.place(name)] < 0.0 for name in found.pulled}
+        if all(np.array_equal(pulled[name], used) for name, used in found.pulled.items()):
+            break
+        found = solution_of(mechanism, masses, applied, gravity, speed, friction, pulled)
+    else:
+        sizes = found.rubbing.settled()  # rows at which either roller would have it the other way: both are idle there
+    return found, sizes
 
 
 def _with_separation(solved: Reals, places: Sequence[tuple[int, int]], at: int) -> Reals:
@@ -280,9 +203,8 @@ def _with_separation(solved: Reals, places: Sequence[tuple[int, int]], at: int) 
     )
 
 
-def _exchange(solved: Reals, new: int, place: int, whole: Reals) -> None:
-    """Put another column in the place of one, where its unknown, `whole`, is negative."""
-    pulled = whole < 0.0
+def _exchange(solved: Reals, new: int, place: int, pulled: Mask) -> None:
+    """Put another column in the place of one, at the rows where its roller carries."""
     if pulled.any():
         y = solved[new]
         for k in range(new):
@@ -331,9 +253,12 @@ def with_friction(
     Source
         Newton and Euler
     """
-    _, system, rubbing = solution_of(mechanism, masses, applied, gravity, speed, friction)
-    sizes = np.abs(rubbing.free[rubbing.places[:, 0]]).T if friction is None else rubbing.settled()
-    return _sided(system.reactions(rubbing.unknowns(sizes)))
+    if friction is None:
+        found = solution_of(mechanism, masses, applied, gravity, speed, None)
+        sizes = np.abs(found.rubbing.free[found.rubbing.places[:, 0]]).T
+    else:
+        found, sizes = _rubbing_solution(mechanism, masses, applied, gravity, speed, friction)
+    return _sided(found.system.reactions(found.rubbing.unknowns(sizes)))
 
 
 def _sided(found: Reactions) -> Reactions:
@@ -353,8 +278,8 @@ def passes_ratio(
     Raises
         SelfLocking
     """
-    rubbing = solution_of(mechanism, masses, applied, gravity, speed, friction).rubbing
-    return rubbing.ratio(rubbing.settled())
+    found, sizes = _rubbing_solution(mechanism, masses, applied, gravity, speed, friction)
+    return found.rubbing.ratio(sizes)
 
 
 class Unit(NamedTuple):

@@ -16,9 +16,10 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 
 from gearlink.core.loads.dynamics import Applied, Force, Mass, Reactions, Reduced, Torque, reduced
-from gearlink.core.loads.friction import LOCKED, LOCKS, Coefficients, SelfLocking, passes_ratio, with_friction
+from gearlink.core.loads.friction import Coefficients, passes_ratio, with_friction
 from gearlink.core.loads.kinematics import dot
 from gearlink.core.loads.mechanism import Coupling, Mechanism, Pin
+from gearlink.core.loads.rubbing import LOCKED, LOCKS, SelfLocking
 from gearlink.core.loads.sources import Sources
 from gearlink.core.loads.zeros import zeros_of
 from gearlink.core.numerics.arrays import Reals

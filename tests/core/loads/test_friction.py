@@ -12,7 +12,8 @@ import numpy as np
 import pytest
 
 from gearlink.core.loads.blocks import blocks
-from gearlink.core.loads.friction import Rubbing, SelfLocking, solution_of
+from gearlink.core.loads.friction import solution_of
+from gearlink.core.loads.rubbing import Rubbing, SelfLocking
 from gearlink.core.remedies import Bench
 
 FEED, PRESS = "loaded_feed", "loaded_press"
@@ -31,7 +32,7 @@ def _solution(base: str, friction: Any) -> Any:
 @pytest.mark.parametrize("base", [FEED, PRESS])
 def test_blocks_solve_what_the_whole_system_says(base: str) -> None:
     """LAPACK on all unknowns at once; 1e-12 of the largest, the condition is below 1e3."""
-    mechanism, system, rubbing = _solution(base, None)
+    mechanism, system, rubbing, _ = _solution(base, None)
     entries = system.entries
     assert len(blocks(tuple(tuple(each) for each in entries))) > 8
     matrix = np.zeros((len(PHI), system.size, system.size))
@@ -52,6 +53,32 @@ def test_newton_ends_where_the_passes_end(base: str) -> None:
     for _ in range(200):
         sizes = rubbing.sizes(rubbing.forces(sizes))
     assert rubbing.settled() == pytest.approx(sizes, rel=1e-11, abs=1e-11 * sizes.max())
+
+
+def test_the_roller_that_carries_is_that_of_the_forces_with_friction() -> None:
+    """The follower's own balance across its guide, over degrees at which friction alone decides which cam pushes."""
+    phi = np.radians(np.arange(76.0, 79.0, 0.05))
+    keys = {"command": "loads", "speed": 3000, "loads__gravity": [0, 0]}
+    heavy = {"pins": 0.1, "pin_radius": 30, "guides": 0.15}
+    press, smooth = (factory.design(PRESS, **keys, loads__friction=each) for each in (heavy, None))
+    found = press.machine.reactions(phi)
+    (cam,) = (each for each in found.mechanism.connections if each.name == "cam")
+    force, plain = (one.side_force(phi) for one in (press, smooth))
+    assert ((force < 0.0) != (plain < 0.0)).any()
+    assert not np.array_equal(np.sign(force), np.full_like(force, np.sign(force[0])))
+    across = found.unknowns["guide_rack"][0] + (force * cam.normal).real
+    separating = math.tan(math.radians(20.0)) * np.abs(found.unknowns["rack_lower"][0])
+    assert across == pytest.approx(separating, abs=1e-9 * separating.max())
+
+
+def test_a_rack_wears_on_the_carriage_of_its_pinion() -> None:
+    """Both losses turn the carriage in its guide: the rod and the pinion meet it in one point and turn it nowhere."""
+    press = factory.design(PRESS, command="loads", loads__friction={"meshes": 0.9})
+    found = press.machine.reactions(PHI)
+    rolling = np.sign(found.mechanism.links["pinion"].turn.first)
+    teeth = sum(np.abs(found.unknowns[name][0]) for name in ("rack_lower", "rack_upper"))
+    couple = found.unknowns["guide_carriage"][1]
+    assert couple == pytest.approx(-0.1 * press.pinion_radius * teeth * rolling, abs=1e-9 * np.abs(couple).max())
 
 
 def test_ratio_is_that_of_the_last_passes() -> None:
