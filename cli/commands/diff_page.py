@@ -13,6 +13,7 @@ from gearlink.cli.printable import json_text, visible
 from gearlink.cli.render.json_report import FORMAT
 
 _PARTS = ("inputs", "quantities", "checks", "tables")
+_PERCENT = len("+1.23e-05 %")
 _HEADS = ("old", "new", "unit", "change", "command")
 
 
@@ -94,7 +95,8 @@ def _show(found: Difference, options: Options) -> None:
             shown = [i for i in shown if heads[i] != "command"]
         for i in shown:
             number_like = heads[i] in ("old", "new")
-            whole = number_like or i == 0
+            # Words of a change may be folded, a number and its per cent sign not.
+            whole = number_like or i == 0 or (heads[i] == "change" and all(len(row[i]) <= _PERCENT for row in rows))
             grid.add_column(heads[i], justify="right" if number_like else "left", no_wrap=whole, overflow="fold")
         for row in rows:
             grid.add_row(*(row[i] for i in shown))
