@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 
 _EVERY = 0.05
 """Between two looks at the file [s]."""
+_GONE = 40
+"""So many looks without a file, and it is told: an editor takes it away for a moment only."""
 _FIRST_PICTURES = 60
 """A film of so few pictures comes at once; the whole one follows the sheets."""
 
@@ -68,9 +70,11 @@ def run_watch(source: str, options: Options, *, port: int = 0, show: bool = Fals
 def _follow(path: Path, make: Callable[[Callable[[], bool]], str], options: Options) -> None:
     """Make the page whenever the file is another; a page in the making is given up for a newer one."""
     seen: Stamp = None
+    missing = 0
     while True:
         now = _stamp(path)
-        if now is None or now == seen:  # an editor may take the file away for a moment
+        missing = missing + 1 if now is None else 0
+        if (now == seen and missing == 0) or (missing and missing != _GONE):
             time.sleep(_EVERY)
             continue
         seen, start = now, time.monotonic()
