@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.page.film import film_data
 from gearlink.cli.page.sheets import as_data
-from gearlink.cli.render.numbers import number, quiet, readable_rows, scales, thinning
+from gearlink.cli.render.numbers import number, quiet, readable_rows, scales, thinning, with_intervals
 from gearlink.core.nomenclature import term
 from gearlink.core.version import VERSION
 
@@ -127,13 +127,16 @@ def _data(given: Table) -> str:
     in_words = count > 0 and isinstance(given.data[0][0], str)  # every row of such a table says something else
     step = 1 if in_words else max(1, math.ceil(count / _MOST_ROWS))
     step = next((s for s in (1, 2, 5, 10, 20, 30) if s >= step), step)
+    cells = readable_rows(given, step)
+    if step == 1:
+        given, cells = with_intervals(given, cells)
     heads = [
         f"{c.replace('_', ' ')} [{u}]" if u not in ("", "1") else c.replace("_", " ")
         for c, u in zip(given.columns, given.units, strict=True)
     ]
     note = f'<p class="note">{thinning(step, given)}</p>' if step > 1 else ""
     title = escape(given.name.replace("_", " "))
-    return f"<h3>{title}</h3>{note}" + table(heads, readable_rows(given, step), numeric=range(len(heads)))
+    return f"<h3>{title}</h3>{note}" + table(heads, cells, numeric=range(len(heads)))
 
 
 def table(heads: Sequence[str], rows: Iterable[Sequence[str]], *, numeric: Iterable[int], marked: bool = False) -> str:

@@ -9,6 +9,8 @@ from typing import Any
 from gearlink.core.report import Report, Table, without_noise
 
 _NOISE = 1e-12  # of the scale: what a root is left with, in a table of seven digits
+_HALF_WIDTH = "_pm"
+_MOST_DIGITS = 7  # behind the point: an interval that is narrower is not shown
 
 
 def number(value: object, digits: int = 7) -> str:
@@ -87,3 +89,34 @@ def _largest(column: Any) -> float:
 
 def _quiet(value: object, level: float) -> object:
     return 0.0 if isinstance(value, float) and abs(value) < level else value
+
+
+def with_intervals(table: Table, cells: list[list[str]]) -> tuple[Table, list[list[str]]]:
+    """Estimates with their half-width X_pm in one column, short; columns that say nothing left out.
+
+    A table without half-widths stays as it is.
+    """
+    at = {name: i for i, name in enumerate(table.columns)}
+    if not cells or not any(name.endswith(_HALF_WIDTH) for name in table.columns):
+        return table, cells
+    shown = [
+        i
+        for i, name in enumerate(table.columns)
+        if name.removesuffix(_HALF_WIDTH) == name and any(value is not None for value in table.data[i])
+    ]
+    rows = []
+    for k, row in enumerate(cells):
+        halves = {i: table.data[at[name + _HALF_WIDTH]][k] for name, i in at.items() if name + _HALF_WIDTH in at}
+        rows.append([_interval(row[i], table.data[i][k], halves.get(i)) for i in shown])
+    units, data = tuple(table.units[i] for i in shown), tuple(table.data[i] for i in shown)
+    return Table(table.name, tuple(table.columns[i] for i in shown), units, data), rows
+
+
+def _interval(cell: str, value: Any, half: float | None) -> str:
+    """A value to the digits that its interval leaves it, as 20.3107 +-0.0005; its cell has six, often fewer."""
+    if half is None or not math.isfinite(half) or half <= 0.0 or not isinstance(value, float):
+        return cell
+    digits = max(0, -math.floor(math.log10(half)))
+    if digits > _MOST_DIGITS:
+        return cell
+    return f"{value:.{digits}f} +-{half:.{digits}f}"

@@ -17,12 +17,10 @@ from rich.text import Text
 
 from gearlink.cli.options import Options
 from gearlink.cli.printable import visible
-from gearlink.cli.render.numbers import number, quiet, readable_rows, scales, thinning
+from gearlink.cli.render.numbers import number, quiet, readable_rows, scales, thinning, with_intervals
 from gearlink.core.report import Check, Quantity, Report, Table
 
 _MOST_ROWS = 24
-_HALF_WIDTH = "_pm"
-_MOST_DIGITS = 7  # behind the point: an interval that is narrower is not shown
 _STYLE = {"pass": "green", "warn": "yellow", "fail": "bold red"}
 _WIDE = 110
 _NOTHING = 1e-8  # of the limit: rounding, beside what the limit lets pass
@@ -237,7 +235,7 @@ def show_table(table: Table, console: Console, most: int = _MOST_ROWS) -> None:
     thinned = f", {thinning(step, table)} (all with --table {table.name} --format csv)" if step > 1 else ""
     console.print(Text(f"\n{table.name}{thinned}", style="bold"))
     if step == 1:
-        table, cells = _with_intervals(table, cells)
+        table, cells = with_intervals(table, cells)
     for columns in _folds(table, cells, console.width):
         grid = grid_for(console)
         for i in columns:
@@ -257,37 +255,6 @@ def _by_mesh(table: Table) -> Iterator[Table]:
         rows = [i for i, each in enumerate(meshes) if each == mesh]
         data = tuple([column[i] for i in rows] for column in table.data[1:])
         yield Table(f"{table.name} of {mesh}", table.columns[1:], table.units[1:], data)
-
-
-def _with_intervals(table: Table, cells: list[list[str]]) -> tuple[Table, list[list[str]]]:
-    """Estimates with their half-width X_pm in one column, short; columns that say nothing left out.
-
-    A table without half-widths stays as it is.
-    """
-    at = {name: i for i, name in enumerate(table.columns)}
-    if not cells or not any(name.endswith(_HALF_WIDTH) for name in table.columns):
-        return table, cells
-    shown = [
-        i
-        for i, name in enumerate(table.columns)
-        if name.removesuffix(_HALF_WIDTH) == name and any(value is not None for value in table.data[i])
-    ]
-    rows = []
-    for k, row in enumerate(cells):
-        halves = {i: table.data[at[name + _HALF_WIDTH]][k] for name, i in at.items() if name + _HALF_WIDTH in at}
-        rows.append([_interval(row[i], table.data[i][k], halves.get(i)) for i in shown])
-    units, data = tuple(table.units[i] for i in shown), tuple(table.data[i] for i in shown)
-    return Table(table.name, tuple(table.columns[i] for i in shown), units, data), rows
-
-
-def _interval(cell: str, value: Any, half: float | None) -> str:
-    """A value to the digits that its interval leaves it, as 20.3107 +-0.0005; its cell has six, often fewer."""
-    if half is None or not math.isfinite(half) or half <= 0.0 or not isinstance(value, float):
-        return cell
-    digits = max(0, -math.floor(math.log10(half)))
-    if digits > _MOST_DIGITS:
-        return cell
-    return f"{value:.{digits}f} +-{half:.{digits}f}"
 
 
 def _folds(table: Table, cells: Sequence[Sequence[str]], width: int) -> list[list[int]]:
