@@ -240,7 +240,8 @@ def _first(error: ValidationError) -> tuple[str, str, str]:
     key = "".join(f"[{step}]" if isinstance(step, int) else f".{step}" for step in steps)
     key = f"{key}.{below}" if below else key
     code = item["type"] if item["type"].startswith("GL") else "GL108"
-    return key.removeprefix("."), item["msg"][:1].lower() + item["msg"][1:], code
+    message = item["msg"].replace("Input should be", "it must be")
+    return key.removeprefix("."), message[:1].lower() + message[1:], code
 
 
 def _units(schema: dict[str, Any]) -> Iterator[tuple[str, str]]:
