@@ -110,13 +110,13 @@ class ThreeGearRegister(RegisterDesign):
         return found
 
     def _wind_up(self, input_angle: Reals) -> Contribution:
-        """Twist of the output shaft under the torque that moves it: the same in every machine, so without scatter."""
+        """Lag of the output behind its gear under the torque that moves it: in every machine alike, without scatter."""
         assert self.output_torque is not None
         assert self.section.stiffness is not None
         torque = np.array([self.output_torque(float(phi)) for phi in input_angle])
-        return Contribution(
-            "wind-up of the output shaft", self.drive.radius * torque / self.section.stiffness, 1.0, 0.0, mean=1.0
-        )
+        counted = self._ahead.sense * self.design.train.sense
+        gain = -counted * self.drive.radius * torque / self.section.stiffness
+        return Contribution("wind-up of the output shaft", gain, 1.0, 0.0, mean=1.0)
 
     # Torque and backlash
 
@@ -133,20 +133,32 @@ class ThreeGearRegister(RegisterDesign):
         reference = 0.5 * self.spec.gears.module * abs(self.design.output_teeth)
         return sum(self.backlash.values()) * self.drive.radius / reference
 
+    @property
+    def _by_inertia_alone(self) -> bool:
+        """Whether the file leaves out what friction and load are weighed against, or both."""
+        section = self.section
+        if section.output_inertia is None:
+            return not section.friction and not section.load
+        return self.spec.input_speed is None
+
+    @property
+    def _ahead(self) -> motion.GearTrain:
+        """The train with its output counted in the direction of its mean motion."""
+        return motion.forward(self.design.linkage, self.design.train)
+
     @cached_property
     def output_torque(self) -> Any:
-        """Torque on the output over the crank angle [N m], None where the file says nothing of it.
+        """Torque on the output in its forward sense [N m] over the crank angle; None where the file has nothing of it.
 
         T = J W' w^2 + T_f sign(W) + T_load
         """
         section, speed = self.section, self.spec.input_speed
-        design, train = self.design, self.design.train
+        design, train = self.design, self._ahead
         if section.output_inertia is None and not section.friction and not section.load:
             return None
-        rate = 1.0 if speed is None else speed * math.pi / 30.0
-        inertia = (section.output_inertia or 0.0) * rate * rate
-        if speed is None and section.output_inertia is not None and (section.friction or section.load):
-            raise NoSolution("inertia beside friction or load needs input_speed (1/min)", key="input_speed")
+        if speed is None and section.output_inertia is not None:
+            raise NoSolution("the torque of the output's inertia needs input_speed (1/min)", key="input_speed")
+        inertia = 0.0 if speed is None else (section.output_inertia or 0.0) * (speed * math.pi / 30.0) ** 2
 
         def torque(phi: float) -> float:
             speed_ratio = motion.output_speed(design.linkage, train, phi)
@@ -157,8 +169,16 @@ class ThreeGearRegister(RegisterDesign):
 
     @cached_property
     def flips(self) -> list[float] | None:
-        """Crank angles at which the output's torque turns [rad]."""
-        return None if self.output_torque is None else zeros_over_turn(self.output_torque)
+        """Crank angles at which the output's torque turns [rad]; by inertia alone where W' does."""
+        design = self.design
+        if self._by_inertia_alone:
+            return zeros_over_turn(lambda phi: motion.output_acceleration(design.linkage, design.train, phi))
+        return zeros_over_turn(self.output_torque)
+
+    @property
+    def judges_flips(self) -> bool:
+        """Where the file tells of backlash or of what the output carries."""
+        return bool(self.backlash) or self.section.output_inertia is not None or not self._by_inertia_alone
 
     @property
     def against_flips(self) -> str:

@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 from factory import design
 
+from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
 from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.three_gear.motion import GearTrain, output_acceleration
@@ -156,6 +157,42 @@ def test_sampled_sources_move_the_output_as_their_gains_say(sign: int) -> None:
             back = none | {one.source: -parts[one.source]}
             ends = [made.sampled_errors(phi, sign, each)[:, 0] for each in (parts, back)]
             assert (ends[0] - ends[1]) / (2.0 * h) == pytest.approx((one.gain * way).real, abs=1e-7), one.source
+
+
+GIVEN = {
+    "kind": "three-gear-four-bar",
+    "name": "a",
+    "gears": {"module": 2.0, "crank": 40, "idler": 72, "output": 40},
+    "links": {"crank": 38.85708906, "frame": 153.5517067},
+    "tolerance": {"sources": {"links.frame": {"plus_minus": 0.01}}},
+}
+
+
+@pytest.mark.parametrize("register", [{}, {"backlash": 0.03}, {"output_inertia": 0.02, "friction": 1.5}])
+def test_without_speed_or_inertia_the_torque_turns_by_inertia_alone(register: dict[str, float]) -> None:
+    """Of I = 1 at 90 and 270 deg, the middle of the dwell; a finding where the file tells of play or torque."""
+    made = design(GIVEN, register=register, command="register")
+    assert np.degrees(made.flips) == pytest.approx([90.0, 270.0], abs=1e-4)
+    assert [check.status for check in made.check("backlash-in-dwell")] == (["warn"] if register else [])
+
+
+def test_a_shaft_lags_under_the_load_of_either_kind_of_train() -> None:
+    """-r T/k; the load resists the mean motion, which that of a ring has against the crank."""
+    ring = {"module": 1, "crank": 48, "idler": 36, "output": -118}
+    for gears, links in ((GIVEN["gears"], GIVEN["links"]), (ring, {"crank": 14.0, "frame": 40.0})):
+        changes = {"gears": gears, "links": links, "register": {"at": 100, "load": 2.0, "stiffness": 500.0}}
+        made = design(GIVEN | changes, command="register")
+        assert made.output_torque(1.0) == 2.0
+        way = math.copysign(1.0, made.design.mean_ratio)
+        (twist,) = (row for row in made.contributions(np.array([1.0]), 1) if row.source.startswith("wind-up"))
+        assert twist.gain[0] * way == pytest.approx(-made.drive.radius * 2.0 / 500.0)
+
+
+def test_a_torque_of_inertia_needs_a_speed() -> None:
+    made = design(GIVEN, register={"at": 100, "output_inertia": 0.02, "stiffness": 500.0}, command="register")
+    with pytest.raises(NoSolution) as caught:
+        made.contributions(np.array([1.0]), 1)
+    assert caught.value.key == "input_speed"
 
 
 def test_the_friction_that_is_named_keeps_the_sign_of_the_torque() -> None:
