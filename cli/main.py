@@ -140,7 +140,8 @@ def _fault(fault: Exception) -> int:
     from gearlink.cli.printable import visible
 
     if isinstance(fault, OSError):
-        print(f"error: {visible(fault.strerror or str(fault))}", file=sys.stderr)
+        where = f"{fault.filename}: " if fault.filename else ""
+        print(f"error: {visible(f'{where}{fault.strerror or fault}')}", file=sys.stderr)
         return ExitCode.WRONG_INPUT
     if isinstance(fault, MemoryError):
         print("error: out of memory: take fewer rows, samples or processes, or raise the limit", file=sys.stderr)

@@ -103,3 +103,12 @@ def test_a_batch_of_one_has_one_result(gearlink: Any, designs: Path) -> None:
 
 def test_an_element_is_named_in_brackets(gearlink: Any, designs: Path) -> None:
     assert "write teeth[0]" in gearlink("gear", designs / "rack_drive.yaml", "--set", "teeth.0=20").err
+
+
+def test_what_the_system_refuses_is_named(gearlink: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refused(_: Any) -> int:
+        raise PermissionError(13, "Permission denied", "/home/who/.bashrc")
+
+    monkeypatch.setattr("gearlink.cli.main._invoke", refused)
+    ended = gearlink("--install-completion", "bash")
+    assert (ended.status, ended.err) == (2, "error: /home/who/.bashrc: Permission denied\n")
