@@ -33,9 +33,11 @@ def settled(made: Figure, known: Places | None = None) -> Figure:
 
     limits = [(axes.get_xlim(), axes.get_ylim()) for axes in made.axes]
     labels = _labels(made)
+    layout: Any = None
     if known is not None and known.likeness == _likeness(made):
         boxes, distances = known.boxes, known.distances
     else:
+        layout = made.get_layout_engine()
         distances = _laid_out(made, labels)
         boxes = _boxes(made)
     made.set_layout_engine(None)  # "none" would have savefig draw the panels a time more, for a layout
@@ -43,10 +45,18 @@ def settled(made: Figure, known: Places | None = None) -> Figure:
     for label, distance in zip(labels, distances, strict=True):
         label.keep(distance)
     for axes, (x, y), box in zip(made.axes, limits, boxes, strict=True):
+        if layout is not None and _titles_stand(axes):
+            axes._autotitlepos = False  # type: ignore[attr-defined]
         axes.set_position(box)
         axes.set_xlim(x, auto=None)
         axes.set_ylim(y, auto=None)
     return made
+
+
+def _titles_stand(axes: Axes) -> bool:
+    """Whether nothing above a panel has raised its titles in the layout: then the drawing need not measure all numbers
+    of the panel anew to find that."""
+    return all(title.get_position()[1] == 1.0 for title in (axes.title, axes._left_title, axes._right_title))  # type: ignore[attr-defined]
 
 
 def places(made: Figure) -> Places:
