@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from sheets import sheet
 
-SMALL = {"tolerance__samples": 512}
+SMALL = {"tolerance__samples": 128}
 
 
 def test_histogram_is_of_the_samples_with_nominal_value_and_limit() -> None:
