@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import signal
 import sys
+import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import partial
 from html import escape
 from pathlib import Path
@@ -61,29 +64,61 @@ def run_watch(source: str, options: Options, *, port: int = 0, show: bool = Fals
                 import webbrowser
 
                 webbrowser.open(address)
-            _follow(path, lambda unchanged: _make(source, options, board, sheets, unchanged), options)
+            with _ctrl_c_heard() as look:
+                _follow(path, lambda unchanged: _make(source, options, board, sheets, unchanged), options, look)
     except CannotWrite as error:
         return show_refusal(error, source, options)
     return ExitCode.OK
 
 
-def _follow(path: Path, make: Callable[[Callable[[], bool]], str], options: Options) -> None:
+@contextmanager
+def _ctrl_c_heard() -> Iterator[Callable[[], None]]:
+    """Ctrl-C raises KeyboardInterrupt at once; what it gives raises it again, should the first one have been dropped.
+
+    A page is mostly made by libraries, and Python drops what is raised in callbacks of weak references and of compiled
+    code: with words on standard error, which are left out here.
+    """
+    heard: list[int] = []
+
+    def end(number: int, _frame: object) -> None:
+        heard.append(number)
+        raise KeyboardInterrupt
+
+    def look() -> None:
+        if heard:
+            raise KeyboardInterrupt
+
+    if threading.current_thread() is not threading.main_thread():
+        yield look
+        return
+    before, shown = signal.signal(signal.SIGINT, end), sys.unraisablehook
+    sys.unraisablehook = lambda dropped: None if dropped.exc_type is KeyboardInterrupt else shown(dropped)
+    try:
+        yield look
+    finally:
+        sys.unraisablehook = shown
+        signal.signal(signal.SIGINT, before)
+
+
+def _follow(path: Path, make: Callable[[Callable[[], bool]], str], options: Options, look: Callable[[], None]) -> None:
     """Make the page whenever the file is another; a page in the making is given up for a newer one."""
     seen: Stamp = None
     missing = 0
     while True:
+        look()
         now = _stamp(path)
         missing = missing + 1 if now is None else 0
         if (now == seen and missing == 0) or (missing and missing != _GONE):
             time.sleep(_EVERY)
             continue
         seen, start = now, time.monotonic()
-        words = make(partial(_is_still, path, seen))
+        words = make(partial(_is_still, path, seen, look))
         if words and not options.quiet:
             print(f"{words} ({time.monotonic() - start:.2f} s)", file=sys.stderr, flush=True)
 
 
-def _is_still(path: Path, stamp: Stamp) -> bool:
+def _is_still(path: Path, stamp: Stamp, look: Callable[[], None]) -> bool:
+    look()
     return _stamp(path) in (stamp, None)
 
 
