@@ -23,10 +23,10 @@ if TYPE_CHECKING:
 
 
 class GripperCams(DiscCams):
-    """The cams that drive the gripper and bring it back."""
+    """The cams that drive the gripper and bring it back; those that advise say where else they could be."""
 
-    def __init__(self, spec: SwingGripperSpec, motion: Motion) -> None:
-        self.spec, self.motion = spec, motion
+    def __init__(self, spec: SwingGripperSpec, motion: Motion, *, advise: bool) -> None:
+        self.spec, self.motion, self.advise = spec, motion, advise
 
     @cached_property
     def section(self) -> GripperCam:
@@ -191,4 +191,5 @@ class GripperCams(DiscCams):
         if refusal.key:
             return refusal
         limit = self.spec.limits.pressure_angle
-        return NoSolution(f"{refusal.message}; for {limit:g} deg: {self.center_remedy(limit)}", key="cam.center")
+        advice = f"; for {limit:g} deg: {self.center_remedy(limit)}" if self.advise else ""
+        return NoSolution(refusal.message + advice, key="cam.center")

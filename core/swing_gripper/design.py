@@ -74,7 +74,7 @@ class SwingGripper(WithExtremes, Design):
     @cached_property
     def cams(self) -> GripperCams:
         """Main and return cam."""
-        return GripperCams(self.spec, self.motion)
+        return GripperCams(self.spec, self.motion, advise=self.advises)
 
     @cached_property
     def closure(self) -> Closure:
