@@ -1,7 +1,7 @@
 """Mutated design files: exit status 0, 1 or 2, no traceback, each within two seconds (more
 where a command computes many designs) and 200 MB more.
 
-GEARLINK_MUTATIONS=100000 make stress tries so many; 100,000 take some hours of one core.
+GEARLINK_MUTATIONS=100000 make stress tries so many; 100,000 take three quarters of an hour of one core.
 """
 
 from __future__ import annotations
@@ -27,16 +27,22 @@ from gearlink.cli.main import run
 
 SECONDS = 2.0  # of processor time, so that other work on the machine does not count
 LONGER = {
-    **{"loads": 3.0, "batch": 10.0, "check": 5.0, "tolerance": 5.0},
-    **{"--suggest": 5.0, "--candidates": 3.0, "--budget": 2.0},
+    "loads": 3.0,
+    "batch": 10.0,
+    "check": 5.0,
+    "tolerance": 5.0,
+    "--suggest": 5.0,
+    "--candidates": 3.0,
+    "--budget": 2.0,
 }
 """How many times the seconds of one design, by how many designs a command computes.
 
-`check` and `batch` run each command of a file, up to five, `batch` a study of any size too (a step of 0.0005 made one of
-half a million designs, 17 s), `tolerance` some hundred designs with their cams for corners and indices, `--suggest` the checks of every command anew for up to eight
-repairs, `--candidates` whole designs side by side (a five-bar's function is searched for each), `--budget 8` eight
-designs. `loads` has the design and, for a flywheel or a motor, the forces of several hundred positions for each trial
-speed. All other commands, and so the limit that a reader waits for, keep 2 s.
+`check` and `batch` run each command of a file, up to five, and `batch` a study of any size (a step of 0.0005 made one of
+half a million designs, 17 s); `tolerance` has some hundred designs with their cams for corners and indices, `--suggest`
+the checks of every command anew for up to eight repairs, `--candidates` whole designs side by side (a five-bar's
+function is searched for each), `--budget 8` eight designs. `loads` has the design and, for a flywheel or a motor, the
+forces of several hundred positions for each trial speed. All other commands, and so the limit that a reader waits for,
+keep 2 s.
 """
 MEGABYTES = 200.0
 FEW, MANY = 10, int(os.environ.get("GEARLINK_MUTATIONS", "6000"))
