@@ -270,10 +270,10 @@ def test_a_quantity_evaluates_what_it_needs_and_no_more(command: str, design: st
 def _computed(made: object) -> set[str]:
     """Names of the results that a design and its parts have worked out."""
     parts = [each for each in vars(made).values() if hasattr(each, "spec")]
-    files = ("spec", "asked")  # the file as completed and as read: given to the design, nothing that it works out
+    given = ("spec", "asked", "advise")  # the file as completed and as read, and whether to advise: nothing worked out
     return {
         name
         for each in (made, *parts)
         for name, value in vars(each).items()
-        if name not in files and value not in parts
+        if name not in given and value not in parts
     }
