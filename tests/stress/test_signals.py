@@ -15,6 +15,12 @@ pytestmark = [pytest.mark.stress, pytest.mark.skipif(sys.platform != "linux", re
 DESIGNS = Path(__file__).resolve().parents[2] / "designs"
 
 
+def _heed_signals() -> None:
+    """A runner in the background, or under nohup, hands ignored signals down to its children."""
+    for number in (signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT, signal.SIGINT):
+        signal.signal(number, signal.SIG_DFL)
+
+
 @pytest.mark.parametrize("seconds", [0.0, 0.3, 1.0])
 @pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP", "SIGQUIT", "SIGINT", "SIGKILL"])
 def test_a_killed_batch(tmp_path: Path, name: str, seconds: float) -> None:
@@ -28,8 +34,7 @@ def test_a_killed_batch(tmp_path: Path, name: str, seconds: float) -> None:
         command,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
-        # A runner started in the background hands an ignored SIGINT down to its children.
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+        preexec_fn=_heed_signals,
     ) as batch:
         while not list(out.rglob("t001-*.json")):
             assert batch.poll() is None
