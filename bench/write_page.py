@@ -37,10 +37,9 @@ _REASONS = """## Where a goal is missed, and why
   the frame, 2.7 ms for the press and 1.43 passes for the cam profile. Without it those functions take three to five
   times as long, and a goal in ns is not to be had from them; what numba compiles does not lose as much. Compare the
   ratios to the numpy pass.
-* **phi13 and frame.** The goals are those of calls that stand alone; in this table, between others, the caches are
-  cold and the arrays of results are new pages each time. phi13 of many designs freezes each that rests, so that its
-  last bit does not depend on its neighbours. One design alone goes through Python's own numbers: a bracket, then one
-  step with an integral.
+* **Momentary frame.** The goal is that of a call that stands alone; in this table, between others, the caches are cold
+  and the arrays of results are new pages each time. phi13 has no goal: what studies use takes some Newton steps inside
+  a bracket and freezes each design that rests, so that its last bit does not depend on its neighbours.
 * **Cam profile.** Points alone take less than a pass. The whole profile in one go writes seven columns (two complex,
   three real) where the pass writes four into arrays that are there: new pages from the system, not arithmetic, are
   the remainder. In blocks it stays in the cache, at constant memory.
