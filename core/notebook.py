@@ -8,6 +8,8 @@ from html import escape
 from itertools import chain, islice
 from typing import TYPE_CHECKING, Any
 
+from gearlink.core.wording import amount
+
 if TYPE_CHECKING:
     from gearlink.core.report import Report, Table
 
@@ -35,7 +37,7 @@ def table_as_html(table: Table) -> str:
     if table.length > 2 * _ENDS:
         last = replace(table, data=tuple(column[-_ENDS:] for column in table.data))
         rows = chain(islice(rows, _ENDS), [["…"] * len(heads)], last.each_row())
-    return f"<p>{escape(table.name)}, {table.length} rows</p>\n" + _grid(heads, rows)
+    return f"<p>{escape(table.name)}, {amount(table.length, 'row')}</p>\n" + _grid(heads, rows)
 
 
 def _grid(heads: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:

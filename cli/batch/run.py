@@ -15,6 +15,7 @@ from gearlink.cli.options import Format
 from gearlink.cli.printable import visible
 from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.cli.reading.places import design_files
+from gearlink.core.wording import amount
 
 
 def run_batch(places: Sequence[str], options: BatchOptions) -> int:
@@ -45,7 +46,7 @@ def run_batch(places: Sequence[str], options: BatchOptions) -> int:
     write_batch(results, options, sys.stdout)
     _tell([outcome.note for outcome in results if outcome.note], options)
     if interrupted:
-        print(f"interrupted after {len({r.file for r in results})} of {len(files)} files", file=sys.stderr)
+        print(f"interrupted after {len({r.file for r in results})} of {amount(len(files), 'file')}", file=sys.stderr)
         return ExitCode.INTERRUPTED
     return max((outcome.status for outcome in results), default=ExitCode.OK)
 

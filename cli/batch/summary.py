@@ -9,6 +9,7 @@ from gearlink.cli.batch.options import BatchFormat, BatchOptions
 from gearlink.cli.batch.outcome import Outcome, summary
 from gearlink.cli.printable import json_text, visible
 from gearlink.cli.render.json_report import FORMAT, as_plain
+from gearlink.core.wording import amount
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -62,7 +63,7 @@ def _csv(results: Sequence[Outcome]) -> str:
 
 def _counts(results: Sequence[Outcome]) -> str:
     counts = ", ".join(f"{n} {verdict}" for verdict, n in summary(results).items() if n) or "nothing done"
-    return f"{len(results)} result{'' if len(results) == 1 else 's'}: {counts}"
+    return f"{amount(len(results), 'result')}: {counts}"
 
 
 def _markdown(results: Sequence[Outcome]) -> str:

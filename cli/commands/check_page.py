@@ -12,6 +12,7 @@ from gearlink.cli.options import Format, Options
 from gearlink.cli.printable import json_text
 from gearlink.cli.render.errors import fitted
 from gearlink.cli.render.json_report import FORMAT, plain_check
+from gearlink.core.wording import amount
 
 _STATUSES = ("pass", "warn", "fail", "error", "fault")
 _HEADS = ("file", "line", "column", "key", "status", "code", "check", "command", "value", "limit", "unit", "message")
@@ -33,7 +34,7 @@ def show_findings(found: Sequence[Finding], designs: int, options: Options, *, o
         write_rows([_HEADS, *rows], sys.stdout)
         return
     words = ", ".join(f"{count} {status}" for status, count in counts.items() if count) or "nothing wrong"
-    verdict = f"{designs} design{'s' if designs != 1 else ''}: {words}"
+    verdict = f"{amount(designs, 'design')}: {words}"
     print(_as_markdown(shown, verdict) if options.format is Format.MARKDOWN else _as_text(shown, verdict))
     if shown and not options.quiet:
         print("`gearlink explain CODE` says what a code means and how to repair the design", file=sys.stderr)

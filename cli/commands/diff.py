@@ -8,7 +8,7 @@ from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.commands.difference import Change, Difference
+from gearlink.cli.commands.difference import Change, Difference, is_number, relative_change, same
 from gearlink.cli.commands.result_file import incomparable, read_result
 from gearlink.cli.evaluate import open_design, read_spec, refusals_located
 from gearlink.cli.exit_codes import ExitCode
@@ -17,6 +17,7 @@ from gearlink.cli.patience import patience
 from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.cli.render.json_report import as_plain
 from gearlink.core.report import Report
+from gearlink.core.wording import amount
 
 if TYPE_CHECKING:
     from gearlink.core.design import Design
@@ -54,7 +55,9 @@ def difference(old: str, new: str, options: Options, tolerance: float = TOLERANC
 
     Parameters
         old, new : str - file names, or - for one of them
-        tolerance : float - numbers count as equal within tolerance * max(1, |old|, |new|)
+        tolerance : float - results count as equal within tolerance * max(1, |old|, |new|), since what is zero is
+            computed as some ulp of the lengths and angles it is made of; inputs within tolerance * max(|old|, |new|),
+            since they are typed
     Raises
         DesignFileError - for files that cannot be read, or not be compared with each other (GL117)
     """
@@ -67,7 +70,8 @@ def difference(old: str, new: str, options: Options, tolerance: float = TOLERANC
     units = {**before.units, **after.units}
     for path in _union(before.inputs, after.inputs):
         values = before.inputs.get(path), after.inputs.get(path)
-        found.inputs.extend(_changes(path, *values, units.get(path.partition("[")[0], ""), tolerance))
+        unit = units.get(path.partition("[")[0], "")
+        found.inputs.extend(_changes(path, *values, unit, tolerance, least=0.0))
     # Results that the program has just computed are in its own form: an error there is its fault, not the user's.
     with nullcontext() if before.inputs else _results_as_gearlink_writes_them(f"{old}, {new}"):
         for command in _union(before.results, after.results):
@@ -169,39 +173,15 @@ def _compare_results(found: Difference, command: str, old: dict[str, Any] | None
         found.tables.extend(_changed_table(command, name, *tables, found.tolerance))
 
 
-def _changes(name: str, old: Any, new: Any, unit: str, tolerance: float, command: str = "") -> Iterator[Change]:
+def _changes(
+    name: str, old: Any, new: Any, unit: str, tolerance: float, command: str = "", least: float = 1.0
+) -> Iterator[Change]:
     """The change of a value; lists of equal length are compared member by member."""
     if isinstance(old, list) and isinstance(new, list) and len(old) == len(new):
         for place, (was, now) in enumerate(zip(old, new, strict=True)):
-            yield from _changes(f"{name}[{place}]", was, now, unit, tolerance, command)
-    elif not same(old, new, tolerance):
+            yield from _changes(f"{name}[{place}]", was, now, unit, tolerance, command, least)
+    elif not same(old, new, tolerance, least):
         yield Change(name, old, new, unit, relative_change(old, new), command)
-
-
-def same(old: Any, new: Any, tolerance: float) -> bool:
-    """Whether two values count as equal; numbers do within tolerance * max(1, |old|, |new|).
-
-    Example
-        >>> same(100.0, 100.0 + 1e-8, 1e-9), same(0.0, 1e-10, 1e-9), same("a", "b", 1.0)
-        (True, True, False)
-    """
-    if _number(old) and _number(new):
-        if math.isinf(old) or math.isinf(new):
-            return bool(old == new)
-        return bool(abs(new - old) <= tolerance * max(1.0, abs(old), abs(new)))
-    return bool(old == new) and isinstance(old, bool) == isinstance(new, bool)
-
-
-def relative_change(old: Any, new: Any) -> float | None:
-    """(new - old)/|old| of two numbers; None where there is none."""
-    if not (_number(old) and _number(new)) or old == 0:
-        return None
-    change = (new - old) / abs(old)
-    return change if math.isfinite(change) else None
-
-
-def _number(value: Any) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
 def _changed_checks(
@@ -226,7 +206,7 @@ def _changed_checks(
 
 
 def _short(value: Any) -> str:
-    return f"{value:.6g}" if _number(value) else "none"
+    return f"{value:.6g}" if is_number(value) else "none"
 
 
 def _numbered(checks: Sequence[dict[str, Any]]) -> dict[str, dict[str, Any]]:
@@ -244,7 +224,9 @@ def _numbered(checks: Sequence[dict[str, Any]]) -> dict[str, dict[str, Any]]:
 
 def _changed_table(command: str, name: str, old: Any, new: Any, tolerance: float) -> Iterator[Change]:
     """For each column of a table the row that changed most; a table of another shape is one change."""
-    shapes = [None if t is None else f"{len(t['rows'])} rows of {', '.join(t['columns'])}" for t in (old, new)]
+    shapes = [
+        None if t is None else f"{amount(len(t['rows']), 'row')} of {', '.join(t['columns'])}" for t in (old, new)
+    ]
     if shapes[0] != shapes[1]:
         yield Change(name, shapes[0], shapes[1], command=command)
         return
@@ -253,13 +235,13 @@ def _changed_table(command: str, name: str, old: Any, new: Any, tolerance: float
         changed = [pair for pair in pairs if not same(pair[0], pair[1], tolerance)]
         if changed:
             was, now, row = max(changed, key=lambda pair: _distance(pair[0], pair[1]))
-            detail = f"{len(changed)} of {len(pairs)} rows, most in row {row}"
+            detail = f"{len(changed)} of {amount(len(pairs), 'row')}, most in row {row}"
             unit = str(new["units"][place])
             yield Change(f"{name}.{column}", was, now, unit, relative_change(was, now), command, detail)
 
 
 def _distance(old: Any, new: Any) -> float:
-    return float(abs(new - old)) if _number(old) and _number(new) else math.inf
+    return float(abs(new - old)) if is_number(old) and is_number(new) else math.inf
 
 
 def _union(old: Any, new: Any) -> list[str]:

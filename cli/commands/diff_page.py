@@ -7,12 +7,13 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from typing import Any
 
-from gearlink.cli.commands.difference import Change, Difference
+from gearlink.cli.commands.difference import Change, Difference, same
 from gearlink.cli.options import Format, Options
 from gearlink.cli.printable import json_text, visible
 from gearlink.cli.render.json_report import FORMAT
+from gearlink.core.wording import amount
 
-_PARTS = ("inputs", "quantities", "checks", "tables")
+_PARTS = {"inputs": "input", "quantities": "quantity", "checks": "check", "tables": "table"}
 _PERCENT = len("+1.23e-05 %")
 _HEADS = ("old", "new", "unit", "change", "command")
 
@@ -61,7 +62,9 @@ def _parts(found: Difference, text: Callable[[object], str]) -> Iterator[tuple[s
             percent = "" if c.relative is None else f"{100.0 * c.relative:+.3g} %"
             told = "; ".join(words for words in (percent, c.detail) if words)
             unit = "" if c.unit == "1" else c.unit
-            rows.append((c.name, text(c.old), text(c.new), unit, told, c.command))
+            # A check may be here for its limit alone: values that count as equal look equal, some ulp of zero too.
+            old = c.new if part == "checks" and same(c.old, c.new, found.tolerance) else c.old
+            rows.append((c.name, text(old), text(c.new), unit, told, c.command))
         if rows:
             yield part, rows
 
@@ -70,7 +73,7 @@ def _verdict(found: Difference) -> str:
     old, new = visible(found.old), visible(found.new)
     if found.equal:
         return f"{old} and {new} are equal (tolerance {found.tolerance:g})"
-    counts = ", ".join(f"{len(getattr(found, part))} {part}" for part in _PARTS if getattr(found, part))
+    counts = ", ".join(amount(n, one, part) for part, one in _PARTS.items() if (n := len(getattr(found, part))))
     return f"changed from {old} to {new}: {counts}"
 
 

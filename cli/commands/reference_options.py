@@ -125,7 +125,11 @@ def _diff(
     options: Options,
     format: PageOption = PageFormat.TABLE,
     tolerance: Annotated[
-        float, typer.Option(min=0.0, help="numbers are equal within this times max(1, magnitude)")
+        float,
+        typer.Option(
+            min=0.0,
+            help="inputs are equal within this times their magnitude, results within this times max(1, magnitude)",
+        ),
     ] = 1e-9,
 ) -> None:
     """Compare two designs or two results: inputs, quantities, checks. Exit status 0: equal, 1: different.

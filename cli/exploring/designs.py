@@ -15,6 +15,7 @@ from gearlink.cli.printable import visible
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.core.explore.front import Found
 from gearlink.core.explore.problem import Problem
+from gearlink.core.wording import amount
 
 _NAME = 180
 """Letters of the study's name in the names of its designs, which have their number beside it."""
@@ -39,7 +40,7 @@ def _index(made: Problem, found: Found | None, asked: str) -> int:
     rows = found.why
     number = int(row[1])
     if not 1 <= number <= len(rows):
-        raise _wrong(f"the table why has {len(rows)} rows, not {number}", asked)
+        raise _wrong(f"the table why has {amount(len(rows), 'row')}, not {number}", asked)
     name, _, miss = rows[number - 1]
     if miss.index is None:
         raise _wrong(f"no design fails row {number} ({name})", asked)

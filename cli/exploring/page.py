@@ -9,6 +9,7 @@ from gearlink.cli.render.terminal import console_for, grid_for, show_findings, s
 from gearlink.core.explore.exploration import Exploration
 from gearlink.core.explore.front import SHOWN
 from gearlink.core.report import Report, Table
+from gearlink.core.wording import amount
 
 
 def show(study: Exploration, report: Report, options: Options) -> None:
@@ -37,8 +38,8 @@ def _counts(study: Exploration) -> str:
     if len(wishes) == 1:
         front = f"best {study.kept:,} (resolution {resolution})"
     return (
-        f"{study.designs:,} designs, {how}; {study.refused:,} without a mechanism; "
-        f"{study.feasible:,} satisfy {study.problem.asked}; {front}"
+        f"{amount(study.designs, 'design', spec=',')}, {how}; {study.refused:,} without a mechanism; "
+        f"{study.feasible:,} {'satisfies' if study.feasible == 1 else 'satisfy'} {study.problem.asked}; {front}"
     )
 
 
@@ -54,7 +55,9 @@ def _shown(study: Exploration, front: Table) -> Table:
 def _below(study: Exploration) -> list[str]:
     lines = []
     if study.kept > study.shown:
-        lines.append(f"{study.shown} of {study.kept} rows, far from each other; coarsen the resolutions, or use csv")
+        lines.append(
+            f"{study.shown} of {amount(study.kept, 'row')}, far from each other; coarsen the resolutions, or use csv"
+        )
     if study.knee is not None:
         lines.append("* knee: the least sum of objectives scaled to the front; a mark, no verdict")
     lines.append("--show INDEX prints a design's file, --write DIR writes all kept ones")

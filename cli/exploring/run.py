@@ -35,6 +35,7 @@ from gearlink.core.explore.front import Found
 from gearlink.core.explore.preparing import problem
 from gearlink.core.explore.problem import Problem
 from gearlink.core.study.faults import WrongStudy
+from gearlink.core.wording import amount
 
 
 def run_explore(asked: Exploring) -> int:
@@ -173,7 +174,7 @@ def _print(study: Exploration, asked: Exploring) -> int:
     if asked.write is not None:
         from gearlink.cli.exploring.designs import write
 
-        _tell(f"wrote {write(study.found, asked.write)} designs to {visible(str(asked.write))}", asked)
+        _tell(f"wrote {amount(write(study.found, asked.write), 'design')} to {visible(str(asked.write))}", asked)
     if asked.options.plot:
         from gearlink.cli.commands.design import plot
 

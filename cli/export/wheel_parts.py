@@ -15,6 +15,7 @@ from gearlink.cli.export.sampling import Points, Reals, Stretch
 from gearlink.core.dwell_gears.wheel import end_tooth_radius
 from gearlink.core.gears.outline.tooth_profile import ToothProfile
 from gearlink.core.numerics.roots import bracketed_root
+from gearlink.core.wording import amount
 
 if TYPE_CHECKING:
     from gearlink.core.dwell_gears.mutilated_design import MutilatedGearDwell
@@ -57,7 +58,8 @@ def wheel_of(design: MutilatedGearDwell, width: float | None = None, hand: str =
             Circle("ROOT_CIRCLE", profile.root_radius),
         ),
         notes=(
-            f"module {mesh.module:g} mm, {groups} groups of {count} teeth, {design.full_teeth} teeth without gaps",
+            f"module {mesh.module:g} mm, {amount(groups, 'group')} of {amount(count, 'tooth', 'teeth')}, "
+            f"{design.full_teeth} teeth without gaps",
             f"first and last tooth of a group cut to radius {cut:.6g} mm, so that they pass the resting gear",
             "the locking arcs that hold the driven gear, and an entry tooth that takes up its speed, are left out",
             "no backlash: thin the teeth by the allowance that the drawing gives",

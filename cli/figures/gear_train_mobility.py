@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from gearlink.cli.figures.drawing import linkage, panels, style
 from gearlink.core.linkages.mobility.design import GearTrainMobility
 from gearlink.core.linkages.mobility.freedom import pin_names
+from gearlink.core.wording import amount
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -41,7 +42,7 @@ def diagram(axes: Axes, design: GearTrainMobility) -> None:
         apart = [abs(places[p.at] - places[q.at]) for p in train.gears for q in train.gears if p.at != q.at]
         half = min(apart, default=_ALONE) / 2.0 * (1.0 if i % 2 == 0 else 0.86)
         change = f"{design.mobility_changes[i]:+d}".replace("-", "−")
-        words = f"train {i + 1}: {design.fixed_ends[i]} gears fixed to links, mobility {change}"
+        words = f"train {i + 1}: {amount(design.fixed_ends[i], 'gear')} fixed to links, mobility {change}"
         axes.plot([], [], color=color, linewidth=1.6, label=words)
         for gear in train.gears:
             style.circle(axes, places[gear.at], half, color=color, linewidth=1.6, zorder=3)

@@ -26,6 +26,7 @@ from gearlink.cli.reading.yaml_reader import (
     read,
 )
 from gearlink.core.errors import NoSolution
+from gearlink.core.wording import amount
 
 if TYPE_CHECKING:
     from pydantic import BaseModel
@@ -267,7 +268,7 @@ def _with(node: Any, path: KeyPath, value: Any, name: str) -> Any:
         if not isinstance(node, list):
             raise _NoPlace(f"{name} is not a list")
         if step >= len(node):
-            raise _NoPlace(f"{name} has {len(node)} elements, counted from [0]")
+            raise _NoPlace(f"{name} has {amount(len(node), 'element')}, counted from [0]")
         return [*node[:step], _with(node[step], rest, value, inner), *node[step + 1 :]]
     if node is not None and not isinstance(node, dict):
         wanted = f": write {name}[{step}]" if isinstance(node, list) and step.isdecimal() and step.isascii() else ""

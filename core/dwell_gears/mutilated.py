@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.results import cached_property
+from gearlink.core.wording import amount
 
 LEAST_DRIVEN, MOST_DRIVEN = 17, 120
 
@@ -53,8 +54,8 @@ def teeth_for_times(
     if not found:
         of = f"{driven} teeth" if driven is not None else f"{LEAST_DRIVEN} to {MOST_DRIVEN} teeth"
         raise NoSolution(
-            f"no driven gear of {of} makes {driven_turn:.9g} turns in {share:.6g} of a cycle with a wheel of at most "
-            f"{most_teeth} teeth: raise most_teeth, take fewer groups, or another driven_turn"
+            f"no driven gear of {of} makes {amount(driven_turn, 'turn', spec='.9g')} in {share:.6g} of a cycle with a "
+            f"wheel of at most {most_teeth} teeth: raise most_teeth, take fewer groups, or another driven_turn"
         )
     _, full, n, z = min(found)
     return full, n, z, z // math.gcd(z, n)
@@ -105,10 +106,10 @@ class MutilatedGear:
         if used < self.full_teeth:
             return
         most = (self.full_teeth - 1) // self.groups
-        remedy = f"at most {most} teeth in a group" if most else f"fewer than {self.full_teeth} groups"
+        remedy = f"at most {_teeth(most)} in a group" if most else f"fewer than {amount(self.full_teeth, 'group')}"
         raise NoSolution(
-            f"{self.groups} groups of {self.group_teeth} teeth fill the wheel of {self.full_teeth} teeth, so that the "
-            f"driven gear never stands: {remedy}, or more full teeth than {used}"
+            f"{amount(self.groups, 'group')} of {_teeth(self.group_teeth)} would fill the wheel of "
+            f"{_teeth(self.full_teeth)}, so that the driven gear never stands: {remedy}, or more full teeth than {used}"
         )
 
     def _require_locking(self) -> None:
@@ -117,9 +118,9 @@ class MutilatedGear:
         needed = self.driven_teeth // math.gcd(self.driven_teeth, self.group_teeth)
         step = self.driven_teeth // math.gcd(self.driven_teeth, self.stops)
         raise NoSolution(
-            f"a group of {self.group_teeth} teeth turns the driven gear of {self.driven_teeth} by "
+            f"a group of {_teeth(self.group_teeth)} turns the driven gear of {self.driven_teeth} by "
             f"{self.group_teeth / self.driven_teeth:.6g} turn, which does not lead from one of its {self.stops} "
-            f"locking arcs to another: take {needed} stops, or a multiple of {step} teeth in a group"
+            f"locking arcs to another: take {amount(needed, 'stop')}, or a multiple of {_teeth(step)} in a group"
         )
 
     @property
@@ -194,3 +195,7 @@ class MutilatedGear:
             [True, True, False]
         """
         return input_angle % (2.0 * math.pi * self.cycle_turns) < 2.0 * math.pi * self.motion_turns
+
+
+def _teeth(number: int) -> str:
+    return amount(number, "tooth", "teeth")

@@ -15,6 +15,7 @@ from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
 from gearlink.core.study.codes import FEASIBLE, RANGE_END
 from gearlink.core.study.spec import StudySpec
+from gearlink.core.wording import amount
 
 _FEW = 0.01
 _EDGE = 1e-9
@@ -115,7 +116,8 @@ class Exploration(Design):
     def check_feasible_designs(self) -> Check:
         """GL161."""
         share = self.feasible / self.designs
-        text = f"{self.feasible} of {self.designs} designs satisfy {self.problem.asked}"
+        verb = "satisfies" if self.feasible == 1 else "satisfy"
+        text = f"{self.feasible} of {amount(self.designs, 'design')} {verb} {self.problem.asked}"
         text += "; checks.must_pass: all asks for it too" if self.problem.waived else ""
         if share >= _FEW:
             return FEASIBLE.check("pass", text, share, _FEW)
@@ -134,9 +136,8 @@ class Exploration(Design):
             for end, limit in zip(("lower", "upper"), _ends(variable), strict=True):
                 count = sum(abs(value - limit) <= _EDGE * max(1.0, abs(limit)) for value in values)
                 if count:
-                    text = (
-                        f"{variable.path} is at {limit:g}, the {end} end of its range, in {count} of {len(rows)} rows"
-                    )
+                    share_of_rows = f"{count} of {amount(len(rows), 'row')}"
+                    text = f"{variable.path} is at {limit:g}, the {end} end of its range, in {share_of_rows}"
                     yield RANGE_END.check("warn", f"{text}: widen it", float(limit), float(limit))
 
 

@@ -16,6 +16,7 @@ from gearlink.core.five_bar.path import distances
 from gearlink.core.five_bar.path_motion import PathFiveBar
 from gearlink.core.five_bar.starts import bounds, scattered_starts
 from gearlink.core.numerics.arrays import Points, Reals
+from gearlink.core.wording import amount
 
 # Places of the grid by wave of the fastest part, how few and many they are in all: for the starts, and for a stage,
 # where rows times targets times places are limited.
@@ -80,7 +81,7 @@ def fit_path(start: PathFiveBar, offset: complex, targets: Points, transmission_
         thesis 2.2.1, figure 2-1; own derivation
     """
     if targets.size < 3:
-        raise NoSolution(f"{targets.size} points: give at least three for a path")
+        raise NoSolution(f"{amount(targets.size, 'point')}: give at least three for a path")
     scale = float(np.max(np.abs(targets[:, None] - targets[None, :])))
     if not scale > 0.0:
         raise NoSolution("all points are the same: a path needs at least two different ones")

@@ -13,6 +13,7 @@ from gearlink.core.errors import NoSolution
 from gearlink.core.five_bar.function_motion import FunctionFiveBar
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.halton import halton
+from gearlink.core.wording import amount
 
 Positions = Sequence[tuple[float, float]]
 
@@ -84,7 +85,7 @@ def five_bar_for_positions(
 def _require(positions: Positions) -> None:
     if not 2 <= len(positions) <= MOST_POSITIONS:
         raise NoSolution(
-            f"{len(positions)} positions: give two to {MOST_POSITIONS}, as many as there are links to choose"
+            f"{amount(len(positions), 'position')}: give two to {MOST_POSITIONS}, as many as there are links to choose"
         )
     for (one, _), (other, _) in pairwise(positions):
         if not one < other:

@@ -14,6 +14,7 @@ from gearlink.core.flatbed_press.zone import zone_end
 from gearlink.core.linkages.checks import transmission_check
 from gearlink.core.linkages.codes import SHAFT_CLEARANCE
 from gearlink.core.report import Check, Rule, safely_above
+from gearlink.core.wording import amount
 
 if TYPE_CHECKING:
     from gearlink.core.flatbed_press.compensation import Joint
@@ -84,7 +85,7 @@ def register(design: FlatbedPress) -> Check:
     """GL506: the cylinder makes whole turns per sheet."""
     ratio = design.spec.cylinder.gear_ratio
     off = abs(ratio - max(1, round(ratio)))
-    text = f"the cylinder makes {ratio:g} turns per sheet"
+    text = f"the cylinder makes {amount(ratio, 'turn', spec='g')} per sheet"
     if off > 1e-9:
         text += f", so it does not come home: set cylinder.gear_ratio to {max(1, round(ratio))}"
     return codes.REGISTER.check("fail" if off > 1e-9 else "pass", text, off, 1e-9)

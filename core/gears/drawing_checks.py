@@ -16,6 +16,7 @@ from gearlink.core.gears.mesh.contact import PathOfContact
 from gearlink.core.gears.mesh.pair import GearPair
 from gearlink.core.gears.rating.load import Factors
 from gearlink.core.report import Check, Rule, Status, safely_above
+from gearlink.core.wording import amount
 
 _TOUCHING = 1.2
 """Length of the line on which a plane of a span measurement touches, at least [mm]."""
@@ -258,8 +259,8 @@ def _spanned(data: GearData, gear: int) -> Iterator[Check]:
     lesser = [k for k in range(1, count) if form < pair.span_contact(gear, k) < tip]
     fewer = [k for k in lesser if width_of_span(pair, gear, k) <= width]
     wanted = f"needs a face width of {safely_above(needed, 4)} mm, it has {width:g}"
-    over = f"measure over {fewer[-1]} teeth, or balls" if fewer else "measure over balls"
-    text = f"the span of {data.called(gear)} over {count} teeth {wanted}: {over}"
+    over = f"measure over {amount(fewer[-1], 'tooth', 'teeth')}, or balls" if fewer else "measure over balls"
+    text = f"the span of {data.called(gear)} over {amount(count, 'tooth', 'teeth')} {wanted}: {over}"
     yield INSPECTION.check("warn", text, width, needed, "mm")
 
 

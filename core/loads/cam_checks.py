@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.loads import checks, codes
 from gearlink.core.report import Check, safely_above
+from gearlink.core.wording import amount
 
 if TYPE_CHECKING:
     from gearlink.core.loads.cam_design import CamLoadsDesign
@@ -61,7 +62,7 @@ def load_reversal(design: CamLoadsDesign) -> Iterator[Check]:
     size = max(abs(high.value) for _, high in design.force_extremes)
     found = [math.degrees(place) for place in places(design.side_force, design.machine, size)]
     if found:
-        text = f"the follower changes cams {len(found)} times over the period, at {checks.listed(found)} deg"
+        text = f"the follower changes cams {amount(len(found), 'time')} over the period, at {checks.listed(found)} deg"
         message = f"{text}: it strikes there; press both rollers on (loads.roller.preload)"
         yield codes.LOAD_REVERSAL.check("warn", message, float(len(found)), 0.0)
     else:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.loads import codes
 from gearlink.core.report import Check, safely_above
+from gearlink.core.wording import amount
 
 if TYPE_CHECKING:
     from gearlink.core.loads.design import LoadsDesign
@@ -56,7 +57,7 @@ def load_reversal(design: LoadsDesign) -> Iterator[Check]:
             text = f"{name}: the teeth stay on one flank"
             yield codes.LOAD_REVERSAL.check("pass", text, 0.0, 0.0)
             continue
-        text = f"{name}: the teeth change flanks {len(places)} times over the period, at {listed(places)} deg"
+        text = f"{name}: the teeth change flanks {amount(len(places), 'time')} over the period, at {listed(places)} deg"
         inside = [place for place in places if design.is_quiet(math.radians(place))]
         if inside and play:
             lag = math.degrees(0.5e-3 * play / mesh.radius)

@@ -12,6 +12,7 @@ from gearlink.core.linkages.codes import MOBILITY, TRAIN_FIT
 from gearlink.core.linkages.mobility import freedom as mobility
 from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
+from gearlink.core.wording import amount
 
 if TYPE_CHECKING:
     from gearlink.core.linkages.mobility.spec import Gear, GearTrainMobilitySpec, Train
@@ -101,7 +102,8 @@ class GearTrainMobility(Design):
         """GL309: degrees of freedom against those that are wanted."""
         found, wanted = self.mobility, self.spec.mobility
         terms = "".join(f" {change:+d}" for change in self.mobility_changes)
-        text = f"{found} degrees of freedom: linkage {self.linkage_mobility}, trains{terms or ' none'}"
+        free = amount(found, "degree of freedom", "degrees of freedom")
+        text = f"{free}: linkage {self.linkage_mobility}, trains{terms or ' none'}"
         if found == wanted:
             return MOBILITY.check("pass", text, float(found), float(wanted))
         text += f"; {wanted} wanted: {self._mobility_remedy(found - wanted)}"
@@ -118,7 +120,7 @@ class GearTrainMobility(Design):
             return f"fix {times} to the link at its pin"
         more = count - free
         ends = "both ends of every train and " if free else ""
-        return f"fix {ends}both ends of {more} more train{'s' if more > 1 else ''}, each of which takes 1 away"
+        return f"fix {ends}both ends of {more} more {'train' if more == 1 else 'trains'}, each of which takes 1 away"
 
     def _fixing(self, train: Train) -> Iterator[str]:
         """Why the fixing of the gears does not fit."""

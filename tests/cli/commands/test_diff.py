@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 
 from gearlink.cli.commands import result_file
-from gearlink.cli.commands.diff import relative_change, same
+from gearlink.cli.commands.difference import relative_change, same
 
 CRANK = "kind: slider-crank\nstroke: 310\nrod: 520\noffset: 50\n"
 PAIR = "kind: gear-pair\nmodule: 4\nteeth: [72, 72]\ncenter_distance: 290.2912330746487\n"
@@ -78,7 +78,7 @@ def test_table_shows_physical_units(gearlink: Any, two: Any) -> None:
     out = gearlink("diff", *two(CRANK, CRANK.replace("310", "341"))).out
     row = next(line for line in out.splitlines() if line.startswith("stroke"))
     assert row.split() == ["stroke", "310", "341", "mm", "+10", "%"]
-    assert out.splitlines()[-1].endswith(": 1 inputs, 4 quantities")
+    assert out.splitlines()[-1].endswith(": 1 input, 4 quantities")
 
 
 def test_markdown(gearlink: Any, two: Any) -> None:
@@ -134,6 +134,32 @@ def test_rounding_is_no_change_by_default(gearlink: Any, two: Any) -> None:
     files = two(CRANK, CRANK.replace("310", "310.0000000000001"))
     assert gearlink("diff", *files).status == 0
     assert gearlink("diff", *files, "--tolerance", "0").status == 1
+
+
+def test_small_inputs_are_compared_by_their_magnitude(gearlink: Any, two: Any) -> None:
+    """Half of a tolerance of 1e-9 deg is another design, though it is less than 1e-9."""
+    window = LINKAGE + "dwell: {tolerance: 1e-9}\n"
+    found = gearlink("diff", *two(window, window.replace("1e-9", "1.5e-9")), "--format", "json").json
+    assert names(found["inputs"]) == ["dwell.tolerance"]
+
+
+CHECKED = (
+    '{"gearlink": 1, "kind": "flatbed-press", "name": "a", "command": "cam", "ok": true, "tables": {}, '
+    '"quantities": {}, "checks": [{"code": "GL403", "name": "velocity-step", "status": "pass", "message": "", '
+    '"unit": "mm/rad", "value": %s, "limit": %s}]}'
+)
+
+
+def test_rounding_of_what_is_zero_is_no_change_of_a_check(gearlink: Any, two: Any) -> None:
+    """Not reported by itself, and not shown beside a limit that did change; JSON has both numbers as they are."""
+    quiet = two(CHECKED % ("7.1e-15", "1.8e-4"), CHECKED % ("2.3e-13", "1.8e-4"), ".json")
+    assert gearlink("diff", *quiet).status == 0
+    files = two(CHECKED % ("7.1e-15", "1.8e-4"), CHECKED % ("2.3e-13", "1.9e-4"), ".json")
+    for form in ("table", "md"):
+        ended = gearlink("diff", *files, "--format", form)
+        assert (ended.status, "7.1e-15" in ended.out, "2.3e-13" in ended.out) == (1, False, True)
+    (check,) = gearlink("diff", *files, "--format", "json").json["checks"]
+    assert (check["old"], check["new"], check["relative"]) == (7.1e-15, 2.3e-13, None)
 
 
 def test_negative_tolerance_is_refused(gearlink: Any, two: Any) -> None:
