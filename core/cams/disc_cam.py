@@ -165,8 +165,8 @@ class DiscCam:
 
         Notes
             A profile without a cusp whose polar angle runs one way cannot cross itself, and an offset curve
-            that neither has a cusp nor crosses itself is the true one; the search for far cuts, and scipy with
-            it, is left to the others.
+            that neither has a cusp nor crosses itself is the true one; the search for far cuts is left to the
+            others.
         """
         if self.roller_radius < self.min_curvature_radius.value and self._star_shaped():
             return Undercut(0.0, 0.0, 0.0)

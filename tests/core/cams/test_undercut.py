@@ -16,7 +16,7 @@ import pytest
 
 from gearlink.core.cams.laws import law
 from gearlink.core.cams.profile import CamProfile, profile, translating
-from gearlink.core.cams.undercut import undercut
+from gearlink.core.cams.undercut import nearest, undercut
 from gearlink.core.numerics.extremes import least_convex_radius, maximum_over
 
 NONE = 1e-12 * 100.0
@@ -127,3 +127,21 @@ def test_circle_is_cut_only_past_its_centre() -> None:
 
     assert undercut(circle(49.0), 49.0).depth < NONE
     assert undercut(circle(55.0), 55.0).depth == pytest.approx(10.0, abs=DEPTH)
+
+
+@pytest.mark.parametrize("samples", [33, 1440, 4097])
+def test_nearest_places_are_those_of_a_k_d_tree(samples: int) -> None:
+    from scipy.spatial import cKDTree
+
+    rng = np.random.default_rng(samples)
+    t = np.linspace(0.0, TURN, samples)
+    for _ in range(10):
+        waves = sum(rng.normal() * 20.0 / k * np.cos(k * t + rng.uniform(0.0, TURN)) for k in range(1, 6))
+        pitch = (100.0 + waves) * np.exp(1j * t)
+        along = np.gradient(pitch)
+        profile = pitch + 1j * along / np.abs(along) * rng.uniform(5.0, 90.0) * (1.0 + 0.2 * (np.sin(3.0 * t) > 0.0))
+        tree = cKDTree(np.column_stack((pitch.real, pitch.imag)))
+        least = tree.query(np.column_stack((profile.real, profile.imag)))[0].min()
+        at, by, found = nearest(pitch, profile)
+        assert found == pytest.approx(least, rel=0.0, abs=1e-13)
+        assert abs(profile[at] - pitch[by]) == pytest.approx(found, rel=0.0, abs=1e-13)
