@@ -15,7 +15,6 @@ if TYPE_CHECKING:
 
 _MOST = 4
 _BINS = 60
-_MOST_OF_A_TURN = 300.0
 
 
 def draw(study: ToleranceStudy) -> Figure:
@@ -38,7 +37,7 @@ def draw(study: ToleranceStudy) -> Figure:
 
 def _course(axes: Axes, course: Course) -> None:
     """Percentiles of an output over the cycle, about that of the nominal design."""
-    low, five, middle, most, high = course.percentiles
+    places, (low, five, middle, most, high) = _closed(course)
     over, unit = course.units
     style.curves(
         axes, f"{course.over.replace('_', ' ')} [{over}]", f"off nominal [{unit}]" if unit != "1" else "off nominal"
@@ -46,20 +45,28 @@ def _course(axes: Axes, course: Course) -> None:
     panels.small_ticks(axes)
     far = bool((low == low).any())
     if far:
-        axes.fill_between(course.places, low, high, color=style.SKY, alpha=0.35, linewidth=0, label="99.73 %")
-    axes.fill_between(course.places, five, most, color=style.SKY, alpha=0.8, linewidth=0, label="90 %")
-    axes.plot(course.places, middle, color=style.BLUE, linewidth=1.2, label="50 %")
+        axes.fill_between(places, low, high, color=style.SKY, alpha=0.35, linewidth=0, label="99.73 %")
+    axes.fill_between(places, five, most, color=style.SKY, alpha=0.8, linewidth=0, label="90 %")
+    axes.plot(places, middle, color=style.BLUE, linewidth=1.2, label="50 %")
     for line in (low, high) if far else (five, most):
-        axes.plot(course.places, line, color=style.BLUE, linewidth=0.6)
+        axes.plot(places, line, color=style.BLUE, linewidth=0.6)
     if course.reference is not None:
         axes.axvline(
             course.reference, color=style.GREY, linewidth=1.0, linestyle=style.DOTTED, label="the dwell begins"
         )
-    if over == "deg" and course.places[-1] > _MOST_OF_A_TURN:
+    axes.set_xlim(places[0], places[-1])
+    if over == "deg" and course.period == 360.0:
         style.full_turn(axes)
-    else:
-        axes.set_xlim(course.places[0], course.places[-1])
     panels.legend_under_heading(axes, f"{course.output}: designs as made over the cycle", 4)
+
+
+def _closed(course: Course) -> tuple[Any, Any]:
+    """Places and percentiles, those of a cycle up to its end, where it begins again."""
+    import numpy as np
+
+    if course.period is None:
+        return course.places, course.percentiles
+    return np.append(course.places, course.period), np.hstack((course.percentiles, course.percentiles[:, :1]))
 
 
 def _histogram(axes: Axes, study: ToleranceStudy, name: str) -> None:
@@ -72,7 +79,7 @@ def _histogram(axes: Axes, study: ToleranceStudy, name: str) -> None:
     style.curves(axes, f"{name} [{unit}]" if unit != "1" else name, "density")
     panels.small_ticks(axes)
     axes.ticklabel_format(axis="x", useOffset=False)
-    axes.hist(values, bins=_BINS, density=True, color=style.SKY, edgecolor="white", linewidth=0.3)
+    axes.hist(values, bins=_BINS, density=True, histtype="stepfilled", color=style.SKY)  # one patch for sixty
     axes.axvline(study.nominal[name], color=style.BLACK, linewidth=1.2, label="nominal")
     low, _, high = study.result.spreads[name].quantiles
     for place, label in ((low.value, "0.135 and 99.865 %"), (high.value, None)):

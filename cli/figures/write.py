@@ -82,18 +82,19 @@ def save(make: Callable[[], Figure], name: str, stream: IO[bytes], ending: str, 
 
     The same figure gives the same bytes; `dpi` counts for png alone.
     """
-    _load_without_documents()
+    _load_what_is_drawn()
     with fonts_of(name):
         made = make()
         made.set_dpi(dpi if ending == "png" else DPI)
         made.savefig(stream, format=ending, metadata=_FIXED_METADATA[ending], **_PACKING.get(ending, {}))
 
 
-def _load_without_documents() -> None:
-    """Import what figures are made of, without the texts of `help` on every artist's properties.
+def _load_what_is_drawn() -> None:
+    """Import what figures are made of, without the texts of `help` on every artist's properties and without solid axes.
 
-    Those are a fifth of the import: matplotlib's `kwdoc` reads the docstrings of all setters. Nobody asks for them in
-    a process of the command; in one of Python or a notebook, somebody may, and nothing is left out.
+    Those are a fifth of the import, for matplotlib's `kwdoc` reads the docstrings of all setters, and these, which
+    matplotlib can do without, a twelfth. Nobody asks for them in a process of the command; in one of Python or a
+    notebook, somebody may, and nothing is left out.
     """
     if not process.runs_the_command_alone or "matplotlib.figure" in sys.modules:
         return
@@ -105,11 +106,16 @@ def _load_without_documents() -> None:
 
     described = artists.kwdoc
     artists.kwdoc = nothing
+    missing: dict[str, Any] = {"mpl_toolkits.mplot3d": None}
+    sys.modules.update(missing)
     try:
-        import matplotlib.backends.backend_agg
-        import matplotlib.figure  # noqa: F401
+        with warnings.catch_warnings():
+            warnings.filterwarnings("ignore", message="Unable to import Axes3D")
+            import matplotlib.backends.backend_agg
+            import matplotlib.figure  # noqa: F401
     finally:
         artists.kwdoc = described
+        del sys.modules["mpl_toolkits.mplot3d"]
 
 
 @contextmanager

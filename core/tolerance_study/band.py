@@ -56,6 +56,12 @@ class Course:
     percentiles: Reals
     reference: float | None
 
+    @property
+    def period(self) -> float | None:
+        """Where the cycle begins again; None of a motion that ends. A table leaves the end of a cycle out."""
+        steps = len(self.places)
+        return float(self.places[0] + steps * (self.places[1] - self.places[0])) if steps == _PLACES else None
+
 
 def courses(made: Problem) -> list[Course]:
     """The outputs of a kind over its cycle; none where it has no motion.

@@ -32,6 +32,8 @@ if "matplotlib.figure" in sys.modules:
     from matplotlib.lines import Line2D
     assert "antialiased" not in Line2D.set.__doc__, "its help was made, which takes a fifth of the import"
     assert "antialiased" in kwdoc(Line2D), "matplotlib is not left as it is"
+    assert not any(name.startswith("mpl_toolkits.mplot3d") for name in sys.modules), "solid axes were loaded"
+    from mpl_toolkits.mplot3d import Axes3D
 print(json.dumps(found))
 """
 
@@ -39,7 +41,8 @@ print(json.dumps(found))
 def modules_after(*lines: str) -> list[set[str]]:
     """Modules loaded after each of several command lines in a process of their own.
 
-    A process that loaded matplotlib for its pictures did so without the help of its artists, and left it as it is.
+    A process that loaded matplotlib for its pictures did so without the help of its artists and without solid axes,
+    and left it as it is.
     """
     done = subprocess.run([sys.executable, "-c", _PROBE, *lines], capture_output=True, text=True, cwd=ROOT, check=True)
     found = json.loads(done.stdout)

@@ -197,6 +197,7 @@ def _few_ticks(axes: Axes, most: int) -> None:
     for axis in (axes.xaxis, axes.yaxis):
         axis.get_offset_text().set_fontsize(7)
         axis.set_major_locator(MaxNLocator(most, steps=[1, 2, 2.5, 5, 10]))
+    axes.yaxis.get_offset_text().set_horizontalalignment("right")  # beside a legend under the heading
 
 
 def turn_panel(axes: Axes, ylabel: str, xlabel: str = "") -> None:

@@ -83,7 +83,7 @@ def test_python_code_loads_matplotlib_as_it_is(monkeypatch: pytest.MonkeyPatch) 
     """The command's own process, which leaves out its help, stands in test_laziness.py."""
     monkeypatch.delitem(sys.modules, "matplotlib.figure")
     assert not process.runs_the_command_alone
-    write._load_without_documents()
+    write._load_what_is_drawn()
     assert "matplotlib.figure" not in sys.modules
 
 

@@ -7,7 +7,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 from sheets import sheet
+
+from gearlink.cli.figures import tolerance
+from gearlink.core.tolerance_study.band import Course
 
 SMALL = {"tolerance__samples": 128}
 
@@ -15,8 +19,9 @@ SMALL = {"tolerance__samples": 128}
 def test_histogram_is_of_the_samples_with_nominal_value_and_limit() -> None:
     design, figure = sheet("candy_feed_tolerances", "tolerance", **SMALL)
     axes = next(axes for axes in figure.axes if axes.get_xlabel().startswith("back_step_angle"))
-    area = sum(bar.get_width() * bar.get_height() for bar in axes.patches)
-    assert area == pytest.approx(1.0, rel=1e-9)
+    (outline,) = axes.patches
+    x, y = outline.get_xy().T
+    assert 0.5 * abs(float(np.dot(x[:-1], y[1:]) - np.dot(x[1:], y[:-1]))) == pytest.approx(1.0, rel=1e-9)
     verticals = [float(line.get_xdata()[0]) for line in axes.lines]
     assert 20.4 in [pytest.approx(place) for place in verticals]
     assert design.nominal["back_step_angle"] in verticals
@@ -37,10 +42,22 @@ def test_percentiles_over_the_cycle_are_those_of_the_table() -> None:
     axes = next(axes for axes in figure.axes if "over the cycle" in axes.get_title(loc="left"))
     table = design.table_band()
     middle = next(line for line in axes.lines if line.get_label() == "50 %")
-    assert np.asarray(middle.get_xdata()) == pytest.approx(np.asarray(table["input"]))
-    assert np.asarray(middle.get_ydata()) == pytest.approx(np.asarray(table["q50"]))
+    assert np.asarray(middle.get_xdata()) == pytest.approx(np.append(table["input"], 360.0))
+    assert np.asarray(middle.get_ydata()) == pytest.approx(np.append(table["q50"], table["q50"][0]))
     begins = next(line for line in axes.lines if line.get_label() == "the dwell begins")
     assert begins.get_xdata()[0] == pytest.approx(224.849, abs=0.01)
+
+
+@pytest.mark.parametrize(
+    ("places", "end"), [(np.arange(120) * 18.0, 2160.0), (np.arange(121) * 0.5, 60.0)], ids=["six turns", "a stretch"]
+)
+def test_course_reaches_to_the_end_of_its_cycle(places: np.ndarray, end: float) -> None:
+    rows = np.linspace(-2.0, 2.0, 5)[:, None] * (1.0 + 0.5 * np.cos(places / 40.0))
+    course = Course("rocker_angle", "input_angle", ("deg", "deg"), places, 0.0 * places, rows, None)
+    axes: Any = Figure().add_subplot()
+    tolerance._course(axes, course)
+    assert axes.get_xlim() == (0.0, end)
+    assert axes.lines[0].get_xdata()[-1] == end
 
 
 @pytest.mark.quick(1)
