@@ -184,6 +184,9 @@ def invoke(arguments: list[str]) -> int:
 
 
 def _usage_error(wrong: typer.TyperException, arguments: list[str]) -> int:
+    from gearlink.cli.usage_errors import complete
+
+    complete(wrong, arguments, _tree())
     message = wrong.format_message()
     if not _wants_json(arguments):
         show = getattr(wrong, "show", None)  # errors of usage know the command's usage line

@@ -1,0 +1,169 @@
+"""What to write instead of a command line that Typer refuses: the option, command or value that was meant."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from enum import Enum
+from typing import Any, get_args
+
+_FORMATS = ("--format", "-f", "--as", "--plot-format", "--type", "--to")
+_PLACES = ("--out", "-o", "--output", "--outdir", "--out-dir", "--output-dir", "--outfile", "--file", "--dir", "--save")
+_ALIASES = {"markdown": "md", "text": "table", "txt": "table", "stp": "step", "htm": "html", "yml": "yaml"}
+_ALIASES |= {"jpg": "png", "jpeg": "png", "xls": "csv", "xlsx": "csv", "jsonlines": "jsonl", "xml": "junit"}
+_FIRST = ("analyze", "export", "animate", "batch")
+"""Commands that are named first where several write a format."""
+
+_NAMED = 4
+"""So many commands are named that have an option."""
+
+_ONE = ("spec", "names", "name")
+"""Arguments of commands on one design file."""
+
+_WITHOUT = {"report": "html", "new": "yaml", "schema": "json"}
+"""Commands with one format, and no option for it."""
+
+
+def complete(wrong: Any, arguments: Sequence[str], tree: Any) -> None:
+    """Put into an error of usage what would have been right; it stays as it is where nothing is known.
+
+    Parameters
+        wrong : typer.TyperException - changed in place
+        arguments : the words of the command line
+        tree : Typer's group of all commands
+    """
+    command = getattr(getattr(wrong, "ctx", None), "command", None)
+    message = str(getattr(wrong, "message", ""))
+    if hasattr(wrong, "possibilities"):
+        remedy = _of_option(wrong.option_name, arguments, command, tree)
+        if remedy:
+            wrong.message, wrong.possibilities = f"{message}; {remedy}", None
+    elif hasattr(wrong, "param_type"):
+        wrong.message = message or str(getattr(wrong.param, "help", "") or "")
+    elif getattr(wrong, "param", None) is not None:
+        wrong.message = _of_value(wrong, arguments, command, tree)
+    elif message.startswith("No such command") and "Did you mean" not in message:
+        remedy = _of_command(message.split("'")[1], command, tree)
+        wrong.message = f"{message.rstrip('.')}; {remedy}" if remedy else message
+    elif message.startswith("Got unexpected extra") and [p.name for p in command.params if p.name in _ONE] == ["spec"]:
+        wrong.message = f"{message}; {command.name} takes one file, `gearlink batch` and `gearlink check` several"
+
+
+# Options
+
+
+def _of_option(name: str, arguments: Sequence[str], command: Any, tree: Any) -> str:
+    if name in _FORMATS:
+        choices = [
+            f"{param.opts[0]} takes {', '.join(values)}" for param in command.params if (values := _values(param))
+        ]
+        return _writer(_value_after(arguments, (name,)), command, tree) or "; ".join(choices)
+    if name in _PLACES:
+        known = {param.name: param for param in command.params}
+        return "; ".join(_written(known[each]) for each in ("out", "save", "write") if each in known)
+    having = [path for path, each in _leaves(tree) if any(name in param.opts for param in each.params)]
+    more = ", ..." if len(having) > _NAMED else ""
+    return f"it belongs to {', '.join(having[:_NAMED])}{more}" if having else ""
+
+
+def _written(param: Any) -> str:
+    return f"{param.opts[0]} {param.metavar}: {param.help}"
+
+
+def _writer(word: str, command: Any, tree: Any) -> str:
+    """What writes a format: an option of this command, or else another command; empty where nothing does."""
+    word = _ALIASES.get(word.lower(), word.lower())
+    own = [param for param in command.params if word in _values(param)]
+    if own:
+        return f"give {_line(own[0], word, command)}"
+    if word == "yaml" and any(param.name == "save" for param in command.params):
+        return "give --save FILE, which writes the design as YAML"
+    if _WITHOUT.get(command.name) == word:
+        return f"{command.name} writes {word.upper()} without being told"
+    printed = any("table" in _values(param) for param in command.params)  # without this form, on purpose
+    return "" if printed and word in ("json", "csv", "md") else _elsewhere(word, tree)
+
+
+def _line(param: Any, word: str, command: Any) -> str:
+    picture = "--plot " if param.name == "plot_format" and any(p.name == "plot" for p in command.params) else ""
+    return f"{picture}{param.opts[0]} {word}"
+
+
+def _elsewhere(word: str, tree: Any) -> str:
+    if word == "html":
+        return "use `gearlink report SPEC` for a page, `gearlink animate SPEC --format html` for a film"
+    takers = {
+        path: _line(param, word, command)
+        for path, command in _leaves(tree)
+        for param in command.params
+        if word in _values(param)
+    }
+    best = [path for path in (*_FIRST, *takers) if path in takers]
+    return f"use `gearlink {best[0]} {_argument(tree, best[0])} {takers[best[0]]}`" if best else ""
+
+
+def _argument(tree: Any, path: str) -> str:
+    params = dict(_leaves(tree))[path].params
+    return " ".join(str(p.metavar) for p in params if p.param_type_name == "argument" and p.metavar)
+
+
+def _leaves(group: Any, before: str = "") -> Iterator[tuple[str, Any]]:
+    for name, command in group.commands.items():
+        if hasattr(command, "commands"):
+            yield from _leaves(command, f"{before}{name} ")
+        else:
+            yield before + name, command
+
+
+def _values(param: Any) -> list[str]:
+    """The words that an option chooses from; none where it takes numbers or names."""
+    kind = param.type_descriptor.annotation
+    members = [each for each in (kind, *get_args(kind)) if isinstance(each, type) and issubclass(each, Enum)]
+    return [str(member.value) for member in members[0]] if members else []
+
+
+# Values
+
+
+def _of_value(wrong: Any, arguments: Sequence[str], command: Any, tree: Any) -> str:
+    message = str(wrong.message).removeprefix("Value error, ").rstrip(".")
+    value = _value_after(arguments, wrong.param.opts)
+    if message.startswith("Input should be") and value:
+        return f"{value!r} is not {_number(wrong.param)}"
+    remedy = _writer(value, command, tree) if value and _values(wrong.param) else ""
+    return f"{message}; {remedy}" if remedy else message
+
+
+def _number(param: Any) -> str:
+    """A number within the limits of an option, in words."""
+    whole = param.type_descriptor.annotation is int or int in get_args(param.type_descriptor.annotation)
+    what = "a whole number" if whole else "a number"
+    low, high = param.min, param.max
+    if low is None and high is None:
+        return what
+    return f"{what} from {low:.15g} to {high:.15g}" if high is not None else f"{what} from {low:.15g} on"
+
+
+def _value_after(arguments: Sequence[str], names: Sequence[str]) -> str:
+    """What follows the last use of an option, by a space or by =; empty where nothing does."""
+    found = ""
+    for place, word in enumerate(arguments):
+        name, equals, value = word.partition("=")
+        if name in names:
+            found = value if equals else "".join(arguments[place + 1 : place + 2])
+        elif word[:2] in names and len(word) > 2:  # -j8
+            found = word[2:]
+    return found
+
+
+# Commands
+
+
+def _of_command(name: str, group: Any, tree: Any) -> str:
+    """A command of a group inside this one; a file in place of a command."""
+    inner = [path for path, _ in _leaves(tree) if path.endswith(f" {name}") and group is tree]
+    if inner:
+        return f"use `gearlink {inner[0]}`"
+    if name.lower().endswith((".yaml", ".yml", ".json")):
+        first = "analyze" if group is tree else f"{group.name} {next(iter(group.commands))}"
+        return f"for a file: `gearlink {first} {name}`"
+    return ""

@@ -1,0 +1,80 @@
+"""Command lines that are refused say what would have been right, and that is accepted when it is followed."""
+
+from __future__ import annotations
+
+import re
+import shlex
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from gearlink.cli.app import _tree
+from gearlink.cli.usage_errors import _leaves, _values, _writer
+
+PAIR = "kind: gear-pair\nmodule: 4\nteeth: [30, 40]\n"
+
+TREE: Any = _tree()
+COMMANDS = dict(_leaves(TREE))
+WORDS = sorted({word for each in COMMANDS.values() for param in each.params for word in _values(param)})
+
+
+@pytest.fixture
+def pair(tmp_path: Path) -> Path:
+    path = tmp_path / "pair.yaml"
+    path.write_text(PAIR)
+    return path
+
+
+@pytest.mark.parametrize(
+    ("words", "remedy"),
+    [
+        ("export SPEC --format step", "; give --as step"),
+        ("export SPEC --format=stp", "; give --as step"),
+        ("export SPEC --format", "--as takes dxf, svg, csv, step, rexs"),
+        ("gear SPEC --as svg", "; give --plot --plot-format svg"),
+        ("gear SPEC --format step", "; use `gearlink export SPEC --as step`"),
+        ("gear SPEC --format html", "; use `gearlink report SPEC` for a page"),
+        ("gear SPEC --format yaml", "; give --save FILE"),
+        ("gear SPEC -f SVG", "; give --plot --plot-format svg"),
+        ("gear SPEC --plot-format markdown", "; give --format md"),
+        ("report SPEC --format html", "; report writes HTML without being told"),
+        ("check SPEC --format sarif", "; use `gearlink batch DIR --format sarif`"),
+        ("export SPEC -o x.dxf", "; --out DIR: folder for files that are written"),
+        ("gear SPEC --jobs 4", "; it belongs to batch, explore, tolerance, register"),
+        ("gear SPEC --dpi 1e300", "'1e300' is not a whole number from 20 to 1200"),
+        ("batch SPEC -jx", "'x' is not a whole number from 0 on"),
+        ("dwell SPEC", "; use `gearlink synth dwell`"),
+        ("SPEC", "; for a file: `gearlink analyze "),
+        ("gear SPEC other.yaml", "; gear takes one file, `gearlink batch` and `gearlink check` several"),
+        ("gear", "Missing argument 'SPEC'. design file, or - for standard input"),
+    ],
+)
+def test_the_remedy_is_named(gearlink: Any, pair: Path, words: str, remedy: str) -> None:
+    ended = gearlink(*(pair if word == "SPEC" else word for word in words.split()))
+    assert ended.status == 2
+    assert remedy in ended.err.replace("\n", " ")
+    assert "Value error" not in ended.err
+
+
+def test_json_has_the_remedy_too(gearlink: Any, pair: Path) -> None:
+    (error,) = gearlink("export", pair, "--as", "png", "--format", "json").json["errors"]
+    assert (error["code"], error["message"]) == (
+        "GL115",
+        "No such option: --format; use `gearlink analyze SPEC --format json`",
+    )
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_whatever_is_recommended_for_a_format_takes_it(name: str) -> None:
+    """For every command and every format word: the option that is named belongs to the command and has the word."""
+    for word in WORDS:
+        remedy = _writer(word, COMMANDS[name], TREE)
+        for line in re.findall(r"`gearlink ([^`]*)`", remedy) or [f"{name} {remedy.removeprefix('give ')}"]:
+            if "--" not in line or "FILE" in line:
+                continue
+            head, _, tail = line.rpartition(" --")
+            option, value = f"--{tail}".split()
+            command = COMMANDS[max(path for path in COMMANDS if shlex.split(head)[: len(path.split())] == path.split())]
+            (param,) = [each for each in command.params if option in each.opts]
+            assert value in _values(param), remedy
