@@ -31,7 +31,7 @@ def complete(wrong: Any, arguments: Sequence[str], tree: Any) -> None:
         arguments : the words of the command line
         tree : Typer's group of all commands
     """
-    command = getattr(getattr(wrong, "ctx", None), "command", None)
+    command: Any = getattr(getattr(wrong, "ctx", None), "command", None)
     message = str(getattr(wrong, "message", ""))
     if hasattr(wrong, "possibilities"):
         remedy = _of_option(wrong.option_name, arguments, command, tree)

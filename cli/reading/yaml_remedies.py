@@ -12,7 +12,10 @@ from gearlink.cli.reading.diagnostics import Diagnostic, Source
 ODD = re.compile("[\u00a0\u1680\u2000-\u200f\u2028-\u202f\u205f\u2060\u3000\ufeff\uff01-\uff5e\u2018-\u201f]")
 _GLUED = re.compile(r"\s*(?:- +)?[\"']?([A-Za-z_][\w-]*)[\"']?(:)(?=[^\s:/])")
 _QUOTED = re.compile(r"\"(?:[^\"\\]|\\.)*+\"|'[^']*'|(?:^|(?<=\s))#.*")
+_COLON = re.compile(r":(?=\s|$)")
 _SEARCHED_LINES = 3
+_SHOWN = 40
+_LONGEST_KEY = 1024  # of a key without '? ', by the YAML specification (7.4.3, 8.2.2)
 
 _ALIKE = "indent all keys of one section by the same number of spaces; put text that holds ': ' in quotes"
 _TAB = "indent with spaces"
@@ -70,6 +73,8 @@ def syntax_error(source: Source, base: int, error: YAMLError) -> Diagnostic:
         return tab
     if culprit := hidden_culprit(source, at, min(opened, at)):
         return culprit
+    if long := _long_key(source, at, opened):
+        return long
     if "could not find expected ':'" in problem:
         at = opened
     if "end of stream" in problem:
@@ -98,6 +103,26 @@ def _tab(source: Source, at: int, problem: str) -> Diagnostic | None:
     return source.report("GL103", "a tab in the indentation", start + column - 1, help=_TAB)
 
 
+def _long_key(source: Source, at: int, opened: int) -> Diagnostic | None:
+    """The key that is longer than the parser looks for its colon; it stops at the colon, or names the key's begin."""
+    at_colon = source.text[at : at + 1] == ":"
+    number = source.place(at if at_colon else opened)[0]
+    start = source.line_start(number)
+    line = source.line(number)
+    bare = _QUOTED.sub(lambda match: "x" * len(match[0]), line)
+    colon = _COLON.search(bare, (at if at_colon else opened) - start)
+    if colon is None:
+        return None
+    key = line[: colon.start()].rstrip()
+    mark = key[-1:]
+    first = key.rfind(mark, 0, -1) if mark in ("'", '"') else max(key.rfind("{"), key.rfind(",")) + 1
+    first += len(key[first:]) - len(key[first:].lstrip(" -"))
+    if len(key) - first <= _LONGEST_KEY:
+        return None
+    message = f"a key of {len(key) - first} characters: YAML takes {_LONGEST_KEY}"
+    return source.report("GL103", message, start + first, help="shorten it; put text that holds ': ' in quotes")
+
+
 def _unclosed(source: Source, at: int, opened: int) -> Diagnostic:
     bracket = source.text[opened : opened + 1]
     if at >= len(source.text.rstrip()):
@@ -119,8 +144,9 @@ def hidden_culprit(source: Source, at: int, since: int) -> Diagnostic | None:
             message = f"{odd_character(char)} where YAML needs a plain sign"
             return source.report("GL103", message, start + column, help=odd_remedy(char))
         if glued := _GLUED.match(line):
-            message = f"no space after the colon of {glued[1]!r}"
-            return source.report("GL103", message, start + glued.start(2), help=f"write '{glued[1]}: ...'")
+            key = glued[1] if len(glued[1]) <= _SHOWN else glued[1][: _SHOWN - 3] + "..."
+            message = f"no space after the colon of {key!r}"
+            return source.report("GL103", message, start + glued.start(2), help=f"write '{key}: ...'")
     return None
 
 

@@ -200,6 +200,28 @@ def test_syntax_errors_name_place_and_cause(parser: Any, text: str, place: tuple
     assert says in wrong.message
 
 
+@pytest.mark.parametrize(
+    ("before", "key", "place"),
+    [
+        ("a: 1\n", "k" * 1100, (2, 1)),
+        ("", "k" * 1100, (1, 1)),
+        ("a: 1\n", "'" + "k" * 1100 + "'", (2, 1)),
+        ("a:\n  ", "k" * 1100, (2, 3)),
+        ("a:\n  - ", "k" * 1100, (2, 5)),
+        ("a: {b: 1, ", "k" * 1100, (1, 11)),
+    ],
+)
+def test_a_key_that_is_too_long_is_named_as_that(parser: Any, before: str, key: str, place: tuple[int, int]) -> None:
+    wrong = errors(f"{before}{key}: 1{'}' if '{' in before else ''}\n")[0]
+    assert (wrong.code, wrong.line, wrong.column) == ("GL103", *place)
+    assert wrong.message == f"a key of {len(key)} characters: YAML takes 1024"
+
+
+def test_the_longest_key_and_a_long_line_without_a_colon(parser: Any) -> None:
+    assert len(next(iter(data("k" * 1024 + ": 1\n")))) == 1024
+    assert "colon is missing" in errors("a: 1\n" + "k" * 1100 + " # a note: no colon\nb: 2\n")[0].message
+
+
 def test_each_hint_says_what_to_type() -> None:
     assert "spaces" in errors("a:\n\tb: 1\n")[0].help
     assert errors("kind：x\n")[0].help == "type : in its place"
