@@ -33,6 +33,7 @@ class Gear(NamedTuple):
         outer : float [mm] - tip radius; of a ring gear its rim's
         inner : float [mm] - tip radius of a ring gear, within which a body may lie; an external gear has none
         mates : str - letters of the axes whose gears mesh with it; it is enough if one of two mates names the other
+        turns_with : str - letters of the shafts that are one body with it, which may pass through its blank
     """
 
     name: str
@@ -40,6 +41,7 @@ class Gear(NamedTuple):
     outer: float
     inner: float = -math.inf
     mates: str = ""
+    turns_with: str = ""
 
 
 class Shaft(NamedTuple):
@@ -133,8 +135,8 @@ class Layout:
 
     @cached_property
     def shaft_pairs(self) -> tuple[Clearance, ...]:
-        """Every gear against every shaft, then the shafts against each other."""
-        gears = ((gear, shaft) for shaft in self.shafts for gear in self.gears)
+        """Every gear against every shaft that it does not turn with, then the shafts against each other."""
+        gears = ((gear, shaft) for shaft in self.shafts for gear in self.gears if shaft.axis not in gear.turns_with)
         return tuple(self._gaps(chain(gears, combinations(self.shafts, 2))))
 
     def _gaps(self, pairs: Iterable[tuple[Gear | Shaft, Gear | Shaft]]) -> Iterator[Clearance]:

@@ -36,18 +36,25 @@ def layouts(design: GearedSixBar) -> tuple[Layout, ...]:
 
 
 def _gears(design: GearedSixBar, number: int) -> list[Gear]:
-    """The gears of a train, called by their pins."""
+    """The gears of a train, called by their pins.
+
+    Notes
+        The end gears are fixed to links: a first gear on B to the input link AB, a last gear on E to the output link
+        EF. Each is one body with the shaft of that link.
+    """
     train, meshes = design.spec.trains[number], design.train_meshes[number]
     found = []
     for k, (pin, teeth) in enumerate(zip(train.pins, train.gears, strict=True)):
         mesh = meshes[min(k, len(meshes) - 1)]
         mates = "".join(train.pins[j] for j in (k - 1, k + 1) if 0 <= j < len(train.pins))
+        shaft = "A" if pin == "B" and k == 0 else "F" if pin == "E" and k == len(train.pins) - 1 else ""
         if teeth < 0:
             assert isinstance(mesh, InternalMesh), "a ring makes its mesh internal"
-            found.append(ring_gear(pin, mesh, mates)._replace(name=f"the ring gear on {pin}"))
+            ring = ring_gear(pin, mesh, mates)
+            found.append(ring._replace(name=f"the ring gear on {pin}", turns_with=shaft))
             continue
         tip = 0.5 * train.module * teeth + train.module
-        found.append(Gear(f"the gear on {pin}", pin, tip, mates=mates))
+        found.append(Gear(f"the gear on {pin}", pin, tip, mates=mates, turns_with=shaft))
     return found
 
 

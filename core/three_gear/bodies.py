@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from gearlink.core.clearance.bodies import Gear, Layout, Shaft, least_shaft
+from gearlink.core.clearance.bodies import Gear, Layout, Shaft, least_gap, least_shaft
 from gearlink.core.clearance.reach import constant, coupler_joint, crank_pin
 from gearlink.core.gears.tooth.teeth import rim_radius
 from gearlink.core.linkages.codes import GEAR_COLLISION
@@ -84,8 +84,19 @@ def _end(axis: str, pair: Any, name: str, rim: float | None, mates: str) -> Gear
     return Gear(name, axis, pair.tip_radius[0 if axis == "B" else 1], mates=mates)
 
 
-def ring_planes(train: GearTrain) -> Check:
-    """GL301 of a train with a ring: what must stand in another plane."""
+def ring_planes(layout: Layout, train: GearTrain, limit: float) -> Check:
+    """GL301 of a train with a ring: the third gear stays within it, or must stand in another plane.
+
+    Parameters
+        layout : Layout - gears 1, idler and 5
+        train : GearTrain
+        limit : float [mm] - least gap
+    """
+    crank, _, output = layout.gears
+    gap = least_gap(crank, output, layout.reaches["BD"]).gap
     ring, other = ("the output ring", "the crank gear") if train.output < 0 else ("the crank ring", "the output gear")
+    if gap >= limit:
+        text = f"{other} turns within {ring} and keeps {gap:.6g} mm from its tips at the closest"
+        return GEAR_COLLISION.check("pass", text, gap, limit, "mm")
     text = f"{other} sweeps through {ring}: put them side by side on a wide idler, in planes of their own"
     return GEAR_COLLISION.check("warn", text)

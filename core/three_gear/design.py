@@ -312,7 +312,7 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
     def check_gear_collision(self) -> Iterator[Check]:
         """GL301: gears 1 and 5, over the whole turn."""
         if self.train.internal:
-            yield bodies.ring_planes(self.train)
+            yield bodies.ring_planes(self.layout, self.train, self.spec.limits.gear_gap)
             return
         limit, apart = self.spec.limits.gear_gap, abs(self.frame_length - self.crank_length)
         why = f"the crank gear travels with the crank pin, so AD - AB = {apart:.6g} mm counts, not AD"

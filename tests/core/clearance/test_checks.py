@@ -298,3 +298,30 @@ def test_a_long_period_costs_no_sweep() -> None:
     found = design(IDLER, gears__input=97, gears__idler=30, gears__output=89, links=links)
     assert found.period_turns == 89
     assert found.gear_gap == 200.0 - (97 + 2) - (89 + 2)
+
+
+def test_a_gear_on_the_input_link_is_one_body_with_the_input_shaft() -> None:
+    """Gear 1 of the second train is fixed to AB: its blank may lie round A. A planet there, fixed to BC, may not."""
+    fixed = [{"pins": ["A", "B"], "module": 2, "gears": [10, 10]}, {"pins": ["B", "C"], "module": 1, "gears": [18, 18]}]
+    machine = design("geared_six_bar", trains=fixed, shafts={"A_radius": 12.0})
+    gaps = {(gear.name, shaft.name) for gear, shaft, *_ in machine.layouts[1].shaft_pairs}
+    assert machine.lengths[1] == 20.0 < 18 / 2 + 1 + 12.0  # the blank on B meets the shaft at A
+    assert ("the gear on B", "shaft at A") not in gaps
+    assert ("the gear on C", "shaft at A") in gaps
+    assert ("the gear on B", "shaft at F") in gaps
+    assert ("the gear on B", "shaft at A") in {
+        (one.name, other.name) for one, other, *_ in machine.layouts[0].shaft_pairs
+    }
+
+
+def test_a_crank_gear_that_stays_within_the_output_ring_needs_no_plane_of_its_own() -> None:
+    """BD is at most 55 mm: with the tips of 22 mm the gear stays within the ring's tips, 98 mm, by 21 mm."""
+    gears = {"module": 2, "crank": 20, "idler": 20, "output": -100}
+    train = {"kind": "three-gear-four-bar", "gears": gears, "links": {"crank": 5, "frame": 50}}
+    (within,) = design(train).check("gear-collision")
+    assert (within.status, within.limit) == ("pass", 0.0)
+    assert math.isclose(within.value, 98.0 - 55.0 - 22.0, rel_tol=1e-12)
+    (near,) = design(train, limits__gear_gap=21.5).check("gear-collision")
+    (through,) = design("ring_feed", command="synth dwell").check("gear-collision")
+    assert near.status == through.status == "warn"
+    assert "planes of their own" in through.message
