@@ -180,7 +180,7 @@ def validate(loaded: LoadedFile, model: type[Model]) -> Model:
         sizes = {path for path in sizes if not takes_no_number(model, path, loaded.data)}
     except NoSolution as error:
         found = [diagnose_no_solution(loaded, error)]
-    wrong += [_no_size(loaded, path, value) for path, value in odd if path in sizes]
+    wrong += [_no_size(loaded, model, path, value) for path, value in odd if path in sizes]
     seen = {diagnostic.key for diagnostic in wrong if diagnostic.code == "GL108"}
     wrong += [diagnostic for diagnostic in found if diagnostic.key not in seen]
     if truths := [path for path, value in odd if isinstance(value, bool)]:
@@ -207,13 +207,15 @@ def _has_size(value: float) -> bool:
     return value == 0 or LEAST_SIZE <= abs(value) <= LARGEST_SIZE
 
 
-def _no_size(loaded: LoadedFile, path: KeyPath, value: float) -> Diagnostic:
+def _no_size(loaded: LoadedFile, model: type[Model], path: KeyPath, value: float) -> Diagnostic:
     key = format_path(path)
     if not math.isfinite(value):
         return loaded.report("GL108", f"{key} is not a finite number", path, help="give a finite number")
+    from gearlink.cli.reading.allowed_numbers import allowed_numbers
+
     message = f"{key} is {value:g}, which is no number of a machine"
-    remedy = f"allowed: 0, or {LEAST_SIZE:g} to {LARGEST_SIZE:g} in size"
-    return loaded.report("GL108", message, path, help=remedy)
+    allowed = allowed_numbers(model, path, loaded.data, LEAST_SIZE, LARGEST_SIZE)
+    return loaded.report("GL108", message, path, help=f"allowed: {allowed}" if allowed else "")
 
 
 def _override(argument: str) -> Override:

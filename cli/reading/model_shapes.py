@@ -27,9 +27,18 @@ class _Unit:
     name: str
 
 
+@dataclass(frozen=True, slots=True)
+class Stated:
+    """A range that a validator of the model holds, among the constraints of a number."""
+
+    ge: Any
+    le: Any
+    without: Any
+
+
 def fields_at(model: type[BaseModel], path: KeyPath, data: Any) -> dict[str, FieldInfo]:
     """The keys that a section may have, by the name that a file writes."""
-    shapes, section = _shapes_at(model, path, data)
+    shapes, section = shapes_at(model, path, data)
     return {
         name: field for shape, _ in shapes if _is_model(shape) and _fits(shape, section) for name, field in _keys(shape)
     }
@@ -68,7 +77,7 @@ def meaning_at(model: type[BaseModel], path: KeyPath, data: Any) -> str:
 
 def _limits(model: type[BaseModel], path: KeyPath, data: Any) -> tuple[str, str]:
     low = high = ""
-    for _, constraints in _shapes_at(model, path, data)[0]:
+    for _, constraints in shapes_at(model, path, data)[0]:
         for constraint in constraints:
             low = _limit(constraint, ("gt", "above"), ("ge", "from")) or low
             high = _limit(constraint, ("lt", "below"), ("le", "to")) or high
@@ -77,14 +86,14 @@ def _limits(model: type[BaseModel], path: KeyPath, data: Any) -> tuple[str, str]
 
 def unit_at(model: type[BaseModel], path: KeyPath, data: Any) -> str:
     """The unit of a number; empty where it has none, or one that another key names."""
-    units = {each.name for _, found in _shapes_at(model, path, data)[0] for each in found if isinstance(each, _Unit)}
+    units = {each.name for _, found in shapes_at(model, path, data)[0] for each in found if isinstance(each, _Unit)}
     unit = units.pop() if len(units) == 1 else ""
     return "" if unit.startswith("the ") or path[:1] == ("tolerance",) else unit
 
 
 def takes_truth_value(model: type[BaseModel], path: KeyPath, data: Any) -> bool:
     """Whether true and false mean something at a path; False only where a Literal of numbers would take them."""
-    shapes = [shape for shape, _ in _shapes_at(model, path, data)[0]]
+    shapes = [shape for shape, _ in shapes_at(model, path, data)[0]]
     literals = [value for shape in shapes if get_origin(shape) is Literal for value in get_args(shape)]
     numbers = any(type(value) is int for value in literals)
     return not numbers or bool in shapes or Any in shapes or any(isinstance(value, bool) for value in literals)
@@ -92,7 +101,7 @@ def takes_truth_value(model: type[BaseModel], path: KeyPath, data: Any) -> bool:
 
 def takes_no_number(model: type[BaseModel], path: KeyPath, data: Any) -> bool:
     """Whether a path is known and only words, sections or lists are welcome there."""
-    shapes = [shape for shape, _ in _shapes_at(model, path, data)[0]]
+    shapes = [shape for shape, _ in shapes_at(model, path, data)[0]]
     literals = [value for shape in shapes if get_origin(shape) is Literal for value in get_args(shape)]
     if any(isinstance(value, (int, float)) for value in literals):
         return False
@@ -102,7 +111,8 @@ def takes_no_number(model: type[BaseModel], path: KeyPath, data: Any) -> bool:
     )
 
 
-def _shapes_at(model: type[BaseModel], path: KeyPath, data: Any) -> tuple[list[Shape], Any]:
+def shapes_at(model: type[BaseModel], path: KeyPath, data: Any) -> tuple[list[Shape], Any]:
+    """The types that a value at a path may have, and the data there."""
     shapes: list[Shape] = [(model, ())]
     for step in path:
         shapes = [inner for shape, _ in shapes for inner in _inside(shape, step, data)]
@@ -122,7 +132,7 @@ def _inside(shape: Any, step: str | int, section: Any) -> Iterator[Shape]:
         if _fits(shape, section):
             for name, field in _keys(shape):
                 if name == step:
-                    yield from _flat(field.annotation, (*field.metadata, *_unit(field)))
+                    yield from _flat(field.annotation, (*field.metadata, *_said(field)))
         return
     arguments = get_args(shape)
     if get_origin(shape) is dict and isinstance(step, str):
@@ -153,15 +163,21 @@ def _constraints(extra: Iterable[Any]) -> Iterator[Any]:
     for item in extra:
         if isinstance(item, FieldInfo):
             yield from item.metadata
-            yield from _unit(item)
+            yield from _said(item)
         else:
             yield item
 
 
-def _unit(field: FieldInfo) -> Iterator[_Unit]:
+def _said(field: FieldInfo) -> Iterator[_Unit | Stated]:
+    """What the JSON Schema says of a field beside its constraints, which a validator of its own then holds."""
     said = field.json_schema_extra
-    if isinstance(said, dict) and isinstance(said.get("unit"), str):
+    if not isinstance(said, dict):
+        return
+    if isinstance(said.get("unit"), str):
         yield _Unit(str(said["unit"]))
+    low, high, without = (said.get(name) for name in ("minimum", "maximum", "not"))
+    if low is not None or high is not None or without is not None:
+        yield Stated(low, high, without.get("const") if isinstance(without, dict) else None)
 
 
 def _is_model(shape: Any) -> bool:

@@ -63,7 +63,7 @@ def bound(kind: str, context: dict[str, Any]) -> str:
         return ""
     name, words = _BOUNDS[kind]
     limit = context.get(name)
-    return words.format(f"{limit:g}" if isinstance(limit, float) else limit)
+    return words.format(f"{limit:.15g}" if isinstance(limit, float) else limit)
 
 
 def choices(context: dict[str, Any]) -> list[str]:

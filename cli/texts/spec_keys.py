@@ -85,7 +85,7 @@ def _range(node: Node) -> str:
     if choices:
         words = [str(choice).lower() if isinstance(choice, bool) else str(choice) for choice in choices]
         return "" if len(words) > _MOST_CHOICES else " or ".join(words)
-    bounds = [f"{word} {node[bound]:g}" for bound, word in _BOUNDS if bound in node]
+    bounds = [f"{word} {node[bound]:.15g}" for bound, word in _BOUNDS if bound in node]
     if bounds:
         return ", ".join(bounds)
     inner = [*node.get("anyOf", ()), *([node["items"]] if isinstance(node.get("items"), dict) else [])]

@@ -150,8 +150,12 @@ def require_teeth(teeth: list[Any]) -> None:
         raise PydanticCustomError("GL108", message, {"key": "teeth[0]"})
     for place, z in enumerate((first, second)):
         if z == 0 or (place == 0 and z < 0):
-            help_ = "a ring is gear 2: teeth: [21, -67]" if z < 0 else "allowed: from 1 to 10000"
-            message = "{key} must be at least 1, not {value}"
+            message, help_ = "{key} must be at least 1, not {value}", "allowed: from 1 to 10000"
+            if z < 0:
+                help_ = "a ring is gear 2: teeth: [21, -67]"
+            if place == 1:
+                message = "{key} must be 1 or more, -1 or less for a ring, or rack, not {value}"
+                help_ = "allowed: from 1 to 10000, from -10000 to -1, rack"
             raise PydanticCustomError("GL108", message, {"key": f"teeth[{place}]", "value": z, "help": help_})
     if second != "rack" and second < 0 and -second <= first:
         message = "a ring of {ring} teeth does not take a gear of {first}: it needs more teeth"

@@ -220,7 +220,7 @@ class Vibration(Spec):
     frequency: Annotated[float, Field(gt=0, le=1e7, json_schema_extra={"unit": "Hz"})] | None = Field(
         None, description="natural frequency"
     )
-    stiffness: Annotated[float, Field(gt=0, le=1e15, json_schema_extra={"unit": "1"})] | None = Field(
+    stiffness: Annotated[float, Field(gt=0, le=1e12, json_schema_extra={"unit": "1"})] | None = Field(
         None, description="in place of frequency: of the output shaft (N m/rad) or of the slider's drive (N/mm)"
     )
     damping: Coefficient | None = Field(None, description="damping ratio; left out: 0.03, assumed")

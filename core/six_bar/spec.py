@@ -14,7 +14,7 @@ from gearlink.core.spec import Angle, Assembly, Deferred, DrivenSpec, Length, Pr
 
 PINS = "ABCDEF"
 Pin = Literal["A", "B", "C", "D", "E", "F"]
-TeethOrRing = Annotated[int, Field(ge=-10_000, le=10_000, json_schema_extra={"unit": "teeth"})]
+TeethOrRing = Annotated[int, Field(ge=-10_000, le=10_000, json_schema_extra={"unit": "teeth", "not": {"const": 0}})]
 
 
 class SixLinks(Spec):

@@ -20,7 +20,9 @@ def _some_teeth(teeth: int) -> int:
 
 
 SignedTeeth: TypeAlias = Annotated[
-    int, Field(ge=-10_000, le=10_000, json_schema_extra={"unit": "teeth"}), AfterValidator(_some_teeth)
+    int,
+    Field(ge=-10_000, le=10_000, json_schema_extra={"unit": "teeth", "not": {"const": 0}}),
+    AfterValidator(_some_teeth),
 ]
 
 

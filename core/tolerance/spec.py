@@ -27,7 +27,8 @@ _ONE = {"unit": "1"}
 Deviation = Annotated[float, Field(json_schema_extra={"unit": "mm"})]  # of an angle deg
 Width = Annotated[float, Field(gt=0, json_schema_extra={"unit": "mm"})]
 Positive = Annotated[float, Field(gt=0, json_schema_extra=_ONE)]
-Grade = Annotated[int, Field(json_schema_extra=_ONE)]
+FlankClass = Annotated[int, Field(json_schema_extra={**_ONE, "minimum": 1, "maximum": 11})]
+Grade = Annotated[int, Field(json_schema_extra={**_ONE, "minimum": 1, "maximum": 18})]
 Torque = Annotated[float, Field(json_schema_extra={"unit": "N m"})]
 Share = Annotated[float, Field(gt=0, lt=1, json_schema_extra={"unit": "1"})]
 Pair = Annotated[list[Deviation], Field(min_length=2, max_length=2)]
@@ -55,7 +56,7 @@ class ToleranceSource(Spec):
     bore: Length | None = Field(None, description="bore of the bearing")
     clearance: Pair | None = Field(None, description="[least, greatest] clearance in diameter")
     reduction: Distance = Field(0.0, description="what fits and heat take off the bearing's clearance")
-    grade: Grade | None = Field(None, description="flank tolerance class of ISO 1328-1:2013, 1 to 11")
+    grade: FlankClass | None = Field(None, description="flank tolerance class of ISO 1328-1:2013, 1 to 11")
     width: Length | None = Field(None, description="face width of the gear")
     eccentricity: Length | None = Field(None, description="greatest distance of a gear's pitch circle from its axis")
     phase: Angle | None = Field(

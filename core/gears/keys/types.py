@@ -29,7 +29,7 @@ WidthOrTwo = FaceWidth | TwoWidths
 RimOrTwo = Rim | TwoRims
 LengthOrTwo = Length | TwoLengths
 TipShortening = Literal["full", "none"] | TwoAlterations
-SignedTeeth = Annotated[int, Field(ge=-10_000, le=10_000, json_schema_extra={"unit": "teeth"})]
+SignedTeeth = Annotated[int, Field(ge=-10_000, le=10_000, json_schema_extra={"unit": "teeth", "not": {"const": 0}})]
 
 
 class ToothKeys(Spec):

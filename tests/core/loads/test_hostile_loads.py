@@ -63,7 +63,7 @@ def test_long_arrays_are_not_kept() -> None:
     [
         ({"loads__vibration__frequency": 1e7}, "loads.vibration.frequency"),
         ({"loads__vibration__frequency": 1e-300}, "loads.vibration.frequency"),
-        ({"loads__vibration": {"stiffness": 1e15}}, "loads.vibration.stiffness"),
+        ({"loads__vibration": {"stiffness": 1e12}}, "loads.vibration.stiffness"),
         ({"loads__speed": 1e-300}, "loads.speed"),
         ({"loads__speed": 0.0}, "loads.speed"),
         ({"loads__forces": [{"on": "nobody", "torque": 1}]}, "loads.forces[0].on"),
