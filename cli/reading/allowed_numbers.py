@@ -21,7 +21,7 @@ def allowed_numbers(model: type[BaseModel], path: KeyPath, data: Any, least: flo
     Returns
         str - "from 1e-30 to 1e+12"; empty where nothing is known of the key
     """
-    shapes = shapes_at(model, path, data)[0]
+    shapes: list[tuple[Any, tuple[Any, ...]]] = shapes_at(model, path, data)[0]
     numbers = [(shape, constraints) for shape, constraints in shapes if shape in (int, float)]
     broad = [constraints for shape, constraints in numbers if shape is float]  # a whole number is one of these
     words = [_words(*each, least, most) for each in numbers if each[0] is float or each[1] not in broad]
