@@ -7,6 +7,7 @@ import re
 import stat
 from contextlib import contextmanager, suppress
 
+from gearlink.cli.printable import visible
 from gearlink.core.errors import GearlinkError
 
 TYPE_CHECKING = False  # as typing has it
@@ -21,6 +22,7 @@ class CannotWrite(GearlinkError):
 
 
 _unfinished: set[str] = set()
+_in_place_of_others: set[str] = set()
 _ENDING = ("SIGHUP", "SIGQUIT", "SIGUSR1", "SIGUSR2", "SIGALRM", "SIGTERM", "SIGXCPU")
 
 
@@ -80,11 +82,34 @@ def write_atomically(path: Path, write: Callable[[IO[bytes]], object]) -> None:
         with unfinished(temporary):
             with open(temporary, "xb") as stream:
                 write(stream)
+            differs = _differ(temporary, path)
             os.replace(temporary, path)
+            (_in_place_of_others.add if differs else _in_place_of_others.discard)(str(path))
     except (FileExistsError, NotADirectoryError) as error:
         raise CannotWrite(f"cannot write {path}: {path.parent} is no folder") from error
     except OSError as error:
         raise CannotWrite(f"cannot write {path}: {error.strerror or error}") from error
+
+
+def _differ(new: str, old: Path) -> bool:
+    """Whether a file stands there already, and holds something else."""
+    if not os.path.isfile(old):
+        return False
+    import filecmp
+
+    with suppress(OSError):
+        return not filecmp.cmp(new, old, shallow=False)
+    return True
+
+
+def wrote(path: Path) -> str:
+    """What is told of a file that was written: that it took the place of another one, made from other input, too."""
+    return f"wrote {visible(str(path))}{in_place(path)}"
+
+
+def in_place(path: Path) -> str:
+    """Words for a file that took the place of one with another content; nothing for a new file or the same again."""
+    return ", in place of an earlier one that differs" if str(path) in _in_place_of_others else ""
 
 
 def read_plain_file(path: Path, limit: int, *, private: bool = False) -> bytes:

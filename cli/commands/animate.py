@@ -9,9 +9,8 @@ from typing import IO, TYPE_CHECKING
 
 from gearlink.cli.evaluate import open_design, read_spec, refusals_located, whole_design, wrong_kind
 from gearlink.cli.exit_codes import ExitCode
-from gearlink.cli.files import CannotWrite, safe_stem, write_atomically
+from gearlink.cli.files import CannotWrite, safe_stem, write_atomically, wrote
 from gearlink.cli.options import Options
-from gearlink.cli.printable import visible
 from gearlink.cli.progress import counted
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.errors import show_refusal
@@ -52,7 +51,7 @@ def run_animate(source: str, asked: Asked, options: Options) -> int:
     except (DesignFileError, CannotWrite) as error:
         return show_refusal(error, source, options)
     if not options.quiet:
-        print(f"wrote {visible(str(path))}", file=sys.stderr)
+        print(wrote(path), file=sys.stderr)
     return ExitCode.OK
 
 

@@ -12,10 +12,9 @@ from gearlink.cli.commands.design import print_report
 from gearlink.cli.evaluate import open_design, read_spec, refusals_located, whole_design, wrong_kind
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.figures.chart_list import CHARTS, DesignChart
-from gearlink.cli.files import CannotWrite
+from gearlink.cli.files import CannotWrite, wrote
 from gearlink.cli.options import Format, Options
 from gearlink.cli.patience import patience
-from gearlink.cli.printable import visible
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.errors import show_refusal
 from gearlink.core.errors import NoSolution, at_key, named
@@ -63,7 +62,7 @@ def run_chart(asked: Asked, options: Options) -> int:
 
             path = write_chart(chart, report.tables[0], curves, marked, options)
             if not options.quiet:
-                print(f"wrote {visible(str(path))}", file=sys.stderr)
+                print(wrote(path), file=sys.stderr)
     except (DesignFileError, CannotWrite) as error:
         return show_refusal(error, asked.design or "<command line>", options)
     if marked is not None and marked.off_family > _LINK_TOLERANCE and not options.quiet:

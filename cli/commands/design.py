@@ -9,10 +9,9 @@ from typing import TYPE_CHECKING
 
 from gearlink.cli.evaluate import build, exit_status, open_design, read_spec, require_command
 from gearlink.cli.exit_codes import ExitCode
-from gearlink.cli.files import CannotWrite
+from gearlink.cli.files import CannotWrite, wrote
 from gearlink.cli.options import STREAM, Format, Options
 from gearlink.cli.patience import patience
-from gearlink.cli.printable import visible
 from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.cli.render.errors import show_refusal
 from gearlink.core.errors import NoSolution
@@ -98,7 +97,7 @@ def plot(command: str, design: Design, options: Options, report: Report) -> None
     with patience(f"drawing {report.name}", quiet=options.quiet):
         path = write_plot(command, design, options, checks=report.checks)
     if not options.quiet:
-        print(f"wrote {visible(str(path))}", file=sys.stderr)
+        print(wrote(path), file=sys.stderr)
 
 
 def print_report(report: Report, options: Options) -> None:

@@ -13,10 +13,9 @@ from html import escape
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gearlink.cli.evaluate import build, exit_status, open_design, read_spec
-from gearlink.cli.files import CannotWrite, safe_stem, write_atomically
+from gearlink.cli.files import CannotWrite, safe_stem, write_atomically, wrote
 from gearlink.cli.options import Options
 from gearlink.cli.patience import patience
-from gearlink.cli.printable import visible
 from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.cli.render.errors import show_refusal
 from gearlink.core.errors import NoSolution
@@ -54,7 +53,7 @@ def run_report(source: str, options: Options) -> int:
     except (DesignFileError, CannotWrite, NoSolution) as error:
         return show_refusal(error, source, options)
     if not options.quiet:
-        print(f"wrote {visible(str(path))}", file=sys.stderr)
+        print(wrote(path), file=sys.stderr)
     return max(exit_status(section.report, strict=options.strict) for section in made)
 
 

@@ -9,10 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.evaluate import open_design, read_spec, refusals_located, whole_design
 from gearlink.cli.exit_codes import ExitCode
-from gearlink.cli.files import CannotWrite, safe_stem, write_atomically
+from gearlink.cli.files import CannotWrite, safe_stem, write_atomically, wrote
 from gearlink.cli.options import Options
 from gearlink.cli.patience import patience
-from gearlink.cli.printable import visible
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.errors import show_refusal
 from gearlink.core.errors import named
@@ -34,7 +33,7 @@ def run_sheet(source: str, names: Sequence[str], options: Options) -> int:
     except (DesignFileError, CannotWrite) as error:
         return show_refusal(error, source, options)
     if not options.quiet:
-        print("\n".join(f"wrote {visible(str(path))}" for path in paths), file=sys.stderr)
+        print("\n".join(wrote(path) for path in paths), file=sys.stderr)
     return ExitCode.OK
 
 

@@ -14,7 +14,7 @@ from gearlink.cli.evaluate import open_design, read_spec, refusals_located, whol
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.export import parts
 from gearlink.cli.export.options import CONTOUR, CurveForm, Export, FileFormat
-from gearlink.cli.files import CannotWrite, safe_stem, write_atomically
+from gearlink.cli.files import CannotWrite, in_place, safe_stem, write_atomically
 from gearlink.cli.patience import patience
 from gearlink.cli.printable import visible
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
@@ -47,7 +47,7 @@ def run_export(source: str, asked: Export) -> int:
         for path, data, words in files:
             write_atomically(path, lambda stream, data=data: stream.write(data))  # type: ignore[misc]
             if not asked.options.quiet:
-                print(f"{visible(str(path))}: {words}")
+                print(f"{visible(str(path))}: {words}{in_place(path)}")
     except (DesignFileError, CannotWrite) as error:
         return show_refusal(error, source, asked.options)
     except GearlinkError as error:

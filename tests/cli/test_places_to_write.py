@@ -123,3 +123,18 @@ def test_a_template_can_be_standard_output(gearlink: Any, box: Path) -> None:
 def test_a_file_of_that_name_is_a_path(gearlink: Any, box: Path) -> None:
     assert gearlink("crank", "crank.yaml", "--save", "./-").status == 0
     assert "kind: slider-crank" in (box / "-").read_text()
+
+
+@pytest.mark.parametrize("line", [("export", "--as", "csv"), ("crank", "--plot", "--plot-format", "svg")])
+def test_a_file_that_takes_the_place_of_another_design_is_told(gearlink: Any, box: Path, line: tuple[str, ...]) -> None:
+    """The same design again gives the same bytes, and no word; `--quiet` says neither."""
+    pair = "kind: gear-pair\nname: same\nmodule: 4\nteeth: [30, 40]\nprofile_shift: [0, 0]\n"
+    text = pair if line[0] == "export" else f"name: same\n{CRANK}"
+    (box / "a.yaml").write_text(text)
+    (box / "b.yaml").write_text(text.replace("40", "41").replace("310", "311"))
+    command, *rest = line
+    for file, told in (("a.yaml", False), ("a.yaml", False), ("b.yaml", True), ("b.yaml", False)):
+        ended = gearlink(command, file, *rest)
+        assert ended.status == 0
+        assert (", in place of an earlier one that differs" in ended.out + ended.err) == told, file
+    assert "in place" not in gearlink(command, "a.yaml", *rest, "--quiet").err
