@@ -13,6 +13,7 @@ from gearlink.cli.scenes.colors import PHASE_TINTS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
     from matplotlib.figure import Figure
 
     from gearlink.core.cams.disc_cam import DiscCam
@@ -190,14 +191,19 @@ def small_ticks(axes: Axes) -> None:
 
 
 def _few_ticks(axes: Axes, most: int) -> None:
-    """Short tick labels whatever the size of the machine: a power of ten apart, not too many of them."""
-    from matplotlib.ticker import MaxNLocator
-
     axes.ticklabel_format(scilimits=(-3, 5))
     for axis in (axes.xaxis, axes.yaxis):
-        axis.get_offset_text().set_fontsize(7)
-        axis.set_major_locator(MaxNLocator(most, steps=[1, 2, 2.5, 5, 10]))
+        few_ticks(axis, most)
     axes.yaxis.get_offset_text().set_horizontalalignment("right")  # beside a legend under the heading
+    axes.yaxis.OFFSETTEXTPAD = 5  # points above a number at the end of the axis
+
+
+def few_ticks(axis: Axis, most: int = 6) -> None:
+    """Round numbers along an axis, as many whatever its length, which the layout changes after it has measured them."""
+    from matplotlib.ticker import MaxNLocator
+
+    axis.get_offset_text().set_fontsize(7)
+    axis.set_major_locator(MaxNLocator(most, steps=[1, 2, 2.5, 5, 10]))
 
 
 def turn_panel(axes: Axes, ylabel: str, xlabel: str = "") -> None:

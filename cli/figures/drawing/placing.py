@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 if TYPE_CHECKING:
@@ -12,6 +12,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Box: TypeAlias = tuple[float, float, float, float]
+Room: TypeAlias = list[Any]
+"""What a panel's words need beside it [pixel], as an array, or None; empty until it is measured."""
 
 
 class Places(NamedTuple):
@@ -81,16 +83,32 @@ def _laid_out(made: Figure, labels: Sequence[_Label]) -> tuple[float, ...]:
     if layout is None:
         return tuple(label.distance for label in labels)
     far: dict[_Label, float] = {}
-    for axes in made.axes:
-        _measured_once(axes, [label for label in labels if label.of(axes)], far)
+    rooms = [_measured_once(axes, [label for label in labels if label.of(axes)], far) for axes in made.axes]
     layout.execute(made)
+    distances = _in_line(labels, far)
+    if _moved_outwards(made, zip(labels, distances, strict=True), far, rooms):
+        layout.execute(made)
     for axes in made.axes:
         del axes.get_tightbbox  # the method of the class again
-    return _in_line(labels, far)
+    return distances
 
 
-def _measured_once(axes: Axes, labels: Sequence[_Label], far: dict[_Label, float]) -> None:
-    """Let the room that a panel's words need beside it be measured once.
+def _moved_outwards(
+    made: Figure, labels: Iterable[tuple[_Label, float]], far: Mapping[_Label, float], rooms: Sequence[Room]
+) -> bool:
+    """Whether words that are brought in line with others need more room to the left of their panel; that is added."""
+    found = False
+    for label, distance in labels:
+        out = distance - far.get(label, distance)
+        for axes, room in zip(made.axes, rooms, strict=True):
+            if label.side == "left" and out > 0.0 and room and label.of(axes):
+                room[0][0] -= out * made.dpi
+                found = True
+    return found
+
+
+def _measured_once(axes: Axes, labels: Sequence[_Label], far: dict[_Label, float]) -> Room:
+    """Let the room that a panel's words need beside it be measured once; it is there from the first layout on.
 
     The layout measures all words twice, for numbers along an axis may change with its length; those of these sheets
     hardly do, and measuring takes a third of the time of a sheet.
@@ -98,7 +116,7 @@ def _measured_once(axes: Axes, labels: Sequence[_Label], far: dict[_Label, float
     from matplotlib.transforms import Bbox
 
     measure = axes.get_tightbbox
-    known: list[Any] = []
+    known: Room = []
     for each in (axes, *axes.child_axes):
         for axis in (each.xaxis, each.yaxis):
             if not axis.get_label_text():
@@ -113,6 +131,7 @@ def _measured_once(axes: Axes, labels: Sequence[_Label], far: dict[_Label, float
         return None if known[0] is None else Bbox.from_extents(*(box.extents + known[0]))
 
     axes.get_tightbbox = measured  # type: ignore[method-assign]
+    return known
 
 
 def _in_line(labels: Sequence[_Label], far: dict[_Label, float]) -> tuple[float, ...]:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from gearlink.cli.figures.drawing import style
+from gearlink.cli.figures.drawing import panels, style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -56,7 +56,8 @@ def in_time(axes: Axes, speed: float | None, order: int, measure: str, scale: fl
     right.set_ylabel(f"[{measure}/s{('', '', '²', '³')[order]}]", fontsize=8.5)
     right.tick_params(labelsize=8)
     right.ticklabel_format(scilimits=(-3, 5))
-    right.yaxis.get_offset_text().set_fontsize(7)
+    panels.few_ticks(right.yaxis)
+    right.yaxis.get_offset_text().set_horizontalalignment("left")
 
 
 def in_ms(axes: Axes, each: float | None, origin: float = 0.0) -> None:

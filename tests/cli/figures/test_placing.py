@@ -6,6 +6,8 @@ Limits against matplotlib's own ways: 1e-12 of the size, for its circles are Bez
 from __future__ import annotations
 
 from collections import defaultdict
+from collections.abc import Iterator
+from itertools import combinations
 from typing import Any
 
 import numpy as np
@@ -14,6 +16,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 from sheets import sheet
+from sweeps import mostly_slow
 
 from gearlink.cli.figures.drawing import style
 from gearlink.cli.figures.drawing.placing import places, settled
@@ -65,6 +68,48 @@ def test_words_beside_panels_are_clear_of_all_numbers_and_in_a_line(name: str, c
         ends = [end for end, _ in column]
         assert max(ends) <= min(numbers for _, numbers in column) + 0.5
         assert max(ends) - min(ends) <= 0.5
+
+
+CLEAR = [
+    ("six_bar_swing", "analyze"),
+    ("loaded_swing_cycle", "loads"),
+    ("loaded_press", "loads"),
+    ("loaded_press", "press"),
+    ("loaded_gripper", "gripper"),
+    ("candy_feed_tolerances", "tolerance"),
+    ("two_gear_drag_link", "analyze"),
+    ("wide_swing_cycle", "cam"),
+    ("mutilated_gear_times", "analyze"),
+    ("five_bar_function", "analyze"),
+]
+
+
+@pytest.mark.parametrize(("name", "command"), mostly_slow(CLEAR, 1))
+def test_nothing_written_along_the_axes_meets_anything_else_written_there(name: str, command: str) -> None:
+    made = settled(sheet(name, command).figure)
+    renderer = FigureCanvasAgg(made).get_renderer()
+    made.draw(renderer)
+    page = made.bbox
+    boxes = [(text, text.get_window_extent(renderer)) for text in _written(made) if text.get_text()]
+    assert [text.get_text() for text, box in boxes if box.x0 < -0.5 or box.x1 > page.x1 + 0.5] == []
+    met = [
+        (one.get_text(), other.get_text())
+        for (one, box), (other, far) in combinations(boxes, 2)
+        if min(box.x1, far.x1) - max(box.x0, far.x0) > 1.0 and min(box.y1, far.y1) - max(box.y0, far.y0) > 1.0
+    ]
+    assert met == []
+
+
+def _written(made: Any) -> Iterator[Any]:
+    """Headings, legends, words and numbers of all panels and of the axes that they have besides."""
+    for axes in made.axes:
+        yield from (axes.title, axes._left_title, axes._right_title)
+        yield from () if axes.get_legend() is None else axes.get_legend().get_texts()
+        for each in (one for one in (axes, *axes.child_axes) if one.axison):
+            for axis, ends in ((each.xaxis, each.get_xlim()), (each.yaxis, each.get_ylim())):
+                yield from (axis.label, axis.get_offset_text()) if axis.get_visible() else ()
+                inside = [tick for tick in axis.get_major_ticks() if min(ends) <= tick.get_loc() <= max(ends)]
+                yield from (label for tick in inside for label in (tick.label1, tick.label2) if label.get_visible())
 
 
 @pytest.mark.slow
