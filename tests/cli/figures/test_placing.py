@@ -90,7 +90,7 @@ def test_nothing_written_along_the_axes_meets_anything_else_written_there(name: 
     renderer = FigureCanvasAgg(made).get_renderer()
     made.draw(renderer)
     page = made.bbox
-    boxes = [(text, text.get_window_extent(renderer)) for text in _written(made) if text.get_text()]
+    boxes = [(text, text.get_window_extent(renderer)) for text in _written(made) if _has_box(text)]
     assert [text.get_text() for text, box in boxes if box.x0 < -0.5 or box.x1 > page.x1 + 0.5] == []
     met = [
         (one.get_text(), other.get_text())
@@ -98,6 +98,11 @@ def test_nothing_written_along_the_axes_meets_anything_else_written_there(name: 
         if min(box.x1, far.x1) - max(box.x0, far.x0) > 1.0 and min(box.y1, far.y1) - max(box.y0, far.y0) > 1.0
     ]
     assert met == []
+
+
+def _has_box(text: Any) -> bool:
+    """Whether a text fills its box; a slanted one does not."""
+    return bool(text.get_text()) and text.get_rotation() % 90.0 == 0.0
 
 
 def _written(made: Any) -> Iterator[Any]:
