@@ -70,6 +70,22 @@ def _remove(path: str) -> None:
             os.unlink(path)
 
 
+def require_free(path: Path, option: str, *, force: bool) -> None:
+    """Refuse a file that is there without `force`, and whatever is no plain file: no folder or device is replaced.
+
+    Raises
+        CannotWrite
+    """
+    if not os.path.exists(path):
+        return
+    if os.path.isdir(path):
+        raise CannotWrite(f"{path} is a folder: give {option} the name of a file in it")
+    if not os.path.isfile(path):
+        raise CannotWrite(f"{path} is no plain file: give another {option}, - for standard output")
+    if not force:
+        raise CannotWrite(f"{path} is there already: give another {option}, or --force to overwrite it")
+
+
 def write_atomically(path: Path, write: Callable[[IO[bytes]], object]) -> None:
     """Let `write` fill a temporary file beside `path`, then move it there.
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -23,7 +22,7 @@ if TYPE_CHECKING:
 def run_new(kind_name: str, out: Path | None, *, force: bool = False, quiet: bool = False) -> int:
     """Print the template of a kind or write it to a file; give the exit status."""
     from gearlink.cli.commands.kind_names import kind_named
-    from gearlink.cli.files import CannotWrite, stem_of, write_atomically
+    from gearlink.cli.files import CannotWrite, require_free, stem_of, write_atomically
 
     if not kind_name:
         print(list_of_kinds())
@@ -36,8 +35,7 @@ def run_new(kind_name: str, out: Path | None, *, force: bool = False, quiet: boo
         sys.stdout.write(text)
         return ExitCode.OK
     try:
-        if os.path.exists(out) and not force:
-            raise CannotWrite(f"{out} is there already: give another --out, or --force to overwrite it")
+        require_free(out, "--out", force=force)
         write_atomically(out, lambda stream: stream.write(text.encode()))
     except CannotWrite as error:
         from gearlink.cli.render.errors import show_refusal

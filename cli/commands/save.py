@@ -6,13 +6,12 @@
 from __future__ import annotations
 
 import math
-import os
 import sys
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.exit_codes import ExitCode
-from gearlink.cli.files import CannotWrite, stem_of, write_atomically
+from gearlink.cli.files import require_free, stem_of, write_atomically
 from gearlink.cli.options import STREAM
 from gearlink.cli.printable import visible
 from gearlink.cli.reading.design_file import parse, validate
@@ -47,8 +46,8 @@ def require_place(options: Options) -> None:
         raise DesignFileError(
             [Diagnostic("GL115", "--round goes with --save FILE", file="<command line>", key="--round")]
         )
-    if options.save is not None and os.path.exists(options.save) and not options.force and options.save != STREAM:
-        raise CannotWrite(f"{options.save} is there already: give another --save, or --force to overwrite it")
+    if options.save is not None and options.save != STREAM:
+        require_free(options.save, "--save", force=options.force)
 
 
 def save(

@@ -65,8 +65,8 @@ def test_what_is_no_folder_is_refused_before_anything_is_written(
     [
         ("", "the name is empty: give a file"),
         ("crank.yaml", "crank.yaml is there already"),
-        (".", ". is there already"),
-        ("/dev/full", "/dev/full is there already"),
+        (".", ". is a folder"),
+        ("/dev/full", "/dev/full is no plain file"),
         ("crank.yaml/x", "crank.yaml is no folder"),
         ("x" * 300, "File name too long"),
         ("a/" + "x" * 300, "File name too long"),
@@ -78,6 +78,16 @@ def test_files_that_cannot_be_written(gearlink: Any, box: Path, line: tuple[str,
     assert words in " ".join(ended.err.split())
     assert place == "" or "error GL116: " in ended.err
     assert names(box) - {"a"} == {"crank.yaml"}
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no named pipes")
+@pytest.mark.parametrize("line", FILES.values(), ids=FILES)
+def test_no_force_replaces_what_is_no_plain_file(gearlink: Any, box: Path, line: tuple[str, ...]) -> None:
+    os.mkfifo(box / "pipe")
+    for place, words in (("pipe", "pipe is no plain file"), (".", ". is a folder")):
+        ended = gearlink(*line, place, "--force")
+        assert (ended.status, words in ended.err) == (2, True)
+    assert (box / "pipe").is_fifo()
 
 
 @pytest.mark.skipif(os.name == "nt", reason="no such names")
