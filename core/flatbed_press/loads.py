@@ -115,7 +115,9 @@ class PressLoads(CamLoadsDesign):
         connections = [*self._bed_joints(links), *self._follower(links, cam)]
         connections += self._cylinder_chain(links, phi)
         drive, sense = ("gear2", 1.0) if self.section.drive_gear == 2 else ("gear1", -1.0)
-        return Mechanism(links, connections, drive, sense, travel=dict.fromkeys(self.sliding, 1j))
+        made = Mechanism(links, connections, drive, sense, travel=dict.fromkeys(self.sliding, 1j))
+        made.more["lift"] = cam
+        return made
 
     # Bed
 
@@ -198,12 +200,12 @@ class PressLoads(CamLoadsDesign):
 
     # Rollers
 
-    def roller_on_cam(self, name: str, phi: Reals) -> RollerOnCam:
+    def roller_at(self, name: str, phi: Reals) -> RollerOnCam:
         """A roller of the rack's follower from the cam axis, over the angle turned by the cams."""
         from gearlink.core.loads.cam_contact import RollerOnCam
 
         cams = self.design.cams
-        cam = self.lift(phi, self.machine.at(phi).links["CDE"].turn)
+        cam = self.machine.at(phi).more["lift"]
         at = cams.base_radius if name == "main" else cams.base_radius - cams.roller_center_distance
         rates = (at + cam.value, cam.first, cam.second)
         position, first, second = (1j * _MM * part for part in rates)

@@ -46,9 +46,17 @@ class CamLoadsDesign(LoadsDesign):
     on_two_sides: ClassVar[bool] = False
     """Whether one follower has a roller for each sense of its force."""
 
-    def roller_on_cam(self, name: str, phi: Reals) -> RollerOnCam:
+    def roller_at(self, name: str, phi: Reals) -> RollerOnCam:
         """A roller at input angles, with derivatives by the turned angle of its cam."""
         raise NotImplementedError
+
+    def roller_on_cam(self, name: str, phi: Reals) -> RollerOnCam:
+        """The same, made once for links that are kept."""
+        more, key = self.machine.at(phi).more, f"roller {name}"
+        if key not in more:
+            more[key] = self.roller_at(name, phi)
+        found: RollerOnCam = more[key]
+        return found
 
     def contact_force(self, name: str, phi: Reals) -> Reals:
         """Force between a roller and its cam at input angles [N]; a negative one is pulled."""
@@ -82,6 +90,13 @@ class CamLoadsDesign(LoadsDesign):
         """The Hertzian contact of a roller; None where the file gives no width."""
         if self.section.roller is None:
             return None
+        more, key = self.machine.at(phi).more, f"contact {name}"
+        if key not in more:
+            more[key] = self._contact_at(name, phi)
+        found: LineContact = more[key]
+        return found
+
+    def _contact_at(self, name: str, phi: Reals) -> LineContact:
         from gearlink.core.loads.cam_contact import LineContact, plane_modulus
         from gearlink.core.loads.spec import Material
 
@@ -103,6 +118,7 @@ class CamLoadsDesign(LoadsDesign):
             "hertz_pressure": lambda name, phi: self._where_pressed(name, phi, "pressure"),
             "shear_depth": lambda name, phi: self._where_pressed(name, phi, "shear_depth"),
             "radius": self._radius,
+            "radius_anywhere": lambda name, phi: self.roller_on_cam(name, phi).relative_radius,
             "traction": self.traction,
             "roller_speed": lambda name, phi: abs(self.roller_speed(name, phi)),
             "roller_acceleration": lambda name, phi: abs(self.roller_acceleration(name, phi)),
@@ -118,7 +134,7 @@ class CamLoadsDesign(LoadsDesign):
             return ((course, greatest),)
         found = [(f"{course}:{name}", greatest) for name in self.own_rollers]
         if course in ("hertz_pressure", "shear_depth"):
-            found += [(f"radius:{name}", False) for name in self.own_rollers]
+            found += [(f"radius_anywhere:{name}", False) for name in self.own_rollers]
             return found if self.section.roller is not None else ()
         return found
 
@@ -144,8 +160,14 @@ class CamLoadsDesign(LoadsDesign):
         """The greatest value of each roller; None for one that presses on an undercut, and all without a width."""
         if self.section.roller is None:
             return None
-        pairs = zip(self._each("radius", False), self._each(course), strict=True)
-        return [found if radius.value > 0.0 else None for radius, found in pairs]
+        pairs = zip(self.own_rollers, self._each(course), strict=True)
+        return [None if self._is_pressed_on_undercut(name) else found for name, found in pairs]
+
+    def _is_pressed_on_undercut(self, name: str) -> bool:
+        """Whether a roller presses where its cam has no profile; where it presses is asked only if there is such."""
+        if self.extreme_of(f"radius_anywhere:{name}", False).value > 0.0:
+            return False
+        return self.extreme_of(f"radius:{name}", False).value <= 0.0
 
     @cached_property
     def force_extremes(self) -> list[tuple[Extreme, Extreme]]:

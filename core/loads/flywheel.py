@@ -16,6 +16,7 @@ from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.extremes import Extreme, extremes_over
 
 _STEPS = 30
+_SAMPLED = 1e-9
 Function = Callable[[Reals], Reals]
 
 
@@ -149,20 +150,45 @@ class Energy:
             speed : float [rad/s] - w_m > 0
         """
         floor = -self.range[0]
-        energy = 0.5 * (self.extremes((self.inertia, True))[0].value + flywheel) * speed**2 + self.fluctuation
-        least = 1e-12 * energy
-        if energy <= 0.0 or sum(SteadyRun(self, flywheel, floor + least).range) >= 2.0 * speed:
+        energy = self._sampled_start(flywheel, speed, floor)
+        if energy is None:
             return None
+        least = 1e-12 * energy
         for _ in range(_STEPS):
             # w_min + w_max rises with the energy and is concave: Newton, whose slope is 1/(J w) at both places.
             run = SteadyRun(self, flywheel, floor + energy)
             ends = run.extremes
             slope = sum(1.0 / (self._inertia_at(end.place) + flywheel) / end.value for end in ends)
             step = (2.0 * speed - sum(end.value for end in ends)) / slope
-            energy = energy + step if energy + step > least else 0.25 * energy
             if abs(step) <= 1e-15 * (floor + energy):
-                break
+                return run
+            if energy + step <= least and sum(SteadyRun(self, flywheel, floor + least).range) >= 2.0 * speed:
+                return None
+            energy = energy + step if energy + step > least else 0.25 * energy
         return SteadyRun(self, flywheel, floor + energy)
+
+    def _sampled_start(self, flywheel: float, speed: float, floor: float) -> float | None:
+        """About the energy at the greatest deficit with which the speed has its mean [J], by the nodes of the panels.
+
+        Notes
+            None where nothing moves that could hold an energy.
+        """
+        nodes = self.panels.nodes
+        inertia, left = self.inertia(nodes) + flywheel, floor + self.surplus(nodes)
+        first = energy = 0.5 * float(inertia.max()) * speed**2 + self.fluctuation
+        if energy <= 0.0:
+            return None
+        for _ in range(_STEPS):
+            speeds = np.sqrt(2.0 * np.maximum(left + energy, 0.0) / inertia)
+            ends = int(np.argmin(speeds)), int(np.argmax(speeds))
+            slope = sum(1.0 / float(inertia[k] * speeds[k]) for k in ends)
+            step = (2.0 * speed - sum(float(speeds[k]) for k in ends)) / slope
+            if not energy + step > 1e-12 * first:
+                return first
+            energy += step
+            if abs(step) <= _SAMPLED * energy:
+                return energy
+        return first
 
     def _inertia_at(self, place: float) -> float:
         return float(self.inertia(np.array([place]))[0])

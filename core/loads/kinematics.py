@@ -13,7 +13,7 @@ import numpy as np
 from gearlink.core.errors import NoSolution
 from gearlink.core.numerics.arrays import Points, Reals
 
-_TURNING_BACK = 1e-12
+TURNING_BACK = 1e-12
 """Input angle [rad] within which a rate passes through zero at a row: far above rounding, far below any step."""
 
 
@@ -45,7 +45,7 @@ def dot(a: Points | complex, b: Points | complex) -> Reals:
 
 def sense_of(first: Reals, second: Reals) -> Reals:
     """Sign of a rate; where it turns back, which is between two roundings of the angle, the sign just after."""
-    back = np.abs(first) <= _TURNING_BACK * np.abs(second)
+    back = np.abs(first) <= TURNING_BACK * np.abs(second)
     return np.asarray(np.sign(np.where(back, second, first)))
 
 

@@ -17,7 +17,7 @@ import numpy as np
 
 from gearlink.core.loads.dynamics import Applied, Force, Mass, Reactions, Reduced, Torque, reduced
 from gearlink.core.loads.friction import Coefficients, passes_ratio, with_friction
-from gearlink.core.loads.kinematics import dot
+from gearlink.core.loads.kinematics import TURNING_BACK, dot
 from gearlink.core.loads.mechanism import Coupling, Mechanism, Pin
 from gearlink.core.loads.rubbing import LOCKED, LOCKS, SelfLocking
 from gearlink.core.loads.sources import Sources
@@ -216,30 +216,32 @@ class Machine:
     @cached_property
     def breaks(self) -> list[float]:
         """Input angles within the period where a force jumps or bends [rad], ascending."""
-        of_a_turn = self.sources.breaks() if self.joints_of_period else [*self.sources.breaks(), *self.joints]
-        found = [turn * TURN + angle % TURN for angle in of_a_turn for turn in range(self.turns)]
-        found += self.joints if self.joints_of_period else ()
-        found += self._turning_back()
+        found = [*self._given_breaks(), *self._turning_back()]
         apart = _APART * float(np.spacing(self.period))
         distinct: list[float] = []
         for angle in sorted(found):
-            if (distinct[-1] if distinct else 0.0) + apart < angle < self.period - apart:
+            if (distinct[-1] if distinct else 0.0) + apart < angle < self.period - max(apart, 2.0 * TURNING_BACK):
                 distinct.append(angle)
         return distinct
 
+    def _given_breaks(self) -> list[float]:
+        """Those of what the file gives, and of the machine's own motion."""
+        of_a_turn = self.sources.breaks() if self.joints_of_period else [*self.sources.breaks(), *self.joints]
+        found = [turn * TURN + angle % TURN for angle in of_a_turn for turn in range(self.turns)]
+        return [*found, *self.joints] if self.joints_of_period else found
+
     def _turning_back(self) -> list[float]:
         """Where a link with resistance turns back; with friction two links against each other, or where forces do."""
-        found: list[float] = []
-        for places in zeros_of(self._jumping_rates(), self.period, self.turns):
-            found += places
-        return found
-
-    def _jumping_rates(self) -> list[Callable[[Reals], Reals]]:
         rates = [self._rate_of(name) for name in self.sources.resisted]
         if self.friction is not None:
             rates += [self._between(i) for i in self.friction.rubbing(self.at(np.zeros(1)))]
-            rates += [] if self.locks else self._sides()
-        return rates
+        turning = itertools.chain(*zeros_of(rates, self.period, self.turns))
+        found = [place - TURNING_BACK for place in turning]  # where `sense_of` has the force jump
+        if self.friction is not None and not self.locks:
+            # Other forces jump there as well: where that is known, it is not sought by halving.
+            jumps = sorted({*found, *self._given_breaks()})
+            found += itertools.chain(*zeros_of(self._sides(), self.period, self.turns, jumps=jumps))
+        return found
 
     def _sides(self) -> list[Callable[[Reals], Reals]]:
         """Forces of guides, teeth and rollers, whose friction bends where they change sides."""
@@ -335,7 +337,7 @@ class Panels:
     def cut(self, places: Sequence[float]) -> tuple[Any, Parts]:
         """Numbers of the panels within which some of the places lie, and these panels in parts between the places."""
         at = np.sort(np.asarray(places, dtype=float))
-        row, apart = self.row(at), _APART * float(np.spacing(self.edges[-1]))
+        row, apart = self.row(at), max(2.0 * TURNING_BACK, _APART * float(np.spacing(self.edges[-1])))
         inside = (at - self.edges[row] > apart) & (self.edges[row + 1] - at > apart)
         at, rows = at[inside], np.unique(row[inside])
         starts, ends = (np.sort(np.append(at, self.edges[rows + end])) for end in (0, 1))

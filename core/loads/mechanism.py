@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -318,6 +318,11 @@ class Mechanism:
     def rows(self) -> int:
         """How many input angles."""
         return len(next(iter(self.links.values())).turn.value)
+
+    @cached_property
+    def more(self) -> dict[str, Any]:
+        """What a machine has worked out of these links, by name, so that it does so once."""
+        return {}
 
     def link(self, name: str) -> Link | None:
         """A link by name, None for the frame."""

@@ -57,7 +57,7 @@ def _zeros(period: float, turns: int, jumps: Sequence[float], *, any_zero: bool)
     b, a, fb, fa = grid[rows], grid[rows + 1], values[rows], values[rows + 1]
     found, left, near = np.empty(rows.size), np.arange(rows.size), 4.0 * np.spacing(period)
     share: Reals = np.full(rows.size, 0.5)
-    for _ in range(_STEPS):
+    for step in range(_STEPS):
         x = a + share * (b - a)
         fx = yield x
         with np.errstate(all="ignore"):
@@ -70,5 +70,9 @@ def _zeros(period: float, turns: int, jumps: Sequence[float], *, any_zero: bool)
                 break
             a, b, c, fa, fb, fc, width = (each[going] for each in (a, b, c, fa, fb, fc, width))
             least = np.minimum(0.5, 0.5 * near / width)
-            share = np.minimum(1.0 - least, np.maximum(least, next_share(a, b, c, fa, fb, fc)))
+            share = next_share(a, b, c, fa, fb, fc)
+            if step % 2:  # where a force bends as it changes sides, the line from its own side leads to the zero
+                line = fa * (a - c) / (fa - fc) / (a - b)
+                share = np.where((share == 0.5) & (line > 0.0) & (line < 1.0), line, share)
+            share = np.minimum(1.0 - least, np.maximum(least, share))
     return found.tolist()

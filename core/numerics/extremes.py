@@ -12,19 +12,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearlink.core.numerics.arrays import Reals
+from gearlink.core.numerics.brackets import POINTS, is_level, is_noise, vertex_of
 from gearlink.core.numerics.together import Function, Search, together, values_of
 
 TURN = 2.0 * math.pi
 
-_POINTS = 17
-_UNIT = np.linspace(0.0, 1.0, _POINTS)
+_UNIT = np.linspace(0.0, 1.0, POINTS)
 # Where a function maps its argument through a phase table, one ulp may not be enough to stay inside.
 _INSIDE_ULPS = 16.0
 _MOST_CANDIDATES = 16
 # Samples of a bracket that differ by no more are rounding: another round gains 1/16 of it at a kink, less elsewhere.
 _FLAT_ULPS = 16.0
-_TURNS_OF_NOISE = 4
-_END_SHARE = 2.0**-7  # of a step: where the samples fall from an end, little else than that end is left to see
+_NOTHING = 1e-22  # of the greatest magnitude, by which samples may differ that touch 0
 
 
 class Extreme(NamedTuple):
@@ -55,9 +54,9 @@ def maximum_over(
         extreme : Extreme - value and place
     Notes
         All segments between joints are sampled in one call of f, and all local maxima that could still be the
-        largest are enlarged together, round the vertex of a parabola (64-fold) or, where that misses, between
-        the neighbours (8-fold): exact to rounding at a smooth maximum (its place to about sqrt(eps)) and at a
-        kink.
+        largest are enlarged together, round the vertex of a quartic (up to 8192-fold) or a parabola (64-fold) or, where
+        that misses, between the neighbours (8-fold): exact to rounding at a smooth maximum (its place to about
+        sqrt(eps)) and at a kink.
     Example
         >>> top = maximum_over(lambda x: np.cos(x - 1.0))
         >>> top.value, round(top.place, 6)
@@ -152,7 +151,8 @@ def _maxima(
     best = [Extreme(float(row[i]), grid.ends.get(i, float(grid.x[i]))) for row, i in zip(v, tops, strict=True)]
     of, places = _promising(v, np.array([[top.value] for top in best]), grid)
     finest = 8.0 * math.ulp(max(abs(start), abs(end)))
-    yield from _enlarged(of, grid.left[places], grid.right[places], best, finest)
+    nothing = _NOTHING * np.max(np.abs(v), axis=1, where=np.isfinite(v), initial=0.0)
+    yield from _enlarged(of, grid.left[places], grid.right[places], best, finest, nothing)
     return best
 
 
@@ -272,7 +272,7 @@ def _promising(v: Reals, tops: Reals, grid: _Grid) -> tuple[NDArray[np.intp], ND
 
 
 def _enlarged(
-    of: NDArray[np.intp], left: Reals, right: Reals, best: list[Extreme], finest: float
+    of: NDArray[np.intp], left: Reals, right: Reals, best: list[Extreme], finest: float, nothing: Reals
 ) -> Generator[_Asked, Reals, None]:
     """Put the largest values within any of the brackets in place of `best` of their searches, where they are larger.
 
@@ -281,6 +281,7 @@ def _enlarged(
         left, right : the brackets
         best : by search
         finest : ends a bracket
+        nothing : by search - what its samples may differ by and count as alike
     """
     safe_left, safe_right = left, right
     while left.size:
@@ -291,17 +292,19 @@ def _enlarged(
         for search, value, where in zip(of.tolist(), peak.tolist(), place.tolist(), strict=True):
             if value > best[search].value:
                 best[search] = Extreme(value, where)
-        flat = peak - v.min(axis=1) <= _FLAT_ULPS * np.spacing(np.abs(peak))
+        spread = peak - v.min(axis=1)
+        flat = (spread <= np.fmax(_FLAT_ULPS * np.spacing(np.abs(peak)), nothing[of])) | is_level(v, i)
+        low = peak + spread < np.array([top.value for top in best])[of]
         narrow = right - left <= finest
-        missed = ((i == 0) & (left > safe_left)) | ((i == _POINTS - 1) & (right < safe_right))
-        near = x[rows, np.maximum(i - 1, 0)], x[rows, np.minimum(i + 1, _POINTS - 1)]
-        vertex, half = _vertex(x, v, i)
+        missed = ((i == 0) & (left > safe_left)) | ((i == POINTS - 1) & (right < safe_right))
+        near = x[rows, np.maximum(i - 1, 0)], x[rows, np.minimum(i + 1, POINTS - 1)]
+        vertex, half = vertex_of(x, v, i)
         next_left, next_right = np.maximum(vertex - half, near[0]), np.minimum(vertex + half, near[1])
         # A miss puts the true maximum between the bracket and the safe one: step back and take that whole.
         safe_left, safe_right = np.where(missed, safe_left, near[0]), np.where(missed, safe_right, near[1])
         left = np.where(missed, safe_left, next_left)
         right = np.where(missed, safe_right, next_right)
-        going = ~(narrow | (flat & ~missed) | _is_noise(v))
+        going = missed | ~(narrow | flat | low | is_noise(v))
         if not going.all():
             of, left, right, safe_left, safe_right = (a[going] for a in (of, left, right, safe_left, safe_right))
 
@@ -310,32 +313,3 @@ def _parts(of: NDArray[np.intp]) -> list[tuple[int, slice]]:
     """Each search with the slice of its brackets."""
     edges = [0, *(np.flatnonzero(of[1:] != of[:-1]) + 1).tolist(), of.size]
     return [(int(of[low]), slice(low, high)) for low, high in pairwise(edges)]
-
-
-def _falls_from_its_end(v: Reals, i: NDArray[np.intp]) -> NDArray[np.bool_]:
-    """Whether the samples fall from the end of the bracket, without a vertex between the first two."""
-    last = _POINTS - 1
-    first_step = np.where(i == 0, v[:, 0] - v[:, 1], v[:, last] - v[:, last - 1])
-    next_step = np.where(i == 0, v[:, 1] - v[:, 2], v[:, last - 1] - v[:, last - 2])
-    falls: NDArray[np.bool_] = ((i == 0) | (i == last)) & (next_step > 0.0) & (2.0 * first_step > next_step)
-    return falls
-
-
-def _is_noise(v: Reals) -> NDArray[np.bool_]:
-    """Whether the samples of a bracket go up and down too often for a function that the first samples resolved."""
-    signs = np.sign(np.diff(v, axis=1))
-    noise: NDArray[np.bool_] = np.count_nonzero(signs[:, :-1] * signs[:, 1:] < 0.0, axis=1) >= _TURNS_OF_NOISE
-    return noise
-
-
-def _vertex(x: Reals, v: Reals, i: NDArray[np.intp]) -> tuple[Reals, Reals]:
-    """Vertex of the parabola through the largest sample and its neighbours, and half of the next bracket."""
-    rows = np.arange(i.size)
-    middle = np.clip(i, 1, _POINTS - 2)
-    low, mid, high = v[rows, middle - 1], v[rows, middle], v[rows, middle + 1]
-    bend = low - 2.0 * mid + high
-    step = x[:, 1] - x[:, 0]
-    interior = (i == middle) & (bend < 0.0)
-    shift = np.divide(0.5 * (low - high), bend, out=np.zeros_like(bend), where=interior)
-    half = np.where(interior, 0.125, np.where(_falls_from_its_end(v, i), _END_SHARE, 1.0)) * step
-    return x[rows, i] + shift * step, half

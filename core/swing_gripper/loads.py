@@ -126,7 +126,7 @@ class GripperLoads(CamLoadsDesign):
         assert cam is not None, "asked for only where the file has it"
         return cam
 
-    def roller_on_cam(self, name: str, phi: Reals) -> RollerOnCam:
+    def roller_at(self, name: str, phi: Reals) -> RollerOnCam:
         """A roller from the cam axis; the cam turns as far as the cylinder."""
         from gearlink.core.loads.cam_contact import RollerOnCam
 
@@ -200,11 +200,13 @@ class GripperLoads(CamLoadsDesign):
         if "return" in self.own_rollers:
             links["return_rocker"] = Link(a, turns["input"])
             connections.append(Pin("A_return", FRAME, "return_rocker", a.value))
-        for name in self.own_rollers:
-            roller = self.roller_on_cam(name, phi)
+        rollers = {name: self.roller_at(name, phi) for name in self.own_rollers}
+        for name, roller in rollers.items():
             arm = "input" if name == "main" else "return_rocker"
             connections.append(Contact(name, "cam", arm, axis.value + roller.position, roller.normal))
-        return Mechanism(links, connections, "cam", float(sense), pivot=self.design.cam_center * _MM)
+        made = Mechanism(links, connections, "cam", float(sense), pivot=self.design.cam_center * _MM)
+        made.more.update({f"roller {name}": roller for name, roller in rollers.items()})
+        return made
 
     def raw(self, name: str) -> Any:
         """Lists of one roller are what they are; a refused cam says where it could stand."""

@@ -8,6 +8,8 @@ Tolerances
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
@@ -15,7 +17,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sweeps import examples
 
-from gearlink.core.numerics.extremes import TURN, least_convex_radius, maximum_over, minimum_over
+from gearlink.core.numerics.extremes import TURN, Extreme, least_convex_radius, maximum_over, minimum_over
 
 EPS = 2.0**-52
 PLACE = 2e-7
@@ -69,6 +71,57 @@ def test_the_higher_of_two_humps_between_samples() -> None:
 def test_plateau() -> None:
     top = maximum_over(lambda x: np.minimum(np.sin(x), 0.5))
     assert top.value == 0.5
+
+
+def _calls(f: Callable[[np.ndarray], np.ndarray], **where: Any) -> tuple[Extreme, int]:
+    """The maximum, and how often the function was asked: once on the grid, then once a round."""
+    asked: list[int] = []
+
+    def counted(x: np.ndarray) -> np.ndarray:
+        asked.append(x.size)
+        return f(x)
+
+    return maximum_over(counted, **where), len(asked)
+
+
+def test_few_rounds_at_a_smooth_maximum() -> None:
+    # from 2 deg at once to the 1e-6 that the quartic leaves, and from there to where the samples are alike
+    top, calls = _calls(lambda x: np.cos(x - 1.0), samples=360)
+    assert top.value == pytest.approx(1.0, abs=EPS)
+    assert calls == 4
+
+
+@given(kink=st.floats(0.5, 6.0), left=st.floats(0.2, 5.0), right=st.floats(0.2, 5.0), bend=st.floats(-1.0, 1.0))
+@examples(30)
+def test_few_rounds_at_a_kink(kink: float, left: float, right: float, bend: float) -> None:
+    def roof(x: np.ndarray) -> np.ndarray:
+        away = x - kink
+        return np.where(away < 0.0, left * away, -right * away) * (1.0 + 0.1 * bend * away)
+
+    top, calls = _calls(roof, samples=360)
+    assert top.value == pytest.approx(0.0, abs=40.0 * math.ulp(TURN) * max(left, right))
+    assert calls <= 18
+
+
+def test_few_rounds_at_a_jump_between_the_samples() -> None:
+    # rising up to 2, then 1: the least upper bound at the jump, 16-fold a round
+    top, calls = _calls(lambda x: np.where(x < 2.0, 3.0 + x, 1.0), samples=360)
+    assert top.value == pytest.approx(5.0, abs=8.0 * math.ulp(TURN))
+    assert calls <= 16
+
+
+def test_the_edge_of_what_is_cut_off_is_not_sought() -> None:
+    # 0 over half of the turn, which nothing exceeds: where it begins is of no interest
+    top, calls = _calls(lambda x: -np.maximum(np.sin(x) - 0.1, 0.0), samples=360)
+    assert top.value == 0.0
+    assert calls <= 3
+
+
+def test_what_touches_nothing_is_flat() -> None:
+    # x^4 from its zero on: 1e-22 of the largest value is nothing
+    top, calls = _calls(lambda x: -(x**4), start=0.0, end=3.0, samples=360)
+    assert top.value == pytest.approx(0.0, abs=1e-20)
+    assert calls <= 6
 
 
 def test_ends_count() -> None:
