@@ -268,7 +268,7 @@ def _with(node: Any, path: KeyPath, value: Any, name: str) -> Any:
     inner = format_path((step,)) if not name else name + (f"[{step}]" if isinstance(step, int) else f".{step}")
     if isinstance(step, int):
         if not isinstance(node, list):
-            raise _NoPlace(f"{name} is not a list")
+            raise _NoPlace(f"{name} is not a list: {_in_place_of_an_index(node, name)}")
         if step >= len(node):
             raise _NoPlace(f"{name} has {amount(len(node), 'element')}, counted from [0]")
         return [*node[:step], _with(node[step], rest, value, inner), *node[step + 1 :]]
@@ -277,6 +277,12 @@ def _with(node: Any, path: KeyPath, value: Any, name: str) -> Any:
         raise _NoPlace(f"{name} is not a section, so it has no key '{step}'{wanted}")
     section = {} if node is None else node
     return {**section, step: _with(section.get(step), rest, value, inner)}
+
+
+def _in_place_of_an_index(node: Any, name: str) -> str:
+    if isinstance(node, dict):
+        return f"it is a section, write {name}.KEY"
+    return f"write {name}=[...] with all its elements" if node is None else f"write {name}=VALUE"
 
 
 def _unreadable(name: str, error: Exception) -> Diagnostic:

@@ -16,6 +16,7 @@ from gearlink.cli.reading.value_words import (
     WANTED,
     bound,
     choices,
+    list_remedy,
     number_remedy,
     shown,
     text_remedy,
@@ -161,6 +162,8 @@ class _Wording:
                 return f"did you mean {known[near[0]]}?"
             if kinds & {"int_type", "float_type"}:
                 return number_remedy(value, unit_at(self.model, group[0].path, self.loaded.data))
+            if kinds & {"list_type", "tuple_type"}:
+                return list_remedy(value)
             return truth_remedy(value) if "bool_type" in kinds else ""
         return text_remedy(value) if kinds == {"string_type"} else ""
 

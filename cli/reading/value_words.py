@@ -111,6 +111,8 @@ def number_remedy(text: str, unit: str = "") -> str:
         return f"it holds {odd_character(odd[0])}: {odd_remedy(odd[0])}"
     if text[:1] in DASHES:
         return f"it holds {odd_character(text[0])}: write -"
+    if re.fullmatch(rf"{_NUMBER}(\s+{_NUMBER})+", text):
+        return f"commas part the elements of a list: {', '.join(text.split())}"
     digits = text.translate(_LOOKALIKES)
     if re.fullmatch(_NUMBER, digits):
         return f"a letter stands for a digit: write {digits}"
@@ -120,6 +122,19 @@ def number_remedy(text: str, unit: str = "") -> str:
         return "write the exponent as in 1e3"
     found = _WITH_UNIT.fullmatch(text)
     return without_unit(found[1], found[2], unit) if found else ""
+
+
+def list_remedy(text: str) -> str:
+    """How numbers in a row are written as a list; nothing for other text.
+
+    Example
+        >>> list_remedy("20, 30"), list_remedy("20 30"), list_remedy("x")
+        ('write it in brackets: [20, 30]', 'write it in brackets: [20, 30]', '')
+    """
+    numbers = re.split(r"\s*,\s*|\s+", text[:200].strip())
+    if len(numbers) < 2 or not all(re.fullmatch(_NUMBER, number) for number in numbers):
+        return ""
+    return f"write it in brackets: [{', '.join(numbers)}]"
 
 
 def text_remedy(value: Any) -> str:

@@ -78,7 +78,9 @@ def syntax_error(source: Source, base: int, error: YAMLError) -> Diagnostic:
     if "could not find expected ':'" in problem:
         at = opened
     if "end of stream" in problem:
-        return source.report("GL103", "a quotation mark that is never closed", opened)
+        return source.report(
+            "GL103", "a quotation mark that is never closed", opened, help="write it at the end of the text as well"
+        )
     if re.search(r"expected ',' or|expected ',', '", problem):
         return _unclosed(source, at, opened)
     if "cannot start any token" in problem:
@@ -126,7 +128,9 @@ def _long_key(source: Source, at: int, opened: int) -> Diagnostic | None:
 def _unclosed(source: Source, at: int, opened: int) -> Diagnostic:
     bracket = source.text[opened : opened + 1]
     if at >= len(source.text.rstrip()):
-        return source.report("GL103", f"{bracket!r} is never closed", opened)
+        closing = {"[": "]", "{": "}"}.get(bracket, "")
+        remedy = f"write {closing!r} behind its last entry" if closing else ""
+        return source.report("GL103", f"{bracket!r} is never closed", opened, help=remedy)
     line = source.place(opened)[0]
     message = f"neither a comma nor the end of the {bracket!r} of line {line}"
     return source.report("GL103", message, at, help="separate the entries with commas and close the bracket")
