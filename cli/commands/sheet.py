@@ -48,7 +48,9 @@ def _chosen(made: Makers, names: Sequence[str], kind: str) -> list[str]:
             raise DesignFileError([Diagnostic("GL115", message, "<command line>", key=name)])
         chosen += found
     if not chosen:
-        raise DesignFileError([Diagnostic("GL113", f"a {kind} has no further sheets", "<command line>", key="kind")])
+        help_ = "its picture is that of the design commands, with --plot"
+        message = f"a {kind} has no further sheets"
+        raise DesignFileError([Diagnostic("GL113", message, "<command line>", key="kind", help=help_)])
     return list(dict.fromkeys(chosen))
 
 

@@ -25,7 +25,7 @@ from gearlink.cli.reading.yaml_reader import (
     plain_value,
     read,
 )
-from gearlink.core.errors import NoSolution
+from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.wording import amount
 
 if TYPE_CHECKING:
@@ -150,7 +150,9 @@ def _spelled(kind: str) -> str:
 def diagnose_no_solution(loaded: LoadedFile, error: NoSolution) -> Diagnostic:
     """What the engine refuses, at the key that it names or the nearest parent that the file has."""
     path = parse_path(error.key) or _ROOT
-    return loaded.report(error.code, error.message, path, key=error.key)
+    lacks = isinstance(error, MissingSection) and error.key and "`new " not in error.message
+    remedy = f"`gearlink new {loaded.data.get('kind')}` shows the keys of {error.key}, with units" if lacks else ""
+    return loaded.report(error.code, error.message, path, key=error.key, help=remedy)
 
 
 def validate(loaded: LoadedFile, model: type[Model]) -> Model:

@@ -52,7 +52,8 @@ class ToleranceStudy(Design):
     def problem(self) -> Problem:
         """The study made ready."""
         if self.spec.tolerance is None:
-            raise MissingSection("`tolerance` needs the section tolerance: {sources: {...}}", key="tolerance")
+            words = "`tolerance` needs the section tolerance, such as tolerance: {sources: {KEY: {plus_minus: 0.02}}}"
+            raise MissingSection(f"{words}, KEY a size of this file by its path, as --set takes it", key="tolerance")
         made = self._made
         _ = (
             made.requirements,

@@ -80,3 +80,19 @@ def test_a_dwell_that_steps_back_says_so_and_the_tolerance_is_honoured(gearlink:
     assert float(ended.out.split()[0]) == pytest.approx(35.87924612, abs=1e-8)
     found = gearlink("synth", "dwell", path, "--set", "dwell_tolerance=1", "--format", "json").out
     assert json.loads(found)["quantities"]["dwell_tolerance"]["value"] == pytest.approx(6.76914, abs=1e-5)
+
+
+def test_a_section_that_a_result_needs_is_shown_where_the_error_says(gearlink: Any, tmp_path: Path) -> None:
+    path = tmp_path / "swing.yaml"
+    path.write_text(
+        "kind: wide-swing-cam\nlayout: twin-cam\nswing: 120\ncycle_angle: 120\nspeed: 100\ninertia: 0.5\n"
+        "unloader: {type: pneumatic, pivot_ratio: 2.5, arm: 120}\n"
+    )
+    ended = gearlink("swing", path, "--table", "contact")
+    assert (ended.status, "GL113: this needs the section cam: center_distance, roller_radius" in ended.err) == (2, True)
+    assert "help: `gearlink new wide-swing-cam` shows the keys of cam, with units" in ended.err
+    assert "\ncam:" in gearlink("new", "wide-swing-cam").out
+    assert (
+        gearlink("swing", path, "--table", "contact", "--set", "cam={center_distance: 200, roller_radius: 8}").status
+        < 2
+    )
