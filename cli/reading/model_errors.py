@@ -24,6 +24,7 @@ from gearlink.cli.reading.value_words import (
     whole_number_remedy,
 )
 from gearlink.cli.reading.yaml_reader import format_path
+from gearlink.core.wording import amount
 
 if TYPE_CHECKING:
     from pydantic import BaseModel, ValidationError
@@ -230,9 +231,10 @@ class _Wording:
     def _wrong_length(self, finding: _Finding) -> Diagnostic:
         context = finding.context
         least, most = context.get("min_length"), context.get("max_length")
-        wanted = f"at least {least}" if most is None else f"at most {most}"
+        limit = least if most is None else most
+        wanted = f"at {'least' if most is None else 'most'} {amount(int(limit or 0), 'entry', 'entries')}"
         count = context.get("actual_length")
-        message = f"{format_path(finding.path)} must have {wanted} entries, not {count}"
+        message = f"{format_path(finding.path)} must have {wanted}, not {count}"
         return self._say("GL107", finding, message, meaning_at(self.model, finding.path, self.loaded.data))
 
     def _not_finite(self, finding: _Finding) -> Diagnostic:

@@ -62,17 +62,22 @@ def meaning_at(model: type[BaseModel], path: KeyPath, data: Any) -> str:
         path = path[:-1]
     name = str(path[-1]) if path else ""
     field = fields_at(model, path[:-1], data).get(name)
-    if field is None:
-        return ""
+    if field is None:  # an entry whose name the user chose, or nothing that is known
+        entry = bool(path[:-1]) and bool(shapes_at(model, path, data)[0])
+        return "; ".join(filter(None, [meaning_at(model, path[:-1], data), _its_keys(model, path)])) if entry else ""
     unit = unit_at(model, path, data)
     number = ", ".join(filter(None, ["" if unit == "1" else unit, " ".join(filter(None, _limits(model, path, data)))]))
     words = (field.description or "").removesuffix(f" [{unit}]")
     words = f"{words} ({number})" if words and number else words or number
-    inner = fields_at(model, path, None)
-    keys = sorted(inner, key=lambda key: not inner[key].is_required())  # those that it needs first
-    listed = keys and f"its keys are {', '.join(keys[:_MOST_KEYS])}{', ...' if len(keys) > _MOST_KEYS else ''}"
-    text = "; ".join(filter(None, [words, listed or ""]))
+    text = "; ".join(filter(None, [words, _its_keys(model, path)]))
     return f"{name}: {text}" if text else ""
+
+
+def _its_keys(model: type[BaseModel], path: KeyPath) -> str:
+    """The keys of a section, those that it needs first; nothing where a path holds none."""
+    inner = fields_at(model, path, None)
+    keys = sorted(inner, key=lambda key: not inner[key].is_required())
+    return f"its keys are {', '.join(keys[:_MOST_KEYS])}{', ...' if len(keys) > _MOST_KEYS else ''}" if keys else ""
 
 
 def _limits(model: type[BaseModel], path: KeyPath, data: Any) -> tuple[str, str]:

@@ -353,6 +353,7 @@ def test_every_error_is_told_in_one_run_in_the_order_of_the_file() -> None:
         ("phases: {return: 300, dwell: 90}", "GL111", "phases", "the phases take more than a turn", ""),
         ("phases: {retrun: 300}", "GL105", "phases.retrun", "unknown key 'retrun' in 'phases'",
          "did you mean 'return'? allowed here: dwell, return"),
+        ("pins: {a: 3}", "GL107", "pins.a", "pins.a must be a section of keys, not 3", "its keys are at"),
         ("pins: {a: {at: [x, 1]}}", "GL107", "pins.a.at[0]", "pins.a.at[0] must be a number, not 'x'", ""),
         ("pins: {a: {to: 1, at: [0, 0]}}", "GL105", "pins.a.to", "unknown key 'to' in 'pins.a'", "allowed here: at"),
         ("points: [{at: [0, 0]}, {at: [0]}]", "GL106", "points[1].at[1]",
