@@ -93,8 +93,8 @@ def _over_turn(axes: Axes, design: LoadsDesign, title: str, ylabel: str) -> None
     panels.small_ticks(axes)
     panels.heading(axes, title)
     axes.set_xlim(0.0, 360.0 * turns)
-    axes.set_xticks([i * (30.0 if turns == 1 else 360.0 * max(1, turns // 10)) for i in range(13 if turns == 1 else
-                     turns // max(1, turns // 10) + 1)])  # fmt: skip
+    step = 30.0 if turns == 1 else 360.0 * max(1, turns // 10)
+    style.numbers_at(axes, [i * step for i in range(math.floor(360.0 * turns / step) + 1)])
 
 
 def _angles(columns: dict[str, Any], design: LoadsDesign) -> Any:
@@ -205,10 +205,10 @@ def _locus(axes: Axes, title: str, x: Any, y: Any, color: str) -> None:
     axes.plot([0.0], [0.0], "+", color=style.BLACK, markersize=9)
     axes.plot(x[:1], y[:1], "o", color=color, markersize=4)
     panels.small_ticks(axes)
-    from matplotlib.ticker import MaxNLocator
+    from gearlink.cli.figures.drawing.ticks import RoundNumbers
 
     for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_locator(MaxNLocator(4, steps=[1, 2, 2.5, 5, 10]))
+        axis.set_major_locator(RoundNumbers(4))
     axes.tick_params(labelsize=7)
 
 

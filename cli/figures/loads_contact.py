@@ -74,7 +74,7 @@ def profile(axes: Axes, design: Any, name: str) -> None:
     """A cam, its profile coloured by the pressure."""
     import numpy as np
 
-    phi = np.linspace(0.0, design.machine.period, 721)
+    phi = np.linspace(0.0, design.machine.period, 361)
     roller = design.roller_on_cam(name, phi)
     turned = np.radians(design.cam_degrees(phi))
     contact = roller.position - roller.radius * roller.normal
@@ -146,7 +146,7 @@ def stroke_profile(axes: Axes, stroke: Any) -> None:
     """The cam of a stroke, its profile coloured by the pressure; open where the roller stands in its slot."""
     import numpy as np
 
-    parts = [np.linspace(low, high, 241) for low, high in stroke.parts]
+    parts = [np.linspace(low, high, 121) for low, high in stroke.parts]
     k = np.concatenate([parts[0], [0.5], parts[1]])
     points, pressure = stroke.cam.points(k).profile, stroke.contact(k).pressure
     points[len(parts[0])] = complex(np.nan, np.nan)

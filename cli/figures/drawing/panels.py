@@ -200,10 +200,10 @@ def _few_ticks(axes: Axes, most: int) -> None:
 
 def few_ticks(axis: Axis, most: int = 6) -> None:
     """Round numbers along an axis, as many whatever its length, which the layout changes after it has measured them."""
-    from matplotlib.ticker import MaxNLocator
+    from gearlink.cli.figures.drawing.ticks import RoundNumbers
 
     axis.get_offset_text().set_fontsize(7)
-    axis.set_major_locator(MaxNLocator(most, steps=[1, 2, 2.5, 5, 10]))
+    axis.set_major_locator(RoundNumbers(most))
 
 
 def turn_panel(axes: Axes, ylabel: str, xlabel: str = "") -> None:

@@ -21,6 +21,8 @@ BLUE, ORANGE, GREEN, RED = colors.BLUE, colors.ORANGE, colors.GREEN, colors.RED
 PURPLE, SKY, BLACK, GREY, LIGHT = colors.PURPLE, colors.SKY, colors.BLACK, colors.GREY, colors.LIGHT
 MARGIN = 8.0 / 25.4
 """White edge of a page [in], which printers need."""
+GRID = 0.6
+"""Width of the lines of a grid."""
 _TITLE = 12
 DASHED: Any = (0, (5, 3))
 DOTTED: Any = (0, (1, 2))
@@ -69,7 +71,7 @@ def curves(axes: Axes, xlabel: str, ylabel: str) -> None:
     """A coordinate system for curves: grid, labels, light frame."""
     axes.set_xlabel(xlabel)
     axes.set_ylabel(ylabel)
-    axes.grid(True, color=LIGHT, linewidth=0.6)
+    axes.grid(True, color=LIGHT, linewidth=GRID)
     axes.set_axisbelow(True)
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
@@ -78,7 +80,14 @@ def curves(axes: Axes, xlabel: str, ylabel: str) -> None:
 def full_turn(axes: Axes, step: int = 60) -> None:
     """The x axis as one turn in degrees."""
     axes.set_xlim(0, 360)
-    axes.set_xticks(range(0, 361, step))
+    numbers_at(axes, range(0, 361, step))
+
+
+def numbers_at(axes: Axes, places: Sequence[float]) -> None:
+    """Numbers along the x axis at some places within it; `set_xticks` would make them before any is drawn."""
+    from matplotlib.ticker import FixedLocator
+
+    axes.xaxis.set_major_locator(FixedLocator(places))
 
 
 def drawing(axes: Axes, title: str = "") -> None:

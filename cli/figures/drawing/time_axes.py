@@ -109,25 +109,27 @@ def once(stacked: Sequence[Axes], turn: float | None) -> None:
 
     turn : time of an input turn [ms]; None where the speed is not known
     """
+    from gearlink.cli.figures.drawing.ticks import without_numbers
+
     labels = [axes.get_xlabel() for axes in stacked]
     for axes, words, below in zip(stacked, labels, [*labels[1:], ""], strict=False):
         if words == below:
             axes.set_xlabel("")
-            axes.tick_params(labelbottom=False)
+            without_numbers(axes)
         else:
             over_input(axes, turn)
 
 
 def _time_row(axes: Axes, functions: Any, name: str) -> None:
     """Numbers in ms on a thin line, their unit at the left of it, where the numbers of the y axis leave room."""
-    from matplotlib.ticker import MaxNLocator
+    from gearlink.cli.figures.drawing.ticks import RoundNumbers
 
     labelled = bool(axes.get_xlabel())
     down = _BELOW if labelled else _BELOW - 12.0
     below = axes.secondary_xaxis("bottom", functions=functions)
     below.set_gid(name)
     below.spines["bottom"].set(position=("outward", down), color=style.GREY, linewidth=0.7)
-    below.xaxis.set_major_locator(MaxNLocator(6, steps=[1, 2, 2.5, 5, 10]))
+    below.xaxis.set_major_locator(RoundNumbers(6))
     below.tick_params(labelsize=7, length=2.5, width=0.7, pad=1.5, color=style.GREY, labelcolor=style.GREY)
     below.ticklabel_format(scilimits=(-3, 6))
     below.xaxis.get_offset_text().set_fontsize(7)
