@@ -12,9 +12,9 @@ from gearlink.core.errors import NoSolution
 from gearlink.core.gears.data import GearData
 from gearlink.core.gears.mesh.pair import GearPair
 from gearlink.core.gears.shifts.contour import BlockingContour
-from gearlink.core.gears.shifts.search import Wish, candidates, pairs_of_teeth
+from gearlink.core.gears.shifts.search import PairTask, candidates, pairs_of_teeth
 
-WISH = Wish(ratio=3.2, distance=120.0, modules=(2.0, 2.5, 3.0, 4.0, 5.0))
+TASK = PairTask(ratio=3.2, distance=120.0, modules=(2.0, 2.5, 3.0, 4.0, 5.0))
 _MOST = 100
 TEETH, MODULE, ANGLE = (17, 40), 2.0, math.radians(20.0)
 SHIFT_SUM = 0.5
@@ -24,14 +24,14 @@ LINES = {"pointed tip 1": 1.0, "tip 1 0.2 m": 0.9, "undercut 1": 0.0}
 
 def search(quick: bool) -> Family:
     """The table of the search."""
-    found = [(module, teeth) for module in WISH.modules for teeth in pairs_of_teeth(WISH, module)]
+    found = [(module, teeth) for module in TASK.modules for teeth in pairs_of_teeth(TASK, module)]
     tried = list(_all_pairs())
     if sorted(found) != sorted(tried):
         raise AssertionError("the search and trying all pairs differ")
     methods = [
-        Method("sums of teeth from the ends of the window", 1, lambda: list(map(_pairs, WISH.modules)), _worst(found)),
+        Method("sums of teeth from the ends of the window", 1, lambda: list(map(_pairs, TASK.modules)), _worst(found)),
         Method(f"every pair with up to {_MOST} teeth of gear 1", 1, lambda: list(_all_pairs()), _worst(tried)),
-        Method("the candidates with their shifts and margins", 1, lambda: candidates(WISH)),
+        Method("the candidates with their shifts and margins", 1, lambda: candidates(TASK)),
     ]
     rows = measure(methods, methods[0].run, 1, 3 if quick else 5)
     return Family(
@@ -45,18 +45,18 @@ def search(quick: bool) -> Family:
 
 
 def _pairs(module: float) -> list[tuple[int, int]]:
-    return list(pairs_of_teeth(WISH, module))
+    return list(pairs_of_teeth(TASK, module))
 
 
 def _all_pairs() -> Iterator[tuple[float, tuple[int, int]]]:
     """The textbook way: the shift sum of every pair of teeth whose ratio will do."""
-    low, high = WISH.shift_sum
-    for module in WISH.modules:
-        for one in range(WISH.least_teeth, _MOST):
-            first, last = (WISH.ratio * (1.0 + sign * WISH.tolerance) * one for sign in (-1.0, 1.0))
+    low, high = TASK.shift_sum
+    for module in TASK.modules:
+        for one in range(TASK.least_teeth, _MOST):
+            first, last = (TASK.ratio * (1.0 + sign * TASK.tolerance) * one for sign in (-1.0, 1.0))
             for other in range(math.ceil(first), math.floor(last) + 1):
                 try:
-                    total = GearPair(module=module, teeth=(one, other), given_distance=WISH.distance).shift_sum
+                    total = GearPair(module=module, teeth=(one, other), given_distance=TASK.distance).shift_sum
                 except NoSolution:
                     continue
                 if low <= total <= high:
@@ -66,15 +66,15 @@ def _all_pairs() -> Iterator[tuple[float, tuple[int, int]]]:
 def _worst(found: list[tuple[float, tuple[int, int]]]) -> float:
     """Worst error of the shift sum against 30 digits."""
     mp = mpmath(30)
-    alpha = mp.mpf(WISH.pressure_angle)
+    alpha = mp.mpf(TASK.pressure_angle)
 
     def true(module: float, teeth: tuple[int, int]) -> Any:
         total = sum(teeth)
-        working = mp.acos(total * module * mp.cos(alpha) / (2 * mp.mpf(WISH.distance)))
+        working = mp.acos(total * module * mp.cos(alpha) / (2 * mp.mpf(TASK.distance)))
         return total * ((mp.tan(working) - working) - (mp.tan(alpha) - alpha)) / (2 * mp.tan(alpha))
 
     def own(module: float, teeth: tuple[int, int]) -> float:
-        return GearPair(module=module, teeth=teeth, given_distance=WISH.distance).shift_sum
+        return GearPair(module=module, teeth=teeth, given_distance=TASK.distance).shift_sum
 
     return max(float(abs(own(*each) - true(*each))) for each in found)
 

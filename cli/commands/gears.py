@@ -12,7 +12,7 @@ from gearlink.cli.options import Options
 from gearlink.cli.typer_options import takes
 
 if TYPE_CHECKING:
-    from gearlink.core.gears.shifts.search import Wish
+    from gearlink.core.gears.shifts.search import PairTask
 
 
 @takes("format", "color", "quiet")
@@ -43,9 +43,9 @@ def gears(
 
     Example: gearlink gears --ratio 3.2 --center-distance 120
     """
-    from gearlink.core.gears.shifts.search import MODULES, Wish
+    from gearlink.core.gears.shifts.search import MODULES, PairTask
 
-    wish = Wish(
+    task = PairTask(
         ratio=ratio,
         distance=center_distance,
         modules=_numbers(modules, ",", "--modules") or MODULES,
@@ -57,10 +57,10 @@ def gears(
     )
     if internal and ratio <= 1.0:
         raise typer.BadParameter("a ring has more teeth than its pinion: give a ratio above 1", param_hint="--ratio")
-    raise typer.Exit(run_gears(wish, options))
+    raise typer.Exit(run_gears(task, options))
 
 
-def run_gears(wish: Wish, options: Options) -> int:
+def run_gears(task: PairTask, options: Options) -> int:
     """Print the candidates and give the exit status."""
     import sys
 
@@ -70,7 +70,7 @@ def run_gears(wish: Wish, options: Options) -> int:
     from gearlink.core.report import Report
 
     with patience("searching for gears", quiet=options.quiet):
-        found = candidates(wish)
+        found = candidates(task)
     print_report(Report(kind="gear-search", name="gears", command="gears", tables=(table_of(found),)), options)
     if found:
         return ExitCode.OK

@@ -27,8 +27,8 @@ _LOW, _HIGH = "#CFE3F5", "#0B3C6F"
 def draw(_command: str, design: Design) -> Figure:
     """Scatter matrix of the objectives above, parallel coordinates below."""
     study = cast("Exploration", design)
-    wishes = study.problem.objectives
-    count = len(wishes)
+    requirements = study.problem.objectives
+    count = len(requirements)
     pairs = [(i, j) for i in range(1, count) for j in range(i)]
     across = max(1, count - 1)
     height = 2.9 * across + 3.6
@@ -58,8 +58,8 @@ def _feasible(study: Exploration) -> Any:
 
 
 def _label(study: Exploration, i: int) -> str:
-    wish = study.problem.objectives[i]
-    return f"{wish.name.replace('_', ' ')}{'' if wish.unit == '1' else f' [{wish.unit}]'}"
+    requirement = study.problem.objectives[i]
+    return f"{requirement.name.replace('_', ' ')}{'' if requirement.unit == '1' else f' [{requirement.unit}]'}"
 
 
 def _scatter(axes: Axes, study: Exploration, figures: Any, grey: Any, places: tuple[int, int]) -> None:
@@ -131,10 +131,10 @@ def _axes_of(study: Exploration, figures: Any) -> tuple[list[str], list[list[flo
             heads.append(_folded(variable.path.replace(".", " "), unit))
             columns.append([float(value) for value in values])
             signs.append(1.0)
-    for i, wish in enumerate(study.problem.objectives):
-        heads.append(_folded(wish.name, wish.unit))
+    for i, requirement in enumerate(study.problem.objectives):
+        heads.append(_folded(requirement.name, requirement.unit))
         columns.append(figures[:, i].tolist())
-        signs.append(-wish.sign)
+        signs.append(-requirement.sign)
     return heads, columns, signs
 
 

@@ -102,6 +102,6 @@ def words(design: ThreeGearFourBar) -> dict[str, str]:
 
 def _window(design: ThreeGearFourBar) -> dict[str, str]:
     """The dwell within a tolerance, where the file asks for one."""
-    wish = design.spec.dwell
-    asked = design.spec.dwell_tolerance is not None or (wish is not None and wish.angle is None)
+    request = design.spec.dwell
+    asked = design.spec.dwell_tolerance is not None or (request is not None and request.angle is None)
     return _WITHIN if asked and design.tolerance_dwell is not None else {}

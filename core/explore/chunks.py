@@ -148,7 +148,7 @@ class Judged:
 def judged(problem: Problem, found: Evaluated, count: int) -> Judged:
     """Judge evaluated designs."""
     columns = np.array([_numbers(_column(expression, found, count)) for _, expression, _ in problem.shown])
-    signs = np.array([wish.sign for wish in problem.objectives])
+    signs = np.array([requirement.sign for requirement in problem.objectives])
     objectives = (columns[: len(signs)] * signs[:, None]).T
     failing = _failing(problem, found, objectives, count)
     total = np.zeros(count, dtype=np.intp)
@@ -171,7 +171,7 @@ def kept(problem: Problem, index: Any, found: Evaluated) -> Chunk:
 
 
 def _resolution(problem: Problem) -> Reals:
-    return np.array([wish.resolution for wish in problem.objectives])
+    return np.array([requirement.resolution for requirement in problem.objectives])
 
 
 def _column(expression: Any, found: Evaluated, count: int) -> Any:
@@ -190,10 +190,14 @@ def _failing(problem: Problem, found: Evaluated, objectives: Reals, count: int) 
     rows: dict[str, tuple[Mask, Any]] = {}
     for code in problem.must_pass:
         rows[code] = _of_code(code, found, warn_counts=problem.spec.checks.warn_counts, count=count)
-    for wish in problem.conditions:
-        value = _column(wish.expression, found, count)
-        numbers = None if isinstance(wish.limit, str) else (_numbers(value), np.full(count, wish.limit), wish.unit)
-        rows[wish.text] = (~wish.holds(value) & exists, numbers)
+    for requirement in problem.conditions:
+        value = _column(requirement.expression, found, count)
+        numbers = (
+            None
+            if isinstance(requirement.limit, str)
+            else (_numbers(value), np.full(count, requirement.limit), requirement.unit)
+        )
+        rows[requirement.text] = (~requirement.holds(value) & exists, numbers)
     for place, key in enumerate(found.reasons, 1):
         there = found.refused == place
         if there.any():
@@ -268,7 +272,7 @@ def together(problem: Problem, chunks: Iterable[Chunk]) -> Chunk:
 
 def rows_of_why(problem: Problem) -> Sequence[str]:
     """Rows that the table `why` always has."""
-    return (*problem.must_pass, *(wish.text for wish in problem.conditions))
+    return (*problem.must_pass, *(requirement.text for requirement in problem.conditions))
 
 
 def fold(problem: Problem, parts: Sequence[Reals]) -> Reals:
@@ -285,5 +289,5 @@ def fold(problem: Problem, parts: Sequence[Reals]) -> Reals:
 
 def multiples_of(problem: Problem, rows: Reals) -> Reals:
     """The objectives of kept rows, to be minimised, in whole multiples of a millionth of their resolution."""
-    signs = np.array([wish.sign for wish in problem.objectives])
+    signs = np.array([requirement.sign for requirement in problem.objectives])
     return counted(rows[:, 1 : 1 + len(signs)] * signs, _resolution(problem))

@@ -101,7 +101,7 @@ class Found:
         refusals = sorted(name for name in misses if name.startswith("refused "))
         return (
             *((" ".join(made.base.codes[code]), code, misses[code]) for code in made.must_pass),
-            *((wish.text, None, misses[wish.text]) for wish in made.conditions),
+            *((requirement.text, None, misses[requirement.text]) for requirement in made.conditions),
             *((name, None, misses[name]) for name in refusals),
         )
 
@@ -138,7 +138,7 @@ class Found:
     @cached_property
     def _objectives(self) -> Reals:
         """Objectives of the kept rows, to be minimised."""
-        signs = np.array([wish.sign for wish in self.problem.objectives])
+        signs = np.array([requirement.sign for requirement in self.problem.objectives])
         values: Reals = self.kept_rows[:, 1 : 1 + len(signs)] * signs
         return values
 

@@ -9,7 +9,15 @@ from typing import Any
 from gearlink.core.explore.base import Base, Refused
 from gearlink.core.explore.order import Variable
 from gearlink.core.explore.problem import Problem, numeric
-from gearlink.core.explore.wishes import Condition, FaultFound, Names, Objective, condition, contradiction, objective
+from gearlink.core.explore.requirements import (
+    Condition,
+    FaultFound,
+    Names,
+    Objective,
+    condition,
+    contradiction,
+    objective,
+)
 from gearlink.core.kinds import KINDS
 from gearlink.core.study.expressions import Expression
 from gearlink.core.study.faults import Fault, Place, WrongStudy
@@ -38,7 +46,7 @@ def problem(spec: StudySpec) -> Problem:
     reading = _Reading(spec, base)
     variables = tuple(reading.variables())
     names = reading.names()
-    objectives, conditions = reading.wishes(names)
+    objectives, conditions = reading.requirements(names)
     if reading.faults:
         raise WrongStudy(reading.faults)
     must_pass = reading.base_values(objectives, conditions)
@@ -164,7 +172,7 @@ class _Reading:
                 self.faults += found.faults
         return Names(self.base.unit, known, defined, self.base.nearest, frozenset(wrong))
 
-    def wishes(self, names: Names) -> tuple[list[Objective], list[Condition]]:
+    def requirements(self, names: Names) -> tuple[list[Objective], list[Condition]]:
         """Objectives in the order of the file, minimised ones first, and conditions."""
         objectives, conditions = [], []
         for key, sign in (("minimize", 1.0), ("maximize", -1.0)):
@@ -190,11 +198,14 @@ class _Reading:
 
     def base_values(self, objectives: list[Objective], conditions: list[Condition]) -> tuple[str, ...]:
         """Compute the base; what its quantities are like, and the codes that must pass."""
-        wishes: list[tuple[Objective | Condition, Place]] = [
-            *((wish, ("minimize" if wish.sign > 0.0 else "maximize", wish.name)) for wish in objectives),
-            *((wish, ("where", i)) for i, wish in enumerate(conditions)),
+        requirements: list[tuple[Objective | Condition, Place]] = [
+            *(
+                (requirement, ("minimize" if requirement.sign > 0.0 else "maximize", requirement.name))
+                for requirement in objectives
+            ),
+            *((requirement, ("where", i)) for i, requirement in enumerate(conditions)),
         ]
-        names = dict.fromkeys(name for wish, _ in wishes for name in wish.expression.names)
+        names = dict.fromkeys(name for requirement, _ in requirements for name in requirement.expression.names)
         try:
             design = self.base.design()
             values = self.base.values(design, names)
@@ -205,9 +216,9 @@ class _Reading:
             below = error.key.split(".") if self.spec.of is None and error.key else ()
             self.faults.append(Fault("GL156", message, ("design", *below), "a study varies a design that exists"))
             return ()
-        for wish, place in wishes:
-            self.faults += no_lists(wish.expression.names, whole, place)
-            self.faults += odd_comparisons(wish, values, place)
+        for requirement, place in requirements:
+            self.faults += no_lists(requirement.expression.names, whole, place)
+            self.faults += odd_comparisons(requirement, values, place)
         return self._must_pass(failing)
 
     def _failing(self, design: Any) -> set[str]:
@@ -252,10 +263,10 @@ def beyond_lists(names: Iterable[str], whole: dict[str, Any], place: Place) -> I
             )
 
 
-def odd_comparisons(wish: Objective | Condition, values: dict[str, Any], place: Place) -> Iterator[Fault]:
-    """What is wrong with the quantities of a wish, by their values in the base."""
-    expression = wish.expression
-    words = isinstance(wish, Condition) and isinstance(wish.limit, str)
+def odd_comparisons(requirement: Objective | Condition, values: dict[str, Any], place: Place) -> Iterator[Fault]:
+    """What is wrong with the quantities of a requirement, by their values in the base."""
+    expression = requirement.expression
+    words = isinstance(requirement, Condition) and isinstance(requirement.limit, str)
     for name in expression.names:
         value = values[name]
         if isinstance(value, (list, tuple)):
@@ -265,7 +276,12 @@ def odd_comparisons(wish: Objective | Condition, values: dict[str, Any], place: 
             yield Fault("GL152", f"{name} is a word ({value}), not a number", place, f"where: {name} == {value}")
         elif value is not None and not isinstance(value, str) and words:
             yield Fault("GL152", f"{name} is a number, not a word", place)
-        elif isinstance(wish, Condition) and wish.sign == "==" and isinstance(value, float) and name == expression.text:
+        elif (
+            isinstance(requirement, Condition)
+            and requirement.sign == "=="
+            and isinstance(value, float)
+            and name == expression.text
+        ):
             message = f"{name} is a real number, which equals nothing exactly"
             yield Fault("GL152", message, place, "compare it by >= and <=")
 

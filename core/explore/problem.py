@@ -13,7 +13,7 @@ import numpy as np
 
 from gearlink.core.explore.base import Base
 from gearlink.core.explore.order import Grid, Sample, TooManyDesigns, Variable
-from gearlink.core.explore.wishes import Condition, Objective
+from gearlink.core.explore.requirements import Condition, Objective
 from gearlink.core.study.expressions import Expression
 from gearlink.core.study.faults import Fault, WrongStudy
 from gearlink.core.study.spec import StudySpec
@@ -47,7 +47,9 @@ class Problem:
     @cached_property
     def names(self) -> tuple[str, ...]:
         """Quantities that have to be computed of each design, with their indices."""
-        wanted = [wish.expression for wish in self.objectives] + [wish.expression for wish in self.conditions]
+        wanted = [requirement.expression for requirement in self.objectives] + [
+            requirement.expression for requirement in self.conditions
+        ]
         return tuple(dict.fromkeys(name for expression in wanted for name in expression.names))
 
     @cached_property
@@ -65,9 +67,9 @@ class Problem:
     @cached_property
     def shown(self) -> tuple[tuple[str, Expression, str], ...]:
         """Name, expression and unit of each column besides the variables: objectives, then what is named by where."""
-        found = {wish.name: (wish.expression, wish.unit) for wish in self.objectives}
-        for wish in self.conditions:
-            found.setdefault(wish.expression.text, (wish.expression, wish.unit))
+        found = {requirement.name: (requirement.expression, requirement.unit) for requirement in self.objectives}
+        for requirement in self.conditions:
+            found.setdefault(requirement.expression.text, (requirement.expression, requirement.unit))
         return tuple((name, *rest) for name, rest in found.items())
 
     @cached_property

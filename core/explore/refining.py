@@ -67,8 +67,8 @@ class _Search:
     def __init__(self, problem: Problem, kept: Reals) -> None:
         self.problem = problem
         count = len(problem.objectives)
-        self._signs = np.array([wish.sign for wish in problem.objectives])
-        self._resolution = np.array([wish.resolution for wish in problem.objectives])
+        self._signs = np.array([requirement.sign for requirement in problem.objectives])
+        self._resolution = np.array([requirement.resolution for requirement in problem.objectives])
         self.at = np.array([problem.order.columns(np.array([int(row[0])]))[:, 0] for row in kept])
         objectives = kept[:, 1 : 1 + count] * self._signs
         self._best = objectives.min(axis=0)

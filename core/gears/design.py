@@ -58,7 +58,7 @@ _INSIDE = (
     *("undercut", "tip-thickness", "contact-ratio", "involute-interference", "tooth-form", "fillet-interference"),
     *("tip-fouling", "radial-assembly"),
 )
-_WISHES = dict.fromkeys(_INSIDE, "") | {"sliding": "equal sliding", "bending": "equal root stress"}
+_LINES = dict.fromkeys(_INSIDE, "") | {"sliding": "equal sliding", "bending": "equal root stress"}
 """For each check that a share of the shift sum may repair, the line to go to; none: within all limits."""
 _MOST_SHARES = 8
 _WAYS = _ways(up("teeth[0]", step=1), up("teeth[1]", step=1))
@@ -86,11 +86,11 @@ class GearPairDesign(GearQuantities, Design):
 
     def candidates(self, check: str) -> Iterator[Remedy]:
         """The shifts moved into the blocking contour, or to its line of equal sliding or root stress."""
-        wish = _WISHES.get(check)
-        if wish is None or self.spec.rack:
+        line = _LINES.get(check)
+        if line is None or self.spec.rack:
             return
         shift = self.spec.profile_shift
-        for first in self.contour.shares(wish)[:_MOST_SHARES]:
+        for first in self.contour.shares(line)[:_MOST_SHARES]:
             if shift is None:
                 yield (("shift_split", first),)
             else:

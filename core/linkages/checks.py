@@ -45,12 +45,12 @@ def target_check(what: str, residual: float, tolerance: float, unit: str) -> Che
 
 def dwell_window_check(window: float, asked: float, tolerance: float) -> Check:
     """GL313: the crank angle over which the output stays within +- a tolerance, against the one asked for [all rad]."""
-    got, wish, band = math.degrees(window), math.degrees(asked), math.degrees(tolerance)
+    got, wanted, band = math.degrees(window), math.degrees(asked), math.degrees(tolerance)
     text = f"the output stays within +-{band:g} deg over {got:.6g} deg of the crank"
-    good = got >= wish * (1.0 - WINDOW_FIT)
+    good = got >= wanted * (1.0 - WINDOW_FIT)
     if not good:
-        text += f", {wish:g} deg were asked for: ask for less, or allow a greater tolerance"
-    return DWELL_WINDOW.check("pass" if good else "fail", text, got, wish, "deg")
+        text += f", {wanted:g} deg were asked for: ask for less, or allow a greater tolerance"
+    return DWELL_WINDOW.check("pass" if good else "fail", text, got, wanted, "deg")
 
 
 def dwell_edge_check(share: float, interval: list[float] | None) -> Check:
@@ -58,7 +58,7 @@ def dwell_edge_check(share: float, interval: list[float] | None) -> Check:
 
     Parameters
         share : float - back-step over band
-        interval : list of 2 float [mm] - frames between which the wish is met, where there is one
+        interval : list of 2 float [mm] - frames between which the request is met, where there is one
     """
     text = f"the back-step takes {share:.5g} of the band"
     width = None if interval is None else interval[1] - interval[0]

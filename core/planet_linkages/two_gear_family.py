@@ -242,7 +242,7 @@ def solved(family: Family, measure: Callable[[PlanetLinkage], float], target: fl
     Parameters
         measure : `back_step_of` or `window_of`
         target : float [rad] - positive
-        what : str - the wish in words, for a refusal
+        what : str - the request in words, for a refusal
     Returns
         frame : float [mm]
     Raises

@@ -62,7 +62,7 @@ class StandingDwell(DwellBand):
     """Asked of `synth dwell`: a crank angle over which the output stays within a tolerance; the frame is sought."""
 
     @model_validator(mode="after")
-    def _one_wish(self) -> StandingDwell:
+    def _one_request(self) -> StandingDwell:
         if self.window is None and self.tolerance is None:
             raise PydanticCustomError("GL106", "give window, tolerance or both", {"key": "tolerance"})
         if self.margin is not None and self.window is not None:

@@ -110,18 +110,18 @@ class BackStepSynthesis(Synthesis):
     outlines = with_analysis("synth back-step", Outline(QUANTITIES, ("target", *CHECKS), ("motion",)))
 
     @property
-    def _wish(self) -> float:
+    def _request(self) -> float:
         return float(self.section("back_step", "angle (deg)").angle)
 
     def sought_frame(self) -> float:
         """The root of the back-step over the frame."""
         with at_key("back_step.angle"):
-            words = f"a back-step of {self._wish:g} deg"
-            return kernel.solved(self.family, kernel.back_step_of, math.radians(self._wish), words)
+            words = f"a back-step of {self._request:g} deg"
+            return kernel.solved(self.family, kernel.back_step_of, math.radians(self._request), words)
 
     def check_target(self) -> Check:
         """GL307: the back-step of the finished design, measured on its motion."""
-        residual = math.degrees(self.back_step_angle or 0.0) - self._wish
+        residual = math.degrees(self.back_step_angle or 0.0) - self._request
         return target_check("the back-step", residual, _FIT, "deg")
 
 
@@ -132,21 +132,21 @@ class DwellSynthesis(Synthesis):
         "synth dwell", Outline((*QUANTITIES, *_DWELL), ("dwell-window", "dwell-edge", *CHECKS), ("motion",))
     )
 
-    # The wish
+    # The request
 
     @property
-    def _wish(self) -> Any:
+    def _request(self) -> Any:
         return self.section("dwell", "window, tolerance or both (deg)")
 
     @cached_property
     def window(self) -> float | None:
         """Crank angle [rad] over which the output is to stay within the tolerance."""
-        return None if self._wish.window is None else math.radians(self._wish.window)
+        return None if self._request.window is None else math.radians(self._request.window)
 
     @cached_property
     def asked_tolerance(self) -> float | None:
         """Tolerance of the output to either side [rad] that the file names."""
-        return None if self._wish.tolerance is None else math.radians(self._wish.tolerance)
+        return None if self._request.tolerance is None else math.radians(self._request.tolerance)
 
     # The frame
 
@@ -157,7 +157,7 @@ class DwellSynthesis(Synthesis):
             if self.window is None:
                 return self._frame_of_band(self._aimed_at)
             self._refuse_even_motion(self.window)
-            words = f"a window of {self._wish.window:g} deg"
+            words = f"a window of {self._request.window:g} deg"
             frame = kernel.solved(self.family, kernel.window_of, self.window, words)
             self._refuse_narrow_band(0.5 * kernel.back_step_of(self.family.drive(frame)))
             return frame
@@ -166,7 +166,7 @@ class DwellSynthesis(Synthesis):
     def _aimed_at(self) -> float:
         tolerance = self.asked_tolerance
         assert tolerance is not None
-        return tolerance * (1.0 - (_MARGIN if self._wish.margin is None else self._wish.margin))
+        return tolerance * (1.0 - (_MARGIN if self._request.margin is None else self._request.margin))
 
     def _frame_of_band(self, tolerance: float) -> float:
         words = f"a back-step of twice the tolerance, {math.degrees(2.0 * tolerance):.6g} deg,"
@@ -200,9 +200,9 @@ class DwellSynthesis(Synthesis):
             return
         longest = safely_below(math.degrees(self._longest(band)))
         raise NoSolution(
-            f"the output cannot stay within +-{math.degrees(band):.9g} deg over {self._wish.window:g} deg with these "
-            f"gears and links: at most over {longest} deg, or within +-{safely_above(math.degrees(least))} deg; ask "
-            "for one of these"
+            f"the output cannot stay within +-{math.degrees(band):.9g} deg over {self._request.window:g} deg with "
+            f"these gears and links: at most over {longest} deg, or within +-{safely_above(math.degrees(least))} deg; "
+            "ask for one of these"
         )
 
     def _longest(self, band: float) -> float:

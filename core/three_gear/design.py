@@ -268,20 +268,20 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
             return tolerance_from_backlash(
                 self.spec.dwell_backlash, self.spec.gears.transverse_module * abs(self.output_teeth) / 2.0
             )
-        given = self.spec.dwell_tolerance if self.dwell_wish is None else self.dwell_wish.tolerance
+        given = self.spec.dwell_tolerance if self.dwell_request is None else self.dwell_request.tolerance
         return None if given is None else math.radians(given)
 
     @property
-    def dwell_wish(self) -> Any:
-        """The file's section dwell with a tolerance, which is the same wish as dwell_tolerance; None without one."""
-        wish = self.spec.dwell
-        return None if wish is None or wish.tolerance is None else wish
+    def dwell_request(self) -> Any:
+        """The file's section dwell with a tolerance, which is the same request as dwell_tolerance; None without one."""
+        request = self.spec.dwell
+        return None if request is None or request.tolerance is None else request
 
     @property
     def _tolerance_key(self) -> str:
         if self.spec.dwell_backlash is not None:
             return "dwell_backlash"
-        return "dwell_tolerance" if self.dwell_wish is None else "dwell.tolerance"
+        return "dwell_tolerance" if self.dwell_request is None else "dwell.tolerance"
 
     tolerance_dwell_angle: float | None = placed("tolerance_dwell.crank_angle")
     tolerance_dwell_start: float | None = placed("tolerance_dwell.start")

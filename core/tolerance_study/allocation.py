@@ -38,7 +38,7 @@ class Graded:
 
 
 @dataclass(frozen=True)
-class Wish:
+class Requirement:
     """A requirement in its linear form.
 
     Fields
@@ -79,8 +79,8 @@ def choices(sources: Sequence[Graded], reached: LinearYield, target: float, rati
         All combinations up to a million; beyond that the path of a greedy search from the finest grades.
     Example
         >>> laws = [{g: at_grade(size, g) for g in range(5, 12)} for size in (38.94, 112.0, 112.0, 153.53)]
-        >>> wish = Wish((2.9581448247, 1.0285307299, 1.0285307299, 0.7503110467), 0.05, 0.05)
-        >>> next(choices([Graded(5, 11)] * 4, normal_yield(laws, wish), 0.9973, 1.6)).grades
+        >>> requirement = Requirement((2.9581448247, 1.0285307299, 1.0285307299, 0.7503110467), 0.05, 0.05)
+        >>> next(choices([Graded(5, 11)] * 4, normal_yield(laws, requirement), 0.9973, 1.6)).grades
         (6, 7, 8, 8)
 
     Source
@@ -105,7 +105,7 @@ def at_grade(size: float, grade: int) -> Law:
     return Law("normal", -half, half, 0.0, half / 3.0)
 
 
-def normal_yield(laws: Sequence[Mapping[int, Law]], wish: Wish) -> LinearYield:
+def normal_yield(laws: Sequence[Mapping[int, Law]], requirement: Requirement) -> LinearYield:
     """Yield of one requirement in parts that scatter normally and apart from each other, exactly.
 
     Y = Phi((above - mean)/sigma) - Phi((-below - mean)/sigma)
@@ -116,10 +116,10 @@ def normal_yield(laws: Sequence[Mapping[int, Law]], wish: Wish) -> LinearYield:
     moments = [{grade: law.moments() for grade, law in one.items()} for one in laws]
 
     def reached(grades: Grades) -> float:
-        rows = [(g, *one[grade]) for g, one, grade in zip(wish.gains, moments, grades, strict=True)]
-        mean = float(wish.rest) + sum(g * part for g, part, _ in rows)
-        sigma = math.hypot(wish.spread, *(g * part for g, _, part in rows))
-        upper, lower = wish.above - mean, wish.below + mean
+        rows = [(g, *one[grade]) for g, one, grade in zip(requirement.gains, moments, grades, strict=True)]
+        mean = float(requirement.rest) + sum(g * part for g, part, _ in rows)
+        sigma = math.hypot(requirement.spread, *(g * part for g, _, part in rows))
+        upper, lower = requirement.above - mean, requirement.below + mean
         if sigma == 0.0:
             return 1.0 if min(upper, lower) >= 0.0 else 0.0
         root = sigma * math.sqrt(2.0)
@@ -128,7 +128,9 @@ def normal_yield(laws: Sequence[Mapping[int, Law]], wish: Wish) -> LinearYield:
     return reached
 
 
-def drawn_yield(columns: Sequence[Mapping[int, Reals]], wishes: Sequence[Wish], target: float) -> LinearYield:
+def drawn_yield(
+    columns: Sequence[Mapping[int, Reals]], requirements: Sequence[Requirement], target: float
+) -> LinearYield:
     """Yield of all requirements together, of any laws, from the same draws for all grades.
 
     Parameters
@@ -139,10 +141,10 @@ def drawn_yield(columns: Sequence[Mapping[int, Reals]], wishes: Sequence[Wish], 
     def share(grades: Grades, count: int | None) -> float:
         parts = [one[grade][:count] for one, grade in zip(columns, grades, strict=True)]
         good: Any = True
-        for wish in wishes:
-            rest = wish.rest[:count] if isinstance(wish.rest, np.ndarray) else wish.rest
-            off = rest + sum(g * part for g, part in zip(wish.gains, parts, strict=True))
-            good = good & (off <= wish.above) & (off >= -wish.below)
+        for requirement in requirements:
+            rest = requirement.rest[:count] if isinstance(requirement.rest, np.ndarray) else requirement.rest
+            off = rest + sum(g * part for g, part in zip(requirement.gains, parts, strict=True))
+            good = good & (off <= requirement.above) & (off >= -requirement.below)
         return float(np.mean(good))
 
     def reached(grades: Grades) -> float:
@@ -218,7 +220,7 @@ def _linear_yield(study: Any, places: Sequence[int]) -> LinearYield:
     alone = len(asked) == 1 and made.correlation is None
     if alone and all(source.kind != "pin" and source.law.form in ("normal", "fixed") for source in made.sources):
         return normal_yield(
-            [{g: one.law for g, one in row.items()} for row in by_grade], _wish(study, asked[0], places)
+            [{g: one.law for g, one in row.items()} for row in by_grade], _requirement(study, asked[0], places)
         )
     drawn = replication(made.coordinates, REPLICATIONS * _DRAWS, made.section.seed, REPLICATIONS)
     points = together(drawn, made.correlation)
@@ -227,7 +229,7 @@ def _linear_yield(study: Any, places: Sequence[int]) -> LinearYield:
         {g: one.law.deviations(points[:, starts[i]]) for g, one in row.items()}
         for i, row in zip(places, by_grade, strict=True)
     ]
-    return drawn_yield(columns, [_wish(study, name, places, drawn) for name in asked], made.section.target_yield)
+    return drawn_yield(columns, [_requirement(study, name, places, drawn) for name in asked], made.section.target_yield)
 
 
 def _by_grade(source: Scatter) -> dict[int, Scatter]:
@@ -239,7 +241,7 @@ def _by_grade(source: Scatter) -> dict[int, Scatter]:
     }
 
 
-def _wish(study: Any, name: str, places: Sequence[int], drawn: Reals | None = None) -> Wish:
+def _requirement(study: Any, name: str, places: Sequence[int], drawn: Reals | None = None) -> Requirement:
     """What the requirements say of a quantity, about its nominal value."""
     made, rows, middle = study.problem, study.slopes[name], study.nominal[name]
     lower, upper = study.limits(name)
@@ -250,7 +252,7 @@ def _wish(study: Any, name: str, places: Sequence[int], drawn: Reals | None = No
         rest = sum(
             (_along(row.gain, sizes[source.key] - source.nominal) for source, row in others), np.zeros(len(drawn))
         )
-    return Wish(
+    return Requirement(
         tuple(rows[i].gain[0] for i in places),
         math.inf if lower is None else middle - lower,
         math.inf if upper is None else upper - middle,

@@ -15,7 +15,7 @@ from gearlink.core.design import Design
 from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.explore.base import Base, Refused
 from gearlink.core.explore.preparing import beyond_lists, no_lists, odd_comparisons
-from gearlink.core.explore.wishes import Condition, FaultFound, Names, condition
+from gearlink.core.explore.requirements import Condition, FaultFound, Names, condition
 from gearlink.core.kinds import KINDS
 from gearlink.core.nomenclature import term
 from gearlink.core.numerics.arrays import Points, Reals
@@ -216,7 +216,7 @@ def _vector(source: Scatter, part: Reals) -> Points:
 
 
 def _absent(values: Mapping[str, Any], at: Place) -> list[Fault]:
-    """Quantities that the nominal design does not have: a design as made that meets a wish on them is chance."""
+    """Quantities that the nominal design does not have: a design as made that meets a requirement on them is chance."""
     return [
         Fault("GL152", f"{name} does not apply to the nominal design", at, f"gearlink explain {name.partition('[')[0]}")
         for name, value in values.items()

@@ -77,19 +77,21 @@ def test_a_lead_in_brings_the_speed_to_the_zone(gearlink: Any, designs: Path) ->
 
 
 @pytest.mark.quick(3)
-@pytest.mark.parametrize("wish", ["dwell_tolerance=0.5", "dwell_backlash=0.5"])
+@pytest.mark.parametrize("asked_for", ["dwell_tolerance=0.5", "dwell_backlash=0.5"])
 @pytest.mark.parametrize("name", ["tolerance_dwell_angle", "acceleration_ratio_max"])
-def test_a_synthesis_honours_the_wishes_of_an_analysis(gearlink: Any, tmp_path: Path, wish: str, name: str) -> None:
+def test_a_synthesis_honours_the_requests_of_an_analysis(
+    gearlink: Any, tmp_path: Path, asked_for: str, name: str
+) -> None:
     """As `analyze` of the links that it found: both solve the same extremes, links are equal to an ulp."""
     gears = "kind: three-gear-four-bar\ngears: {module: 2, crank: 40, idler: 72, output: 40}\n"
-    (tmp_path / "wish.yaml").write_text(gears + "dwell: {angle: 90}\n")
-    asked = ("--set", wish, "--format", "json")
-    found = gearlink("synth", "dwell", tmp_path / "wish.yaml", *asked).json["quantities"]
+    (tmp_path / "request.yaml").write_text(gears + "dwell: {angle: 90}\n")
+    asked = ("--set", asked_for, "--format", "json")
+    found = gearlink("synth", "dwell", tmp_path / "request.yaml", *asked).json["quantities"]
     links = {key: found[f"{key}_length"]["value"] for key in ("crank", "frame")}
     (tmp_path / "links.yaml").write_text(f"{gears}links: {links}\n".replace("'", ""))
     again = gearlink("analyze", tmp_path / "links.yaml", *asked).json["quantities"]
     assert found[name]["value"] == pytest.approx(again[name]["value"], rel=1e-12)
-    alone = gearlink("synth", "dwell", tmp_path / "wish.yaml", "--set", wish, "--quantity", name)
+    alone = gearlink("synth", "dwell", tmp_path / "request.yaml", "--set", asked_for, "--quantity", name)
     assert alone.status == 0
     assert float(alone.out.split()[0]) == found[name]["value"]
 

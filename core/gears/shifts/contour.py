@@ -168,7 +168,7 @@ class BlockingContour:
         """The shifts that no limit blocks, as strips between two shift sums: corners (x_1, x_2) of quadrilaterals.
 
         Notes
-            Tip thicknesses and contact ratios above the least, and radial assembly, are wishes and block nothing.
+            Tip thicknesses and contact ratios above the least, and radial assembly, are preferences and block nothing.
         """
         for (one, _, before), (two, _, behind) in pairwise(self._diagonals):
             for low, high in before:
@@ -210,17 +210,17 @@ class BlockingContour:
         found = _stretches(self._on(total), self._own_crossed)
         return _joined([(low, high) for low, high in found if self.is_free(at(0.5 * (low + high)))])
 
-    def shares(self, wish: str = "") -> list[float]:
+    def shares(self, wanted: str = "") -> list[float]:
         """x_1 at the same shift sum that lie within the limits, whole hundredths, the nearest first.
 
         Parameters
-            wish : str - name of a line to lie on as well as can be; "": the nearest x_1 inside
+            wanted : str - name of a line to lie on as well as can be; "": the nearest x_1 inside
         Notes
-            With each stretch that is free also what is left of it where the wishes (tips, contact ratio) are kept.
+            With each stretch that is free also what is left of it where the preferences (tips, contact ratio) are kept.
         """
         now = self.pair.profile_shift[0]
-        if wish:
-            found = [first for line, first in self._own_crossed if line.name == wish]
+        if wanted:
+            found = [first for line, first in self._own_crossed if line.name == wanted]
             return sorted((round(first, 2) for first in found), key=lambda first: abs(first - now))
         places = [first for line, first in self._own_crossed if line.blocks]
         inside: set[float] = set()

@@ -30,7 +30,7 @@ _ROUNDING = 1e-12
 
 
 @dataclass(frozen=True, kw_only=True)
-class Wish:
+class PairTask:
     """What is asked of a pair.
 
     Fields
@@ -56,7 +56,7 @@ class Wish:
 
 
 class Candidate(NamedTuple):
-    """A pair that meets a wish; `margin` is how far x_1 may move until a line of the contour is met, negative where
+    """A pair that meets a task; `margin` is how far x_1 may move until a line of the contour is met, negative where
     one is crossed already.
     """
 
@@ -71,22 +71,22 @@ class Candidate(NamedTuple):
         return math.gcd(*self.pair.teeth) == 1
 
 
-def teeth_sums(wish: Wish, module: float) -> range:
+def teeth_sums(task: PairTask, module: float) -> range:
     """Whole |z_1 + z_2| with which the shift sum lies in its window.
 
     x_1 + x_2 = (z_1 + z_2)(inv(alpha_wt) - inv(alpha_t))/(2 tan(alpha_n)) falls strictly with z_1 + z_2
 
     Example
-        >>> teeth_sums(Wish(ratio=3.2, distance=120.0, shift_sum=(0.0, 1.0)), 4.0)
+        >>> teeth_sums(PairTask(ratio=3.2, distance=120.0, shift_sum=(0.0, 1.0)), 4.0)
         range(59, 61)
     """
-    low, high = wish.shift_sum if not wish.internal else (-wish.shift_sum[1], -wish.shift_sum[0])
-    alpha = transverse(wish.pressure_angle, wish.helix_angle)
-    most = 2.0 * wish.distance * math.cos(wish.helix_angle) / (module * math.cos(alpha))
+    low, high = task.shift_sum if not task.internal else (-task.shift_sum[1], -task.shift_sum[0])
+    alpha = transverse(task.pressure_angle, task.helix_angle)
+    most = 2.0 * task.distance * math.cos(task.helix_angle) / (module * math.cos(alpha))
 
     def shift_sum(total: float) -> float:
         working = math.acos(min(1.0, total / most))
-        return total * (involute(working) - involute(alpha)) / (2.0 * math.tan(wish.pressure_angle))
+        return total * (involute(working) - involute(alpha)) / (2.0 * math.tan(task.pressure_angle))
 
     tiny = 1e-3 * most
     if shift_sum(most) > high or shift_sum(tiny) < low:
@@ -96,42 +96,42 @@ def teeth_sums(wish: Wish, module: float) -> range:
     return range(max(1, math.ceil(first - 1e-9)), math.floor(last + 1e-9) + 1)
 
 
-def _teeth(wish: Wish, total: int) -> Iterator[tuple[int, int]]:
+def _teeth(task: PairTask, total: int) -> Iterator[tuple[int, int]]:
     """Teeth of a sum (of a difference, with a ring) whose ratio lies in its tolerance."""
-    side = -1.0 if wish.internal else 1.0
-    few, many = (wish.ratio * (1.0 + way * wish.tolerance) + side for way in (1.0, -1.0))
+    side = -1.0 if task.internal else 1.0
+    few, many = (task.ratio * (1.0 + way * task.tolerance) + side for way in (1.0, -1.0))
     if few <= 0.0:
         return
     last = math.floor(min(total / many, _MOST_TEETH) + _ROUNDING) if many > 0.0 else _MOST_TEETH
-    for first in range(max(wish.least_teeth, math.ceil(total / few - _ROUNDING)), last + 1):
-        second = first + total if wish.internal else total - first
+    for first in range(max(task.least_teeth, math.ceil(total / few - _ROUNDING)), last + 1):
+        second = first + total if task.internal else total - first
         if second < 1:
             continue
-        if abs(second / first / wish.ratio - 1.0) <= wish.tolerance + _ROUNDING:
-            yield first, -second if wish.internal else second
+        if abs(second / first / task.ratio - 1.0) <= task.tolerance + _ROUNDING:
+            yield first, -second if task.internal else second
 
 
-def pairs_of_teeth(wish: Wish, module: float) -> Iterator[tuple[int, int]]:
-    """Every (z_1, z_2) of a module whose ratio and shift sum meet the wish."""
-    for total in teeth_sums(wish, module):
+def pairs_of_teeth(task: PairTask, module: float) -> Iterator[tuple[int, int]]:
+    """Every (z_1, z_2) of a module whose ratio and shift sum meet the task."""
+    for total in teeth_sums(task, module):
         if total <= _MOST_TEETH:
-            yield from _teeth(wish, total)
+            yield from _teeth(task, total)
 
 
-def candidates(wish: Wish) -> list[Candidate]:
-    """Every pair that meets the wish, the best first: unblocked, near the ratio, hunting teeth, large margins.
+def candidates(task: PairTask) -> list[Candidate]:
+    """Every pair that meets the task, the best first: unblocked, near the ratio, hunting teeth, large margins.
 
     Notes
         Where more than `MOST_PAIRS` meet it, those nearest to the ratio.
     Example
-        >>> best = candidates(Wish(ratio=3.2, distance=120.0, modules=(3.0, 4.0)))[0]
+        >>> best = candidates(PairTask(ratio=3.2, distance=120.0, modules=(3.0, 4.0)))[0]
         >>> best.pair.module, best.pair.teeth
         (3.0, (19, 61))
     """
-    every = [(module, teeth) for module in wish.modules for teeth in pairs_of_teeth(wish, module)]
+    every = [(module, teeth) for module in task.modules for teeth in pairs_of_teeth(task, module)]
     if len(every) > MOST_PAIRS:
-        every = sorted(every, key=lambda one: abs(abs(one[1][1] / one[1][0]) - wish.ratio))[:MOST_PAIRS]
-    found = [each for module, teeth in every if (each := _candidate(wish, module, teeth)) is not None]
+        every = sorted(every, key=lambda one: abs(abs(one[1][1] / one[1][0]) - task.ratio))[:MOST_PAIRS]
+    found = [each for module, teeth in every if (each := _candidate(task, module, teeth)) is not None]
     return sorted(found, key=_rank)
 
 
@@ -139,10 +139,10 @@ def _rank(each: Candidate) -> tuple[bool, float, bool, float]:
     return each.margin < 0.0, round(abs(each.ratio_error), 9), not each.hunting, -each.margin
 
 
-def _candidate(wish: Wish, module: float, teeth: tuple[int, int]) -> Candidate | None:
-    known = {"module": module, "teeth": teeth, "pressure_angle": wish.pressure_angle, "helix_angle": wish.helix_angle}
+def _candidate(task: PairTask, module: float, teeth: tuple[int, int]) -> Candidate | None:
+    known = {"module": module, "teeth": teeth, "pressure_angle": task.pressure_angle, "helix_angle": task.helix_angle}
     try:
-        pair = GearPair(**known, given_distance=wish.distance)  # type: ignore[arg-type]
+        pair = GearPair(**known, given_distance=task.distance)  # type: ignore[arg-type]
         diagonal = Diagonal(pair)
         try:
             pair = diagonal.at(diagonal.equal_sliding().first)
@@ -150,7 +150,7 @@ def _candidate(wish: Wish, module: float, teeth: tuple[int, int]) -> Candidate |
             pair = diagonal.at(diagonal.shift_sum / 2.0)
         _ = pair.tip_pressure_angle
         ratio = abs(pair.gear_ratio)
-        return Candidate(pair, ratio, ratio / wish.ratio - 1.0, _margin(GearData(pair=pair)))
+        return Candidate(pair, ratio, ratio / task.ratio - 1.0, _margin(GearData(pair=pair)))
     except NoSolution:
         return None
 

@@ -128,7 +128,7 @@ class NearDrives:
     def rooted(self, wanted: Callable[[Seen], tuple[Reals, Reals]], order: int, start: Reals | float) -> Stop:
         """Newton steps to rest, bent by how the slope changed between the two latest places.
 
-        Elements that do not rest are not settled; those whose wish is zero stay where they are.
+        Elements that do not rest are not settled; those whose request is zero stay where they are.
         """
         place = np.broadcast_to(np.asarray(start, dtype=float), (self.count,))
         rests: Mask = np.zeros(self.count, dtype=bool)
@@ -156,7 +156,7 @@ class NearDrives:
         return Stop(place, seen, change)
 
     def chord(self, wanted: Callable[[Seen], Reals], order: int, start: float, rest: float) -> Stop:
-        """Steps to rest that the wish gives itself; elements that do not rest are not settled."""
+        """Steps to rest that the request gives itself; elements that do not rest are not settled."""
         place, step = np.full(self.count, start), np.full(self.count, math.inf)
         with np.errstate(all="ignore"):
             for _ in range(STEPS):

@@ -92,11 +92,11 @@ class BackStepSynthesis(BackStepFamily):
             )
         if task.angle is not None:
             with at_key("back_step.angle"):
-                wish = f"a back-step of {task.angle:g} deg"
-                return solved(family, back_step_of(train), math.radians(task.angle), wish)
+                request = f"a back-step of {task.angle:g} deg"
+                return solved(family, back_step_of(train), math.radians(task.angle), request)
         with at_key("back_step.crank_angle"):
-            wish = f"a back-step over {task.crank_angle:g} deg of the crank"
-            return solved(family, back_step_crank_angle_of(train), math.radians(task.crank_angle), wish)
+            request = f"a back-step over {task.crank_angle:g} deg of the crank"
+            return solved(family, back_step_crank_angle_of(train), math.radians(task.crank_angle), request)
 
     def chosen_idler(self) -> int:
         """From angle and crank angle by thesis (4-19), rounded to teeth; else the smallest that keeps the limits."""

@@ -49,7 +49,7 @@ class Synthesis(ThreeGearFourBar):
         self.require_proportion()
 
     @property
-    def dwell_wish(self) -> Any:
+    def dwell_request(self) -> Any:
         """None: a synthesis takes the section that it needs; that of a dwell reads its own."""
         return None
 

@@ -91,5 +91,5 @@ def _found(trial: Synthesis) -> dict[str, Any]:
 
 
 def _within_a_tolerance(trial: Synthesis) -> bool:
-    wish = trial.spec.dwell
-    return trial.spec.dwell_tolerance is not None or (wish is not None and wish.angle is None)
+    request = trial.spec.dwell
+    return trial.spec.dwell_tolerance is not None or (request is not None and request.angle is None)

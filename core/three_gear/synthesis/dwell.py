@@ -48,46 +48,46 @@ class DwellSynthesis(BackStepFamily):
         "synth dwell", Outline((*QUANTITIES, *_DWELL), ("dwell-window", "dwell-edge", "back-step", *CHECKS))
     )
 
-    # The wish
+    # The request
 
     @property
-    def _wish(self) -> Any:
+    def _request(self) -> Any:
         return self.section("dwell", _WORDS)
 
     @cached_property
     def window(self) -> float | None:
         """Crank angle [rad] over which the output is to stay within the tolerance."""
-        return None if self._wish.window is None else math.radians(self._wish.window)
+        return None if self._request.window is None else math.radians(self._request.window)
 
     @cached_property
     def asked_tolerance(self) -> float | None:
         """Tolerance of the output to either side [rad] that the file names."""
-        if self._wish.tolerance is not None:
-            return math.radians(self._wish.tolerance)
+        if self._request.tolerance is not None:
+            return math.radians(self._request.tolerance)
         return super().output_tolerance
 
     @property
     def _band(self) -> float | None:
         """The tolerance that the links are designed for; a phi13 is designed for none."""
-        return None if self._wish.angle is not None else self.asked_tolerance
+        return None if self._request.angle is not None else self.asked_tolerance
 
     @cached_property
     def general(self) -> bool:
         """Unequal gears that ask for a window are balanced where the file does not say otherwise."""
-        gears, wish = self.spec.gears, self.spec.dwell
-        unequal = wish is not None and wish.angle is None and gears.crank != gears.output
+        gears, request = self.spec.gears, self.spec.dwell
+        unequal = request is not None and request.angle is None and gears.crank != gears.output
         return unequal or super().general
 
     def completion(self) -> Iterator[Found]:
         """The tolerance besides the links, so that an analysis measures the dwell by it."""
         yield from super().completion()
-        if self._wish.tolerance is not None:
-            yield Found("dwell_tolerance", float(self._wish.tolerance), "from dwell.tolerance")
-        if self._wish.window is not None and self._band is not None:
-            yield Found("dwell_window", float(self._wish.window), "from dwell.window")
+        if self._request.tolerance is not None:
+            yield Found("dwell_tolerance", float(self._request.tolerance), "from dwell.tolerance")
+        if self._request.window is not None and self._band is not None:
+            yield Found("dwell_window", float(self._request.window), "from dwell.window")
 
     def _key(self) -> str:
-        return "dwell.tolerance" if self._wish.window is None else "dwell.window"
+        return "dwell.tolerance" if self._request.window is None else "dwell.window"
 
     # The links
 
@@ -95,10 +95,10 @@ class DwellSynthesis(BackStepFamily):
     """Why no idler was found: another check of the same design does not try some hundred of them again."""
 
     def crank_angle_for(self, i3: float) -> float:
-        """phi12 that meets the wish in the symmetric family."""
-        if self._wish.angle is not None:
+        """phi12 that meets the request in the symmetric family."""
+        if self._request.angle is not None:
             with at_key("dwell.angle"):
-                return symmetric_back_step.crank_angle_for_dwell(i3, math.radians(self._wish.angle))
+                return symmetric_back_step.crank_angle_for_dwell(i3, math.radians(self._request.angle))
         from gearlink.core.three_gear.symmetric import window_dwell
 
         with at_key(self._key()):
@@ -114,11 +114,11 @@ class DwellSynthesis(BackStepFamily):
         """phi13, the window of equal ripple, or the back-step that fills the band: the root of the one unknown."""
         from gearlink.core.three_gear.synthesis.families import back_step_of, dwell_angle_of, ripple, solved, window_of
 
-        wish = self._wish
-        if wish.angle is not None:
+        request = self._request
+        if request.angle is not None:
             with at_key("dwell.angle"):
-                words = f"a dwell angle of {wish.angle:g} deg"
-                return solved(family, dwell_angle_of(train), math.radians(wish.angle), words)
+                words = f"a dwell angle of {request.angle:g} deg"
+                return solved(family, dwell_angle_of(train), math.radians(request.angle), words)
         with at_key(self._key()):
             if self.window is None:
                 words = f"a back-step of twice the tolerance, {math.degrees(2.0 * self._aimed_at()):.6g} deg,"
@@ -126,7 +126,7 @@ class DwellSynthesis(BackStepFamily):
             self._refuse_even_motion(abs(train.ratio))
             if self.spec.gears.idler is None:
                 self._refuse_short_reach(family, train)
-            words = f"a window of {wish.window:g} deg"
+            words = f"a window of {request.window:g} deg"
             linkage = solved(family, window_of(train), self.window, words)
             self._refuse_narrow_band(family, train, ripple(linkage, train).tolerance)
             return linkage
@@ -134,7 +134,7 @@ class DwellSynthesis(BackStepFamily):
     def _aimed_at(self) -> float:
         tolerance = self.asked_tolerance
         assert tolerance is not None
-        return tolerance * (1.0 - (MARGIN if self._wish.margin is None else self._wish.margin))
+        return tolerance * (1.0 - (MARGIN if self._request.margin is None else self._request.margin))
 
     def _refuse_even_motion(self, ratio: float) -> None:
         band, window = self._band, self.window
@@ -157,7 +157,7 @@ class DwellSynthesis(BackStepFamily):
             return  # no band of this family is as wide
         if longest < window * (1.0 - _ROUNDING):
             raise NoSolution(
-                f"the output cannot stay within +-{math.degrees(band):.9g} deg over {self._wish.window:g} deg with "
+                f"the output cannot stay within +-{math.degrees(band):.9g} deg over {self._request.window:g} deg with "
                 f"these gears: at most over {math.degrees(longest):.5g} deg; ask for that"
             )
 
@@ -169,9 +169,9 @@ class DwellSynthesis(BackStepFamily):
 
         longest = ripple(solved(family, back_step_of(train), 2.0 * band, "this tolerance"), train).crank_angle
         raise NoSolution(
-            f"the output cannot stay within +-{math.degrees(band):.9g} deg over {self._wish.window:g} deg with these "
-            f"gears: at most over {math.degrees(longest):.5g} deg, or within +-{math.degrees(least):.5g} deg; ask for "
-            "one of these"
+            f"the output cannot stay within +-{math.degrees(band):.9g} deg over {self._request.window:g} deg with "
+            f"these gears: at most over {math.degrees(longest):.5g} deg, or within +-{math.degrees(least):.5g} deg; "
+            "ask for one of these"
         )
 
     def chosen_idler(self) -> int:
@@ -194,7 +194,7 @@ class DwellSynthesis(BackStepFamily):
         """
         if self.window is None or self._band is None or self.general:
             return ""
-        tolerance = self._wish.model_copy(update={"window": None})
+        tolerance = self._request.model_copy(update={"window": None})
         longest = DwellSynthesis(self.spec.model_copy(update={"dwell": tolerance}))
         try:
             idler, limit = longest.idler_teeth, longest.window_limit
@@ -216,7 +216,7 @@ class DwellSynthesis(BackStepFamily):
     @property
     def trials(self) -> int:
         """A dwell within a tolerance is sought anew for each of them, which takes some hundredths of a second."""
-        return 150 if self._wish.angle is not None and not self.general else 8
+        return 150 if self._request.angle is not None and not self.general else 8
 
     @property
     def effort(self) -> int:
@@ -234,7 +234,7 @@ class DwellSynthesis(BackStepFamily):
     def dwell_angle(self) -> float | None:
         """As asked for, where phi12 was solved for it."""
         self.linkage  # noqa: B018 - a task without a mechanism is refused here as well
-        return super().dwell_angle if self._wish.angle is None else math.radians(self._wish.angle)
+        return super().dwell_angle if self._request.angle is None else math.radians(self._request.angle)
 
     @property
     def dwell_tolerance(self) -> float | None:
@@ -334,11 +334,13 @@ class DwellSynthesis(BackStepFamily):
     def check_back_step(self) -> Iterator[Check]:
         """GL315 where phi13 is asked for: what the output does meanwhile."""
         step = self.back_step
-        if self._wish.angle is None or step is None:
+        if self._request.angle is None or step is None:
             return
         half, limit = 0.5 * step.angle, self.asked_tolerance or _PLAIN_TOLERANCE
         whole = math.degrees(step.angle)
-        text = f"over the dwell angle of {self._wish.angle:g} deg the output steps back by {whole:.6g} deg and returns"
+        text = (
+            f"over the dwell angle of {self._request.angle:g} deg the output steps back by {whole:.6g} deg and returns"
+        )
         bad = half > limit
         if bad:
             text += (

@@ -37,7 +37,7 @@ class Dwell(DwellBand, Placing):
     )
 
     @model_validator(mode="after")
-    def _one_wish(self) -> Dwell:
+    def _one_request(self) -> Dwell:
         if self.angle is None and self.window is None and self.tolerance is None:
             raise PydanticCustomError("GL106", "give angle, window or tolerance", {"key": "angle"})
         if self.angle is not None and (self.window is not None or self.tolerance is not None):

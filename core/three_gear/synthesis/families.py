@@ -171,7 +171,7 @@ def solved(family: Family, measure: Callable[[FourBar], float], target: float, w
     Parameters
         measure : of a back-step [rad], such as `window_of`; rises along the family
         target : float [rad]
-        what : str - the wish in words, for a refusal
+        what : str - the request in words, for a refusal
     Raises
         NoSolution - for a target beyond the family, naming its limits
     """

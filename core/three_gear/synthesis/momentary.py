@@ -40,14 +40,14 @@ class MomentaryDwellSynthesis(Synthesis):
 
     def _crank_of(self, idler: int) -> float:
         """Crank length as given, or from the frame, the gap or the balance that is."""
-        wish, radii = self.section("momentary", "eccentricity, frame or gap (mm), or balanced"), self._radii(idler)
+        request, radii = self.section("momentary", "eccentricity, frame or gap (mm), or balanced"), self._radii(idler)
         forms = internal_families if is_internal(*radii) else momentary_dwell
-        if wish.eccentricity is not None:
-            return float(wish.eccentricity)
-        if wish.frame is not None:
+        if request.eccentricity is not None:
+            return float(request.eccentricity)
+        if request.frame is not None:
             with at_key("momentary.frame"):
-                return float(forms.eccentricity_for_frame(*radii, wish.frame))
-        if wish.gap is None:
+                return float(forms.eccentricity_for_frame(*radii, request.frame))
+        if request.gap is None:
             with at_key("momentary.balanced"):
                 return float(forms.balanced_eccentricity(*radii))
         if is_internal(*radii):
@@ -56,12 +56,12 @@ class MomentaryDwellSynthesis(Synthesis):
                 "or balanced",
                 key="momentary.gap",
             )
-        distance = radii[0] + radii[2] + self.tip_excess + wish.gap
+        distance = radii[0] + radii[2] + self.tip_excess + request.gap
         crank = crank_with_room(*radii, distance)
         if crank is None:
             raise NoSolution(
-                f"a momentary dwell of these gears has no gap of {wish.gap:g} mm between gears 1 and 5; ask for less "
-                f"than {self._widest_gap(radii):.6g} mm",
+                f"a momentary dwell of these gears has no gap of {request.gap:g} mm between gears 1 and 5; ask for "
+                f"less than {self._widest_gap(radii):.6g} mm",
                 key="momentary.gap",
             )
         return crank
@@ -110,10 +110,10 @@ class MomentaryDwellSynthesis(Synthesis):
 
     def _gap_remedy(self, missing: float) -> str:
         words = super()._gap_remedy(missing)
-        wish = self.section("momentary", "eccentricity (mm)")
-        if wish.gap is not None:
+        request = self.section("momentary", "eccentricity (mm)")
+        if request.gap is not None:
             return f"set momentary.gap to at least {self.spec.limits.gear_gap:g} mm"
-        if wish.eccentricity is None:
+        if request.eccentricity is None:
             return words
         shorter = self._longest_crank_with_room()
         return (

@@ -27,9 +27,9 @@ def test_window_over_the_ratio_is_that_of_the_design() -> None:
     chart = CHARTS["dwell-ratio"]
     for idler, tolerance in ((72, 0.5), (80, 1.0), (44, 2.0)):
         gears = {"module": 2, "crank": 40, "idler": idler, "output": 40}
-        wish = {"tolerance": tolerance, "margin": 0}
+        request = {"tolerance": tolerance, "margin": 0}
         made = design(
-            {"kind": "three-gear-four-bar", "name": "x", "gears": gears, "dwell": wish}, command="synth dwell"
+            {"kind": "three-gear-four-bar", "name": "x", "gears": gears, "dwell": request}, command="synth dwell"
         )
         (window,) = chart.values(np.array([-idler / 40.0]), tolerance)
         assert window == pytest.approx(made.quantity("tolerance_dwell_angle").value, rel=1e-9)

@@ -13,7 +13,7 @@ import pytest
 from gearlink.core.errors import NoSolution
 from gearlink.core.gears.mesh.pair import GearPair
 from gearlink.core.gears.shifts import search
-from gearlink.core.gears.shifts.search import Wish, candidates, pairs_of_teeth, teeth_sums
+from gearlink.core.gears.shifts.search import PairTask, candidates, pairs_of_teeth, teeth_sums
 
 
 @pytest.mark.parametrize(
@@ -21,7 +21,7 @@ from gearlink.core.gears.shifts.search import Wish, candidates, pairs_of_teeth, 
 )
 def test_sums_of_teeth_by_brute_force(internal: bool, helix: float, module: float) -> None:
     window = (-0.4, 0.7)
-    wish = Wish(
+    task = PairTask(
         ratio=3.0,
         distance=90.0,
         shift_sum=window,
@@ -29,7 +29,7 @@ def test_sums_of_teeth_by_brute_force(internal: bool, helix: float, module: floa
         helix_angle=math.radians(helix),
         modules=(module,),
     )
-    found = set(teeth_sums(wish, module))
+    found = set(teeth_sums(task, module))
     for total in range(20, 130):
         teeth = (20, -20 - total) if internal else (10, total - 10)
         try:
@@ -46,8 +46,8 @@ def test_sums_of_teeth_by_brute_force(internal: bool, helix: float, module: floa
 )
 def test_no_pair_within_the_tolerance_is_left_out(internal: bool, ratio: float, tolerance: float) -> None:
     """All teeth counted: with a wide tolerance many first gears go with one sum."""
-    wish = Wish(ratio=ratio, distance=150.0, modules=(1.0,), tolerance=tolerance, internal=internal, least_teeth=12)
-    sums = teeth_sums(wish, 1.0)
+    task = PairTask(ratio=ratio, distance=150.0, modules=(1.0,), tolerance=tolerance, internal=internal, least_teeth=12)
+    sums = teeth_sums(task, 1.0)
     seconds = {z1: [z1 + one if internal else one - z1 for one in sums] for z1 in range(12, 2001)}
     every = {
         (z1, -z2 if internal else z2)
@@ -55,21 +55,21 @@ def test_no_pair_within_the_tolerance_is_left_out(internal: bool, ratio: float, 
         for z2 in some
         if z2 > 0 and abs(z2 / z1 / ratio - 1.0) <= tolerance
     }
-    found = list(pairs_of_teeth(wish, 1.0))
+    found = list(pairs_of_teeth(task, 1.0))
     assert len(found) > 3 * len(sums) or tolerance == 0.02
     assert (len(found), set(found)) == (len(every), every)
 
 
 def test_most_pairs_are_the_nearest_to_the_ratio(monkeypatch: pytest.MonkeyPatch) -> None:
-    wish = Wish(ratio=3.2, distance=120.0, modules=(2.0, 3.0), tolerance=0.05)
-    every = sorted(abs(one.ratio_error) for one in candidates(wish))
+    task = PairTask(ratio=3.2, distance=120.0, modules=(2.0, 3.0), tolerance=0.05)
+    every = sorted(abs(one.ratio_error) for one in candidates(task))
     monkeypatch.setattr(search, "MOST_PAIRS", 4)
-    assert sorted(abs(one.ratio_error) for one in candidates(wish)) == every[:4]
+    assert sorted(abs(one.ratio_error) for one in candidates(task)) == every[:4]
 
 
-def test_every_candidate_meets_the_wish() -> None:
-    wish = Wish(ratio=3.2, distance=120.0, modules=(2.0, 2.5, 3.0), tolerance=0.03)
-    found = candidates(wish)
+def test_every_candidate_meets_the_task() -> None:
+    task = PairTask(ratio=3.2, distance=120.0, modules=(2.0, 2.5, 3.0), tolerance=0.03)
+    found = candidates(task)
     assert found
     for each in found:
         assert abs(each.ratio / 3.2 - 1.0) <= 0.03

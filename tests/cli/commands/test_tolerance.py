@@ -155,7 +155,7 @@ def test_samples_of_a_register_are_the_same_by_whatever_computes(
 
 
 @pytest.mark.parametrize(
-    ("wish", "told"),
+    ("requirement", "told"),
     [
         ("dwell_crank_angles[5] <= 3 deg", "counted from 0, the last is dwell_crank_angles[1]"),
         ("back_step_angle[0] <= 3 deg", "take back_step_angle"),
@@ -166,8 +166,10 @@ def test_samples_of_a_register_are_the_same_by_whatever_computes(
         ("dwell_swing == 3 deg", "compare it by >= and <="),
     ],
 )
-def test_a_wish_that_nothing_can_meet_is_an_error_at_its_line(gearlink: Any, spec: Path, wish: str, told: str) -> None:
-    spec.write_text(DESIGN.replace("back_step_angle <= 20.4 deg", f'"{wish}"'))
+def test_a_requirement_that_nothing_can_meet_is_an_error_at_its_line(
+    gearlink: Any, spec: Path, requirement: str, told: str
+) -> None:
+    spec.write_text(DESIGN.replace("back_step_angle <= 20.4 deg", f'"{requirement}"'))
     ended = gearlink("tolerance", str(spec), "--samples", "64")
     assert ended.status == 2
     assert "GL152" in ended.err

@@ -234,7 +234,7 @@ def test_wanted_times_that_cannot_be_had() -> None:
         ({"target": None}, "the key reduction is missing"),
     ],
 )
-def test_wrong_wishes(keys: dict[str, Any], words: str) -> None:
+def test_wrong_requests(keys: dict[str, Any], words: str) -> None:
     with pytest.raises(ValidationError, match=words):
         factory.design("mutilated_gear_times", **keys)
 

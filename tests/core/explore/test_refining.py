@@ -37,9 +37,9 @@ def best(found: Exploration) -> float:
 
 
 @pytest.mark.quick(1)
-@pytest.mark.parametrize(("wish", "end"), [("minimize", 130.0), ("maximize", 180.0)])
-def test_an_end_of_the_range_is_reached_and_never_left(wish: str, end: float) -> None:
-    found = study(**{wish: {"frame_length": 0.001}})
+@pytest.mark.parametrize(("requirement", "end"), [("minimize", 130.0), ("maximize", 180.0)])
+def test_an_end_of_the_range_is_reached_and_never_left(requirement: str, end: float) -> None:
+    found = study(**{requirement: {"frame_length": 0.001}})
     assert abs(best(found) - end) <= 50.0 / 4096.0
     assert 130.0 <= best(found) <= 180.0
 
@@ -57,16 +57,16 @@ def test_the_best_within_a_range_is_that_of_a_fine_grid() -> None:
     assert abs(refined - fine) < 0.01 + 50.0 / 4096.0
 
 
-@pytest.mark.parametrize("wish", ["minimize", "maximize"])
-def test_no_search_ever_moves_to_a_worse_design(wish: str) -> None:
-    found = study(**{wish: {"min_transmission_angle": 1e-6}}, refine={"steps": 0})
+@pytest.mark.parametrize("requirement", ["minimize", "maximize"])
+def test_no_search_ever_moves_to_a_worse_design(requirement: str) -> None:
+    found = study(**{requirement: {"min_transmission_angle": 1e-6}}, refine={"steps": 0})
     search = _Search(found.problem, found.found.kept_rows)
     before = search.at.copy()
     moved = search.try_variable(0)
     assert moved.any()
     for (start,), (end,), better in zip(before, search.at, moved, strict=True):
         gain = angle(end) - angle(start)
-        assert (gain > 0.0 if wish == "maximize" else gain < 0.0) if better else gain == 0.0
+        assert (gain > 0.0 if requirement == "maximize" else gain < 0.0) if better else gain == 0.0
 
 
 def angle(frame: float) -> float:

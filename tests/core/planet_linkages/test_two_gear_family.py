@@ -226,11 +226,11 @@ def test_dwell_design(data: dict[str, Any]) -> None:
     alone = made("dwell", data, dwell={"tolerance": 0.5})
     assert math.degrees(alone.dwell_tolerance) == pytest.approx(0.495, rel=1e-9)
     assert alone.window_limit > alone.tolerance_dwell_angle > 0.98 * alone.window_limit
-    wish = math.degrees(alone.window_limit) - 5.0
-    both = made("dwell", data, dwell={"window": wish, "tolerance": 0.5})
-    flattest = made("dwell", data, dwell={"window": wish})
+    request = math.degrees(alone.window_limit) - 5.0
+    both = made("dwell", data, dwell={"window": request, "tolerance": 0.5})
+    flattest = made("dwell", data, dwell={"window": request})
     assert both.linkage == flattest.linkage
-    assert math.degrees(flattest.tolerance_dwell_angle) == pytest.approx(wish, rel=1e-9)
+    assert math.degrees(flattest.tolerance_dwell_angle) == pytest.approx(request, rel=1e-9)
     assert math.degrees(flattest.dwell_tolerance) < 0.5
     low, high = both.frame_length_interval
     assert low < both.linkage.frame < high
@@ -240,7 +240,7 @@ def test_dwell_design(data: dict[str, Any]) -> None:
             kernel.tolerance_dwell(both.family.drive(frame + sign * inward * 1e-5), math.radians(0.5)).crank_angle
             for sign in (1.0, -1.0)
         )
-        assert math.degrees(outside) < wish < math.degrees(inside)
+        assert math.degrees(outside) < request < math.degrees(inside)
     assert {check.status for check in (*both.check_dwell_window(), *both.check_dwell_edge())} == {"pass"}
     bare = made("dwell", data, dwell={"tolerance": 0.5, "margin": 0.0})
     assert [check.status for check in bare.check_dwell_edge()] == ["warn"]

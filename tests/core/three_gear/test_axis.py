@@ -238,9 +238,9 @@ QUICK_TASKS = {"dwell", "dwell, ratio", "momentary", "window", "tolerance", "bac
 
 def study(name: str, count: int) -> Problem:
     command, section, variables = TASKS[name]
-    wish = section.get("dwell", {})
-    own = ["dwell_tolerance"] if "angle" not in wish and wish else []
-    own += ["window_limit"] if "tolerance" in wish else []
+    request = section.get("dwell", {})
+    own = ["dwell_tolerance"] if "angle" not in request and request else []
+    own += ["window_limit"] if "tolerance" in request else []
     return sampled({**BASE, **section}, command, variables, [*QUANTITIES, *own], count)
 
 
@@ -386,7 +386,7 @@ def test_what_the_form_has_not_is_left_to_the_classes(change: dict[str, Any], se
     assert (made.axis is not None) is served
 
 
-def test_an_analysis_by_the_wish_for_a_dwell_is_left_to_the_classes() -> None:
+def test_an_analysis_by_the_request_for_a_dwell_is_left_to_the_classes() -> None:
     links = {"links": {"crank": 38.0, "frame": 152.0}}
     for more, served in (({"dwell_tolerance": 0.5}, True), ({"dwell": {"tolerance": 0.5}}, False)):
         data = {"kind": "study", "design": {**BASE, **links, **more}, "command": "analyze"}

@@ -452,13 +452,13 @@ def test_gear_gap_sweeps_nothing():
     assert math.isclose(found.gear_gap, -1.6, abs_tol=1e-12)
 
 
-def test_the_tolerance_of_the_wish_for_a_dwell_measures_an_analysis():
-    """`dwell.tolerance` and `dwell_tolerance` are one wish under two names; other syntheses leave the section alone."""
+def test_the_tolerance_of_the_request_for_a_dwell_measures_an_analysis():
+    """`dwell.tolerance` and `dwell_tolerance` are one request under two names; others leave the section alone."""
     linkage = {"gears": {"module": 2, "crank": 40, "idler": 72, "output": 40}, "links": {"crank": 38, "frame": 152}}
     given = design(**linkage, dwell_tolerance=0.5)
-    wished = design(**linkage, dwell={"tolerance": 0.5})
-    assert wished.raw("tolerance_dwell_angle") == given.raw("tolerance_dwell_angle")
-    assert [check.code for check in wished.check("dwell-tolerance")] == ["GL317"]
+    asked = design(**linkage, dwell={"tolerance": 0.5})
+    assert asked.raw("tolerance_dwell_angle") == given.raw("tolerance_dwell_angle")
+    assert [check.code for check in asked.check("dwell-tolerance")] == ["GL317"]
     tasks = {"dwell": {"tolerance": 0.5}, "back_step": {"crank_angle": 90}}
     other = design(command="synth back-step", **linkage, **tasks)
     assert other.output_tolerance is None

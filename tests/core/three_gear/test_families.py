@@ -43,8 +43,8 @@ def train_of(radii: list[float]) -> GearTrain:
 def test_frame_for_a_tolerance(given_: Any, wanted: Any) -> None:
     radii = [given_[name] for name in ("r1", "r3", "r5")]
     train = train_of(radii)
-    wish = math.radians(2.0 * given_["tolerance_deg"])
-    linkage = families.solved(families.with_crank(*radii, given_["crank"]), families.back_step_of(train), wish, "")
+    request = math.radians(2.0 * given_["tolerance_deg"])
+    linkage = families.solved(families.with_crank(*radii, given_["crank"]), families.back_step_of(train), request, "")
     found = families.ripple(linkage, train)
     assert linkage.frame == pytest.approx(wanted["frame"], rel=1e-13)
     assert math.degrees(found.crank_angle) == pytest.approx(wanted["window"], rel=1e-11)
@@ -55,8 +55,8 @@ def test_frame_for_a_tolerance(given_: Any, wanted: Any) -> None:
 def test_balanced_for_a_tolerance(given_: Any, wanted: Any) -> None:
     radii = [given_[name] for name in ("r1", "r3", "r5")]
     train = train_of(radii)
-    wish = math.radians(2.0 * given_["tolerance_deg"])
-    linkage = families.solved(families.balanced(*radii), families.back_step_of(train), wish, "")
+    request = math.radians(2.0 * given_["tolerance_deg"])
+    linkage = families.solved(families.balanced(*radii), families.back_step_of(train), request, "")
     assert (linkage.crank, linkage.frame) == pytest.approx((wanted["crank"], wanted["frame"]), rel=1e-12)
     angle = math.degrees(linkage.min_transmission_angle())
     assert angle == pytest.approx(wanted["transmission_angle"], rel=1e-12)
@@ -151,9 +151,9 @@ def test_tasks_are_met_on_the_motion_itself(
         assume(False)
     for measure in (families.window_of, families.dwell_angle_of, families.back_step_crank_angle_of):
         ends = [measure(train)(family.linkage(x)) for x in family.ends()]
-        wish = ends[0] + part * (ends[1] - ends[0])
-        linkage = families.solved(family, measure(train), wish, "")
-        assert measure(train)(linkage) == pytest.approx(wish, rel=1e-9)
+        request = ends[0] + part * (ends[1] - ends[0])
+        linkage = families.solved(family, measure(train), request, "")
+        assert measure(train)(linkage) == pytest.approx(request, rel=1e-9)
         assert len(dwell_positions(linkage, train)) == 2
 
 
@@ -192,7 +192,7 @@ class TestRefusals:
         with pytest.raises(NoSolution, match="must lie between 50 and 150 mm"):
             families.with_frame(25.0, 25.0, 75.0, 151.0)
 
-    def test_wish_beyond_the_family(self) -> None:
+    def test_request_beyond_the_family(self) -> None:
         train = GearTrain(20, 20, 60)
         with pytest.raises(NoSolution, match="a back-step of 400 deg is more than"):
             families.solved(

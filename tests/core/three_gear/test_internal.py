@@ -74,8 +74,8 @@ def test_momentary_dwell_of_the_reference() -> None:
 def test_longest_window_of_the_reference() -> None:
     given, want = case("B7.1")["input"], case("B7.1")["expected"]
     gears = {"module": 2, "crank": 24, "idler": 17, "output": -54}
-    wish = {"tolerance": given["tolerance_deg"], "margin": 0, "crank": given["crank"]}
-    made = design({"kind": "three-gear-four-bar", "name": "x", "gears": gears, "dwell": wish}, command="synth dwell")
+    request = {"tolerance": given["tolerance_deg"], "margin": 0, "crank": given["crank"]}
+    made = design({"kind": "three-gear-four-bar", "name": "x", "gears": gears, "dwell": request}, command="synth dwell")
     found = {name: made.quantity(name).value for name in ("frame_length", "back_step_angle", "min_transmission_angle")}
     assert found["frame_length"] == pytest.approx(want["frame"], rel=1e-12)
     assert found["back_step_angle"] == pytest.approx(want["back_step"], rel=1e-10)
@@ -228,13 +228,13 @@ def test_tolerance_dwell_against_brute_force() -> None:
 
 
 def test_families_meet_in_the_same_linkage() -> None:
-    radii, wish = (24.0, 18.0, -59.0), math.radians(1.0)
+    radii, request = (24.0, 18.0, -59.0), math.radians(1.0)
     measure = back_step_of(GearTrain(*radii))
-    even = solved(internal_families.balanced(*radii), measure, wish, "")
+    even = solved(internal_families.balanced(*radii), measure, request, "")
     least, most = (even.coupler**2 + even.rocker**2 - (even.frame + side * even.crank) ** 2 for side in (1.0, -1.0))
     assert least == pytest.approx(-most, rel=1e-9)
-    framed = solved(internal_families.with_frame(*radii, even.frame), measure, wish, "")
-    cranked = solved(internal_families.with_crank(*radii, even.crank), measure, wish, "")
+    framed = solved(internal_families.with_frame(*radii, even.frame), measure, request, "")
+    cranked = solved(internal_families.with_crank(*radii, even.crank), measure, request, "")
     assert framed.crank == pytest.approx(even.crank, rel=1e-10)
     assert cranked.frame == pytest.approx(even.frame, rel=1e-10)
     e = internal_families.balanced_eccentricity(*radii)
@@ -263,7 +263,7 @@ def test_worked_design_beats_external_gears() -> None:
     assert [check.status for check in ring.check("gear-collision")] == ["warn"]
 
 
-def test_interval_of_frames_meets_the_wish() -> None:
+def test_interval_of_frames_meets_the_request() -> None:
     found = made(dwell={"window": 130, "tolerance": 0.5})
     low, high = found.frame_length_interval
     for frame, inside in ((low + 1e-6, True), (high - 1e-6, True), (low - 1e-4, False), (high + 1e-4, False)):

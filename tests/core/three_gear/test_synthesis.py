@@ -99,7 +99,7 @@ def test_analysis_of_the_links_finds_what_was_asked_for(task, assembly):
     assert value(found, "motion") == value(made, "motion")
     for quantity in made.report(command(made)).quantities:
         other = value(found, quantity.name) if quantity.name in found.quantity_names() else None
-        if other is None:  # window and frames belong to the wish, real speeds to the speed that it asks for
+        if other is None:  # window and frames belong to the request, real speeds to the speed that it asks for
             continue
         if isinstance(quantity.value, str | int):
             assert other == quantity.value

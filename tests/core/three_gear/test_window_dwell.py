@@ -112,7 +112,7 @@ def test_no_frame_has_a_longer_window(i3: float, tolerance: float) -> None:
 
 @settings(max_examples=12)
 @given(st.floats(-6.0, -0.3), st.floats(0.1, 3.0), st.floats(0.3, 0.98), st.floats(0.02, 0.98))
-def test_every_frame_of_the_interval_meets_the_wish(i3: float, tolerance: float, part: float, share: float) -> None:
+def test_every_frame_of_the_interval_meets_the_request(i3: float, tolerance: float, part: float, share: float) -> None:
     tau = rad(tolerance)
     train = GearTrain(10_000, round(-i3 * 10_000), 10_000)
     window = max(2.5 * tau, part * window_dwell.longest_window(train.i3, tau))
@@ -195,13 +195,13 @@ def test_frames_of_the_longest_window_are_one_up_to_rounding() -> None:
 
 @pytest.mark.slow
 def test_what_the_limits_leave_is_named_and_can_be_had() -> None:
-    wish = {"kind": "three-gear-four-bar", "gears": {"module": 2.0, "crank": 40, "output": 40}}
-    refused = design({**wish, "dwell": {"window": 80.0, "tolerance": 0.5}}, command="synth dwell")
+    request = {"kind": "three-gear-four-bar", "gears": {"module": 2.0, "crank": 40, "output": 40}}
+    refused = design({**request, "dwell": {"window": 80.0, "tolerance": 0.5}}, command="synth dwell")
     with pytest.raises(NoSolution, match="within the limits") as caught:
         _ = refused.linkage
     assert caught.value.key == "gears.idler"
     longest = float(caught.value.message.rpartition("at most ")[2].split()[0])
-    made = design({**wish, "dwell": {"window": longest, "tolerance": 0.5}}, command="synth dwell")
+    made = design({**request, "dwell": {"window": longest, "tolerance": 0.5}}, command="synth dwell")
     assert {check.status for check in made.report("synth dwell").checks} <= {"pass", "warn"}
 
 
@@ -223,8 +223,8 @@ def test_a_tiny_dwell_angle_is_met() -> None:
 def test_a_tolerance_without_longest_window_is_refused_whatever_is_asked_for(quantity: str) -> None:
     """Less a margin of 1 % it would have one."""
     gears = {"module": 1, "crank": 25, "idler": 34, "output": 25}
-    wish = {"kind": "three-gear-four-bar", "gears": gears, "dwell": {"tolerance": 123.0}}
-    made = design(wish, command="synth dwell")
+    request = {"kind": "three-gear-four-bar", "gears": gears, "dwell": {"tolerance": 123.0}}
+    made = design(request, command="synth dwell")
     with pytest.raises(NoSolution, match=r"123 deg .* below 122\.4 deg") as caught:
         made.raw(quantity)
     assert caught.value.key == "dwell.tolerance"

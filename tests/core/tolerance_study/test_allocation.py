@@ -18,7 +18,7 @@ from gearlink.core.study.faults import WrongStudy
 from gearlink.core.tolerance.iso_286 import standard_tolerance
 from gearlink.core.tolerance.laws import Law, normal_between
 from gearlink.core.tolerance.sampling import replication
-from gearlink.core.tolerance_study.allocation import Graded, Wish, choices, drawn_yield, normal_yield
+from gearlink.core.tolerance_study.allocation import Graded, Requirement, choices, drawn_yield, normal_yield
 
 GRADES = range(5, 11)
 SIZES = (40.0, 150.0)
@@ -51,7 +51,7 @@ def within(limit: float, a: float, b: float) -> float:
 
 
 def test_the_yield_of_uniform_parts_is_that_of_their_trapezium() -> None:
-    reached = drawn_yield(drawn([uniform(size) for size in SIZES]), [Wish((1.0, -1.0), 0.05, 0.05)], 0.0)
+    reached = drawn_yield(drawn([uniform(size) for size in SIZES]), [Requirement((1.0, -1.0), 0.05, 0.05)], 0.0)
     for one, other in itertools.product(GRADES, repeat=2):
         wanted = within(0.05, half(SIZES[0], one), half(SIZES[1], other))
         assert reached((one, other)) == pytest.approx(wanted, abs=1e-3)
@@ -59,7 +59,7 @@ def test_the_yield_of_uniform_parts_is_that_of_their_trapezium() -> None:
 
 @pytest.mark.parametrize("target", [0.9, 0.99, 0.9999])
 def test_the_cheapest_uniform_parts_are_those_of_all_pairs(target: float) -> None:
-    reached = drawn_yield(drawn([uniform(size) for size in SIZES]), [Wish((1.0, -1.0), 0.05, 0.05)], target)
+    reached = drawn_yield(drawn([uniform(size) for size in SIZES]), [Requirement((1.0, -1.0), 0.05, 0.05)], target)
     found = next(choices([Graded(5, 10, 3.0), Graded(5, 10)], reached, target, 1.6))
     every = [
         (3.0 * 1.6 ** (9 - one) + 1.6 ** (9 - other), (one, other))
@@ -76,10 +76,10 @@ def test_draws_of_normal_parts_agree_with_their_closed_form() -> None:
         for size, up in zip(SIZES, (True, False), strict=True)
     ]
     rest = Law("normal", -0.01, 0.01, 0.003, 0.005).deviations(replication(3, 1 << 18, 3, 0)[:, 2])
-    exact = normal_yield(laws, Wish((1.0, 2.0), 0.06, 0.03, 0.003, 0.005))
+    exact = normal_yield(laws, Requirement((1.0, 2.0), 0.06, 0.03, 0.003, 0.005))
     points = replication(3, 1 << 18, 3, 0)
     columns = [{g: law.deviations(points[:, i]) for g, law in one.items()} for i, one in enumerate(laws)]
-    by_draws = drawn_yield(columns, [Wish((1.0, 2.0), 0.06, 0.03, rest)], 0.0)
+    by_draws = drawn_yield(columns, [Requirement((1.0, 2.0), 0.06, 0.03, rest)], 0.0)
     for grades in itertools.product(GRADES, repeat=2):
         assert by_draws(grades) == pytest.approx(exact(grades), abs=2e-3)
 
@@ -158,7 +158,7 @@ def test_a_class_belongs_to_a_length(entry: dict[str, Any]) -> None:
 
 
 def test_no_yield_of_nothing() -> None:
-    exact = normal_yield([{5: Law("fixed", 0.0, 0.0)}], Wish((1.0,), 0.1, math.inf))
+    exact = normal_yield([{5: Law("fixed", 0.0, 0.0)}], Requirement((1.0,), 0.1, math.inf))
     assert exact((5,)) == 1.0
-    assert normal_yield([{5: Law("fixed", 0.2, 0.2, 0.2)}], Wish((1.0,), 0.1, 0.1))((5,)) == 0.0
+    assert normal_yield([{5: Law("fixed", 0.2, 0.2, 0.2)}], Requirement((1.0,), 0.1, 0.1))((5,)) == 0.0
     assert np.isfinite(exact((5,)))

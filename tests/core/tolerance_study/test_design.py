@@ -14,7 +14,7 @@ import pytest
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.study.faults import WrongStudy
-from gearlink.core.tolerance_study.allocation import Graded, Wish, at_grade, choices, normal_yield
+from gearlink.core.tolerance_study.allocation import Graded, Requirement, at_grade, choices, normal_yield
 
 CASES = json.loads((Path(__file__).parents[2] / "reference/tolerance.json").read_text(encoding="utf-8"))
 CANDY = {
@@ -103,8 +103,8 @@ def test_cheapest_grades_are_those_of_all_choices() -> None:
     given = case["input"]
     graded = [Graded(given["finest"], given["coarsest"])] * len(given["sizes"])
     laws = [{g: at_grade(size, g) for g in range(given["finest"], given["coarsest"] + 1)} for size in given["sizes"]]
-    wish = Wish(tuple(given["gains"]), given["limit"], given["limit"])
-    found = next(choices(graded, normal_yield(laws, wish), given["yield"], 1.6))
+    requirement = Requirement(tuple(given["gains"]), given["limit"], given["limit"])
+    found = next(choices(graded, normal_yield(laws, requirement), given["yield"], 1.6))
     assert list(found.grades) == case["expected"][0]
     assert found.cost == pytest.approx(case["expected"][1], abs=1e-9)
 

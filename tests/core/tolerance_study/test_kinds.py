@@ -44,8 +44,8 @@ def study(name: str, **section: Any) -> Any:
 @pytest.mark.quick(5)
 @pytest.mark.parametrize("name", mostly_slow(list(STUDIES), len(STUDIES) - 3))
 def test_samples_spread_as_the_slopes_say_and_are_the_same_from_their_text(name: str) -> None:
-    keys, wish = STUDIES[name]
-    made = study(name, sources=dict.fromkeys(keys, NARROW), require=[wish], samples=64)
+    keys, requirement = STUDIES[name]
+    made = study(name, sources=dict.fromkeys(keys, NARROW), require=[requirement], samples=64)
     quantity = made.problem.requirements[0].expression.text
     row = made.result.spreads[quantity]
     slopes = made.slopes[quantity]

@@ -206,7 +206,7 @@ def contradiction(conditions: list[Condition]) -> tuple[int, int] | None:
 def _exclude(one: Condition, other: Condition) -> bool:
     if isinstance(one.limit, str) or isinstance(other.limit, str):
         return one.limit != other.limit
-    limits = [(wish.sign, float(wish.limit)) for wish in (one, other)]
+    limits = [(requirement.sign, float(requirement.limit)) for requirement in (one, other)]
     low = max((limit for sign, limit in limits if sign in (">=", ">", "==")), default=-np.inf)
     high = min((limit for sign, limit in limits if sign in ("<=", "<", "==")), default=np.inf)
     open_end = any(sign in ("<", ">") for sign, _ in limits)
