@@ -23,7 +23,10 @@ class CannotWrite(GearlinkError):
 
 _unfinished: set[str] = set()
 _in_place_of_others: set[str] = set()
-_ENDING = ("SIGHUP", "SIGQUIT", "SIGUSR1", "SIGUSR2", "SIGALRM", "SIGTERM", "SIGXCPU")
+_ENDING = (
+    *("SIGHUP", "SIGQUIT", "SIGABRT", "SIGUSR1", "SIGUSR2", "SIGALRM", "SIGTERM", "SIGXCPU"),
+    *("SIGVTALRM", "SIGPROF", "SIGIO", "SIGPWR", "SIGSTKFLT"),
+)
 
 
 def leave_nothing_behind() -> None:

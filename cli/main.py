@@ -11,8 +11,11 @@ from gearlink.cli import process
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import leave_nothing_behind
 
-_LEAST_MEMORY = 400 << 20
+_LEAST_MEMORY = 500 << 20
 """Below it some commands cannot load their libraries."""
+_COMPLETES = "_GEARLINK_COMPLETE"
+_MOST_DIGITS = 9
+"""Of the size of a terminal."""
 
 TYPE_CHECKING = False  # as typing has it, whose import takes longer than --version
 if TYPE_CHECKING:
@@ -21,11 +24,14 @@ if TYPE_CHECKING:
 
 def main() -> None:
     """Run gearlink on the process's arguments and leave with its exit status."""
-    _prepare_process()
-    if not _asks_version(sys.argv[1:]):
-        leave_nothing_behind()
-    sys.stdout, sys.stderr = _output(sys.stdout, BrokenPipeError), _output(sys.stderr, OSError)
-    status = run(sys.argv[1:])
+    try:
+        _prepare_process()
+        if not _asks_version(sys.argv[1:]):
+            leave_nothing_behind()
+        sys.stdout, sys.stderr = _output(sys.stdout, BrokenPipeError), _output(sys.stderr, OSError)
+        status = run(sys.argv[1:])
+    except KeyboardInterrupt:  # before the command has begun, or after its end
+        status = ExitCode.INTERRUPTED
     gc.freeze()  # else the interpreter walks all that it has loaded several times before it ends: a sixth of a command
     sys.exit(status)
 
@@ -37,13 +43,17 @@ def _prepare_process() -> None:
     report's time, for 5 to 12 MB that it would give back in the longest batch. And pydantic would read the metadata
     of every installed package in search of plug-ins. Pictures are drawn into files, whatever backend the user's
     environment names, and a wrong name must not keep matplotlib from loading. The matrices here are too small for
-    threads, and those of OpenBLAS wait for ever where the memory of the process is limited.
+    threads, and those of OpenBLAS wait for ever where the memory of the process is limited. A size of the terminal
+    that is no size counts as none.
     """
     process.runs_the_command_alone = True
     gc.set_threshold(400_000, 20, 100)
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     os.environ["MPLBACKEND"] = "agg"
+    for name in ("COLUMNS", "LINES"):
+        if (size := os.environ.get(name, "")).isdigit() and not (size.isdecimal() and len(size) <= _MOST_DIGITS):
+            del os.environ[name]  # rich takes 2 squared for a number, and so many digits that Python refuses them
 
 
 class _Output(io.FileIO):
@@ -86,6 +96,8 @@ def run(arguments: list[str]) -> int:
         print("interrupted", file=sys.stderr)
         return ExitCode.INTERRUPTED
     except Exception as fault:
+        if _COMPLETES in os.environ:  # asked in another form than the shells' scripts ask: there is nothing to offer
+            return ExitCode.WRONG_INPUT
         return _fault(fault)
 
 
@@ -111,7 +123,7 @@ def _invoke(arguments: list[str]) -> int:
             file=sys.stderr,
         )
         return ExitCode.WRONG_INPUT
-    if "_GEARLINK_COMPLETE" not in os.environ:  # else a shell asks for completions
+    if _COMPLETES not in os.environ:  # else a shell asks for completions
         from gearlink.cli.quick import plain_line, plain_reference, run_line, run_reference
 
         if line := plain_line(arguments):

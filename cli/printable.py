@@ -39,7 +39,7 @@ def _glyph(char: str, encoding: str) -> str:
     return char if char.isprintable() else char.encode("unicode_escape").decode()
 
 
-_UNSHOWN = "[\x7f-\xa0\xad\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff\ud800-\udfff]|#(?=#)"
+_NOT_ASCII = "[^\x00-\x7e]|#(?=#)"
 
 
 def json_text(value: Any, indent: int | None = None) -> str:
@@ -54,7 +54,15 @@ def json_text(value: Any, indent: int | None = None) -> str:
     text = json.dumps(value, ensure_ascii=False, allow_nan=False, indent=indent)
     if text.isascii() and "##" not in text and "\x7f" not in text:
         return text
-    return re.sub(_UNSHOWN, lambda match: f"\\u{ord(match[0]):04x}", text)
+    return re.sub(_NOT_ASCII, lambda match: _in_json(match[0]), text)
+
+
+def _in_json(char: str) -> str:
+    """A character as a string of JSON shows it; above the first 65,536 in two halves."""
+    if char != "#" and char.isprintable():
+        return char
+    units = char.encode("utf-16-be", "surrogatepass").hex()
+    return "".join(f"\\u{units[i : i + 4]}" for i in range(0, len(units), 4))
 
 
 _FORMULA = ("=", "+", "-", "@", "\uff1d", "\uff0b", "\uff0d", "\uff20")

@@ -92,6 +92,7 @@ def _in_processes(left: list[Sequence[Path]], options: BatchOptions, jobs: int) 
     while left:
         given: dict[Future[list[Outcome]], Sequence[Path]] = {}
         finished: set[int] = set()
+        refused = False
         try:
             with workers(min(jobs, len(left))) as pool:
                 with suppress(BrokenExecutor):
@@ -102,9 +103,11 @@ def _in_processes(left: list[Sequence[Path]], options: BatchOptions, jobs: int) 
                         finished.add(id(given[future]))
                         yield len(given[future]), future.result()
         except OSError:  # at the first submission, which starts the processes
-            yield from ((1, outcomes(path, options)) for files in left if id(files) not in finished for path in files)
-            return
+            refused = True
         left = [files for files in left if id(files) not in finished]
+        if refused:  # what the error held of the pool, descriptors among it, is free here
+            yield from ((1, outcomes(path, options)) for files in left for path in files)
+            return
         for path in (path for files in left[:jobs] for path in files):
             yield 1, _alone(path, options)
         left = left[jobs:]

@@ -327,6 +327,35 @@ def test_a_width_of_nothing_is_an_unknown_width(gearlink: Any, crank: Path, monk
     assert gearlink("crank", crank).out == usual != ""
 
 
+@pytest.mark.parametrize("size", ["²", "٨٠²", "9" * 5000, "8" * 10])
+def test_a_size_of_the_terminal_that_is_none_counts_as_none(monkeypatch: pytest.MonkeyPatch, size: str) -> None:
+    from gearlink.cli import main
+
+    monkeypatch.setenv("MPLBACKEND", "agg")
+    monkeypatch.setenv("COLUMNS", size)
+    monkeypatch.setenv("LINES", "24")
+    monkeypatch.setattr(main.gc, "set_threshold", lambda *_: None)
+    monkeypatch.setattr(main.process, "runs_the_command_alone", main.process.runs_the_command_alone)
+    for name in ("PYDANTIC_DISABLE_PLUGINS", "OPENBLAS_NUM_THREADS"):
+        monkeypatch.setenv(name, "1")
+    main._prepare_process()
+    assert "COLUMNS" not in os.environ
+    assert os.environ["LINES"] == "24"
+
+
+def test_an_interrupt_before_the_command_has_begun(monkeypatch: pytest.MonkeyPatch) -> None:
+    from gearlink.cli import main
+
+    def interrupted() -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(main, "_prepare_process", interrupted)
+    monkeypatch.setattr(main.gc, "freeze", lambda: None)
+    with pytest.raises(SystemExit) as ended:
+        main.main()
+    assert ended.value.code == ExitCode.INTERRUPTED
+
+
 @pytest.mark.quick(3)
 @pytest.mark.parametrize("share", ["١/٢", "1/²", "1/+2", " 1/2", "0/2", "3/2", "1", "1/"])
 def test_a_share_is_written_in_plain_digits(gearlink: Any, crank: Path, share: str) -> None:
@@ -424,9 +453,11 @@ def test_a_process_with_too_little_memory_says_so() -> None:
 
 
 @pytest.mark.slow
-def test_the_least_memory_suffices() -> None:
-    line = f"ulimit -v {400 << 10}; {sys.executable} -m gearlink.cli.main crank designs/ty460_slider_crank.yaml"
-    ended = subprocess.run(["bash", "-c", line], capture_output=True, cwd=ROOT, check=False)
+@pytest.mark.parametrize("line", ["crank designs/ty460_slider_crank.yaml", "report designs/ty460.yaml --out OUT -q"])
+def test_the_least_memory_suffices(line: str, tmp_path: Path) -> None:
+    command = f"{sys.executable} -m gearlink.cli.main {line.replace('OUT', str(tmp_path))}"
+    shell = f"ulimit -v {500 << 10}; {command}"
+    ended = subprocess.run(["bash", "-c", shell], capture_output=True, cwd=ROOT, check=False)
     assert (ended.returncode, ended.stderr) == (0, b"")
 
 

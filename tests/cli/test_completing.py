@@ -138,3 +138,19 @@ def test_the_scripts_are_valid_and_those_that_are_installed(shell: str) -> None:
     if shutil.which(shell):
         checked = subprocess.run([shell, "-n", "-c", script], capture_output=True, text=True, check=False)
         assert (checked.returncode, checked.stderr) == (0, "")
+
+
+def test_a_shell_that_asks_in_another_form_is_offered_nothing(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The line stands in a variable of another name, say."""
+    from gearlink.cli.main import run
+
+    def as_typer(_: object) -> int:
+        return len(os.environ["COMP_WORDS"])
+
+    monkeypatch.setenv("_GEARLINK_COMPLETE", "complete_bash")
+    monkeypatch.delenv("COMP_WORDS", raising=False)
+    monkeypatch.setattr("gearlink.cli.app.invoke", as_typer)
+    assert run(["analyze", "x.yaml"]) == 2
+    assert capsys.readouterr() == ("", "")

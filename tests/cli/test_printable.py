@@ -170,7 +170,9 @@ def test_a_file_name_that_is_no_utf8(gearlink: Any, tmp_path: Path, line: str) -
 
 
 @pytest.mark.quick(2)
-@pytest.mark.parametrize("name", ["##vso[task.x]", "a##[error]\u202eb\u200b", "20° ###"])
+@pytest.mark.parametrize(
+    "name", ["##vso[task.x]", "a##[error]\u202eb\u200b", "20° ###", "a\u061cb\U000e0041c\U0001d6fc"]
+)
 def test_json_keeps_the_name_and_shows_nothing_that_steers(
     gearlink: Any, designs: Path, tmp_path: Path, name: str
 ) -> None:

@@ -10,6 +10,7 @@ import signal
 import subprocess
 import sys
 import time
+import weakref
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -383,6 +384,35 @@ def test_without_processes_the_batch_is_done_here(gearlink: Any, folder: Path, m
     two = gearlink("batch", folder, "--format", "json", "-j", "2")
     assert len(plain(two)) == 28
     assert [d for d in plain(two) if "crank_" not in d["file"]] == plain(one)
+
+
+def test_what_refused_processes_held_is_free_for_the_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pipes of a pool that was half made took the last descriptors, and no file could be opened."""
+    from gearlink.cli.batch import pool
+    from gearlink.cli.batch.options import BatchOptions
+    from gearlink.cli.batch.outcome import Outcome
+
+    class Pipes:
+        pass
+
+    held: list[weakref.ref[Pipes]] = []
+
+    @contextmanager
+    def refused(_: int) -> Iterator[Any]:
+        pipes = Pipes()
+        held.append(weakref.ref(pipes))
+        raise OSError(errno.EMFILE, "Too many open files")
+        yield
+
+    def outcome(path: Path, _: BatchOptions) -> list[Outcome]:
+        return [Outcome(str(path), "" if not held or held[0]() is None else "held", path.stem, "", 0)]
+
+    monkeypatch.setattr(pool, "workers", refused)
+    monkeypatch.setattr(pool, "outcomes", outcome)
+    found, _ = pool.run_files([tmp_path / f"{i:02}" for i in range(40)], BatchOptions(jobs=2))
+    assert len(found) == 40
+    assert held
+    assert not [each.file for each in found if each.kind]
 
 
 @pytest.mark.slow

@@ -52,7 +52,9 @@ def _heed() -> None:
         signal.signal(getattr(signal, name), signal.SIG_DFL)
 
 
-@pytest.mark.parametrize("name", mostly_slow(["SIGTERM", "SIGKILL", "SIGHUP", "SIGQUIT", "SIGUSR1"], 2))
+@pytest.mark.parametrize(
+    "name", mostly_slow(["SIGTERM", "SIGKILL", "SIGHUP", "SIGQUIT", "SIGUSR1", "SIGABRT", "SIGPROF"], 2)
+)
 def test_workers_end_with_their_parent(tmp_path: Path, name: str) -> None:
     """The reader of their common output gets its end, which it does not while any of them lives."""
     command = [sys.executable, "-c", PARENT, str(tmp_path)]
