@@ -89,6 +89,26 @@ def hub_checks(rule: Rule, cams: Sequence[DiscCam], shaft: float, farther: Calla
         yield rule.check(status, text, room, 0.0, "mm")
 
 
+def over_axis_check(rule: Rule, words: str, room: float, shaft: float, axis: str, remedy: str) -> Iterator[Check]:
+    """GL302: a cam that turns over another axis of the frame, or leaves no room for a shaft there, is warned of.
+
+    Parameters
+        rule : Rule - of a roller or cam that reaches a shaft
+        words : str - "main cam"
+        room : float [mm] - from the body to the axis, negative where it reaches over it
+        shaft : float [mm] - radius of the thinnest shaft that would be built there: the roller's
+        axis, remedy : str - "the cam rocker's axis", and what would clear it
+    Notes
+        Never a failure, since what turns there may be overhung beside the cam.
+    """
+    if room >= shaft:
+        return
+    text = f"the {words} reaches {-room:.4g} mm over {axis}"
+    if room > 0.0:
+        text = f"the {words} leaves only {room:.4g} mm to {axis}, a shaft as thick as the roller takes {shaft:g} mm"
+    yield rule.check("warn", f"{text}: {remedy}", room, shaft, "mm")
+
+
 def step_check(
     rule: Rule, steps: Sequence[tuple[str, float]], peak: float, unit: str, bad: Status, remedy: str
 ) -> Check:

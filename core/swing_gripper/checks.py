@@ -230,9 +230,15 @@ def cam_undercut(design: SwingGripper) -> Iterator[Check]:
 
 
 def shaft_clearance(design: SwingGripper) -> Iterator[Check]:
-    """GL302: the profiles against the cam shaft."""
-    from gearlink.core.cams.checks import hub_checks
+    """GL302: the profiles against the cam shaft, and against the pivots of cam rocker and gripper."""
+    from gearlink.core.cams.checks import hub_checks, over_axis_check
 
+    pivots, center = design.spec.pivots, design.cams.center
+    for cam in design.cams.discs:
+        for axis, key in (("the cam rocker's axis", "input"), ("the gripper's axis", "output")):
+            room = abs(complex(*getattr(pivots, key)) - center) - cam.max_radius
+            advice = f"overhang the shaft beside the cam, or move cam.center away from pivots.{key}"
+            yield from over_axis_check(SHAFT_CLEARANCE, cam.name, room, cam.roller_radius, axis, advice)
     yield from hub_checks(
         SHAFT_CLEARANCE,
         design.cams.discs,

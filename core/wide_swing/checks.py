@@ -6,6 +6,8 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from gearlink.core.cams import codes as cams
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages import codes as linkages
@@ -213,18 +215,17 @@ def transition_zone(design: WideSwingDesign) -> Iterator[Check]:
         zone = cam.transition_zone
         text = f"the roller changes sides of the {words} over {zone:.4g} of the stroke each side of mid-swing"
         if zone > limit:
-            text += (
-                f", above the limit {limit:g}: take a roller of at most "
-                f"{safely_below(remedies.roller_for_zone(design))} mm or a larger cam.center_distance"
-            )
+            roller = remedies.roller_for_zone(design)
+            smaller = f"take a roller of at most {safely_below(roller)} mm or a larger cam.center_distance"
+            advice = smaller if math.isfinite(roller) else "leave cam.rocker_radius out"
+            text += f", above the limit {limit:g}: {advice}"
         yield codes.TRANSITION_ZONE.check("fail" if zone > limit else "pass", text, zone, limit)
 
 
 def shaft_clearance(design: WideSwingDesign) -> Iterator[Check]:
     """GL302: roller against the cam shaft, and the rocker's axis against the cam."""
     section = design.section
-    if design.spec.drive is None:
-        yield from _over_rocker_axis(design)
+    yield from _over_rocker_axis(design)
     if section.shaft_radius == 0.0:
         return
     for words, cam in design.cams.items():
@@ -240,14 +241,17 @@ def shaft_clearance(design: WideSwingDesign) -> Iterator[Check]:
 
 
 def _over_rocker_axis(design: WideSwingDesign) -> Iterator[Check]:
-    """The cam's arc about the dwells may reach over the rocker's axis: a warning, since it can be overhung."""
+    """The cam's arc about the dwells may reach over the rocker's axis."""
+    from gearlink.core.cams.checks import over_axis_check
+
     place, roller = design.section.center_distance, design.section.roller_radius
     for words, cam in design.cams.items():
         sense = -1.0 if design.spec.layout == "twin-rocker" and cam is design.cam else 1.0
         room = sense * (place - cam.end_radius) + roller
-        if room <= 0.0:
-            text = (
-                f"the {words} reaches {-room:.4g} mm over the rocker's axis at the dwells: overhang the rocker "
-                "beside the cam, or reduce the swing"
-            )
-            yield linkages.SHAFT_CLEARANCE.check("warn", text, room, 0.0, "mm")
+        if design.spec.drive is not None and design.has_profile:
+            # Both stop there, so that the normal of the pitch curve does not point to the cam's axis.
+            (first, _), (_, last) = cam.contact
+            room = place - float(np.abs(cam.points(np.array([first, last])).profile).max())
+        advice = "overhang the rocker beside the cam, or reduce the swing"
+        rule, axis = linkages.SHAFT_CLEARANCE, "the rocker's axis at the ends of the stroke"
+        yield from over_axis_check(rule, words, room, roller, axis, advice)

@@ -13,7 +13,7 @@ from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.numerics.extremes import maximum_over, minimum_over
 from gearlink.core.report import safely_above, safely_below
 from gearlink.core.results import cached_property
-from gearlink.core.wide_swing.cams.contact import contact_end, fitting_roller, middle_step
+from gearlink.core.wide_swing.cams.contact import contact_end, fitting_roller, middle_step, roller_before_middle
 from gearlink.core.wide_swing.cams.curve import PitchCurve, StrokeLaw
 
 LEAST_SPEED_RATIO = 1e-10  # B gamma/phi_ud; 1 - lambda, about as large, keeps six digits
@@ -240,7 +240,8 @@ class WideSwingCam:
 
     def largest_roller(self, zone: float) -> float:
         """Radius of the roller whose transition zone is a given share of the stroke [mm]."""
-        return fitting_roller(*(float(part[0]) for part in middle_step(self, np.array([zone]))))
+        most = fitting_roller(*(float(part[0]) for part in middle_step(self, np.array([zone]))))
+        return most if self._middle_gap == 0.0 else min(most, roller_before_middle(self, 0.5 - zone))
 
     @cached_property
     def loop_margin(self) -> float:

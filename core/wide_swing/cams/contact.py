@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from gearlink.core.errors import NoSolution
+from gearlink.core.numerics.extremes import maximum_over
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.report import safely_below
 
@@ -22,6 +23,9 @@ Step: TypeAlias = Callable[["Reals"], tuple["Reals", "Reals"]]
 _SMALLEST = 1e-4
 """Below this share of the stroke the leading order, good to the square of the zone, is nearer than the solution."""
 _SHRINK = 0.7
+_SETTLED = 1e-13
+_BESIDE = 0.01
+"""Share of the way to mid-swing below which a step is too short to tell the bend between its ends."""
 _KNOWN = 1e-16
 """Fractions of the stroke are known no better."""
 
@@ -92,7 +96,7 @@ def contact_end(cam: WideSwingCam) -> float:
         NoSolution - where the roller at mid-swing covers the start of the profile, or the pitch curve has a loop
     Notes
         With a rocker radius below that of (18), (24) the pitch curve turns smoothly at mid-swing; 1/2 where the
-        roller, standing there, cuts nothing away.
+        roller, standing there, cuts nothing away. Where it does, it cuts more just before mid-swing.
     Example
         >>> from gearlink.core.wide_swing.cams.cam import WideSwingCam
         >>> from gearlink.core.wide_swing.law.elastic_law import ElasticLaw, Pneumatic
@@ -102,7 +106,43 @@ def contact_end(cam: WideSwingCam) -> float:
     """
     smooth = cam.rocker_radius < cam.nominal_rocker_radius
     estimate = None if smooth else cam.transition_zone_estimate
-    return 0.5 - covered(partial(middle_step, cam), cam.roller_radius, 0.5, estimate)
+    end = 0.5 - covered(partial(middle_step, cam), cam.roller_radius, 0.5, estimate)
+    return _cut_on_the_way(cam, end) if smooth and end < 0.5 else end
+
+
+def _cut_on_the_way(cam: WideSwingCam, end: float) -> float:
+    """Where the profile of a smooth bend ends, which the roller on its way to mid-swing cuts deeper than at rest."""
+
+    def room(k: float) -> float:
+        return roller_before_middle(cam, k) - cam.roller_radius
+
+    high, low = end, _SHRINK * end
+    while room(low) <= 0.0 and low > _SMALLEST:
+        high, low = low, _SHRINK * low
+    return bracketed_root(room, low, high, tolerance=_SETTLED) if room(high) < 0.0 < room(low) else high
+
+
+def roller_before_middle(cam: WideSwingCam, k: float) -> float:
+    """Largest roller that leaves the profile at k free on the rest of its way to mid-swing [mm].
+
+    r_p = min over t of |d|^2/(-2 d n), d = z(k) - z(t), k < t <= 1/2
+
+    Parameters
+        cam : WideSwingCam
+        k : float - below 1/2
+    Returns
+        r_p : float [mm] - infinite where every roller does
+    """
+    here = cam.curve.state(np.array([k]))
+    place, normal = cam.curve.pitch(here)[0], cam.sense * np.conj(cam.curve.normal(here)[0])
+
+    def needed(part: Reals) -> Reals:
+        step = place - cam.curve.pitch(cam.curve.state(k + (0.5 - k) * part))
+        found: Reals = -2.0 * (step * normal).real / np.abs(step) ** 2
+        return found
+
+    bend = maximum_over(needed, _BESIDE, 1.0, samples=256).value
+    return cam.center_distance / bend if bend > 0.0 else math.inf
 
 
 def middle_step(cam: WideSwingCam, t: Reals) -> tuple[Reals, Reals]:

@@ -334,3 +334,18 @@ def test_kappa_that_is_recommended_gives_the_swing() -> None:
     assert math.degrees(machine(total_swing=40.0, laws__accelerate={"quintic": kappa}).total_swing) == pytest.approx(
         40.0
     )
+
+
+def test_a_cam_over_the_pivot_of_its_rocker_is_warned_of() -> None:
+    """The roller, on an arm at more than a right angle, comes farther from the cam's axis than the pivot."""
+    roller, back = {"arm": 155.3, "angle": 21.6, "radius": 20}, {"arm": 131.2, "angle": 154.9, "radius": 20}
+    made = factory.design(
+        "swing_gripper", cam={"center": [30, -32.7], "sense": 1, "roller": roller, "return_roller": back}
+    )
+    main, other = made.check("shaft-clearance")
+    pivot = abs(complex(*made.spec.pivots.input) - complex(30, -32.7))
+    reach = made.cams.discs[0].radius(np.linspace(0.0, 2.0 * math.pi, 2001)).max()
+    assert (main.status, other.status) == ("warn", "warn")
+    assert "over the cam rocker's axis" in main.message
+    assert main.value == pytest.approx(pivot - reach, abs=1e-3)
+    assert not [check for check in DESIGN.check("shaft-clearance") if "axis" in check.message]

@@ -596,3 +596,28 @@ def test_curve_that_bulges_nowhere_has_no_least_radius_in_its_words() -> None:
     assert (check.status, check.value) == ("pass", 0.0)
     assert "bulges nowhere" in check.message
     assert "inf" not in check.message
+
+
+def test_a_bend_that_no_smaller_roller_makes_short_enough_asks_for_the_rocker_radius_of_the_law() -> None:
+    made = factory.design(
+        "wide_swing_twin_cam",
+        swing=135.39,
+        cycle_angle=126.24,
+        unloader={"type": "spring", "arm": 60.0, "pivot_ratio": 6.32, "stretch_ratio": 0.331},
+        cam={"center_distance": 275.96, "roller_radius": 87.146, "rocker_radius": 103.599},
+    )
+    (check,) = made.check("transition-zone")
+    assert check.status == "fail"
+    assert check.message.endswith("leave cam.rocker_radius out")
+
+
+def test_a_cam_that_swings_over_the_rocker_axis_is_warned_of_before_it_reaches_it() -> None:
+    """The oscillating cam's body by its outline: farthest from its axis at the ends of the stroke."""
+    for swing, room in ((150.0, None), (170.0, 3.836), (200.0, -6.706)):
+        made = factory.design("wide_swing_oscillating_cam", swing=swing, unloader__pivot_ratio=5.0)
+        found = [check for check in made.check("shaft-clearance") if "rocker's axis" in check.message]
+        assert [check.status for check in found] == ([] if room is None else ["warn"])
+        for check in found:
+            outline = np.abs(made.cam.points(np.linspace(0.0, 1.0, 4001)).profile)
+            assert check.value == pytest.approx(room, abs=1e-3)
+            assert check.value == pytest.approx(made.section.center_distance - outline.max(), abs=0.05)
