@@ -56,6 +56,9 @@ def run_watch(source: str, options: Options, *, port: int = 0, show: bool = Fals
     if _stamp(path) is None:
         wrong = Diagnostic("GL101", "no such file; watch begins with one that is there", source)
         return show_refusal(DesignFileError([wrong]), source, options)
+    if path.is_dir():
+        wrong = Diagnostic("GL101", "this is a folder; watch shows one design file", source)
+        return show_refusal(DesignFileError([wrong]), source, options)
     page = whole_page(path.name, ['<div id="problem" role="status"></div>'], watch_script())
     try:
         with served(board, lambda: page, port) as address:

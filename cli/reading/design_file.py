@@ -9,12 +9,11 @@ import sys
 from collections.abc import Iterator, Sequence
 from contextlib import nullcontext
 from dataclasses import replace
-from itertools import islice
 from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
 
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic, Source
 from gearlink.cli.reading.loaded_file import KeyPath, LoadedFile, Override, parse_path
-from gearlink.cli.reading.places import ENDINGS, astray, is_named_pipe, piped
+from gearlink.cli.reading.places import ENDINGS, astray, is_named_pipe, nearest_file, piped
 from gearlink.cli.reading.yaml_reader import (
     CONTROL,
     MAX_BYTES,
@@ -121,7 +120,9 @@ def read_kind(loaded: LoadedFile, kinds: Sequence[str]) -> str:
     """
     known = f"the kinds are {', '.join(kinds)}"
     if "kind" not in loaded.data:
-        wrong = loaded.report("GL106", "the key 'kind' is missing", _ROOT, key="kind", help=known)
+        near = next((key for key in loaded.data if key.strip(" -").lower() in ("kind", "kinds", "type")), "")
+        remedy = f"write kind in place of {near!r}; {known}" if near else known
+        wrong = loaded.report("GL106", "the key 'kind' is missing", (near,) if near else _ROOT, key="kind", help=remedy)
         raise DesignFileError([*loaded.problems, wrong])
     kind = loaded.data["kind"]
     if isinstance(kind, str) and kind in kinds:
@@ -301,17 +302,4 @@ def _unreadable(name: str, error: Exception) -> Diagnostic:
 def _missing(name: str) -> Diagnostic:
     if os.path.islink(name):
         return Diagnostic("GL101", f"a link to {os.readlink(name)}, which does not exist", name)
-    from difflib import get_close_matches
-
-    by_stem = {os.path.splitext(there)[0]: there for there in reversed(_neighbours(name))}
-    near = get_close_matches(os.path.splitext(os.path.basename(name))[0], by_stem, n=1)
-    remedy = f"did you mean {os.path.join(os.path.dirname(name), by_stem[near[0]])}?" if near else ""
-    return Diagnostic("GL101", "no such file", name, help=remedy)
-
-
-def _neighbours(name: str) -> list[str]:
-    try:
-        with os.scandir(os.path.dirname(name) or ".") as entries:
-            return [entry.name for entry in islice(entries, 1000)]
-    except (OSError, ValueError):
-        return []
+    return Diagnostic("GL101", "no such file", name, help=nearest_file(name))

@@ -6,6 +6,7 @@ import glob
 import os
 import stat
 from collections.abc import Sequence
+from itertools import islice
 from pathlib import Path
 
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
@@ -22,10 +23,14 @@ def design_files(places: Sequence[str]) -> list[Path]:
     """
     found: dict[Path, None] = {}
     for place in places:
+        if not place:  # a variable of a script that is not set, and no order to take the current folder
+            help_ = "give a file or a folder, . for the current one"
+            raise DesignFileError([Diagnostic("GL101", "the name is empty", file="<command line>", help=help_)])
         path = Path(place)
         matched = [path] if os.path.lexists(path) else _matched(place)
         if not matched:
-            raise DesignFileError([Diagnostic("GL101", "no such file or folder", file=place)])
+            near = nearest_file(place.rstrip("/"), folders=True)
+            raise DesignFileError([Diagnostic("GL101", "no such file or folder", file=place, help=near)])
         for match in matched:
             found.update(dict.fromkeys(_below(match) if match.is_dir() else [match]))
     if not found:
@@ -104,3 +109,20 @@ def _below(folder: Path) -> list[Path]:
             elif entry.name.endswith(ENDINGS) and (os.path.isfile(entry) or not os.path.exists(entry)):
                 found.append(entry.path)
     return sorted(map(Path, found), key=lambda path: path.parts)
+
+
+def nearest_file(name: str, *, folders: bool = False) -> str:
+    """The file, or with `folders` also the folder, that a name was perhaps meant for; nothing where none is near."""
+    from difflib import get_close_matches
+
+    by_stem = {os.path.splitext(there)[0]: there for there in reversed(_neighbours(name, folders))}
+    near = get_close_matches(os.path.splitext(os.path.basename(name))[0], by_stem, n=1)
+    return f"did you mean {os.path.join(os.path.dirname(name), by_stem[near[0]])}?" if near else ""
+
+
+def _neighbours(name: str, folders: bool) -> list[str]:
+    try:
+        with os.scandir(os.path.dirname(name) or ".") as entries:
+            return [entry.name for entry in islice(entries, 1000) if folders or not entry.is_dir()]
+    except (OSError, ValueError):
+        return []

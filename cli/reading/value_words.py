@@ -42,6 +42,7 @@ _WITH_UNIT = re.compile(rf"({_NUMBER})\s*((?:1/)?[a-zA-Zµ°%'\"][\w/^°%² -]*)
 DASHES = ("\u2212", "\u2013", "\u2014")
 _LOOKALIKES = str.maketrans("OolI", "0011")
 _SHOWN_CHARACTERS = 40
+_LONG = 1e6
 
 
 def shown(value: Any) -> str:
@@ -54,6 +55,8 @@ def shown(value: Any) -> str:
         return repr(value if len(value) <= _SHOWN_CHARACTERS else value[: _SHOWN_CHARACTERS - 3] + "...")
     if isinstance(value, list):
         return "a list"
+    if isinstance(value, float) and abs(value) >= _LONG and float(f"{value:g}") == value:
+        return f"{value:g}"  # 1e+11, as it was written
     return "a section" if isinstance(value, dict) else repr(value)
 
 

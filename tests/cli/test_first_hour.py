@@ -96,3 +96,21 @@ def test_a_section_that_a_result_needs_is_shown_where_the_error_says(gearlink: A
         gearlink("swing", path, "--table", "contact", "--set", "cam={center_distance: 200, roller_radius: 8}").status
         < 2
     )
+
+
+def test_a_name_beside_the_right_one_is_recognised(
+    gearlink: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "designs").mkdir()
+    (tmp_path / "press_pair.yaml").write_text("Kind: gear-pair\nmodule: 4\n")
+    assert "did you mean designs?" in gearlink("batch", "desings/").err
+    assert "did you mean press_pair.yaml?" in gearlink("gear", "press_pari.yaml").err
+    assert "did you mean" not in gearlink("gear", "desings.yaml").err  # a folder is no design
+    assert "this is a folder; watch shows one design file" in gearlink("watch", "designs").err
+    for command in ("check", "batch"):
+        empty = gearlink(command, "")
+        assert (empty.status, "the name is empty" in empty.err) == (2, True)
+    wrong = gearlink("gear", "press_pair.yaml").err
+    assert wrong.startswith("press_pair.yaml:1:1: error GL106: the key 'kind' is missing")
+    assert "write kind in place of 'Kind'" in wrong
