@@ -120,9 +120,10 @@ def read_kind(loaded: LoadedFile, kinds: Sequence[str]) -> str:
     """
     known = f"the kinds are {', '.join(kinds)}"
     if "kind" not in loaded.data:
-        near = next((key for key in loaded.data if key.strip(" -").lower() in ("kind", "kinds", "type")), "")
-        remedy = f"write kind in place of {near!r}; {known}" if near else known
-        wrong = loaded.report("GL106", "the key 'kind' is missing", (near,) if near else _ROOT, key="kind", help=remedy)
+        other = next((key for key in loaded.data if key.strip(" -").lower() in ("kind", "kinds", "type")), "")
+        remedy = f"write kind in place of {other!r}; {known}" if other else known
+        path = (other,) if other else _ROOT
+        wrong = loaded.report("GL106", "the key 'kind' is missing", path, key="kind", help=remedy)
         raise DesignFileError([*loaded.problems, wrong])
     kind = loaded.data["kind"]
     if isinstance(kind, str) and kind in kinds:
