@@ -53,7 +53,7 @@ def run_watch(source: str, options: Options, *, port: int = 0, show: bool = Fals
         error = DesignFileError([Diagnostic("GL115", "watch needs a file, not standard input", "<command line>")])
         return show_refusal(error, source, options)
     board, path, sheets = Board(), Path(source), Remembered()
-    if _stamp(path) is None:
+    if not source or _stamp(path) is None:
         wrong = Diagnostic("GL101", "no such file; watch begins with one that is there", source)
         return show_refusal(DesignFileError([wrong]), source, options)
     if path.is_dir():

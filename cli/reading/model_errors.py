@@ -158,8 +158,8 @@ class _Wording:
         if kinds & {"int_type", "int_from_float"} and isinstance(value, float):
             return whole_number_remedy(value)
         if isinstance(value, str):
-            known = {word.strip("'"): word for word in wanted if word.startswith("'")}
-            if near := get_close_matches(value[:100], known, n=1):
+            known = {word.strip("'").lower(): word for word in wanted if word.startswith("'")}
+            if near := get_close_matches(value[:100].strip().lower(), known, n=1):
                 return f"did you mean {known[near[0]]}?"
             if kinds & {"int_type", "float_type"}:
                 return number_remedy(value, unit_at(self.model, group[0].path, self.loaded.data))
@@ -199,9 +199,11 @@ class _Wording:
         few = allowed[:_LISTED_KEYS]
         listed = f"allowed here: {', '.join(few)}{', ...' if len(few) < len(allowed) else ''}" if few else ""
         plain = re.sub(r"[\s-]+", "_", key[:100].strip().lower())
-        if near := get_close_matches(plain, allowed, n=1):
-            return f"did you mean '{near[0]}'? {listed}"
-        sections = [path for path in self._sections() if path != parent and plain in self._keys(path)]
+        by_letters = {name.lower(): name for name in allowed}  # A_radius beside W_radius
+        if near := get_close_matches(plain, by_letters, n=1):
+            return f"did you mean '{by_letters[near[0]]}'? {listed}"
+        own = {path: [name.lower() for name in self._keys(path)] for path in self._sections() if path != parent}
+        sections = [path for path, names in own.items() if plain in names]
         if not sections:
             return listed
         place = f"to '{format_path(sections[0])}'" if sections[0] else "to the top level of the file"
@@ -218,7 +220,7 @@ class _Wording:
         expected = re.findall(r"'([^']*)'", finding.context.get("expected_tags", ""))
         path = (*finding.path, tag)
         given = str(finding.context.get("tag", ""))
-        near = get_close_matches(given[:100], expected, n=1)
+        near = get_close_matches(given[:100].strip().lower(), expected, n=1)
         message = f"{format_path(path)} must be {' or '.join(expected)}, not {shown(given)}"
         return self.loaded.report("GL108", message, path, help=f"did you mean {near[0]}?" if near else "")
 

@@ -112,3 +112,19 @@ def test_what_the_system_refuses_is_named(gearlink: Any, monkeypatch: pytest.Mon
     monkeypatch.setattr("gearlink.cli.main._invoke", refused)
     ended = gearlink("--install-completion", "bash")
     assert (ended.status, ended.err) == (2, "error: /home/who/.bashrc: Permission denied\n")
+
+
+@pytest.mark.parametrize(
+    ("wrong", "right"), [("A-radius", "A_radius"), ("d_radius", "D_radius"), ("a_raduis", "A_radius")]
+)
+def test_keys_with_capitals_are_recognised(gearlink: Any, tmp_path: Path, wrong: str, right: str) -> None:
+    """The near key of A-radius is A_radius, not that of another shaft."""
+    path = tmp_path / "design.yaml"
+    path.write_text(_ROCKER.replace(" target:", f" shafts: {{{wrong}: 3}}, target:"))
+    assert f"did you mean '{right}'?" in gearlink("analyze", path).err
+
+
+def test_choices_in_capitals_are_recognised(gearlink: Any, tmp_path: Path) -> None:
+    path = tmp_path / "design.yaml"
+    path.write_text("{kind: gear-pair, module: 2, teeth: [23, 71], profile_shift: [0, 0], assembly: Axial}")
+    assert "did you mean 'axial'?" in gearlink("gear", path).err
