@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import cmath
+import math
 from typing import TYPE_CHECKING
 
 from gearlink.core.clearance.bodies import Gear, Layout, least_shaft, ring_gear, shafts_at
@@ -24,12 +26,15 @@ def hypocycloid_layout(design: HypocycloidDwell) -> Layout:
 
 
 def mutilated_layout(design: MutilatedGearDwell) -> Layout:
-    """The wheel may stand on any side of A, so that its distance from the rocker's shaft D is free."""
+    """The wheel stands on any side of A, its distance from the rocker's shaft D free, unless the loads say where."""
     spec, mesh, linkage = design.spec, design.mesh, design.linkage
     wheel, driven = mesh.tip_radius
     reaches = {"AW": constant(mesh.center_distance)}
     if linkage is not None:
         reaches["AD"] = constant(linkage.frame)
+        if spec.loads is not None and spec.loads.wheel_direction is not None:
+            place = cmath.rect(mesh.center_distance, math.radians(spec.loads.wheel_direction))
+            reaches["DW"] = constant(abs(place - linkage.frame))
     return Layout(
         gears=(Gear("the mutilated wheel", "W", wheel, mates="A"), Gear("the driven gear", "A", driven)),
         shafts=shafts_at("AW" if linkage is None else "ADW", spec.shafts),

@@ -43,7 +43,7 @@ class MutilatedLoads(Loads):
     """Masses, forces and drive of a mutilated-gear dwell."""
 
     wheel_direction: Direction | None = Field(
-        None, description="direction from A to the wheel's axis W; left out: no bearing force at A"
+        None, description="direction from A to the wheel's axis W; left out: no bearing force at A, no GL302 of W and D"
     )
     links: MutilatedMasses = Field(
         MutilatedMasses.model_construct(), description="masses of the links; what is left out has none"

@@ -314,6 +314,20 @@ def test_a_gear_on_the_input_link_is_one_body_with_the_input_shaft() -> None:
     }
 
 
+def test_a_mutilated_wheel_is_tried_against_the_rocker_shaft_where_its_direction_is_given() -> None:
+    """W stands 150 mm from A, D 140 mm along x: the wheel with tips of 123 mm covers D, 10 mm away, or is far off."""
+    for direction, status in ((0.0, "warn"), (180.0, "pass"), (None, None)):
+        loads = {} if direction is None else {"loads": {"wheel_direction": direction}}
+        found = [
+            (check.status, check.value)
+            for check in design("mutilated_gear_press", **loads).check("shaft-clearance")
+            if "wheel" in check.message and "shaft at D" in check.message
+        ]
+        assert found == (
+            [] if direction is None else [(status, abs(150.0 - 140.0 * math.cos(math.radians(direction))) - 123.0)]
+        )
+
+
 def test_a_crank_gear_that_stays_within_the_output_ring_needs_no_plane_of_its_own() -> None:
     """BD is at most 55 mm: with the tips of 22 mm the gear stays within the ring's tips, 98 mm, by 21 mm."""
     gears = {"module": 2, "crank": 20, "idler": 20, "output": -100}
