@@ -140,6 +140,8 @@ def read_plain_file(path: Path, limit: int, *, private: bool = False) -> bytes:
     flags = getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
     if path.is_symlink():
         raise OSError(0, "it is a symbolic link", str(path))
+    if path.is_dir():  # whose descriptor Python would name in place of the path
+        raise OSError(0, "it is no plain file", str(path))
     with open(os.open(path, os.O_RDONLY | flags), "rb") as stream:
         found = os.fstat(stream.fileno())
         if not stat.S_ISREG(found.st_mode):

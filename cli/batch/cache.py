@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import hmac
+import os
 import re
 from collections.abc import Callable
 from dataclasses import replace
@@ -55,7 +56,7 @@ def _entry_of(path: Path, options: BatchOptions) -> Path | None:
     """Where the outcomes of a file are kept; nowhere for what is no file of a design's size."""
     assert options.cache is not None
     try:
-        content = read_at_most(path, MAX_BYTES + 1) if path.is_file() else b""
+        content = read_at_most(path, MAX_BYTES + 1) if os.path.isfile(path) else b""
     except DesignFileError:
         return None
     if not 0 < len(content) <= MAX_BYTES:

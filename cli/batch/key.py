@@ -37,8 +37,14 @@ def own_key() -> bytes:
 
 
 def _state_home() -> Path:
-    """Where programs keep a user's state; by the standard a relative path in the variable counts as none."""
+    """Where programs keep a user's state; by the standard a relative path in the variable counts as none.
+
+    Raises
+        RuntimeError - where HOME is no place of its own but one below the current folder, a checkout perhaps
+    """
     state = os.environ.get("XDG_STATE_HOME", "")
+    if os.name == "posix" and not os.path.isabs(state) and not os.path.isabs(os.environ.get("HOME", "/")):
+        raise RuntimeError("HOME is no absolute path")
     return Path(state) if os.path.isabs(state) else Path.home() / ".local" / "state"
 
 

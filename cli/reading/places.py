@@ -32,7 +32,7 @@ def design_files(places: Sequence[str]) -> list[Path]:
             near = nearest_file(place.rstrip("/"), folders=True)
             raise DesignFileError([Diagnostic("GL101", "no such file or folder", file=place, help=near)])
         for match in matched:
-            found.update(dict.fromkeys(_below(match) if match.is_dir() else [match]))
+            found.update(dict.fromkeys(_below(match) if os.path.isdir(match) else [match]))
     if not found:
         message = f"no design file ({', '.join(ENDINGS)}) below"
         raise DesignFileError([Diagnostic("GL101", message, file=", ".join(places))])
@@ -43,7 +43,10 @@ def astray(name: str) -> str:
     """Where a link named as a design file leads, if that is none: its lines would be shown as those of a design."""
     if not (name.endswith(ENDINGS) and os.path.islink(name)):
         return ""
-    target = os.path.realpath(name)
+    try:
+        target = os.path.realpath(name)
+    except OSError:  # it leads through a place that this user may not look into: who reads it is told so
+        return ""
     return "" if target.endswith(ENDINGS) or not os.path.exists(target) else target
 
 

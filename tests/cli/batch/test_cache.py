@@ -162,7 +162,7 @@ class TestBroken:
         ("make", "word"),
         [
             (os.mkfifo, "no plain file"),
-            (os.mkdir, "Is a directory"),
+            (os.mkdir, "directory"),
             (lambda path: os.symlink("/dev/zero", path), "symbolic link"),
             (lambda path: os.symlink("nowhere", path), "symbolic link"),
         ],
@@ -206,6 +206,17 @@ class TestKey:
         key = own_key()
         assert (tmp_path / ".local" / "state" / "gearlink" / "cache.key").read_bytes() == key
 
+    @pytest.mark.parametrize("home", ["", "relative"])
+    def test_it_never_stands_below_the_current_folder(
+        self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, home: str
+    ) -> None:
+        monkeypatch.chdir(tmp_path)
+        monkeypatch.setenv("HOME", home)
+        monkeypatch.setenv("XDG_STATE_HOME", "")
+        with pytest.raises(NoKey, match="HOME is no absolute path"):
+            own_key()
+        assert not list(tmp_path.iterdir())
+
     @pytest.mark.quick(3)
     @pytest.mark.parametrize(
         ("spoil", "word"),
@@ -214,7 +225,7 @@ class TestKey:
             (lambda key: key.write_bytes(b"short"), "does not hold 32 bytes"),
             (lambda key: os.truncate(key, 100), "larger than 32 bytes"),
             (lambda key: (key.unlink(), key.symlink_to("/dev/zero")), "symbolic link"),
-            (lambda key: (key.unlink(), key.mkdir()), "directory"),
+            (lambda key: (key.unlink(), key.mkdir()), "cache.key: it is no plain file"),
         ],
     )
     def test_no_cache_without_a_good_key(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import subprocess
 from collections.abc import Iterator
@@ -98,6 +99,36 @@ def test_a_link_to_what_is_no_design_is_not_read(gearlink: Any, here: Path) -> N
         assert "which is no design file (.yaml, .yml)" in " ".join((ended.out + ended.err).split())
         assert "token" not in ended.out + ended.err
     assert gearlink("crank", "files/d.yaml").status == 0
+
+
+@pytest.mark.parametrize("more", [(), ("--cache", "kept")])
+def test_a_link_through_a_place_that_is_closed_costs_its_one_file(
+    gearlink: Any, here: Path, monkeypatch: pytest.MonkeyPatch, more: tuple[str, ...]
+) -> None:
+    """Such as /proc/1/root, where the system refuses to say where a link leads."""
+    place = here / "links"
+    place.mkdir()
+    (place / "good.yaml").write_text(CRANK)
+    (place / "shut.yaml").symlink_to(here / "closed" / "x.yaml")
+
+    def closed(real: Any) -> Any:
+        def ask(name: Any, *rest: Any, **options: Any) -> Any:
+            if str(name).endswith("shut.yaml") and options.get("follow_symlinks", True):
+                raise PermissionError(errno.EACCES, "Permission denied", str(name))
+            return real(name, *rest, **options)
+
+        return ask
+
+    monkeypatch.setenv("XDG_STATE_HOME", str(here / "state"))
+    monkeypatch.setattr(os, "stat", closed(os.stat))
+    monkeypatch.setattr(os.path, "realpath", closed(os.path.realpath))
+    ended = gearlink("batch", place, "--format", "json", *more)
+    assert ended.status == 2, ended.err
+    assert [(Path(d["file"]).name, d["result"]) for d in ended.json["designs"]] == [
+        ("good.yaml", "pass"),
+        ("shut.yaml", "error"),
+    ]
+    assert gearlink("check", place / "shut.yaml").status == 2
 
 
 def test_a_base_design_is_a_design_file(gearlink: Any, here: Path) -> None:
