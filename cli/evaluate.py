@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
@@ -159,7 +159,8 @@ def exit_status(report: Report, *, strict: bool = False) -> int:
 def _unknown_name(error: UnknownName) -> Diagnostic:
     from difflib import get_close_matches
 
-    near: Sequence[str] = get_close_matches(error.name, error.known, n=3, cutoff=0.5)
+    by_letters = {name.lower(): name for name in error.known}  # pin_a.peak is nearest to pin_A.peak
+    near = [by_letters[name] for name in get_close_matches(error.name.lower(), by_letters, n=3, cutoff=0.5)]
     plain = [name for name in error.known if "." not in name]  # those of each mesh are many, and the same again
     listed = f"known: {', '.join(plain)}" + (", and those of a mesh as MESH.NAME" if plain != [*error.known] else "")
     remedy = f"nearest: {', '.join(near)}" if near else listed

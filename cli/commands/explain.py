@@ -51,15 +51,20 @@ def run_explain(subject: str | None, format: Format) -> int:
 
 def find(subject: str) -> list[Topic]:
     """Every topic of a name; a name written with - for _ counts where nothing bears it as it stands."""
+    if exact := _spelled(subject):
+        return exact
+    spellings = dict.fromkeys((subject.upper(), subject.lower().replace("_", "-"), subject.lower().replace("-", "_")))
+    found = [topic for spelling in spellings if spelling != subject for topic in _spelled(spelling)]
+    return found or list(_told_of(subject))
+
+
+def _spelled(subject: str) -> list[Topic]:
+    """Every topic of a name as it is written."""
     exact = list(_topics(subject))
     # A key says more than a column; a path is a key's, or that of a quantity of one mesh.
     if "." in subject or all(topic.about == "column" for topic in exact):
         exact = sorted([*_keys(subject), *exact], key=lambda topic: topic.name != subject)
-    if exact:
-        return exact
-    spellings = dict.fromkeys((subject.upper(), subject.lower().replace("_", "-"), subject.lower().replace("-", "_")))
-    found = [topic for spelling in spellings if spelling != subject for topic in _topics(spelling)]
-    return found or list(_told_of(subject))
+    return exact
 
 
 def _told_of(point: str) -> Iterator[Topic]:

@@ -205,7 +205,8 @@ class Base:
     def nearest(self, name: str, known: Iterable[str]) -> str:
         """The nearest known names, in words."""
         known = sorted(known)
-        near = get_close_matches(name[:100], known, n=3, cutoff=0.5)
+        by_letters = {each.lower(): each for each in known}
+        near = [by_letters[each] for each in get_close_matches(name[:100].lower(), by_letters, n=3, cutoff=0.5)]
         shown = self.kind.design_class(self.command).outlines[self.command].quantities
         own = [name for name in shown if name in known] or known
         return f"nearest: {', '.join(near)}" if near else f"known: {', '.join(own[:12])}"

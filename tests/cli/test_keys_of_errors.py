@@ -128,3 +128,8 @@ def test_choices_in_capitals_are_recognised(gearlink: Any, tmp_path: Path) -> No
     path = tmp_path / "design.yaml"
     path.write_text("{kind: gear-pair, module: 2, teeth: [23, 71], profile_shift: [0, 0], assembly: Axial}")
     assert "did you mean 'axial'?" in gearlink("gear", path).err
+
+
+def test_quantities_with_capitals_are_recognised(gearlink: Any, designs: Path) -> None:
+    ended = gearlink("loads", designs / "loaded_feed.yaml", "--quantity", "pin_a.peak")
+    assert "nearest: pin_A.peak, " in ended.err

@@ -300,3 +300,9 @@ def test_every_column_that_is_asked_for_has_words(name: str, command: str, table
     for table in tables:
         columns = made.table(table, samples=4).columns
         assert [each for each in columns if not (column_words(each) or each in TERMS)] == [], table
+
+
+def test_a_key_in_capitals_is_the_key(gearlink: Any) -> None:
+    """Not only the column of the same name."""
+    assert gearlink("explain", "Rod").out == gearlink("explain", "rod").out
+    assert "key of a design file" in gearlink("explain", "Module").out
