@@ -283,6 +283,11 @@ class LoadsBase(Design):
     input_torque_min: float = placed("torque_range.0.value")
 
     @property
+    def torque_size(self) -> float:
+        """Greatest magnitude of the input torque [N m]."""
+        return max(abs(self.input_torque_max), abs(self.input_torque_min))
+
+    @property
     def input_torque_max_at(self) -> float:
         """Input angle of the greatest [rad]."""
         return self.torque_range[1].place % self.machine.period
@@ -297,8 +302,7 @@ class LoadsBase(Design):
         """Mean input torque [N m]; what is below the rounding of the torque's size is 0."""
         from gearlink.core.report import without_noise
 
-        size = max(abs(self.input_torque_max), abs(self.input_torque_min))
-        return without_noise(self.machine.mean(self.machine.torque), 16.0 * size)
+        return without_noise(self.machine.mean(self.machine.torque), 16.0 * self.torque_size)
 
     @cached_property
     def input_torque_rms(self) -> float:
@@ -322,8 +326,7 @@ class LoadsBase(Design):
         """Changes of sign of the input torque over the period."""
         from gearlink.core.loads.reversals import sign_changes
 
-        size = max(abs(self.input_torque_max), abs(self.input_torque_min))
-        return sign_changes(self.machine.torque, self.machine, size)
+        return sign_changes(self.machine.torque, self.machine, self.torque_size)
 
     @property
     def reflected_inertia_max(self) -> float:
@@ -352,8 +355,7 @@ class LoadsBase(Design):
         """Greatest less least energy surplus over the period [J]; what is below the rounding of its size is 0."""
         from gearlink.core.report import without_noise
 
-        size = max(abs(self.input_torque_max), abs(self.input_torque_min)) * self.machine.period
-        return without_noise(self.energy.fluctuation, 16.0 * size)
+        return without_noise(self.energy.fluctuation, 16.0 * self.torque_size * self.machine.period)
 
     @cached_property
     def running(self) -> Running:

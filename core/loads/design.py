@@ -185,7 +185,10 @@ class LoadsDesign(BalancedLoads):
             asked = [name.partition(".") for name in names]
             pins = [self.pin(joint[4:]) for joint, _, name in asked if name in ("equivalent", "travel", "life")]
             meshes = [self.mesh(joint) for joint, _, name in asked if name == "reversals"]
-            find_reversals(self.machine, [pin for pin in pins if pin], [mesh for mesh in meshes if mesh])
+            size = self.torque_size if "torque_reversals" in names else None
+            turned = find_reversals(self.machine, [pin for pin in pins if pin], [mesh for mesh in meshes if mesh], size)
+            if turned is not None:
+                vars(self)["torque_reversals"] = len(turned)
             pressed = any(name in ("equivalent", "life") for _, _, name in asked)
             find_ways(self.machine, [pin for pin in pins if pin], pressed=pressed)
 

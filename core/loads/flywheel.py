@@ -5,6 +5,7 @@ The drive gives a constant torque, the mean of the load; inertia varies with the
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -98,7 +99,8 @@ class Energy:
 
     def extremes(self, *wanted: tuple[Function, bool]) -> list[Extreme]:
         """Greatest or least values of functions over the period, refined."""
-        end, samples = float(self.panels.edges[-1]), max(180, 2 * (len(self.panels.edges) - 1))
+        end = float(self.panels.edges[-1])
+        samples = max(180, min(2 * (len(self.panels.edges) - 1), math.ceil(math.degrees(end))))
         fewest = fewest_samples(self.breaks)
         return extremes_over(wanted, 0.0, end, joints=self.breaks, samples=samples, fewest=fewest)
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from gearlink.core.loads.machine import Panels
 from gearlink.core.loads.mechanism import Pin, ToothDrive, rates
-from gearlink.core.loads.reversals import places, places_of
+from gearlink.core.loads.reversals import Function, places, places_of
 from gearlink.core.loads.zeros import zeros, zeros_of
 from gearlink.core.numerics.blocks import BLOCK
 from gearlink.core.results import cached_property
@@ -186,14 +186,26 @@ class MeshLoad:
         return len(self.reversal_places)
 
 
-def find_reversals(machine: Machine, pins: Sequence[PinLoad], meshes: Sequence[MeshLoad]) -> None:
-    """Search the reversals of pins together, and the changes of flanks of meshes, and keep them there."""
+def find_reversals(
+    machine: Machine, pins: Sequence[PinLoad], meshes: Sequence[MeshLoad], torque_size: float | None = None
+) -> list[float] | None:
+    """Search the reversals of pins together, and the changes of flanks of meshes, and keep them there.
+
+    Parameters
+        torque_size : float [N m] - greatest input torque, where its changes of sign are wanted as well
+    Returns
+        places : input angles of those [rad]; with friction the torque comes with the forces of the meshes
+    """
     turning = [pin for pin in dict.fromkeys(pins) if pin.known and "reversals" not in vars(pin)]
     for pin, found in zip(turning, zeros_of([pin.rate for pin in turning], machine.period, machine.turns), strict=True):
         vars(pin)["reversals"] = found
     rolling = [mesh for mesh in dict.fromkeys(meshes) if "reversal_places" not in vars(mesh)]
-    for mesh, found in zip(rolling, places_of([(m.force, m.tooth_force_max) for m in rolling], machine), strict=True):
+    functions: list[tuple[Function, float]] = [(mesh.force, mesh.tooth_force_max) for mesh in rolling]
+    functions += [] if torque_size is None else [(machine.torque, torque_size)]
+    places = places_of(functions, machine)
+    for mesh, found in zip(rolling, places, strict=False):
         vars(mesh)["reversal_places"] = found
+    return None if torque_size is None else places[-1]
 
 
 def find_ways(machine: Machine, pins: Sequence[PinLoad], *, pressed: bool = True) -> None:
@@ -207,12 +219,18 @@ def find_ways(machine: Machine, pins: Sequence[PinLoad], *, pressed: bool = True
     asked = [(pin, with_force) for pin, with_force in asked if not _has_way(pin, with_force)]
     if not asked:
         return
-    panels = machine.panels
+    panels, torques = machine.panels, []
     parts: list[list[Reals]] = [[] for _ in asked]
-    for rows, part in machine.by_blocks(len(panels.edges) - 1, max(1, BLOCK // panels.order)):
-        some = panels.some(rows)
+    many, whole_period = panels.nodes.size > 2 * BLOCK, slice(0, len(panels.edges) - 1)
+    blocks = machine.by_blocks(whole_period.stop, max(1, BLOCK // panels.order)) if many else [(whole_period, machine)]
+    for rows, part in blocks:
+        some = panels.some(rows) if many else panels
         for found, (pin, with_force) in zip(parts, asked, strict=True):
             found.append(np.array([some.each(v) for v in pin.rates_of(part, some.nodes, pressed=with_force)]))
+        if machine.friction is not None and any(with_force for _, with_force in asked):
+            torques.append(part.reactions(some.nodes).torque)
+    if torques:
+        machine.hold_torque(panels.nodes, np.concatenate(torques))
     for found, (pin, with_force) in zip(parts, asked, strict=True):
         sums = np.concatenate(found, axis=1)
         cut, more = panels.cut(pin.reversals)

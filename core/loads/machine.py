@@ -73,7 +73,7 @@ class Machine:
     more: Callable[[Mechanism, Reals], Sequence[Force | Torque]] | None = None
     kept: dict[tuple[str, bytes], Any] = field(default_factory=dict, repr=False)
     kept_few: dict[tuple[str, bytes], Any] = field(default_factory=dict, repr=False)
-    kept_sums: dict[tuple[str, bytes], Any] = field(default_factory=dict, repr=False)
+    kept_sums: dict[str, dict[tuple[str, bytes], Any]] = field(default_factory=dict, repr=False)
 
     @property
     def period(self) -> float:
@@ -82,9 +82,9 @@ class Machine:
 
     def _keep(self, what: str, phi: Reals, make: Callable[[], Any]) -> Any:
         key = what, phi.tobytes()
-        sums = what in _SUMS and phi.size > 2 * _BLOCK  # a few numbers a row, where links are hundreds
-        kept, most = (self.kept_sums, 10 * _ROWS_KEPT) if sums else (self.kept, _ROWS_KEPT)
-        kept = kept if phi.size > _FEW else self.kept_few
+        kept, most = self.kept if phi.size > _FEW else self.kept_few, _ROWS_KEPT
+        if what in _SUMS and phi.size > 2 * _BLOCK:  # a few numbers a row, where links are hundreds
+            kept, most = self.kept_sums.setdefault(what, {}), 10 * _ROWS_KEPT
         if key not in kept:
             # The oldest go; of long arrays few are held, so that a table of a million rows does not fill the memory.
             while kept and (len(kept) >= _KEPT or (len(kept) + 1) * phi.size > most):
@@ -170,6 +170,11 @@ class Machine:
         """The torque alone of many rows, without the links and the forces between them."""
         parts = [machine._reactions(phi[rows]).torque for rows, machine in self.by_blocks(phi.size)]
         return np.concatenate(parts)
+
+    def hold_torque(self, phi: Reals, torque: Reals) -> None:
+        """Keep the torque of many rows that was come by with the forces there, so that `torque` need not seek it."""
+        if self.friction is not None and phi.size > 2 * _BLOCK:
+            self._keep("torque", phi, lambda: torque)
 
     def load_torque(self, phi: Reals) -> Reals:
         """tau, what the input must hold without accelerating anything [N m]."""

@@ -196,7 +196,8 @@ class MotorRun:
     @cached_property
     def range(self) -> tuple[float, float]:
         """Least and greatest speed [rad/s]."""
-        end, samples = float(self.panels.edges[-1]), max(360, 10 * (len(self.panels.edges) - 1))
+        end = float(self.panels.edges[-1])
+        samples = max(360, min(10 * (len(self.panels.edges) - 1), math.ceil(math.degrees(end))))
         fewest = fewest_samples(self.breaks)
         wanted = [(self.speed, False), (self.speed, True)]
         low, high = extremes_over(wanted, 0.0, end, joints=self.breaks, samples=samples, fewest=fewest)

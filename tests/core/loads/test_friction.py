@@ -210,3 +210,23 @@ def test_a_force_that_changes_sides_beside_a_jump_is_a_break() -> None:
     mean = float(np.sum(np.diff(edges) * (values @ (0.5 * weights)))) / machine.period
     size = math.sqrt(machine.mean(lambda phi: machine.torque(phi) ** 2))
     assert machine.mean(machine.torque) == pytest.approx(mean, abs=1e-13 * size)
+
+
+def test_many_turns_have_their_forces_computed_once_for_all_that_integrates_them(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """19 turns: mean, rms, energy and what pins bear look at the same nodes, and changes of sign at the same grid."""
+    from gearlink.core.loads import machine
+
+    asked, solve = [0], machine.with_friction
+
+    def counted(mechanism: Any, *given: Any) -> Any:
+        asked[0] += mechanism.rows
+        return solve(mechanism, *given)
+
+    monkeypatch.setattr(machine, "with_friction", counted)
+    keys = {"gears__idler": 76, "gears__crank": 40, "loads__links__idler__center": [3.0, 0.0]}
+    design = factory.design(FEED, command="loads", **keys, loads__friction={"pins": 0.03, "pin_radius": 8})
+    assert design.turns == 19
+    design.report("loads")
+    assert asked[0] < 6000 * design.turns
