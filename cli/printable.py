@@ -71,12 +71,18 @@ _FORMULA = ("=", "+", "-", "@", "\uff1d", "\uff0b", "\uff0d", "\uff20")
 def cell(text: str) -> str:
     """The text as a cell of CSV: visible, and no spreadsheet takes it for a formula; a number stays one.
 
+    Notes
+        Where the decimal sign is a comma, spreadsheets part the cells of a CSV file at semicolons.
+
     Example
         >>> cell("=cmd|calc!A1"), cell("-2.5"), cell("-x")
         ("'=cmd|calc!A1", '-2.5', "'-x")
     """
-    shown = visible(text)
-    return f"'{shown}" if shown.startswith(_FORMULA) and not _is_number(shown) else shown
+    return ";".join(f"'{part}" if _is_formula(part) else part for part in visible(text).split(";"))
+
+
+def _is_formula(text: str) -> bool:
+    return text.startswith(_FORMULA) and not _is_number(text)
 
 
 def _is_number(text: str) -> bool:

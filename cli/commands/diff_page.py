@@ -78,10 +78,10 @@ def _verdict(found: Difference) -> str:
 
 
 def _as_markdown(found: Difference) -> str:
-    from gearlink.cli.render.markdown_report import markdown_table, text_of
+    from gearlink.cli.render.markdown_report import inline, markdown_table, text_of
 
     sections = [f"## {part}\n\n" + markdown_table((part, *_HEADS), rows) for part, rows in _parts(found, text_of)]
-    return "\n\n".join([*sections, _verdict(found)])
+    return "\n\n".join([*sections, inline(_verdict(found))])
 
 
 def _show(found: Difference, options: Options) -> None:

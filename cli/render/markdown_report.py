@@ -10,7 +10,7 @@ from gearlink.core.report import Report
 
 def as_markdown(report: Report) -> str:
     """The report as Markdown: a heading, then quantities, checks and tables."""
-    parts = [f"# {_inline(' '.join(report.name.split()))}: {report.command}"]
+    parts = [f"# {inline(' '.join(report.name.split()))}: {report.command}"]
     if report.quantities:
         rows = [
             (f"`{q.name}`", q.symbol, text_of(q.value), q.unit, q.words) for q in report.quantities if q.value != []
@@ -29,9 +29,9 @@ def as_markdown(report: Report) -> str:
     return "\n\n".join(parts)
 
 
-def _inline(text: str) -> str:
-    """Text as Markdown takes it: no line breaks, and signs that would be read as markup spelled out."""
-    return visible(text).replace("&", "&amp;").replace("<", "&lt;")
+def inline(text: str) -> str:
+    """Text as Markdown takes it: no line breaks, no tag, entity, link or picture, which a comment would load."""
+    return visible(text).replace("&", "&amp;").replace("<", "&lt;").replace("](", "]\\(")
 
 
 def text_of(value: object) -> str:
@@ -45,6 +45,9 @@ def text_of(value: object) -> str:
 
 def markdown_table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     """A Markdown table."""
-    lines = ["| " + " | ".join(heads) + " |", "|" + " --- |" * len(heads)]
-    lines += ["| " + " | ".join(_inline(cell).replace("|", "\\|") for cell in row) + " |" for row in rows]
+    lines = [_line(heads), "|" + " --- |" * len(heads), *map(_line, rows)]
     return "\n".join(lines)
+
+
+def _line(cells: Sequence[str]) -> str:
+    return "| " + " | ".join(inline(cell).replace("|", "\\|") for cell in cells) + " |"

@@ -75,11 +75,28 @@ def test_what_is_ordinary_stays() -> None:
         ("\t=1", "\\t=1"),
         ("\r=1", "\\r=1"),
         ("\uff1d1", "'\uff1d1"),
+        ("a;=1;-2;@x; -3", "a;'=1;-2;'@x; -3"),
     ]
     + [(text, text) for text in ("-1", "+2.5", "-4e-13", "-inf", "a=b", "", "x-1")],
 )
 def test_no_cell_is_a_formula(text: str, shown: str) -> None:
     assert cell(text) == shown
+
+
+@pytest.mark.parametrize("form", [[], ["--table", "motion"]])
+def test_markdown_loads_no_picture_of_a_stranger(gearlink: Any, tmp_path: Path, form: list[str]) -> None:
+    """In a comment of a pull request it would tell who reads it."""
+    path = tmp_path / "x.yaml"
+    path.write_text(CRANK + "name: '![x](https://example.org/t.png) [a] <b> &lt;'\n")
+    other = tmp_path / "![x](y) <b>.yaml"
+    other.write_text(CRANK)
+    for line in (("crank", path, *form), ("batch", path), ("batch", other), ("diff", path, other)):
+        out = gearlink(*line, "--format", "md").out
+        assert "](" not in out
+        assert "<b>" not in out
+    assert gearlink("crank", path, "--format", "md").out.startswith(
+        "# ![x]\\(https://example.org/t.png) [a] &lt;b> &amp;lt;: crank\n"
+    )
 
 
 @pytest.fixture(params=["pass", "fail", "wrong"])
