@@ -11,17 +11,18 @@ import numpy as np
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.five_bar.function_motion import FunctionFiveBar
+from gearlink.core.five_bar.levelling import WIDEST, Levelling
 from gearlink.core.five_bar.wanted import StructuralError, Wanted, outputs, structural_error
 from gearlink.core.numerics.arrays import Mask, Points, Reals
 from gearlink.core.numerics.halton import halton
 
 _NODES, _GRID = 9, 121
 _STARTS, _ROUNDS, _STEPS = 300, 1, 60
-# The best of a round that are levelled, and the most steps of that.
-_LEVELLED, _LEVEL_STEPS = 5, 40
+# Steps of levelling: the best so many of a round by so many steps, the best of these by more.
+_RACE = ((5, 15), (2, 25), (1, 80))
 # Of t20, phi0 and psi0 those that turn the input link, the coupler and the output link.
 _TURNED_BY = ((5,), (4, 5), (6,))
-_SCATTER, _WIDEST = 1.6, math.log(20.0)
+_SCATTER = 1.6
 _WEIGHT = 3.0
 _MARGIN = math.radians(0.01)  # of the transmission angle against rounding
 
@@ -64,9 +65,10 @@ def fit_function(
         NoSolution - where no start came to a five-bar with that transmission angle
     Notes
         Each round: 300 scattered starts (no random numbers) by Levenberg's steps for the squares at nine Chebyshev
-        nodes, the transmission angle as a penalty at the nodes; the five best are levelled by linear programs on 121
-        places with a region of trust. Levelled is what has eight alternating extremes of one size, one fewer for each
-        place where the transmission angle is at its limit; that no other start would come lower is not proved.
+        nodes, the transmission angle as a penalty at the nodes; the five best are levelled for some steps, of these the
+        two best for more, and the best to its end. Levelled is what has eight alternating extremes of one size, one
+        fewer for each place where the transmission angle, and each link that is at its limit; that no other start
+        would come lower is not proved.
     """
     begun, best, rounds = time.monotonic(), None, []
     for number in range(_ROUNDS if seconds is None else 1_000_000):
@@ -96,7 +98,21 @@ def _judged(bar: FunctionFiveBar, start: float, wanted: Wanted, least: float) ->
 def _round(
     first: FunctionFiveBar, start: float, wanted: Wanted, least: float, number: int
 ) -> Iterator[tuple[FunctionFiveBar, float]]:
-    """The best of a round, levelled; the file's own links are the first start of all."""
+    """The best of a round, levelled as far as they deserve it, the best of them first."""
+    limit = math.cos(least + _MARGIN)
+    running = [Levelling(*made, wanted, limit) for made in _best(first, start, wanted, limit, number)]
+    for kept, steps in _RACE:
+        for one in running[:kept]:
+            one.advance(steps)
+        running[:kept] = sorted(running[:kept], key=lambda one: one.worst)
+    for one in running:
+        yield one.bar, one.start
+
+
+def _best(
+    first: FunctionFiveBar, start: float, wanted: Wanted, limit: float, number: int
+) -> Iterator[tuple[FunctionFiveBar, float]]:
+    """The best starts of a round by their squares; the file's own links are the first start of all."""
     share = np.array([halton(number * _STARTS + i, 7) for i in range(1, _STARTS + 1)])
     x = _SCATTER * (2.0 * share - 1.0)
     x[:, 4:] = 2.0 * math.pi * share[:, 4:]
@@ -105,18 +121,18 @@ def _round(
         x[0, :6] = (*(math.log(length / first.input) for length in lengths), first.phase, start)
     s = 0.5 * (1.0 - np.cos((2.0 * np.arange(1, _NODES + 1) - 1.0) * math.pi / (2.0 * _NODES)))
     target = wanted.output(s)
-    x, cost = _descended(x, wanted.input_swing * s, target, first.coupler_ratio, math.cos(least + _MARGIN))
+    x, cost = _descended(x, wanted.input_swing * s, target, first.coupler_ratio, limit)
     kept = 0
     seen: list[Reals] = []
     for row in x[np.argsort(cost, kind="stable")]:
-        if kept == _LEVELLED or not np.all(np.isfinite(row)):
+        if kept == _RACE[0][0] or not np.all(np.isfinite(row)):
             return
-        if np.any(np.abs(row[:4]) > _WIDEST) or any(np.abs(row - other).max() < 1e-4 for other in seen):
+        if np.any(np.abs(row[:4]) > WIDEST) or any(np.abs(row - other).max() < 1e-4 for other in seen):
             continue
         for made in _moving(first, row, wanted):
             seen.append(row)
             kept += 1
-            yield _levelled(*made, wanted, least)
+            yield made
 
 
 def _moving(first: FunctionFiveBar, row: Reals, wanted: Wanted) -> Iterator[tuple[FunctionFiveBar, float]]:
@@ -195,111 +211,3 @@ def _slopes(x: Reals, value: Reals, phi: Reals, psi: Reals, ratio: float, cosine
         ]
         columns.append((_of_directions(moved, turned, cosine) - value) / step)
     return np.stack(columns, axis=2)
-
-
-# Levelling
-
-
-def _levelled(bar: FunctionFiveBar, start: float, wanted: Wanted, least: float) -> tuple[FunctionFiveBar, float]:
-    """The five-bar after linear programs for the greatest error, each within a region of trust that adapts."""
-    s = np.linspace(0.0, 1.0, _GRID)
-    s = 0.5 * (1.0 - np.cos(math.pi * s))  # as dense towards the ends as the extremes are
-    target, swing = wanted.output(s), wanted.input_swing * s
-    x = np.array([*(math.log(v) for v in (bar.coupler, bar.follower, bar.output, bar.frame)), bar.phase, start])
-    limit = math.cos(least + _MARGIN)
-    miss, mu = _state(bar, x, swing, target)
-    trust, worst, slopes = 0.05, _worst(miss, mu, limit), _level_slopes(_made(bar, x), start, swing)
-    for _ in range(_LEVEL_STEPS):
-        step = _program(slopes, miss, mu, limit, trust)
-        if step is None:
-            break
-        new = x + step
-        new_miss, new_mu = _state(bar, new, swing, target)
-        new_worst = _worst(new_miss, new_mu, limit)
-        if new_worst < worst:
-            gained = worst - new_worst
-            x, miss, mu, worst, trust = new, new_miss, new_mu, new_worst, min(0.5, 2.0 * trust)
-            slopes = _level_slopes(_made(bar, x), float(x[5]), swing)
-            if gained <= 1e-5 * worst:
-                break
-        else:
-            trust *= 0.25
-            if trust < 1e-10:
-                break
-    return _made(bar, x), float(x[5])
-
-
-def _made(bar: FunctionFiveBar, x: Reals) -> FunctionFiveBar:
-    b, c, e, d = (math.exp(float(value)) for value in x[:4])
-    return replace(bar, coupler=b, follower=c, output=e, frame=d, phase=float(x[4]))
-
-
-def _state(bar: FunctionFiveBar, x: Reals, swing: Reals, target: Reals) -> tuple[Reals, Reals]:
-    """Misses about their middle, and cos mu, at the places."""
-    made = _made(bar, x)
-    phi = x[5] + swing
-    miss = outputs(made, phi) - target
-    joint = made.input * np.exp(1j * phi) + made.coupler * np.exp(1j * (made.phase + made.coupler_ratio * phi))
-    c, e = made.follower, made.output
-    mu = (c * c + e * e - np.abs(made.frame - joint) ** 2) / (2.0 * c * e)
-    return miss - 0.5 * (miss.max() + miss.min()), mu
-
-
-def _worst(miss: Reals, mu: Reals, limit: float) -> float:
-    """The greatest error, with the excess of cos mu as what must go first."""
-    if not np.all(np.isfinite(miss)):
-        return math.inf
-    return float(np.abs(miss).max() + 10.0 * max(0.0, float(np.abs(mu).max()) - limit))
-
-
-def _level_slopes(bar: FunctionFiveBar, start: float, swing: Reals) -> tuple[Reals, Reals]:
-    """Derivatives of the output angle and of cos mu by ln b, ln c, ln e, ln d, t20 and phi0, at the places.
-
-    |g| = c,  g = a e^(i phi) + b e^(i t2) - d - e e^(i psi):   dpsi = (Re(g* dg) - c dc)/Re(g* i e e^(i psi))
-    """
-    phi = start + swing
-    c, e, d = bar.follower, bar.output, bar.frame
-    crank = bar.input * np.exp(1j * phi)
-    planet = bar.coupler * np.exp(1j * (bar.phase + bar.coupler_ratio * phi))
-    hand = e * np.exp(1j * outputs(bar, phi))
-    far = d - crank - planet
-    mu = (c * c + e * e - np.abs(far) ** 2) / (2.0 * c * e)
-    nothing = np.zeros(phi.size, dtype=complex)
-    moves = np.stack(
-        (planet, nothing, -hand, nothing - d, 1j * planet, 1j * (crank + bar.coupler_ratio * planet)), axis=1
-    )
-    along = np.conj(-far - hand)
-    pulled = (along[:, None] * moves).real
-    pulled[:, 1] -= c * c
-    apart = (np.conj(far)[:, None] * moves).real / (c * e)
-    apart[:, 1], apart[:, 2] = c / e - mu, e / c - mu
-    return pulled / (along * 1j * hand).real[:, None], apart
-
-
-def _program(slopes: tuple[Reals, Reals], miss: Reals, mu: Reals, limit: float, trust: float) -> Reals | None:
-    """Step of the unknowns that makes the greatest error least, as far as its slopes tell."""
-    from scipy.optimize import linprog
-
-    outward, turns = slopes
-    if not (np.all(np.isfinite(outward)) and np.all(np.isfinite(turns))):
-        return None
-    ones = np.ones((miss.size, 1))
-    size = float(np.abs(miss).max())  # psi0 and the error in this: the programs' tolerance is that of numbers about 1
-    rows = [np.hstack((side / size * outward, -side * ones, -ones)) for side in (1.0, -1.0)]
-    edges = [-miss / size, miss / size]
-    over = max(limit, float(np.abs(mu).max()) - 0.1 * trust)
-    reach = trust * np.abs(turns).sum(axis=1)
-    for side in (1.0, -1.0):
-        near: Mask = side * mu + reach > over  # the others cannot be reached within the trust
-        rows.append(np.hstack((side * turns[near], np.zeros((int(near.sum()), 2)))))
-        edges.append((over - side * mu)[near])
-    free = (None, None)
-    found = linprog(
-        [0.0] * 7 + [1.0],
-        A_ub=np.vstack(rows),
-        b_ub=np.concatenate(edges),
-        bounds=[(-trust, trust)] * 6 + [free, (0.0, None)],
-        method="highs-ds",
-        options={"presolve": False},  # takes longer than it saves
-    )
-    return None if found.x is None else np.asarray(found.x[:6])

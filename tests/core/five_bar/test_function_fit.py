@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import json
 import math
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -19,7 +20,7 @@ from factory import changed, design, worked
 from pydantic import ValidationError
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.five_bar import function_fit
+from gearlink.core.five_bar import function_fit, levelling
 from gearlink.core.five_bar.function_motion import FunctionFiveBar
 from gearlink.core.five_bar.path import points
 from gearlink.core.five_bar.path_motion import PathFiveBar
@@ -134,14 +135,42 @@ def test_slopes_of_levelling_are_those_of_differences() -> None:
     swing, start = LOG.input_swing * np.linspace(0.0, 1.0, 31), 1.343624
     links = [math.log(length) for length in (GIVEN.coupler, GIVEN.follower, GIVEN.output, GIVEN.frame)]
     x, step = np.array([*links, GIVEN.phase, start]), 1e-6
-    angles, cosines = function_fit._level_slopes(GIVEN, start, swing)
+
+    def moved(x: np.ndarray) -> Any:
+        b, c, e, d = np.exp(x[:4])
+        made = replace(GIVEN, coupler=b, follower=c, output=e, frame=d, phase=x[4])
+        return levelling.state(made, x[5], swing, 0.0 * swing)
+
+    angles, cosines = levelling.slopes(GIVEN, start, swing)
     for i in range(6):
-        ahead, behind = (
-            function_fit._state(GIVEN, x + side * step * np.eye(6)[i], swing, 0.0 * swing) for side in (1.0, -1.0)
-        )
+        ahead, behind = (moved(x + side * step * np.eye(6)[i]) for side in (1.0, -1.0))
         by_angle, by_cosine = ((one - other) / (2.0 * step) for one, other in zip(ahead, behind, strict=True))
         assert np.ptp(angles[:, i] - by_angle) < 2e-8  # misses count about their middle
         assert np.abs(cosines[:, i] - by_cosine).max() < 2e-8
+
+
+def test_corrected_steps_follow_a_curved_valley(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Slopes alone say that extremes stay level which the bend of the errors raises; steps then shrink to nothing."""
+    found = []
+    for corrected in (levelling._CORRECTED, -math.inf):
+        monkeypatch.setattr(levelling, "_CORRECTED", corrected)
+        running = levelling.Levelling(GIVEN, 1.343624, LOG, math.cos(math.radians(30.0)))
+        first = running.worst
+        running.advance(40)
+        assert structural_error(running.bar, running.start, LOG).greatest == pytest.approx(running.worst, rel=5e-3)
+        found.append((first - running.worst) / first)
+    assert found[0] > 0.36 > 0.32 > found[1] > 0.3
+
+
+def test_a_link_beyond_its_bound_goes_no_further(monkeypatch: pytest.MonkeyPatch) -> None:
+    couplers = []
+    for bound in (levelling.WIDEST, math.log(2.0)):
+        monkeypatch.setattr(levelling, "WIDEST", bound)
+        running = levelling.Levelling(GIVEN, 1.343624, LOG, 1.0)
+        running.advance(7)
+        couplers.append(running.bar.coupler)
+    assert couplers[0] < 0.1095
+    assert couplers[1] == pytest.approx(GIVEN.coupler, rel=1e-9)
 
 
 @pytest.mark.parametrize(
