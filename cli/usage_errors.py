@@ -33,7 +33,11 @@ def complete(wrong: Any, arguments: Sequence[str], tree: Any) -> None:
     """
     command: Any = getattr(getattr(wrong, "ctx", None), "command", None)
     message = str(getattr(wrong, "message", ""))
-    if hasattr(wrong, "possibilities"):
+    if command is not None and (long := _with_one_dash(arguments, command)):
+        wrong.message = f"{message.removeprefix('Value error, ').rstrip('.')}; give -{long}, with two dashes"
+        if hasattr(wrong, "possibilities"):
+            wrong.possibilities = None
+    elif hasattr(wrong, "possibilities"):
         remedy = _of_option(wrong.option_name, arguments, command, tree)
         if remedy:
             wrong.message, wrong.possibilities = f"{message}; {remedy}", None
@@ -128,7 +132,7 @@ def _of_value(wrong: Any, arguments: Sequence[str], command: Any, tree: Any) -> 
     message = str(wrong.message).removeprefix("Value error, ").rstrip(".")
     value = _value_after(arguments, wrong.param.opts)
     if message.startswith("Input should be") and value:
-        return f"{value!r} is not {_number(wrong.param)}"
+        return f"{value!r} is not {_number(wrong.param)}{_in_digits(value, wrong.param)}"
     remedy = _writer(value, command, tree) if value and _values(wrong.param) else ""
     return f"{message}; {remedy}" if remedy else message
 
@@ -141,6 +145,22 @@ def _number(param: Any) -> str:
     if low is None and high is None:
         return what
     return f"{what} from {low:.15g} to {high:.15g}" if high is not None else f"{what} from {low:.15g} on"
+
+
+def _in_digits(value: str, param: Any) -> str:
+    """What to write for 1e3 where a whole number is wanted."""
+    try:
+        number = float(value)
+    except ValueError:
+        return ""
+    low, high = (end if end is not None else number for end in (param.min, param.max))
+    return f"; write {number:.0f}" if number.is_integer() and low <= number <= high else ""
+
+
+def _with_one_dash(arguments: Sequence[str], command: Any) -> str:
+    """A long option of the command that was written with one dash, as -format."""
+    known = {name for param in command.params for name in param.opts if name.startswith("--")}
+    return next((word for word in arguments if len(word) > 2 and word[1] != "-" and f"-{word}" in known), "")
 
 
 def _value_after(arguments: Sequence[str], names: Sequence[str]) -> str:

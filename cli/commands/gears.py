@@ -75,11 +75,21 @@ def run_gears(task: PairTask, options: Options) -> int:
     if found:
         return ExitCode.OK
     if not options.quiet:
-        print(
-            "no pair meets these conditions: widen --shift-sum or --ratio-tolerance, or name other --modules",
-            file=sys.stderr,
-        )
+        print(f"no pair meets these conditions: {_remedy(task)}", file=sys.stderr)
     return ExitCode.FINDING
+
+
+def _remedy(task: PairTask) -> str:
+    """What may bring pairs; a large ratio is beyond all of them."""
+    from gearlink.core.gears.shifts.search import MOST_TEETH
+
+    fewest = task.least_teeth * abs(task.ratio + (-1.0 if task.internal else 1.0))
+    if fewest > MOST_TEETH * (1.0 + task.tolerance):
+        return (
+            f"gear 1 of {task.least_teeth} teeth and more takes a sum of {fewest:.0f}, and pairs are sought up to "
+            f"{MOST_TEETH}: lower --least-teeth or --ratio"
+        )
+    return "widen --shift-sum or --ratio-tolerance, or name other --modules"
 
 
 def _window(text: str, internal: bool) -> tuple[float, float]:
@@ -87,7 +97,9 @@ def _window(text: str, internal: bool) -> tuple[float, float]:
         return (-0.5, 0.5) if internal else (-0.5, 1.0)
     numbers = _numbers(text, ":", "--shift-sum")
     if len(numbers) != 2 or numbers[0] > numbers[1]:
-        raise typer.BadParameter(f"{text!r} is not MIN:MAX, such as -0.5:1", param_hint="--shift-sum")
+        raise typer.BadParameter(
+            f"{text!r} is not MIN:MAX with MIN below MAX, such as -0.5:1", param_hint="--shift-sum"
+        )
     return numbers[0], numbers[1]
 
 

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 MODULES = (1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 16.0, 20.0)
 """ISO 54, series I, from 1 mm."""
 _BLOCKING = ("undercut", "tip 1 0.2", "tip 2 0.2", "fillet", "base circle", "contact ratio 1.1", "tip fouling")
-_MOST_TEETH = 2000
+MOST_TEETH = 2000
 MOST_PAIRS = 1000
 _ROUNDING = 1e-12
 
@@ -102,7 +102,7 @@ def _teeth(task: PairTask, total: int) -> Iterator[tuple[int, int]]:
     few, many = (task.ratio * (1.0 + way * task.tolerance) + side for way in (1.0, -1.0))
     if few <= 0.0:
         return
-    last = math.floor(min(total / many, _MOST_TEETH) + _ROUNDING) if many > 0.0 else _MOST_TEETH
+    last = math.floor(min(total / many, MOST_TEETH) + _ROUNDING) if many > 0.0 else MOST_TEETH
     for first in range(max(task.least_teeth, math.ceil(total / few - _ROUNDING)), last + 1):
         second = first + total if task.internal else total - first
         if second < 1:
@@ -114,7 +114,7 @@ def _teeth(task: PairTask, total: int) -> Iterator[tuple[int, int]]:
 def pairs_of_teeth(task: PairTask, module: float) -> Iterator[tuple[int, int]]:
     """Every (z_1, z_2) of a module whose ratio and shift sum meet the task."""
     for total in teeth_sums(task, module):
-        if total <= _MOST_TEETH:
+        if total <= MOST_TEETH:
             yield from _teeth(task, total)
 
 
