@@ -185,3 +185,10 @@ def test_type_checkers_take_quantities_by_name_and_know_what_all_designs_have(de
     shown = subprocess.run([sys.executable, "-m", "mypy", *options], cwd=designs.parent, capture_output=True, text=True)
     wrong = [line.split(":")[1] for line in shown.stdout.splitlines() if ": error:" in line]
     assert wrong == ["4", "5"], shown.stdout + shown.stderr
+
+
+def test_the_package_runs_as_the_command_does() -> None:
+    """Without it Python ends with status 1, which says that a check failed."""
+    line = [sys.executable, "-m", "gearlink", "--version"]
+    done = subprocess.run(line, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (0, f"gearlink {gearlink.__version__}\n", "")
