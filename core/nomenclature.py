@@ -301,6 +301,7 @@ _LOADS = {
     "axial_force_max": Term("F_a", "N", "greatest axial force of helical teeth, F_t tan(beta_w)"),
     "tilting_moment_max": Term("M_t", "N m", "greatest moment F_a r_w of it on gear 1 and gear 2"),
     "engagement_energy": Term("E", "J", "energy that the hardest start of a mutilated gear's motion costs"),
+    "massless": Term("", "1", "links that count as without mass and inertia, since the file gives none"),
     "power_identity": Term("", "1", "difference of the input torques by virtual power and by the joint forces"),
 }
 

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
     Column: TypeAlias = Sequence[Any] | NDArray[Any]
 
-Value = float | int | str | bool | list[float] | list[int] | list[float | None] | list[list[float] | None]
+Value = float | int | str | bool | list[float] | list[int] | list[str] | list[float | None] | list[list[float] | None]
 """What a quantity may be: of some gears or meshes a list, with None where one has none, and a pair of limits each."""
 Status = Literal["pass", "warn", "fail"]
 Remedy: TypeAlias = tuple[tuple[str, float | str | None], ...]

@@ -107,7 +107,7 @@ class LoadsBase(Design):
 
     @property
     def motion_turns(self) -> int:
-        """Input turns after which the links come home, gears that are out of balance apart; dwells begin with those."""
+        """Input turns after which the links come home, gears out of balance apart; dwells begin with those."""
         return self.turns
 
     @property
@@ -135,6 +135,11 @@ class LoadsBase(Design):
 
         bodies = {name: of_body(self.section.links, name) for name in self.own_links}
         return {name: mass_of(body) for name, body in bodies.items() if body.mass or body.inertia}
+
+    @property
+    def massless(self) -> list[str] | None:
+        """Links that count as without mass and inertia; None where every link has some."""
+        return [name for name in self.own_links if name not in self.masses] or None
 
     @cached_property
     def machine(self) -> Machine:

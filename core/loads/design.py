@@ -84,7 +84,7 @@ def loads_outline(
     """The outline of `loads` for a machine with these joints."""
     own = [f"pin_{pin}.{name}" for pin in pins for name in PIN]
     own += [f"{mesh}.{name}" for mesh in meshes for name in MESH]
-    names = (*TORQUE, *RUN, *FRAME, *more, *own, *VIBRATION, "power_identity")
+    names = (*TORQUE, *RUN, *FRAME, *more, *own, *VIBRATION, "massless", "power_identity")
     return {"loads": Outline(names, (*checks.CHECKS, *more_checks, *VIBRATION_CHECKS), shown)}
 
 
@@ -254,50 +254,44 @@ class LoadsDesign(BalancedLoads):
             return "mm" if self.output in self.sliding else "deg"
         return self.speed_unit_name if name == "residual_speed_limit" else None
 
-    def _of_vibration(self, value: Callable[[Vibrating], Any]) -> Any:
+    def _of_vibration(self, value: Callable[[Vibrating], float | None]) -> float | None:
         return None if self.section.vibration is None else value(self.vibrating)
 
     @property
     def natural_frequency(self) -> float | None:
         """Natural frequency of the output [Hz]."""
-        found: float | None = self._of_vibration(lambda v: v.frequency)
-        return found
+        return self._of_vibration(lambda v: v.frequency)
 
     @property
     def frequency_ratio(self) -> float | None:
         """It over the frequency of the input."""
-        found: float | None = self._of_vibration(lambda v: v.frequency_ratio)
-        return found
+        return self._of_vibration(lambda v: v.frequency_ratio)
 
     @property
     def rise_periods(self) -> float | None:
         """Natural periods in the shortest motion between two dwells."""
-        found: float | None = self._of_vibration(lambda v: v.rise_periods)
-        return found
+        return self._of_vibration(lambda v: v.rise_periods)
 
     @property
     def residual_amplitude(self) -> float | None:
         """Amplitude that a motion leaves in the dwell after it [deg or mm]."""
-        found: float | None = self._of_vibration(lambda v: v.residual)
-        return found
+        return self._of_vibration(lambda v: v.residual)
 
     @property
     def residual_speed_limit(self) -> float | None:
         """Least speed at which that passes what is allowed, in the unit of the kind's own speed."""
-        limit: float | None = self._of_vibration(lambda v: v.speed_limit)
+        limit = self._of_vibration(lambda v: v.speed_limit)
         return None if limit is None else limit / self.speed_unit
 
     @property
     def dwell_twist(self) -> float | None:
         """Greatest deflection in the dwells in the steady state [deg or mm]."""
-        found: float | None = self._of_vibration(lambda v: v.twist)
-        return found
+        return self._of_vibration(lambda v: v.twist)
 
     @property
     def twisted_ripple(self) -> float | None:
         """Range of the output with its deflection in a dwell [deg or mm]."""
-        found: float | None = self._of_vibration(lambda v: v.twisted_ripple)
-        return found
+        return self._of_vibration(lambda v: v.twisted_ripple)
 
     def harmonic_share(self, order: int) -> float:
         """Acceleration of a harmonic of the output over that of the greatest.

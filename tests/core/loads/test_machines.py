@@ -215,3 +215,9 @@ def test_of_many_rows_the_links_are_held_once_and_once_more_for_the_block_in_han
         assert np.array_equal(found.torque[rows], alone.torque)
         for name, values in alone.unknowns.items():
             assert np.array_equal(found.unknowns[name][:, rows], values), name
+
+
+def test_links_without_mass_and_inertia_are_named() -> None:
+    keys = {"loads__links__idler": None, "loads__links__rocker": {"mass": 0.0}}
+    assert factory.design("loaded_feed", command="loads", **keys).raw("massless") == ["rocker", "idler"]
+    assert factory.design("loaded_feed", command="loads").raw("massless") is None
