@@ -179,18 +179,17 @@ class LoadsDesign(BalancedLoads):
         """Search extremes together, and then the reversals of pins, and those of meshes."""
         from gearlink.core.loads.joints import find_reversals, find_ways
 
-        names = tuple(quantities)
-        super().prepare(names)
+        super().prepare(names := tuple(quantities))
         with suppress(GearlinkError):  # it is said where the quantity is asked for
             asked = [name.partition(".") for name in names]
-            pins = [self.pin(joint[4:]) for joint, _, name in asked if name in ("equivalent", "travel", "life")]
+            held = [joint[4:] for joint, _, name in asked if name in ("equivalent", "travel", "life")]
+            pins = [pin for pin in map(self.pin, held) if pin]
             meshes = [self.mesh(joint) for joint, _, name in asked if name == "reversals"]
             size = self.torque_size if "torque_reversals" in names else None
-            turned = find_reversals(self.machine, [pin for pin in pins if pin], [mesh for mesh in meshes if mesh], size)
+            turned = find_reversals(self.machine, pins, [mesh for mesh in meshes if mesh], size)
             if turned is not None:
                 vars(self)["torque_reversals"] = len(turned)
-            pressed = any(name in ("equivalent", "life") for _, _, name in asked)
-            find_ways(self.machine, [pin for pin in pins if pin], pressed=pressed)
+            find_ways(self.machine, pins, pressed=any(name in ("equivalent", "life") for _, _, name in asked))
 
     @property
     def quiet_zones(self) -> list[tuple[float, float]]:
