@@ -44,6 +44,8 @@ class VariableSpec(Spec):
                 if getattr(self, name) is not None:
                     message = "values goes without from, to, step, points and times: give the one or the others"
                     raise PydanticCustomError("GL111", message, {"key": name.rstrip("_")})
+            if self.log:
+                raise PydanticCustomError("GL111", "values are taken as they are: leave log out", {"key": "log"})
             return self
         if self.from_ is None or self.to is None:
             missing = "from" if self.from_ is None else "to"
@@ -56,6 +58,9 @@ class VariableSpec(Spec):
             words = "the range is empty: from {low} is above to {high}; exchange them"
             numbers = {"key": "to", "low": f"{self.from_:g}", "high": f"{self.to:g}"}
             raise PydanticCustomError("GL111", words, numbers)
+        if self.log and self.step is not None:
+            message = "step makes equal steps, log equal ratios: give points in place of step, or leave log out"
+            raise PydanticCustomError("GL111", message, {"key": "log"})
         if self.log and not self.from_ > 0.0:
             raise PydanticCustomError("GL108", "equal ratios need a range above 0", {"key": "from"})
         return self

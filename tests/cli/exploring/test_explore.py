@@ -70,6 +70,12 @@ def test_the_base_may_be_a_file(gearlink: Any, written: Any, designs: Path) -> N
     [
         ({"variables": {"gears.cranc": {"from": 1, "to": 2}}}, "GL151", "variables.gears.cranc"),
         ({"variables": {"gears.idler": {"from": 3, "to": 2}}}, "GL111", "variables.gears.idler.to"),
+        (
+            {"variables": {"gears.module": {"from": 1, "to": 4, "step": 1, "log": True}}},
+            "GL111",
+            "variables.gears.module.log",
+        ),
+        ({"variables": {"gears.module": {"values": [1, 4], "log": True}}}, "GL111", "variables.gears.module.log"),
         ({"variables": {"gears.idler": {"from": 3}}}, "GL106", "variables.gears.idler.to"),
         ({"variables": {"gears.idler": {"values": []}}}, "GL107", "variables.gears.idler.values"),
         ({"variables": {"gears.idler": {"from": 1, "too": 2}}}, "GL105", "variables.gears.idler.too"),
