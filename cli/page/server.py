@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import json
+import sys
 import threading
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from typing import Any
@@ -82,12 +83,11 @@ def served(board: Board, shell: Callable[[], str], port: int) -> Iterator[str]:
         CannotWrite - where the port is taken
     """
     try:
-        server = ThreadingHTTPServer((LOOPBACK, port), _handler(board, shell))
+        server = _Server((LOOPBACK, port), _handler(board, shell))
     except OSError as error:
         raise CannotWrite(
             f"cannot serve on {LOOPBACK}:{port}: {error.strerror or error}; choose another --port"
         ) from error
-    server.daemon_threads = True
     thread = threading.Thread(target=server.serve_forever, kwargs={"poll_interval": 0.1}, daemon=True)
     thread.start()
     try:
@@ -98,22 +98,30 @@ def served(board: Board, shell: Callable[[], str], port: int) -> Iterator[str]:
         server.server_close()
 
 
+class _Server(ThreadingHTTPServer):
+    daemon_threads = True
+
+    def handle_error(self, request: Any, client_address: Any) -> None:
+        """A reader who goes away in the middle, of a request or of an answer, is no error."""
+        if not isinstance(sys.exception(), ConnectionError):
+            super().handle_error(request, client_address)
+
+
 def _handler(board: Board, shell: Callable[[], str]) -> type[BaseHTTPRequestHandler]:
     class Handler(BaseHTTPRequestHandler):
         def do_GET(self) -> None:
             """The page, or its events; nothing else, and to nobody who came by another name of this machine."""
-            with suppress(ConnectionError):
-                if not self._local():
-                    self.send_error(HTTPStatus.FORBIDDEN)
-                elif self.path == "/":
-                    self._answer(shell().encode(), "text/html; charset=utf-8")
-                elif self.path == "/events":
-                    self._events()
-                elif self.path == "/favicon.ico":  # every browser asks for one
-                    self.send_response(HTTPStatus.NO_CONTENT)
-                    self.end_headers()
-                else:
-                    self.send_error(HTTPStatus.NOT_FOUND)
+            if not self._local():
+                self.send_error(HTTPStatus.FORBIDDEN)
+            elif self.path == "/":
+                self._answer(shell().encode(), "text/html; charset=utf-8")
+            elif self.path == "/events":
+                self._events()
+            elif self.path == "/favicon.ico":  # every browser asks for one
+                self.send_response(HTTPStatus.NO_CONTENT)
+                self.end_headers()
+            else:
+                self.send_error(HTTPStatus.NOT_FOUND)
 
         def _local(self) -> bool:
             port = self.server.server_address[1]  # type: ignore[index]

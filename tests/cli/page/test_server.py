@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import json
 import signal
+import socket
+import struct
 import sys
 import threading
+import time
 import urllib.error
+import urllib.parse
 import urllib.request
 import weakref
 from collections.abc import Callable
@@ -78,6 +82,22 @@ def _pieces(board: Board) -> dict[str, Any]:
     found = board.news(0, 0.1)
     assert found is not None
     return found[1]
+
+
+@pytest.mark.parametrize("begun", [b"GET / HT", b"POST / HTTP/1.1\r\n\r\n" * 1000])
+def test_a_reader_who_goes_away_is_no_error(capfd: pytest.CaptureFixture[str], begun: bytes) -> None:
+    at_once = struct.pack("ii", 1, 0)  # a reset, in place of an end
+    with served(Board(), lambda: "shell", 0) as address:
+        place = urllib.parse.urlsplit(address)
+        for _ in range(5):
+            with socket.create_connection((place.hostname, place.port)) as reader:
+                reader.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, at_once)
+                reader.sendall(begun)
+        latest = time.monotonic() + 10.0
+        while any("process_request" in thread.name for thread in threading.enumerate()) and time.monotonic() < latest:
+            time.sleep(0.01)
+        assert urllib.request.urlopen(address).read() == b"shell"
+    assert capfd.readouterr().err == ""
 
 
 def test_a_file_becomes_pieces_and_a_wrong_one_a_caret(tmp_path: Path) -> None:
