@@ -11,6 +11,7 @@ from gearlink.cli import process
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import leave_nothing_behind
 
+_STANDARD_OUTPUT = 1
 _LEAST_MEMORY = 500 << 20
 """Below it some commands cannot load their libraries."""
 _COMPLETES = "_GEARLINK_COMPLETE"
@@ -70,6 +71,7 @@ class _Output(io.FileIO):
         except OSError as error:
             os.dup2(os.open(os.devnull, os.O_WRONLY), self.fileno())  # for this and the interpreter's last flush
             if isinstance(error, self.ignored):
+                process.output_is_read = process.output_is_read and self.fileno() != _STANDARD_OUTPUT
                 return len(data)
             raise OSError(error.errno, f"standard output cannot be written: {error.strerror}") from None
 

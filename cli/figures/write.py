@@ -116,25 +116,6 @@ def _load_what_is_drawn() -> None:
     finally:
         artists.kwdoc = described
         del sys.modules["mpl_toolkits.mplot3d"]
-    _make_small_ticks_late()
-
-
-def _make_small_ticks_late() -> None:
-    """Let an axis make minor ticks when it draws some: matplotlib makes one at once, for settings kept elsewhere."""
-    from matplotlib import axis
-
-    made_at_once = getattr(axis, "_LazyTickList", None)
-    if made_at_once is None:
-        return
-    first = made_at_once.__get__
-
-    def get(self: Any, instance: Any, owner: Any) -> Any:
-        if instance is None or self._major:
-            return first(self, instance, owner)
-        instance.minorTicks = []
-        return instance.minorTicks
-
-    made_at_once.__get__ = get
 
 
 @contextmanager

@@ -4,19 +4,21 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import chain
+from itertools import chain, takewhile
 from typing import IO
 
+from gearlink.cli import process
 from gearlink.cli.printable import cell
 from gearlink.core.report import Report, Table
 
 
 def write_csv(report: Report, stream: IO[str]) -> None:
-    """Write the report as CSV, row by row: quantities, checks and tables, each with its own header row."""
+    """Write the report as CSV to standard output, row by row: quantities, checks and tables, each with its own header
+    row; no more of them than somebody reads."""
     for number, block in enumerate(_blocks(report)):
         if number:
             stream.write("\n")
-        write_rows(block, stream)
+        write_rows(takewhile(lambda _: process.output_is_read, block), stream)
 
 
 def write_rows(rows: Iterable[Iterable[object]], stream: IO[str]) -> None:

@@ -7,13 +7,17 @@ import io
 import os
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
 from sweeps import mostly_slow
 
+from gearlink.cli import main, process
 from gearlink.cli.exit_codes import ExitCode
+from gearlink.cli.render.csv_report import write_csv
 
 ROOT = Path(__file__).resolve().parents[2]
 CRANK = "kind: slider-crank\nstroke: 310\nrod: 520\noffset: 50\n"
@@ -274,6 +278,28 @@ def test_closed_pipe_is_no_error() -> None:
     done = subprocess.run(["bash", "-c", command], capture_output=True, cwd=ROOT, check=False)
     assert done.stderr == b""
     assert done.returncode == 0
+
+
+@pytest.mark.parametrize("read", [True, False])
+def test_no_more_rows_are_made_than_somebody_reads(read: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The reader of standard output has gone by the first row, or a pipe besides it has lost its own."""
+    monkeypatch.setattr(process, "output_is_read", True)
+    begun, given = [], os.pipe()
+    os.close(given[0])
+    monkeypatch.setattr(main, "_STANDARD_OUTPUT", 1 if read else given[1])
+
+    def rows() -> Iterator[tuple[int]]:
+        for number in range(100):
+            begun.append(number)
+            yield (number,)
+
+    table = SimpleNamespace(columns=("x",), units=("1",), each_row=rows)
+    report: Any = SimpleNamespace(quantities=(), checks=(), tables=[table])
+    raw = main._Output(given[1], "w")
+    raw.ignored = BrokenPipeError
+    with io.TextIOWrapper(raw, write_through=True) as stream:
+        write_csv(report, stream)
+    assert len(begun) == (100 if read else 1)
 
 
 _FAILS = "designs/thesis_example_3_as_printed.yaml"
