@@ -310,8 +310,19 @@ class Bench:
 
     @cached_property
     def _before(self) -> dict[str, tuple[int, ...]]:
-        """How bad the findings of each check are in the design as it stands."""
-        return {name: _ranks(self._design, name) for name in self._checks(self._design)}
+        """How bad the findings of each check are in the design as it stands; a command that is refused shows none."""
+        shown = (
+            name for command in self._commands if self._made(command) for name in self._design.outline(command).checks
+        )
+        return {name: _ranks(self._design, name) for name in dict.fromkeys(shown)}
+
+    def _made(self, command: str) -> bool:
+        """Whether the design as it stands is not refused to a command."""
+        try:
+            self._design.require(command)
+        except NoSolution:
+            return False
+        return True
 
     def _checks(self, design: Design) -> dict[str, None]:
         """The checks of every command that counts."""

@@ -83,7 +83,13 @@ class Rule(NamedTuple):
         *,
         name: str = "",
     ) -> Check:
-        """A finding of the rule; `name` where it has several checks."""
+        """A finding of the rule; `name` where it has several checks.
+
+        Raises
+            ArithmeticError - where what passes is not a number: that no comparison holds is no reason to pass
+        """
+        if status == "pass" and value is not None and math.isnan(value):
+            raise ArithmeticError(f"{self.code} {name or self.name} judges what is not a number")
         return Check(self.code, name or self.name, status, message, value, limit, unit)
 
     def below(self, value: float, limit: float, warn: float, unit: str, subject: str, remedy: str) -> Check:

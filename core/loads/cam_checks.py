@@ -24,6 +24,12 @@ def no_width(allowed: float) -> Check:
     return codes.CONTACT_PRESSURE.check("warn", message, None, allowed, "N/mm^2")
 
 
+def pressed_where_undercut(words: str, allowed: float) -> Check:
+    """GL607 of a roller that would press where its profile is cut away."""
+    message = f"{words} is undercut, and no pressure holds: enlarge the cam, or take a smaller roller"
+    return codes.CONTACT_PRESSURE.check("fail", message, None, allowed, "N/mm^2")
+
+
 def contact_pressure(design: CamLoadsDesign) -> Iterator[Check]:
     """GL607, where the file gives an allowed pressure."""
     material = design.section.material
@@ -36,9 +42,7 @@ def contact_pressure(design: CamLoadsDesign) -> Iterator[Check]:
         return
     for name, extreme in zip(design.own_rollers, found, strict=True):
         if extreme is None:
-            text = f"the {name} roller presses where its cam is undercut, and no pressure holds"
-            message = f"{text}: enlarge the cam, or take a smaller roller"
-            yield codes.CONTACT_PRESSURE.check("fail", message, None, allowed, "N/mm^2")
+            yield pressed_where_undercut(f"the {name} roller presses where its cam", allowed)
             continue
         text = f"the {name} roller presses with {extreme.value:.5g} N/mm^2 at {math.degrees(extreme.place):.5g} deg"
         if extreme.value > allowed:

@@ -190,6 +190,22 @@ def test_a_kind_without_shifts_hears_nothing_of_them(gearlink: Any, tmp_path: An
     assert "shift" not in " ".join(check["message"] for check in ended.json["checks"] if check["status"] == "fail")
 
 
+def test_cams_that_a_remedy_makes_possible_keep_their_own_checks() -> None:
+    """Before it they are refused, so that nothing of theirs failed: one that then comes into its shaft is no remedy."""
+    rollers = {"roller": {"arm": 190.7, "angle": 35.4, "radius": 12}, "return_roller": {"arm": 178.9, "angle": 70.4}}
+    rollers["return_roller"]["radius"] = 57
+    for shaft in (5, 38):
+        data = factory.changed(
+            factory.worked("swing_gripper"), cam={"center": [0, 0], "sense": -1, "shaft_radius": shaft, **rollers}
+        )
+        made = design(data, "gripper")
+        (check,) = (found for found in made.findings("gripper", "pressure-angle") if found.status == "fail")
+        now = failing(with_values(data, check.remedy), "gripper") if check.remedy else {}
+        assert now is not None
+        assert not any(map(any, now.values())), shaft
+        assert bool(check.remedy) is (shaft == 5)
+
+
 def test_findings_that_are_new_count_with_the_check() -> None:
     """With a height of the teeth in the file each gear of a mesh is judged for itself: one finding becomes two."""
     data: Data = {

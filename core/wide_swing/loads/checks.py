@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from gearlink.core.loads import codes, vibration_checks
-from gearlink.core.loads.cam_checks import no_width
+from gearlink.core.loads.cam_checks import no_width, pressed_where_undercut
 from gearlink.core.remedies import at_least
 from gearlink.core.report import Check
 from gearlink.core.wide_swing.remedies import side_changes, side_words
@@ -24,8 +24,11 @@ def contact_pressure(design: WideSwingLoads) -> Iterator[Check]:
     found, roller = design.hertz_pressure_max, design.section.roller
     if allowed is None:
         return
-    if found is None or roller is None:
+    if roller is None:
         yield no_width(allowed)
+        return
+    if found is None:
+        yield pressed_where_undercut("the roller presses where its cam", allowed)
         return
     text = f"the roller presses with {found:.5g} N/mm^2"
     if found > allowed:

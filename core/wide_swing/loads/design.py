@@ -330,13 +330,18 @@ class WideSwingLoads(LoadsDesign):
 
     @cached_property
     def hertz_pressure_max(self) -> float | None:
-        """Greatest pressure of roller and cam [N/mm^2]."""
-        return None if self.section.roller is None else self._pressed("pressure")
+        """Greatest pressure of roller and cam [N/mm^2]; None without a width, and where the cam is undercut."""
+        return self._pressed("pressure") if self.has_pressure else None
+
+    @cached_property
+    def has_pressure(self) -> bool:
+        """Whether the roller has a width and bears on its cams wherever it touches them."""
+        return self.section.roller is not None and not any(stroke.is_undercut for stroke in self.strokes)
 
     @cached_property
     def shear_depth(self) -> float | None:
         """Greatest depth of the greatest shear stress [mm]; with a drive, that where the pressure is greatest."""
-        if self.section.roller is None:
+        if not self.has_pressure:
             return None
         if self.spec.drive is not None:
             return self.strokes[0].shear_depth_at_greatest_pressure

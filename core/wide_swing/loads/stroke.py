@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from gearlink.core.loads.cam_contact import LineContact, plane_modulus
-from gearlink.core.numerics.extremes import Extreme, extremes_over, maximum_over
+from gearlink.core.numerics.extremes import Extreme, extremes_over, maximum_over, minimum_over
 from gearlink.core.wide_swing.cams.outline import middle_of
 from gearlink.core.wide_swing.loads.roller import path
 
@@ -126,6 +126,11 @@ class SwingStroke:
         if self.loads.spec.drive is not None:
             first, last = max(first, _STANDSTILL), min(last, 1.0 - _STANDSTILL)
         return (first, start), (end, last)
+
+    @cached_property
+    def is_undercut(self) -> bool:
+        """Whether the roller is somewhere as large as the bend of its path: there is no contact there."""
+        return any(minimum_over(self.relative_radius, *part, samples=128).value <= 0.0 for part in self.curved_parts)
 
     def greatest(self, f: Callable[[Reals], Reals], *, curved: bool = False) -> float:
         """Greatest value where the roller touches; `curved`: of what depends on the curvature there."""

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from gearlink.core.errors import GearlinkError
+from gearlink.core.report import Rule
 
 DATA = json.loads((Path(__file__).parents[2] / "reference" / "loads.json").read_text())
 EXPECTED = DATA["wide_swing"]["expected"]
@@ -112,6 +113,22 @@ def test_a_torque_that_ends_with_its_stroke_has_no_reversal_there() -> None:
     design = factory.design("wide_swing_twin_rocker", command="loads", loads={"forces": forces})
     torque = design.machine.torque(np.linspace(0.0, design.machine.period, 4001)[1:-1])
     assert design.raw("torque_reversals") == np.count_nonzero(np.diff(np.sign(torque)))
+
+
+def test_a_roller_whose_profile_is_undercut_has_no_pressure() -> None:
+    """The least curvature radius of the path, 7.003 mm, is less than the roller's 8: there the profile has no bend."""
+    sound, undercut = (factory.design("loaded_swing_slider", command="loads", cycle_angle=angle) for angle in (150, 15))
+    assert [check.status for check in sound.check("contact-pressure")] == ["pass"]
+    assert undercut.hertz_pressure_max is None
+    assert undercut.shear_depth is None
+    assert [check.status for check in undercut.check("contact-pressure")] == ["fail"]
+
+
+def test_a_check_of_what_is_no_number_does_not_pass() -> None:
+    rule = Rule("GL999", "", "", "", "", checks=("toy",))
+    with pytest.raises(ArithmeticError, match="GL999 toy"):
+        rule.check("pass", "in order", math.nan)
+    assert rule.check("pass", "nothing to compare").value is None
 
 
 def test_every_result_can_be_asked_for(swing: Any) -> None:
