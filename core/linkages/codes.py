@@ -23,8 +23,8 @@ SHAFT_CLEARANCE = Rule(
     "gear, rim or roller reaches a shaft",
     "A gear's tips, the teeth or the rim of a ring gear, a cam roller or another shaft come into a shaft of the file; "
     "or they leave less room beside the axis of a shaft whose radius the file does not name than the thinnest shaft "
-    "takes (limits.least_shaft, 2 modules; a warning). So is a cam that leaves less room beside the rocker's axis, or "
-    "a gripper's, than a shaft as thick as the roller takes.",
+    "takes (limits.least_shaft, 2 modules; a warning). A cam is warned of that leaves less room beside the axis of its "
+    "rocker or gripper than a shaft as thick as the roller takes.",
     "The shaft cannot pass through the plane of the gears there: it must end before it (be overhung).",
     "Overhang the shaft, make it thinner, or enlarge the distance; name the radius (shafts, cam.shaft_radius) so "
     "that it is checked.",
