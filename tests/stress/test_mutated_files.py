@@ -37,12 +37,12 @@ LONGER = {
 }
 """How many times the seconds of one design, by how many designs a command computes.
 
-`check` and `batch` run each command of a file, up to five, and `batch` a study: half a million designs as arrays (17 s)
-or 4,096 of a kind without (some 15 ms each); `tolerance` has some hundred designs with their cams for corners and
-indices, `--suggest` the checks of every command anew for up to eight repairs, `--candidates` whole designs side by side (a
-five-bar's function is searched for each), `--budget 8` eight designs. `loads` has the design and, for a flywheel or a
-motor, the forces of several hundred positions for each trial speed. All other commands, and so the limit that a
-reader waits for, keep 2 s.
+`check` and `batch` run each command of a file, up to five, and `batch` a study: half a million designs as arrays (17
+s) or 4,096 of a kind without (some 15 ms each); `tolerance` has some hundred designs with their cams for corners and
+indices, `--suggest` the checks of every command anew for up to eight repairs, `--candidates` whole designs side by
+side (a five-bar's function is searched for each), `--budget 8` eight designs. `loads` has the design and, for a
+flywheel or a motor, the forces of several hundred positions for each trial speed. All other commands, and so the
+limit that a reader waits for, keep 2 s.
 """
 MEGABYTES = 200.0
 FEW, MANY = 10, int(os.environ.get("GEARLINK_MUTATIONS", "6000"))
