@@ -302,6 +302,8 @@ class Bench:
         A cam that there was not yet has checks of its own, all of them new.
         """
         before, now = self._before.get(name, ()), _ranks(trial, name)
+        if any(now) and not self._shown(name):
+            before = ()
         if len(before) != len(now):
             before, now = tuple(sorted(before, reverse=True)), tuple(sorted(now, reverse=True))
             before += (0,) * (len(now) - len(before))
@@ -310,11 +312,13 @@ class Bench:
 
     @cached_property
     def _before(self) -> dict[str, tuple[int, ...]]:
-        """How bad the findings of each check are in the design as it stands; a command that is refused shows none."""
-        shown = (
-            name for command in self._commands if self._made(command) for name in self._design.outline(command).checks
-        )
-        return {name: _ranks(self._design, name) for name in dict.fromkeys(shown)}
+        """How bad the findings of each check are in the design as it stands."""
+        return {name: _ranks(self._design, name) for name in self._checks(self._design)}
+
+    def _shown(self, name: str) -> bool:
+        """Whether the design as it stands shows a check: a command that is refused shows none."""
+        asked = [command for command in self._commands if name in self._design.outline(command).checks]
+        return self._command in asked or any(self._made(command) for command in asked)
 
     def _made(self, command: str) -> bool:
         """Whether the design as it stands is not refused to a command."""
