@@ -142,9 +142,9 @@ def _number(param: Any) -> str:
     whole = param.type_descriptor.annotation is int or int in get_args(param.type_descriptor.annotation)
     what = "a whole number" if whole else "a number"
     low, high = param.min, param.max
-    if low is None and high is None:
-        return what
-    return f"{what} from {low:.15g} to {high:.15g}" if high is not None else f"{what} from {low:.15g} on"
+    ends = ((word, end) for word, end in (("from", low), ("to", high)) if end is not None)
+    limits = " ".join(f"{word} {end:.15g}" for word, end in ends)
+    return f"{what} {limits}{' on' if limits and high is None else ''}".strip()
 
 
 def _in_digits(value: str, param: Any) -> str:

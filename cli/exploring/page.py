@@ -32,10 +32,10 @@ def show(study: Exploration, report: Report, options: Options) -> None:
 
 def _counts(study: Exploration) -> str:
     how = "all evaluated" if study.exhaustive else "sampled, not exhaustive"
-    requirements = study.problem.objectives
-    resolution = ", ".join(f"{w.resolution:g}{'' if w.unit == '1' else ' ' + w.unit}" for w in requirements)
+    objectives = study.problem.objectives
+    resolution = ", ".join(f"{w.resolution:g}{'' if w.unit == '1' else ' ' + w.unit}" for w in objectives)
     front = f"front {study.front_size:,}, kept {study.kept:,} (resolution {resolution})"
-    if len(requirements) == 1:
+    if len(objectives) == 1:
         front = f"best {study.kept:,} (resolution {resolution})"
     return (
         f"{amount(study.designs, 'design', spec=',')}, {how}; {study.refused:,} without a mechanism; "

@@ -116,7 +116,7 @@ class PressLoads(CamLoadsDesign):
         connections += self._cylinder_chain(links, phi)
         drive, sense = ("gear2", 1.0) if self.section.drive_gear == 2 else ("gear1", -1.0)
         made = Mechanism(links, connections, drive, sense, travel=dict.fromkeys(self.sliding, 1j))
-        made.more["lift"] = cam
+        made.once("lift", lambda: cam)
         return made
 
     # Bed
@@ -204,8 +204,8 @@ class PressLoads(CamLoadsDesign):
         """A roller of the rack's follower from the cam axis, over the angle turned by the cams."""
         from gearlink.core.loads.cam_contact import RollerOnCam
 
-        cams = self.design.cams
-        cam = self.machine.at(phi).more["lift"]
+        cams, links = self.design.cams, self.machine.at(phi)
+        cam = links.once("lift", lambda: self.lift(phi, links.links["CDE"].turn))
         at = cams.base_radius if name == "main" else cams.base_radius - cams.roller_center_distance
         rates = (at + cam.value, cam.first, cam.second)
         position, first, second = (1j * _MM * part for part in rates)

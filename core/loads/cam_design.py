@@ -52,11 +52,7 @@ class CamLoadsDesign(LoadsDesign):
 
     def roller_on_cam(self, name: str, phi: Reals) -> RollerOnCam:
         """The same, made once for links that are kept."""
-        more, key = self.machine.at(phi).more, f"roller {name}"
-        if key not in more:
-            more[key] = self.roller_at(name, phi)
-        found: RollerOnCam = more[key]
-        return found
+        return self.machine.at(phi).once(f"roller {name}", lambda: self.roller_at(name, phi))
 
     def contact_force(self, name: str, phi: Reals) -> Reals:
         """Force between a roller and its cam at input angles [N]; a negative one is pulled."""
@@ -90,11 +86,7 @@ class CamLoadsDesign(LoadsDesign):
         """The Hertzian contact of a roller; None where the file gives no width."""
         if self.section.roller is None:
             return None
-        more, key = self.machine.at(phi).more, f"contact {name}"
-        if key not in more:
-            more[key] = self._contact_at(name, phi)
-        found: LineContact = more[key]
-        return found
+        return self.machine.at(phi).once(f"contact {name}", lambda: self._contact_at(name, phi))
 
     def _contact_at(self, name: str, phi: Reals) -> LineContact:
         from gearlink.core.loads.cam_contact import LineContact, plane_modulus

@@ -6,10 +6,10 @@ the opposite; `FRAME` stands for the frame. The unknowns are linear, so that all
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from gearlink.core.loads.kinematics import Point, Turn, carried
 from gearlink.core.numerics.arrays import Mask, Points, Reals, units
 
 FRAME = "frame"
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -320,9 +321,15 @@ class Mechanism:
         return len(next(iter(self.links.values())).turn.value)
 
     @cached_property
-    def more(self) -> dict[str, Any]:
-        """What a machine has worked out of these links, by name, so that it does so once."""
+    def _worked_out(self) -> dict[str, Any]:
         return {}
+
+    def once(self, what: str, make: Callable[[], T]) -> T:
+        """What a machine works out of these links: made the first time, and kept with them by its name."""
+        if what not in self._worked_out:
+            self._worked_out[what] = make()
+        found: T = self._worked_out[what]
+        return found
 
     def link(self, name: str) -> Link | None:
         """A link by name, None for the frame."""

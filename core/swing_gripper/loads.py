@@ -205,7 +205,8 @@ class GripperLoads(CamLoadsDesign):
             arm = "input" if name == "main" else "return_rocker"
             connections.append(Contact(name, "cam", arm, axis.value + roller.position, roller.normal))
         made = Mechanism(links, connections, "cam", float(sense), pivot=self.design.cam_center * _MM)
-        made.more.update({f"roller {name}": roller for name, roller in rollers.items()})
+        for name, roller in rollers.items():
+            made.once(f"roller {name}", lambda roller=roller: roller)  # type: ignore[misc]
         return made
 
     def raw(self, name: str) -> Any:
