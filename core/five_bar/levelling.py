@@ -11,6 +11,7 @@ import numpy as np
 from gearlink.core.five_bar.function_motion import FunctionFiveBar
 from gearlink.core.five_bar.wanted import Wanted, outputs
 from gearlink.core.numerics.arrays import Mask, Reals
+from gearlink.core.numerics.linear_program import least
 
 _GRID = 121
 WIDEST = math.log(20.0)
@@ -113,8 +114,6 @@ class Levelling:
 
     def _program(self, miss: Reals, cosine: Reals) -> Reals | None:
         """Step of the unknowns that makes the greatest error least, as far as its slopes tell."""
-        from scipy.optimize import linprog
-
         outward, turns = self._slopes
         if not (np.all(np.isfinite(outward)) and np.all(np.isfinite(turns))):
             return None
@@ -130,16 +129,16 @@ class Levelling:
             near: Mask = side * cosine + reach > over  # the others cannot be reached within the trust
             rows.append(np.hstack((side * turns[near], np.zeros((int(near.sum()), 2)))))
             edges.append((over - side * cosine)[near])
-        links = [(max(-trust, min(0.0, -WIDEST - x)), min(trust, max(0.0, WIDEST - x))) for x in self._x[:4].tolist()]
-        found = linprog(
-            [0.0] * 7 + [1.0],
-            A_ub=np.vstack(rows),
-            b_ub=np.concatenate(edges),
-            bounds=[*links, (-trust, trust), (-trust, trust), (None, None), (0.0, None)],
-            method="highs-ds",
-            options={"presolve": False},  # takes longer than it saves
+        links = self._x[:4]
+        down, up = np.clip(-WIDEST - links, -trust, 0.0), np.clip(WIDEST - links, 0.0, trust)
+        found = least(
+            np.array([0.0] * 7 + [1.0]),
+            np.vstack(rows),
+            np.concatenate(edges),
+            np.array([*down, -trust, -trust, -np.inf, 0.0]),
+            np.array([*up, trust, trust, np.inf, np.inf]),
         )
-        return None if found.x is None else np.asarray(found.x[:6])
+        return None if found is None else found[:6]
 
 
 def state(bar: FunctionFiveBar, start: float, swing: Reals, target: Reals) -> tuple[Reals, Reals]:

@@ -210,7 +210,7 @@ def test_core_imports_no_interface() -> None:
     )
     done = subprocess.run([sys.executable, "-c", probe], capture_output=True, text=True, check=True)
     found = set(json.loads(done.stdout))
-    assert not found & {"typer", "rich", "yaml", "matplotlib", "scipy", "gearlink.cli"}
+    assert not found & {"typer", "rich", "yaml", "matplotlib", "scipy", "highspy", "gearlink.cli"}
 
 
 def test_results_in_a_terminal_import_no_matplotlib() -> None:
