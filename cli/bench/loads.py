@@ -12,8 +12,8 @@ import numpy as np
 
 from gearlink.cli.bench.timing import Family, Method, measure, mpmath, numpy_pass
 from gearlink.core.loads.flywheel import Energy
-from gearlink.core.loads.machine import Panels
 from gearlink.core.loads.motor import MotorRun
+from gearlink.core.loads.panels import Panels
 from gearlink.core.loads.vibration import Oscillator, Panelled
 from gearlink.core.numerics.arrays import Reals
 

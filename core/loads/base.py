@@ -244,7 +244,7 @@ class LoadsBase(Design):
         return self._extremes([(f, greatest)])[0]
 
     def _extremes(self, wanted: list[tuple[Callable[[Reals], Reals], bool]]) -> list[Extreme]:
-        from gearlink.core.loads.machine import fewest_samples
+        from gearlink.core.loads.panels import fewest_samples
         from gearlink.core.numerics.extremes import extremes_over
 
         machine = self.machine

@@ -12,7 +12,8 @@ from functools import cached_property
 
 import numpy as np
 
-from gearlink.core.loads.machine import NODES, PANEL, Machine, Panels, fewest_samples
+from gearlink.core.loads.machine import Machine
+from gearlink.core.loads.panels import NODES, PANEL, Panels, fewest_samples
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.extremes import Extreme, extremes_over
 

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.core.loads.machine import Panels
 from gearlink.core.loads.mechanism import Pin, ToothDrive, rates
+from gearlink.core.loads.panels import Panels
 from gearlink.core.loads.reversals import Function, places, places_of
 from gearlink.core.loads.zeros import zeros, zeros_of
 from gearlink.core.numerics.blocks import BLOCK

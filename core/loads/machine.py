@@ -6,12 +6,13 @@ several results look at the same rows.
 
 from __future__ import annotations
 
+import gc
 import itertools
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property, lru_cache
-from typing import Any, NamedTuple, TypeAlias
+from functools import cached_property
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -19,6 +20,7 @@ from gearlink.core.loads.dynamics import Applied, Force, Mass, Reactions, Reduce
 from gearlink.core.loads.friction import Coefficients, passes_ratio, with_friction
 from gearlink.core.loads.kinematics import TURNING_BACK, dot
 from gearlink.core.loads.mechanism import Coupling, Mechanism, Pin
+from gearlink.core.loads.panels import APART, Panels
 from gearlink.core.loads.rubbing import LOCKED, LOCKS, SelfLocking
 from gearlink.core.loads.sources import Sources
 from gearlink.core.loads.zeros import zeros_of
@@ -26,16 +28,12 @@ from gearlink.core.numerics.arrays import Reals
 
 Kinematics: TypeAlias = Callable[[Reals], Mechanism]
 TURN = 2.0 * math.pi
-NODES = 16
-PANEL = math.radians(10.0)
-MANY = 100
-"""Breaks of a period from which on fewer nodes and samples are taken between each two."""
-_FEW_NODES, _NARROW = 6, math.radians(1.0)
 _KEPT = 24
 _ROWS_KEPT = 100_000
 _BLOCK = 4096
 _SUMS = ("reduced", "torque")
-_APART = 64.0
+_made = [0]
+"""Rows of links that all machines have computed since the collector was last called for them."""
 _FEW = 340
 """Rows at most of what a search looks at on the way; the grids that searches begin with are kept apart from it."""
 
@@ -75,6 +73,16 @@ class Machine:
     kept_few: dict[tuple[str, bytes], Any] = field(default_factory=dict, repr=False)
     kept_sums: dict[str, dict[tuple[str, bytes], Any]] = field(default_factory=dict, repr=False)
 
+    def __post_init__(self) -> None:
+        """Free what earlier machines kept, once that may be much.
+
+        A design and its parts know each other, so only the collector frees them; it counts objects, and a hundred
+        designs of some MB each are few objects.
+        """
+        if _made[0] > _ROWS_KEPT:
+            _made[0] = 0
+            gc.collect()
+
     @property
     def period(self) -> float:
         """Input angle after which everything repeats, or of the stroke [rad]."""
@@ -94,8 +102,12 @@ class Machine:
 
     def at(self, phi: Reals) -> Mechanism:
         """The links at input angles [rad]."""
-        found: Mechanism = self._keep("links", phi, lambda: self.kinematics(phi))
+        found: Mechanism = self._keep("links", phi, lambda: self._links(phi))
         return found
+
+    def _links(self, phi: Reals) -> Mechanism:
+        _made[0] += phi.size
+        return self.kinematics(phi)
 
     def applied(self, phi: Reals) -> Applied:
         """What acts from outside there."""
@@ -222,7 +234,7 @@ class Machine:
     def breaks(self) -> list[float]:
         """Input angles within the period where a force jumps or bends [rad], ascending."""
         found = [*self._given_breaks(), *self._turning_back()]
-        apart = _APART * float(np.spacing(self.period))
+        apart = APART * float(np.spacing(self.period))
         distinct: list[float] = []
         for angle in sorted(found):
             if (distinct[-1] if distinct else 0.0) + apart < angle < self.period - max(apart, 2.0 * TURNING_BACK):
@@ -274,117 +286,3 @@ class Machine:
     def mean(self, f: Callable[[Reals], Reals]) -> float:
         """Mean over the period of a function of input angles."""
         return self.panels.integral(f(self.panels.nodes)) / self.period
-
-
-class Parts(NamedTuple):
-    """Stretches anywhere with Gauss nodes.
-
-    Fields
-        nodes : (n * order,) array
-        widths : (n,) array
-        weights : (order,) array - of a stretch of length 1
-    """
-
-    nodes: Reals
-    widths: Reals
-    weights: Reals
-
-    def each(self, values: Reals) -> Reals:
-        """Integral over each stretch of a function given at the nodes."""
-        return np.asarray((values.reshape(-1, len(self.weights)) @ self.weights) * self.widths)
-
-
-@dataclass(frozen=True)
-class Panels:
-    """An interval in panels with Gauss nodes.
-
-    Fields
-        edges : (n + 1,) array
-        nodes : (n * order,) array - ascending
-        weights : (order,) array - of a panel of length 1
-    """
-
-    edges: Reals
-    nodes: Reals
-    weights: Reals
-
-    @classmethod
-    def over(cls, period: float, breaks: Sequence[float], width: float = PANEL) -> Panels:
-        """Panels of at most 10 deg, or another width, between the breaks.
-
-        Notes
-            16 Gauss nodes over 10 deg: 1e-13 for a function whose nearest singularity is 5 deg off the real axis, as
-            that of a linkage whose transmission angle falls to 5 deg. Between many breaks, 6 nodes over 1 deg do.
-        """
-        many = len(breaks) > MANY
-        bounds, width = [0.0, *breaks, period], min(width, _NARROW) if many else width
-        parts = [
-            np.linspace(low, high, max(1, math.ceil((high - low) / width - 1e-9)) + 1)[:-1]
-            for low, high in itertools.pairwise(bounds)
-        ]
-        edges = np.append(np.concatenate(parts), period)
-        x, weights = np.polynomial.legendre.leggauss(_FEW_NODES if many else NODES)
-        nodes = (edges[:-1, None] + np.diff(edges)[:, None] * (0.5 * (x + 1.0))).ravel()
-        return cls(edges, nodes, 0.5 * weights)
-
-    @property
-    def order(self) -> int:
-        """Nodes of a panel."""
-        return len(self.weights)
-
-    def some(self, rows: slice) -> Panels:
-        """Some of the panels, one after the other."""
-        last = min(rows.stop, len(self.edges) - 1)
-        return Panels(
-            self.edges[rows.start : last + 1], self.nodes[rows.start * self.order : last * self.order], self.weights
-        )
-
-    def cut(self, places: Sequence[float]) -> tuple[Any, Parts]:
-        """Numbers of the panels within which some of the places lie, and these panels in parts between the places."""
-        at = np.sort(np.asarray(places, dtype=float))
-        row, apart = self.row(at), max(2.0 * TURNING_BACK, _APART * float(np.spacing(self.edges[-1])))
-        inside = (at - self.edges[row] > apart) & (self.edges[row + 1] - at > apart)
-        at, rows = at[inside], np.unique(row[inside])
-        starts, ends = (np.sort(np.append(at, self.edges[rows + end])) for end in (0, 1))
-        x, _ = np.polynomial.legendre.leggauss(self.order)
-        nodes = (starts[:, None] + (ends - starts)[:, None] * (0.5 * (x + 1.0))).ravel()
-        return rows, Parts(nodes, ends - starts, self.weights)
-
-    def row(self, phi: Reals) -> Any:
-        """Number of the panel in which each place lies; the very end belongs to the last one."""
-        return np.searchsorted(self.edges[1:-1], phi, side="right")
-
-    def each(self, values: Reals) -> Reals:
-        """Integral over each panel of a function given at the nodes."""
-        return Parts(self.nodes, np.diff(self.edges), self.weights).each(values)
-
-    def integral(self, values: Reals) -> float:
-        """Integral over the whole of a function given at the nodes."""
-        return math.fsum(self.each(values).tolist())
-
-    def within(self, values: Reals, phi: Reals) -> Reals:
-        """Integral from the start of its panel to each place, of the polynomials through values at the nodes."""
-        row = self.row(phi)
-        width = self.edges[row + 1] - self.edges[row]
-        series = values.reshape(-1, self.order)[row] @ to_integral(self.order)
-        # a panel between two breaks that are one but for rounding is narrower than the rounding of its places
-        place = np.clip(2.0 * (phi - self.edges[row]) / width - 1.0, -1.0, 1.0)
-        terms = np.polynomial.legendre.legvander(place, self.order)
-        return np.asarray(width * np.sum(terms * series, axis=1))
-
-    def running(self, values: Reals) -> Reals:
-        """Integral from the start to each edge."""
-        return np.concatenate(([0.0], np.cumsum(self.each(values))))
-
-
-def fewest_samples(breaks: Sequence[float]) -> int:
-    """Samples between two breaks in which an extreme is sought at least."""
-    return 5 if len(breaks) > MANY else 33
-
-
-@lru_cache
-def to_integral(order: int) -> Reals:
-    """From values at the Gauss nodes of a panel of length 1 to the Legendre series of their integral from its start."""
-    x, _ = np.polynomial.legendre.leggauss(order)
-    to_series = np.linalg.inv(np.polynomial.legendre.legvander(x, order - 1))
-    return np.asarray(0.5 * np.polynomial.legendre.legint(to_series, lbnd=-1.0).T)

@@ -16,7 +16,7 @@ import numpy as np
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.loads.flywheel import Function
-from gearlink.core.loads.machine import Panels, fewest_samples, to_integral
+from gearlink.core.loads.panels import Panels, fewest_samples, to_integral
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.extremes import extremes_over
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gearlink.core.errors import MissingSection
-from gearlink.core.loads.machine import Panels
+from gearlink.core.loads.panels import Panels
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:

@@ -21,8 +21,8 @@ from scipy.special import ellipk
 from gearlink.core.loads.dynamics import Mass, System, reduced
 from gearlink.core.loads.flywheel import Energy, SteadyRun
 from gearlink.core.loads.kinematics import fixed, standing, steady
-from gearlink.core.loads.machine import Panels
 from gearlink.core.loads.mechanism import FRAME, Link, Mechanism, Pin
+from gearlink.core.loads.panels import Panels
 
 G = -9.81j
 BAR = Mass(1.0, 1.0 / 12.0, 0.5 + 0j)
