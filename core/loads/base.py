@@ -144,9 +144,10 @@ class LoadsBase(Design):
     @cached_property
     def machine(self) -> Machine:
         """Everything together."""
-        from gearlink.core.loads.machine import Machine
+        from gearlink.core.loads.machine import Machine, free_what_others_kept
         from gearlink.core.loads.sources import Sources, vector
 
+        free_what_others_kept()
         sources = Sources(self.section, self.own_links, self.sliding)
         if not self.masses and not sources.any and not self.shaft_inertia:
             raise MissingSection(

@@ -38,6 +38,17 @@ _FEW = 340
 """Rows at most of what a search looks at on the way; the grids that searches begin with are kept apart from it."""
 
 
+def free_what_others_kept() -> None:
+    """Collect the machines of earlier designs, once what they kept may be much.
+
+    A design and its parts know each other, so only the collector frees them; it counts objects, and a hundred designs
+    of some MB each are few objects.
+    """
+    if _made[0] > _ROWS_KEPT:
+        _made[0] = 0
+        gc.collect()
+
+
 @dataclass(frozen=True)
 class Machine:
     """Kinematics, masses and sources of one design.
@@ -72,16 +83,6 @@ class Machine:
     kept: dict[tuple[str, bytes], Any] = field(default_factory=dict, repr=False)
     kept_few: dict[tuple[str, bytes], Any] = field(default_factory=dict, repr=False)
     kept_sums: dict[str, dict[tuple[str, bytes], Any]] = field(default_factory=dict, repr=False)
-
-    def __post_init__(self) -> None:
-        """Free what earlier machines kept, once that may be much.
-
-        A design and its parts know each other, so only the collector frees them; it counts objects, and a hundred
-        designs of some MB each are few objects.
-        """
-        if _made[0] > _ROWS_KEPT:
-            _made[0] = 0
-            gc.collect()
 
     @property
     def period(self) -> float:
