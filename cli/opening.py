@@ -6,13 +6,16 @@ import json
 import os
 from collections.abc import Mapping
 from functools import cache
+from numbers import Number
 from typing import TYPE_CHECKING, Any, cast
 
-from gearlink.cli.evaluate import named, require_command
+from gearlink.cli.evaluate import named as with_name
+from gearlink.cli.evaluate import require_command
 from gearlink.cli.reading.design_file import load as load_file
 from gearlink.cli.reading.design_file import parse, read_kind, validate, with_overrides
 from gearlink.cli.reading.loaded_file import LoadedFile, parse_path
-from gearlink.core.errors import NoSolution
+from gearlink.core.design import UnknownName
+from gearlink.core.errors import GearlinkError, NoSolution, named
 from gearlink.core.kinds import KINDS
 
 if TYPE_CHECKING:
@@ -48,7 +51,7 @@ def load(source: str | os.PathLike[str], values: Values | None = None, *, comman
         >>> round(press.crank_length, 6), press.quantity("crank_length").unit
         (154.211592, 'mm')
     """
-    return _opened(load_file(source, overrides=_settings(values)), command)
+    return _opened(load_file(os.fsdecode(source), overrides=_settings(values)), command)
 
 
 def design(command: str | None = None, **keys: Any) -> Opened:
@@ -64,7 +67,7 @@ def design(command: str | None = None, **keys: Any) -> Opened:
         >>> round(crank.crank_length, 6)
         154.211592
     """
-    return _opened(parse(_text(keys, indent=1).encode(), _KEYWORDS), command)
+    return _opened(parse(_keywords(keys).encode(), _KEYWORDS), command)
 
 
 def changed(design: Design, values: Values) -> Opened:
@@ -81,10 +84,8 @@ def changed(design: Design, values: Values) -> Opened:
         >>> round(changed(crank, {"stroke": 320}).crank_length - crank.crank_length, 3)
         4.969
     """
-    loaded = vars(design).get("_loaded")
-    if not isinstance(loaded, LoadedFile):
-        raise TypeError("this design was not made by gearlink.load or gearlink.design")
-    return _opened(with_overrides(loaded, _settings(values)), vars(design)["_command"])
+    loaded, command = _origin(design)
+    return _opened(with_overrides(loaded, _settings(values)), command)
 
 
 def figure(design: Design, command: str | None = None) -> Figure:
@@ -94,17 +95,32 @@ def figure(design: Design, command: str | None = None) -> Figure:
         design : any design
         command : str - whose sheet; by default the command that the design was opened for
     Raises
+        GearlinkError - for a command that the design does not have
         NoSolution - where the sheet shows something that the design does not have
+        TypeError - without a command for a design that was not opened for one
     """
     from gearlink.cli.figures.write import draw
 
-    return draw(command or vars(design)["_command"], design)
+    wanted = _origin(design)[1] if command is None else command
+    if not (isinstance(wanted, str) and wanted in design.outlines):
+        raise UnknownName("command", wanted, tuple(design.outlines))
+    return draw(wanted, design)
+
+
+def _origin(design: Any) -> tuple[LoadedFile, str]:
+    """The file of a design that this module has opened, and the command that it was opened for."""
+    own = getattr(design, "__dict__", {})
+    if not isinstance(own.get("_loaded"), LoadedFile):
+        raise TypeError("this design was not made by gearlink.load or gearlink.design")
+    return own["_loaded"], own["_command"]
 
 
 def _opened(loaded: LoadedFile, command: str | None) -> Opened:
     kind = KINDS[read_kind(loaded, tuple(KINDS))]
-    spec = named(validate(loaded, kind.spec_model()), "-" if loaded.file == _KEYWORDS else loaded.file)
-    wanted = command or spec.commands()[0]
+    spec = with_name(validate(loaded, kind.spec_model()), "-" if loaded.file == _KEYWORDS else loaded.file)
+    wanted = spec.commands()[0] if command is None else command
+    if not isinstance(wanted, str):
+        raise TypeError(f"a command is text, such as {spec.commands()[0]!r}, not {type(wanted).__name__}")
     require_command(loaded, kind, wanted)
     made = cast("Opened", _placed(kind.class_for(wanted, spec))(spec))
     vars(made).update(_loaded=loaded, _command=wanted)
@@ -113,28 +129,96 @@ def _opened(loaded: LoadedFile, command: str | None) -> Opened:
 
 @cache
 def _placed(kind: type[Design]) -> type[Design]:
-    """The class of a design whose refusals know their place in its file."""
+    """The class of a design whose refusals know their place in its file, and whose lists the caller may write to."""
+    names = frozenset(kind.quantity_names())
 
     def get(self: Design, name: str) -> Any:
         try:
-            return kind.__getattribute__(self, name)
+            value = kind.__getattribute__(self, name)
         except NoSolution as error:
             loaded = object.__getattribute__(self, "__dict__").get("_loaded")
             if loaded is not None:
                 error.line, error.column, error.file = loaded.locate(parse_path(error.key) or ())
             raise
+        return _copied(value) if type(value) is list and name in names else value
+
+    def raw(self: Design, name: str) -> Any:
+        return _copied(kind.raw(self, name))
 
     def reduce(self: Design) -> Any:
         return _opened, (vars(self)["_loaded"], vars(self)["_command"])
 
-    own = {"__getattribute__": get, "__reduce__": reduce, "__module__": kind.__module__, "__doc__": kind.__doc__}
+    own = {
+        "__getattribute__": get,
+        "raw": raw,
+        "__reduce__": reduce,
+        "__module__": kind.__module__,
+        "__doc__": kind.__doc__,
+    }
     return type(kind.__name__, (kind,), own)
 
 
+def _copied(value: Any) -> Any:
+    """The reader's own: what the reader does to it changes no result that the design keeps."""
+    return [_copied(item) for item in value] if type(value) is list else value
+
+
 def _settings(values: Values | None) -> list[str]:
-    return [f"{path}={_text(value)}" for path, value in (values or {}).items()]
+    if values is None:
+        return []
+    if not isinstance(values, Mapping):
+        raise TypeError(f"values are a mapping of paths to values, not {type(values).__name__}")
+    return [f"{_path(path)}={_text(value, path)}" for path, value in values.items()]
 
 
-def _text(value: Any, indent: int | None = None) -> str:
-    """JSON, which is YAML too; arrays and numbers of numpy become Python's own."""
-    return json.dumps(value, indent=indent, default=lambda other: other.tolist())
+def _keywords(keys: dict[str, Any]) -> str:
+    """The text of a design file with these keys, each on a line of its own."""
+    for key, value in keys.items():
+        _text(value, key)
+    return _text(keys, "", indent=1)
+
+
+def _path(path: Any) -> str:
+    if not isinstance(path, str):
+        raise TypeError(f"a path in a design file is text, not {type(path).__name__}")
+    if "=" in path:
+        raise _refused("is no path: the value stands beside it", path)
+    return path
+
+
+def _text(value: Any, key: str, indent: int | None = None) -> str:
+    """JSON, which is YAML too; arrays and numbers of numpy and others become Python's own.
+
+    Raises
+        GearlinkError - for what a file cannot hold
+    """
+    try:
+        return json.dumps(value, indent=indent, default=_as_python)
+    except _NoValue as error:
+        refusal = f"is of type {error}, which no design file can hold: give a number, text, a list or a dict"
+    except TypeError:
+        refusal = "has a section whose keys are not text"
+    except (ValueError, RecursionError):
+        refusal = "holds itself, or sections within sections without end"
+    raise _refused(refusal, key)
+
+
+class _NoValue(Exception):
+    """A value that is none of a design file, by the name of its type."""
+
+
+def _as_python(value: Any) -> Any:
+    if isinstance(value, range):
+        return list(value)
+    plain = value.tolist() if callable(getattr(value, "tolist", None)) else value
+    if type(plain) is not type(value):
+        return plain
+    if isinstance(value, Number) and hasattr(value, "__float__"):
+        return float(value)
+    raise _NoValue(type(value).__name__)
+
+
+def _refused(refusal: str, key: str) -> GearlinkError:
+    error = GearlinkError(f"{named(key)} {refusal}" if key else f"the design {refusal}")
+    error.key = key
+    return error

@@ -11,6 +11,8 @@ from enum import StrEnum
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from gearlink.core.numerics.rows import FEWEST_ROWS, MOST_ROWS
+
 STREAM = Path("-")
 """Standard output, where a file is asked for."""
 
@@ -137,7 +139,7 @@ OPTIONS = {
     "tables": Option(
         ("--table",), "add a table; in csv alone (repeatable)", str, "NAME", repeatable=True, offers="tables"
     ),
-    "samples": Option(("--samples",), "rows per turn or stroke", int, least=2, most=10_000_000),
+    "samples": Option(("--samples",), "rows per turn or stroke", int, least=FEWEST_ROWS, most=MOST_ROWS),
     "strict": Option(("--strict",), "treat a warning as a failure"),
     "color": Option(("--no-color",), "no colours, as with NO_COLOR=1", stands_for=False),
     "quiet": Option(("--quiet", "-q"), "print no notes on standard error"),

@@ -11,11 +11,12 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from itertools import count
+from operator import index
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 from gearlink.core.errors import GearlinkError, named
 from gearlink.core.nomenclature import term
-from gearlink.core.numerics.rows import Rows
+from gearlink.core.numerics.rows import FEWEST_ROWS, MOST_ROWS, Rows
 from gearlink.core.remedies import Bench, Way, with_remedies
 from gearlink.core.report import Check, Quantity, Remedy, Report, Table, TableInParts
 from gearlink.core.results import cached_property, step
@@ -69,7 +70,8 @@ class UnknownName(GearlinkError):
     """A quantity, table or command was asked for that this design does not have."""
 
     def __init__(self, what: str, name: str, known: Sequence[str]) -> None:
-        super().__init__(f"this design has no {what} named {named(name)}")
+        shown = f"named {named(name)}" if isinstance(name, str) else f"by {type(name).__name__}: names are text"
+        super().__init__(f"this design has no {what} {shown}")
         self.what, self.name, self.known = what, name, tuple(known)
 
 
@@ -173,14 +175,16 @@ class Design:
 
         Parameters
             name : str
-            samples : int - rows per turn or stroke; without it the table's own number of rows
+            samples : int - rows per turn or stroke, 2 to ten million; without it the table's own number of rows
         Raises
             UnknownName
+            GearlinkError - for a number of rows that no table has
         """
         if name not in self.table_names():
             raise UnknownName("table", name, self.table_names())
+        rows = None if samples is None else _rows(samples)
         with step(f"{type(self).__name__}.table_{name}"):
-            table: Table = getattr(self, f"table_{name}")(samples)
+            table: Table = getattr(self, f"table_{name}")(rows)
         return table
 
     def _require_names(self, quantities: Sequence[str], tables: Sequence[str]) -> None:
@@ -304,8 +308,9 @@ class Design:
             UnknownName - for a name that the design does not have
             NoSolution - where no mechanism exists
         """
+        quantities, tables = _several(quantities), _several(tables)
         self._require_names(quantities, tables)
-        if not (quantities or only or command in self.outlines):
+        if not (quantities or only or (isinstance(command, str) and command in self.outlines)):
             raise UnknownName("command", command, tuple(self.outlines))
         outline = Outline(tuple(quantities)) if quantities or only else self.outline(command)
         asked = dict.fromkeys([*(() if findings_only else outline.tables), *tables])
@@ -327,6 +332,23 @@ class Design:
                 for name in asked
             ),
         )
+
+
+def _several(names: Sequence[str]) -> Sequence[str]:
+    """Names, of which a single one may stand alone."""
+    return (names,) if isinstance(names, str) else names
+
+
+def _rows(samples: Any) -> int:
+    """A number of rows as Python's own, in which products do not overflow; what is none is refused."""
+    try:
+        rows = samples if isinstance(samples, int) else index(samples)
+    except TypeError:
+        rows = 0
+    if FEWEST_ROWS <= rows <= MOST_ROWS:
+        return rows
+    shown = samples if isinstance(samples, (int, float)) else type(samples).__name__
+    raise GearlinkError(f"samples is the number of rows, a whole one from {FEWEST_ROWS} to {MOST_ROWS}, not {shown}")
 
 
 @cache

@@ -112,12 +112,18 @@ class Rule(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """Columns of equal length, sequences or one-dimensional arrays; `data[i]` is `columns[i]` in `units[i]`."""
+    """Columns of equal length, sequences or one-dimensional arrays; `data[i]` is `columns[i]` in `units[i]`.
+
+    Arrays of `data` are read-only, for a design may keep them; a column by name is the reader's own.
+    """
 
     name: str
     columns: tuple[str, ...]
     units: tuple[str, ...]
     data: tuple[Column, ...]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "data", tuple(map(_read_only, self.data)))
 
     @classmethod
     def of(cls, name: str, columns: Mapping[str, tuple[Column, str]]) -> Table:
@@ -131,7 +137,7 @@ class Table:
         return cls(name, tuple(columns), units, data)
 
     def __getitem__(self, column: str) -> NDArray[Any]:
-        """A column by name, as an array.
+        """A column by name, as a new array; where all else are numbers, NaN stands for what does not exist.
 
         Raises
             KeyError - for a name that is not among the columns
@@ -140,7 +146,10 @@ class Table:
 
         if column not in self.columns:
             raise KeyError(f"no column {column!r}; the columns are {', '.join(self.columns)}")
-        return np.asarray(self.data[self.columns.index(column)])
+        found = np.array(self.data[self.columns.index(column)])
+        if found.dtype == object and all(item is None or isinstance(item, (int, float)) for item in found):
+            return found.astype(float)
+        return found
 
     def _repr_html_(self) -> str:
         from gearlink.core.notebook import table_as_html
@@ -198,6 +207,15 @@ class Report:
     def ok(self) -> bool:
         """False where a check fails."""
         return all(check.status != "fail" for check in self.checks)
+
+
+def _read_only(column: Column) -> Column:
+    """A column as it is, an array as a view that cannot be written to."""
+    if not hasattr(column, "flags") or not column.flags.writeable:
+        return column
+    view: NDArray[Any] = column.view()  # type: ignore[union-attr]  # what has flags is an array
+    view.flags.writeable = False
+    return view
 
 
 def _plain(column: Column) -> Sequence[float | str | None]:

@@ -257,7 +257,8 @@ def _apply(loaded: LoadedFile, override: Override) -> None:
     except _NoPlace as error:
         key = format_path(override.path)
         raise DesignFileError([override.source.report("GL114", str(error), 0, key=key)]) from None
-    loaded.overrides.append(override)
+    depth = len(override.path)
+    loaded.overrides = [*(other for other in loaded.overrides if other.path[:depth] != override.path), override]
 
 
 class _NoPlace(Exception):

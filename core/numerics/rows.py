@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+FEWEST_ROWS, MOST_ROWS = 2, 10_000_000
+"""Of a turn or stroke: its ends; what is more than memory is asked for by mistake."""
+
 
 class Rows(int):
     """A number of rows of a table, of which `size` from number `first` on are wanted.

@@ -31,7 +31,7 @@ DRIVE = {
     "middle_pressure_angle": "oscillating_cam.middle_pressure_angle",
 }
 OF_REST = ("dwell_force",)
-OF_SLIDER_CAM = {"line_of_centers_place": "cam.middle", "roller_arm_offset": "cam.arm_offset"}
+OF_SLIDER_CAM = {"line_of_centers_place": "slider_cam.middle", "roller_arm_offset": "slider_cam.arm_offset"}
 OF_EVEN_CAM = ("profile_correction", "largest_profile_correction", "phase_angle", "start_curvature_radius")
 PROFILE = {
     "rocker_radius": "cam.rocker_radius",

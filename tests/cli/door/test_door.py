@@ -10,6 +10,8 @@ import math
 import pickle
 import subprocess
 import sys
+from decimal import Decimal
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -126,6 +128,99 @@ class TestErrors:
     def test_no_such_name(self) -> None:
         with pytest.raises(AttributeError, match="'loaad'"):
             gearlink.loaad  # noqa: B018
+
+
+class TestValues:
+    """What a script may put into a design, and what it may not."""
+
+    @pytest.mark.parametrize(
+        "stroke",
+        [320, np.int8(100), np.float32(320.5), np.longdouble(320), np.array(320.0), Decimal("320.5"), Fraction(641, 2)],
+    )
+    def test_numbers_of_every_type(self, stroke: Any) -> None:
+        crank = gearlink.changed(gearlink.design(**CRANK), {"stroke": stroke})
+        assert crank.spec.stroke == float(stroke)
+        assert gearlink.design(**{**CRANK, "stroke": stroke}).crank_length == crank.crank_length
+
+    @pytest.mark.parametrize("value", [b"320", Path("x"), {1}, 1j, object(), int, [[object()]]])
+    def test_what_no_file_holds(self, value: Any) -> None:
+        for attempt in (
+            lambda: gearlink.design(**{**CRANK, "stroke": value}),
+            lambda: gearlink.changed(gearlink.design(**CRANK), {"stroke": value}),
+        ):
+            with pytest.raises(
+                gearlink.GearlinkError, match=r"'stroke' is of type .* no design file can hold"
+            ) as caught:
+                attempt()
+            assert caught.value.key == "stroke"
+
+    def test_what_has_no_end(self) -> None:
+        loop: dict[str, Any] = {}
+        loop["x"] = loop
+        deep: list[Any] = []
+        for _ in range(100_000):
+            deep = [deep]
+        for value in (loop, deep):
+            with pytest.raises(gearlink.GearlinkError, match="'stroke' holds itself"):
+                gearlink.design(**{**CRANK, "stroke": value})
+
+    def test_what_is_no_mapping_no_path_no_command(self) -> None:
+        crank = gearlink.design(**CRANK)
+        wrong: Any
+        for wrong in ("stroke=320", [("stroke", 320)], {3: 320}):
+            with pytest.raises(TypeError, match=r"mapping of paths|a path in a design file is text"):
+                gearlink.changed(crank, wrong)
+        with pytest.raises(gearlink.GearlinkError, match="is no path"):
+            gearlink.changed(crank, {"stroke=3": 20})
+        with pytest.raises(TypeError, match="a command is text, such as 'crank', not list"):
+            gearlink.design(["crank"], **CRANK)  # type: ignore[arg-type]
+
+    def test_paths_of_bytes(self, designs: Path) -> None:
+        path: Any = str(designs / "ty460_slider_crank.yaml").encode()
+        assert gearlink.load(path).spec.stroke == 310
+
+    def test_changes_without_end_leave_no_trace(self) -> None:
+        """An optimisation changes the same keys of its best design thousands of times."""
+        crank, sizes = gearlink.design(**CRANK), []
+        for stroke in range(200, 300):
+            crank = gearlink.changed(crank, {"stroke": stroke, "limits.transmission_angle": 40 + stroke / 1000})
+            sizes.append(len(pickle.dumps(crank)))
+        assert sizes[-1] < 1.1 * sizes[0]
+        assert (crank.spec.stroke, crank.spec.limits.transmission_angle) == (299, 40.299)
+
+
+class TestNames:
+    def test_one_name_may_stand_alone(self, designs: Path) -> None:
+        report = gearlink.load(designs / "ty460_slider_crank.yaml").report(
+            "crank", quantities="crank_length", tables="motion", samples=5
+        )
+        assert [q.name for q in report.quantities] == ["crank_length"]
+        assert [(t.name, t.length) for t in report.tables] == [("motion", 5)]
+
+    @pytest.mark.parametrize("name", [3, None, ["crank_length"], b"crank_length", math.nan])
+    def test_names_that_are_none(self, name: Any) -> None:
+        crank = gearlink.design(**CRANK)
+        for ask in (crank.quantity, crank.table, crank.report, lambda name: gearlink.figure(crank, name or "")):
+            with pytest.raises(gearlink.GearlinkError, match="this design has no"):
+                ask(name)
+
+    @pytest.mark.parametrize("samples", [0, 1, -5, 2.5, "36", True, 10**9, 10**30, math.nan])
+    def test_rows_that_no_table_has(self, samples: Any) -> None:
+        with pytest.raises(gearlink.GearlinkError, match="a whole one from 2 to 10000000, not"):
+            gearlink.design(**CRANK).table("motion", samples=samples)
+
+    def test_small_integers_of_numpy_do_not_overflow(self, designs: Path) -> None:
+        for name in ("ty460", "wide_swing_cycle"):
+            made: Any = gearlink.load(designs / f"{name}.yaml")
+            rows: Any = np.int8(100)
+            table = made.table_names()[0]
+            assert repr(made.table(table, samples=rows)) == repr(made.table(table, samples=100))
+
+    def test_figure_takes_commands_and_designs(self) -> None:
+        with pytest.raises(gearlink.GearlinkError, match="no command named 'gripper'"):
+            gearlink.figure(gearlink.design(**CRANK), "gripper")
+        with pytest.raises(TypeError, match=r"gearlink\.load"):
+            gearlink.figure(3)  # type: ignore[arg-type]
 
 
 def test_table_columns_are_arrays(designs: Path) -> None:

@@ -167,3 +167,12 @@ def test_a_heavy_slider_is_judged() -> None:
 def test_a_roller_that_covers_the_profile_is_refused() -> None:
     with pytest.raises(NoSolution, match="covers the whole profile"):
         _ = design("wide_swing_slider_cam", cam__roller_radius=1e4).cam.contact
+
+
+def test_a_cam_of_a_rocker_alone_has_none_of_its_places() -> None:
+    """They are asked for as every quantity is: the refusal names the section that is missing."""
+    for name in ("line_of_centers_place", "roller_arm_offset"):
+        for worked in ("loaded_wide_swing", "loaded_oscillating_cam", "wide_swing_cycle"):
+            with pytest.raises(NoSolution, match="section slider") as caught:
+                design(worked).quantity(name)
+            assert caught.value.key == "slider"
