@@ -11,7 +11,7 @@ import numpy as np
 from gearlink.core.errors import NoSolution
 from gearlink.core.numerics.arrays import Reals
 
-_PASSES, _PLAIN, _KEPT, _POWERS = 60, 4, 5, 20
+_PASSES, _PLAIN, _KEPT = 60, 4, 5
 _SETTLED, _NEARLY, _BEYOND = 1e-14, 1e-11, 1e6
 LOCKS = 0.9
 """A mechanism of which a pass leaves more of a change counts as self-locking."""
@@ -112,12 +112,8 @@ class Rubbing:
         raise SelfLocking(LOCKED, key="loads.friction")
 
     def ratio(self, sizes: Reals) -> Reals:
-        """What a pass leaves of a disturbance, at each row: the limit of the changes of two passes, (N,)."""
-        rates = self.rates(self.forces(sizes))
-        way, growth = np.ones(sizes.shape), np.zeros(len(sizes))
-        for step in range(2 * _POWERS):
-            way = np.einsum("nmj,nj->nm", rates, way)
-            length = np.max(np.abs(way), axis=1, initial=0.0)
-            growth += np.log(np.where(length > 0.0, length, 1e-300)) if step >= _POWERS else 0.0
-            way = way / np.where(length > 0.0, length, 1.0)[:, None]
-        return np.asarray(np.exp(growth / _POWERS))
+        """What passes leave of a disturbance, each of what the one before left, at each row, (N,).
+
+        The spectral radius of the rates: no unit that sizes are in changes it, torques of pins beside forces of teeth.
+        """
+        return np.asarray(np.abs(np.linalg.eigvals(self.rates(self.forces(sizes)))).max(axis=1, initial=0.0))

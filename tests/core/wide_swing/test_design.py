@@ -502,6 +502,13 @@ class TestSections:
             design(cam=None).quantity(name)
         assert refusal.value.key == key
 
+    @pytest.mark.parametrize("name", ["line_of_centers_place", "roller_arm_offset"])
+    def test_what_a_slider_alone_has_names_its_section(self, name: str) -> None:
+        for made in (design(), driven()):
+            with pytest.raises(MissingSection) as refusal:
+                made.quantity(name)
+            assert refusal.value.key == "slider"
+
     def test_iteration(self) -> None:
         made = design(method="iteration", iteration_steps=10)
         assert value(made, "iteration_error") == pytest.approx(2.65e-3, rel=0.05)
