@@ -18,6 +18,17 @@ class GearlinkError(Exception):
     column = 0
     key = ""
 
+    def __reduce__(self) -> tuple[object, ...]:
+        """Between processes an error keeps what it says and where; a pool waits for ever for one that cannot travel."""
+        return _again, (type(self), self.args, dict(vars(self)))
+
+
+def _again(kind: type[GearlinkError], args: tuple[object, ...], state: dict[str, object]) -> GearlinkError:
+    """An error as it was, whatever its class takes."""
+    error = kind.__new__(kind, *args)
+    vars(error).update(state)
+    return error
+
 
 def named(text: str) -> str:
     """A name that somebody gave, in quotation marks, as a message repeats it: a long one is cut.

@@ -5,6 +5,7 @@ Numbers that the door gives are those of the engine, so they are compared for eq
 
 from __future__ import annotations
 
+import copy
 import json
 import math
 import pickle
@@ -264,6 +265,25 @@ def test_kernels_stand_in_their_packages() -> None:
 def test_designs_travel_between_processes(designs: Path) -> None:
     crank: Any = pickle.loads(pickle.dumps(gearlink.load(designs / "ty460_slider_crank.yaml")))
     assert crank.crank_length == gearlink.load(designs / "ty460_slider_crank.yaml").crank_length
+
+
+def test_errors_travel_between_processes() -> None:
+    crank = gearlink.design(**CRANK)
+    for attempt in (
+        lambda: gearlink.load("nowhere.yaml"),
+        lambda: gearlink.design(**{**CRANK, "stroke": "x", "rood": 3}),
+        lambda: gearlink.design(**{**CRANK, "stroke": b"x"}),
+        lambda: gearlink.design(**{**CRANK, "stroke": 2000}).crank_length,
+        lambda: crank.quantity("strok"),
+        lambda: crank.report("press"),
+    ):
+        with pytest.raises(gearlink.GearlinkError) as caught:
+            attempt()
+        error = caught.value
+        for again in (pickle.loads(pickle.dumps(error)), copy.copy(error), copy.deepcopy(error)):
+            assert type(again) is type(error)
+            assert (str(again), again.args, vars(again)) == (str(error), error.args, vars(error))
+            assert (again.file, again.line, again.key) == (error.file, error.line, error.key)
 
 
 @pytest.mark.slow
