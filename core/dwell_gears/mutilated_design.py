@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 from gearlink.core.clearance.bodies import Layout
 from gearlink.core.clearance.checks import SHAFT_WAYS, shaft_checks
-from gearlink.core.design import Outline, placed
+from gearlink.core.design import Found, Outline, placed
 from gearlink.core.dwell_gears.bodies import mutilated_layout
 from gearlink.core.dwell_gears.codes import GAP, START_SHOCK
 from gearlink.core.dwell_gears.mutilated import MutilatedGear, teeth_for_times
@@ -39,6 +39,7 @@ _TURN = 2.0 * math.pi
 _SHOWN_CYCLES = 100
 # A rocker that starts with less than this share of the driven gear's speed starts from rest.
 _AT_REST = 1e-6
+_FOUND = "found for target"
 
 
 _TEETH = (
@@ -124,6 +125,16 @@ class MutilatedGearDwell(RealSpeed, Meshed):
     def __init__(self, spec: Any) -> None:
         self.asked = spec
         super().__init__(_with_teeth(spec))
+
+    def completion(self) -> Iterator[Found]:
+        """Teeth and reduction in place of the wanted times, from which they follow."""
+        if self.asked.target is None or self.asked.reduction is not None:
+            return
+        yield Found("reduction", self.reduction, _FOUND)
+        for key in ("full_teeth", "group_teeth", "driven", "stops"):
+            if getattr(self.asked.gears, key) is None:
+                yield Found(f"gears.{key}", getattr(self.spec.gears, key), _FOUND)
+        yield Found("target", None)
 
     def table_candidates(self, _samples: int | None = None) -> Table:
         """The wanted times met by other driven gears and by more groups."""

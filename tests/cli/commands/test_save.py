@@ -29,6 +29,7 @@ SYNTHESES = [
     ("synth dwell", "two_gear_standing", "back_step_angle"),
     ("analyze", "wide_lever", "output_swing"),
     ("analyze", "hypocycloid_slider", "stroke"),
+    ("analyze", "mutilated_gear_times", "dwell_share"),
     ("analyze", "five_bar_points", "path_width"),
     ("analyze", "five_bar_positions", "span_max"),
 ]
