@@ -7,6 +7,7 @@ import os
 from collections.abc import Mapping
 from functools import cache
 from numbers import Number
+from threading import Lock
 from typing import TYPE_CHECKING, Any, cast
 
 from gearlink.cli.evaluate import named as with_name
@@ -30,6 +31,8 @@ if TYPE_CHECKING:
 
 
 _KEYWORDS = "<design>"
+_one_at_a_time = Lock()
+"""matplotlib's reader of formulas is one for all threads, and fails where two draw."""
 Values = Mapping[str, Any]
 """Values by the dotted paths of a design file, as for `--set`: {"gears.crank": 42, "teeth[1]": 20}."""
 
@@ -104,7 +107,8 @@ def figure(design: Design, command: str | None = None) -> Figure:
     wanted = _origin(design)[1] if command is None else command
     if not (isinstance(wanted, str) and wanted in design.outlines):
         raise UnknownName("command", wanted, tuple(design.outlines))
-    return draw(wanted, design)
+    with _one_at_a_time:
+        return draw(wanted, design)
 
 
 def _origin(design: Any) -> tuple[LoadedFile, str]:
