@@ -45,14 +45,15 @@ def residual_vibration(design: LoadsDesign) -> Iterator[Check]:
     if allowed is None:
         return
     vibrating = design.vibrating
+    unit = "mm" if vibrating.slides else "deg"
     if not vibrating.motions:
         text = "the output stands nowhere, so that no vibration is held against loads.vibration.allowed_residual"
-        yield codes.RESIDUAL_VIBRATION.check("warn", f"{text}; the table harmonics has its deflection", None, allowed)
+        text += "; the table harmonics has its deflection"
+        yield codes.RESIDUAL_VIBRATION.check("warn", text, None, allowed, unit)
         return
     found = vibrating.residual if vibrating.residual is not None else vibrating.twist
     if found is None:  # resonance tells
         return
-    unit = "mm" if vibrating.slides else "deg"
     text = f"the output vibrates in its dwell by {found:.4g} {unit}"
     limit = vibrating.speed_limit
     slower = f" (at most {safely_below(limit / design.speed_unit, 4)} {design.speed_words})" if limit else ""

@@ -64,6 +64,20 @@ def test_without_damping_a_resonance_has_no_limit() -> None:
     assert "number 13" in check.message
 
 
+@pytest.mark.parametrize(
+    ("base", "mass", "unit"),
+    [
+        ("ty460_slider_crank", {"slider": {"mass": 240}}, "mm"),
+        ("loaded_six_bar", {"output": {"inertia": 0.004}}, "deg"),
+    ],
+)
+def test_a_vibration_that_nothing_is_held_against_has_its_unit(base: str, mass: Any, unit: str) -> None:
+    vibration = {"frequency": 60, "allowed_residual": 0.1}
+    loads = {"links": mass, "vibration": vibration} | ({"speed": 75} if unit == "mm" else {})
+    check = found("residual-vibration", base, loads=loads)
+    assert (check.status, check.value, check.limit, check.unit) == ("warn", None, 0.1, unit)
+
+
 @pytest.mark.parametrize(("frequency", "status"), [(19.9, "warn"), (20.1, "pass")])
 def test_links_count_as_rigid_from_ten_times_the_input_on(frequency: float, status: str) -> None:
     check = found("rigid-model", loads__vibration={"frequency": frequency, "damping": 0.05})
