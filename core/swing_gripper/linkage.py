@@ -15,6 +15,7 @@ import numpy as np
 
 from gearlink.core.errors import at_key
 from gearlink.core.linkages.fourbar.position import FourBar
+from gearlink.core.linkages.fourbar.position import solve_inverse as solve_one_inverse
 from gearlink.core.linkages.fourbar.refine import dead_point_distance
 from gearlink.core.linkages.fourbar.sweep import FourBarInverseSweep, solve_inverse
 from gearlink.core.numerics.arrays import Reals
@@ -108,6 +109,22 @@ class GripperLinkage:
                 self._kept[place] = last
         return last[2]
 
+    @property
+    def output_shift(self) -> float:
+        """Whole turns that bring the direction of ED at the bite into the first one, (-pi, pi]."""
+        return _into_first_turn(self.output_direction)
+
+    @cached_property
+    def _shifts(self) -> tuple[float, float]:
+        """What turns the directions of AC and CD into the machine's frame, at the bite in the first turn.
+
+        From the bite, not from the first of the angles that are asked for: a part of a turn is part of the same motion.
+        """
+        with at_key("links"):
+            bite = solve_one_inverse(self.four_bar, self.output_direction - self.frame_direction)
+        first, second = (x + self.frame_direction for x in (bite.crank_angle, bite.coupler_angle))
+        return self.frame_direction + _into_first_turn(first), self.frame_direction + _into_first_turn(second)
+
     @cached_property
     def _kept(self) -> dict[int, tuple[Reals, int, GripperMotion]]:
         return {}
@@ -130,9 +147,9 @@ class GripperLinkage:
         return GripperMotion(
             theta=np.radians(degrees),
             beta=beta[0],
-            input_angle=_start_in_first_turn(state.crank_angle + self.frame_direction),
-            coupler_angle=_start_in_first_turn(state.coupler_angle + self.frame_direction),
-            output_angle=_start_in_first_turn(output),
+            input_angle=state.crank_angle + self._shifts[0],
+            coupler_angle=state.coupler_angle + self._shifts[1],
+            output_angle=output + self.output_shift,
             input_velocity=state.crank_velocity,
             coupler_velocity=state.coupler_velocity,
             output_velocity=velocity,
@@ -179,9 +196,6 @@ def _folded(angle: Reals) -> Reals:
     return dead_point_distance(np.abs(np.arctan2(np.sin(angle), np.cos(angle))))
 
 
-def _start_in_first_turn(angle: Reals) -> Reals:
-    """The same continuous angle, shifted by whole turns so that the first lies in (-pi, pi]."""
-    if not angle.size:
-        return angle
-    turns = math.ceil((float(angle.flat[0]) - math.pi) / (2.0 * math.pi))
-    return angle - 2.0 * math.pi * turns if turns else angle
+def _into_first_turn(angle: float) -> float:
+    """Whole turns that bring an angle into (-pi, pi]."""
+    return -2.0 * math.pi * math.ceil((angle - math.pi) / (2.0 * math.pi))

@@ -51,7 +51,7 @@ def two_ways(linkage: GripperLinkage, motion: GripperMotion) -> TwoWays:
     driving = motion.output_angle - linkage.frame_direction + math.pi
     coupler = motion.coupler_angle - linkage.frame_direction
     rocker = motion.input_angle - linkage.frame_direction - math.pi
-    bite = linkage.output_direction - linkage.frame_direction + math.pi
+    bite = linkage.output_direction + linkage.output_shift - linkage.frame_direction + math.pi
     swing = (bite, bite + linkage.swing_sense * linkage.law.total_swing)
     newton = fourbar_newton.solve(inverse, driving, swing)
     exact = refine(inverse, driving, coupler, rocker)

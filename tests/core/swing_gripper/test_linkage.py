@@ -10,6 +10,7 @@ Tolerances, EPS = 2^-52; the example keeps 70 deg of transmission, so conditions
 
 from __future__ import annotations
 
+import cmath
 import math
 from dataclasses import replace
 
@@ -116,6 +117,34 @@ def test_both_ways_agree_on_the_example() -> None:
     assert ways.iterations.min() >= 1
     assert ways.iterations.max() <= 4
     assert ways.residual.max() <= 16 * EPS * 780.0
+
+
+def test_a_direction_of_another_turn_is_the_same_direction() -> None:
+    """Of a gripper that could not go round: Newton-Raphson is not sought a turn away."""
+    links = {"input": 150.0, "coupler": 215.0, "output": 100.0}
+    for direction in (-250.0, 110.0):
+        linkage = machine(links=links, output_direction=direction).linkage
+        motion = linkage.motion(DEGREES, 0)
+        assert math.degrees(motion.output_angle[0]) == pytest.approx(110.0, abs=1e-12)
+        assert two_ways(linkage, motion).iterations.max() <= 4
+
+
+def test_a_part_of_the_turn_is_part_of_the_same_motion() -> None:
+    """The whole machine turned so that each link passes 180 deg on its way: no row depends on the first one."""
+    for degrees in range(0, 360, 20):
+        turn = cmath.rect(1.0, math.radians(degrees))
+        linkage = replace(
+            LINKAGE,
+            input_pivot=LINKAGE.input_pivot * turn,
+            output_pivot=LINKAGE.output_pivot * turn,
+            output_direction=LINKAGE.output_direction + math.radians(degrees),
+        )
+        whole = linkage.motion(DEGREES, 0)
+        for first in (97, 200):
+            part = linkage.motion(DEGREES[first:], 0)
+            for name in ("input_angle", "coupler_angle", "output_angle"):
+                assert np.array_equal(getattr(part, name), getattr(whole, name)[first:])
+            assert two_ways(linkage, part).iterations.max() <= 4
 
 
 @pytest.mark.quick(2)
