@@ -23,6 +23,9 @@ def write_batch(results: Sequence[Outcome], options: BatchOptions, stream: IO[st
     if options.format is BatchFormat.TABLE:
         _show(results, options)
         return
+    if options.format is BatchFormat.JSONL:
+        stream.writelines(json_text(_entry(outcome)) + "\n" for outcome in results)
+        return
     stream.write(_WRITERS[options.format](results))
 
 
@@ -40,10 +43,6 @@ def _json(results: Sequence[Outcome]) -> str:
     worst = max((outcome.status for outcome in results), default=0)
     whole = {"gearlink": FORMAT, "command": "batch", "ok": worst == 0, "summary": summary(results)}
     return json_text(whole | {"designs": [_entry(o) for o in results]}) + "\n"
-
-
-def _jsonl(results: Sequence[Outcome]) -> str:
-    return "".join(json_text(_entry(o)) + "\n" for o in results)
 
 
 def _rows(results: Sequence[Outcome]) -> list[tuple[str, str, str, str]]:
@@ -92,7 +91,6 @@ def _github(results: Sequence[Outcome]) -> str:
 
 _WRITERS: dict[BatchFormat, Callable[[Sequence[Outcome]], str]] = {
     BatchFormat.JSON: _json,
-    BatchFormat.JSONL: _jsonl,
     BatchFormat.CSV: _csv,
     BatchFormat.MARKDOWN: _markdown,
     BatchFormat.JUNIT: _junit,
