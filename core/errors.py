@@ -4,8 +4,9 @@ from __future__ import annotations
 
 TYPE_CHECKING = False  # as typing has it, whose import takes longer than all of this module
 if TYPE_CHECKING:
-    from typing import Literal
+    from typing import Literal, TypeVar
 
+    Kind = TypeVar("Kind", bound="GearlinkError")
 
 _MOST_CHARACTERS = 40  # of a name that a message repeats
 
@@ -23,7 +24,7 @@ class GearlinkError(Exception):
         return _again, (type(self), self.args, dict(vars(self)))
 
 
-def _again(kind: type[GearlinkError], args: tuple[object, ...], state: dict[str, object]) -> GearlinkError:
+def _again(kind: type[Kind], args: tuple[object, ...], state: dict[str, object]) -> Kind:
     """An error as it was, whatever its class takes."""
     error = kind.__new__(kind, *args)
     vars(error).update(state)
@@ -59,6 +60,19 @@ class MissingSection(NoSolution):
     """The command needs a section that the design file does not have."""
 
     code = "GL113"
+
+
+def anew(error: NoSolution) -> NoSolution:
+    """A refusal that is kept, to be raised once more: the same, without the ways on which it was raised before.
+
+    Notes
+        Raised itself, it would keep every function that it has ever passed, with all that these held.
+    Example
+        >>> kept = NoSolution("too long", key="stroke")
+        >>> (anew(kept).message, anew(kept).key), anew(kept) is kept
+        (('too long', 'stroke'), False)
+    """
+    return _again(type(error), error.args, dict(vars(error)))
 
 
 class at_key:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gearlink.core.errors import NoSolution
+from gearlink.core.errors import NoSolution, anew
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.results import cached_property
 from gearlink.core.six_bar.following import Follower, Place
@@ -78,7 +78,7 @@ class Course:
     def _followed(self) -> tuple[Reals, int | None]:
         """Certified places: rows of input angle, free directions, their rates; and the turns of the period."""
         if self._walk.error is not None:
-            raise self._walk.error
+            raise anew(self._walk.error)
         return np.array([place.row for place in self._walk.places]), self._walk.turns
 
     @cached_property
@@ -88,7 +88,7 @@ class Course:
         try:
             return _Walk(places, self._walked(places), None)
         except NoSolution as error:
-            return _Walk(places, None, error)
+            return _Walk(places, None, anew(error))
 
     def _walked(self, places: list[Place]) -> int | None:
         """Follow the motion over its period or range; the turns of the period."""

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.design import Found, Outline
-from gearlink.core.errors import MissingSection, NoSolution, at_key
+from gearlink.core.errors import MissingSection, NoSolution, anew, at_key
 from gearlink.core.linkages.band_dwell import ToleranceDwell
 from gearlink.core.linkages.checks import dwell_edge_check, dwell_window_check
 from gearlink.core.linkages.fourbar.position import FourBar
@@ -177,7 +177,7 @@ class DwellSynthesis(BackStepFamily):
     def chosen_idler(self) -> int:
         """The smallest that keeps the limits; a refusal names the longest window that one within them reaches."""
         if self._no_idler is not None:
-            raise self._no_idler
+            raise anew(self._no_idler)
         try:
             return super().chosen_idler()
         except MissingSection:
@@ -185,7 +185,7 @@ class DwellSynthesis(BackStepFamily):
         except NoSolution as error:
             words = self._best_within_limits() if self.advises else ""
             self._no_idler = NoSolution(error.message + words, key=error.key)
-            raise self._no_idler from error
+            raise anew(self._no_idler) from error
 
     def _best_within_limits(self) -> str:
         """The longest window at the asked tolerance, of the smallest idler that keeps the limits.

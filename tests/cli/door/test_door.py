@@ -11,6 +11,7 @@ import math
 import pickle
 import subprocess
 import sys
+import traceback
 from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
@@ -265,6 +266,18 @@ def test_kernels_stand_in_their_packages() -> None:
 def test_designs_travel_between_processes(designs: Path) -> None:
     crank: Any = pickle.loads(pickle.dumps(gearlink.load(designs / "ty460_slider_crank.yaml")))
     assert crank.crank_length == gearlink.load(designs / "ty460_slider_crank.yaml").crank_length
+
+
+def test_a_refusal_asked_for_again_does_not_grow(designs: Path) -> None:
+    """A kept error that is raised itself keeps every function that it ever passed, and what these held."""
+    belt = gearlink.load(designs / "belt_feed.yaml", {"dwell.window": 300})
+    ways, words = [], set()
+    for _ in range(5):
+        with pytest.raises(gearlink.NoSolution) as caught:
+            _ = belt.idler_teeth
+        ways.append(len(traceback.extract_tb(caught.value.__traceback__)))
+        words.add((str(caught.value), caught.value.key, caught.value.line))
+    assert len(set(ways[1:])) == len(words) == 1
 
 
 def test_errors_travel_between_processes() -> None:
