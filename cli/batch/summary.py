@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import IO, TYPE_CHECKING, Any
 
 from gearlink.cli.batch.options import BatchFormat, BatchOptions
@@ -25,8 +25,10 @@ def write_batch(results: Sequence[Outcome], options: BatchOptions, stream: IO[st
         return
     if options.format is BatchFormat.JSONL:
         stream.writelines(json_text(_entry(outcome)) + "\n" for outcome in results)
-        return
-    stream.write(_WRITERS[options.format](results))
+    elif options.format is BatchFormat.JSON:
+        stream.writelines(_json(results))
+    else:
+        stream.write(_WRITERS[options.format](results))
 
 
 def _entry(outcome: Outcome) -> dict[str, Any]:
@@ -39,10 +41,14 @@ def _entry(outcome: Outcome) -> dict[str, Any]:
     return entry | {"errors": [error.as_json() for error in outcome.errors]}
 
 
-def _json(results: Sequence[Outcome]) -> str:
+def _json(results: Sequence[Outcome]) -> Iterator[str]:
+    """The whole in pieces: as one text it would stand in memory several times."""
     worst = max((outcome.status for outcome in results), default=0)
     whole = {"gearlink": FORMAT, "command": "batch", "ok": worst == 0, "summary": summary(results)}
-    return json_text(whole | {"designs": [_entry(o) for o in results]}) + "\n"
+    yield json_text(whole).removesuffix("}") + ', "designs": ['
+    for i, outcome in enumerate(results):
+        yield (", " if i else "") + json_text(_entry(outcome))
+    yield "]}\n"
 
 
 def _rows(results: Sequence[Outcome]) -> list[tuple[str, str, str, str]]:
@@ -90,7 +96,6 @@ def _github(results: Sequence[Outcome]) -> str:
 
 
 _WRITERS: dict[BatchFormat, Callable[[Sequence[Outcome]], str]] = {
-    BatchFormat.JSON: _json,
     BatchFormat.CSV: _csv,
     BatchFormat.MARKDOWN: _markdown,
     BatchFormat.JUNIT: _junit,

@@ -54,7 +54,7 @@ def dwell_window_check(window: float, asked: float, tolerance: float) -> Check:
 
 
 def dwell_edge_check(share: float, interval: list[float] | None) -> Check:
-    """GL314: how near a window is to its jump, by the share of its band that the back-step takes.
+    """GL314: how near a window is to its jump, by the share of its band that the back-step takes, or by the frames.
 
     Parameters
         share : float - back-step over band
@@ -65,12 +65,12 @@ def dwell_edge_check(share: float, interval: list[float] | None) -> Check:
     if width is not None:
         text += f"; the frame may lie within {width:.4g} mm"
     near = EDGE < share <= 1.0 + WINDOW_FIT
-    narrow = width is not None and width < _NARROW
     if near:
         text += ": a frame a little off makes it exceed the band and costs a quarter of the window; ask for less"
-    elif narrow:
+    elif width is not None and width < _NARROW:
         text += f", less than {_NARROW} mm: ask for a shorter window or a greater tolerance"
-    return DWELL_EDGE.check("warn" if near or narrow else "pass", text, share, EDGE)
+        return DWELL_EDGE.check("warn", text, width, _NARROW, "mm")
+    return DWELL_EDGE.check("warn" if near else "pass", text, share, EDGE)
 
 
 def check_linkage(linkage: FourBar) -> str:

@@ -228,3 +228,18 @@ def test_a_tolerance_without_longest_window_is_refused_whatever_is_asked_for(qua
     with pytest.raises(NoSolution, match=r"123 deg .* below 122\.4 deg") as caught:
         made.raw(quantity)
     assert caught.value.key == "dwell.tolerance"
+
+
+@pytest.mark.parametrize("module", [0.1, 2.0])
+def test_the_edge_of_a_dwell_shows_what_it_is_judged_by(module: float) -> None:
+    """The frame's interval grows with the module; at 0.1 mm it is below 0.05 mm, while the band has room left."""
+    gears = {"module": module, "crank": 40, "idler": 44, "output": 40}
+    data = {"kind": "three-gear-four-bar", "gears": gears, "dwell": {"window": 70.0, "tolerance": 0.5}}
+    made = design(data, command="synth dwell")
+    (found,) = made.check("dwell_edge")
+    low, high = made.frame_length_interval
+    if module < 1.0:
+        assert (found.status, found.value, found.limit, found.unit) == ("warn", high - low, 0.05, "mm")
+    else:
+        assert (found.status, found.limit, found.unit) == ("pass", 0.992, "1")
+        assert found.value == pytest.approx(made.back_step.angle / 2.0 / math.radians(0.5), rel=1e-12)
