@@ -182,6 +182,7 @@ class Energy:
         if energy <= 0.0:
             return None
         for _ in range(_STEPS):
+            # only a start: a place that a step leaves without energy counts as standing, and the next step mends it
             speeds = np.sqrt(2.0 * np.maximum(left + energy, 0.0) / inertia)
             ends = int(np.argmin(speeds)), int(np.argmax(speeds))
             slope = sum(1.0 / float(inertia[k] * speeds[k]) for k in ends)

@@ -15,7 +15,8 @@ def least(cost: Reals, rows: Reals, limits: Reals, lower: Reals, upper: Reals) -
         rows : (M, N) array - finite
         limits : (M,) array
     Returns
-        x : (N,) array - to 1e-7 in each limit, so state the program in numbers about 1; None where there is none
+        x : (N,) array - to 1e-7 in each limit, so state the program in numbers about 1; None where no x keeps the
+            limits, or the cost falls without end
 
     Source
         Q. Huangfu, J. A. J. Hall, Mathematical Programming Computation 10 (2018) 119
