@@ -62,8 +62,10 @@ def _sections(loaded: LoadedFile, kind: Kind, spec: Any, options: Options) -> li
 
     Where one is refused they are made again one after another, so that the first to refuse in the file's order says so.
     """
+    from gearlink.cli.figures.loading import load_what_is_drawn
     from gearlink.cli.page.side_by_side import side_by_side
 
+    load_what_is_drawn("svg")  # once, not in every process
     commands = (*spec.commands(), *_budgets(kind, spec))
 
     def built(command: str) -> Part | None:

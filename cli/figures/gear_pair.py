@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from gearlink.cli.figures.drawing import panels
 from gearlink.cli.figures.gears.mesh import Mesh, mesh_zone, values, whole_gears
 from gearlink.cli.figures.gears.path_of_contact import zone_legend
-from gearlink.cli.figures.gears.values import gear_text, headed, math_symbol, ruled, value_rows
+from gearlink.cli.figures.gears.values import gear_text, headed, ruled, value_rows
 from gearlink.core.errors import NoSolution
 
 if TYPE_CHECKING:
@@ -85,7 +85,7 @@ def _drawing(design: GearPairDesign) -> Rows:
         return ["", "", "unit", "", ""], []
     columns: Any = table.data
     rows = [
-        [item, math_symbol(symbol) if symbol else "", unit, gear_text(one), gear_text(other)]
+        [item, symbol, unit, gear_text(one), gear_text(other)]
         for item, symbol, one, other, unit in zip(*columns, strict=True)
     ]
     return ["", "", "unit", "gear 1", "gear 2"], rows

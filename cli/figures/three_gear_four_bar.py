@@ -56,9 +56,9 @@ def _mark(axes: Axes, design: ThreeGearFourBar, label: bool = False) -> None:
     if dwell is None:
         return
     if dwell.width:
-        linkage.shade(axes, linkage.DWELL, dwell.start, dwell.width, "dwell $\\varphi_{13}$" if label else None)
+        linkage.shade(axes, linkage.DWELL, dwell.start, dwell.width, "dwell φ₁₃" if label else None)
     if design.back_step is not None:
-        width, words = math.degrees(design.back_step.crank_angle), "back-step $\\varphi_{12}$" if label else None
+        width, words = math.degrees(design.back_step.crank_angle), "back-step φ₁₂" if label else None
         linkage.shade(axes, linkage.BACKWARD, dwell.start, width, words)
     linkage.standstills(axes, design.dwell_crank_angles, "standstill" if label else None)
 

@@ -26,8 +26,8 @@ _LINKS = {
 _STEADY = {"speed_ratio_max": "greatest speed ratio", "speed_ratio_min": "least speed ratio"}
 _BACK_STEP = {
     "back_step_angle": "back-step of the output",
-    "back_step_crank_angle": "crank angle of it, $\\varphi_{12}$",
-    "dwell_angle": "dwell, $\\varphi_{13}$",
+    "back_step_crank_angle": "crank angle of it, φ₁₂",
+    "dwell_angle": "dwell, φ₁₃",
 }
 
 _WITHIN = {"tolerance_dwell_angle": "window within the tolerance", "tolerance_dwell_start": "start of the window"}

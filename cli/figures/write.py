@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -10,8 +9,8 @@ from importlib import import_module
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
-from gearlink.cli import process
 from gearlink.cli.figures.drawing.placing import Places, settled
+from gearlink.cli.figures.loading import load_what_is_drawn
 from gearlink.cli.files import safe_stem, write_atomically
 from gearlink.cli.options import DPI, Options
 from gearlink.cli.quiet import without_notes
@@ -82,40 +81,11 @@ def save(make: Callable[[], Figure], name: str, stream: IO[bytes], ending: str, 
 
     The same figure gives the same bytes; `dpi` counts for png alone.
     """
-    _load_what_is_drawn()
+    load_what_is_drawn(ending)
     with fonts_of(name):
         made = make()
         made.set_dpi(dpi if ending == "png" else DPI)
         made.savefig(stream, format=ending, metadata=_FIXED_METADATA[ending], **_PACKING.get(ending, {}))
-
-
-def _load_what_is_drawn() -> None:
-    """Import what figures are made of, without the texts of `help` on every artist's properties and without solid axes.
-
-    Those are a fifth of the import, for matplotlib's `kwdoc` reads the docstrings of all setters, and these, which
-    matplotlib can do without, a twelfth. Nobody asks for them in a process of the command; in one of Python or a
-    notebook, somebody may, and nothing is left out.
-    """
-    if not process.runs_the_command_alone or "matplotlib.figure" in sys.modules:
-        return
-    with without_notes("matplotlib"):
-        import matplotlib.artist as artists
-
-    def nothing(artist: Any) -> str:  # noqa: ARG001 - the name is part of what is replaced
-        return ""
-
-    described = artists.kwdoc
-    artists.kwdoc = nothing
-    missing: dict[str, Any] = {"mpl_toolkits.mplot3d": None}
-    sys.modules.update(missing)
-    try:
-        with warnings.catch_warnings():
-            warnings.filterwarnings("ignore", message="Unable to import Axes3D")
-            import matplotlib.backends.backend_agg
-            import matplotlib.figure  # noqa: F401
-    finally:
-        artists.kwdoc = described
-        del sys.modules["mpl_toolkits.mplot3d"]
 
 
 @contextmanager

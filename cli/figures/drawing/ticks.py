@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -9,16 +10,19 @@ from matplotlib.lines import Line2D
 from matplotlib.markers import TICKDOWN
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
-from matplotlib.ticker import MaxNLocator, NullLocator
+from matplotlib.ticker import FuncFormatter, MaxNLocator, NullFormatter, NullLocator
 
 from gearlink.cli.figures.drawing import style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
 
 _STEPS = (1, 2, 2.5, 5, 10)
 _ROUNDING = 1e-10
 """Of the axis, by which a number may lie beyond its ends and is drawn."""
+
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 class RoundNumbers(MaxNLocator):
@@ -38,6 +42,23 @@ class RoundNumbers(MaxNLocator):
         beyond = _ROUNDING * (high - low)
         within = found[(found >= low - beyond) & (found <= high + beyond)]
         return within if len(within) > 1 else found
+
+
+def powers_of_ten(axis: Axis) -> None:
+    """Powers of ten along a logarithmic axis as plain text; matplotlib's own formatter writes formulas, which take it
+    thirty times as long."""
+    axis.set_major_formatter(FuncFormatter(_power))
+    axis.set_minor_formatter(NullFormatter())
+
+
+def _power(value: float, _: int) -> str:
+    """A power of ten.
+
+    Example
+        >>> _power(1000.0, 0), _power(0.01, 0)
+        ('10³', '10⁻²')
+    """
+    return "10" + str(round(math.log10(value))).translate(_RAISED)
 
 
 def without_numbers(axes: Axes) -> None:

@@ -53,7 +53,7 @@ def contour_plot(axes: Axes, key: Axes, contour: BlockingContour) -> None:
     axes.plot([x1], [x2], "o", color="white", markeredgecolor=style.BLACK, markersize=6, label="this design", zorder=6)
     axes.set_xlim(*contour.window[0])
     axes.set_ylim(*contour.window[1])
-    _named(axes, "$x_1$", "$x_2$")
+    _named(axes, "x₁", "x₂")
     _key(key, axes.get_legend_handles_labels()[0], 3)
 
 
@@ -149,7 +149,7 @@ def path_plot(axes: Axes, key: Axes, data: GearData) -> None:
 def _sliding_axes(axes: Axes) -> None:
     """Names and the line of no sliding; beside a base circle, where it has no bounds, the curve leaves the panel."""
     axes.axhline(0.0, color=style.GREY, linewidth=0.6)
-    _named(axes, r"$\rho_1$ in mm", r"specific sliding $\zeta$")
+    _named(axes, "ρ₁ in mm", "specific sliding ζ")
     low, high = axes.get_ylim()
     axes.set_ylim(max(low, _SLIDING[0]), min(high, _SLIDING[1]))
 

@@ -74,7 +74,7 @@ def whole_gears(axes: Axes, mesh: Mesh) -> None:
 def _axis_distance(axes: Axes, pair: GearPair) -> None:
     """The centre distance, below the gears."""
     drop = -1.12 * max(abs(radius) for radius in (*pair.tip_radius, pair.root_radius[1]))
-    words = f"$a_w$ = {abs(pair.center_distance):.6g} mm"
+    words = f"centre distance {abs(pair.center_distance):.6g} mm"
     style.dimension(
         axes,
         complex(0.0, drop),

@@ -29,7 +29,7 @@ def rack_and_gear(axes: Axes, design: GearPairDesign) -> None:
     scene_axes.draw(axes, rack_scene(rack, design.rack_teeth, design.rack_back, np.zeros(1)))
     drop, distance = -1.12 * rack.pair.tip_radius[0], rack.center_distance
     ends = complex(0.0, drop), complex(distance, drop)
-    style.dimension(axes, *ends, f"$a$ = {distance:.6g} mm", shift=(-26, -4), from_points=(0j, complex(distance)))
+    style.dimension(axes, *ends, f"a = {distance:.6g} mm", shift=(-26, -4), from_points=(0j, complex(distance)))
     axes.margins(0.08)
     axes.autoscale_view()
 

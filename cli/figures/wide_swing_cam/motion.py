@@ -140,7 +140,7 @@ def _balance_panel(axes: Axes, design: WideSwingDesign) -> None:
     axes.axvspan(0.0, design.unloading.harmful_speed, color=style.LIGHT, alpha=0.45, linewidth=0, zorder=0)
     axes.axvline(usual, color=style.GREY, linewidth=0.9, linestyle=_DASHED)
     axes.axvline(design.spec.speed, color=style.GREY, linewidth=0.9, linestyle=_DASHED)
-    for place, words in ((usual, r"$n_0/\sqrt{2}$"), (design.spec.speed, "$n_0$")):
+    for place, words in ((usual, "n₀/√2"), (design.spec.speed, "n₀")):
         where: dict[str, Any] = {
             "xycoords": ("data", "axes fraction"),
             "textcoords": "offset points",

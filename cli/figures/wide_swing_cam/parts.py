@@ -210,10 +210,12 @@ def curvature_panel(axes: Axes, design: WideSwingDesign) -> None:
     """Curvature radius of each pitch curve where the roller touches the profile, against the roller's."""
     import numpy as np
 
+    from gearlink.cli.figures.drawing.ticks import powers_of_ten
     from gearlink.core.wide_swing.cams.outline import is_external
 
     stroke_axis(axes, design, "radius [mm]")
     axes.set_yscale("log")
+    powers_of_ten(axes.yaxis)
     k = np.linspace(0.0, 1.0, 1001)[1:-1]
     k = k[k != 0.5]
     for (words, cam), color in zip(design.cams.items(), (style.BLUE, style.GREEN), strict=False):

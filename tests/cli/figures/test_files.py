@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from sweeps import mostly_slow
 
 from gearlink.cli import process
-from gearlink.cli.figures import write
+from gearlink.cli.figures.loading import load_what_is_drawn
 
 MAGIC = {"png": b"\x89PNG\r\n", "svg": b"<?xml", "pdf": b"%PDF-"}
 FIGURES = [
@@ -83,7 +83,7 @@ def test_python_code_loads_matplotlib_as_it_is(monkeypatch: pytest.MonkeyPatch) 
     """The command's own process, which leaves out its help, stands in test_laziness.py."""
     monkeypatch.delitem(sys.modules, "matplotlib.figure")
     assert not process.runs_the_command_alone
-    write._load_what_is_drawn()
+    load_what_is_drawn("png")
     assert "matplotlib.figure" not in sys.modules
 
 

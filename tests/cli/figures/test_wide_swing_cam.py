@@ -44,7 +44,7 @@ def test_balance_is_the_table_s() -> None:
         np.testing.assert_array_equal(lines(axes)[label].get_ydata(), data[column])
     verticals = {float(line.get_xdata()[0]) for line in axes.get_lines() if len(set(line.get_xdata())) == 1}
     assert {100.0, 100.0 / math.sqrt(2.0), 80.0} <= verticals
-    assert {text.get_text() for text in axes.texts} >= {r"$n_0/\sqrt{2}$", "$n_0$"}
+    assert {text.get_text() for text in axes.texts} >= {"n₀/√2", "n₀"}
 
 
 def test_slider_is_the_table_s() -> None:
