@@ -199,14 +199,21 @@ def contour(part: Part, tolerance: float, form: CurveForm) -> Contour:
 
 
 def _sampled(part: Part, tolerance: float, form: CurveForm, most: int) -> list[Sampled]:
-    """The stretches as nodes; of a gear those of one pitch, of which so many make up the gear that `most` count."""
-    most //= max(1, part.teeth)
-    sampled = [sample(stretch, tolerance, form, most) for stretch in part.stretches]
-    if part.teeth:
-        sampled = [piece.mirrored() for piece in reversed(sampled)] + sampled
-    if sum(piece.parameter.size - 1 for piece in sampled) > most:
+    """The stretches as nodes, of which the whole part has `most` at most; of a gear those of one pitch."""
+    left = most // max(1, 2 * part.teeth)
+    sampled = []
+    for stretch in part.stretches:
+        piece = sample(stretch, tolerance, form, left + 1)
+        left -= _steps(piece)
+        sampled.append(piece)
+    if left < 0:
         raise TooFine(tolerance)
-    return sampled
+    return [*(piece.mirrored() for piece in reversed(sampled)), *sampled] if part.teeth else sampled
+
+
+def _steps(piece: Sampled) -> int:
+    """Nodes of all curves of a stretch but the last of each, with which the next begins."""
+    return len(piece.nodes) * (piece.parameter.size - 1)
 
 
 def _remedy(part: Part, tolerance: float, form: CurveForm) -> str:
@@ -216,7 +223,9 @@ def _remedy(part: Part, tolerance: float, form: CurveForm) -> str:
         with suppress(TooFine):
             _sampled(part, coarser, form, MOST_POINTS)
             return f"raise --tolerance to {coarser:g}"
-    least = sum(piece.parameter.size - 1 for piece in _sampled(part, MOST_TOLERANCE, form, MOST_POINTS * part.teeth))
+    if not part.teeth:
+        return f"no tolerance up to {MOST_TOLERANCE:g} mm does for a part of this size"
+    least = sum(_steps(piece) for piece in _sampled(part, MOST_TOLERANCE, form, MOST_POINTS * part.teeth))
     other = "" if form is CurveForm.POLYLINE else ", or take --curve polyline"
     return f"a file holds a gear of at most {MOST_POINTS // least} teeth{other}"
 

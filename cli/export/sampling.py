@@ -20,10 +20,14 @@ Points = NDArray[np.complex128]
 Reals = NDArray[np.float64]
 
 MOST_POINTS = 100_000
-"""Points of a curve in a file at most; a gear of a thousand teeth needs 40,000 for a chord error of 0.001 module."""
+"""Points of a file at most, of all its curves; a gear of a thousand teeth has 40,000 for chords within 0.001 module."""
 
 _PROBES = 8  # parts of a step at whose ends the distance is measured
+_SHARES = np.arange(_PROBES + 1) / _PROBES
 _UNSEEN = 1e-4  # share by which the greatest distance may pass the parabola's vertex; 4e-5 was seen
+_TELLING = 500  # steps to be halved from which on they tell how many nodes there will be
+_FORESEEN = 16.0  # parts of a step at most that are foretold: beside a corner it needs fewer than by the rule
+_FEWER = 1.2  # times fewer nodes than by the rule, at most
 _LEAST_CUBIC_STEPS = 4  # one more than a cubic without given end slopes needs
 
 
@@ -101,33 +105,36 @@ def sample(stretch: Stretch, tolerance: float, form: CurveForm, most: int = MOST
         stretch : Stretch
         tolerance : float [mm] - greatest distance
         form : CurveForm
-        most : int - greatest number of nodes
+        most : int - greatest number of nodes of all curves
     Returns
         sampled : Sampled
     Raises
         TooFine - where that many nodes do not do
     Notes
-        Steps that are too long are halved, so that nodes lie dense only where the curve bends. The distance is
-        measured at seven places of each step, and the vertex of the parabola through the greatest and its
-        neighbours is added. Of a spline it is the distance at equal parameter, never less than that of the curves.
+        Steps that are too long are halved, so that nodes lie dense only where the curve bends; what is known of the
+        curve is kept. The distance is measured at seven places of each step, and the vertex of the parabola through
+        the greatest and its neighbours is added. Of a spline it is the distance at equal parameter, never less than
+        that of the curves.
     """
     spline = form is CurveForm.SPLINE
     steps = max(stretch.steps, _LEAST_CUBIC_STEPS) if spline else stretch.steps
-    parameter = np.linspace(stretch.low, stretch.high, steps + 1)
+    ends = np.linspace(stretch.low, stretch.high, steps + 1)
+    probes = ends[:-1, None] + np.diff(ends)[:, None] * _SHARES
+    probes[:, -1] = ends[1:]
+    points = _in_steps(stretch.points(np.append(probes[:, :-1], ends[-1])))
     while True:
-        fine = _between(parameter)
-        points = stretch.points(fine)
-        nodes = points[:, ::_PROBES]
+        parameter, nodes = np.append(probes[:, 0], probes[-1, -1]), _nodes(points)
         cubic = _cubic(parameter, nodes) if spline else None
-        off = _from_chords(points) if cubic is None else np.abs(_values(cubic(fine)) - points)
+        off = _from_chords(points) if cubic is None else _from_cubics(cubic, probes, points)
         worst = _peaks(off) * (1.0 + _UNSEEN)
         wide = worst > tolerance
         if not wide.any():
             break
-        if parameter.size + int(wide.sum()) > most:
+        if len(nodes) * (parameter.size + _splits(worst, tolerance, spline)) > most:
             raise TooFine(tolerance)
-        middles = 0.5 * (parameter[:-1] + parameter[1:])[wide]
-        parameter = np.sort(np.concatenate([parameter, middles]))
+        between = 0.5 * (probes[wide, :-1] + probes[wide, 1:])
+        found = stretch.points(between.ravel()).reshape(len(nodes), *between.shape)
+        probes, points = _halved(probes[None], between[None], wide)[0], _halved(points, found, wide)
     knots, control = np.empty(0), np.empty((len(nodes), 0), np.complex128)
     if cubic is not None:
         knots, control = cubic.t, _values(cubic.c)
@@ -135,29 +142,58 @@ def sample(stretch: Stretch, tolerance: float, form: CurveForm, most: int = MOST
     return Sampled(stretch, parameter, nodes, float(worst.max()), knots, control)
 
 
-def _between(parameter: Reals) -> Reals:
-    """The nodes and seven places between each two of them."""
-    share = np.arange(_PROBES) / _PROBES
-    steps = parameter[:-1, None] + np.diff(parameter)[:, None] * share
-    return np.append(steps.ravel(), parameter[-1])
+def _splits(worst: Reals, tolerance: float, spline: bool) -> float:
+    """How many nodes more steps of these errors need at least: halving quarters the error of a chord, and leaves a
+    sixteenth of a cubic's. So a curve far too long is refused before it has been sampled."""
+    wide = worst[worst > tolerance]
+    if wide.size < _TELLING:
+        return wide.size
+    pieces = (wide / tolerance) ** (0.25 if spline else 0.5)
+    return max(wide.size, float(np.sum(np.minimum(pieces, _FORESEEN) - 1.0)) / _FEWER)
+
+
+def _in_steps(points: Points) -> Points:
+    """Points of curves, the end of a step being the start of the next, as (curves, steps, probes)."""
+    starts = points[:, :-1].reshape(len(points), -1, _PROBES)
+    ends = np.append(starts[:, 1:, :1], points[:, None, -1:], axis=1)
+    return np.concatenate([starts, ends], axis=2)
+
+
+def _halved(rows: Any, between: Any, wide: NDArray[np.bool_]) -> Any:
+    """What is known at the probes of steps, (..., steps, probes), after some of these were halved: `between` is what is
+    known of them in the middle of each two probes."""
+    both = np.empty((*between.shape[:-1], 2 * _PROBES + 1), rows.dtype)
+    both[..., ::2], both[..., 1::2] = rows[..., wide, :], between
+    halved = np.repeat(rows, 1 + wide, axis=-2)
+    first = np.flatnonzero(wide) + np.arange(np.count_nonzero(wide))
+    halved[..., first, :], halved[..., first + 1, :] = both[..., : _PROBES + 1], both[..., _PROBES:]
+    return halved
+
+
+def _nodes(points: Points) -> Points:
+    """The ends of the steps."""
+    return np.append(points[:, :, 0], points[:, -1:, -1], axis=1)
 
 
 def _from_chords(points: Points) -> Reals:
     """Distance of each point from the chord of its step."""
-    start, end = points[:, :-1:_PROBES, None], points[:, _PROBES::_PROBES, None]
-    chord = end - start
+    start = points[:, :, :1]
+    chord = points[:, :, -1:] - start
     square = np.abs(chord) ** 2
-    way = points[:, :-1].reshape(*start.shape[:2], _PROBES) - start
+    way = points - start
     along = np.real(way * chord.conj()) / np.where(square == 0.0, 1.0, square)
-    off = np.abs(way - np.clip(along, 0.0, 1.0) * chord)
-    return np.concatenate([off.reshape(len(points), -1), np.zeros((len(points), 1))], axis=1)
+    off: Reals = np.abs(way - np.clip(along, 0.0, 1.0) * chord)
+    return off
 
 
-def _peaks(off: Reals) -> Reals:
+def _from_cubics(cubic: Any, probes: Reals, points: Points) -> Reals:
+    """Distance of each point from that of the cubic at the same parameter."""
+    off: Reals = np.abs(_values(cubic(probes.ravel())).reshape(points.shape) - points)
+    return off
+
+
+def _peaks(probes: Reals) -> Reals:
     """Greatest distance in each step over all curves: the greatest probe, or the parabola's vertex beside it."""
-    steps = off[:, :-1].reshape(len(off), -1, _PROBES)
-    following = np.concatenate([steps[:, 1:, :1], np.broadcast_to(off[:, -1:, None], (len(off), 1, 1))], axis=1)
-    probes = np.concatenate([steps, following], axis=2)
     place = np.argmax(probes[:, :, 1:-1], axis=2)[..., None] + 1
     left, top, right = (np.take_along_axis(probes, place + shift, axis=2)[..., 0] for shift in (-1, 0, 1))
     bend = 2.0 * top - left - right

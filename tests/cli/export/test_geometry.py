@@ -247,6 +247,67 @@ def test_too_many_points_are_refused() -> None:
         sample(stretch, 1e-5, CurveForm.POLYLINE, most=100)
 
 
+CURVES: dict[str, Any] = {
+    "circle": lambda t: 1e6 * np.exp(1j * t),
+    "bump": lambda t: 1e6 * np.exp(1j * t) * (1.0 + 1e-3 * np.exp(-((t - 2.0) ** 2) / 1e-4)),
+    "corner": lambda t: 1e6 * (t + 1j * np.abs(t - 1.9)) + 1e5 * np.exp(3j * t),
+    "cusp": lambda t: 1e6 * (t + 1j * np.sqrt(np.abs(t - 1.9))) + 1e5 * np.exp(3j * t),
+}
+
+
+@pytest.mark.parametrize("name", CURVES)
+@pytest.mark.parametrize("form", CurveForm)
+def test_no_curve_is_refused_that_has_room(form: CurveForm, name: str) -> None:
+    """How many nodes there will be is foretold; halving one by one without that gives the same ones."""
+    stretch = Stretch(("PROFILE",), lambda t: CURVES[name](t)[None, :], 0.0, 2.0 * math.pi)
+    tolerance = 0.1 if form is CurveForm.POLYLINE else 1e-6
+    size = sample(stretch, tolerance, form, 10**6).parameter.size
+    assert size > 2000
+    assert sample(stretch, tolerance, form, size).parameter.size == size
+    with pytest.raises(TooFine):
+        sample(stretch, tolerance, form, size - 1)
+
+
+def test_a_curve_far_too_long_is_refused_before_it_has_been_sampled() -> None:
+    asked = []
+
+    def points(t: Any) -> Any:
+        asked.append(t.size)
+        return CURVES["bump"](t)[None, :]
+
+    with pytest.raises(TooFine):
+        sample(Stretch(("PROFILE",), points, 0.0, 2.0 * math.pi), 1e-6, CurveForm.POLYLINE)
+    assert sum(asked) < 200_000  # of 4 million
+
+
+def test_what_is_known_of_a_curve_is_not_sought_again() -> None:
+    asked: list[float] = []
+
+    def points(t: Any) -> Any:
+        asked.extend(t.tolist())
+        return (t + 1j * np.sin(3.0 * t) * np.exp(-t))[None, :]
+
+    found = sample(Stretch(("PROFILE",), points, 0.0, 6.0), 1e-4, CurveForm.POLYLINE)
+    assert len(set(asked)) == len(asked) == 8 * (found.parameter.size - 1) + 1
+    assert set(found.parameter.tolist()) <= set(asked)
+
+
+def test_a_file_holds_so_many_points_whatever_its_curves(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of a cam, profile and roller path count together; what the message says does."""
+    part = parts.makers(factory.design("wide_swing_oscillating_cam"))["main_cam"]()
+    whole = contour(part, 1e-3, CurveForm.POLYLINE)
+    assert {line.layer for line in whole.lines} == {"PITCH_CURVE", "PROFILE"}
+    monkeypatch.setattr("gearlink.cli.export.contour.MOST_POINTS", whole.points)
+    assert contour(part, 1e-3, CurveForm.POLYLINE).points == whole.points
+    monkeypatch.setattr("gearlink.cli.export.contour.MOST_POINTS", whole.points - 20)
+    with pytest.raises(TooFine, match=r"raise --tolerance to 0\.002"):
+        contour(part, 1e-3, CurveForm.POLYLINE)
+    assert contour(part, 2e-3, CurveForm.POLYLINE).points < whole.points - 20
+    monkeypatch.setattr("gearlink.cli.export.contour.MOST_POINTS", 20)
+    with pytest.raises(TooFine, match="no tolerance up to 10 mm does"):
+        contour(part, 1e-3, CurveForm.POLYLINE)
+
+
 # Wide-swing cams
 
 
