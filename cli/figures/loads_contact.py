@@ -102,8 +102,10 @@ def _colored(axes: Axes, points: Any, values: Any, title: str) -> None:
         axes.add_collection(red)
         panels.legend_above(axes, 1)
     axes.autoscale_view()
-    bar = axes.figure.colorbar(lines, ax=axes, shrink=0.8, pad=0.02)
-    bar.ax.tick_params(labelsize=7)
+    # A panel of its own would count twice in the layout of matplotlib before 3.11.
+    scale = axes.inset_axes((1.03, 0.1, 0.05, 0.8))
+    axes.figure.colorbar(lines, cax=scale)
+    scale.tick_params(labelsize=7)
 
 
 def stroke_sheet(design: Any) -> Figure:

@@ -48,7 +48,7 @@ def figure(width: float, height: float, title: str) -> Figure:
 def stamp(made: Figure, words: str) -> None:
     """A line in red below the title, before the layout."""
     lines = fill(words, 105)
-    title = made._suptitle  # type: ignore[attr-defined]  # matplotlib 3.8 has get_suptitle for its words alone
+    title = made._suptitle  # type: ignore[attr-defined]  # get_suptitle gives its words alone
     title.set_text(title.get_text() + "\n" * (1 + lines.count("\n")))
     made.text(0.5, 1.0, lines, fontsize=9, fontweight="bold", color=RED, ha="center", va="top", gid="fails")
 
