@@ -50,9 +50,11 @@ CONTACT_RATIO = Rule(
 INTERFERENCE = Rule(
     "GL204",
     "tip beyond the involute of the mate",
-    "A tip circle passes the point where the line of action touches the mate's base circle.",
-    "There the mate has no involute: the tip digs into its root or jams.",
-    "Raise the mate's profile shift, or lower the addendum of the gear whose tip is too high.",
+    "A tip circle passes the point where the line of action touches the mate's base circle, or that of the pinion "
+    "cutter that shapes a ring.",
+    "There the mate has no involute: the tip digs into its root or jams; and the cutter leaves none to the ring's tip.",
+    "Raise the mate's profile shift, lower the addendum of the gear whose tip is too high, or take a cutter of more "
+    "teeth.",
     "a_w sin(alpha_wt) - sqrt(r_a^2 - r_b^2) >= 0 for both gears",
     "ISO 21771; own derivation of the margin",
     ("involute-interference",),

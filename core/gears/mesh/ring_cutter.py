@@ -134,25 +134,35 @@ class ShapedRing:
     def fillet(self, turn: float) -> complex:
         """Point of the fillet, the ring's x axis in the middle of a space, over the turn of the cutter [rad].
 
-        The cutter's rounding leaves the envelope of its circle: the centre's path, moved outwards along its normal.
+        The cutter's rounding leaves the envelope of its circle: the centre's path, moved outwards along its normal,
+        which passes the pitch point. Where that lies beyond the centre the cutter turns the other way from the root
+        circle to the flank.
         """
         z0, z2 = self.cutter.teeth, -self.teeth
         a0, radius = -self.mesh.center_distance, self._rounding_center
-        beside = self._half_angle_of_center
+        beside, sense = self._half_angle_of_center, math.copysign(1.0, self._turned_to_flank)
+        turn = sense * turn - (1.0 - sense) * beside
         axis = turn * z0 / z2
         center = a0 * cmath.exp(-1j * axis) + radius * cmath.exp(1j * (turn - axis + beside))
         pitch = (a0 + a0 * z0 / (z2 - z0)) * cmath.exp(-1j * axis)
-        normal = center - pitch
+        normal = sense * (center - pitch) or center  # a centre on the pitch point leaves its own arc
         return center + self.module * self.cutter.rounding * normal / abs(normal)
 
     @cached_property
+    def _turned_to_flank(self) -> float:
+        """Turn of the cutter from where its rounding leaves the root circle to where its flank ends [rad].
+
+        The angle from the line of centres to the rounding's centre when that lies on the line of action; negative
+        where the pitch point lies beyond it.
+        """
+        rolled = self._flank_end - self.module * self.cutter.rounding
+        return math.atan2(rolled, self.mesh.base_radius[0]) - self.mesh.working_pressure_angle
+
+    @cached_property
     def turns(self) -> tuple[float, float]:
-        """Turns of the cutter at the ends of the fillet: root circle and flank [rad]."""
+        """Turns at the ends of the fillet: root circle and flank [rad], counted so that they rise."""
         start = -self._half_angle_of_center
-        end = start + 0.1
-        while abs(self.fillet(end)) > self.form_radius and end < start + 2.0 * math.pi:
-            end += 0.1
-        return start, bracketed_root(lambda turn: abs(self.fillet(turn)) - self.form_radius, start, end)
+        return start, start + abs(self._turned_to_flank)
 
     @cached_property
     def _half_angle_of_center(self) -> float:

@@ -28,6 +28,10 @@ CUTTERS: list[dict[str, Any]] = [
     {"cutter": {"teeth": 40, "shift": -0.05, "addendum": 1.25, "rounding": 0.1}, "profile_shift": [0.3, 0.2]},
     {"cutter": {"teeth": 18, "shift": 0.0, "addendum": 1.2, "rounding": 0.0}},
     {"cutter": {"teeth": 25, "shift": 0.2, "addendum": 1.25, "rounding": 0.3}, "helix_angle": 20},
+    # The pitch point of the last cut lies beyond the rounding's centre, beyond the tip, beyond a sharp tip.
+    {"cutter": {"teeth": 43, "shift": 0.2, "addendum": 0.9, "rounding": 0.25}, "profile_shift": [0.8, -0.8]},
+    {"cutter": {"teeth": 50, "shift": 0.1, "addendum": 1.25, "rounding": 0.2}, "profile_shift": [0.9, -0.9]},
+    {"cutter": {"teeth": 50, "shift": 0.1, "addendum": 1.25, "rounding": 0.0}, "profile_shift": [0.9, -1.2]},
 ]
 
 
@@ -98,6 +102,14 @@ def test_the_outline_is_the_envelope_of_the_rolling_cutter(keys: dict[str, Any])
         assert np.abs(deepest).max() < sharp, (name, deepest)
 
 
+def test_a_rounding_whose_centre_is_the_pitch_point_leaves_its_own_arc() -> None:
+    made = design(DATA | {"cutter": {"teeth": 25, "addendum": 0.25, "rounding": 0.25}, "profile_shift": [0, 0]})
+    shaped = made.gear_pair.shaped
+    assert shaped is not None
+    assert shaped.turns[1] == pytest.approx(shaped.turns[0], abs=1e-12)
+    assert abs(shaped.fillet(shaped.turns[0])) == pytest.approx(shaped.root_radius, rel=1e-12)
+
+
 @pytest.mark.parametrize("form", list(CurveForm))
 def test_what_is_exported_is_what_is_cut(form: CurveForm) -> None:
     made = design(DATA | CUTTERS[0], command="gear")
@@ -109,6 +121,23 @@ def test_what_is_exported_is_what_is_cut(form: CurveForm) -> None:
     assert {"fillet", "involute"} <= {piece.stretch.name for piece in exported.pieces}
     drawn = RingProfile.of(made.gear_pair).outline(24)
     assert np.abs(drawn).max() == pytest.approx(abs(made.gear_pair.root_radius[1]), rel=1e-12)
+
+
+def test_where_the_cutter_has_no_involute_for_the_tips_of_the_ring() -> None:
+    """Deepest cut at the flank's outer end: none while the cutter's base tangent point lies short of the tip."""
+    keys = {"teeth": [22, -79], "profile_shift": [0.1, 0.1], "cutter": {"teeth": 19, "rounding": 0.2}}
+    cutter = design(DATA | keys).gear_pair.shaped.mesh
+    ring, angle = abs(cutter.base_radius[1]), cutter.working_pressure_angle
+    end = math.hypot(ring, -cutter.center_distance * math.sin(angle))  # the string there ends on the cutter's base
+    for beyond, status in ((-1e-6, "fail"), (1e-6, "pass")):
+        made = design(DATA | keys | {"tip_diameter": [48.0, 2.0 * (end + beyond)]}, command="gear")
+        found = [each for each in made.check("involute-interference") if "its cutter" in each.message]
+        assert [each.status for each in found] == ["fail"] * (status == "fail")
+        assert all(each.code == "GL204" and each.value < 0.0 for each in found)
+    ring_flank = {name: (curve, low, high) for name, curve, low, high in RingProfile.of(made.gear_pair).pieces()}
+    curve, low, high = ring_flank["involute"]
+    deepest = Cutter(made).reaches(curve(np.linspace(low, high, 9)), np.linspace(-0.9, 0.9, 9001)).max(axis=1)
+    assert np.abs(deepest).max() < DEEP
 
 
 def test_without_its_cutter_a_ring_has_sharp_corners_and_flanks_that_may_meet() -> None:
