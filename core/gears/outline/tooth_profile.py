@@ -222,11 +222,19 @@ class ToothProfile:
         q, rho = self.tool_addendum - self.tool_rounding - self.shift, self.tool_rounding
         held = np.minimum(normal, self._cut.last_normal)
         below = q + rho * np.cos(held)
-        across = below * np.tan(held) * math.cos(self.helix_angle) + (normal - held) * self._r
+        across = below * np.tan(held) * math.cos(self.helix_angle)
+        across = self._across(across, self._r - below, normal - held)
         shifted = self._u + rho * np.sin(held) / math.cos(self.helix_angle) - across
         points = self._r - below + 1j * across
         rounded: Points = self.module * points * np.exp(1j * shifted / self._r)
         return rounded
+
+    def _across(self, across: Reals, above: Reals, rolled: Reals) -> Reals:
+        """`RackCutRoot.corner_path` over arrays."""
+        size = np.abs(across) + rolled * self._r
+        deeper = np.where(np.arctan2(size, above) < size / self._r, -size, size)
+        found: Reals = np.where(rolled > 0.0, deeper, across)
+        return found
 
     def flank(self, roll: Reals) -> Points:
         """The involute, over its roll angle t = tan(pressure angle at the radius).

@@ -7,14 +7,14 @@ the normal section (0 at the root circle, 90 deg - alpha_n where the straight fl
     point = (X - s + i (Y + r)) exp(-i s/r)
 
 on an axis i through the middle of the space. A protuberance ends with a corner where the rounding does: from there on
-the corner draws the fillet, s falls while X and Y stay.
+the corner draws the fillet: X and Y stay, s falls, or rises where that side of its path stands deeper in the tooth.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from gearlink.core.gears.tooth.functions import SCALARS, GearFunctions
 from gearlink.core.gears.tooth.teeth import transverse
@@ -118,8 +118,17 @@ class RackCutRoot:
         held = fn.least(normal, self.last_normal)
         x = (tool.rounding_center(self.pressure_angle, fn) + tool.rounding * fn.sin(held)) / cosine
         y = tool.rounding - tool.addendum + self.shift - tool.rounding * fn.cos(held)
-        left = -y * fn.tan(held) * cosine + (normal - held) * self._r
+        left = self.corner_path(-y * fn.tan(held) * cosine, y + self._r, normal - held)
         return left, y + self._r, (x - left) / self._r
+
+    def corner_path(self, left: Any, above: Any, rolled: Any) -> Any:
+        """How far right of the gear's axis the corner is when its path is farther out by so much roll [rad].
+
+        The path is its own mirror image: of both ways out the one that stands deeper in the tooth.
+        """
+        fn, size = self.fn, abs(left) + rolled * self._r
+        deeper = fn.where(fn.atan2(size, above) < size / self._r, -size, size)
+        return fn.where(rolled > 0.0, deeper, left)
 
     def _into_tooth(self, normal: float) -> float:
         """Angle by which the fillet stands inside the tooth of the involute, at its own radius [rad]."""

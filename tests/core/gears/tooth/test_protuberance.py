@@ -59,6 +59,10 @@ def cuts(gear: RackCutRoot, radius: float) -> bool:
         (17, 1.0, 0.1, 20.0, 0.0),
         (60, 0.3, 0.1, 14.5, 30.0),
         (25, 0.1, 0.002, 20.0, 15.0),
+        # The corner lies a little below the pitch line, on it, above it: the other side of its path cuts deeper.
+        (22, 1.26, 0.03, 20.0, 0.0),
+        (22, 1.2684040286651338, 0.01, 20.0, 15.0),
+        (40, 1.35, 0.03, 20.0, 0.0),
     ],
 )
 def test_the_form_circle_is_where_the_rolled_tool_last_cuts(
@@ -77,14 +81,15 @@ def test_a_larger_protuberance_leaves_less_involute(teeth: int, shift: float) ->
 
 
 def test_many_gears_at_once_have_the_same_form_circles() -> None:
-    shifts = np.linspace(-0.6, 1.0, 17)
+    shifts = np.linspace(-0.6, 1.4, 21)
     alone = [root(17, float(shift), 0.03).form_radius for shift in shifts]
     many = RackCutRoots(teeth=17, shift=shifts, tool=root(17, 0.0, 0.03).tool)  # type: ignore[arg-type]
     assert many.form_radius == pytest.approx(alone, rel=1e-13)
 
 
-def test_the_drawn_tooth_goes_on_from_its_fillet_to_its_flank() -> None:
-    pair = GearPair(module=1.0, teeth=(22, 55), given_shift=(0.2, 0.1), tools=(root(22, 0.2, 0.02).tool, None))
+@pytest.mark.parametrize("shift", [0.2, 1.26, 1.35])
+def test_the_drawn_tooth_goes_on_from_its_fillet_to_its_flank(shift: float) -> None:
+    pair = GearPair(module=1.0, teeth=(22, 55), given_shift=(shift, 0.1), tools=(root(22, shift, 0.02).tool, None))
     profile = ToothProfile.of(pair, 0)
     _, (fillet, low, high), (flank, start, _), _ = profile.pieces()
     ends = fillet(np.array([low, high])), flank(np.array([start]))
