@@ -6,9 +6,9 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from gearlink.core.cams.codes import CAM_UNDERCUT, PRESSURE_ANGLE
+from gearlink.core.cams.codes import CAM_UNDERCUT, LARGER, PRESSURE_ANGLE
 from gearlink.core.errors import NoSolution
-from gearlink.core.report import Check, Rule, Status, safely_below
+from gearlink.core.report import Check, Rule, Status, safely_below, without_noise
 
 if TYPE_CHECKING:
     from gearlink.core.cams.disc_cam import DiscCam
@@ -37,13 +37,14 @@ def pressure_angle_checks(cams: Sequence[DiscCam], limit: float, remedy: str) ->
 
 
 def undercut_checks(
-    cams: Sequence[DiscCam], larger: Callable[[], str] = lambda: "enlarge the base circle"
+    cams: Sequence[DiscCam], larger: Callable[[], str] | None = None, *, plainly: str = LARGER
 ) -> Iterator[Check]:
     """GL402 for each cam: roller against the least convex curvature, and the profile against itself.
 
     Parameters
         cams : the cams
         larger : gives the words for a cam that is large enough, asked for where one is not
+        plainly : the words for a larger cam where no size is known
     """
     for cam in cams:
         least, roller = cam.min_curvature_radius, cam.roller_radius
@@ -59,10 +60,11 @@ def undercut_checks(
             status = "fail"
             text = (
                 f"the roller of the {cam.name} cuts {cut.depth:.4g} mm into its own profile at cam angle "
-                f"{math.degrees(cut.cam_angle):.5g} deg: enlarge the base circle or take a smaller roller"
+                f"{math.degrees(cut.cam_angle):.5g} deg: {plainly} or take a smaller roller"
             )
         elif status != "pass":
-            text += f": take a roller of at most {safely_below(ROLLER_SHARE * least.value)} mm or {larger()}"
+            enlarged = larger() if larger else plainly
+            text += f": take a roller of at most {safely_below(ROLLER_SHARE * least.value)} mm or {enlarged}"
         yield CAM_UNDERCUT.check(status, text, share, 1.0)
 
 
@@ -76,11 +78,12 @@ def hub_checks(rule: Rule, cams: Sequence[DiscCam], shaft: float, farther: Calla
         farther : gives the words for a profile that stands so much [mm] farther from the axis
     """
     for cam in cams if shaft > 0.0 else ():
-        room = cam.min_radius - shaft
+        room = without_noise(cam.min_radius - shaft, shaft)
         status: Status = "fail" if room <= 0.0 else "warn" if cam.min_radius < HUB * shaft else "pass"
         text = f"the {cam.name} leaves {room:.4g} mm round its shaft (radius {shaft:g} mm)"
         if status == "fail":
-            text = f"the {cam.name} comes {-room:.4g} mm into its shaft (radius {shaft:g} mm)"
+            reach = f"comes {-room:.4g} mm into" if room else "touches"
+            text = f"the {cam.name} {reach} its shaft (radius {shaft:g} mm)"
         if status != "pass":
             text += (
                 f": take a shaft_radius of at most {safely_below(cam.min_radius / HUB)} mm (hub of {HUB:g} times the "

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from gearlink.core.report import Rule
 
+LARGER = "enlarge the base circle"
+"""What a refusal of a cam recommends; a kind without a base radius in its file says which key does it."""
 PRESSURE_ANGLE = Rule(
     "GL401",
     "pressure angle too large",

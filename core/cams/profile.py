@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gearlink.core.cams.codes import LARGER
 from gearlink.core.errors import NoSolution
 from gearlink.core.numerics.arrays import Points, Reals
 from gearlink.core.numerics.blocks import BLOCK
@@ -238,7 +239,7 @@ def _check_lever(cam_angle: ArrayLike, across: Reals) -> None:
         place = _angle_at(cam_angle, across.shape, int(np.argmin(np.abs(across))))
         raise NoSolution(
             f"the roller passes the relative pole near cam angle {place:.6g} deg (pressure angle 90 deg): "
-            "enlarge the base circle or lengthen the rise"
+            f"{LARGER} or lengthen the rise"
         )
 
 
@@ -348,7 +349,7 @@ def _speed(cam_angle: ArrayLike, path: RollerPath, d1: Points) -> Reals:
         place = _angle_at(cam_angle, speed.shape, int(np.argmax(still)))
         raise NoSolution(
             f"the pitch curve stands still at cam angle {place:.6g} deg: the follower moves with the cam; "
-            "enlarge the base circle or change the law"
+            f"{LARGER} or change the law"
         )
     return speed
 

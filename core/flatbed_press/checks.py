@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from gearlink.core.cams.codes import ACCELERATION_STEP, VELOCITY_STEP
+from gearlink.core.cams.codes import ACCELERATION_STEP, LARGER, VELOCITY_STEP
 from gearlink.core.errors import NoSolution
 from gearlink.core.flatbed_press import codes
 from gearlink.core.flatbed_press.zone import zone_end
@@ -130,7 +130,7 @@ def _base_radius_for_roller(design: FlatbedPress) -> str:
     try:
         radius = design.cams.base_radius_for_roller(design.cams.base_radius)
     except NoSolution:
-        return "enlarge the base circle"
+        return LARGER
     return f"set cam.base_radius to at least {safely_above(radius)} mm"
 
 

@@ -6,9 +6,11 @@ import math
 from functools import cache
 from typing import TYPE_CHECKING
 
+from gearlink.core.cams.codes import LARGER
 from gearlink.core.cams.disc_cams import DiscCams
 from gearlink.core.errors import MissingSection, NoSolution, at_key
 from gearlink.core.results import cached_property
+from gearlink.core.swing_gripper.codes import FARTHER
 from gearlink.core.swing_gripper.motion import require
 
 if TYPE_CHECKING:
@@ -187,9 +189,10 @@ class GripperCams(DiscCams):
         return self.spec.cam is not None and not self.is_refused
 
     def explained(self, refusal: NoSolution) -> NoSolution:
-        """The refusal of a cam, with the centre at which there is one where it does not say so itself."""
+        """The refusal of a cam in the keys of this kind, with the centre at which there is one."""
         if refusal.key:
             return refusal
+        message = refusal.message.replace(LARGER, FARTHER)
         limit = self.spec.limits.pressure_angle
         advice = f"; for {limit:g} deg: {self.center_remedy(limit)}" if self.advise else ""
-        return NoSolution(refusal.message + advice, key="cam.center")
+        return NoSolution(message + advice, key="cam.center")

@@ -226,7 +226,7 @@ def cam_undercut(design: SwingGripper) -> Iterator[Check]:
     """GL402 for both cams."""
     from gearlink.core.cams.checks import undercut_checks
 
-    yield from undercut_checks(design.cams.discs)
+    yield from undercut_checks(design.cams.discs, plainly=codes.FARTHER)
 
 
 def shaft_clearance(design: SwingGripper) -> Iterator[Check]:

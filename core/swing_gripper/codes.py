@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from gearlink.core.report import Rule
 
+FARTHER = "set cam.center farther from the roller"
+"""What enlarges the base circle of a gripper's cam."""
 CONDITIONING = Rule(
     "GL312",
     "linkage near a dead point",

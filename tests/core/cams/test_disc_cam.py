@@ -8,14 +8,16 @@ Tolerances
 """
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from gearlink.core.cams.checks import pressure_angle_checks, step_check, undercut_checks
+from gearlink.core.cams.checks import hub_checks, pressure_angle_checks, step_check, undercut_checks
 from gearlink.core.cams.codes import VELOCITY_STEP
 from gearlink.core.cams.disc_cam import DiscCam
 from gearlink.core.cams.profile import translating
+from gearlink.core.linkages.codes import SHAFT_CLEARANCE
 
 ANGLES = np.radians(np.arange(0.0, 360.0, 1.0))
 
@@ -165,3 +167,10 @@ def test_table_has_the_columns_of_every_cam():
     np.testing.assert_allclose(rows[:, 3] + 1j * rows[:, 4], cam.points(angles)[1], atol=1e-13)
     np.testing.assert_allclose(rows[:, 5], np.degrees(cam.pressure_angle(angles)), atol=1e-12)
     np.testing.assert_allclose(rows[:, 6], 60.0, rtol=1e-12)
+
+
+def test_a_cam_that_touches_its_shaft_says_so_without_noise() -> None:
+    cam = SimpleNamespace(name="main cam", min_radius=40.0 - 1.421e-14)
+    (check,) = hub_checks(SHAFT_CLEARANCE, [cam], 40.0, lambda missing: f"{missing:g} mm")
+    assert (check.status, check.value) == ("fail", 0.0)
+    assert check.message.startswith("the main cam touches its shaft (radius 40 mm)")
