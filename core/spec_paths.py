@@ -6,7 +6,19 @@ import re
 from collections.abc import Iterable, Iterator
 from typing import Any
 
+LEAST_SIZE, LARGEST_SIZE = 1e-30, 1e12
+"""Between them the fourth powers of a number and of its ratios to others neither overflow nor vanish."""
 _STEP = r"[^.\[\]]+"
+
+
+def has_size(value: float) -> bool:
+    """Whether a number can be one of a machine, so that a design file may hold it.
+
+    Example
+        >>> has_size(0), has_size(-40.5), has_size(6e14), has_size(float("nan"))
+        (True, True, False, False)
+    """
+    return value == 0 or LEAST_SIZE <= abs(value) <= LARGEST_SIZE
 
 
 def value_at(spec: Any, path: str) -> Any:
@@ -109,7 +121,7 @@ def _units(part: Any) -> Iterator[str]:
 
 
 def changed(spec: Any, values: Iterable[tuple[str, Any]]) -> Any:
-    """A spec with other values at some paths, validated; None where the model refuses them.
+    """A spec with other values at some paths, validated; None where the model or the reader of files refuses them.
 
     Parameters
         spec : pydantic model
@@ -117,6 +129,8 @@ def changed(spec: Any, values: Iterable[tuple[str, Any]]) -> Any:
     """
     data = spec.model_dump(exclude_unset=True, by_alias=True)
     for path, value in values:
+        if isinstance(value, (int, float)) and not has_size(value):
+            return None
         put(data, path, value)
     try:
         return type(spec).model_validate(data)

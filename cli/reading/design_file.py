@@ -25,6 +25,7 @@ from gearlink.cli.reading.yaml_reader import (
     read,
 )
 from gearlink.core.errors import MissingSection, NoSolution
+from gearlink.core.spec_paths import LARGEST_SIZE, LEAST_SIZE, has_size
 from gearlink.core.wording import amount
 
 if TYPE_CHECKING:
@@ -35,8 +36,6 @@ if TYPE_CHECKING:
 _ROOT: KeyPath = ()
 _LONGEST_KIND = 60
 _NUMBERS = {"2": "two", "3": "three", "4": "four", "5": "five"}
-LEAST_SIZE, LARGEST_SIZE = 1e-30, 1e12
-"""Between them the fourth powers of a number and of its ratios to others neither overflow nor vanish."""
 
 
 def load(source: str | os.PathLike[str], *, overrides: Sequence[str] = (), stdin: BinaryIO | None = None) -> LoadedFile:
@@ -203,12 +202,8 @@ def _odd_values(node: Any, path: KeyPath) -> Iterator[tuple[KeyPath, Any]]:
     for step, value in items:
         if isinstance(value, (dict, list)):
             yield from _odd_values(value, (*path, step))
-        elif isinstance(value, bool) or (isinstance(value, (int, float)) and not _has_size(value)):
+        elif isinstance(value, bool) or (isinstance(value, (int, float)) and not has_size(value)):
             yield (*path, step), value
-
-
-def _has_size(value: float) -> bool:
-    return value == 0 or LEAST_SIZE <= abs(value) <= LARGEST_SIZE
 
 
 def _no_size(loaded: LoadedFile, model: type[Model], path: KeyPath, value: float) -> Diagnostic:
