@@ -127,7 +127,7 @@ def _opened(loaded: LoadedFile, command: str | None) -> Opened:
         raise TypeError(f"a command is text, such as {spec.commands()[0]!r}, not {type(wanted).__name__}")
     require_command(loaded, kind, wanted)
     made = cast("Opened", _placed(kind.class_for(wanted, spec))(spec))
-    vars(made).update(_loaded=loaded, _command=wanted)
+    vars(made).update(_loaded=loaded, _command=wanted, kin=kind)
     return made
 
 

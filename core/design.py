@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from itertools import count
 from operator import index
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Protocol
 
 from gearlink.core.errors import GearlinkError, named
 from gearlink.core.nomenclature import term
@@ -41,6 +41,12 @@ class Found(NamedTuple):
     path: str
     value: Any
     why: str = ""
+
+
+class Kin(Protocol):
+    """What makes the design of a spec for any of the commands that it asks for."""
+
+    def design(self, command: str, spec: Any) -> Design: ...
 
 
 def placed(path: str) -> Any:
@@ -91,6 +97,8 @@ class Design:
     ways: ClassVar[Mapping[str, tuple[Way, ...]]] = {}
     derived: ClassVar[frozenset[str]] = frozenset()  # quantities with a value or None wherever there is a mechanism
     advises = True
+    kin: Kin | None = None
+    """The kind that made it, which makes the designs of the file's other commands; None where none did."""
     warnings = True
     checks_need_search: ClassVar[bool] = False
 

@@ -28,6 +28,7 @@ class Kind(NamedTuple):
     def design(self, command: str, spec: Any) -> Design:
         """The design of a spec, of the class that the command needs."""
         design: Design = self.class_for(command, spec)(spec)
+        design.kin = self
         return design
 
     def class_for(self, command: str, spec: Any) -> Any:

@@ -12,6 +12,7 @@ import math
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import replace
+from itertools import islice
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from gearlink.core.errors import NoSolution
@@ -27,7 +28,7 @@ _FARTHEST, _LEAST_STEPS = 3.0, 30
 _RANK = {"pass": 0, "warn": 1, "fail": 2}
 _PASSES, _HOLDS = 2, 1
 _COSTLY = 4
-"""Trials that are costly, of a design that is not."""
+"""Trials that are costly, of a design that is not; and for each finding those of commands that another class serves."""
 REFUSAL = "refusal"
 """Name under which a design gives candidates where it is refused."""
 
@@ -178,8 +179,12 @@ class Bench:
             return ()  # what warns may be built: no report waits for its trials
         self._left = self._design.trials - self._design.effort
         for wanted in (_PASSES, _HOLDS) if found.status == "fail" else (_PASSES,):
-            remedy = self._first(found.name, lambda tried, wanted=wanted: self._grade(tried, found, index) >= wanted)  # type: ignore[misc]
-            if remedy:
+
+            def good(tried: Remedy, wanted: int = wanted) -> bool:
+                return self._grade(tried, found, index) >= wanted
+
+            few = islice(self._all(found.name, good), _COSTLY)
+            if remedy := next((each for each in few if self._grade_elsewhere(each) >= wanted), ()):
                 return remedy
         return ()
 
@@ -193,7 +198,7 @@ class Bench:
                 return trial is not None and self._own_grade(trial, found, index) > 0 and self._exists(trial)
             return False
 
-        return self._first(found.name, good)
+        return next(self._all(found.name, good), ())
 
     def of_refusal(self, error: NoSolution) -> Iterator[Remedy]:
         """Remedies of a design that is refused: nothing of what its file asks for is refused then."""
@@ -202,14 +207,15 @@ class Bench:
         yield from (remedy for remedy in self._closed(REFUSAL) if self._stands(remedy))
         yield from (remedy for remedy in (self._along(way, self._stands) for way in ways) if remedy)
 
-    def _first(self, name: str, good: Callable[[Remedy], bool]) -> Remedy:
+    def _all(self, name: str, good: Callable[[Remedy], bool]) -> Iterator[Remedy]:
+        """The remedies that are good, the best first."""
         for remedy in self._closed(name):
             if self._left <= 0 and self._design.effort and remedy not in self._trials:
-                return ()  # the few of a closed form count where each takes as long as many
+                return  # the few of a closed form count where each takes as long as many
             if good(remedy):
-                return remedy
+                yield remedy
         found = (self._along(way, good) for way in self._design.ways_of(name))
-        return next((remedy for remedy in found if remedy), ())
+        yield from (remedy for remedy in found if remedy)
 
     def _closed(self, name: str) -> Iterator[Remedy]:
         """The remedies from closed forms, computed one after the other; none more where the next is refused."""
@@ -304,11 +310,35 @@ class Bench:
         before, now = self._before.get(name, ()), _ranks(trial, name)
         if any(now) and not self._shown(name):
             before = ()
-        if len(before) != len(now):
-            before, now = tuple(sorted(before, reverse=True)), tuple(sorted(now, reverse=True))
-            before += (0,) * (len(now) - len(before))
-        worse = [rank for was, rank in zip(before, now, strict=False) if rank > was]
-        return _PASSES - max(worse, default=0)
+        return _against(before, now)
+
+    def _grade_elsewhere(self, remedy: Remedy) -> int:
+        """What a remedy leaves of the commands of the file that another class serves: none of them becomes worse."""
+        trial, grade = self._trials.get(remedy), _PASSES
+        for command, before in self._elsewhere.items():
+            if trial is not None and before is not None and command in trial.spec.commands():
+                now = self._found_elsewhere(command, trial.spec)
+                if now is None:
+                    return 0
+                grade = min(grade, *(_against(before.get(name, ()), ranks) for name, ranks in now.items()), _PASSES)
+        return grade
+
+    @cached_property
+    def _elsewhere(self) -> dict[str, dict[str, tuple[int, ...]] | None]:
+        """How bad the findings are of each command that another class serves, None where it is refused."""
+        spec = self._design.spec
+        others = () if self._design.kin is None else (c for c in spec.commands() if c not in self._design.outlines)
+        return {command: self._found_elsewhere(command, spec) for command in others}
+
+    def _found_elsewhere(self, command: str, spec: Any) -> dict[str, tuple[int, ...]] | None:
+        made: Any = self._design.kin.design(command, spec)  # type: ignore[union-attr]  # without it there are none
+        made.advises = False
+        found = None
+        with suppress(NoSolution):
+            made.require(command)
+            found = {name: _ranks(made, name) for name in made.outline(command).checks}
+        self._left -= made.effort
+        return found
 
     @cached_property
     def _before(self) -> dict[str, tuple[int, ...]]:
@@ -350,6 +380,15 @@ def refusal_ways(spec: Any, key: str) -> Iterator[Way]:
 
 def _ranks(design: Design, name: str) -> tuple[int, ...]:
     return tuple(_RANK[check.status] for check in design.check(name))
+
+
+def _against(before: tuple[int, ...], now: tuple[int, ...]) -> int:
+    """What the findings of a check leave of a grade; where there are more or fewer of them the worst are compared."""
+    if len(before) != len(now):
+        before, now = tuple(sorted(before, reverse=True)), tuple(sorted(now, reverse=True))
+        before += (0,) * (len(now) - len(before))
+    worse = [rank for was, rank in zip(before, now, strict=False) if rank > was]
+    return _PASSES - max(worse, default=0)
 
 
 def _counts(most: int) -> Iterator[int]:

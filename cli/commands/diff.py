@@ -116,7 +116,7 @@ def _design_side(file: str, options: Options) -> Side:
     """A design file: its inputs with defaults filled in, and the results of the commands that it asks for."""
     loaded, kind = open_design(file, options)
     spec = read_spec(loaded, kind, "-")  # named as it stands: names of files are no difference
-    designs = {cls: cls(spec) for cls in {kind.class_for(command, spec) for command in spec.commands()}}
+    designs = {kind.class_for(command, spec): kind.design(command, spec) for command in spec.commands()}
     with refusals_located(loaded):
         results = {c: as_plain(_report(designs[kind.class_for(c, spec)], c)) for c in spec.commands()}
     inputs = dict(_flat("", spec.model_dump(mode="json", by_alias=True)))

@@ -272,8 +272,9 @@ def test_a_quantity_evaluates_what_it_needs_and_no_more(command: str, design: st
 
 def _computed(made: object) -> set[str]:
     """Names of the results that a design and its parts have worked out."""
-    parts = [each for each in vars(made).values() if hasattr(each, "spec")]
-    given = ("spec", "asked", "advise")  # the file as completed and as read, and whether to advise: nothing worked out
+    # the file as completed and as read, whether to advise, and the kind that made it: nothing worked out
+    given = ("spec", "asked", "advise", "kin")
+    parts = [each for name, each in vars(made).items() if hasattr(each, "spec") and name not in given]
     return {
         name
         for each in (made, *parts)

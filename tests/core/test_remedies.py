@@ -219,3 +219,36 @@ def test_findings_that_are_new_count_with_the_check() -> None:
     now = failing(with_values(data, check.remedy), "analyze")
     assert now is not None
     assert not any(now[check.name])
+
+
+def spec_of(name: str, **keys: Any) -> Any:
+    data = factory.changed(factory.worked(name), **keys)
+    return KINDS[data["kind"]].spec_model().model_validate(data)
+
+
+def test_a_remedy_breaks_no_command_that_another_class_serves() -> None:
+    """The spring that keeps the roller on its cam presses the other one beyond what the file's loads allow."""
+    made = KINDS["swing-gripper"].design(
+        "gripper", spec_of("loaded_gripper", cylinder={"radius": 373.6}, links__output=39.37)
+    )
+    (check,) = made.findings("gripper", "lift-off")
+    assert check.status == "fail"
+    stronger = changed(made.spec, (("spring.torque", 5537.0),))
+    loads = [KINDS["swing-gripper"].design("loads", spec).check("contact-pressure") for spec in (made.spec, stronger)]
+    assert [any(found.status == "fail" for found in each) for each in loads] == [False, True]
+    assert ("spring.torque", 5537.0) not in check.remedy
+
+
+def test_no_remedy_that_the_reader_of_files_refuses() -> None:
+    spec = spec_of("loaded_gripper")
+    assert changed(spec, (("loads.roller.width", 6.0e14),)) is None
+    assert changed(spec, (("loads.roller.width", 60.0),)) is not None
+
+
+def test_a_gripper_names_no_base_circle() -> None:
+    """Its file has no such key: the cam's centre stands farther from the roller in place of it."""
+    spec = spec_of("swing_gripper", cam__roller__angle=15.38)
+    made = KINDS["swing-gripper"].design("gripper", spec)
+    (check,) = (found for found in made.check("pressure-angle") if found.status == "fail")
+    assert "base circle" not in check.message
+    assert "set cam.center farther from the roller" in check.message
