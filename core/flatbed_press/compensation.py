@@ -217,7 +217,8 @@ class Compensation:
         begin, start, end = self.cam_sync_start - self.lead_in, self.cam_sync_start, self.cam_sync_end
         if not self.transition_end > end:
             least = math.degrees(end)
-            remedy = f"set cam.transition_end above {safely_above(least, 6)} deg" if end < _TURN else "shorten the zone"
+            farther = f"set cam.transition_end above {safely_above(least, 6)} deg, the farther the flatter the cam"
+            remedy = farther if end < _TURN else "shorten the zone"
             raise NoSolution(
                 f"the transition ends at cam angle {math.degrees(self.transition_end):.6g} deg, but the synchronous "
                 f"zone only at {least:.6g} deg: {remedy}",
@@ -244,7 +245,8 @@ class Compensation:
         most = math.degrees(next_sheet - self.transition_end)
         if most > 0.0:
             return NoSolution(
-                f"{text}: set cam.return_angle to at most {safely_below(most)} deg", key="cam.return_angle"
+                f"{text}: set cam.return_angle to at most {safely_below(most)} deg, the shorter the steeper the cam",
+                key="cam.return_angle",
             )
         room = safely_below(math.degrees(self.cam_sync_start + _TURN - self.transition_end))
         return NoSolution(f"{text}: cam.lead_in and cam.return_angle have {room} deg together", key="cam.lead_in")
