@@ -24,7 +24,7 @@ MOST_POINTS = 100_000
 
 _PROBES = 8  # parts of a step at whose ends the distance is measured
 _SHARES = np.arange(_PROBES + 1) / _PROBES
-_UNSEEN = 1e-4  # share by which the greatest distance may pass the parabola's vertex; 4e-5 was seen
+_UNSEEN = 5e-3  # share by which the greatest distance may pass the parabola's vertex; 4.5e-3 was seen
 _TELLING = 500  # steps to be halved from which on they tell how many nodes there will be
 _FORESEEN = 16.0  # parts of a step at most that are foretold: beside a corner it needs fewer than by the rule
 _FEWER = 1.2  # times fewer nodes than by the rule, at most

@@ -126,12 +126,13 @@ def _set_symbol(axes: Axes, place: tuple[float, float], symbol: str, size: float
     """A symbol of the nomenclature: its letter, and smaller ones beside it. matplotlib's own sums are ten times slower
     than text, for it reads them by a grammar."""
     letter, index, star = _parted(symbol)
-    before = axes.text(*place, letter, fontsize=size, fontstyle="italic", va="center", in_layout=False)
+    stem = before = axes.text(*place, letter, fontsize=size, fontstyle="italic", va="center", in_layout=False)
     for words, height, align, share in ((index, 0.0, "bottom", 0.7), (star, 1.0, "top", 0.9)):
         if words:
             look: dict[str, Any] = {"fontsize": share * size, "fontstyle": "italic", "va": align, "in_layout": False}
             shift = (0.3, 0.0)
-            before = axes.annotate(words, (1.0, height), shift, xycoords=before, textcoords="offset points", **look)
+            of: Any = (before, stem)  # a star behind an index stands as high as the letter
+            before = axes.annotate(words, (1.0, height), shift, xycoords=of, textcoords="offset points", **look)
 
 
 def _parted(symbol: str) -> tuple[str, str, str]:

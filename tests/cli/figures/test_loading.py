@@ -15,6 +15,7 @@ from matplotlib.text import Text
 import gearlink
 from gearlink.cli.figures import write
 from gearlink.cli.figures.drawing import style
+from gearlink.cli.figures.gears import values
 from gearlink.cli.figures.loading import heights_of_lines
 
 LOOKS: list[dict[str, Any]] = [
@@ -55,6 +56,17 @@ def test_a_font_that_does_not_tell_its_heights_is_measured(monkeypatch: pytest.M
     monkeypatch.setattr("matplotlib.font_manager.get_font", lambda _: Face())
     found = heights_of_lines(lambda _: 72.0)(None, Text(0, 0, "").get_fontproperties())
     assert found == (None, None, None)
+
+
+def test_a_star_stands_above_the_index_before_it() -> None:
+    figure = style.figure(4.0, 3.0, "")
+    axes = figure.add_subplot()
+    values._set_symbol(axes, (0.5, 0.5), "h_fP*", 6.2)
+    figure.canvas.draw()
+    letter, index, star = (text.get_window_extent() for text in axes.texts)
+    assert letter.x1 < index.x0 < index.x1 < star.x0
+    assert star.y1 == pytest.approx(letter.y1, abs=1.0)
+    assert star.y1 > index.y1
 
 
 @pytest.mark.parametrize(
