@@ -442,7 +442,7 @@ def test_gears_need_no_links():
 def test_transmission_angle_computes_no_motion():
     found = design(**EXAMPLE_3)
     found.quantity("min_transmission_angle")
-    assert set(vars(found)) == {"spec", "linkage", "min_transmission_angle", "idler_teeth"}
+    assert set(vars(found)) == {"spec", "kin", "linkage", "min_transmission_angle", "idler_teeth"}
 
 
 def test_gear_gap_sweeps_nothing():

@@ -532,7 +532,7 @@ def test_laziness() -> None:
     """Asking for the velocity peak computes no profile, no drive and no balance."""
     made = design()
     made.report("swing", quantities=("velocity_peak",))
-    assert set(vars(made)) <= {"spec", "motion"}
+    assert set(vars(made)) <= {"spec", "kin", "motion"}
     assert set(vars(made.motion)) <= {"spec", "swing", "device", "plain_law"}
     made.report("swing", quantities=("min_pivot_ratio",))
     fresh = design()
