@@ -226,14 +226,18 @@ def window_of(drive: PlanetLinkage) -> float:
     """Measure: the window over which the output stays within the band that its back-step fills [rad].
 
     phi5(L) = phi5(phi(2)),   phi5(R) = phi5(phi(1)),   window = R - L,   band = D = 2 tau; 0 without a back-step
+
+    At the end of the back-step the angle is D off; near the momentary dwell a difference of angles has no digit of it.
     """
     step = back_step(drive)
-    if step is None:
+    if step is None or step.angle <= 0.0:  # one of rounding, at the momentary dwell itself
         return 0.0
     top = drive.angle(step.start)
     bottom = top - step.angle
     left = bracketed_root(lambda phi: drive.angle(phi) - bottom, step.end - _TURN, step.start)
-    return bracketed_root(lambda phi: drive.angle(phi) - top, step.end, step.start + _TURN) - left
+    after, turned = drive.angle(step.end) - top, drive.angle(step.start + _TURN) - top
+    ends = (after if after < 0.0 else -step.angle, turned)
+    return bracketed_root(lambda phi: drive.angle(phi) - top, step.end, step.start + _TURN, ends=ends) - left
 
 
 def solved(family: Family, measure: Callable[[PlanetLinkage], float], target: float, what: str) -> float:

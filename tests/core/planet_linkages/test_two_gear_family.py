@@ -140,6 +140,16 @@ def test_back_step_and_window_rise_towards_the_change_point(family: Family) -> N
     assert kernel.back_step(family.drive(quiet + 1e-6 * (quiet - steep))) is None
 
 
+def test_a_window_is_found_whatever_the_momentary_dwell_rounds_to() -> None:
+    """The search starts at the momentary dwell, where a back-step of rounding may end above its start."""
+    for coupler, rocker, teeth in ((64.0, 76.61909275997998, 78), (55.91474905081777, 84.52689629494145, 76)):
+        family = Family(float(teeth - 48), coupler, rocker, 48 / teeth)
+        assert kernel.window_of(family.drive(kernel.momentary_frame(family))) < 1e-3
+        for degrees in (0.5, 30.0, 36.25450179146391, 61.369491027139205):
+            frame = kernel.solved(family, kernel.window_of, math.radians(degrees), "this")
+            assert math.degrees(kernel.window_of(family.drive(frame))) == pytest.approx(degrees, rel=1e-9)
+
+
 @pytest.mark.parametrize("family", [SUN, RING])
 def test_a_short_back_step_keeps_its_digits(family: Family) -> None:
     """D = c (d - d*)^(3/2) near the momentary dwell, where it is far below the rounding of the output angle."""
