@@ -118,8 +118,6 @@ def _measured_once(axes: Axes, labels: Sequence[_Label], far: dict[_Label, float
     measure = axes.get_tightbbox
     known: Room = []
     for each in (axes, *axes.child_axes):
-        for spine in each.spines.values():
-            spine.set_in_layout(False)  # its ticks would be sought, and numbers and words reach farther
         for axis in (each.xaxis, each.yaxis):
             if not axis.get_label_text():
                 axis.set_label_coords(0.0, 0.0)  # else the numbers beside it are measured for its place

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -48,7 +49,6 @@ _WORDS = {
 _SYMBOL = 1
 """The column of the symbols, as the nomenclature writes them."""
 _SIGNS = {"alpha": "α", "beta": "β", "eps": "ε", "gamma": "γ", "rho": "ρ", "sigma": "σ", "zeta": "ζ"}
-_LOWERED = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 
 
 def ruled(
@@ -123,25 +123,30 @@ def gear_text(value: Any) -> str:
 
 
 def _set_symbol(axes: Axes, place: tuple[float, float], symbol: str, size: float) -> None:
-    """A symbol of the nomenclature: its letter, and smaller ones beside it. matplotlib's own sums are ten times slower
+    """A symbol of the nomenclature: its letter, and smaller ones beside it. matplotlib's own formulas are ten times slower
     than text, for it reads them by a grammar."""
-    letter, index, star = _parted(symbol)
-    stem = before = axes.text(*place, letter, fontsize=size, fontstyle="italic", va="center", in_layout=False)
-    for words, height, align, share in ((index, 0.0, "bottom", 0.7), (star, 1.0, "top", 0.9)):
-        if words:
-            look: dict[str, Any] = {"fontsize": share * size, "fontstyle": "italic", "va": align, "in_layout": False}
-            shift = (0.3, 0.0)
-            of: Any = (before, stem)  # a star behind an index stands as high as the letter
-            before = axes.annotate(words, (1.0, height), shift, xycoords=of, textcoords="offset points", **look)
+    (letter, *_), *beside = _parted(symbol)
+    stem: Any = axes.text(*place, letter, fontsize=size, fontstyle="italic", va="center", in_layout=False)
+    before = stem
+    for words, height, align, share in beside:
+        look: dict[str, Any] = {"fontsize": share * size, "fontstyle": "italic", "va": align, "in_layout": False}
+        of: Any = (before, stem)  # whatever stands before it, it is as high as the first letter says
+        before = axes.annotate(words, (1.0, height), (0.3, 0.0), xycoords=of, textcoords="offset points", **look)
 
 
-def _parted(symbol: str) -> tuple[str, str, str]:
-    """Letter, index and star of a symbol; digits behind a letter are lowered.
+def _parted(symbol: str) -> list[tuple[str, float, str, float]]:
+    """Letters, indices and star of a symbol, each with its place on the height of a letter, and its share of its size.
 
     Example
-        >>> _parted("alpha_wt"), _parted("h_fP*"), _parted("x1+x2")
-        (('α', 'wt', ''), ('h', 'fP', '*'), ('x₁+x₂', '', ''))
+        >>> [words for words, *_ in _parted("alpha_wt")], [words for words, *_ in _parted("x1+x2")]
+        (['α', 'wt'], ['x', '1', '+x', '2'])
+        >>> _parted("h_fP*")
+        [('h', 0.0, 'bottom', 1.0), ('fP', 0.0, 'bottom', 0.7), ('*', 1.0, 'top', 0.9)]
     """
     plain = symbol.removesuffix("*")
     letter, _, index = plain.partition("_")
-    return _SIGNS.get(letter, letter.translate(_LOWERED)), _SIGNS.get(index, index), symbol[len(plain) :]
+    words = [_SIGNS[letter]] if letter in _SIGNS else re.findall(r"\d+|\D+", letter)
+    found = [(each, 0.0, "bottom", 0.7 if each.isdigit() else 1.0) for each in words]
+    if index:
+        found.append((_SIGNS.get(index, index), 0.0, "bottom", 0.7))
+    return [*found, ("*", 1.0, "top", 0.9)] if plain != symbol else found
