@@ -123,8 +123,10 @@ def gear_text(value: Any) -> str:
 
 
 def _set_symbol(axes: Axes, place: tuple[float, float], symbol: str, size: float) -> None:
-    """A symbol of the nomenclature: its letter, and smaller ones beside it. matplotlib's own formulas are ten times slower
-    than text, for it reads them by a grammar."""
+    """A symbol of the nomenclature: its letter, and smaller texts beside it.
+
+    matplotlib's own formulas take ten times as long as text, for it reads them by a grammar.
+    """
     (letter, *_), *beside = _parted(symbol)
     stem: Any = axes.text(*place, letter, fontsize=size, fontstyle="italic", va="center", in_layout=False)
     before = stem
