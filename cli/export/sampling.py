@@ -6,6 +6,7 @@ greatest that is left is reported.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
@@ -24,7 +25,8 @@ MOST_POINTS = 100_000
 
 _PROBES = 8  # parts of a step at whose ends the distance is measured
 _SHARES = np.arange(_PROBES + 1) / _PROBES
-_UNSEEN = 5e-3  # share by which the greatest distance may pass the parabola's vertex; 4.5e-3 was seen
+_UNSEEN = 9e-5  # share by which the greatest distance may pass what probes tell of it; 4e-5 was seen
+_CUBIC = 1.0 / math.sqrt(243.0)  # greatest of (x - x^3)/6 on [0, 1]: a cubic over its parabola, per third difference
 _TELLING = 500  # steps to be halved from which on they tell how many nodes there will be
 _FORESEEN = 16.0  # parts of a step at most that are foretold: beside a corner it needs fewer than by the rule
 _FEWER = 1.2  # times fewer nodes than by the rule, at most
@@ -113,8 +115,8 @@ def sample(stretch: Stretch, tolerance: float, form: CurveForm, most: int = MOST
     Notes
         Steps that are too long are halved, so that nodes lie dense only where the curve bends; what is known of the
         curve is kept. The distance is measured at seven places of each step, and the vertex of the parabola through
-        the greatest and its neighbours is added. Of a spline it is the distance at equal parameter, never less than
-        that of the curves.
+        the greatest and its neighbours is added, with what the third difference there tells. Of a spline it is the
+        distance at equal parameter, never less than that of the curves.
     """
     spline = form is CurveForm.SPLINE
     steps = max(stretch.steps, _LEAST_CUBIC_STEPS) if spline else stretch.steps
@@ -193,12 +195,16 @@ def _from_cubics(cubic: Any, probes: Reals, points: Points) -> Reals:
 
 
 def _peaks(probes: Reals) -> Reals:
-    """Greatest distance in each step over all curves: the greatest probe, or the parabola's vertex beside it."""
+    """Greatest distance in each step over all curves: the parabola's vertex beside the greatest probe, and what a cubic
+    through one probe more can stand above that parabola."""
     place = np.argmax(probes[:, :, 1:-1], axis=2)[..., None] + 1
     left, top, right = (np.take_along_axis(probes, place + shift, axis=2)[..., 0] for shift in (-1, 0, 1))
     bend = 2.0 * top - left - right
     rise = np.divide((right - left) ** 2, 8.0 * bend, out=np.zeros_like(top), where=bend > 0.0)
-    worst: Reals = (top + np.minimum(rise, top)).max(axis=0)
+    windows = np.lib.stride_tricks.sliding_window_view(probes, 4, axis=2)
+    cubic = np.abs(windows @ np.array([-1.0, 3.0, -3.0, 1.0]))
+    near = [np.take_along_axis(cubic, np.minimum(np.maximum(place - back, 0), _PROBES - 3), axis=2) for back in (1, 2)]
+    worst: Reals = (top + np.minimum(rise, top) + _CUBIC * np.maximum(*near)[..., 0]).max(axis=0)
     return worst
 
 
