@@ -24,6 +24,7 @@ from gearlink.core.gears.drawing_names import DRAWING_CHECKS
 from gearlink.core.gears.measures.inspection import preferred_pin
 from gearlink.core.gears.mesh.contact import PathOfContact
 from gearlink.core.gears.mesh.pair import GearPair
+from gearlink.core.gears.mesh.tip_corner import CornerGap, TipCorner
 from gearlink.core.gears.rating.load import Factors
 from gearlink.core.report import Check, Rule, Status, safely_above
 from gearlink.core.wording import amount
@@ -195,6 +196,17 @@ def fillet_measured(pair: GearPair, path: PathOfContact, gear: int) -> FilletMea
     return FilletMeasure(margin, limit, beyond, beyond | (margin < limit), judged)
 
 
+def corner_in_fillet(pair: GearPair, gear: int) -> CornerGap | None:
+    """The cut of the mate's tip corner into a gear's fillet outside the path of contact; None where there is none.
+
+    Parameters
+        pair : GearPair - contact ends on the flank that the fillet leaves
+        gear : int - 0 or 1, whose fillet is known
+    """
+    corner = TipCorner(pair, gear)
+    return corner.least if corner.comes_near and corner.least.gap < -FILLET_NOISE * pair.module else None
+
+
 def _fillet_of(data: GearData, gear: int) -> Iterator[Check]:
     pair, form = data.pair, data.pair.form_radius[gear]
     if form is None and pair.interference_margin[1 - gear] > 0.0:
@@ -206,6 +218,12 @@ def _fillet_of(data: GearData, gear: int) -> Iterator[Check]:
     else:
         used = abs(data.path.used_root_radius[gear])
         text = f"contact at the root of gear {gear + 1} begins at {used:.7g} mm, its flank at {abs(form):.7g} mm"
+        if not found.bad and (corner := corner_in_fillet(pair, gear)):
+            found = found._replace(margin=corner.gap, bad=True)
+            text = (
+                f"the corner of the tip of gear {2 - gear} cuts {-corner.gap:.4g} mm into the root fillet of gear "
+                f"{gear + 1}, at {corner.radius:.7g} mm, outside the path of contact"
+            )
     status: Status = "pass"
     if found.bad:
         status = "fail" if found.judged else "warn"

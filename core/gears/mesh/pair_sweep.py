@@ -122,6 +122,10 @@ class GearPairs(GearPair):
         )
         return one, other
 
+    def cut_root(self, gear: int) -> RackCutRoots:
+        """The root of a gear of each pair."""
+        return self.roots[gear]
+
     def form_radius_of(self, gear: int) -> Any:
         """r_Ff of one gear of each pair."""
         return np.where(self._pointed(gear), np.nan, self.module * self.roots[gear].form_radius)
@@ -212,12 +216,21 @@ class RackCutRoots(RackCutRoot):
         places = np.flatnonzero(np.atleast_1d(self.undercut) | (self.tool.residual_undercut != 0.0))
         if places.size:
             cut = self._part(places)
-            found[places] = np.maximum(cut.base_radius, abs(cut.fillet(cut.end_normal)))
+            found[places] = np.maximum(cut.base_radius, abs(cut.fillet(cut.cut_end)))
         return found
 
     @cached_property
     def end_normal(self) -> Any:
-        """Where the fillet ends, of gears that are all cut into; NaN where it meets no involute."""
+        """Where the fillet ends; NaN where it meets no involute."""
+        found: Any = np.broadcast_to(self.last_normal, np.atleast_1d(self.flank_start).shape).copy()
+        places = np.flatnonzero(np.atleast_1d(self.undercut) | (self.tool.residual_undercut != 0.0))
+        if places.size:
+            found[places] = self._part(places).cut_end
+        return found
+
+    @cached_property
+    def cut_end(self) -> Any:
+        """`end_normal` of gears that are all cut into."""
         size = np.atleast_1d(self.flank_start).shape
         end: Any = np.broadcast_to(np.asarray(self.last_normal, dtype=float), size)
         base = np.broadcast_to(self.base_radius, size)
