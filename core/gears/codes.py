@@ -112,10 +112,12 @@ TIP_FOULING = Rule(
 FILLET = Rule(
     "GL207",
     "the mate's tip meets the root fillet",
-    "Contact reaches deeper than the involute that the tool leaves: r_Nf < r_Ff.",
+    "Contact reaches deeper than the involute that the tool leaves, r_Nf < r_Ff; or the corner of the mate's tip cuts "
+    "into the fillet outside the path of contact.",
     "The tip of the mate runs on the fillet, which is no involute: noise, scoring, jamming.",
     "Raise the profile shift, shorten the mate's tips, or take a tool with a smaller rounding or a larger addendum.",
-    "r_Nf >= r_Ff - 1e-4 m; fails where the file names a tool or cutter, for rings and helical gears, else warns",
+    "r_Nf >= r_Ff - 1e-4 m, and the corner's least gap along its circle >= -1e-4 m; fails where the file names a tool "
+    "or cutter, for rings and helical gears, else warns",
     "ISO 21771; form radius: own derivation, compared with a rolled tool",
     ("fillet-interference",),
     ("tool", "cutter", "gears.tool", "gears.cutter", "input_gears.tool", *_TEETH),
