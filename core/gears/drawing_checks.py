@@ -222,7 +222,7 @@ def _fillet_of(data: GearData, gear: int) -> Iterator[Check]:
             found = found._replace(margin=corner.gap, bad=True)
             text = (
                 f"the corner of the tip of gear {2 - gear} cuts {-corner.gap:.4g} mm into the root fillet of gear "
-                f"{gear + 1}, at {corner.radius:.7g} mm, outside the path of contact"
+                f"{gear + 1}, at {corner.place:.7g} mm, outside the path of contact"
             )
     status: Status = "pass"
     if found.bad:

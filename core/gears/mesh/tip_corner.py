@@ -30,10 +30,39 @@ _OPEN = 0.01
 
 
 class CornerGap(NamedTuple):
-    """How far a tip's corner keeps off the mate's fillet along the circle of some radius [mm]; negative in it."""
+    """How far a tip's corner keeps off the mate's fillet along the circle of some radius [mm]; negative in it.
+
+    Of a rack: along the line in some depth.
+    """
 
     gap: float
-    radius: float
+    place: float
+
+
+def near_of(module: float) -> float:
+    """Gap between two places that a closer look does not close [mm]."""
+    return _OPEN * module
+
+
+def places_towards(start: Any, end: Any) -> list[Any]:
+    """Places on a fillet from its root to the flank, in steps that shrink."""
+    return [start + (end - start) * (1.0 - (1.0 - k / _STEPS) ** 2) for k in range(_STEPS + 1)]
+
+
+def least_gap(gap: Callable[[float], float], places: list[float], near: float) -> tuple[float, float]:
+    """The least gap and its place; a valley between places is gone through where its gap is below `near`.
+
+    Example
+        >>> least_gap(lambda b: (b - 0.3) ** 2 - 0.01, places_towards(0.0, 1.0), 0.1)[0]
+        -0.01
+    """
+    gaps = [gap(place) for place in places]
+    found = min(zip(gaps, places, strict=True))
+    for k in range(1, len(places) - 1):
+        if gaps[k - 1] >= gaps[k] <= gaps[k + 1] and gaps[k] < near:
+            place, raised = maximum(lambda at: -gap(at), places[k - 1], places[k + 1])
+            found = min(found, (-raised, place))
+    return found
 
 
 @dataclass(frozen=True)
@@ -49,7 +78,7 @@ class TipCorner:
         >>> pair = GearPair(module=1.0, teeth=(32, 63), pressure_angle=math.radians(10.0), given_shift=(0.587, 0.427),
         ...                 tip="none")
         >>> least = TipCorner(pair, 0).least
-        >>> round(least.gap, 6), round(least.radius, 4)
+        >>> round(least.gap, 6), round(least.place, 4)
         (-0.00878, 15.4182)
 
     Source
@@ -125,24 +154,18 @@ class TipCorner:
     def _places(self) -> list[Any]:
         """Places on the fillet from the root circle to the flank."""
         _, start, end = self._fillet
-        return [start + (end - start) * (1.0 - (1.0 - k / _STEPS) ** 2) for k in range(_STEPS + 1)]
+        return places_towards(start, end)
 
     @cached_property
     def least(self) -> CornerGap:
         """The least gap; that of the flank's end at most, where the corner leaves it."""
-        places = self._places()
-        gaps = [self._gap(place) for place in places]
-        found = min(zip(gaps, places, strict=True))
-        for k in range(1, _STEPS):
-            if gaps[k - 1] >= gaps[k] <= gaps[k + 1] and gaps[k] < _OPEN * self.pair.module:
-                place, raised = maximum(lambda at: -self._gap(at), places[k - 1], places[k + 1])
-                found = min(found, (-raised, place))
-        return CornerGap(found[0], self._fillet[0](found[1])[0])
+        gap, place = least_gap(self._gap, self._places(), near_of(self.pair.module))
+        return CornerGap(gap, self._fillet[0](place)[0])
 
     @property
     def may_cut(self) -> Any:
         """Of many pairs: where a closer look could find the corner in the fillet."""
         gaps = [self._gap(place) for place in self._places()]
         held = [near <= after for near, after in pairwise(gaps)]
-        low = (held[k] & ~held[k - 1] & (gaps[k] < _OPEN * self.pair.module) for k in range(1, _STEPS))
+        low = (held[k] & ~held[k - 1] & (gaps[k] < near_of(self.pair.module)) for k in range(1, _STEPS))
         return reduce(or_, low, gaps[0] < 0.0)

@@ -26,6 +26,7 @@ from gearlink.core.report import Check, Status
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
+    from gearlink.core.gears.mesh.tip_corner import CornerGap
     from gearlink.core.gears.rack.profile import RackProfile
 
 _MATE = 10_000
@@ -250,8 +251,23 @@ def _fillet(rack: RackMesh, _limits: Any) -> Iterator[Check]:
         yield _judged(FILLET.check, f"contact {_side(margin, noise)} the root fillet of gear 1", margin, noise)
     margin = rack.form_depth - rack.end_depth
     words = f"contact {_side(margin, noise)} the root rounding of the rack"
+    if margin >= noise and (corner := _corner_in_rack(rack, noise)):
+        margin = corner.gap
+        words = (
+            "the corner of the tip of gear 1 cuts {:.4g} mm into the root rounding of the rack, "
+            f"{corner.place:.7g} mm below its datum line, outside the path of contact"
+        )
     remedy = "lower the profile shift or the addendum of gear 1, or the rounding of the rack's tool"
     yield _judged(FILLET.check, words, margin, noise, remedy)
+
+
+def _corner_in_rack(rack: RackMesh, noise: float) -> CornerGap | None:
+    """The cut of the gear's tip corner into the rounding of the rack; None where there is none."""
+    from gearlink.core.gears.rack.tip_corner import CornerInRack
+
+    corner = CornerInRack(rack)
+    near = corner.deepest > rack.form_depth and rack.pair.tool(1).rounding_center(rack.pair.pressure_angle) >= 0.0
+    return corner.least if near and corner.least.gap < noise else None
 
 
 def _side(margin: float, noise: float) -> str:
