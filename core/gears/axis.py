@@ -33,7 +33,7 @@ from gearlink.core.gears.drawing_names import PLACES
 from gearlink.core.gears.from_spec import both
 from gearlink.core.gears.mesh.pair_sweep import GearPairs, PathsOfContact
 from gearlink.core.gears.mesh.ring_sweep import InternalInterferences, RingPairs
-from gearlink.core.gears.mesh.tip_corner import TipCorner
+from gearlink.core.gears.mesh.tip_corner_sweep import TipCorners
 from gearlink.core.nomenclature import term
 from gearlink.core.numerics.arrays import Mask, Reals
 from gearlink.core.report import Rule
@@ -273,8 +273,7 @@ class _Batch:
         left = self._spread(self.pairs.interference_margin[1 - gear])
         known = ~np.isnan(self._spread(self.pairs.form_radius[gear]))
         self.near |= known & (_close(found.margin, found.limit) | _close(left, 0.0))
-        corner = TipCorner(self.pairs, gear)
-        self.near |= known & ~found.bad & self._spread(corner.comes_near & corner.may_cut)
+        self.near |= TipCorners(self.pairs, gear).may_cut(known & ~found.bad)
         fails, warns = found.bad & found.judged, found.bad & ~found.judged
         return Findings(FILLET.code, found.margin, found.limit, fails, warns, "mm")
 

@@ -203,8 +203,8 @@ def corner_in_fillet(pair: GearPair, gear: int) -> CornerGap | None:
         pair : GearPair - contact ends on the flank that the fillet leaves
         gear : int - 0 or 1, whose fillet is known
     """
-    corner = TipCorner(pair, gear)
-    return corner.least if corner.comes_near and corner.least.gap < -FILLET_NOISE * pair.module else None
+    corner = TipCorner(pair, gear).cut
+    return corner if corner is not None and corner.gap < -FILLET_NOISE * pair.module else None
 
 
 def _fillet_of(data: GearData, gear: int) -> Iterator[Check]:

@@ -195,7 +195,9 @@ class RackCutRoots(RackCutRoot):
 
     fn: ClassVar[GearFunctions] = ARRAYS
 
-    def _part(self, places: Any) -> RackCutRoots:
+    def part(self, places: Any) -> RackCutRoots:
+        """The roots of the gears at some places."""
+
         def at(value: Any) -> Any:
             return value[places] if np.ndim(value) else value
 
@@ -210,23 +212,32 @@ class RackCutRoots(RackCutRoot):
         )
 
     @cached_property
+    def _cut_into(self) -> tuple[Any, RackCutRoots | None]:
+        """Places of the gears whose involute the tool cuts into, or may with a protuberance; and their roots."""
+        places = np.flatnonzero(np.atleast_1d(self.undercut) | (self.tool.residual_undercut != 0.0))
+        return places, self.part(places) if places.size else None
+
+    @cached_property
     def form_radius(self) -> Any:
         """r_Ff; where the tool undercuts or protrudes from the cut through the involute."""
-        found = np.atleast_1d(self.form_radius_uncut)
-        places = np.flatnonzero(np.atleast_1d(self.undercut) | (self.tool.residual_undercut != 0.0))
-        if places.size:
-            cut = self._part(places)
+        found, (places, cut) = np.atleast_1d(self.form_radius_uncut), self._cut_into
+        if cut is not None:
             found[places] = np.maximum(cut.base_radius, abs(cut.fillet(cut.cut_end)))
         return found
 
     @cached_property
     def end_normal(self) -> Any:
-        """Where the fillet ends; NaN where it meets no involute."""
+        """Where the fillet ends; NaN where it meets no involute. One number where it is the same of all."""
+        places, cut = self._cut_into
+        if cut is None:
+            return self.last_normal
         found: Any = np.broadcast_to(self.last_normal, np.atleast_1d(self.flank_start).shape).copy()
-        places = np.flatnonzero(np.atleast_1d(self.undercut) | (self.tool.residual_undercut != 0.0))
-        if places.size:
-            found[places] = self._part(places).cut_end
+        found[places] = cut.cut_end
         return found
+
+    def corner_path(self, left: Any, above: Any, rolled: Any) -> Any:
+        """As of one gear; where no tool has rolled on, the corner is where it was."""
+        return super().corner_path(left, above, rolled) if np.any(rolled > 0.0) else left
 
     @cached_property
     def cut_end(self) -> Any:
@@ -252,5 +263,5 @@ class RackCutRoots(RackCutRoot):
         """Where a function of the normal is zero, of the gears at some places."""
         if not low.size:
             return low
-        part = self._part(places)
+        part = self.part(places)
         return bracketed_roots(getattr(part, name), low, high)

@@ -6,7 +6,7 @@ the mate A turned by psi from where its corner stands deepest (signs of ISO 2177
     corner = s (a_w - r_aA exp(i psi)) exp(-i z_A (delta - psi)/z),  delta = inv(alpha_aA) - inv(alpha_wt)
     fillet at s beside - eta_b - inv(alpha_wt),  r^2 = (a_w - r_aA)^2 + 4 a_w r_aA sin^2(psi/2)
 
-From the end of contact on, psi = alpha_wt - alpha_aA, to 0.
+From the end of contact on, psi = alpha_wt - alpha_aA, to 0. Most corners never leave the tool: see `stays_in_tool`.
 """
 
 from __future__ import annotations
@@ -14,12 +14,10 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import reduce
-from itertools import pairwise
-from operator import or_
 from typing import Any, NamedTuple
 
 from gearlink.core.gears.mesh.pair import GearPair
+from gearlink.core.gears.tooth.functions import GearFunctions
 from gearlink.core.numerics.roots import maximum
 from gearlink.core.results import cached_property
 
@@ -27,6 +25,10 @@ _STEPS = 12
 """Steps in which the gap is looked at first, shorter towards the flank."""
 _OPEN = 0.01
 """Gap between two steps that a closer look does not close, in modules."""
+_TURNS = 8
+"""Turns of the mate in which a corner is looked for in the tool, nearer to each other at the end of contact."""
+_LESS = 0.97
+"""Of the tool's rounding, so that nothing between two turns matters."""
 
 
 class CornerGap(NamedTuple):
@@ -37,6 +39,29 @@ class CornerGap(NamedTuple):
 
     gap: float
     place: float
+
+
+class CornerPath(NamedTuple):
+    """The way of a corner past a fillet, as the gap needs it; of many pairs each is an array."""
+
+    fn: GearFunctions
+    deepest: Any
+    four_areas: Any
+    turned: Any
+    across: Any
+    along: Any
+    on: Any
+    rolled: Any
+
+    def squared(self, radius: Any) -> Any:
+        """sin^2(psi/2) of the corner on a circle [mm]; negative where it does not come so deep."""
+        return (radius - self.deepest) * (radius + self.deepest) / self.four_areas
+
+    def gap(self, squared: Any, beside: Any) -> Any:
+        """How far a point of the fillet, so far beside the middle of the space, stands from the corner [rad]."""
+        half = self.fn.sqrt(squared)
+        corner = self.fn.atan2(self.across * half * self.fn.sqrt(1.0 - squared), self.along + self.on * squared)
+        return beside - self.turned - corner - self.rolled * self.fn.asin(half)
 
 
 def near_of(module: float) -> float:
@@ -70,7 +95,7 @@ class TipCorner:
     """The corner of the mate's tip beside the root fillet of a gear, where contact ends on the flank above it.
 
     Parameters
-        pair : GearPair - or many over arrays, which have `comes_near` and `may_cut` alone
+        pair : GearPair
         gear : int - 0 or 1, whose fillet; that of a ring needs its cutter
     Notes
         Both flanks touch, whatever the backlash. Compared with drawn teeth that are turned in mesh.
@@ -88,84 +113,121 @@ class TipCorner:
     pair: GearPair
     gear: int
 
-    @cached_property
-    def _deepest(self) -> Any:
-        """Radius on which the corner crosses the line of centres [mm]."""
-        return abs(self.pair.center_distance - self.pair.tip_radius[1 - self.gear])
-
     @property
+    def _mate(self) -> int:
+        return 1 - self.gear
+
+    @cached_property
     def comes_near(self) -> Any:
         """Whether the corner comes deeper than the flank goes."""
         form: Any = self.pair.form_radius[self.gear]
-        return self.pair.signs[self.gear] * (self._deepest - abs(form)) < 0.0
+        deepest = abs(self.pair.center_distance - self.pair.tip_radius[self._mate])
+        return self.pair.signs[self.gear] * (deepest - abs(form)) < 0.0
 
     @cached_property
-    def _beside(self) -> Callable[[Any, Any], Any]:
-        """How far the fillet stands from the corner when that is on its circle [rad], as a function.
+    def _rise(self) -> Any:
+        """alpha_aA - alpha_wt, by which the mate turns from where its corner is deepest to the end of contact [rad]."""
+        return self.pair.tip_pressure_angle[self._mate] - self.pair.working_pressure_angle
 
-        Of the radius [mm] and the fillet's angle beside the middle of the space [rad].
-        """
+    @cached_property
+    def path(self) -> CornerPath:
+        """The way of the corner."""
         pair, fn, sign = self.pair, self.pair.fn, self.pair.signs[self.gear]
-        working, rise = (
-            pair.working_pressure_angle,
-            pair.tip_pressure_angle[1 - self.gear] - pair.working_pressure_angle,
-        )
-        a, tip, z = pair.center_distance, pair.tip_radius[1 - self.gear], pair.teeth[self.gear]
-        ratio, four, sense = pair.teeth[1 - self.gear] / z, 4.0 * a * tip, -fn.copysign(2.0, rise)
-        # eta_b = (pi/2 - 2 x tan(alpha_n))/z - inv(alpha_t), and how far the mate has turned when the corner is deepest
+        a, tip, working = pair.center_distance, pair.tip_radius[self._mate], pair.working_pressure_angle
+        z = pair.teeth[self.gear]
+        ratio, sense = pair.teeth[self._mate] / z, -fn.copysign(2.0, self._rise)
+        # eta_b = (pi/2 - 2 x tan(alpha_n))/z - inv(alpha_t), and how far all has turned when the corner is deepest
         half_space = (math.pi / 2.0 - 2.0 * pair.profile_shift[self.gear] * fn.tan(pair.pressure_angle)) / z
         half_space = half_space - fn.involute(pair.transverse_pressure_angle)
-        turned = half_space + fn.involute(working) - fn.involute_rise(working, rise) * ratio
+        return CornerPath(
+            fn=fn,
+            deepest=abs(a - tip),
+            four_areas=4.0 * a * tip,
+            turned=sign * (half_space + fn.involute(working) - fn.involute_rise(working, self._rise) * ratio),
+            across=-sense * tip,
+            along=sign * (a - tip),
+            on=2.0 * sign * tip,
+            rolled=sign * sense * ratio,
+        )
 
-        def gap(radius: Any, beside: Any) -> Any:
-            squared = (radius - self._deepest) * (radius + self._deepest) / four
-            reached = squared >= 0.0
-            psi = sense * fn.asin(fn.sqrt(fn.least(1.0, fn.where(reached, squared, 0.0))))
-            corner = fn.atan2(-sign * tip * fn.sin(psi), sign * (a - tip * fn.cos(psi))) + ratio * psi
-            return fn.where(reached, beside - sign * (turned + corner), math.inf)
+    @property
+    def stays_in_tool(self) -> Any:
+        """Whether the corner of an external mate is inside the tool that cut the fillet, all the way; it cuts nothing.
 
-        return gap
+        While the flanks touch at a point of the gear's involute, so far before the end of contact, the tool touched it
+        there too, with its flank along the same tangent. From there the mate's corner lies inwards of the tangent, and
+        beyond the end of the tool's straight flank, by
+
+            d = rho_a (1 - cos t) - r_bA (t - sin t),  h = rho_a sin t - r_bA (1 - cos t) - tan(alpha_t) (g + r_bA t)
+
+        t the turn of the mate to the end of contact, rho_a = r_bA tan(alpha_aA), g what the used flank keeps off its
+        form circle on the line of action. The corner is in the tool beside the straight flank, h <= 0, or in the circle
+        of the rounding, which touches the flank at its end. It may be in the tool at another time all the same.
+        """
+        pair, fn, mate = self.pair, self.pair.fn, self._mate
+        tool, slope = pair.tool(self.gear), fn.tan(pair.transverse_pressure_angle)
+        base, own, form = pair.base_radius[mate], pair.base_radius[self.gear], pair.form_radius[self.gear]
+        flank_end = fn.sqrt(fn.greatest(0.0, (form - own) * (form + own)))  # type: ignore[operator]
+        spare = slope * (pair.interference_margin[mate] - flank_end)
+        rho, rounding = base * fn.tan(pair.tip_pressure_angle[mate]), _LESS * pair.module * tool.rounding
+        stays = spare >= 0.0
+        for k in range(1, _TURNS + 1):
+            turn = self._rise * (k / _TURNS) ** 2
+            sine, lost = fn.sin(turn), 2.0 * fn.sin(0.5 * turn) ** 2
+            inwards = rho * lost - base * (turn - sine)
+            beyond = rho * sine - base * lost - spare - slope * base * turn
+            inwards, beyond = self._in_normal_section(inwards, beyond)
+            rounded = beyond * beyond <= inwards * (2.0 * rounding - inwards)
+            stays = stays & (inwards >= 0.0) & ((beyond <= 0.0) | rounded)
+        return stays
+
+    def _in_normal_section(self, inwards: Any, beyond: Any) -> tuple[Any, Any]:
+        """Lengths across and along the tool's flank, from the transverse section."""
+        pair, fn = self.pair, self.pair.fn
+        if isinstance(pair.helix_angle, float) and pair.helix_angle == 0.0:
+            return inwards, beyond
+        angle, normal = pair.transverse_pressure_angle, pair.pressure_angle
+        across = fn.cos(pair.helix_angle) * (beyond * fn.sin(angle) + inwards * fn.cos(angle))
+        down = beyond * fn.cos(angle) - inwards * fn.sin(angle)
+        return across * fn.cos(normal) - down * fn.sin(normal), across * fn.sin(normal) + down * fn.cos(normal)
 
     @cached_property
     def _fillet(self) -> tuple[Callable[[Any], tuple[Any, Any]], Any, Any]:
         """Radius [mm] and angle beside the middle of the space [rad] of a fillet's point, and its parameter's range."""
-        pair, fn = self.pair, self.pair.fn
+        pair = self.pair
         if self.gear and pair.shaped is not None:
             shaped = pair.shaped
 
             def of_ring(turn: Any) -> tuple[Any, Any]:
                 point = shaped.fillet(turn)
-                return abs(point), fn.phase(point)
+                return abs(point), pair.fn.phase(point)
 
             return of_ring, *shaped.turns
         root = pair.cut_root(self.gear)
 
         def of_gear(normal: Any) -> tuple[Any, Any]:
-            point = root.fillet(normal)
-            return pair.module * abs(point), fn.atan2(point.real, point.imag)
+            radius, beside = root.polar(normal)
+            return pair.module * radius, beside
 
         return of_gear, 0.0, root.end_normal
 
-    def _gap(self, place: Any) -> Any:
+    def _gap(self, place: float) -> float:
         """Gap along the circle through a point of the fillet [mm]; infinite where no corner comes."""
         radius, beside = self._fillet[0](place)
-        return self._beside(radius, beside) * radius
-
-    def _places(self) -> list[Any]:
-        """Places on the fillet from the root circle to the flank."""
-        _, start, end = self._fillet
-        return places_towards(start, end)
+        squared = self.path.squared(radius)
+        gap: float = self.path.gap(squared, beside) * radius if squared >= 0.0 else math.inf
+        return gap
 
     @cached_property
     def least(self) -> CornerGap:
         """The least gap; that of the flank's end at most, where the corner leaves it."""
-        gap, place = least_gap(self._gap, self._places(), near_of(self.pair.module))
+        _, start, end = self._fillet
+        gap, place = least_gap(self._gap, places_towards(start, end), near_of(self.pair.module))
         return CornerGap(gap, self._fillet[0](place)[0])
 
     @property
-    def may_cut(self) -> Any:
-        """Of many pairs: where a closer look could find the corner in the fillet."""
-        gaps = [self._gap(place) for place in self._places()]
-        held = [near <= after for near, after in pairwise(gaps)]
-        low = (held[k] & ~held[k - 1] & (gaps[k] < near_of(self.pair.module)) for k in range(1, _STEPS))
-        return reduce(or_, low, gaps[0] < 0.0)
+    def cut(self) -> CornerGap | None:
+        """The least gap where it may be negative: of a corner that comes near and is not in the tool all the way."""
+        if not self.comes_near or (not self.pair.internal and self.stays_in_tool):
+            return None
+        return self.least

@@ -130,12 +130,15 @@ class RackCutRoot:
         deeper = fn.where(fn.atan2(size, above) < size / self._r, -size, size)
         return fn.where(rolled > 0.0, deeper, left)
 
+    def polar(self, normal: float) -> tuple[float, float]:
+        """Radius of a point of the fillet, and its angle beside the middle of the space [rad]."""
+        left, above, rolled = self._drawn(normal)
+        return self.fn.hypot(left, above), self.fn.atan2(left, above) + rolled
+
     def _into_tooth(self, normal: float) -> float:
         """Angle by which the fillet stands inside the tooth of the involute, at its own radius [rad]."""
-        left, above, rolled = self._drawn(normal)
-        radius = self.fn.hypot(left, above)
+        radius, beside = self.polar(normal)
         roll = self.fn.sqrt(self.fn.greatest((radius / self.base_radius) ** 2 - 1.0, 0.0))
-        beside = self.fn.atan2(left, above) + rolled
         return beside - self.half_space_at_base - self.fn.involute(self.fn.atan(roll))
 
     @cached_property

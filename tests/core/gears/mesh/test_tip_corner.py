@@ -17,6 +17,7 @@ from gearlink.core.gears.mesh.contact import PathOfContact
 from gearlink.core.gears.mesh.pair import GearPair
 from gearlink.core.gears.mesh.pair_sweep import GearPairs
 from gearlink.core.gears.mesh.tip_corner import TipCorner
+from gearlink.core.gears.mesh.tip_corner_sweep import TipCorners
 from gearlink.core.gears.outline.mesh_geometry import MeshGeometry
 from gearlink.core.gears.outline.ring_profile import RingProfile
 from gearlink.core.gears.outline.tooth_profile import ToothProfile
@@ -167,9 +168,8 @@ def test_many_pairs_are_left_to_the_class_where_a_corner_may_cut() -> None:
         clearance=clearance,
         tip="none",
     )
-    corner = TipCorner(many, 0)
-    told = corner.comes_near & corner.may_cut
-    cuts = np.zeros(count, dtype=bool)
+    told = TipCorners(many, 0).may_cut(np.ones(count, dtype=bool))
+    cuts, in_tool = np.zeros(count, dtype=bool), 0
     for k in range(count):
         one = GearPair(
             module=1.0,
@@ -181,5 +181,9 @@ def test_many_pairs_are_left_to_the_class_where_a_corner_may_cut() -> None:
         )
         single = TipCorner(one, 0)
         cuts[k] = single.comes_near and single.least.gap < -1e-4
+        if single.comes_near and single.stays_in_tool:
+            in_tool += 1
+            assert not cuts[k]
     assert 10 < cuts.sum() <= (told & cuts).sum()
     assert told.sum() < 2 * cuts.sum() + 40
+    assert in_tool > 100
