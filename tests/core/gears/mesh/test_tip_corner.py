@@ -126,6 +126,8 @@ def test_the_least_gap_is_that_of_drawn_teeth_turned_in_mesh(count: int) -> None
                 near, drawn = corner.least.gap, rolled(pair, gear)
                 compared += 1
                 assert (near < -1e-4) == (drawn < -1e-4), (pair, gear)
+                if not pair.internal and corner.stays_in_tool:
+                    assert near > -1e-12, (pair, gear)
                 if near < -1e-4:
                     assert drawn == pytest.approx(near, abs=1e-6), (pair, gear)
                     cut[pair.teeth[gear] < 0] += 1
