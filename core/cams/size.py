@@ -138,9 +138,7 @@ def _nearest_admissible(
             return point, tuple(place for _, place, _ in worst), tuple(max(0.0, -short) for short, _, _ in worst)
         cuts = [*cuts, *(cut for violation, _, cut in worst if violation > -1e-6 * scale)]
         point = _nearest_point(cuts, target, scale)
-    raise NoSolution(
-        f"the admissible cam centre did not settle in {_ROUNDS} rounds: raise the pressure-angle limit a little"
-    )
+    raise NoSolution("the smallest cam is not determined by this pressure-angle limit: raise it a little")
 
 
 def _largest_of(phi: Reals, normal: Points, limit: Reals, point: complex) -> _Violation:

@@ -112,8 +112,10 @@ def _equal_speeds(bed: BedChain, cylinder: CylinderChain, start: float, end: flo
         if i == count:
             return
         values.append(excess(grid[i + 1]))
-        if abs(values[i]) <= min(abs(values[i - 1]), abs(values[i + 1])) and values[i - 1] * values[i + 1] > 0.0:
-            yield from _pair_at_crest(excess, slope, values[i] > 0.0, grid[i - 1], grid[i + 1])
+        before, here, after = values[i - 1 :]
+        # on one side of zero, or both roots beside the crest are found as changes of sign
+        if abs(here) <= min(abs(before), abs(after)) and before * here > 0.0 and here * after > 0.0:
+            yield from _pair_at_crest(excess, slope, here > 0.0, grid[i - 1], grid[i + 1])
 
 
 def _pair_at_crest(

@@ -47,7 +47,7 @@ class Valley(NamedTuple):
         f_left, f_right = self.angle(left) - level, self.angle(right) - level
         if f_left * f_right >= 0.0:
             return left if abs(f_left) < abs(f_right) else right
-        return bracketed_root(lambda phi: self.angle(phi) - level, left, right)
+        return bracketed_root(lambda phi: self.angle(phi) - level, left, right, ends=(f_left, f_right))
 
 
 def longest_in_band(valley: Valley, tolerance: float) -> ToleranceDwell:
@@ -108,12 +108,12 @@ def _around_both(valley: Valley, tolerance: float, drop: float) -> tuple[float, 
         return valley.speed(right) - valley.speed(left)
 
     low, high = max(0.0, spare - most_right), min(spare, most_left)
-    if gain(low) <= 0.0:
+    if (first := gain(low)) <= 0.0:
         p = low
-    elif gain(high) >= 0.0:
+    elif (last := gain(high)) >= 0.0:
         p = high
     else:
-        p = bracketed_root(gain, low, high)
+        p = bracketed_root(gain, low, high, ends=(first, last))
     left, right = ends(p)
     return left, right, bottom - p + tolerance
 

@@ -101,28 +101,29 @@ def standstills(speed: Function, extremes: list[Turning], tolerance: float, peri
         [210.0, 330.0]
     """
     places, between = standing(extremes, tolerance, period)
-    places += (bracketed_root(speed, *ends) for ends in between)
+    for one, other in between:  # values as they were compared: a turn later the speed is rounded otherwise
+        places.append(bracketed_root(speed, one.place, other.place, ends=(one.value, other.value)))
     return sorted(place if period is None else place % period for place in places)
 
 
 def standing(
     extremes: list[Turning], tolerance: float, period: float | None = TURN
-) -> tuple[list[float], list[tuple[float, float]]]:
-    """Momentary standstills, and pairs of crank angles between which a speed ratio passes zero once.
+) -> tuple[list[float], list[tuple[Turning, Turning]]]:
+    """Momentary standstills, and pairs of extremes between which a speed ratio passes zero once.
 
     Parameters
         extremes, tolerance, period : as of `standstills`
     Returns
-        places, between : list of float, list of two float [rad]
+        places, between : list of float [rad], list of two Turnings - of opposite signs
     Example
         >>> standing([Turning(0.0, 1.0), Turning(2.0, 0.0), Turning(3.0, 1.0), Turning(4.0, -1.0)], 0.0, None)
-        ([2.0], [(3.0, 4.0)])
+        ([2.0], [(Turning(place=3.0, value=1.0), Turning(place=4.0, value=-1.0))])
     """
     around = extremes
     if period is not None and extremes:
         around = [*extremes, Turning(extremes[0].place + period, extremes[0].value)]
     between = [
-        (one.place, other.place)
+        (one, other)
         for one, other in pairwise(around)
         if min(abs(one.value), abs(other.value)) > tolerance and one.value * other.value < 0.0
     ]

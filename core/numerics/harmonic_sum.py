@@ -51,8 +51,8 @@ class HarmonicSum:
         """
         return _extremes(self, start, end)
 
-    def few_brackets(self, start: float, end: float, count: int) -> list[tuple[float, float]]:
-        """Steps, of `count` to an interval, that hold a root of the derivative and may hold an extreme of the whole.
+    def few_roots(self, start: float, end: float, count: int) -> list[float]:
+        """Roots of the derivative, looked for in `count` steps, that may be the least or the greatest of an interval.
 
         Within a step the sum passes the nearer end's value by no more than h^2/8 max |f''|.
         """
@@ -70,7 +70,9 @@ class HarmonicSum:
         extreme = (low - slack <= low.min()) | (high + slack >= high.max())
         turning = (np.sign(slopes[:-1]) != np.sign(slopes[1:])) | (slopes[:-1] == 0.0)
         chosen = np.flatnonzero(extreme & turning)
-        return list(zip(x[chosen].tolist(), x[chosen + 1].tolist(), strict=True))
+        # with the slopes that were compared: `slope` rounds otherwise, and may have no change of sign in the step
+        steps = zip(*(row[at].tolist() for row in (x, slopes) for at in (chosen, chosen + 1)), strict=True)
+        return [bracketed_root(self.slope, low, high, ends=(first, last)) for low, high, first, last in steps]
 
 
 @lru_cache(maxsize=4)  # a closure, a transmission angle and a motion ask for the same
@@ -78,7 +80,7 @@ def _extremes(total: HarmonicSum, start: float, end: float) -> tuple[tuple[float
     fastest = max((abs(f) for _, f, _ in total.terms), default=0.0)
     count = max(8, math.ceil(_STEPS_PER_WAVE * fastest * (end - start) / (2.0 * math.pi)))
     if count > _MANY:
-        places = [bracketed_root(total.slope, *bracket) for bracket in total.few_brackets(start, end, count)]
+        places = total.few_roots(start, end, count)
     else:
         places = roots_on(total.slope, [start + (end - start) * i / count for i in range(count + 1)])
     found = [(x, total.value(x)) for x in (start, end, *places)]

@@ -83,22 +83,25 @@ class CosineSeries:
         return CosineSeries(self.span, self.coefficients * signs, self.nodes, self.difference)
 
 
-def cosine_series(f: Callable[[Reals], Reals], span: float, *, first: int = 16, limit: int = 8192) -> CosineSeries:
+def cosine_series(
+    f: Callable[[Reals], Reals], span: float, refusal: str, *, first: int = 16, limit: int = 8192
+) -> CosineSeries:
     """Cosine series of an even, periodic, analytic function, with as many nodes as it takes.
 
     Parameters
         f : the function, vectorised; even about 0 and about span
         span : float - half of its period
+        refusal : str - what is wrong, and its remedy, where the integral does not settle: the function is too sharp
         first, limit : int - nodes to begin and to end with
     Returns
         series : CosineSeries
     Raises
-        NoSolution - when the integral has not settled to 8 ulp with `limit` nodes
+        NoSolution - of that text, when the integral has not settled to 8 ulp with `limit` nodes
     Notes
         The number of nodes doubles until the integral settles. The rule with n nodes errs by the coefficient
         of order 2n, so when n and 2n nodes agree, a series of 2n terms is complete to rounding.
     Example
-        >>> s = cosine_series(lambda z: 1.0 / (2.0 + np.cos(z)), math.pi)
+        >>> s = cosine_series(lambda z: 1.0 / (2.0 + np.cos(z)), math.pi, "too sharp")
         >>> round(s.total / math.pi * math.sqrt(3.0), 14), s.nodes
         (1.0, 32)
 
@@ -113,10 +116,7 @@ def cosine_series(f: Callable[[Reals], Reals], span: float, *, first: int = 16, 
         difference = abs(mean - before) / abs(mean)
         if difference <= _SETTLED:
             return CosineSeries(span, cosine_coefficients(values), nodes, difference)
-    raise NoSolution(
-        f"the integral over the stroke has not settled with {limit} nodes (last change {difference:.1e}); "
-        "move the stroke away from the place where the reduced inertia vanishes"
-    )
+    raise NoSolution(refusal)
 
 
 def cosine_coefficients(values: Reals) -> Reals:

@@ -188,12 +188,20 @@ def back_step(drive: PlanetLinkage) -> BackStep | None:
     if not steps:
         return None
     step = max(steps, key=lambda one: one.angle)
+    return step._replace(angle=-_gain(drive, _strip(drive), step.start, step.end))
+
+
+def _strip(drive: PlanetLinkage) -> float:
+    """How far from the real crank angles the speed is analytic [rad]: to a dead point, and to where B meets D."""
     links = drive.linkage
-    # The speed is analytic as far from the real crank angles as the linkage is from a dead point, and B from D.
-    strip = min(links.min_transmission_angle(), abs(math.log(links.frame / links.crank)))
-    if step.crank_angle >= 0.5 * strip:
-        return step
-    return BackStep(step.start, step.end, step.crank_angle, -integral(drive.speed, step.start, step.end))
+    return min(links.min_transmission_angle(), abs(math.log(links.frame / links.crank)))
+
+
+def _gain(drive: PlanetLinkage, strip: float, start: float, end: float) -> float:
+    """Output angle gained from one crank angle to another, over a short way as the integral of the speed."""
+    if abs(end - start) < 0.5 * strip:
+        return integral(drive.speed, start, end)
+    return drive.angle(end) - drive.angle(start)
 
 
 def tolerance_dwell(drive: PlanetLinkage, tolerance: float) -> ToleranceDwell:
@@ -226,18 +234,15 @@ def window_of(drive: PlanetLinkage) -> float:
     """Measure: the window over which the output stays within the band that its back-step fills [rad].
 
     phi5(L) = phi5(phi(2)),   phi5(R) = phi5(phi(1)),   window = R - L,   band = D = 2 tau; 0 without a back-step
-
-    At the end of the back-step the angle is D off; near the momentary dwell a difference of angles has no digit of it.
     """
     step = back_step(drive)
     if step is None or step.angle <= 0.0:  # one of rounding, at the momentary dwell itself
         return 0.0
-    top = drive.angle(step.start)
-    bottom = top - step.angle
-    left = bracketed_root(lambda phi: drive.angle(phi) - bottom, step.end - _TURN, step.start)
-    after, turned = drive.angle(step.end) - top, drive.angle(step.start + _TURN) - top
-    ends = (after if after < 0.0 else -step.angle, turned)
-    return bracketed_root(lambda phi: drive.angle(phi) - top, step.end, step.start + _TURN, ends=ends) - left
+    strip, start, end = _strip(drive), step.start, step.end
+    ends = (-step.angle, drive.angle(start + _TURN) - drive.angle(start))
+    before = bracketed_root(lambda x: _gain(drive, strip, end - x, end), step.crank_angle, _TURN, ends=ends)
+    after = bracketed_root(lambda x: _gain(drive, strip, start, start + x), step.crank_angle, _TURN, ends=ends)
+    return before + after - step.crank_angle
 
 
 def solved(family: Family, measure: Callable[[PlanetLinkage], float], target: float, what: str) -> float:
@@ -264,7 +269,8 @@ def solved(family: Family, measure: Callable[[PlanetLinkage], float], target: fl
     if not target <= most:
         limit = safely_below(math.degrees(most))
         raise NoSolution(f"{what} is more than these gears and links reach, {limit} deg; ask for less")
-    return bracketed_root(lambda frame: measure(family.drive(frame)) - target, quiet, steep)
+    ends = (-target, most - target)  # at the momentary dwell itself rounding may leave a back-step
+    return bracketed_root(lambda frame: measure(family.drive(frame)) - target, quiet, steep, ends=ends)
 
 
 def _never(family: Family) -> str:

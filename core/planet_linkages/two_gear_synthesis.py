@@ -253,10 +253,11 @@ class DwellSynthesis(Synthesis):
             return kernel.tolerance_dwell(family.drive(other), band).crank_angle - window
 
         filled, far = self._frame_of_band(band), kernel.quiet_end(family)
-        if spare(far) >= 0.0:
+        ends = spare(frame), spare(far)
+        if ends[1] >= 0.0:
             return sorted((filled, far))
         # A window as long as the limit leaves one frame, where rounding decides the sign.
-        return sorted((filled, bracketed_root(spare, frame, far) if spare(frame) > 0.0 else frame))
+        return sorted((filled, bracketed_root(spare, frame, far, ends=ends) if ends[0] > 0.0 else frame))
 
     # Checks
 

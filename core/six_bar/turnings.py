@@ -19,15 +19,16 @@ def zeros(f: Function, grid: Reals) -> list[float]:
     """Zeros of a function of arrays at which its sign changes on a grid; two within one step are missed.
 
     Raises
-        NoSolution - where the function is no number
+        NoSolution - where the function is no number, as in a dead centre
     Example
         >>> [round(x, 12) for x in zeros(np.cos, np.linspace(0.0, 6.0, 100))]
         [1.570796326795, 4.712388980385]
     """
-    places = np.array(sign_changes(f(grid).tolist()), dtype=int)
+    values = f(grid)
+    places = np.array(sign_changes(values.tolist()), dtype=int)
     if not places.size:
         return []
-    return _between(f, grid[places], grid[places + 1])
+    return _between(f, grid[places], grid[places + 1], (values[places], values[places + 1]))
 
 
 def standstills(f: Function, extremes: list[Turning], tolerance: float, period: float | None) -> list[float]:
@@ -44,16 +45,18 @@ def standstills(f: Function, extremes: list[Turning], tolerance: float, period: 
     """
     places, between = standing(extremes, tolerance, period)
     if between:
-        low, high = np.array(between).T
-        places += _between(f, low, high)
+        (low, high), ends = np.array(between).transpose(2, 1, 0)
+        places += _between(f, low, high, (ends[0], ends[1]))
     return sorted(place if period is None else place % period for place in places)
 
 
-def _between(f: Function, low: Reals, high: Reals) -> list[float]:
-    found = bracketed_roots(f, low, high)
+def _between(f: Function, low: Reals, high: Reals, ends: tuple[Reals, Reals]) -> list[float]:
+    found = bracketed_roots(f, low, high, ends=ends)
     if np.isnan(found).any():
-        at = float(low[np.isnan(found)][0])
-        raise NoSolution(f"the function is no number next to {at!r}")
+        at = float(np.degrees(low[np.isnan(found)][0]))
+        raise NoSolution(
+            f"the six-bar has no rates next to the input angle {at:.6g} deg: it stands in a dead centre there"
+        )
     return [float(x) for x in found]
 
 

@@ -93,7 +93,10 @@ class SixPhaseLaw:
 
     def reaches(self, swing: float) -> float:
         """Cylinder angle [deg] at which the working stroke has the swing [rad], from 0 to the total swing."""
-        return bracketed_root(lambda degrees: float(self.evaluate(degrees, 0)[0][0]) - swing, 0.0, self.starts[3])
+        ends = (-swing, self.total_swing - swing)
+        return bracketed_root(
+            lambda degrees: float(self.evaluate(degrees, 0)[0][0]) - swing, 0.0, self.starts[3], ends=ends
+        )
 
     def phase(self, degrees: Any) -> NDArray[np.intp]:
         """Index of the phase at angles in degrees; a joint belongs to the phase that starts there."""

@@ -239,7 +239,7 @@ def even_middle_angle(section: SwingSlider) -> float | None:
     grid = (given + np.linspace(-math.pi, math.pi, 91)).tolist()
     values = [bend(angle) for angle in grid]
     pairs = [i for i in range(90) if (values[i] > 0.0) != (values[i + 1] > 0.0)]
-    places = [bracketed_root(bend, grid[i], grid[i + 1]) for i in pairs]
+    places = [bracketed_root(bend, grid[i], grid[i + 1], ends=(values[i], values[i + 1])) for i in pairs]
     nearest = min(places, key=lambda place: abs(place - given), default=given)
     found = round(math.degrees(math.remainder(nearest, 2.0 * math.pi)), 2)
     return None if abs(math.remainder(found - section.middle_angle, 360.0)) < _SAME_ANGLE else found

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gearlink.core.errors import NoSolution
+from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.linkages.slider_crank.sweep import slider
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.elliptic import complete_integral, incomplete_integral, jacobi_sn_cn
@@ -25,6 +25,10 @@ from gearlink.core.wide_swing.law.elastic_law import ElasticLaw
 from gearlink.core.wide_swing.law.kept import Kept, kept_for
 
 _NEWTON_STEPS = 60
+_TOO_SHARP = (
+    "the slider changes the inertia of the rocker too sharply within the stroke: move the stroke off the place where "
+    "rod and arm stand in line (slider.middle_angle), lengthen the rod, or give the rocker more inertia"
+)
 _GRID = np.linspace(0.0, math.pi, 257)
 # A step as small is as good as none: subnormal numbers have no full set of digits to settle in.
 _FAINTEST = 1e-300
@@ -196,7 +200,8 @@ class SliderLaw:
     @cached_property
     def clock(self) -> CosineSeries:
         """gamma sqrt(N) dk/dz as a cosine series over the whole stroke."""
-        return cosine_series(self._integrand, 2.0 * complete_integral(self._half.modulus_complement))
+        with at_key("slider"):
+            return cosine_series(self._integrand, 2.0 * complete_integral(self._half.modulus_complement), _TOO_SHARP)
 
     @cached_property
     def _clock_from_end(self) -> CosineSeries:
@@ -329,7 +334,7 @@ class SliderLaw:
             left = left[~(np.abs(step) <= 1e-13 * at + _FAINTEST)]
             if not left.size:
                 return v
-        raise NoSolution(f"the law of motion did not settle in {_NEWTON_STEPS} Newton steps; report this design")
+        raise NoSolution(_TOO_SHARP, key="slider")
 
     @cached_property
     def _from_start(self) -> RisingTable:

@@ -41,7 +41,11 @@ def acceleration_series(acceleration: Callable[[Reals], Reals]) -> CosineSeries:
         >>> round(float(series.coefficients[1]), 12), float(np.abs(series.coefficients[2:]).max()) < 1e-14
         (4.934802200545, True)
     """
-    probe = cosine_series(lambda k: acceleration(k) * np.cos(math.pi * k), 1.0, first=32)
+    refusal = (
+        "the rocker turns over so sharply within the stroke that its drive's oscillations cannot be summed: raise the "
+        "pivot ratio, reduce the swing, or leave out the drive (shaft)"
+    )
+    probe = cosine_series(lambda k: acceleration(k) * np.cos(math.pi * k), 1.0, refusal, first=32)
     values = acceleration((np.arange(probe.nodes) + 0.5) / probe.nodes)
     return CosineSeries(1.0, cosine_coefficients(values), probe.nodes, probe.difference)
 

@@ -92,9 +92,9 @@ class Unloading:
         from gearlink.core.wide_swing.torsion import acceleration_series, dynamic_coefficient
 
         shaft, law = self._shaft, self.motion.plain_law
-        series = acceleration_series(lambda k: law.invariants(k, 2)[2])
         stiffness = 2.0 * math.pi * shaft.natural_frequency * self.motion.stroke_time
         with at_key("shaft"):
+            series = acceleration_series(lambda k: law.invariants(k, 2)[2])
             return dynamic_coefficient(series, stiffness, shaft.damping)[0]
 
     @property

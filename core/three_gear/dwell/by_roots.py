@@ -65,7 +65,8 @@ class ByRoots:
         if step is None:
             return None
         level = self._angle(step.start)
-        return bracketed_root(lambda x: self._angle(step.start + x) - level, step.crank_angle, _TURN)
+        ends = (min(-step.angle, 0.0), self._angle(step.start + _TURN) - level)
+        return bracketed_root(lambda x: self._angle(step.start + x) - level, step.crank_angle, _TURN, ends=ends)
 
     def within(self, tolerance: float, extremes: motion.Extremes, mean_ratio: float) -> ToleranceDwell:
         """The longest dwell within a tolerance that has an end.

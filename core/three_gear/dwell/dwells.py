@@ -159,7 +159,8 @@ def dwell_angle(linkage: FourBar, train: GearTrain, step: BackStep) -> float:
         own derivation; thesis (4-17) takes 1.5 phi12
     """
     train = forward(linkage, train)
-    return bracketed_root(lambda x: gain(linkage, train, step.start, x), step.crank_angle, 2.0 * math.pi)
+    ends = (min(-step.angle, 0.0), gain(linkage, train, step.start, 2.0 * math.pi))
+    return bracketed_root(lambda x: gain(linkage, train, step.start, x), step.crank_angle, 2.0 * math.pi, ends=ends)
 
 
 def gain(linkage: FourBar, train: GearTrain, start: float, length: float) -> float:

@@ -12,6 +12,7 @@ angles themselves, so a design next to the momentary dwell keeps all its digits.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.numerics.gauss import GAUSS_NODES, GAUSS_WEIGHTS
@@ -85,6 +86,11 @@ def i3_for_back_step(back_step_angle: float, back_step_crank_angle: float) -> fl
             f"crank: the back-step must lie between 0 and {_deg(limit)} deg; reduce it or enlarge the crank angle"
         )
     v = bracketed_root(lambda v: _back_step(v, h) - back_step_angle, 0.0, 1.0)
+    if v == 1.0:
+        raise NoSolution(
+            f"a back-step of {_deg(back_step_angle)} deg within {_deg(2.0 * h)} deg of the crank is the limit, "
+            f"{_deg(limit)} deg, to rounding, and takes an endless idler: reduce it or enlarge the crank angle"
+        )
     return -v / (1.0 - v)
 
 
@@ -115,7 +121,7 @@ def crank_angle_for_back_step(i3: float, back_step_angle: float) -> float:
             f"between 0 and -i3 * 180 = {_deg(limit)} deg; reduce it or take an idler of more teeth"
         )
     v = i3 / (i3 - 1.0)
-    return 2.0 * bracketed_root(lambda h: _back_step(v, h) - back_step_angle, 0.0, 0.5 * math.pi)
+    return 2.0 * _rising_root(lambda h: _back_step(v, h) - back_step_angle, 0.0, 0.5 * math.pi)
 
 
 def dwell_angle(i3: float, back_step_crank_angle: float) -> float:
@@ -145,7 +151,7 @@ def dwell_angle(i3: float, back_step_crank_angle: float) -> float:
     h = 0.5 * back_step_crank_angle
     if h == 0.0:
         return 0.0
-    y = bracketed_root(lambda y: _fallen(i3, h, y), h, min(3.0 * h, dwell_angle_limit(i3) - h))
+    y = _rising_root(lambda y: -_fallen(i3, h, y), h, min(3.0 * h, dwell_angle_limit(i3) - h))
     if _polished(i3, h):
         y -= _fallen_by_integral(i3, h, y) / _reverse(i3, h, y)
     return h + y
@@ -190,7 +196,7 @@ def crank_angle_for_dwell(i3: float, dwell_angle: float) -> float:
             f"below 360 (1 - i3)/(2 - i3) = {_deg(limit)} deg; reduce it{_ratio_remedy(dwell_angle)}"
         )
     high = min(0.5 * dwell_angle, 0.5 * math.pi)
-    h = bracketed_root(lambda h: _fallen(i3, h, dwell_angle - h), 0.25 * dwell_angle, high)
+    h = _rising_root(lambda h: _fallen(i3, h, dwell_angle - h), 0.25 * dwell_angle, high)
     if _polished(i3, h):
         near = 1e-4 * h
         slope = (_fallen(i3, h + near, dwell_angle - h - near) - _fallen(i3, h - near, dwell_angle - h + near)) / near
@@ -240,12 +246,20 @@ def crank_angle_for_window(i3: float, window: float) -> float:
             f"{_deg(limit)} deg, whatever the tolerance; reduce it"
         )
     y = 0.5 * window
-    h = bracketed_root(lambda h: _fallen(i3, h, y), y / 3.0, min(y, 0.5 * math.pi))
+    h = _rising_root(lambda h: _fallen(i3, h, y), y / 3.0, min(y, 0.5 * math.pi))
     if _polished(i3, h):
         near = 1e-4 * h
         slope = (_fallen(i3, h + near, y) - _fallen(i3, h - near, y)) / near
         h -= 2.0 * _fallen_by_integral(i3, h, y) / slope
     return 2.0 * h
+
+
+def _rising_root(f: Callable[[float], float], low: float, high: float) -> float:
+    """Root of a function that is negative at the low end and positive at the high one, or at a limit zero there.
+
+    At a limit rounding may leave either sign: that end is then the root.
+    """
+    return bracketed_root(f, low, high, ends=(min(f(low), 0.0), max(f(high), 0.0)))
 
 
 def _back_step(v: float, h: float) -> float:

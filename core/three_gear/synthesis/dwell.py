@@ -312,7 +312,11 @@ class DwellSynthesis(BackStepFamily):
 
         filled = solved(family, back_step_of(train), 2.0 * band, "this tolerance").frame
         end = family.ends()[0]
-        just = end if spare(end) >= 0.0 else bracketed_root(spare, end, links.frame)
+        ends = spare(end), spare(links.frame)
+        if ends[0] >= 0.0:
+            return sorted((end, filled))
+        # A window as long as the limit leaves one frame, where rounding decides the sign.
+        just = bracketed_root(spare, end, links.frame, ends=ends) if ends[1] > 0.0 else links.frame
         return sorted((just, filled))
 
     # Checks

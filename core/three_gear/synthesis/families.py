@@ -183,7 +183,8 @@ def solved(family: Family, measure: Callable[[FourBar], float], target: float, w
         raise NoSolution(f"{what} is more than these gears reach, {_deg(most)} deg; ask for less")
     if not target >= least:
         raise NoSolution(f"{what} is less than the least of these linkages, {_deg(least)} deg; take a shorter crank")
-    return family.linkage(bracketed_root(lambda x: measure(family.linkage(x)) - target, low, high))
+    ends = (least - target, most - target)
+    return family.linkage(bracketed_root(lambda x: measure(family.linkage(x)) - target, low, high, ends=ends))
 
 
 def with_speed_quotient(family: Family, train: GearTrain, quotient: float) -> FourBar:
@@ -197,19 +198,20 @@ def with_speed_quotient(family: Family, train: GearTrain, quotient: float) -> Fo
         NoSolution - for a quotient that the family does not reach, naming its limits
     """
 
-    def over(x: float) -> float:
+    def reached(x: float) -> float:
         linkage = family.linkage(x)
         found = speed_extremes(linkage, forward(linkage, train))
-        return found.least / found.greatest - quotient
+        return found.least / found.greatest
 
     low, high = family.ends()
-    most, least = over(low) + quotient, over(high) + quotient
+    most, least = reached(low), reached(high)
     if not min(least, most) <= quotient <= max(least, most):
         raise NoSolution(
             f"no linkage of these gears gives min/max = {quotient:.6g}: it must lie between "
             f"{safely_above(min(least, most), 4)} and {safely_below(max(least, most), 4)}"
         )
-    return family.linkage(bracketed_root(over, low, high))
+    ends = (most - quotient, least - quotient)
+    return family.linkage(bracketed_root(lambda x: reached(x) - quotient, low, high, ends=ends))
 
 
 def ripple(linkage: FourBar, train: GearTrain) -> Ripple:
@@ -227,7 +229,8 @@ def ripple(linkage: FourBar, train: GearTrain) -> Ripple:
     given, train = train, forward(linkage, train)
     step = back_step(linkage, train)
     end = step.start + step.crank_angle
-    before = bracketed_root(lambda x: gain(linkage, train, end - x, x), step.crank_angle, 2.0 * math.pi)
+    ends = (min(-step.angle, 0.0), gain(linkage, train, end - 2.0 * math.pi, 2.0 * math.pi))
+    before = bracketed_root(lambda x: gain(linkage, train, end - x, x), step.crank_angle, 2.0 * math.pi, ends=ends)
     after = dwell_angle(linkage, train, step)
     start = wrap(end - before)
     middle = output_angle(linkage, train, start) + 0.5 * step.angle

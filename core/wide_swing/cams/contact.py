@@ -69,9 +69,9 @@ def covered(step: Step, roller_radius: float, far: float, estimate: float | None
     within = np.flatnonzero(room < 0.0)
     if not within.size:
         return 0.0
-    low, high = (float(t[i]) for i in (within[0], within[0] - 1))
+    (low, high), ends = (rows[[within[0], within[0] - 1]].tolist() for rows in (t, room))
     known = _KNOWN + noise / low
-    return bracketed_root(lambda part: float(clearance(np.array([part]))[0]), low, high, tolerance=known)
+    return bracketed_root(lambda part: float(clearance(np.array([part]))[0]), low, high, tolerance=known, ends=ends)
 
 
 def fitting_roller(length: float, depth: float) -> float:

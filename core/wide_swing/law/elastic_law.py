@@ -16,7 +16,7 @@ from typing import overload
 import numpy as np
 import numpy.typing as npt
 
-from gearlink.core.errors import NoSolution
+from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.elliptic import complete_integral, incomplete_integral, jacobi_sn_cn
 from gearlink.core.numerics.periodic import CosineSeries, cosine_series, midpoint_mean
@@ -136,7 +136,9 @@ class ElasticLaw:
     @cached_property
     def clock(self) -> CosineSeries:
         """gamma sqrt(N) dk/dz as a cosine series over half the stroke."""
-        return cosine_series(self._integrand, complete_integral(self.modulus_complement))
+        refusal = "the law of motion turns over too sharply at mid-swing: raise the pivot ratio, or reduce the swing"
+        with at_key("unloader.pivot_ratio"):
+            return cosine_series(self._integrand, complete_integral(self.modulus_complement), refusal)
 
     @cached_property
     def _clock_from_middle(self) -> CosineSeries:
@@ -368,7 +370,11 @@ class ElasticLaw:
             left = left[~((np.abs(step) <= 1e-13 * at + _FAINTEST) | (np.abs(excess) <= floor))]
             if not left.size:
                 return angle
-        raise NoSolution(f"the law of motion did not settle in {_NEWTON_STEPS} Newton steps; report this design")
+        raise NoSolution(
+            "the law of motion turns over too sharply for its places to be told: raise the pivot ratio, or reduce the "
+            "swing",
+            key="unloader.pivot_ratio",
+        )
 
     @cached_property
     def _from_start(self) -> RisingTable:

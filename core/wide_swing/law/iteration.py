@@ -70,7 +70,7 @@ def legacy_law(
     """
     require_swing(swing)
     if steps < 1:
-        raise NoSolution(f"{steps} steps: the march needs at least 1")
+        raise NoSolution(f"{steps} steps: the march needs at least 1", key="iteration_steps")
     half = _HalfSwing(device, swing)
     parameter = (2.0 / half.velocity(0.5, 1.0)) ** 2
     for passes in range(1, max_passes + 1):
@@ -82,9 +82,14 @@ def legacy_law(
             return LegacyLaw(parameter, half.velocity(0.5, parameter), passes, a, b, c)
         parameter *= scale**exponent
     raise NoSolution(
-        f"the iteration has not settled after {max_passes} passes (mu = {scale:.6g}); "
-        "use exponent 1, or the quadrature of ElasticLaw"
+        f"the source's iteration comes to no end in {max_passes} passes with this device and swing: "
+        f"{_otherwise(exponent)}",
+        key="method",
     )
+
+
+def _otherwise(exponent: int) -> str:
+    return "take exponent 1" if exponent != 1 else "leave method out, which gives the law by its integral"
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,7 +114,11 @@ class _HalfSwing:
         product = math.sin(0.25 * self.swing - 0.5 * angle) * math.sin(0.25 * self.swing + 0.5 * angle)
         x = 4.0 * self.device.pivot_ratio * product / (longest + length)
         if x < 0.0:
-            raise NoSolution(f"displacement {a:.6g} lies outside the swing; use more steps or exponent 1")
+            raise NoSolution(
+                f"the source's iteration leaves the swing, at {a:.6g} of it: give more iteration_steps, "
+                f"or {_otherwise(1)}",
+                key="method",
+            )
         energy = x * ((1.0 + self.device.stretch_ratio) * stroke - 0.5 * x) if isinstance(self.device, Spring) else x
         return math.sqrt(parameter * energy)
 

@@ -200,3 +200,20 @@ def test_equal_speeds_against_a_fine_grid(name):
     assert len(found) == sides.size
     for phi, i in zip(found, sides, strict=True):
         assert grid[i] <= phi <= grid[i + 1]
+
+
+@pytest.mark.parametrize(
+    ("initial", "radius"),
+    [
+        (-2.6427969115019043, 402.66735520377773),
+        (-0.14253938537315447, 206.89339613909962),
+        (0.9712882117, 138.480237915),
+    ],
+)
+def test_a_pair_of_equal_speeds_may_stand_on_both_sides_of_a_point_of_the_grid(initial, radius):
+    bed, cylinder = chains(TY460)
+    cylinder = replace(cylinder, initial_angle=initial, radius=radius)
+    grid = np.linspace(0.0, 2.0 * math.pi, 200_003)[1:-1]
+    gap = np.asarray(difference(bed, cylinder, grid, 1).first)
+    sides = grid[np.flatnonzero(gap[:-1] * gap[1:] < 0.0)]
+    assert equal_speed_angles(bed, cylinder) == pytest.approx(sides, abs=grid[1])

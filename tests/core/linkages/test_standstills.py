@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sweeps import examples
 
-from gearlink.core.linkages.standstills import TURN, back_steps, standstills, turnings, zeros_over_turn
+from gearlink.core.linkages.standstills import TURN, Turning, back_steps, standstills, turnings, zeros_over_turn
 
 
 def wave(k, shift):
@@ -53,3 +53,14 @@ def test_two_back_steps():
 
 def test_zero_at_the_seam_counts_once():
     assert zeros_over_turn(math.sin) == pytest.approx([0.0, math.pi], abs=1e-15)
+
+
+def test_a_least_speed_that_a_turn_later_rounds_to_the_other_side_of_zero():
+    """Three extremes of a rounded 1 + sin: the least is negative where it was found, not where the turn closes."""
+    least = Turning(0.5, -5.6e-17)
+
+    def speed(x):
+        return 5.6e-17 if x > TURN else least.value if x == least.place else 1.0 - math.cos(x - least.place)
+
+    first, second = standstills(speed, [least, Turning(0.5 + math.pi, 2.0)], 0.0)
+    assert (first, second) == pytest.approx((0.5, 0.5), abs=1e-7)

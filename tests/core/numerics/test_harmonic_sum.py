@@ -62,3 +62,10 @@ def test_long_and_short_ways_agree_to_the_last_bit(monkeypatch: pytest.MonkeyPat
     harmonic_sum._extremes.cache_clear()
     monkeypatch.setattr(harmonic_sum, "_MANY", math.inf)
     assert total.extremes(0.0, 199 * math.tau) == fast
+
+
+def test_a_slope_that_rounds_to_zero_at_a_place_of_the_grid() -> None:
+    """In arrays and in exact sums it has another sign there: the extreme is found whichever of them compares."""
+    total = HarmonicSum(3.0, ((0.5599376245269254, -3.0, -0.5 * math.pi), (0.5, 3.0, 0.0), (0.5, -3.0, math.pi)))
+    (_, least), (_, greatest) = total.extremes(0.0, 100.0 * math.pi)
+    assert (least, greatest) == pytest.approx((3.0 - 0.5599376245269254, 3.0 + 0.5599376245269254), abs=1e-14)

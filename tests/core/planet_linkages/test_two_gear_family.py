@@ -270,6 +270,34 @@ def test_window_as_long_as_the_limit(data: dict[str, Any], tolerance: float) -> 
 
 
 @pytest.mark.parametrize(
+    ("links", "ring", "module", "section"),
+    [
+        ((61.04527447989075, 83.77966461221384), 84, 2.0, {"dwell": {"window": 36.690220252121875, "tolerance": 0.5}}),
+        ((75.69085571669393, 80), 80, 1.0, {"back_step": {"angle": 5}}),
+    ],
+)
+def test_where_the_least_speed_of_the_momentary_dwell_rounds_to_either_side(
+    links: tuple[float, float], ring: int, module: float, section: dict[str, Any]
+) -> None:
+    """The search starts at the momentary dwell, whose least speed is zero to rounding, of another sign a turn later."""
+    gears = {"module": module, "planet": 48, "ring": ring}
+    data = {"gears": gears, "links": dict(zip(("coupler", "rocker"), links, strict=True))}
+    design = made("dwell" if "dwell" in section else "back-step", data, **section)
+    if "dwell" in section:
+        assert math.degrees(kernel.window_of(design.drive)) == pytest.approx(section["dwell"]["window"], rel=1e-12)
+    else:
+        assert math.degrees(design.back_step_angle) == pytest.approx(section["back_step"]["angle"], rel=1e-12)
+
+
+@pytest.mark.parametrize("degrees", [0.01, 0.1, 1.0])
+def test_short_windows_keep_their_digits(degrees: float) -> None:
+    """A window is as uncertain as the root of the frame: 1e-15 of it over the share that the window leaves, squared."""
+    frame = kernel.solved(RING, kernel.window_of, math.radians(degrees), "this")
+    found = math.degrees(kernel.window_of(RING.drive(frame)))
+    assert found == pytest.approx(degrees, rel=4e-15 / math.radians(degrees) ** 2)
+
+
+@pytest.mark.parametrize(
     ("command", "data", "sections", "key", "words"),
     [
         ("dwell", RINGS, {"dwell": {"window": 100.0, "tolerance": 0.5}}, "dwell.window", "at most over 65.7"),

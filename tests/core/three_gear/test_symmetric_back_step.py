@@ -20,9 +20,11 @@ from gearlink.core.three_gear.symmetric.back_step import (
     back_step_angle,
     crank_angle_for_back_step,
     crank_angle_for_dwell,
+    crank_angle_for_window,
     dwell_angle,
     dwell_angle_limit,
     i3_for_back_step,
+    window_limit,
 )
 
 CASES = {
@@ -201,3 +203,20 @@ def test_dwell_angle_at_fifty_digits(many: float, few: float, share: float) -> N
         with mpmath.workdps(50):
             error = abs(regained_at_fifty_digits(i3, phi12, found) - mpmath.mpf(found))
         assert float(error) <= limit * math.ulp(found)
+
+
+@pytest.mark.parametrize("i3", [-0.006, -0.44, -1.3065693430656935, -2.0, -121.50731428549985, -689.523196581334])
+def test_the_last_number_below_each_limit_is_solved(i3: float) -> None:
+    """At a limit the equation is zero at an end of its range, to rounding of either sign."""
+    almost = math.nextafter(math.pi, 0.0)
+    assert crank_angle_for_back_step(i3, math.nextafter(-i3 * math.pi, 0.0)) == pytest.approx(math.pi, rel=1e-6)
+    assert crank_angle_for_dwell(i3, math.nextafter(dwell_angle_limit(i3), 0.0)) == pytest.approx(math.pi, rel=1e-6)
+    assert crank_angle_for_window(i3, math.nextafter(window_limit(i3), 0.0)) == pytest.approx(math.pi, rel=1e-6)
+    assert dwell_angle(i3, almost) == pytest.approx(dwell_angle_limit(i3), rel=1e-6)
+
+
+def test_a_back_step_at_its_limit_asks_for_an_endless_idler() -> None:
+    for crank_angle in (3.14159265, math.nextafter(math.pi, 0.0)):
+        limit = back_step_angle(-1e300, crank_angle)
+        with pytest.raises(NoSolution, match="reduce it or enlarge the crank angle"):
+            i3_for_back_step(math.nextafter(limit, 0.0), crank_angle)

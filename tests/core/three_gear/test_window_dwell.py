@@ -243,3 +243,15 @@ def test_the_edge_of_a_dwell_shows_what_it_is_judged_by(module: float) -> None:
     else:
         assert (found.status, found.limit, found.unit) == ("pass", 0.992, "1")
         assert found.value == pytest.approx(made.back_step.angle / 2.0 / math.radians(0.5), rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("teeth", "idler", "window", "tolerance"),
+    [(20, 69, 115.44535400634571, 2.4995416995056456), (41, 106, 13.829586868504954, 0.003874342583871178)],
+)
+def test_the_longest_window_leaves_one_frame(teeth: int, idler: int, window: float, tolerance: float) -> None:
+    """There rounding decides on which side of the request the frame that was found lies."""
+    gears = {"module": 2, "crank": teeth, "idler": idler, "output": teeth}
+    data = {"kind": "three-gear-four-bar", "gears": gears, "dwell": {"window": window, "tolerance": tolerance}}
+    made = design(data, command="synth dwell")
+    assert made.frame_length_interval == pytest.approx([made.frame_length] * 2, rel=1e-6)
