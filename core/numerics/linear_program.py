@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from gearlink.core.numerics.arrays import Reals
@@ -21,7 +23,7 @@ def least(cost: Reals, rows: Reals, limits: Reals, lower: Reals, upper: Reals) -
     Source
         Q. Huangfu, J. A. J. Hall, Mathematical Programming Computation 10 (2018) 119
     """
-    from highspy import Highs, HighsLp, HighsModelStatus, HighsStatus, MatrixFormat
+    from highspy import HighsLp, HighsModelStatus, HighsStatus, MatrixFormat
 
     program = HighsLp()
     program.num_row_, program.num_col_ = rows.shape
@@ -31,8 +33,7 @@ def least(cost: Reals, rows: Reals, limits: Reals, lower: Reals, upper: Reals) -
     program.a_matrix_.format_ = MatrixFormat.kRowwise
     program.a_matrix_.start_ = np.searchsorted(row, np.arange(limits.size + 1))
     program.a_matrix_.index_, program.a_matrix_.value_ = column, rows[row, column]
-    solver = Highs()
-    solver.setOptionValue("output_flag", False)
+    solver = _silent()
     solver.setOptionValue("presolve", "off")  # takes longer than it saves
     solver.setOptionValue("solver", "simplex")
     solver.setOptionValue("threads", 1)  # so that a process may fork afterwards
@@ -43,3 +44,17 @@ def least(cost: Reals, rows: Reals, limits: Reals, lower: Reals, upper: Reals) -
     if solver.getModelStatus() != HighsModelStatus.kOptimal:
         return None
     return np.array(solver.getSolution().col_value)
+
+
+def _silent() -> Any:
+    """A solver that prints nothing: from 1.16 on it names itself on standard output as it enables callbacks."""
+    from highspy import Highs
+
+    class WithoutCallbacks(Highs):
+        def enableCallbacks(self) -> None:
+            """Not while its output is on; none is used."""
+
+    made: Any = WithoutCallbacks
+    solver = made()
+    solver.setOptionValue("output_flag", False)
+    return solver
