@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
-from gearlink.core.design import Design, Outline, placed
+from gearlink.core.design import Design, Found, Outline, placed
 from gearlink.core.errors import GearlinkError, NoSolution
 from gearlink.core.motion_extremes import WithExtremes, names
 from gearlink.core.report import Report
@@ -86,6 +86,14 @@ class SwingGripper(WithExtremes, Design):
     shaft_speed: float = placed("motion.shaft_speed")
     main_cam: DiscCam = placed("cams.main_cam")
     return_cam: DiscCam | None = placed("cams.return_cam")
+
+    def completion(self) -> Iterator[Found]:
+        """The cam's axis in place of the rule that chose it; one that no rule finds stays asked for."""
+        if self.spec.size is not None and self.spec.cam is not None and self.spec.cam.center is None:
+            with suppress(NoSolution):
+                center = self.cam_center
+                yield Found("cam.center", [center.real, center.imag], "found for size")
+                yield Found("size", None)
 
     # Quantities
 

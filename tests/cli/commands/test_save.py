@@ -57,6 +57,24 @@ def test_what_a_synthesis_found_is_analysed_without_copying(
     assert not spec_of(path).sized_by("analyze")
 
 
+def test_a_cam_axis_that_was_chosen_is_written_in_place_of_its_rule(gearlink: Any, tmp_path: Path) -> None:
+    path, sized = tmp_path / "full.yaml", ("--set", "cam.center=null", "--set", "size={pressure_angle: 28}")
+    before = gearlink("cam", DESIGNS / "swing_gripper.yaml", *sized, "--save", path, "--format", "json")
+    spec, quantities = spec_of(path), json.loads(before.out)["quantities"]
+    assert spec.size is None
+    assert spec.cam.center == quantities.pop("cam_center")["value"]
+    after = json.loads(gearlink("cam", path, "--format", "json").out)
+    assert after["quantities"] == quantities
+    assert after["checks"] == json.loads(before.out)["checks"]
+
+
+def test_a_cam_axis_that_no_rule_finds_stays_asked_for(gearlink: Any, tmp_path: Path) -> None:
+    path, sized = tmp_path / "full.yaml", ("--set", "cam.center=null", "--set", "size={pressure_angle: 2}")
+    ended = gearlink("gripper", DESIGNS / "swing_gripper.yaml", *sized, "--save", path, "--quiet")
+    assert ended.status == 1, ended.err
+    assert spec_of(path).size.pressure_angle == 2.0
+
+
 @pytest.mark.quick(2)
 @pytest.mark.parametrize("file", mostly_slow(FILES[::3] + FILES, len(FILES[::3])), ids=lambda file: file.stem)
 def test_a_design_without_a_task_is_written_as_it_is(gearlink: Any, tmp_path: Path, file: Path) -> None:

@@ -84,6 +84,16 @@ def test_a_rule_is_followed_once() -> None:
     assert made.nominal == {}
 
 
+def test_cams_are_placed_once() -> None:
+    """Arms that turn out longer run on the cams that were made."""
+    cam: dict[str, Any] = {"cam__center": None, "size": {"pressure_angle": 28}}
+    sized = factory.design("swing_gripper", command="cam", **cam)
+    sources = {"cam.roller.arm": {"measured": 160.1}}
+    made = factory.design("swing_gripper", command="tolerance", **cam, tolerance={"sources": sources, "samples": 16})
+    assert made.problem.nominal.cam_center == sized.cam_center
+    assert made.problem.nominal.spec.size is None
+
+
 def test_what_counts_in_a_register_alone_makes_no_samples() -> None:
     with pytest.raises(Exception, match="count in `register` alone") as found:
         study("ty460", sources={"pins.A": {"clearance": [0.0, 0.02]}}, samples=16).raw("yield")
