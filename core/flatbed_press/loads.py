@@ -55,6 +55,11 @@ class PressLoads(CamLoadsDesign):
         """The geometry."""
         return FlatbedPress(self.spec)
 
+    @property
+    def given_speed(self) -> float:
+        """Sheets an hour, one turn of the input each."""
+        return self.spec.speed
+
     @cached_property
     def speed(self) -> float:
         """One turn of the input a sheet [rad/s]."""
@@ -197,6 +202,7 @@ class PressLoads(CamLoadsDesign):
         return []
 
     speed_unit, speed_unit_name, speed_words = _TURN / 3600.0, "sheets/h", "sheets/h"
+    speed_seconds = 3600.0
 
     # Rollers
 

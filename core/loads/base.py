@@ -71,7 +71,7 @@ class LoadsBase(Design):
         """What to write where the file has no section; the speed where the machine's own keys do not give it."""
         if self.section_example:
             return self._needs(self.section_example, "mm")
-        own = type(self).speed is not LoadsBase.speed or getattr(self.spec, "input_speed", None) is not None
+        own = type(self).given_speed is not LoadsBase.given_speed or getattr(self.spec, "input_speed", None) is not None
         keys = ("" if own else "speed: 90, ") + f"links: {{{self.links[0]}: {{mass: 2, inertia: 0.01}}}}"
         return self._needs(keys, "kg, kg m^2" if own else "rev/min, kg, kg m^2")
 
@@ -86,14 +86,18 @@ class LoadsBase(Design):
     @cached_property
     def speed(self) -> float:
         """Speed of the input [rad/s], signed."""
-        given = self.section.speed
-        given = getattr(self.spec, "input_speed", None) if given is None else given
-        if given is None:
+        return self.given_speed * RPM
+
+    @property
+    def given_speed(self) -> float:
+        """The same in the unit of the file's own key, as it stands there."""
+        given: float | None = self.section.speed
+        if given is None and (given := getattr(self.spec, "input_speed", None)) is None:
             raise MissingSection("`loads` needs the speed of the input: give loads.speed", key="loads.speed")
         if abs(given) < _SLOWEST:
             message = f"a speed of {given:g} has no loads of motion: give the speed of the input, {_SLOWEST:g} or more"
             raise NoSolution(message, key="loads.speed")
-        return float(given) * RPM
+        return given
 
     @property
     def own_joints(self) -> list[float]:

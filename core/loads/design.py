@@ -238,6 +238,7 @@ class LoadsDesign(BalancedLoads):
         return self.quiet_zones
 
     speed_unit: ClassVar[float] = RPM
+    speed_seconds: ClassVar[float] = 60.0
     speed_words: ClassVar[str] = "rev/min"
 
     def quantity(self, name: str) -> Quantity | None:

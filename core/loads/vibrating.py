@@ -85,13 +85,14 @@ class Vibrating:
 
     @property
     def frequency(self) -> float:
-        """Natural frequency [Hz]."""
-        return self.oscillator.frequency / (2.0 * math.pi)
+        """Natural frequency [Hz], to the bit where the file gives it."""
+        found = self.oscillator.frequency  # refuses what has none
+        return found / (2.0 * math.pi) if self.section.frequency is None else float(self.section.frequency)
 
     @property
     def frequency_ratio(self) -> float:
-        """Natural frequency over that of the input."""
-        return self.oscillator.frequency / abs(self.design.speed)
+        """Natural frequency over that of the input: 60 Hz over 120 turns a minute are exactly 30."""
+        return self.frequency * self.design.speed_seconds / abs(self.design.given_speed)
 
     def bend(self, phi: Reals) -> Reals:
         """Second derivative of the output's place by the input angle [deg/rad^2 or mm/rad^2]."""

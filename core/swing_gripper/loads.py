@@ -40,12 +40,18 @@ class GripperLoads(CamLoadsDesign):
     pins, meshes = ("A", "C", "D", "E", "A_return", "O"), ()
     stands = True
     speed_unit, speed_unit_name, speed_words = 2.0 * math.pi / 3600.0, "sheets/h", "sheets/h"
+    speed_seconds = 3600.0
     outlines = loads_outline(pins, meshes, (*CONTACT, "lift_off_speed"), CAM_CHECKS)
 
     @cached_property
     def design(self) -> SwingGripper:
         """The geometry."""
         return SwingGripper(self.spec)
+
+    @property
+    def given_speed(self) -> float:
+        """Sheets an hour, one turn of the input each."""
+        return self.spec.speed
 
     @cached_property
     def speed(self) -> float:

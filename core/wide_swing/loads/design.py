@@ -110,15 +110,15 @@ class WideSwingLoads(LoadsDesign):
         has = {"return_cam": self.has_return_cam}
         has |= dict.fromkeys(("rod", "slider"), spec.slider is not None)
         has |= dict.fromkeys(("crank", "coupler"), spec.drive is not None)
-        for name in self.section.links.model_fields_set:
-            if not has.get(name, True):
+        for name, given in self.section.links:
+            if given is not None and not has.get(name, True):
                 raise NoSolution(f"this mechanism has no {name}: leave its mass out", key=f"loads.links.{name}")
         return tuple(name for name in self.links if has.get(name, True))
 
-    @cached_property
-    def speed(self) -> float:
-        """Speed of the cam [rad/s]."""
-        return self.spec.speed * _RPM
+    @property
+    def given_speed(self) -> float:
+        """Speed of the cam [1/min]."""
+        return self.spec.speed
 
     @cached_property
     def masses(self) -> dict[str, Mass]:

@@ -85,6 +85,17 @@ def test_links_count_as_rigid_from_ten_times_the_input_on(frequency: float, stat
     assert check.value == pytest.approx(frequency / 2.0)
 
 
+def test_a_natural_frequency_at_the_limit_itself_passes() -> None:
+    """60 Hz over 120 turns a minute are 30: by way of rad/s a rounding was missing, and the check warned."""
+    check = found("rigid-model", limits={"frequency_ratio": 30}, loads__vibration={"frequency": 60, "damping": 0.05})
+    assert (check.status, check.value, check.limit) == ("pass", 30.0, 30.0)
+    ratios = {"loaded_gripper": 110 * 3600 / 12000, "loaded_oscillating_cam": 60.0, "loaded_six_bar": 30.0}
+    for name, ratio in ratios.items():
+        made = factory.design(name, command="loads")
+        assert made.frequency_ratio == ratio
+        assert made.natural_frequency == made.section.vibration.frequency
+
+
 @pytest.mark.parametrize(("angle", "status"), [(11.53, "warn"), (11.55, "pass"), (90.0, "pass")])
 def test_forces_grow_as_one_over_the_sine_of_the_transmission_angle(angle: float, status: str) -> None:
     """Five times those at a right angle are too much: arcsin(1/5) = 11.537 deg."""

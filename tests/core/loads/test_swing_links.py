@@ -407,3 +407,9 @@ def test_directions_left_out_are_those_of_the_film(way: str) -> None:
     at = swung.machine.at(cycle.stroke * swung.cam.cycle_angle).links
     assert np.abs(at["slider"].origin.value + shift - 1e-3 * chain.joints[2]).max() <= 1e-12  # type: ignore[union-attr]
     assert np.abs(at["rod"].origin.value + shift - 1e-3 * chain.joints[1]).max() <= 1e-12  # type: ignore[union-attr]
+
+
+def test_a_mass_of_nothing_is_as_one_that_is_left_out() -> None:
+    """`rod: null` where there is no rod had been refused."""
+    made = factory.design("loaded_wide_swing", command="loads", loads__links={"rod": None})
+    assert made.own_links == factory.design("loaded_wide_swing", command="loads").own_links
