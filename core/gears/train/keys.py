@@ -140,7 +140,8 @@ class TrainKeys(ToothKeys):
     @property
     def drawing(self) -> bool:
         """Whether the file gives keys of a train: then it asks for its gears too."""
-        return not self.model_fields_set.isdisjoint(TrainKeys.model_fields)
+        given = self.model_fields_set.intersection(TrainKeys.model_fields)
+        return any(getattr(self, key) is not None for key in given)
 
     @property
     def rated(self) -> bool:

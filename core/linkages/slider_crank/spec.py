@@ -63,5 +63,6 @@ class SliderCrankSpec(DrivenSpec):
 
     def commands(self) -> tuple[str, ...]:
         """What the file asks for: the crank, the motion with a speed or a limit, the loads with theirs."""
-        motion = ("analyze",) if {"input_speed", "limits"} & self.model_fields_set else ()
+        moving = self.input_speed is not None or "limits" in self.model_fields_set
+        motion = ("analyze",) if moving else ()
         return ("crank", *motion, *(("loads",) if self.loads is not None else ()))
