@@ -193,25 +193,26 @@ def _gap_check(design: SwingGripper, release: Release) -> Check:
 
 def pressure_angle(design: SwingGripper) -> Iterator[Check]:
     """GL401 for both cams over the turn, and a warning for the phase accelerate; it fails where no cam can be."""
-    from gearlink.core.cams.checks import impossible, pressure_angle_checks
+    from gearlink.core.cams.checks import impossible, is_steep, pressure_angle_checks
 
     limit = design.spec.limits.pressure_angle
     if design.cams.refusal is not None:
         yield impossible("no cam can make this motion", design.cams.refusal, limit)
         return
-    over = design.advises and max(design.cams.max_pressure_angle) > math.radians(limit) > 0.0
+    over = design.advises and limit > 0.0 and is_steep(max(design.cams.max_pressure_angle), math.radians(limit))
     yield from pressure_angle_checks(design.cams.discs, limit, design.cams.center_remedy(limit) if over else "")
     if design.warnings:
         yield from _accelerating(design, design.spec.limits.accelerate_pressure_angle)
 
 
 def _accelerating(design: SwingGripper, limit: float) -> Iterator[Check]:
+    from gearlink.core.cams.checks import is_steep
     from gearlink.core.cams.disc_cam import largest_pressure_angles
 
     cams, end = design.cams.discs, math.radians(design.motion.law.starts[1])
     for cam, worst in zip(cams, largest_pressure_angles(cams, 0.0, end, 128), strict=True):
         value = math.degrees(abs(worst.value))
-        status: Status = "warn" if value > limit else "pass"
+        status: Status = "warn" if is_steep(value, limit) else "pass"
         text = (
             f"the pressure angle of the {cam.name} reaches {value:.6g} deg while it accelerates the gripper, at "
             f"cam angle {math.degrees(worst.place):.5g} deg"

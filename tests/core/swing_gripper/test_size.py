@@ -57,6 +57,15 @@ def test_the_chosen_centre_is_reported_and_may_be_given() -> None:
     assert "cam_center" not in again.outline("cam").quantities
 
 
+@pytest.mark.parametrize("limit", [26.0, 28.0, 30.0, 35.5, 42.0])
+def test_cams_that_are_sized_to_their_limit_pass_it(limit: float) -> None:
+    """Two of three had failed GL401 by some 1e-14 of the limit; a hundred-millionth of a degree more still fails."""
+    kept = {"pressure_angle": limit, "accelerate_pressure_angle": limit}
+    assert {check.status for check in sized(limit, limits=kept).check("pressure-angle")} == {"pass"}
+    less = dict.fromkeys(kept, limit - 1e-8)
+    assert {check.status for check in sized(limit, limits=less).check("pressure-angle")} >= {"fail"}
+
+
 def test_one_roller_must_say_where_the_cam_is() -> None:
     design = sized(28.0, cam__return_roller=None)
     with pytest.raises(NoSolution, match=r"size\.side") as refused:
