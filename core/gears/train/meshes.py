@@ -11,6 +11,7 @@ from gearlink.core.gears.data import GearData
 from gearlink.core.gears.from_spec import as_pair, data_of, load_of, pair_at
 from gearlink.core.gears.mesh.pair import GearPair
 from gearlink.core.gears.rating.load import Load
+from gearlink.core.gears.tooth.teeth import rim_radius
 from gearlink.core.gears.tooth.tools import PinionCutter
 from gearlink.core.gears.train.keys import TrainKeys
 
@@ -115,7 +116,7 @@ class Train:
         Parameters
             place : Place
             pair : GearPair - of `pairs`
-            rim : float or None [mm] - outer radius of its ring
+            rim : float or None [mm] - outer radius of its ring, where the file gives it
         Raises
             NoSolution - for allowances beyond the tables of their standards
         """
@@ -123,7 +124,10 @@ class Train:
         data = data_of(keys.of(*place.gears, self.keys.module, self.keys.pressure_angle), pair)
         if keys.load is None:
             return data
-        rims = data.rims if rim is None or not pair.internal else (data.rims[0], rim - abs(pair.root_radius[1]))
+        rims = data.rims
+        if pair.internal and (rim is not None or (rims[1] is None and "rim" in type(keys).model_fields)):
+            root = abs(pair.root_radius[1])  # a rim that is left out is the one that stands in the machine
+            rims = rims[0], rim_radius(root, pair.module, rim) - root
         return replace(data, load=self._load(place), rims=rims)
 
     def _load(self, place: Place) -> Load:

@@ -51,6 +51,18 @@ def test_the_rim_of_a_ring_counts_in_modules() -> None:
     )
 
 
+def test_a_rim_that_is_left_out_is_rated_as_it_stands_in_the_machine() -> None:
+    """Two modules, against which the shafts are checked: the root stress had been that of a solid ring."""
+    left_out = design("drawn_ring", command="gear", gears__rim=None)
+    root = left_out.quantity("root_radius").value[1]
+    given = design("drawn_ring", command="gear", gears__rim=root + 2.0 * left_out.spec.gears.module)
+    for name in ("rim_factor", "root_stress", "safety_bending"):
+        assert left_out.quantity(name).value == pytest.approx(given.quantity(name).value, rel=1e-12), name
+    assert left_out.quantity("rim_factor").value == pytest.approx([1.0, 1.15 * math.log(8.324 / 2.0)], rel=1e-12)
+    thicker = design("drawn_ring", command="gear", gears__rim=None, gears__rim_thickness=[None, 8.0])
+    assert thicker.quantity("rim_factor").value == [1.0, 1.0]
+
+
 @pytest.mark.parametrize("keys", [{"rim_thickness": 2.0}, RING | {"rim_thickness": [None, 4.0]}])
 def test_a_rim_too_thin_is_not_rated_and_said_so(keys: dict[str, Any]) -> None:
     made = design(LOADED | keys, command="gear")
