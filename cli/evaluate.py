@@ -14,7 +14,7 @@ from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import LoadedFile
 from gearlink.core.design import UnknownName
 from gearlink.core.errors import NoSolution
-from gearlink.core.kinds import FILES, STUDY, Kind
+from gearlink.core.kinds import FILES, STUDY, FileDesigns, Kind
 
 if TYPE_CHECKING:
     from gearlink.core.design import Design
@@ -49,10 +49,10 @@ def build(
     options: Options,
     *,
     findings_only: bool = False,
-    made: Design | None = None,
+    designs: FileDesigns | None = None,
 ) -> tuple[Design, Report]:
-    """The design of a validated spec (`made` already for another of its commands) and its report; what the mechanism
-    refuses becomes a located error."""
+    """The design of a validated spec (one of `designs`, where its other commands have some) and its report; what the
+    mechanism refuses becomes a located error."""
     only = options.candidates or (bool(options.tables) and options.format is Format.CSV)
     wanted = {
         "quantities": options.quantities,
@@ -64,7 +64,7 @@ def build(
     }
     try:
         with refusals_located(loaded):
-            design = kind.design(command, spec) if made is None else made
+            design = kind.design(command, spec) if designs is None else designs.of(command)
             report = design.report(command, **wanted)  # type: ignore[arg-type]
     except UnknownName as error:
         raise DesignFileError([_unknown_name(error)]) from error

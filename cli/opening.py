@@ -17,7 +17,7 @@ from gearlink.cli.reading.design_file import parse, read_kind, validate, with_ov
 from gearlink.cli.reading.loaded_file import LoadedFile, parse_path
 from gearlink.core.design import UnknownName
 from gearlink.core.errors import GearlinkError, NoSolution, named
-from gearlink.core.kinds import KINDS
+from gearlink.core.kinds import KINDS, FileDesigns
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -127,7 +127,7 @@ def _opened(loaded: LoadedFile, command: str | None) -> Opened:
         raise TypeError(f"a command is text, such as {spec.commands()[0]!r}, not {type(wanted).__name__}")
     require_command(loaded, kind, wanted)
     made = cast("Opened", _placed(kind.class_for(wanted, spec))(spec))
-    vars(made).update(_loaded=loaded, _command=wanted, kin=kind)
+    vars(made).update(_loaded=loaded, _command=wanted, kin=FileDesigns(kind, spec))
     return made
 
 

@@ -17,7 +17,8 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Protocol
 from gearlink.core.errors import GearlinkError, named
 from gearlink.core.nomenclature import term
 from gearlink.core.numerics.rows import FEWEST_ROWS, MOST_ROWS, Rows
-from gearlink.core.remedies import Bench, Way, with_remedies
+from gearlink.core.remedies.bench import Bench, commands_of, with_remedies
+from gearlink.core.remedies.ways import Way
 from gearlink.core.report import Check, Quantity, Remedy, Report, Table, TableInParts
 from gearlink.core.results import cached_property, step
 
@@ -44,9 +45,13 @@ class Found(NamedTuple):
 
 
 class Kin(Protocol):
-    """What makes the design of a spec for any of the commands that it asks for."""
+    """The designs of one file: what makes that of any command which it asks for."""
 
-    def design(self, command: str, spec: Any) -> Design: ...
+    def of(self, command: str) -> Design:
+        """The design that serves a command, the same one each time while it is in use."""
+
+    def changed(self, spec: Any) -> Kin:
+        """The designs of another file of the kind."""
 
 
 def placed(path: str) -> Any:
@@ -98,7 +103,7 @@ class Design:
     derived: ClassVar[frozenset[str]] = frozenset()  # quantities with a value or None wherever there is a mechanism
     advises = True
     kin: Kin | None = None
-    """The kind that made it, which makes the designs of the file's other commands; None where none did."""
+    """The designs of its file's other commands; None where it was made by itself."""
     warnings = True
     checks_need_search: ClassVar[bool] = False
 
@@ -243,10 +248,21 @@ class Design:
         """What completes the file for samples of the design as made: its links, and what still judges them."""
         return self.completion()
 
+    @property
+    def given(self) -> Any:
+        """The spec of the file, where the design goes on with one that it has completed."""
+        return self.spec
+
     @cached_property
-    def benches(self) -> dict[str, Bench]:
-        """Where changes of this design are tried, for each command."""
+    def _benches(self) -> dict[frozenset[str], Bench]:
         return {}
+
+    def bench(self, command: str) -> Bench:
+        """Where changes of this design are tried for the findings of a command, and of those that hold with it."""
+        commands = frozenset(commands_of(self, command))
+        if commands not in self._benches:
+            self._benches[commands] = Bench(self, command)
+        return self._benches[commands]
 
     def varied(self, spec: Any) -> Design:
         """The design of another file, with the results of this one that the change leaves as they are."""

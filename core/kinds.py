@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, NamedTuple
+from weakref import WeakValueDictionary
 
 if TYPE_CHECKING:
     from gearlink.core.design import Design
@@ -27,9 +28,7 @@ class Kind(NamedTuple):
 
     def design(self, command: str, spec: Any) -> Design:
         """The design of a spec, of the class that the command needs."""
-        design: Design = self.class_for(command, spec)(spec)
-        design.kin = self
-        return design
+        return FileDesigns(self, spec).of(command)
 
     def class_for(self, command: str, spec: Any) -> Any:
         """The class that serves a command on a spec: that of a synthesis where the file leaves its links to it."""
@@ -43,6 +42,33 @@ class Kind(NamedTuple):
         """What makes the kind's array form, where it has one."""
         found: Maker | None = _load(f"gearlink.core.{self.axis}") if self.axis else None
         return found
+
+
+class FileDesigns:
+    """The designs of one file: commands of one class share theirs, and so do remedies that look at other commands.
+
+    They last as long as something else holds them.
+    """
+
+    def __init__(self, kind: Kind, spec: Any) -> None:
+        self._kind, self._spec = kind, spec
+        self._made: WeakValueDictionary[Any, Design] = WeakValueDictionary()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return FileDesigns, (self._kind, self._spec)
+
+    def of(self, command: str) -> Design:
+        """The design that serves a command."""
+        cls = self._kind.class_for(command, self._spec)
+        design = self._made.get(cls)
+        if design is None:
+            design = self._made[cls] = cls(self._spec)
+            design.kin = self
+        return design
+
+    def changed(self, spec: Any) -> FileDesigns:
+        """The designs of another file of the kind."""
+        return FileDesigns(self._kind, spec)
 
 
 def _load(place: str) -> Any:

@@ -17,6 +17,7 @@ from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import CannotWrite, stem_of
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.reading.loaded_file import LoadedFile, parse_path
+from gearlink.core.kinds import FileDesigns
 from gearlink.core.report import Remedy, Report
 
 if TYPE_CHECKING:
@@ -74,12 +75,13 @@ class _Computing:
         self._kind = kind.name
         spec = read_spec(loaded, kind, self._file)
         self._name = spec.name
-        designs: dict[Any, Design] = {}  # commands of one class share its results
+        designs = FileDesigns(kind, spec)
+        kept: list[Design] = []
         refused = False
         added = tuple(_added(kind, spec, self._options))
         for self._command in (*spec.commands(), *added):
             try:
-                yield self._result(loaded, kind, spec, designs)
+                yield self._result(loaded, kind, spec, designs, kept)
             except DesignFileError as error:
                 refused = True
                 yield self._ended(ExitCode.WRONG_INPUT, errors=error.diagnostics)
@@ -90,13 +92,12 @@ class _Computing:
             for self._command, wrong in refused_sections(loaded, kind, spec, added):
                 yield self._ended(ExitCode.WRONG_INPUT, errors=wrong)
 
-    def _result(self, loaded: LoadedFile, kind: Kind, spec: Any, designs: dict[Any, Design]) -> Outcome:
-        """The outcome of the command, its files written."""
+    def _result(self, loaded: LoadedFile, kind: Kind, spec: Any, designs: FileDesigns, kept: list[Design]) -> Outcome:
+        """The outcome of the command, its files written; its design joins those that are kept for other commands."""
         command, options = self._command, self._options
-        cls = kind.class_for(command, spec)
-        only, made = options.findings_only, designs.get(cls)
-        design, report = build(loaded, kind, command, spec, options.design, findings_only=only, made=made)
-        designs[cls] = design
+        only = options.findings_only
+        design, report = build(loaded, kind, command, spec, options.design, findings_only=only, designs=designs)
+        kept.append(design)
         if options.out is not None:
             from gearlink.cli.batch.out import write_results
 

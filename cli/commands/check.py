@@ -19,6 +19,7 @@ from gearlink.cli.reading.loaded_file import LoadedFile, parse_path
 from gearlink.cli.reading.places import design_files
 from gearlink.cli.texts.finding_keys import key_of
 from gearlink.core.design import Outline
+from gearlink.core.kinds import FileDesigns
 from gearlink.core.report import Check
 
 if TYPE_CHECKING:
@@ -99,14 +100,15 @@ def _findings(loaded: LoadedFile, kind: Kind, spec: Any) -> Iterator[Finding]:
     Notes
         A study is made ready, which refuses what is wrong with it; its search is the matter of `explore` and `batch`.
     """
-    designs: dict[Any, Design] = {}
+    designs = FileDesigns(kind, spec)
+    kept: list[Design] = []
     done: set[tuple[Any, str]] = set()
     refused = False
     for command in spec.commands():
         cls = kind.class_for(command, spec)
         try:
             with refusals_located(loaded):
-                design = designs.setdefault(cls, kind.design(command, spec))
+                kept.append(design := designs.of(command))
                 outline = Outline() if design.checks_need_search else design.outline(command)
                 design.prepare(outline.quantities)
                 names = [name for name in outline.checks if (cls, name) not in done]

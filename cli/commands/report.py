@@ -19,6 +19,7 @@ from gearlink.cli.patience import patience
 from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.cli.render.errors import show_refusal
 from gearlink.core.errors import NoSolution
+from gearlink.core.kinds import FileDesigns
 
 if TYPE_CHECKING:
     from gearlink.cli.reading.loaded_file import LoadedFile
@@ -67,13 +68,14 @@ def _sections(loaded: LoadedFile, kind: Kind, spec: Any, options: Options) -> li
 
     load_what_is_drawn("svg")  # once, not in every process
     commands = (*spec.commands(), *_budgets(kind, spec))
+    designs = FileDesigns(kind, spec)
 
     def built(command: str) -> Part | None:
-        study: Any = kind.design(command, spec) if command == "tolerance" else None
+        study: Any = designs.of(command) if command == "tolerance" else None
         if study is not None and not study.is_short:
             return None
         asked = options._replace(tables=_tables(kind, command, spec))
-        return build(loaded, kind, command, spec, asked, made=study)
+        return build(loaded, kind, command, spec, asked, designs=designs)
 
     made = side_by_side(lambda i: _section(built(commands[i]), filmed=i == 0), len(commands))
     if made is None:

@@ -21,7 +21,7 @@ from gearlink.cli.printable import json_text
 from gearlink.cli.reading.diagnostics import DesignFileError
 from gearlink.cli.render.errors import show_refusal
 from gearlink.core.errors import NoSolution
-from gearlink.core.remedies import Bench
+from gearlink.core.remedies.bench import Bench
 from gearlink.core.report import Check, Remedy, Report
 from gearlink.core.spec_paths import changed, value_at
 

@@ -21,6 +21,7 @@ from gearlink.cli.printable import visible
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.errors import show_refusal
 from gearlink.core.errors import NoSolution
+from gearlink.core.kinds import FileDesigns
 
 if TYPE_CHECKING:
     from gearlink.cli.page.server import Board
@@ -138,7 +139,8 @@ def _make(source: str, options: Options, board: Board, sheets: Remembered, uncha
     try:
         loaded, kind = open_design(source, options)
         spec = read_spec(loaded, kind, source)
-        parts = [build(loaded, kind, command, spec, options) for command in spec.commands()]
+        designs = FileDesigns(kind, spec)
+        parts = [build(loaded, kind, command, spec, options, designs=designs) for command in spec.commands()]
         for put in _pieces(board, sheets, loaded.text, spec, parts):
             if not unchanged():
                 return ""

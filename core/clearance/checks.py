@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from gearlink.core.clearance.bodies import Clearance, Gear, Layout, Shaft
 from gearlink.core.linkages.codes import GEAR_COLLISION, SHAFT_CLEARANCE
-from gearlink.core.remedies import down
+from gearlink.core.remedies.ways import down
 from gearlink.core.report import Check, Status
 
 SHAFT_WAYS = (*(down(f"shafts.{name}_radius") for name in ("input", "output", *"ADEOW")), down("gears.rim"))

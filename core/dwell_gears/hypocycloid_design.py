@@ -23,7 +23,7 @@ from gearlink.core.linkages.checks import transmission_check
 from gearlink.core.motion_extremes import names
 from gearlink.core.numerics.rows import row_numbers
 from gearlink.core.real_speed import SLIDER_SPEEDS, SliderSpeed, per_time
-from gearlink.core.remedies import Way, up
+from gearlink.core.remedies.ways import Way, up
 from gearlink.core.report import Check, Remedy, Table
 from gearlink.core.results import cached_property
 

@@ -27,7 +27,7 @@ from gearlink.core.linkages.fourbar.position import FourBar, solve
 from gearlink.core.linkages.fourbar.swing import rocker_swing
 from gearlink.core.numerics.rows import row_numbers
 from gearlink.core.real_speed import RealSpeed, per_time
-from gearlink.core.remedies import Way, down, either, up
+from gearlink.core.remedies.ways import Way, down, either, up
 from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
 
@@ -125,6 +125,11 @@ class MutilatedGearDwell(RealSpeed, Meshed):
     def __init__(self, spec: Any) -> None:
         self.asked = spec
         super().__init__(_with_teeth(spec))
+
+    @property
+    def given(self) -> Any:
+        """The spec without the teeth that were chosen."""
+        return self.asked
 
     def completion(self) -> Iterator[Found]:
         """Teeth and reduction in place of the wanted times, from which they follow."""

@@ -21,7 +21,7 @@ from gearlink.core.gears.train.ways import train_ways
 from gearlink.core.linkages.checks import target_check, transmission_check
 from gearlink.core.motion_extremes import WithExtremes, names
 from gearlink.core.real_speed import OUTPUT_SPEEDS, OutputSpeed, RealSpeed, per_time
-from gearlink.core.remedies import down, either, up
+from gearlink.core.remedies.ways import down, either, up
 from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
 

@@ -17,7 +17,7 @@ from gearlink.core.gears.codes import (
     TOOTH_FORM,
     UNDERCUT,
 )
-from gearlink.core.remedies import Way, down, up
+from gearlink.core.remedies.ways import Way, down, up
 from gearlink.core.report import Check, Status, safely_above
 
 if TYPE_CHECKING:

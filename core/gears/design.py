@@ -14,7 +14,7 @@ from gearlink.core.gears.drawing_checks import pair_check, rests_on
 from gearlink.core.gears.drawing_names import DERIVED, DRAWING_CHECKS, DRAWING_QUANTITIES, lacking
 from gearlink.core.gears.from_spec import data_of, pair_of
 from gearlink.core.gears.mesh.pair import GearPair
-from gearlink.core.remedies import Way, down, either, shared, up
+from gearlink.core.remedies.ways import Way, down, either, shared, up
 from gearlink.core.report import Check, Remedy, Table
 from gearlink.core.results import cached_property
 

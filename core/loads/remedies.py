@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
-from gearlink.core.remedies import at_least, at_most
+from gearlink.core.remedies.ways import at_least, at_most
 from gearlink.core.spec_paths import number_at
 
 if TYPE_CHECKING:

@@ -25,7 +25,7 @@ from gearlink.core.planet_linkages.bodies import rocker_layout
 from gearlink.core.planet_linkages.planet import PlanetLinkage
 from gearlink.core.planet_linkages.rocker_synthesis import crank_for_swing, extreme_crank_angles
 from gearlink.core.real_speed import OUTPUT_SPEEDS, RealSpeed
-from gearlink.core.remedies import down, either, up
+from gearlink.core.remedies.ways import down, either, up
 from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
 

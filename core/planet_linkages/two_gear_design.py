@@ -28,7 +28,7 @@ from gearlink.core.planet_linkages.bodies import two_gear_layout
 from gearlink.core.planet_linkages.codes import DWELL_CONDITION
 from gearlink.core.planet_linkages.planet import PlanetLinkage, standstill_coupler_ratio
 from gearlink.core.real_speed import OUTPUT_SPEEDS, per_time
-from gearlink.core.remedies import down, either, up
+from gearlink.core.remedies.ways import down, either, up
 from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
 

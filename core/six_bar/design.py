@@ -18,7 +18,7 @@ from gearlink.core.linkages.checks import transmission_check
 from gearlink.core.linkages.output_rates import OutputRates
 from gearlink.core.motion_extremes import names
 from gearlink.core.real_speed import OUTPUT_SPEEDS, RealSpeed
-from gearlink.core.remedies import down, either, up
+from gearlink.core.remedies.ways import down, either, up
 from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
 

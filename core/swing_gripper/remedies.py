@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.cams.checks import HUB, ROLLER_SHARE
 from gearlink.core.errors import NoSolution
-from gearlink.core.remedies import REFUSAL, Way, at_least, at_most, down, either, refusal_ways, up
+from gearlink.core.remedies.ways import REFUSAL, Way, at_least, at_most, down, either, refusal_ways, up
 
 if TYPE_CHECKING:
     from gearlink.core.report import Remedy

@@ -20,7 +20,7 @@ from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.linkages.fourbar.swing import rocker_swing
 from gearlink.core.linkages.standstills import BackStep
 from gearlink.core.real_speed import OutputSpeed, per_time
-from gearlink.core.remedies import down, either, up
+from gearlink.core.remedies.ways import down, either, up
 from gearlink.core.report import Check, safely_above, safely_below
 from gearlink.core.results import cached_property
 from gearlink.core.three_gear import bodies, motion, tables

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, TypeAlias
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.remedies import REFUSAL, at_least, at_most, down, up
+from gearlink.core.remedies.ways import REFUSAL, at_least, at_most, down, up
 from gearlink.core.spec_paths import changed, number_at
 
 if TYPE_CHECKING:

@@ -38,7 +38,7 @@ _TWIN_ROCKER = """\
 @pytest.fixture
 def no_remedies(monkeypatch: pytest.MonkeyPatch) -> None:
     """What would repair a finding is sought for long, and not asked here."""
-    monkeypatch.setattr("gearlink.core.remedies.Bench.remedy", lambda *_: ())
+    monkeypatch.setattr("gearlink.core.remedies.bench.Bench.remedy", lambda *_: ())
 
 
 @pytest.mark.usefixtures("no_remedies")

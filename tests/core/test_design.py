@@ -28,6 +28,9 @@ class Spec:
 
     name = "toy"
 
+    def commands(self) -> tuple[str, ...]:
+        return ("press", "gear")
+
 
 class Toy(Design):
     """Quantities of every shape, under names of the nomenclature."""

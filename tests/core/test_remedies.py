@@ -16,8 +16,8 @@ from oracles.random_designs import KINDS as DRAWN
 from oracles.random_designs import Data, draw
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.kinds import KINDS
-from gearlink.core.remedies import down, left_out, shared, up
+from gearlink.core.kinds import KINDS, FileDesigns
+from gearlink.core.remedies.ways import down, left_out, shared, up
 from gearlink.core.report import Check, Remedy, remedy_words
 from gearlink.core.spec_paths import changed, numbers_at, step_of, value_at
 
@@ -252,3 +252,73 @@ def test_a_gripper_names_no_base_circle() -> None:
     (check,) = (found for found in made.check("pressure-angle") if found.status == "fail")
     assert "base circle" not in check.message
     assert "set cam.center farther from the roller" in check.message
+
+
+def fails(made: Any, command: str, name: str) -> Check:
+    """The first finding of a check that fails."""
+    return next(check for check in made.findings(command, name) if check.status == "fail")
+
+
+def test_loads_that_were_refused_hold_after_a_remedy() -> None:
+    """Both rollers on one side: 57 deg parts them, and presses the return roller beyond what the file allows."""
+    for allowed, angle in ((540, 72.0), (300, None)):
+        given: dict[str, Any] = {"cam__return_roller__angle": 20, "loads__material__allowed_pressure": allowed}
+        kind, spec = KINDS["swing-gripper"], spec_of("loaded_gripper", **given)
+        with pytest.raises(NoSolution, match="same side"):
+            kind.design("loads", spec).require("loads")
+        check = fails(kind.design("gripper", spec), "gripper", "lift-off")
+        assert check.remedy == (() if angle is None else (("cam.return_roller.angle", angle),))
+        if check.remedy:
+            loads = kind.design("loads", changed(spec, check.remedy))
+            assert all(found.status != "fail" for found in loads.report("loads").checks)
+
+
+def test_remedies_and_commands_of_a_file_share_its_loads() -> None:
+    designs = FileDesigns(KINDS["swing-gripper"], spec_of("loaded_gripper", spring__torque=150))
+    made = designs.of("gripper")
+    assert fails(made, "gripper", "lift-off").remedy
+    assert designs.of("cam") is made
+    assert "machine" in vars(designs.of("loads"))
+
+
+@pytest.mark.parametrize("name", ["undercut", "involute-interference"])
+def test_gears_are_repaired_though_their_linkage_is_refused(name: str) -> None:
+    data: Data = {
+        "kind": "two-gear-four-bar",
+        "gears": {"module": 2, "planet": 16, "ring": 93},
+        "links": {"coupler": 96.85, "rocker": 121.41, "frame": 174.42},
+    }
+    before = failing(data, "gear")
+    assert before is not None
+    assert failing(data, "analyze") is None
+    check = fails(design(data, "gear"), "gear", name)
+    assert check.remedy
+    now = failing(with_values(data, check.remedy), "gear")
+    assert now is not None
+    assert not any(now[name])
+    assert no_worse(now, before)
+
+
+def test_links_are_changed_of_a_wheel_whose_teeth_are_chosen_for_times() -> None:
+    data = factory.changed(factory.worked("mutilated_gear_times"), links__crank=44, links__rocker=75)
+    check = fails(design(data, "analyze"), "analyze", "transmission-angle")
+    assert check.remedy
+    now = failing(with_values(data, check.remedy), "analyze")
+    assert now is not None
+    assert not any(map(any, now.values()))
+
+
+def test_a_remedy_that_leaves_a_warning_says_so() -> None:
+    data: Data = {"kind": "gear-pair", "module": 2, "teeth": [11, 51], "profile_shift": [-0.67, -0.54]}
+    data |= {"clearance": 0.28, "addendum": 0.94}
+    made = design(data, "gear")
+    check = fails(made, "gear", "fillet-interference")
+    after = design(with_values(data, check.remedy), "gear")
+    worse = [
+        name
+        for name in made.outline("gear").checks
+        if any(found.status == "warn" for found in after.check(name))
+        and all(found.status == "pass" for found in made.check(name))
+    ]
+    assert worse == ["sliding"]
+    assert f"; with a warning left (sliding): {remedy_words(check.remedy)}" in check.message

@@ -18,7 +18,7 @@ from gearlink.core.gears.mesh.pitch_pair import Pair
 from gearlink.core.gears.shifts.contour_lines import Line, lines_of, value_of
 from gearlink.core.gears.shifts.shift_split import Diagonal
 from gearlink.core.numerics.roots import bracketed_root, sign_changes
-from gearlink.core.remedies import at_least, at_most
+from gearlink.core.remedies.ways import at_least, at_most
 from gearlink.core.report import Table
 from gearlink.core.results import cached_property
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from gearlink.core.gears.checks import gear_ways
 from gearlink.core.gears.codes import BACKLASH, BENDING, FILLET, PITTING, ROOT_CLEARANCE, TIP_FOULING
-from gearlink.core.remedies import Way, down, either, shared, up
+from gearlink.core.remedies.ways import Way, down, either, shared, up
 
 _THINNER = -0.005
 

@@ -10,7 +10,7 @@ from gearlink.core.linkages.checks import transmission_check
 from gearlink.core.linkages.slider_crank.position import SliderCrank, slider
 from gearlink.core.motion_extremes import names
 from gearlink.core.real_speed import SLIDER_SPEEDS, SliderSpeed, per_time
-from gearlink.core.remedies import down, either, up
+from gearlink.core.remedies.ways import down, either, up
 from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
 

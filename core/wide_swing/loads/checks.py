@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.loads import codes, vibration_checks
 from gearlink.core.loads.cam_checks import no_width, pressed_where_undercut
-from gearlink.core.remedies import at_least
+from gearlink.core.remedies.ways import at_least
 from gearlink.core.report import Check
 from gearlink.core.wide_swing.remedies import side_changes, side_words
 

@@ -27,7 +27,7 @@ links: {crank: 18, frame: 125}
 @pytest.fixture(autouse=True)
 def no_remedies(monkeypatch: pytest.MonkeyPatch) -> None:
     """What would repair a finding is sought for long, and not asked here."""
-    monkeypatch.setattr("gearlink.core.remedies.Bench.remedy", lambda *_: ())
+    monkeypatch.setattr("gearlink.core.remedies.bench.Bench.remedy", lambda *_: ())
 
 
 @pytest.fixture

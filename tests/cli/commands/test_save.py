@@ -109,7 +109,7 @@ def test_what_failed_before_it_was_rounded_seeks_no_remedy_again(
     gearlink: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Nor a better place of the cams: the remedies of the design as it is are the ones that are shown."""
-    from gearlink.core.remedies import Bench
+    from gearlink.core.remedies.bench import Bench
     from gearlink.core.swing_gripper.cams import GripperCams
 
     sought: list[Any] = []

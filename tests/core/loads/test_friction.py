@@ -14,7 +14,7 @@ import pytest
 from gearlink.core.loads.blocks import blocks
 from gearlink.core.loads.friction import solution_of
 from gearlink.core.loads.rubbing import Rubbing, SelfLocking
-from gearlink.core.remedies import Bench
+from gearlink.core.remedies.bench import Bench
 
 FEED, PRESS = "loaded_feed", "loaded_press"
 RUBBING = {"pins": 0.1, "pin_radius": 10, "guides": 0.1, "meshes": 0.98}

@@ -314,7 +314,7 @@ def test_a_motion_of_many_turns_is_not_followed_for_seconds_to_find_a_remedy() -
     assert machine.period_turns == 25
     failing = [found for name in machine.outlines["analyze"].checks for found in machine.findings("analyze", name)]
     failing = [found for found in failing if found.status == "fail"]
-    trials = [trial for trial in machine.benches["analyze"]._trials.values() if trial is not None]
+    trials = [trial for trial in machine.bench("analyze")._trials.values() if trial is not None]
     longest = max(trial.effort for trial in trials)
     assert longest > 10
     assert sum(trial.effort for trial in trials) <= len(failing) * (machine.trials + longest)

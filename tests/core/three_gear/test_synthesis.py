@@ -519,15 +519,16 @@ def test_idlers_that_do_not_serve_are_tried_once(monkeypatch):
 
 def test_few_trials_seek_the_idler_of_unequal_gears():
     """Each idler of theirs is a search of its own, hundreds of a design; trials of equal gears go on after them."""
-    from gearlink.core.remedies import Bench
+    from gearlink.core.remedies.bench import Bench
 
     equal = factory.design("standing_feed", command="synth dwell")
     assert not equal.costly
     assert not factory.design("standing_feed", command="synth dwell", gears__output=41, gears__idler=45).costly
     bench = Bench(equal, "synth dwell")
-    unequal = [bench._trial((("gears.output", teeth),)) for teeth in range(41, 49)]
-    assert [trial is not None for trial in unequal] == [True] * 4 + [False] * 4
-    assert all(trial.costly for trial in unequal[:4])
+    tried = [bench._trial((("gears.output", teeth),)) for teeth in range(41, 49)]
+    assert [trial is not None for trial in tried] == [True] * 4 + [False] * 4
+    unequal = [trial.design for trial in tried if trial is not None]
+    assert all(trial.costly for trial in unequal)
     assert bench._trial((("gears.crank", 41), ("gears.output", 41))) is not None
     own = Bench(unequal[0], "synth dwell")
     assert all(own._trial((("gears.output", teeth),)) is not None for teeth in range(42, 50))

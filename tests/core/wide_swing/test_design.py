@@ -19,7 +19,7 @@ from pydantic import ValidationError
 from sweeps import mostly_slow
 
 from gearlink.core.errors import MissingSection, NoSolution
-from gearlink.core.remedies import REFUSAL
+from gearlink.core.remedies.ways import REFUSAL
 from gearlink.core.report import remedy_words
 from gearlink.core.spec_paths import changed, replaced, value_at
 from gearlink.core.wide_swing import remedies

@@ -1,0 +1,253 @@
+"""Changes of a design are tried: for a check that fails, the keys and the nearest values that repair it.
+
+A kind of design names, for each of its checks, the ways in which a file may be changed: keys, and the step in which
+their values can be built (whole teeth, 0.1 mm, 0.01 of profile shift). Values of that grid are tried from the file's
+own onwards. A remedy is one with which the check passes, no other finding becomes worse, and nothing that the file
+asks for is refused: whoever follows it gets what it says.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from dataclasses import replace
+from itertools import islice
+from typing import TYPE_CHECKING
+
+from gearlink.core.errors import NoSolution
+from gearlink.core.remedies.standing import HOLDS, PASSES, Standing, left_of, own_grade, warned
+from gearlink.core.remedies.ways import REFUSAL, Way, counts, refusal_ways
+from gearlink.core.report import Check, Remedy, remedy_words
+from gearlink.core.results import cached_property
+from gearlink.core.spec_paths import changed, number_at
+
+if TYPE_CHECKING:
+    from gearlink.core.design import Design
+
+_COSTLY = 4
+"""Trials that are costly, of a design that is not."""
+_ELSEWHERE, _OF_WAY = 6, 3
+"""For each finding, trials of commands that another class serves; values of one way that are worth one."""
+
+
+def with_remedies(design: Design, command: str, findings: tuple[Check, ...]) -> tuple[Check, ...]:
+    """The findings of a check; those that fail have the best remedy that was found, in data and words."""
+    if all(found.status != "fail" for found in findings):
+        return findings  # what warns may be built: no report waits for its trials
+    bench = design.bench(command)
+    return tuple(_with(bench, found, index) for index, found in enumerate(findings))
+
+
+def _with(bench: Bench, found: Check, index: int) -> Check:
+    remedy = bench.remedy(found, index)
+    if not remedy:
+        return found
+    left = bench.warnings_left(remedy, found, index)
+    words = f"with a warning left ({', '.join(left)}): {remedy_words(remedy)}" if left else remedy_words(remedy)
+    return replace(found, message=f"{found.message}; {words}", remedy=remedy)
+
+
+class Bench:
+    """A design on which changes are tried; what was tried once is kept.
+
+    Parameters
+        design, command : the design, and the command whose findings are to be repaired
+        patient : bool - what warns is to be repaired as well
+    """
+
+    def __init__(self, design: Design, command: str, *, patient: bool = False) -> None:
+        self._design = design
+        self._patient = patient
+        self._commands = commands_of(design, command)
+        self._before = Standing(design)
+        self._left = 0
+        self._costly = 0
+        self._trials: dict[Remedy, Standing | None] = {}
+        self._candidates: dict[str, tuple[list[Remedy], Iterator[Remedy]]] = {}
+        self._grades: dict[tuple[Remedy, str, int], int] = {}
+        self._found: dict[tuple[str, int], Remedy] = {}
+        self._others: dict[tuple[Remedy, str], Standing] = {}
+
+    def remedy(self, found: Check, index: int) -> Remedy:
+        """The best remedy of a finding, the `index`-th of its check; empty where no way leads to one.
+
+        Notes
+            A failing check is to pass and no other finding to become worse; where no way leads there, it may warn and
+            so may others. A check that warns is to pass.
+        """
+        if found.status == "pass" or (found.status == "warn" and not self._patient):
+            return ()
+        if (found.name, index) not in self._found:
+            self._found[found.name, index] = self._sought(found, index)
+        return self._found[found.name, index]
+
+    def _sought(self, found: Check, index: int) -> Remedy:
+        self._left = self._design.trials - self._design.effort
+        for wanted in (PASSES, HOLDS) if found.status == "fail" else (PASSES,):
+
+            def good(tried: Remedy, wanted: int = wanted) -> bool:
+                return self._grade(tried, found.name, index) >= wanted
+
+            few = islice(self._all(found.name, good), _ELSEWHERE)
+            if remedy := next((each for each in few if self._grade_elsewhere(each) >= wanted), ()):
+                return remedy
+        return ()
+
+    def warnings_left(self, remedy: Remedy, found: Check, index: int) -> tuple[str, ...]:
+        """The checks that warn after a remedy: its own, and those that passed before."""
+        trial = self._trials[remedy]
+        assert trial is not None
+        left = warned(self._commands, self._before, trial)
+        for command in self._elsewhere:
+            left |= warned((command,), self._other((), command), self._other(remedy, command))
+        own = {found.name: None} if own_grade(self._before, trial, found.name, index) < PASSES else {}
+        return tuple(own | left)
+
+    def detour(self, found: Check, index: int) -> Remedy:
+        """What repairs a finding at the price of others, from where a design may be repaired further."""
+        self._left = self._design.trials - self._design.effort
+
+        def good(remedy: Remedy) -> bool:
+            trial = self._trial(remedy)
+            with suppress(NoSolution):
+                return (
+                    trial is not None
+                    and own_grade(self._before, trial, found.name, index) > 0
+                    and all(map(trial.stands, self._commands))
+                )
+            return False
+
+        return next(self._all(found.name, good), ())
+
+    def of_refusal(self, error: NoSolution) -> Iterator[Remedy]:
+        """Remedies of a design that is refused: nothing of what its file asks for is refused then."""
+        self._left = self._design.trials - self._design.effort
+        ways = refusal_ways(self._design.given, error.key)
+        yield from (remedy for remedy in self._closed(REFUSAL) if self._stands(remedy))
+        yield from (remedy for way in ways for remedy in islice(self._along(way, self._stands), 1))
+
+    def _all(self, name: str, good: Callable[[Remedy], bool]) -> Iterator[Remedy]:
+        """The remedies that are good, the best first."""
+        for remedy in self._closed(name):
+            if self._left <= 0 and self._design.effort and remedy not in self._trials:
+                return  # the few of a closed form count where each takes as long as many
+            if good(remedy):
+                yield remedy
+        for way in self._design.ways_of(name):
+            yield from islice(self._along(way, good), _OF_WAY)
+
+    def _closed(self, name: str) -> Iterator[Remedy]:
+        """The remedies from closed forms, computed one after the other; none more where the next is refused."""
+        kept, more = self._candidates.setdefault(name, ([], iter(self._design.candidates(name))))
+        yield from tuple(kept)
+        with suppress(NoSolution):
+            for remedy in more:
+                kept.append(remedy)
+                yield remedy
+
+    def _along(self, way: Way, good: Callable[[Remedy], bool]) -> Iterator[Remedy]:
+        """The nearest remedy on a way: steps that grow until one is good, then halving back; then those farther on."""
+        values = [number_at(self._design.given, key) for key in way.keys]
+        old = [value for value in values if value is not None]
+        if len(old) < len(values):
+            return
+        bad = 0
+        nearest: Remedy = ()
+        for count in counts(way.most(old)):
+            remedy = way.remedy(old, count)
+            if self._left <= 0 and remedy not in self._trials:
+                return
+            if not good(remedy):
+                bad = bad if nearest else count
+                continue
+            if not nearest:
+                yield (nearest := self._back(way, old, bad, count, good))
+            if remedy != nearest:
+                yield remedy
+
+    def _back(self, way: Way, old: list[float], bad: int, found: int, good: Callable[[Remedy], bool]) -> Remedy:
+        """The nearest that is good, by halving between one that is not and one that is."""
+        while found - bad > 1:
+            middle = (bad + found) // 2
+            bad, found = (bad, middle) if good(way.remedy(old, middle)) else (middle, found)
+        return way.remedy(old, found)
+
+    # Trials
+
+    def _trial(self, remedy: Remedy) -> Standing | None:
+        """The design after a remedy; None where the file cannot say so, or there is none."""
+        if remedy not in self._trials:
+            spec, trial = changed(self._design.given, remedy) if remedy else None, None
+            if spec is not None:
+                with suppress(NoSolution):
+                    trial = self._affordable(self._design.varied(spec))
+            if trial is not None:
+                self._left -= 1
+                trial.advises = False
+            self._trials[remedy] = None if trial is None else Standing(trial)
+        return self._trials[remedy]
+
+    def _affordable(self, trial: Design) -> Design | None:
+        """The trial; None where it costs much more than the design, and as much was spent already."""
+        if trial.costly and not self._design.costly:
+            self._costly += 1
+            return trial if self._costly <= _COSTLY else None
+        return trial
+
+    def _stands(self, remedy: Remedy) -> bool:
+        trial = self._trial(remedy)
+        return trial is not None and all(map(trial.stands, self._commands))
+
+    def _grade(self, remedy: Remedy, name: str, index: int) -> int:
+        """What a remedy makes of a finding, and leaves of the commands of its class."""
+        key = (remedy, name, index)
+        if key not in self._grades:
+            trial = self._trial(remedy)
+            before = 0 if trial is None else trial.effort
+            self._grades[key] = 0 if trial is None else self._graded(trial, name, index)
+            self._left -= 0 if trial is None else trial.effort - before
+        return self._grades[key]
+
+    def _graded(self, trial: Standing, name: str, index: int) -> int:
+        try:
+            grade = own_grade(self._before, trial, name, index)
+        except NoSolution:
+            return 0
+        return min(grade, left_of(self._commands, self._before, trial)) if grade > 0 else 0
+
+    # Commands that other classes serve
+
+    @cached_property
+    def _elsewhere(self) -> tuple[str, ...]:
+        """The commands of the file that another class serves."""
+        design = self._design
+        asked = () if design.kin is None else design.given.commands()
+        return tuple(command for command in asked if command not in design.outlines)
+
+    def _grade_elsewhere(self, remedy: Remedy) -> int:
+        """What a remedy leaves of them: none becomes worse, none is refused that was not."""
+        grade = PASSES
+        for command in self._elsewhere:
+            grade = min(grade, left_of((command,), self._other((), command), self._other(remedy, command)))
+            if grade <= 0:
+                return 0
+        return grade
+
+    def _other(self, remedy: Remedy, command: str) -> Standing:
+        """The design that serves a command after a remedy, none that no longer asks for it; before it without one."""
+        key = (remedy, command)
+        if key not in self._others:
+            kin = self._design.kin
+            assert kin is not None
+            spec, made = changed(self._design.given, remedy) if remedy else self._design.given, None
+            if command in spec.commands():
+                with suppress(NoSolution):
+                    made = (kin.changed(spec) if remedy else kin).of(command)
+            self._others[key] = Standing(made)
+        return self._others[key]
+
+
+def commands_of(design: Design, command: str) -> tuple[str, ...]:
+    """The command, and the others that the file asks for and the design's class serves."""
+    asked = (name for name in design.given.commands() if name in design.outlines)
+    return tuple(dict.fromkeys((command, *asked)))

@@ -1,0 +1,122 @@
+"""How the commands of a file stand under a design, and what a change leaves of them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+from gearlink.core.errors import NoSolution
+
+if TYPE_CHECKING:
+    from gearlink.core.design import Design
+
+PASSES, HOLDS = 2, 1
+"""Grades of a change: what is to pass passes and nothing is worse; something warns. 0: something fails."""
+Ranks = tuple[int, ...]
+"""How bad the findings of a check are."""
+_RANK = {"pass": 0, "warn": 1, "fail": 2}
+
+
+class Standing:
+    """A design with the ranks of its findings and whether its commands are refused, each computed once.
+
+    Parameters
+        design : None where it is refused before it is made
+    """
+
+    def __init__(self, design: Design | None) -> None:
+        self.design = design
+        self._ranks: dict[str, Ranks] = {}
+        self._stands: dict[str, bool] = {}
+
+    @property
+    def effort(self) -> int:
+        """What was computed of the design so far, in trials."""
+        return 0 if self.design is None else self.design.effort
+
+    def ranks(self, check: str) -> Ranks:
+        """How bad the findings of a check are.
+
+        Raises
+            NoSolution
+        """
+        if check not in self._ranks:
+            found = () if self.design is None else self.design.check(check)
+            self._ranks[check] = tuple(_RANK[finding.status] for finding in found)
+        return self._ranks[check]
+
+    def stands(self, command: str) -> bool:
+        """Whether the design is not refused to a command."""
+        if command not in self._stands:
+            self._stands[command] = self.design is not None and _exists(self.design, command)
+        return self._stands[command]
+
+    def checks(self, command: str) -> tuple[str, ...]:
+        """The checks that a command shows."""
+        return () if self.design is None else self.design.outline(command).checks
+
+
+def _exists(design: Design, command: str) -> bool:
+    try:
+        design.require(command)
+    except NoSolution:
+        return False
+    return True
+
+
+def own_grade(before: Standing, now: Standing, check: str, index: int) -> int:
+    """What becomes of a finding, the `index`-th of its check; where findings are gone or new the worst counts."""
+    ranks = now.ranks(check)
+    same = len(ranks) == len(before.ranks(check))
+    return PASSES - (ranks[index] if same else max(ranks, default=0))
+
+
+def left_of(commands: Iterable[str], before: Standing, now: Standing) -> int:
+    """What a change leaves of commands that one class serves: a grade."""
+    commands, grade = tuple(commands), PASSES
+    for command in commands:
+        grade = min(grade, _left_of(command, commands, before, now))
+        if grade <= 0:
+            return 0
+    return grade
+
+
+def warned(commands: Iterable[str], before: Standing, now: Standing) -> dict[str, None]:
+    """The checks of which a change leaves a warning that was not there."""
+    commands = tuple(commands)
+    shown = dict.fromkeys(name for command in commands if now.stands(command) for name in now.checks(command))
+    return {name: None for name in shown if _against(_known(name, commands, before), now.ranks(name)) < PASSES}
+
+
+def _left_of(command: str, commands: tuple[str, ...], before: Standing, now: Standing) -> int:
+    """What is refused already may stay so; what is possible after the change alone is held to all of its checks."""
+    grade = PASSES
+    try:
+        for name in now.checks(command):
+            ranks = now.ranks(name)
+            grade = min(grade, _against(_known(name, commands, before), ranks)) if any(ranks) else grade
+            if grade <= 0:
+                break
+        if now.stands(command):
+            return max(0, grade)
+    except NoSolution:
+        pass
+    return 0 if before.stands(command) else PASSES
+
+
+def _known(name: str, commands: tuple[str, ...], before: Standing) -> Ranks:
+    """How bad the findings of a check were; none where every command that shows it was refused."""
+    try:
+        asked = [command for command in commands if name in before.checks(command)]
+        return before.ranks(name) if any(map(before.stands, asked)) else ()
+    except NoSolution:
+        return ()
+
+
+def _against(before: Ranks, now: Ranks) -> int:
+    """What the findings of a check leave of a grade; where there are more or fewer of them the worst are compared."""
+    if len(before) != len(now):
+        before, now = tuple(sorted(before, reverse=True)), tuple(sorted(now, reverse=True))
+        before += (0,) * (len(now) - len(before))
+    worse = [rank for was, rank in zip(before, now, strict=False) if rank > was]
+    return PASSES - max(worse, default=0)

@@ -1,0 +1,132 @@
+"""Ways to change a design file, and the grids on which their values can be built."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from typing import Any, Literal, NamedTuple
+
+from gearlink.core.report import Remedy
+from gearlink.core.spec_paths import number_at, numbers_at, step_of
+
+_GROWTH = 1.35
+_FARTHEST, _LEAST_STEPS = 3.0, 30
+REFUSAL = "refusal"
+"""Name under which a design gives candidates where it is refused."""
+
+
+class Way(NamedTuple):
+    """A way to change a design file.
+
+    Fields
+        keys : dotted paths, changed together
+        step : float - grid of the values, with the sign of the way to go; 0: the keys are left out
+        tie : str - what the others do: as many "steps", or they keep their "ratio" to the first, or the "sum"
+    """
+
+    keys: tuple[str, ...]
+    step: float
+    tie: Literal["steps", "ratio", "sum"] = "steps"
+
+    def remedy(self, old: list[float], count: int) -> Remedy:
+        """Every key with its value `count` steps on; empty where a tooth would be split, or a gear become a ring."""
+        if self.step == 0.0:
+            return tuple((key, None) for key in self.keys)
+        first, *others = old
+        new = [_on_grid(first, self.step, count)]
+        if self.tie == "steps":
+            new += [_on_grid(value, self.step, count) for value in others]
+        elif self.tie == "sum":
+            new += [math.fsum((first, value, -new[0])) for value in others]
+        elif any(value * new[0] % first for value in others):
+            return ()
+        else:
+            new += [value * new[0] // first for value in others]
+        if any(isinstance(was, int) and was * now <= 0 for was, now in zip(old, new, strict=True)):
+            return ()
+        return tuple(zip(self.keys, new, strict=True))
+
+    def most(self, old: list[float]) -> int:
+        """How many steps are tried."""
+        return 1 if self.step == 0.0 else int(_FARTHEST * abs(old[0] / self.step)) + _LEAST_STEPS
+
+
+def _on_grid(old: float, step: float, count: int) -> float:
+    """The value `count` steps on; a value between the steps of the grid reaches it with the first."""
+    if isinstance(old, int) and step == int(step):
+        return old + count * int(step)
+    size, side = abs(step), math.copysign(1.0, step)
+    start = side * math.floor(side * old / size + 1e-9)
+    return round((start + side * count) * size, max(0, 2 - math.floor(math.log10(size))))
+
+
+def up(*keys: str, step: float = 0.1) -> Way:
+    """The way to greater values."""
+    return Way(keys, step)
+
+
+def down(*keys: str, step: float = 0.1) -> Way:
+    """The way to smaller values."""
+    return Way(keys, -step)
+
+
+def either(*keys: str, step: float = 0.1) -> tuple[Way, ...]:
+    """For each key the ways up and down."""
+    return tuple(Way((key,), sign * step) for key in keys for sign in (1.0, -1.0))
+
+
+def shared(*keys: str, step: float) -> tuple[Way, ...]:
+    """The ways in which one key takes over what the other gives."""
+    return Way(keys, step, "sum"), Way(keys, -step, "sum")
+
+
+def at_most(value: float, step: float = 0.1) -> float:
+    """The greatest value that can be built up to a bound; of one below the step to two digits.
+
+    Example
+        >>> at_most(7.3421), at_most(0.0562), at_most(43.2, 0.5)
+        (7.3, 0.056, 43.0)
+    """
+    return _built(value, step, math.floor)
+
+
+def at_least(value: float, step: float = 0.1) -> float:
+    """The least value that can be built from a bound on; of one below the step to two digits.
+
+    Example
+        >>> at_least(7.3421), at_least(0.0562), at_least(2.52431, 0.01)
+        (7.4, 0.057, 2.53)
+    """
+    return _built(value, step, math.ceil)
+
+
+def _built(value: float, step: float, way: Callable[[float], int]) -> float:
+    if value == 0.0 or not math.isfinite(value):
+        return value
+    if abs(value) < 2.0 * step:
+        step = float(10.0 ** (math.floor(math.log10(abs(value))) - 1))
+    return round(way(round(value / step, 9)) * step, max(0, 2 - math.floor(math.log10(step))))
+
+
+def left_out(key: str) -> Way:
+    """The way to the default."""
+    return Way((key,), 0.0)
+
+
+def refusal_ways(spec: Any, key: str) -> Iterator[Way]:
+    """Ways to change what a refusal names: its number, or each number of its section; a key that may be left out."""
+    if not key:
+        return
+    if number_at(spec, key) is not None:
+        yield left_out(key)
+    for path in numbers_at(spec, key):
+        yield from either(path, step=step_of(spec, path))
+
+
+def counts(most: int) -> Iterator[int]:
+    """1, 2, 3, 4, 6, 8, ... and `most`."""
+    count = 1
+    while count < most:
+        yield count
+        count = max(count + 1, int(count * _GROWTH))
+    yield most
