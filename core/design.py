@@ -100,6 +100,8 @@ class Design:
     extra_tables: ClassVar[tuple[str, ...]] = ()
     page_tables: ClassVar[tuple[str, ...]] = ()  # extra ones that the page of `report` shows
     ways: ClassVar[Mapping[str, tuple[Way, ...]]] = {}
+    requirements: ClassVar[frozenset[str]] = frozenset(("speed", "input_speed", "loads.speed"))
+    """Keys of what the machine has to do: a remedy that changes one asks for less, and is sought last."""
     derived: ClassVar[frozenset[str]] = frozenset()  # quantities with a value or None wherever there is a mechanism
     advises = True
     kin: Kin | None = None

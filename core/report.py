@@ -236,10 +236,9 @@ def remedy_words(remedy: Remedy) -> str:
         >>> remedy_words((("gears.crank", 42), ("gears.output", 42)))
         'set gears.crank to 42 and gears.output to 42'
     """
-    return " and ".join(
-        f"leave {key} out" if value is None else f"{'' if i else 'set '}{key} to {_shown(value)}"
-        for i, (key, value) in enumerate(remedy)
-    )
+    sets = [f"{key} to {_shown(value)}" for key, value in remedy if value is not None]
+    verbs = [f"set {' and '.join(sets)}"] if sets else []
+    return " and ".join((*verbs, *(f"leave {key} out" for key, value in remedy if value is None)))
 
 
 def _shown(value: float | str) -> str:

@@ -131,7 +131,10 @@ def changed(spec: Any, values: Iterable[tuple[str, Any]]) -> Any:
     for path, value in values:
         if isinstance(value, (int, float)) and not has_size(value):
             return None
-        put(data, path, value)
+        if value is None:
+            _leave_out(data, path)
+        else:
+            put(data, path, value)
     try:
         return type(spec).model_validate(data)
     except ValueError:
@@ -154,6 +157,17 @@ def put(data: Any, path: str, value: Any) -> None:
     for step in sections:
         data = data[step] if isinstance(step, int) else data.setdefault(step, {})
     data[last] = value
+
+
+def _leave_out(data: Any, path: str) -> None:
+    """Delete a key in the data of a design file, if it is there; an entry of a list becomes null."""
+    *sections, last = _steps(path)
+    for step in sections:
+        data = data[step] if isinstance(step, int) else data.get(step, {})
+    if isinstance(last, int):
+        data[last] = None
+    else:
+        data.pop(last, None)
 
 
 def part_at(data: Any, path: str) -> Any:

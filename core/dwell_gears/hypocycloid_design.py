@@ -23,9 +23,10 @@ from gearlink.core.linkages.checks import transmission_check
 from gearlink.core.motion_extremes import names
 from gearlink.core.numerics.rows import row_numbers
 from gearlink.core.real_speed import SLIDER_SPEEDS, SliderSpeed, per_time
-from gearlink.core.remedies.ways import Way, up
+from gearlink.core.remedies.ways import Way, either, up
 from gearlink.core.report import Check, Remedy, Table
 from gearlink.core.results import cached_property
+from gearlink.core.spec_paths import changed
 
 if TYPE_CHECKING:
     from gearlink.core.dwell_gears.hypocycloid_spec import HypocycloidDwellSpec
@@ -71,9 +72,11 @@ class HypocycloidDwell(SliderSpeed, Meshed):
     ways = {
         "shaft-clearance": SHAFT_WAYS,
         "transmission-angle": (up("rod.length"),),
+        "dwell-quality": either("rod.length"),
         **train_ways(2, Way(("gears.planet", "gears.ring"), 1, "ratio")),
     }
 
+    requirements = Meshed.requirements | {"dwell.tolerance", "dwell.angle"}
     extra_tables = ("drawing", "candidates")
 
     def table_candidates(self, _samples: int | None = None) -> Table:
@@ -88,12 +91,24 @@ class HypocycloidDwell(SliderSpeed, Meshed):
         return 20
 
     def candidates(self, check: str) -> Iterator[Remedy]:
-        """What the slider does over the dwell that is wanted; a curve with a cusp less."""
+        """A rod of another rule, or what the slider does over the dwell that is wanted; a curve with a cusp less."""
         if check == "dwell-quality" and self.tolerance_carrier_angle is not None:
+            yield from self._better_rods()
             yield (("dwell.tolerance", math.ceil(501.0 * self.dwell_ripple) / 1000.0),)
             yield (("dwell.angle", math.floor(10.0 * math.degrees(self.tolerance_carrier_angle)) / 10.0),)
         if check == "transmission-angle":
             yield (("gears.ring", self.ring_teeth - self.planet_teeth),)
+
+    def _better_rods(self) -> Iterator[Remedy]:
+        """The rod of the least ripple over the dwell, to tenths and hundredths; or what is sought of it."""
+        rod = self.spec.rod
+        if rod is None:
+            yield (("target.quality", "widest-dwell"),)
+            return
+        spec = changed(self.spec, (("rod", None), ("target", {"quality": "least-ripple"})))
+        found = type(self)(spec).rod_length
+        given: Remedy = () if rod.rule is None else (("rod.rule", None),)
+        yield from ((("rod.length", round(found, digits)), *given) for digits in (1, 2))
 
     # Gears and rod
 
@@ -282,11 +297,7 @@ class HypocycloidDwell(SliderSpeed, Meshed):
         if found >= wanted - 1e-9:
             yield DWELL_QUALITY.check("pass", text, found, wanted, "deg")
             return
-        text += (
-            f"; over that angle it moves {self.dwell_ripple:.6g} mm: allow +-{0.5 * self.dwell_ripple * 1.001:.4g} mm"
-        )
-        if self.spec.target is None:
-            text += ", or leave rod out for target: {quality: least-ripple}"
+        text += f"; over that angle it moves {self.dwell_ripple:.6g} mm"
         yield DWELL_QUALITY.check("fail", text, found, wanted, "deg")
 
     def check_shaft_clearance(self) -> Iterator[Check]:

@@ -13,6 +13,7 @@ from gearlink.core.flatbed_press import codes
 from gearlink.core.flatbed_press.zone import zone_end
 from gearlink.core.linkages.checks import transmission_check
 from gearlink.core.linkages.codes import SHAFT_CLEARANCE
+from gearlink.core.remedies.ways import can_be_built, greatest_length
 from gearlink.core.report import Check, Rule, safely_above
 from gearlink.core.wording import amount
 
@@ -114,7 +115,14 @@ def _larger(design: FlatbedPress, limit: float) -> str:
         radius = cams.base_radius_for(angle)
     except NoSolution:
         radius = cams.base_radius_for_pressure(angle)
-    return f"set cam.base_radius to at least {safely_above(radius)} mm"
+    return _with_base_radius(design, radius)
+
+
+def _with_base_radius(design: FlatbedPress, radius: float) -> str:
+    """In words, the least base radius [mm], where a press with such a cam can be built."""
+    if can_be_built(design.spec, (("cam.base_radius", radius),), greatest_length(design.spec)):
+        return f"set cam.base_radius to at least {safely_above(radius)} mm"
+    return f"a cam.base_radius of {radius:.4g} mm would do, more than can be built: allow more"
 
 
 def cam_undercut(design: FlatbedPress) -> Iterator[Check]:
@@ -131,7 +139,7 @@ def _base_radius_for_roller(design: FlatbedPress) -> str:
         radius = design.cams.base_radius_for_roller(design.cams.base_radius)
     except NoSolution:
         return LARGER
-    return f"set cam.base_radius to at least {safely_above(radius)} mm"
+    return _with_base_radius(design, radius)
 
 
 def shaft_clearance(design: FlatbedPress) -> Iterator[Check]:

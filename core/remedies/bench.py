@@ -8,7 +8,7 @@ asks for is refused: whoever follows it gets what it says.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import replace
 from itertools import islice
@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.remedies.standing import HOLDS, PASSES, Standing, left_of, own_grade, warned
-from gearlink.core.remedies.ways import REFUSAL, Way, counts, refusal_ways
+from gearlink.core.remedies.ways import REFUSAL, Way, can_be_built, counts, greatest_length, refusal_ways
 from gearlink.core.report import Check, Remedy, remedy_words
 from gearlink.core.results import cached_property
 from gearlink.core.spec_paths import changed, number_at
@@ -43,7 +43,9 @@ def _with(bench: Bench, found: Check, index: int) -> Check:
     if not remedy:
         return found
     left = bench.warnings_left(remedy, found, index)
-    words = f"with a warning left ({', '.join(left)}): {remedy_words(remedy)}" if left else remedy_words(remedy)
+    price = ["by asking for less"] if bench.asks_less(key for key, _ in remedy) else []
+    price += [f"with a warning left ({', '.join(left)})"] if left else []
+    words = f"{', '.join(price)}: {remedy_words(remedy)}" if price else remedy_words(remedy)
     return replace(found, message=f"{found.message}; {words}", remedy=remedy)
 
 
@@ -128,13 +130,19 @@ class Bench:
 
     def _all(self, name: str, good: Callable[[Remedy], bool]) -> Iterator[Remedy]:
         """The remedies that are good, the best first."""
-        for remedy in self._closed(name):
-            if self._left <= 0 and self._design.effort and remedy not in self._trials:
-                return  # the few of a closed form count where each takes as long as many
-            if good(remedy):
-                yield remedy
-        for way in self._design.ways_of(name):
-            yield from islice(self._along(way, good), _OF_WAY)
+        for less in (False, True):
+            for remedy in self._closed(name):
+                if self._left <= 0 and self._design.effort and remedy not in self._trials:
+                    break  # the few of a closed form count where each takes as long as many
+                if self.asks_less(key for key, _ in remedy) is less and good(remedy):
+                    yield remedy
+            for way in self._design.ways_of(name):
+                if self.asks_less(way.keys) is less:
+                    yield from islice(self._along(way, good), _OF_WAY)
+
+    def asks_less(self, keys: Iterable[str]) -> bool:
+        """Whether keys to be changed say what the machine has to do."""
+        return not self._design.requirements.isdisjoint(keys)
 
     def _closed(self, name: str) -> Iterator[Remedy]:
         """The remedies from closed forms, computed one after the other; none more where the next is refused."""
@@ -177,7 +185,9 @@ class Bench:
     def _trial(self, remedy: Remedy) -> Standing | None:
         """The design after a remedy; None where the file cannot say so, or there is none."""
         if remedy not in self._trials:
-            spec, trial = changed(self._design.given, remedy) if remedy else None, None
+            given, spec, trial = self._design.given, None, None
+            if remedy and can_be_built(given, remedy, self._greatest):
+                spec = changed(given, remedy)
             if spec is not None:
                 with suppress(NoSolution):
                     trial = self._affordable(self._design.varied(spec))
@@ -186,6 +196,10 @@ class Bench:
                 trial.advises = False
             self._trials[remedy] = None if trial is None else Standing(trial)
         return self._trials[remedy]
+
+    @cached_property
+    def _greatest(self) -> float:
+        return greatest_length(self._design.given)
 
     def _affordable(self, trial: Design) -> Design | None:
         """The trial; None where it costs much more than the design, and as much was spent already."""

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from typing import Any, Literal, NamedTuple
 
 from gearlink.core.report import Remedy
-from gearlink.core.spec_paths import number_at, numbers_at, step_of
+from gearlink.core.spec_paths import number_at, numbers_at, step_of, unit_at
 
 _GROWTH = 1.35
 _FARTHEST, _LEAST_STEPS = 3.0, 30
@@ -111,6 +111,27 @@ def _built(value: float, step: float, way: Callable[[float], int]) -> float:
 def left_out(key: str) -> Way:
     """The way to the default."""
     return Way((key,), 0.0)
+
+
+def greatest_length(spec: Any) -> float:
+    """The greatest length in a design file [mm]."""
+    paths = (path for name, field in type(spec).model_fields.items() for path in numbers_at(spec, field.alias or name))
+    return max((abs(number_at(spec, path) or 0.0) for path in paths if unit_at(spec, path) == "mm"), default=0.0)
+
+
+def can_be_built(spec: Any, remedy: Remedy, greatest: float) -> bool:
+    """Whether the lengths of a remedy suit the machine.
+
+    Parameters
+        greatest : float [mm] - that of the file: no length becomes greater by more than four times, and greater than it
+    """
+    for path, value in remedy:
+        old = number_at(spec, path)
+        if old is None or not isinstance(value, (int, float)) or path.endswith("]") or unit_at(spec, path) != "mm":
+            continue
+        if abs(value) > max((1.0 + _FARTHEST) * abs(old), greatest):
+            return False
+    return True
 
 
 def refusal_ways(spec: Any, key: str) -> Iterator[Way]:

@@ -151,7 +151,7 @@ class GripperCams(DiscCams):
 
     @cached_property
     def center_remedy(self) -> Callable[[float], str]:
-        """Where the smallest cams stand that keep a pressure angle [deg] over the turn, to a tenth of a millimetre.
+        """In words, whether cams can stand anywhere that keep a pressure angle [deg] over the turn.
 
         Sought once for each limit, however many checks tell of it.
         """
@@ -160,10 +160,10 @@ class GripperCams(DiscCams):
     def _center_remedy(self, limit: float) -> str:
         longer = "lengthen the phase in which it occurs"
         try:
-            center = self.center_for(0.99 * limit)
+            self.center_for(0.99 * limit, refined=False)
         except NoSolution:
             return f"no cam.center keeps it, the least for both rollers is {self._least_limit:.3g} deg: {longer}"
-        return f"cam.center [{center.real:.1f}, {center.imag:.1f}] keeps it for every roller, or {longer}"
+        return f"move cam.center, or {longer}"
 
     @cached_property
     def _least_limit(self) -> float:

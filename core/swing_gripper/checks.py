@@ -32,7 +32,7 @@ def transmission_angle(design: SwingGripper) -> Iterator[Check]:
     ):
         aim = limit if math.degrees(angle) < limit else limit + 5.0
         near = design.advises and math.degrees(angle) < limit + 5.0
-        remedy = turn_remedy(design.motion.linkage, math.radians(aim)) if near else ""
+        remedy = turn_remedy(design.motion.linkage, math.radians(aim), tells=False) if near else ""
         subject = f"the least transmission angle at {place}"
         yield transmission_check(angle, limit, remedy, subject)
 
@@ -68,7 +68,7 @@ def _loss_near_dead_point(design: SwingGripper) -> str:
     return (
         f": computed angles keep {loss:.1g} rad, accelerations {4.0 * loss / math.sin(at_c):.1g} of their size, and "
         f"0.01 mm of play turns the {loose} by {play:.2g} deg; "
-        f"{turn_remedy(linkage, math.radians(design.spec.limits.transmission_angle))}"
+        f"{turn_remedy(linkage, math.radians(design.spec.limits.transmission_angle), tells=False)}"
     )
 
 

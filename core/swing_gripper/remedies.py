@@ -60,6 +60,18 @@ def _handover(design: SwingGripper) -> Iterator[Remedy]:
         yield (("release.window", at_most(min(widest, room) if room > 0.0 else widest)),)
 
 
+def _turn(design: SwingGripper) -> Iterator[Remedy]:
+    """ED turned as far as the whole swing needs, in half degrees."""
+    from gearlink.core.swing_gripper.swing import clear_turn
+
+    spec = design.spec
+    for more in (0.0, 2.0, 5.0):
+        turn, _ = clear_turn(design.motion.linkage, math.radians(spec.limits.transmission_angle + more))
+        if turn is not None:
+            wanted = spec.output_direction + math.degrees(turn)
+            yield (("output_direction", (at_least if turn > 0.0 else at_most)(wanted, 0.5)),)
+
+
 def _point(path: str, place: complex, digits: int) -> Remedy:
     return (f"{path}[0]", round(place.real, digits)), (f"{path}[1]", round(place.imag, digits))
 
@@ -127,6 +139,7 @@ def _closing(design: SwingGripper) -> Iterator[Remedy]:
 
 _CLOSED: dict[str, Callable[[SwingGripper], Iterator[Remedy]]] = {
     REFUSAL: lambda design: _laws(design, _QUIET),
+    "transmission-angle": _turn,
     "handover": _handover,
     "pressure-angle": _pressure,
     "cam-undercut": _rollers,

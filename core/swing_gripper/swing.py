@@ -57,14 +57,19 @@ def require_swing(linkage: GripperLinkage, limit: float) -> None:
             )
 
 
-def turn_remedy(linkage: GripperLinkage, limit: float) -> str:
-    """Words for what brings the whole swing to a transmission angle [rad]: a turn of ED, or a lesser swing."""
+def turn_remedy(linkage: GripperLinkage, limit: float, *, tells: bool = True) -> str:
+    """Words for what brings the whole swing to a transmission angle [rad]: a turn of ED, or a lesser swing.
+
+    Parameters
+        tells : bool - by how much ED is to be turned; not where cams stand that the turn may make impossible
+    """
     limit = max(limit, _LEAST_AIM)
     turn, widest = clear_turn(linkage, limit)
     aim = f"for transmission angles of {math.degrees(limit):g} deg"
     if turn is not None:
         sign = "+" if turn > 0.0 else "-"
-        return f"turn output_direction by {sign}{safely_above(abs(math.degrees(turn)), 4)} deg {aim}"
+        angle = f" by {sign}{safely_above(abs(math.degrees(turn)), 4)} deg" if tells else ""
+        return f"turn output_direction{angle} {aim}"
     swing = math.degrees(linkage.law.total_swing)
     if widest > 0.0:
         return (

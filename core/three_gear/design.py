@@ -55,7 +55,13 @@ WAYS = {
         *_TEETH,
         *SHAFT_WAYS,
     ),
-    "transmission-angle": (*_LINKS, up("gears.idler", step=1), *_TEETH, down("momentary.eccentricity")),
+    "transmission-angle": (
+        *_LINKS,
+        up("gears.idler", step=1),
+        *either("momentary.eccentricity"),
+        down("gears.crank", step=1),
+        *_TEETH,
+    ),
     "dwell-tolerance": tuple(down(key, step=0.01) for key in ("dwell_tolerance", "dwell.tolerance", "dwell_backlash")),
     **train_ways(3, *_TEETH),
 }

@@ -270,6 +270,7 @@ class WideSwingDesign(Design):
     check_profile_planes = cycle_checks.profile_planes
 
     ways = remedies.WAYS
+    requirements = Design.requirements | {"swing", "operating_speed_min"}
 
     @property
     def trials(self) -> int:

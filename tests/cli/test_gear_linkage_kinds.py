@@ -205,7 +205,9 @@ def test_hypocycloid_dwell_too_narrow_is_a_finding(gearlink, tmp_path):
     assert ended.status == 1
     (failed,) = [c for c in ended.json["checks"] if c["status"] == "fail"]
     assert (failed["code"], failed["unit"]) == ("GL311", "deg")
-    assert "least-ripple" in failed["message"]
+    assert failed["remedy"] == [{"key": "rod.length", "value": 140.0}, {"key": "rod.rule", "value": None}]
+    assert failed["message"].endswith("; set rod.length to 140 and leave rod.rule out")
+    assert gearlink("analyze", path, "--set", "rod.length=140", "--set", "rod.rule=null").status == 0
     for quality in ("least-ripple", "widest-dwell"):
         path.write_text(HYPOCYCLOID.replace("rod: {rule: osculating}", f"target: {{quality: {quality}}}"))
         assert gearlink("analyze", path, "--format", "json").status == 0

@@ -322,3 +322,23 @@ def test_a_remedy_that_leaves_a_warning_says_so() -> None:
     ]
     assert worse == ["sliding"]
     assert f"; with a warning left (sliding): {remedy_words(check.remedy)}" in check.message
+
+
+def test_a_change_of_what_is_asked_for_comes_last_and_says_so() -> None:
+    """The rod of the least ripple stays within 0.221 mm: no other rod keeps less, so that less must be asked for."""
+    for tolerance, key in ((0.25, "rod.length"), (0.05, "dwell.tolerance")):
+        made = factory.design("hypocycloid_slider", rod={"rule": "osculating"}, dwell__tolerance=tolerance)
+        check = fails(made, "analyze", "dwell-quality")
+        assert check.remedy[0][0] == key
+        assert ("; by asking for less: set " in check.message) is (key == "dwell.tolerance")
+    crank = factory.design("ty460_slider_crank", limits={"transmission_angle": 70})
+    check = fails(crank, "analyze", "transmission-angle")
+    assert check.remedy[0][0] == "rod"
+
+
+def test_no_part_greater_than_the_machine() -> None:
+    """A pressure angle of a degree asks for cams of metres."""
+    for limit, radius in ((5.0, 245.3), (1.0, None)):
+        check = fails(factory.design("ty460", command="cam", limits__pressure_angle=limit), "cam", "pressure-angle")
+        assert dict(check.remedy).get("cam.base_radius") == radius
+        assert ("set cam.base_radius" in check.message) is (radius is not None)

@@ -10,6 +10,7 @@ from gearlink.core.design import Design, Outline
 from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.linkages.codes import MOBILITY, TRAIN_FIT
 from gearlink.core.linkages.mobility import freedom as mobility
+from gearlink.core.linkages.mobility import remedies
 from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
 from gearlink.core.wording import amount
@@ -88,6 +89,8 @@ class GearTrainMobility(Design):
 
     # Checks
 
+    candidates = remedies.candidates
+
     def check_train_fit(self) -> Iterator[Check]:
         """GL308: what keeps a train from running on the linkage, one finding per reason."""
         self.require_names()
@@ -159,17 +162,17 @@ class GearTrainMobility(Design):
 
     def _distance(self, module: float | None, one: Gear, other: Gear, link: str, which: str) -> Iterator[str]:
         """Why the centre distance is not the link's length or another mesh's, where the file tells them."""
-        if module is None or one.teeth is None or other.teeth is None:
+        distance, length = _distance(module, one, other), self.spec.links[link].length
+        if distance is None or module is None:
             return
         if one.ring and other.ring:
             yield f"{which} are both ring gears, which cannot mesh: leave out ring at one of them"
             return
-        distance, length = _center_distance(module, one, other), self.spec.links[link].length
         if length is not None:
             if abs(distance - length) > _DISTANCE_TOLERANCE * module:
                 yield (
-                    f"{which} mesh at {distance:.9g} mm, but {link} is {length:.9g} mm long: make it {distance:.9g} mm "
-                    "or change the teeth"
+                    f"{which} mesh at {distance:.9g} mm, but links.{link}.length is {length:.9g} mm: the two must be "
+                    "the same"
                 )
             return
         first, apart = self._first_distance[frozenset((one.at, other.at))]
@@ -185,10 +188,23 @@ class GearTrainMobility(Design):
         found: dict[frozenset[str], tuple[int, float]] = {}
         for i, train in enumerate(self.spec.trains, start=1):
             for one, other in pairwise(train.gears):
-                if train.module is not None and one.teeth is not None and other.teeth is not None:
-                    distance = _center_distance(train.module, one, other)
+                distance = _distance(train.module, one, other)
+                if distance is not None:
                     found.setdefault(frozenset((one.at, other.at)), (i, distance))
         return found
+
+    def distances_of(self, train: Train) -> list[float | None]:
+        """Centre distance of each mesh of a train [mm]; None where the file does not tell it."""
+        return [_distance(train.module, one, other) for one, other in pairwise(train.gears)]
+
+    def apart(self, one: Gear, other: Gear) -> float | None:
+        """Distance of the pins of two gears [mm], by the link that carries both or the first train that tells it."""
+        if one.at == other.at:
+            return None
+        common = mobility.common_links(self.links, one.at, other.at)
+        length = self.spec.links[common[0]].length if common else None
+        known = self._first_distance.get(frozenset((one.at, other.at)))
+        return length if length is not None or known is None else known[1]
 
     def require_names(self) -> None:
         """Refuse gears on pins or links that the linkage does not have."""
@@ -205,10 +221,10 @@ class GearTrainMobility(Design):
                     )
 
 
-def _center_distance(module: float, one: Gear, other: Gear) -> float:
-    """Of two gears whose teeth are known [mm]; a ring gear has the other within it."""
-    assert one.teeth is not None, "asked for only with teeth"
-    assert other.teeth is not None, "asked for only with teeth"
+def _distance(module: float | None, one: Gear, other: Gear) -> float | None:
+    """Centre distance of two gears [mm], None where the file does not tell it; a ring gear has the other within it."""
+    if module is None or one.teeth is None or other.teeth is None:
+        return None
     teeth = abs(one.teeth - other.teeth) if one.ring or other.ring else one.teeth + other.teeth
     return module * teeth / 2.0
 

@@ -53,6 +53,7 @@ class SliderCrankDesign(SliderSpeed, SliderCrankQuantities, Design):
         "analyze": Outline((*_SIZES, *_MOTION), ("transmission-angle",), ("motion",)),
     }
     extra_tables = ("candidates",)
+    requirements = Design.requirements | {"stroke"}
     ways = {"transmission-angle": (up("rod"), down("stroke"), down("crank"), *either("offset"))}
 
     def table_candidates(self, _samples: int | None = None) -> Table:

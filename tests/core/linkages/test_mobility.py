@@ -16,6 +16,7 @@ import pytest
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.mobility.freedom import common_links, linkage_mobility, pin_names, train_change
+from gearlink.core.spec_paths import changed
 
 REFERENCE = Path(__file__).parents[2] / "reference"
 CASES = {case["id"]: case for case in json.loads((REFERENCE / "gear_linkage.json").read_text())["cases"]}
@@ -213,3 +214,45 @@ def test_the_diagram_asks_for_names_first(gearlink, tmp_path, at, status):
     )
     ended = gearlink("analyze", path, "--quantity", "link_count", "--plot", "--out", tmp_path)
     assert ended.status == status
+
+
+def test_a_length_that_does_not_fit_is_named_by_its_key():
+    data = train("A", "B:coupler", module=2.0)
+    data["gears"][0]["teeth"], data["gears"][1]["teeth"] = 18, 36
+    for name in ("crank", "7"):
+        links = {name if n == "crank" else n: {"pins": list(p)} for n, p in FOUR_BAR.items()}
+        links[name]["length"] = 52.0
+        made = factory.design({"kind": "gear-train-mobility", "links": links, "trains": [data]})
+        (found,) = made.findings("analyze", "train-fit")
+        assert f"links.{name}.length is 52 mm" in found.message
+        # a name of digits alone is no key of a path: the teeth are changed there
+        assert (
+            found.remedy == ((f"links.{name}.length", 54.0),) if name == "crank" else found.remedy[0][0][-5:] == "teeth"
+        )
+        assert {c.status for c in type(made)(changed(made.spec, found.remedy)).check("train-fit")} == {"pass"}
+
+
+@pytest.mark.parametrize(
+    ("links", "trains"),
+    [
+        (FOUR_BAR, [train("B", "C:rocker", "D:frame")]),
+        (FOUR_BAR, [train("B:frame", "C")]),
+        (FOUR_BAR, [train("B:coupler", "C:coupler")]),
+        (FOUR_BAR, [train("B:crank", "C", "D:frame")]),
+        (FOUR_BAR, [train("B", "C", "D")]),
+        (FIVE_BAR, [train("A:input", "E")]),
+        (FIVE_BAR, [train("A", "E")]),
+    ],
+)
+def test_followed_remedies_of_trains(links, trains):
+    made = design(links, trains)
+    wrong = [c for name in ("train-fit", "mobility") for c in made.findings("analyze", name) if c.status == "fail"]
+    assert wrong
+    for found in wrong:
+        if found.remedy:
+            after = type(made)(changed(made.spec, found.remedy))
+            assert {c.status for c in after.check(found.name)} == {"pass"}
+            for name in ("train-fit", "mobility"):
+                if all(c.status == "pass" for c in made.check(name)):
+                    assert all(c.status == "pass" for c in after.check(name))
+    assert any(found.remedy for found in wrong)
