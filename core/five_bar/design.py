@@ -36,6 +36,7 @@ _LISTS = ("center_distance", "contact_ratio")
 _POSITION_TOLERANCE = math.degrees(1e-9)
 
 
+_FEW_TURNS = 3
 _TEETH = tuple(up(f"gears.{gear}", step=1) for gear in ("input", "output", "idler", "planet", "sun", "ring"))
 _FEWER = tuple(down(*way.keys, step=1) for way in _TEETH)
 _LINKS = (
@@ -129,7 +130,13 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, FiveBarParts):
     point_acceleration_max: float | None = per_time("acceleration_max", 2)
 
     ways = {
-        "transmission-angle": (up("links.follower", "links.output"), *_LINKS),
+        "transmission-angle": (
+            up("links.follower", "links.output"),
+            *_LINKS,
+            *either("phase", step=1.0),
+            *_FEWER,
+            *_TEETH,
+        ),
         "shaft-clearance": (*SHAFT_WAYS, *_LINKS, *_FEWER, *_TEETH),
         "gear-collision": (up("links.frame"), *_FEWER, *_TEETH),
         **train_ways(3, up("gears.input", "gears.output", step=1), *_TEETH),
@@ -137,8 +144,10 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, FiveBarParts):
 
     @property
     def trials(self) -> int:
-        """Links that are fitted to a target take tenths of a second each time."""
-        return 60 if self.spec.target is None else 0
+        """Links that are fitted to a target take tenths of a second each time; a path of few turns a millisecond."""
+        if self.spec.target is not None:
+            return 0
+        return 150 if self.is_path and self.period_turns <= _FEW_TURNS else 60
 
     @property
     def point_along(self) -> float | None:

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 from gearlink.core.cams.codes import ACCELERATION_STEP, LARGER, VELOCITY_STEP
 from gearlink.core.errors import NoSolution
 from gearlink.core.flatbed_press import codes
-from gearlink.core.flatbed_press.zone import zone_end
 from gearlink.core.linkages.checks import transmission_check
 from gearlink.core.linkages.codes import SHAFT_CLEARANCE
 from gearlink.core.remedies.ways import can_be_built, greatest_length
@@ -75,10 +74,9 @@ def sync_length(design: FlatbedPress) -> Check:
         text = f"the zone is {length:.6g} mm long; no print_length is given"
         return codes.SYNC_LENGTH.check("pass", text, length, 0.0, "mm")
     if design.spec.sync.end is None:
-        remedy = f"set sync.length to at least {asked:g} mm and a margin"
+        remedy = "raise sync.length"
     else:
-        needed = math.degrees(zone_end(design.motion.cylinder, design.motion.sync_start, asked))
-        remedy = f"set sync.end to at least {safely_above(needed, 6)} deg, or leave it out and give sync.length"
+        remedy = "raise sync.end, or leave it out and give sync.length"
     return codes.SYNC_LENGTH.below(length, asked, asked, "mm", "the cylinder's travel in the zone", remedy)
 
 

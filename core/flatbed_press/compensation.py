@@ -16,7 +16,7 @@ from gearlink.core.cams.laws import Law
 from gearlink.core.errors import NoSolution
 from gearlink.core.flatbed_press.chains import BedChain, CylinderChain, Travel, difference
 from gearlink.core.numerics.roots import bracketed_root, maximum
-from gearlink.core.report import safely_above, safely_below
+from gearlink.core.report import safely_below
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
@@ -217,8 +217,8 @@ class Compensation:
         begin, start, end = self.cam_sync_start - self.lead_in, self.cam_sync_start, self.cam_sync_end
         if not self.transition_end > end:
             least = math.degrees(end)
-            farther = f"set cam.transition_end above {safely_above(least, 6)} deg, the farther the flatter the cam"
-            remedy = farther if end < _TURN else "shorten the zone"
+            remedy = "put cam.transition_end behind it, the farther the flatter the cam"
+            remedy = remedy if end < _TURN else "shorten the zone"
             raise NoSolution(
                 f"the transition ends at cam angle {math.degrees(self.transition_end):.6g} deg, but the synchronous "
                 f"zone only at {least:.6g} deg: {remedy}",

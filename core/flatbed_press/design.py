@@ -87,6 +87,7 @@ class FlatbedPress(WithExtremes, SliderCrankQuantities, GearQuantities, Design):
     extreme_names = _EXTREMES
     motion_extremes: dict[str, float] = placed("motion.extremes")
     extra_tables = ("chains", "drawing", "candidates")
+    requirements = Design.requirements | {"sync.print_length"}
     trials = 30
     candidates, ways_of = remedies.candidates, remedies.ways_of
 

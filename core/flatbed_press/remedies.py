@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.cams.checks import HUB, ROLLER_SHARE
 from gearlink.core.errors import NoSolution
+from gearlink.core.flatbed_press.zone import zone_end
 from gearlink.core.remedies.ways import REFUSAL, Way, at_least, at_most, down, either, left_out, refusal_ways, up
 
 if TYPE_CHECKING:
@@ -52,7 +53,15 @@ def candidates(design: FlatbedPress, check: str) -> Iterator[Remedy]:
 
 
 def _length(design: FlatbedPress) -> Iterator[Remedy]:
-    yield (("sync.length", design.spec.sync.print_length),)
+    """A zone as long as the print, by its length or its end; last a print as long as the zone."""
+    sync, motion = design.spec.sync, design.motion
+    if sync.end is None:
+        yield (("sync.length", sync.print_length),)
+    else:
+        end = math.degrees(zone_end(motion.cylinder, motion.sync_start, sync.print_length))
+        yield (("sync.end", at_least(end, 0.5)),)
+        yield ("sync.length", sync.print_length), ("sync.end", None)
+    yield (("sync.print_length", at_most(motion.zone_length)),)
 
 
 def _pressure(design: FlatbedPress) -> Iterator[Remedy]:

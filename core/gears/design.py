@@ -33,6 +33,7 @@ _LOWER = down("addendum", step=0.01)
 
 _RACK_BACK = 2.0
 """Modules of a rack below its root line where the file names no rim."""
+_DEEPER = tuple(up(f"{tool}.addendum", step=0.01) for tool in ("tool", "tool[0]", "tool[1]", "cutter"))
 _WIDER = (up("face_width", step=1.0), Way(("face_width[0]", "face_width[1]"), 1.0))
 _THINNER = tuple(Way((f"allowances.upper[{gear}]", f"allowances.lower[{gear}]"), -0.005) for gear in (0, 1))
 
@@ -44,8 +45,8 @@ def _ways(*teeth: Way) -> dict[str, tuple[Way, ...]]:
         "contact-ratio": (*_SHIFTS, up("addendum", step=0.01), *teeth, *_ANGLE),
         "involute-interference": (*_SHIFTS, _LOWER, *teeth, *_ANGLE),
         "tooth-form": (*_SHIFTS, _LOWER, *teeth, *_ANGLE),
-        "root-clearance": (up("clearance", step=0.01),),
-        "fillet-interference": (*_SHIFTS, _LOWER, *teeth),
+        "root-clearance": (up("clearance", step=0.01), *_DEEPER),
+        "fillet-interference": (*_SHIFTS, _LOWER, *teeth, *_DEEPER),
         "tip-fouling": (*_SHIFTS, _LOWER, *teeth, *_ANGLE),
         "radial-assembly": (*_SHIFTS, _LOWER, *teeth, *_ANGLE),
         "backlash": (*_THINNER, *either("center_distance", step=0.01), *_SHIFTS),

@@ -97,6 +97,8 @@ class Bench:
 
     def warnings_left(self, remedy: Remedy, found: Check, index: int) -> tuple[str, ...]:
         """The checks that warn after a remedy: its own, and those that passed before."""
+        if min(self._grade(remedy, found.name, index), self._grade_elsewhere(remedy)) >= PASSES:
+            return ()
         trial = self._trials[remedy]
         assert trial is not None
         left = warned(self._commands, self._before, trial)

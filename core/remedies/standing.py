@@ -46,22 +46,24 @@ class Standing:
         return self._ranks[check]
 
     def stands(self, command: str) -> bool:
-        """Whether the design is not refused to a command."""
+        """Whether the design is not refused to a command, nor to one of its checks."""
         if command not in self._stands:
-            self._stands[command] = self.design is not None and _exists(self.design, command)
+            self._stands[command] = self._exists(command)
         return self._stands[command]
+
+    def _exists(self, command: str) -> bool:
+        try:
+            if self.design is not None:
+                self.design.require(command)
+                for name in self.checks(command):
+                    self.ranks(name)
+        except NoSolution:
+            return False
+        return self.design is not None
 
     def checks(self, command: str) -> tuple[str, ...]:
         """The checks that a command shows."""
         return () if self.design is None else self.design.outline(command).checks
-
-
-def _exists(design: Design, command: str) -> bool:
-    try:
-        design.require(command)
-    except NoSolution:
-        return False
-    return True
 
 
 def own_grade(before: Standing, now: Standing, check: str, index: int) -> int:
@@ -85,7 +87,8 @@ def warned(commands: Iterable[str], before: Standing, now: Standing) -> dict[str
     """The checks of which a change leaves a warning that was not there."""
     commands = tuple(commands)
     shown = dict.fromkeys(name for command in commands if now.stands(command) for name in now.checks(command))
-    return {name: None for name in shown if _against(_known(name, commands, before), now.ranks(name)) < PASSES}
+    bad = (name for name in shown if any(now.ranks(name)))
+    return {name: None for name in bad if _against(_known(name, commands, before), now.ranks(name)) < PASSES}
 
 
 def _left_of(command: str, commands: tuple[str, ...], before: Standing, now: Standing) -> int:

@@ -10,7 +10,7 @@ from gearlink.core.report import Remedy
 from gearlink.core.spec_paths import number_at, numbers_at, step_of, unit_at
 
 _GROWTH = 1.35
-_FARTHEST, _LEAST_STEPS = 3.0, 30
+_FARTHEST, _LEAST_STEPS, _FINE = 3.0, 30, 200
 REFUSAL = "refusal"
 """Name under which a design gives candidates where it is refused."""
 
@@ -145,9 +145,9 @@ def refusal_ways(spec: Any, key: str) -> Iterator[Way]:
 
 
 def counts(most: int) -> Iterator[int]:
-    """1, 2, 3, 4, 6, 8, ... and `most`."""
+    """1, 2, 3, 4, 6, 8, ... and `most`; of many steps of a fine grid the second is half a hundredth of them."""
     count = 1
     while count < most:
         yield count
-        count = max(count + 1, int(count * _GROWTH))
+        count = max(count + 1, int(count * _GROWTH), most // _FINE)
     yield most

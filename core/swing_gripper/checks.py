@@ -267,6 +267,7 @@ def lift_off(design: SwingGripper) -> Check:
     if left <= reserve and reserve > 0.0:
         text += f", and {reserve:g} N m are to remain"
     if status != "pass":
-        remedy = design.closure.spring_remedy(1.21 * worst.value + reserve)
+        # of a check that fails the value is tried, and said behind
+        remedy = design.closure.spring_remedy(1.21 * worst.value + reserve, tells=status == "warn")
         text += f": {remedy} for a tenth of speed in reserve, or lower the speed"
     return codes.LIFT_OFF.check(status, text, speed, design.spec.speed, "sheets/h")

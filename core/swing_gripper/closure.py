@@ -71,11 +71,11 @@ class Closure:
         """Preload that gives the spring a torque [N]."""
         return (self.spring.preload or 0.0) + (torque - self.closing_torque) / self._levers.lever
 
-    def spring_remedy(self, torque: float) -> str:
-        """What gives the spring a torque [N m], rounded up."""
+    def spring_remedy(self, torque: float, *, tells: bool) -> str:
+        """What gives the spring a torque [N m], rounded up; where it `tells`, by its value."""
         if self.spring.torque is not None:
-            return f"raise spring.torque to {safely_above(torque, 4)} N m"
-        return f"raise spring.preload to {safely_above(self.preload_for(torque), 4)} N"
+            return f"raise spring.torque{f' to {safely_above(torque, 4)} N m' if tells else ''}"
+        return f"raise spring.preload{f' to {safely_above(self.preload_for(torque), 4)} N' if tells else ''}"
 
     @cached_property
     def lift_sense(self) -> int:
@@ -83,10 +83,10 @@ class Closure:
         sense = self._lift_sense(self.cams.main_cam)
         if self.cams.return_cam is not None and self._lift_sense(self.cams.return_cam) == sense:
             arm = math.degrees(math.remainder(_angle(self.cams.from_pivot / self.cams.main_arm), 2.0 * math.pi))
-            way = "above" if arm > 0.0 else "below"
+            way = "less" if arm > 0.0 else "more"
             raise NoSolution(
-                "both rollers lie on the same side of the cam, so a spring that closes one lifts the other: set "
-                f"cam.return_roller.angle {way} {arm:.4g} deg, where its arm has passed the cam axis",
+                "both rollers lie on the same side of the cam, so a spring that closes one lifts the other: "
+                f"cam.return_roller.angle is {way} than {arm:.4g} deg, at which its arm passes the cam axis",
                 key="cam.return_roller.angle",
             )
         return sense

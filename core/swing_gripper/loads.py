@@ -165,11 +165,10 @@ class GripperLoads(CamLoadsDesign):
     @property
     def closing_remedy(self) -> str:
         """What presses the rollers harder."""
-        closure = self.design.closure
-        if self.spec.spring is None:
+        spring = self.spec.spring
+        if spring is None:
             return "give spring: {torque: N m}"
-        worst = max(extreme.value for extreme in closure.worst_unloading)
-        return closure.spring_remedy(max(worst * 1.25, closure.closing_torque * 1.01))
+        return f"raise spring.{'torque' if spring.torque is not None else 'preload'}"
 
     def kinematics(self, phi: Reals) -> Mechanism:
         """The links at cylinder angles, in the machine's frame."""

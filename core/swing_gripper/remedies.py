@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.cams.checks import HUB, ROLLER_SHARE
 from gearlink.core.errors import NoSolution
-from gearlink.core.remedies.ways import REFUSAL, Way, at_least, at_most, down, either, refusal_ways, up
+from gearlink.core.remedies.ways import REFUSAL, Way, at_least, at_most, down, either, refusal_ways, shared
 
 if TYPE_CHECKING:
     from gearlink.core.report import Remedy
@@ -23,7 +23,10 @@ _WAYS = {
     "transmission-angle": _LINKAGE,
     "conditioning": _LINKAGE,
     "handover": (down("release.window"),),
-    "pressure-angle": (up("phases.accelerate", step=0.5),),
+    "pressure-angle": (
+        shared("phases.return", "phases.near_dwell", step=1.0)[0],
+        shared("phases.decelerate", "phases.far_dwell", step=1.0)[0],
+    ),
     "lift-off": either("cam.return_roller.angle", step=1.0),
 }
 _QUIET = {"accelerate": "velocity-345", "decelerate": "velocity-345", "return": "modified-sine"}
@@ -87,6 +90,19 @@ def _pressure(design: SwingGripper) -> Iterator[Remedy]:
             yield _point("cam.center", design.cams.center_for(0.99 * limit, refined=False), 1)
         except NoSolution:
             continue
+    yield from _longer_acceleration(design)
+
+
+def _longer_acceleration(design: SwingGripper) -> Iterator[Remedy]:
+    """More of the dwell before it, with the handover as far behind."""
+    phases = design.spec.phases
+    for more in (5.0, 10.0, 20.0, 30.0):
+        if more < phases.near_dwell:
+            yield (
+                ("phases.accelerate", phases.accelerate + more),
+                ("phases.near_dwell", phases.near_dwell - more),
+                ("handover", design.spec.handover + more),
+            )
 
 
 def _rollers(design: SwingGripper) -> Iterator[Remedy]:

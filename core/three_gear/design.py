@@ -60,6 +60,7 @@ WAYS = {
         up("gears.idler", step=1),
         *either("momentary.eccentricity"),
         down("gears.crank", step=1),
+        down("gears.output", step=1),
         *_TEETH,
     ),
     "dwell-tolerance": tuple(down(key, step=0.01) for key in ("dwell_tolerance", "dwell.tolerance", "dwell_backlash")),

@@ -287,12 +287,13 @@ def test_base_radius_below_the_dip_of_the_lead_in_breaks_the_constant_sum():
 
 def test_print_longer_than_the_zone_fails_and_the_advice_repairs():
     short = press(sync={"length": 300.0, "print_length": 320.0})
-    (check,) = short.check("sync-length")
+    (check,) = short.findings("press", "sync-length")
     assert (check.code, check.status, check.value, check.limit) == ("GL502", "fail", pytest.approx(300.0), 320.0)
-    assert "at least 320 mm" in check.message
+    assert check.remedy == (("sync.length", 320.0),)
     by_end = press(sync={"end": 100.0, "print_length": 320.0})
-    (check,) = by_end.check("sync-length")
-    end = float(re.search(r"sync\.end to at least ([\d.]+) deg", check.message)[1])
+    (check,) = by_end.findings("press", "sync-length")
+    ((key, end),) = check.remedy
+    assert key == "sync.end"
     assert status(press(sync={"end": end, "print_length": 320.0}), "sync-length") == ["pass"]
 
 

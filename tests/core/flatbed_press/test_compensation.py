@@ -391,7 +391,7 @@ def test_bed_and_cylinder_move_together_in_the_zone():
 
 def test_transition_must_end_after_the_zone():
     lift = follower(TY460, transition_end=116.0)
-    with pytest.raises(NoSolution, match=r"116 deg.*116\.534 deg.*above 116\.535 deg") as refusal:
+    with pytest.raises(NoSolution, match=r"116 deg.*116\.534 deg: put cam\.transition_end behind it") as refusal:
         _ = lift.segments
     assert refusal.value.key == "cam.transition_end"
     assert follower(TY460, transition_end=116.535).segments
