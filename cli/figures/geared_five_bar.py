@@ -42,11 +42,21 @@ def draw(command: str, design: GearedFiveBar) -> Figure:
     if command == "gear":
         from gearlink.cli.figures.gears.mesh import Mesh, mesh_figure
 
-        return mesh_figure(title, [Mesh(signed_pair(mesh), label.replace("_", "-")) for label, mesh in meshes])
+        named = zip(meshes, _gears(design), strict=True)
+        return mesh_figure(title, [Mesh(signed_pair(mesh), name.replace("_", "-"), two) for (name, mesh), two in named])
     if design.is_path:
         return linkage.sheet(title, design, path_mechanism, _WORDS, [_coordinates, _velocity, _transmission, _span])
     error = [_structural_error] if design.wanted is not None else []
     return linkage.sheet(title, design, function_mechanism, _WORDS, [_function, *error, _span])
+
+
+def _gears(design: GearedFiveBar) -> list[tuple[str, str]]:
+    """The names of both gears of each mesh, as on the mechanism; a ring is the second."""
+    if not design.is_path:
+        return [("2", "5" if design.spec.gears.ring is None else "ring")]
+    if design.spec.gears.idler is not None:
+        return [("1", "idler"), ("idler", "4")]
+    return [("4", "1") if design.signed_teeth[0] < 0 else ("1", "4")]
 
 
 def path_mechanism(axes: Axes, design: GearedFiveBar) -> None:
@@ -137,9 +147,10 @@ def _structural_error(axes: Axes, design: GearedFiveBar) -> None:
     for side in (1.0, -1.0):
         words = f"±{greatest:.3g}°" if side > 0.0 else None
         axes.axhline(side * greatest, color=style.GREY, linewidth=0.9, linestyle=style.DASHED, label=words)
-    for place in design.structural_error_at or ():
-        axes.axvline(math.degrees(place), color=style.GREY, linewidth=0.6, linestyle=style.DOTTED)
-    panels.legend_above(axes, 2)
+    for i, place in enumerate(design.structural_error_at or ()):
+        look: Any = {"color": style.GREY, "linewidth": 0.6, "linestyle": style.DOTTED}
+        axes.axvline(math.degrees(place), **look, label=None if i else "greatest")
+    panels.legend_above(axes, 3)
 
 
 def _span(axes: Axes, design: GearedFiveBar) -> None:

@@ -180,10 +180,13 @@ def _deflection(axes: Axes, design: LoadsDesign) -> None:
     phi = np.linspace(0.0, design.machine.period, max(721, vibrating.rows(design.machine.period)))
     axes.axhline(0.0, color=style.BLACK, linewidth=0.8)
     axes.plot(np.degrees(phi), vibrating.deflection(phi), color=style.PURPLE, linewidth=1.2)
+    words: str | None = "dwell"
     for start, width in design.dwell_zones:
         for turn in (-1, 0):
             low = math.degrees(start + turn * design.machine.period)
-            axes.axvspan(low, low + math.degrees(width), color=style.LIGHT, linewidth=0, zorder=0)
+            axes.axvspan(low, low + math.degrees(width), color=style.LIGHT, linewidth=0, zorder=0, label=words)
+            words = None
+    panels.legend_above(axes, 1)
 
 
 def _pin(axes: Axes, design: LoadsDesign, name: str) -> None:

@@ -88,6 +88,7 @@ def _colored(axes: Axes, points: Any, values: Any, title: str) -> None:
     from matplotlib.collections import LineCollection
 
     panels.drawing(axes, title)
+    panels.few_ticks(axes.xaxis, 4)
     axes.set_title(title, loc="left", fontsize=9, fontweight="bold")
     xy = np.column_stack((points.real, points.imag))
     pieces, level = np.stack((xy[:-1], xy[1:]), axis=1), 0.5 * (values[:-1] + values[1:])

@@ -33,7 +33,7 @@ def draw(design: RegisterDesign) -> Figure:
 def _signs(design: RegisterDesign) -> list[tuple[str, Budget]]:
     """The budgets to draw, each with its name: one where the flank does not matter."""
     one, other = design.budgets
-    return [("", one)] if one.rows == other.rows else [(" torque +1", one), (" torque -1", other)]
+    return [("", one)] if one.rows == other.rows else [(" torque +1", one), (" torque −1", other)]
 
 
 def _stretch(axes: Axes, design: RegisterDesign) -> None:
@@ -49,14 +49,16 @@ def _stretch(axes: Axes, design: RegisterDesign) -> None:
     if design.section.tolerance is not None:
         limit = design.section.tolerance
         axes.axhline(limit, color=style.RED, linewidth=1.2, linestyle=style.CHAIN, label="allowed")
+    words: str | None = "torque turns"
     for flip in design.flips or ():
         place = math.degrees(flip)
         place += 360.0 * math.ceil((degrees[0] - place) / 360.0)
         if place <= degrees[-1]:
-            axes.axvline(place, color=style.GREY, linewidth=1.0, linestyle=style.DOTTED, label="torque turns")
+            axes.axvline(place, color=style.GREY, linewidth=1.0, linestyle=style.DOTTED, label=words)
+            words = None
     axes.set_xlim(degrees[0], degrees[-1])
     _in_time(axes, design)
-    axes.set_ylim(0.0, None)
+    _from_zero(axes)
     panels.legend_under_heading(axes, f"Over the {design.place}, relative to its start", 4)
 
 
@@ -75,8 +77,10 @@ def _along(axes: Axes, design: RegisterDesign) -> None:
             axes.plot(degrees, cost[name], color=color, linestyle=line, label=name if line == "-" else None)
     axes.set_xlim(degrees[0], degrees[-1])
     _in_time(axes, design)
-    axes.set_ylim(0.0, None)
-    panels.legend_under_heading(axes, "By source, each at its limit", 3)
+    _from_zero(axes)
+    shown = f", the {len(_COLORS)} greatest of {len(order)}" if len(order) > len(_COLORS) else ""
+    dashed = "; dashed: torque −1" if len(costs) > 1 else ""
+    panels.legend_under_heading(axes, f"By source, each at its limit{shown}{dashed}", 3)
 
 
 def _cycle(axes: Axes, design: RegisterDesign) -> None:
@@ -93,8 +97,13 @@ def _cycle(axes: Axes, design: RegisterDesign) -> None:
         axes.plot(degrees[here], band[here], color=style.BLUE, linestyle=line, label=f"99.73 %{name}")
     style.full_turn(axes)
     _in_time(axes, design)
-    axes.set_ylim(0.0, None)
+    _from_zero(axes)
     panels.legend_under_heading(axes, "Over the cycle, absolute", 4)
+
+
+def _from_zero(axes: Axes) -> None:
+    """The y axis from 0 to a little above what is drawn."""
+    axes.set_ylim(0.0, 1.05 * axes.dataLim.y1 or None)
 
 
 def _in_time(axes: Axes, design: Any) -> None:

@@ -70,7 +70,7 @@ def _dimensions(axes: Axes, design: SliderCrankDesign, near: complex, far: compl
     if spec.offset:
         level = 1.25 * crank
         feet = (complex(-spec.offset, level), complex(0.0, level))
-        style.dimension(axes, *feet, f"offset {spec.offset:.6g} mm", from_points=(near, 0j))
+        style.dimension(axes, *feet, f"offset {style.number(spec.offset, scale=0.0)} mm", from_points=(near, 0j))
 
 
 # The motion
@@ -96,9 +96,9 @@ def motion(travel: Axes, velocity: Axes, design: SliderCrankDesign) -> None:
         axes.set_xticks(range(0, 361, 60))
         axes.margins(y=0.15)
     _phases(travel, folded, extended, design.slider_crank.stroke)
-    for pick, above in ((np.argmax, True), (np.argmin, False)):
-        i = int(pick(speed))
-        panels.extreme(velocity, float(degrees[i]), float(speed[i]), above=above, unit=" mm/rad")
+    for turning, above in zip(design.fastest, (True, False), strict=True):
+        place = math.degrees(turning.place) % 360.0
+        panels.extreme(velocity, place, turning.value, above=above, unit=" mm/rad")
 
 
 def _phases(axes: Axes, folded: float, extended: float, stroke: float) -> None:

@@ -92,7 +92,8 @@ def _histogram(axes: Axes, study: ToleranceStudy, name: str) -> None:
 
 def _headline(study: ToleranceStudy, name: str) -> str:
     spread = study.result.spreads[name]
-    return f"{name}: sigma {spread.sigma.value:.3g}"
+    unit = study.units[name]
+    return f"{name}: sigma {style.number(spread.sigma.value, 3, scale=0.0)} {unit}".removesuffix(" 1")
 
 
 def _contributions(axes: Axes, study: ToleranceStudy, name: str) -> None:

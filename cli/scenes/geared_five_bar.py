@@ -48,6 +48,7 @@ def _path_scene(design: GearedFiveBar, fraction: Reals) -> Scene:
     c = np.array([close_dyad(*pins, bar.coupler, bar.follower, bar.assembly) for pins in ends])
     m, path = (np.array([bar.point(angle, offset) for angle in angles.tolist()]) for angles in (phi, whole))
     a, e = track(0.0, fraction), track(bar.frame, fraction)
+    apart = bool(abs(offset - bar.coupler) > 1e-9)
     plate = Body(
         outline=np.array([0.0, bar.coupler, offset, 0.0]),
         place=b,
@@ -64,7 +65,10 @@ def _path_scene(design: GearedFiveBar, fraction: Reals) -> Scene:
             Chain(joints=(a, b, c, d, e)),
             Chain(joints=(m,), color=GREEN),
         ),
-        marks=(*letters("AE", A=a, B=b, C=c, D=d, E=e), Mark(m, "M" if abs(offset - bar.coupler) > 1e-9 else "")),
+        marks=(
+            *letters("AE", **{"A": a, "B": b, "C" if apart else "C, M": c, "D": d, "E": e}),
+            *([Mark(m, "M")] * apart),
+        ),
         chart=Chart(
             "input angle [deg]",
             "coupler point M [mm]",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
@@ -35,6 +36,8 @@ _LEGEND: dict[str, Any] = {
 _NAME_SIZE = 7.5
 _BESIDE = 60.0
 """Points that numbers and words beside a panel take."""
+_LETTERS, _WIDE_LETTERS = 70, 45
+"""Letters of a title's line: of Latin script, and of any."""
 _LINE = 112
 """Characters of a legend that fill the width of a page."""
 
@@ -57,7 +60,8 @@ class Phase:
 def page(title: str, share: float = 1.0) -> Figure:
     """A figure as wide as a page, and as high as a share of it."""
     width, height = _A4
-    made = style.figure(width, share * height, fill(title.replace("$", r"\$"), 70))
+    letters = _LETTERS if title.isascii() else _WIDE_LETTERS
+    made = style.figure(width, share * height, fill(title.replace("$", r"\$"), letters))
     engine: Any = made.get_layout_engine()
     across, up = style.MARGIN / width, style.MARGIN / (share * height)
     engine.set(rect=(across, up, 1.0 - 2.0 * across, 1.0 - 2.0 * up), w_pad=0.03, h_pad=0.05)
@@ -99,9 +103,10 @@ def legend_above(axes: Axes, columns: int = 5) -> None:
     """The legend above the right end of the panel, outside the curves; below the heading where they would meet."""
     labels = axes.get_legend_handles_labels()[1]
     title = str(axes.get_title(loc="left"))
+    room = _LINE * _share_of_page(axes)
+    columns = next((n for n in range(columns, 1, -1) if _width_of_legend(labels, n) <= room), 1)
     rows = max(1, math.ceil(len(labels) / columns))
-    widest = sum(max(len(label) for label in labels[i : i + rows]) + 9 for i in range(0, len(labels), rows))
-    if title and 1.4 * len(title) + widest > _LINE * _share_of_page(axes):
+    if title and 1.4 * len(title) + _width_of_legend(labels, columns) > room:
         axes.set_title(title, loc="left", fontsize=9, fontweight="bold", pad=17.0 + 12.0 * (rows - 1))
     axes.legend(
         loc="lower right",
@@ -109,6 +114,13 @@ def legend_above(axes: Axes, columns: int = 5) -> None:
         ncols=columns,
         **_LEGEND,
     )
+
+
+def _width_of_legend(labels: Sequence[str], columns: int) -> int:
+    """Characters across a legend in so many columns, the first of them longer by one, its lines and gaps counted."""
+    rows, longer = divmod(len(labels), columns)
+    ends = [column * rows + min(column, longer) for column in range(columns + 1)]
+    return sum(max(len(label) for label in labels[i:j]) + 9 for i, j in pairwise(ends) if i < j)
 
 
 def _share_of_page(axes: Axes) -> float:

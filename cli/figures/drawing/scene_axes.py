@@ -19,6 +19,8 @@ _POINTS = 0.68
 """Width of a line in points for a pixel of its width in a film."""
 _REACH, _REACH_POINTS = 0.042, 11.5
 """Distance of letters from their points, in sizes of the drawing and in points."""
+_SHORT = 5
+"""Letters that go into a circle: of more it would be as large as a gear."""
 
 
 AHEAD = 1e-5
@@ -143,7 +145,8 @@ def _words(axes: Axes, shown: Scene) -> None:
     labelled = [part for part in shown.parts if isinstance(part, Body) and part.label]
     for body, shift in zip(labelled, on, strict=True):
         at = complex(body.place[0]) + shift
-        box = {"boxstyle": "circle,pad=0.2", "facecolor": "white", "edgecolor": body.color, "linewidth": 1.2}
+        shape = "circle,pad=0.2" if len(body.label) <= _SHORT else "round,pad=0.3"
+        box = {"boxstyle": shape, "facecolor": "white", "edgecolor": body.color, "linewidth": 1.2}
         look: dict[str, Any] = {"fontsize": 8, "ha": "center", "va": "center", "zorder": 6}
         axes.text(at.real, at.imag, body.label, bbox=box if body.pitch else None, **look)
 

@@ -24,6 +24,8 @@ MARGIN = 8.0 / 25.4
 GRID = 0.6
 """Width of the lines of a grid."""
 _TITLE = 12
+_SHORT = 40
+"""Characters of a title's line that the page has room for, however wide they are."""
 DASHED: Any = (0, (5, 3))
 DOTTED: Any = (0, (1, 2))
 LONG: Any = (0, (6, 1.8))
@@ -58,9 +60,12 @@ def place_title(made: Figure) -> None:
     title = made._suptitle  # type: ignore[attr-defined]
     if title is None:
         return
-    height = made.get_figheight()
+    width, height = made.get_size_inches()
     top = 1.0 - MARGIN / height
     title.set(y=top, va="top")
+    if max(len(line) for line in title.get_text().split("\n")) > _SHORT:
+        reach = title.get_window_extent().width / made.dpi / (width - 2.0 * MARGIN)
+        title.set_fontsize(_TITLE / max(1.0, reach))
     rows = title.get_text().rstrip("\n").count("\n") + 1
     for text in made.texts:
         if text.get_gid() == "fails":

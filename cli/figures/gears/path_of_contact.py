@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Protocol
 
-from gearlink.cli.figures.drawing import style
+from gearlink.cli.figures.drawing import panels, style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -37,6 +37,7 @@ def zone_frame(axes: Axes, pitch: complex, wide: float, high: float, names: tupl
     axes.set_xlim(pitch.real - wide, pitch.real + wide)
     axes.set_ylim(-high, high)
     axes.set_aspect("equal", adjustable="box")
+    panels.few_ticks(axes.xaxis, 5)
     for name, side, align in zip(names, (-0.94, 0.94), ("left", "right"), strict=True):
         axes.text(pitch.real + side * wide, -0.93 * high, name, color=style.BLACK, fontsize=8, ha=align)
 

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gearlink.cli.figures.drawing import panels, style, time_axes
+from gearlink.core.numerics.extremes import extremes_over
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -21,6 +22,12 @@ if TYPE_CHECKING:
 _TURN = 2.0 * math.pi
 _COLORS = (style.BLUE, style.GREEN, style.PURPLE, style.RED)
 _NAMES = ("place", "velocity", "acceleration", "jerk")
+_NEAR = 0.02
+"""Of the height of a curve: by so much a hump of its points may lie below the highest and be the extreme."""
+_EQUAL = 1e-11
+"""Of the height of a curve: what differs by less is equal."""
+_FEW = 9
+"""Points between a place and those beside it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,19 +36,54 @@ class Course:
 
     name : what moves; over : label of the x axis
     x : (N,) array [deg]
-    rates : place and its derivatives by the input angle, as many as are known [unit, unit/rad, ...]
+    at : place and its derivatives by the input angle at such places, as many as are known [unit, unit/rad, ...]
     unit : "mm" or "rad"; places in rad are shown in degrees
     speed : of the input [rad/s], None where it is not known
-    bands : stretches with a name and a colour [deg]
+    bands : stretches with a name and a colour [deg]; derivatives may jump where they end
+    rates : what `at` gives at x
     """
 
     name: str
     over: str
     x: Reals
-    rates: tuple[Reals, ...]
+    at: Callable[[Reals], tuple[Reals, ...]]
     unit: str
     speed: float | None = None
     bands: tuple[panels.Phase, ...] = ()
+    rates: tuple[Reals, ...] = field(init=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "rates", self.at(self.x))
+
+    def extreme(self, order: int, *, greatest: bool) -> tuple[float, float]:
+        """Place [deg] and value of an extreme of a rate: the first of equal ones, and the start of a plateau.
+
+        A jump counts with the values on both sides of it.
+        """
+        sign = 1.0 if greatest else -1.0
+        values = sign * self.rates[order]
+        top, height = float(values.max()), float(np.ptp(values))
+        joints = tuple(phase.end for phase in self.bands)
+        best = -math.inf, 0.0
+        for i in np.flatnonzero(_humps(values) & (values >= top - _NEAR * height)).tolist():
+            low, high = self._beside(i)
+
+            def rate(x: Reals) -> Reals:
+                return np.asarray(self.at(x)[order])
+
+            found = extremes_over([(rate, greatest)], low, high, joints=joints, samples=_FEW, fewest=_FEW)[0]
+            value, place = float(values[i]), float(self.x[i])
+            if sign * found.value > value + _EQUAL * height:
+                value, place = sign * found.value, found.place
+            if value > best[0] + _EQUAL * height:
+                best = value, place
+        return best[1], sign * best[0]
+
+    def _beside(self, i: int) -> tuple[float, float]:
+        """A little beyond the neighbours of a place, which lie within the course."""
+        step = 1.01 * float(self.x[1] - self.x[0])
+        place = float(self.x[i])
+        return max(place - step, float(self.x[0])), min(place + step, float(self.x[-1]))
 
 
 def courses(design: Any) -> list[Course]:
@@ -80,10 +122,11 @@ def _panel(axes: Axes, course: Course, order: int, *, last: bool) -> None:
         axes.axhline(0.0, color=style.GREY, linewidth=0.6)
     axes.plot(course.x, values, color=_COLORS[order], linewidth=1.6, gid=f"{_NAMES[order]}-{course.name}")
     if order and np.isfinite(values).all():
-        for pick, above in ((np.argmax, True), (np.argmin, False)):
-            i = int(pick(values))
-            if i not in (0, len(values) - 1) or abs(values[i]) > 1e-9 * np.ptp(values):  # a rest at an end is seen
-                panels.extreme(axes, *_vertex(course.x, values, i), above=above)
+        for greatest in (True, False):
+            place, value = course.extreme(order, greatest=greatest)
+            at_end = place in (float(course.x[0]), float(course.x[-1]))
+            if not at_end or abs(value) > 1e-9 * np.ptp(values):  # a rest at an end is seen
+                panels.extreme(axes, place, value, above=greatest)
         axes.margins(y=0.2)
     if order:
         measure, scale = ("m", 1e-3) if course.unit == "mm" else ("rad", 1.0)
@@ -92,16 +135,10 @@ def _panel(axes: Axes, course: Course, order: int, *, last: bool) -> None:
         time_axes.in_ms(axes, 1e3 * math.radians(1.0) / course.speed)
 
 
-def _vertex(x: Reals, y: Reals, i: int) -> tuple[float, float]:
-    """An extreme between the points of a smooth curve, by the parabola through three; at a corner the point itself."""
-    if not 0 < i < len(y) - 1:
-        return float(x[i]), float(y[i])
-    left, middle, right = (float(value) for value in y[i - 1 : i + 2])
-    bend = left - 2.0 * middle + right
-    if bend == 0.0 or max(abs(left - middle), abs(right - middle)) > 0.01 * float(np.ptp(y)):
-        return float(x[i]), middle
-    shift = 0.5 * (left - right) / bend
-    return float(x[i]) + shift * float(x[i + 1] - x[i]), middle - 0.25 * (left - right) * shift
+def _humps(values: Reals) -> Any:
+    """Whether a value is no less than those beside it."""
+    beyond = np.concatenate([[-math.inf], values, [-math.inf]])
+    return (values >= beyond[:-2]) & (values >= beyond[2:])
 
 
 def _per_angle(course: Course, order: int) -> str:
@@ -123,111 +160,146 @@ def _angles() -> Reals:
 def _three_gears(design: Any) -> list[Course]:
     from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
 
-    train, x = design.train, _angles()
-    state = fourbar_sweep.solve(design.linkage, np.radians(x), 3)
+    train, linkage = design.train, design.linkage
     p, q = train.coupler_share, train.rocker_share
-    start = fourbar_sweep.solve(design.linkage, np.zeros(1))
-    coupler, rocker = state.coupler_angle - start.coupler_angle, state.rocker_angle - start.rocker_angle
-    rates = (
-        train.ratio * np.radians(x) + p * coupler + q * rocker,
-        train.ratio + p * state.coupler_velocity + q * state.rocker_velocity,
-        p * state.coupler_acceleration + q * state.rocker_acceleration,
-        p * state.coupler_jerk + q * state.rocker_jerk,
-    )
-    speed = design.angular_speed
-    rocking = (state.rocker_angle, state.rocker_velocity, state.rocker_acceleration, state.rocker_jerk)
-    over = "crank angle [deg]"
-    return [Course("Output gear 5", over, x, rates, "rad", speed), Course("Rocker CD", over, x, rocking, "rad", speed)]
+    start = fourbar_sweep.solve(linkage, np.zeros(1))
+
+    def output(x: Reals) -> tuple[Reals, ...]:
+        state = fourbar_sweep.solve(linkage, np.radians(x), 3)
+        coupler, rocker = state.coupler_angle - start.coupler_angle, state.rocker_angle - start.rocker_angle
+        return (
+            train.ratio * np.radians(x) + p * coupler + q * rocker,
+            train.ratio + p * state.coupler_velocity + q * state.rocker_velocity,
+            p * state.coupler_acceleration + q * state.rocker_acceleration,
+            p * state.coupler_jerk + q * state.rocker_jerk,
+        )
+
+    def rocking(x: Reals) -> tuple[Reals, ...]:
+        state = fourbar_sweep.solve(linkage, np.radians(x), 3)
+        return state.rocker_angle, state.rocker_velocity, state.rocker_acceleration, state.rocker_jerk
+
+    x, speed, over = _angles(), design.angular_speed, "crank angle [deg]"
+    return [Course("Output gear 5", over, x, output, "rad", speed), Course("Rocker CD", over, x, rocking, "rad", speed)]
 
 
 def _planets(design: Any) -> list[Course]:
-    x, drive = _angles(), design.drive
+    drive = design.drive
     kinds: tuple[Callable[[float], float], ...] = (drive.angle, drive.speed, drive.acceleration, drive.jerk)
-    rates = tuple(np.array([rate(phi) for phi in np.radians(x).tolist()]) for rate in kinds)
-    return [Course("Output gear 5", "crank angle [deg]", x, rates, "rad", design.angular_speed)]
+
+    def rates(x: Reals) -> tuple[Reals, ...]:
+        return tuple(np.array([rate(phi) for phi in np.radians(x).tolist()]) for rate in kinds)
+
+    return [Course("Output gear 5", "crank angle [deg]", _angles(), rates, "rad", design.angular_speed)]
 
 
 def _slider_crank(design: Any) -> list[Course]:
     from gearlink.core.linkages.slider_crank import sweep as slider_crank_sweep
 
-    x, part = _angles(), design.slider_crank
-    rates = slider_crank_sweep.slider(np.radians(x), part.crank_length, part.rod, part.offset, 3)
-    places = (rates[0] - rates[0].min(), *rates[1:])
-    return [Course("Slider F", "crank angle [deg]", x, places, "mm", design.angular_speed)]
+    part = design.slider_crank
+    x = _angles()
+    nearest = slider_crank_sweep.slider(np.radians(x), part.crank_length, part.rod, part.offset, 0)[0].min()
+
+    def rates(x: Reals) -> tuple[Reals, ...]:
+        depth, *others = slider_crank_sweep.slider(np.radians(x), part.crank_length, part.rod, part.offset, 3)
+        return depth - nearest, *others
+
+    return [Course("Slider F", "crank angle [deg]", x, rates, "mm", design.angular_speed)]
 
 
 def _press(design: Any) -> list[Course]:
-    x, speed = _angles(), design.input_speed
-    phi = np.radians(x)
     zone = (panels.Phase("sync", math.degrees(design.sync_start), math.degrees(design.sync_end)),)
-    found = []
-    for name, chain in (("Bed", design.bed), ("Cylinder surface", design.cylinder)):
-        travel = chain.travel(phi, 2)
-        rates = (travel.value, travel.first, travel.second, chain.jerk(phi))
-        found.append(Course(name, "input angle [deg]", x, rates, "mm", speed, zone))
-    return found
+
+    def of(chain: Any) -> Callable[[Reals], tuple[Reals, ...]]:
+        def rates(x: Reals) -> tuple[Reals, ...]:
+            phi = np.radians(x)
+            travel = chain.travel(phi, 2)
+            return travel.value, travel.first, travel.second, chain.jerk(phi)
+
+        return rates
+
+    over, speed = "input angle [deg]", design.input_speed
+    chains = (("Bed", design.bed), ("Cylinder surface", design.cylinder))
+    return [Course(name, over, _angles(), of(chain), "mm", speed, zone) for name, chain in chains]
 
 
 def _gripper(design: Any) -> list[Course]:
     from gearlink.core.swing_gripper.law import PHASES
 
-    x = np.arange(1441) * 0.25
-    rates = tuple(np.asarray(rate) for rate in design.law.evaluate(np.minimum(x, 360.0 - 1e-9), 3))
+    def rates(x: Reals) -> tuple[Reals, ...]:
+        return tuple(np.asarray(rate) for rate in design.law.evaluate(np.minimum(x, 360.0 - 1e-9), 3))
+
     starts = design.law.starts
-    named = zip(PHASES, starts, starts[1:], strict=False)
-    phases = tuple(panels.Phase(name, start, end) for name, start, end in named)
+    phases = tuple(panels.Phase(*each) for each in zip(PHASES, starts, starts[1:], strict=False))
+    x = np.unique(np.concatenate([np.arange(1441) * 0.25, np.nextafter(starts[1:], 0.0)]))
     return [Course("Gripper arm", "cylinder angle [deg]", x, rates, "rad", design.shaft_speed, phases)]
 
 
 def _hypocycloid(design: Any) -> list[Course]:
-    table = design.table("motion", samples=720)
-    data = dict(zip(table.columns, table.data, strict=True))
-    x = np.append(np.asarray(data["carrier_angle"]), 360.0)
-    # The table counts the deviation inwards, velocities along the slide.
-    curves = (-np.asarray(data["deviation"]), np.asarray(data["velocity"]), np.asarray(data["acceleration"]))
-    rates = tuple(np.append(curve, curve[:1]) for curve in curves)
-    return [Course("Slider F, outwards", "carrier angle [deg]", x, rates, "mm", getattr(design, "angular_speed", None))]
+    slider = design.slider
+    kinds: tuple[Callable[[float], float], ...] = (slider.deviation, slider.speed, slider.acceleration)
+
+    def rates(x: Reals) -> tuple[Reals, ...]:
+        angles = [math.remainder(angle, _TURN) for angle in np.radians(x).tolist()]
+        deviation, *others = (np.array([rate(angle) for angle in angles]) for rate in kinds)
+        return -deviation, *others  # it counts inwards, velocities along the slide
+
+    speed = getattr(design, "angular_speed", None)
+    return [Course("Slider F, outwards", "carrier angle [deg]", _angles(), rates, "mm", speed)]
 
 
 def _five_bar(design: Any) -> list[Course]:
+    from gearlink.core.five_bar.path import sweep
+
     if not design.is_path or design.period_turns != 1:
         return []
-    table = design.table("path", samples=720)
-    data = dict(zip(table.columns, table.data, strict=True))
-    x = np.append(np.asarray(data["input_angle"]), 360.0)
-    found = []
-    for axis in ("x", "y"):
-        names = (axis, f"{axis}_velocity", f"{axis}_acceleration")
-        rates = tuple(np.append(np.asarray(data[name]), data[name][0]) for name in names)
-        speed = getattr(design, "angular_speed", None)
-        found.append(Course(f"Point M, {axis}", "input angle [deg]", x, rates, "mm", speed))
-    return found
+
+    def of(part: Callable[[Any], Reals]) -> Callable[[Reals], tuple[Reals, ...]]:
+        def rates(x: Reals) -> tuple[Reals, ...]:
+            found = sweep(design.path_bar, np.radians(x), design.offset)
+            return part(found.point), part(found.velocity), part(found.acceleration)
+
+        return rates
+
+    speed = getattr(design, "angular_speed", None)
+    axes = (("x", np.real), ("y", np.imag))
+    return [Course(f"Point M, {name}", "input angle [deg]", _angles(), of(part), "mm", speed) for name, part in axes]
 
 
 def _wide_swing(design: Any) -> list[Course]:
     """The rocker over its working stroke, and the slider that it drives."""
     motion = design.motion
     law, angle, swing = motion.law, motion.cycle_angle, motion.swing
-    k = np.linspace(0.0, 1.0, 721)
-    x, speed = math.degrees(angle) * k, angle / motion.working_time
-    has_jerk = design.spec.slider is None
-    found = law.invariants(k, 3 if has_jerk else 2)
-    rates = tuple(swing * rate / angle**order for order, rate in enumerate(found))
-    shown = [Course("Rocker, working stroke", "cam angle [deg]", x, rates, "rad", speed)]
-    if not has_jerk:
-        slider = motion.slider
-        moved = tuple(slider.stroke * r / angle**order for order, r in enumerate(slider.slider_invariants(k)))
-        shown.append(Course("Slider", "cam angle [deg]", x, moved, "mm", speed))
+    x, speed = math.degrees(angle) * np.linspace(0.0, 1.0, 721), angle / motion.working_time
+    slider: Any = motion.slider if design.spec.slider is not None else None
+
+    def fraction(x: Reals) -> Reals:
+        return np.minimum(x / math.degrees(angle), 1.0)
+
+    def rocking(x: Reals) -> tuple[Reals, ...]:
+        found = law.invariants(fraction(x), 2 if slider is not None else 3)
+        return tuple(swing * rate / angle**order for order, rate in enumerate(found))
+
+    def sliding(x: Reals) -> tuple[Reals, ...]:
+        found = slider.slider_invariants(fraction(x))
+        return tuple(slider.stroke * rate / angle**order for order, rate in enumerate(found))
+
+    over = "cam angle [deg]" if design.spec.drive is None else "crank angle [deg]"
+    shown = [Course("Rocker, working stroke", over, x, rocking, "rad", speed)]
+    if slider is not None:
+        shown.append(Course("Slider", over, x, sliding, "mm", speed))
     return shown
 
 
 def _six_bar(design: Any) -> list[Course]:
     course = design.course
     x = np.linspace(math.degrees(course.start), math.degrees(course.end), 720 * (course.period_turns or 1) + 1)
-    phi = np.radians(x)
-    _, *rates = course.rates(phi)
-    output = (design.output(phi), *(rate[3] for rate in rates))
-    return [Course("Output link EF", "input angle [deg]", x, output, "rad", design.angular_speed)]
+
+    def rates(x: Reals) -> tuple[Reals, ...]:
+        phi = np.clip(np.radians(x), course.start, course.end)
+        _, *found = course.rates(phi)
+        return design.output(phi), *(rate[3] for rate in found)
+
+    return [Course("Output link EF", "input angle [deg]", x, rates, "rad", design.angular_speed)]
 
 
 _KINDS: dict[str, Callable[[Any], list[Course]]] = {

@@ -38,35 +38,52 @@ def draw(design: Any) -> Figure:
     axes.set_yticks([])
     axes.spines["polar"].set_visible(False)
     axes.grid(color=style.LIGHT, linewidth=0.6)
-    for i, ring in enumerate(rings):
-        _ring(axes, ring, _INNER + _STEP * (len(rings) - 1 - i))
+    narrow = [
+        phase for i, ring in enumerate(rings) for phase in _ring(axes, ring, _INNER + _STEP * (len(rings) - 1 - i))
+    ]
     top = _INNER + _STEP * len(rings)
     axes.set_ylim(0.0, top)
     for words, degrees in marks:
         angle = math.radians(degrees)
         axes.plot([angle, angle], [_INNER, top], color=style.RED, linewidth=1.4, label=f"{words}, {degrees:.5g}°")
+    for phase in narrow:
+        axes.bar(
+            0.0, 0.0, color=_tint(phase), edgecolor=style.GREY, linewidth=0.8, label=f"{phase.name}, {_limits(phase)}"
+        )
     axes.plot([], [], " ", label=f"angle: {over}, clockwise from the top")
     axes.plot([], [], " ", label="rings from outside: " + ", ".join(ring.name for ring in rings))
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.05), frameon=False, fontsize=8)
     return made
 
 
-def _ring(axes: Axes, ring: Ring, bottom: float) -> None:
-    """The stretches of a ring with their names and limits."""
+def _ring(axes: Axes, ring: Ring, bottom: float) -> list[panels.Phase]:
+    """The stretches of a ring with their names and limits; those that are too narrow for their names are returned."""
+    narrow = []
     for phase in ring.stretches:
         start, width = math.radians(phase.start), math.radians(phase.end - phase.start)
-        color = PHASE_TINTS.get(phase.name) or _STROKES[phase.name]
-        axes.bar(start, 0.92 * _STEP, width, bottom, align="edge", color=color, edgecolor=style.GREY, linewidth=0.8)
+        look: dict[str, Any] = {"color": _tint(phase), "edgecolor": style.GREY, "linewidth": 0.8}
+        axes.bar(start, 0.92 * _STEP, width, bottom, align="edge", **look)
         if width * (bottom + 0.5 * _STEP) > 0.13 * len(phase.name):
             _name(axes, phase, start + 0.5 * width, bottom + 0.46 * _STEP)
+        elif width > 0.0:
+            narrow.append(phase)
     _name(axes, panels.Phase(ring.name, 0.0, 0.0), 0.0, bottom + 0.46 * _STEP, strong=True)
+    return narrow
+
+
+def _tint(phase: panels.Phase) -> str:
+    return PHASE_TINTS.get(phase.name) or _STROKES[phase.name]
+
+
+def _limits(phase: panels.Phase) -> str:
+    return f"{phase.start % 360.0:.4g}–{phase.end % 360.0:.4g}°"
 
 
 def _name(axes: Axes, phase: panels.Phase, angle: float, radius: float, *, strong: bool = False) -> None:
     """A name along its ring; of a stretch with where it starts and ends."""
     degrees = math.degrees(angle) % 360.0
     turned = -degrees if degrees <= 90.0 or degrees >= 270.0 else 180.0 - degrees
-    words = phase.name if strong else f"{phase.name}\n{phase.start % 360.0:.4g}–{phase.end % 360.0:.4g}°"
+    words = phase.name if strong else f"{phase.name}\n{_limits(phase)}"
     look: dict[str, Any] = {"fontsize": 7.0, "ha": "center", "va": "center", "zorder": 7, "rotation_mode": "anchor"}
     if strong:
         look |= {"fontsize": 7.5, "fontweight": "bold", "path_effects": style.outlined()}
@@ -85,7 +102,7 @@ def _press(design: Any) -> tuple[list[Ring], list[tuple[str, float]], str]:
     ]
     if design.spec.cam is not None:
         rings.append(Ring("cams", tuple(_at_input(design, segment) for segment in design.follower.segments)))
-    return rings, [("print begins", sync[0]), ("print ends", sync[1])], "input"
+    return rings, [("zone begins", sync[0]), ("zone ends", sync[1])], "input"
 
 
 def _at_input(design: Any, segment: Any) -> panels.Phase:

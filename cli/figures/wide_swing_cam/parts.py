@@ -217,12 +217,13 @@ def curvature_panel(axes: Axes, design: WideSwingDesign) -> None:
     axes.set_yscale("log")
     powers_of_ten(axes.yaxis)
     k = np.linspace(0.0, 1.0, 1001)[1:-1]
-    k = k[k != 0.5]
+    k, greatest = k[k != 0.5], 0.0
     for (words, cam), color in zip(design.cams.items(), (style.BLUE, style.GREEN), strict=False):
         radius, least = cam.points(k).curvature_radius * (1.0 if is_external(cam) else -1.0), ""
         if design.has_zone(cam):
             least = f", ≥ {cam.min_curvature_radius:.4g} mm"
             radius = np.where([any(low <= at <= high for low, high in cam.contact) for at in k], radius, np.nan)
+        greatest = max(greatest, float(np.abs(radius).max(where=np.isfinite(radius), initial=0.0)))
         axes.plot(k, np.where(radius > 0.0, radius, np.nan), color=color, linewidth=1.6, label=words + least)
         failing.past(axes, k, radius, (radius > 0.0) & (radius <= cam.roller_radius), f"{words}, undercut")
         if (radius < 0.0).any():
@@ -231,5 +232,5 @@ def curvature_panel(axes: Axes, design: WideSwingDesign) -> None:
     _zone(axes, design)
     roller = design.section.roller_radius
     axes.axhline(roller, color=style.RED, linewidth=1.0, linestyle=_DASHED, label=f"roller radius {roller:g} mm")
-    axes.set_ylim(0.3 * roller, 100.0 * design.section.center_distance)
+    axes.set_ylim(0.3 * roller, min(100.0 * design.section.center_distance, 3.0 * max(greatest, 10.0 * roller)))
     panels.legend_under_heading(axes, "Curvature radius of the pitch curve")

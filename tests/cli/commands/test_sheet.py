@@ -56,6 +56,46 @@ def test_jerk_of_the_gripper_joins_its_acceleration() -> None:
         assert np.abs(grown - (lower - lower[0])).max() < jumps + 1e-4 * np.abs(lower).max()
 
 
+@pytest.mark.parametrize("name", ["candy_feed", "ring_feed", "drawn_feed"])
+def test_marked_extremes_are_those_of_the_analysis(name: str) -> None:
+    """A parabola through points half a degree apart had missed their places by up to 0.003 deg."""
+    made = design(worked(name))
+    course = motion_sheet.courses(made)[0]
+    for order, found in ((1, made.speed_extremes), (2, made.acceleration_extremes)):
+        for greatest, place, value in (
+            (True, found.greatest_angle, found.greatest),
+            (False, found.least_angle, found.least),
+        ):
+            at, marked = course.extreme(order, greatest=greatest)
+            assert marked == pytest.approx(value, rel=1e-12)
+            assert at == pytest.approx(
+                math.degrees(place) % 360.0, abs=2e-5
+            )  # the root of eps times the curve's height
+
+
+def test_extremes_of_a_bed_are_its_quantities() -> None:
+    made = design(worked("ty460"))
+    course = motion_sheet.courses(made)[0]
+    for side, greatest in (("max", True), ("min", False)):
+        place, value = course.extreme(1, greatest=greatest)
+        quantity = made.quantity(f"bed_velocity_{side}")
+        assert value * made.input_speed == pytest.approx(quantity.value, rel=1e-10)
+        assert place == pytest.approx(made.quantity(f"bed_velocity_{side}_at").value, abs=1e-4)
+
+
+def test_extremes_at_joints_of_a_law() -> None:
+    """A plateau is marked where it begins; a modified sine is steepest an eighth of its rise from each end; a jump
+    counts with the value before it."""
+    (course,) = motion_sheet.courses(design(worked("swing_gripper")))
+    assert course.extreme(1, greatest=True)[0] == pytest.approx(100.0, abs=1e-6)
+    assert course.extreme(2, greatest=True)[0] == pytest.approx(275.0, abs=1e-5)
+    assert course.extreme(2, greatest=False)[0] == pytest.approx(185.0, abs=1e-5)
+    place, value = course.extreme(3, greatest=True)
+    start = float(course.rates[3][np.searchsorted(course.x, 112.0)])
+    assert place == pytest.approx(162.0, abs=1e-9)
+    assert value == pytest.approx(-start, rel=1e-9), "half a cycloidal rise ends as it begins"
+
+
 def test_time_is_on_the_right_in_si() -> None:
     made = design(worked("ty460"))
     figure = motion_sheet.draw(made)

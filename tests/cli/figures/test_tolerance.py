@@ -84,3 +84,20 @@ def test_lines_along_the_zone_are_the_sources_at_their_limits() -> None:
     for line in named:
         one = gains[line.get_label()]
         assert np.asarray(line.get_ydata()) == pytest.approx(one.limit * np.abs(one.gain - one.gain[0]))
+
+
+def test_a_register_sheet_says_each_thing_once_and_what_it_leaves_out() -> None:
+    _, figure = sheet("candy_feed_tolerances", "register")
+    titles = [axes.get_title(loc="left") for axes in figure.axes]
+    assert "By source, each at its limit, the 6 greatest of 7; dashed: torque −1" in titles
+    _, figure = sheet("ring_feed_tolerances", "register")
+    named = [text.get_text() for axes in figure.axes if axes.get_legend() for text in axes.get_legend().get_texts()]
+    assert named.count("torque turns") == 1
+    assert "By source, each at its limit" in [axes.get_title(loc="left") for axes in figure.axes]
+    for axes in figure.axes[:3]:
+        assert axes.get_ylim()[1] > 1.04 * max(float(np.max(line.get_ydata())) for line in axes.lines[:2])
+
+
+def test_a_spread_has_its_unit() -> None:
+    _, figure = sheet("candy_feed_tolerances", "tolerance", **SMALL)
+    assert any(axes.get_title(loc="left").endswith(" deg") for axes in figure.axes)
