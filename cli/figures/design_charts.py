@@ -75,7 +75,7 @@ def _label(axis: Axis) -> str:
 def _curve_label(chart: DesignChart, value: float) -> str:
     assert chart.parameter is not None, "asked for curves alone"
     unit = "°" if chart.parameter.unit == "deg" else ""
-    return f"{chart.parameter.symbol} = {value:g}{unit}"
+    return f"{chart.parameter.symbol} = {style.number(value)}{unit}"
 
 
 def _mark(axes: Axes, marked: Marked) -> None:

@@ -73,9 +73,9 @@ def function_mechanism(axes: Axes, design: GearedFiveBar) -> None:
     """Links at the first input angle, lightly at the last; the planet and the fixed gear."""
     scene = build(design, np.array([0.0, 0.5]))
     first, other = scene.readouts[0].values
-    panels.heading(axes, f"Mechanism at input angle {first:.5g}°")
+    panels.heading(axes, f"Mechanism at input angle {style.number(first, 5)}°")
     scene_axes.draw(axes, scene, ahead=build(design, np.array([scene_axes.AHEAD])))
-    scene_axes.lightly(axes, scene, 1, name=f"input angle {other:.5g}°")
+    scene_axes.lightly(axes, scene, 1, name=f"input angle {style.number(other, 5)}°")
 
 
 def _coordinates(axes: Axes, design: GearedFiveBar) -> None:

@@ -50,9 +50,9 @@ def mechanism(axes: Axes, design: GearedSixBar) -> None:
     """Links and gears at the start, lightly half a loop later."""
     scene = build(design, np.array([0.0, 0.5]))
     first, other = scene.readouts[0].values
-    panels.heading(axes, f"Mechanism at input angle {first:.5g}°")
+    panels.heading(axes, f"Mechanism at input angle {style.number(first, 5)}°")
     scene_axes.draw(axes, scene, ahead=build(design, np.array([scene_axes.AHEAD])))
-    scene_axes.lightly(axes, scene, 1, name=f"input angle {other:.5g}°")
+    scene_axes.lightly(axes, scene, 1, name=f"input angle {style.number(other, 5)}°")
 
 
 def _curve(axes: Axes, design: GearedSixBar, name: str, ylabel: str, order: int) -> None:

@@ -93,7 +93,19 @@ def _keys(node: Any, path: str = "") -> Iterator[tuple[str, str]]:
         for i, item in enumerate(node):
             yield from _keys(item, f"{path}[{i}]")
     elif node is not None and node != []:
-        yield path, str(node)
+        yield path, _as_written(node)
+
+
+def _as_written(value: Any) -> str:
+    """A value as a design file has it.
+
+    Example
+        >>> _as_written(["right", "left"]), _as_written(True), _as_written(20.0)
+        ('[right, left]', 'true', '20.0')
+    """
+    if isinstance(value, list | tuple):
+        return f"[{', '.join(map(_as_written, value))}]"
+    return str(value).lower() if isinstance(value, bool) else str(value)
 
 
 def _results(report: Report) -> Iterator[str]:

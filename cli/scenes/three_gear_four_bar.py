@@ -59,9 +59,11 @@ def build(design: ThreeGearFourBar, fraction: Reals) -> Scene:
 
 
 def _bands(design: ThreeGearFourBar) -> tuple[Band, ...]:
-    """The dwell within a tolerance where there is one, else the dwell phi13, and the back-step."""
-    found = []
-    if design.tolerance_dwell is not None:
+    """The dwell within a tolerance; phi13 where the file asks for that angle, or there is no other; the back-step."""
+    found, wish = [], design.spec.dwell
+    by_angle = wish is not None and wish.angle is not None
+    by_angle &= design.spec.dwell_tolerance is None and design.spec.dwell_backlash is None
+    if design.tolerance_dwell is not None and not by_angle:
         start, width = design.tolerance_dwell.start, design.tolerance_dwell.crank_angle
         found.append(("dwell", math.degrees(start), math.degrees(start + width), DWELL))
     elif design.back_step is not None and design.dwell_angle is not None:

@@ -81,7 +81,7 @@ def _torques(axes: Axes, design: SwingGripper) -> None:
             continue
         values = np.asarray(column[f"contact_torque_{name}"])
         least = int(values.argmin())
-        words = f"{name} roller, ≥ {values[least]:.4g} N m"
+        words = f"{name} roller, ≥ {style.number(values[least], 4)} N m"
         axes.plot(column["theta"], values, color=color, linewidth=1.6, linestyle=line, label=words)
         axes.plot([column["theta"][least]], [values[least]], "o", color=color, markersize=4.5)
     spring = design.spec.spring

@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from sweeps import ALL
 
 from gearlink.cli.exit_codes import ExitCode
+from gearlink.cli.page import sections
 from gearlink.cli.render.numbers import thinning
 from gearlink.core.report import Table
 
@@ -110,3 +111,9 @@ def test_sheets_drawn_side_by_side_are_the_same(
         assert gearlink("report", designs / "two_gear_drag_link.yaml", "--out", out, "-q").status in (0, 1)
         pages.append((out / "two-gear-drag-link.html").read_bytes())
     assert pages[0] == pages[1]
+
+
+def test_keys_in_force_are_written_as_in_a_file() -> None:
+    """Lists and truth values had been Python's: ['right', 'left'], False."""
+    rows = dict(sections._keys({"hand": ["right", "left"], "sobol": False, "teeth": (23, 71), "own": {"width": 20.0}}))
+    assert rows == {"hand": "[right, left]", "sobol": "false", "teeth": "[23, 71]", "own.width": "20.0"}

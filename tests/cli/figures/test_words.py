@@ -14,6 +14,7 @@ from gearlink.cli.figures.drawing import panels, style
 from gearlink.cli.figures.geared_five_bar import _gears
 from gearlink.cli.figures.sheets import cam_sheets, motion_sheet, timing_sheet
 from gearlink.cli.figures.write import fonts_of
+from gearlink.cli.scenes import three_gear_four_bar
 from gearlink.cli.scenes.geared_five_bar import build
 from gearlink.core.gears.outline.mesh_phase import signed_pair
 
@@ -163,3 +164,21 @@ def test_a_long_label_of_a_gear_is_no_disc_over_the_mechanism() -> None:
 def test_a_negative_offset_has_a_true_minus_sign() -> None:
     _, figure = sheet("ty460_slider_crank", "crank", offset=-50.0)
     assert "offset −50 mm" in words(figure)
+
+
+@pytest.mark.parametrize(("name", "command"), [("candy_feed", "synth dwell"), ("standing_feed", "synth dwell")])
+def test_the_film_calls_the_same_stretch_a_dwell_as_the_sheet(name: str, command: str) -> None:
+    """Asked for by its angle, a dwell had been longer in the film: that within a tolerance that nobody asked for."""
+    made = design(worked(name), command=command)
+    chart = three_gear_four_bar.build(made, np.zeros(1)).chart
+    (band,) = [band for band in chart.bands if band.name == "dwell"]
+    if made.spec.dwell.angle is not None:
+        start, width = made.back_step.start, made.dwell_angle
+    else:
+        start, width = made.tolerance_dwell.start, made.tolerance_dwell.crank_angle
+    assert (band.start, band.end) == pytest.approx((math.degrees(start) % 360.0, math.degrees(start + width)), abs=1e-9)
+
+
+def test_least_contact_torques_have_a_true_minus_sign() -> None:
+    _, figure = sheet("swing_gripper", "gripper", speed=60000)
+    assert not [text for text in labels(panel(figure, "Torques")) if "-" in text]

@@ -61,6 +61,19 @@ def test_report_fits_and_its_film_is_in_view(window: Browser, pages: Path, width
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize(("width", "columns"), [(1280, 2), (390, 1)])
+def test_keys_in_force_fill_the_width(window: Browser, pages: Path, width: int, columns: int) -> None:
+    """The table had stood in the left half alone, its keys broken within words."""
+    window.size(width, 900)
+    window.open(pages / "candy-feed.html")
+    rows = "Array.from(document.querySelectorAll('.keys tr')).map(row => row.getBoundingClientRect().left)"
+    assert len(set(window.run(f"return {rows}"))) == columns
+    heights = "Array.from(document.querySelectorAll('.keys tr')).map(row => row.getBoundingClientRect().height)"
+    found = window.run(f"return {heights}")
+    assert max(found) < 1.5 * min(found), "each key in one line"
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize(("width", "height"), [(1280, 900), (390, 700), (800, 420)])
 def test_player_needs_no_scrolling(window: Browser, pages: Path, width: int, height: int) -> None:
     window.size(width, height)
