@@ -328,8 +328,7 @@ class LoadsBase(Design):
     @property
     def input_power_peak(self) -> float:
         """Greatest input power [W]."""
-        speed = self.machine.speed
-        return max(self.input_torque_max * speed, self.input_torque_min * speed)
+        return max(self.input_torque_max * self.machine.speed, self.input_torque_min * self.machine.speed)
 
     @cached_property
     def torque_reversals(self) -> int:

@@ -265,7 +265,7 @@ def _corner_in_rack(rack: RackMesh, noise: float) -> CornerGap | None:
     """The cut of the gear's tip corner into the rounding of the rack; None where there is none."""
     from gearlink.core.gears.rack.tip_corner import CornerInRack
 
-    corner = CornerInRack(rack)
+    corner = CornerInRack(rack.pair, rack.center_distance, rack.end_depth)
     near = corner.deepest > rack.form_depth and rack.pair.tool(1).rounding_center(rack.pair.pressure_angle) >= 0.0
     return corner.least if near and corner.least.gap < noise else None
 

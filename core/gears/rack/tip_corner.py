@@ -15,8 +15,8 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from gearlink.core.gears.mesh.pair import GearPair
 from gearlink.core.gears.mesh.tip_corner import CornerGap, least_gap, near_of, places_towards
-from gearlink.core.gears.rack.mesh import RackMesh
 from gearlink.core.results import cached_property
 
 
@@ -25,18 +25,22 @@ class CornerInRack:
     """The corner of a gear's tip beside the root rounding of its rack.
 
     Parameters
-        rack : RackMesh - contact ends on the flank of the rack
+        pair : GearPair - gear 1 is the gear, the tool of gear 2 the rack's; contact ends on the flank of the rack
+        center_distance : float [mm] - from the axis to the datum line
+        end_depth : float [mm] - how far below the datum line contact ends
     Notes
         The limit of a wheel with ever more teeth; compared with drawn teeth that are turned in mesh.
     Source
         own derivation: the corner's path while the reference circle rolls on the pitch line
     """
 
-    rack: RackMesh
+    pair: GearPair
+    center_distance: float
+    end_depth: float
 
     @cached_property
     def _gap(self) -> Callable[[float], float]:
-        pair = self.rack.pair
+        pair = self.pair
         m, across, tip, r = (
             pair.module,
             pair.module / math.cos(pair.helix_angle),
@@ -44,7 +48,7 @@ class CornerInRack:
             pair.reference_radius[0],
         )
         at_end = pair.transverse_pressure_angle - pair.tip_pressure_angle[0]
-        depth = self.rack.end_depth / m
+        depth = self.end_depth / m
         start = across * (math.pi / 4.0 - depth * math.tan(pair.pressure_angle)) + tip * math.sin(at_end) - r * at_end
 
         def gap(normal: float) -> float:
@@ -61,17 +65,17 @@ class CornerInRack:
     @property
     def deepest(self) -> float:
         """How far below the datum line the tip comes, r_a - r - x m [mm]."""
-        return self.rack.pair.tip_radius[0] - self.rack.center_distance
+        return self.pair.tip_radius[0] - self.center_distance
 
     def _rounding(self, normal: float) -> tuple[float, float]:
         """Place of the rounding beside the middle of the space and below the datum line, in the normal section [m]."""
-        angle, tool = self.rack.pair.pressure_angle, self.rack.pair.tool(1)
+        angle, tool = self.pair.pressure_angle, self.pair.tool(1)
         beside = max(0.0, tool.rounding_center(angle)) + tool.rounding * math.sin(normal)
         return beside, tool.addendum - tool.rounding * (1.0 - math.cos(normal))
 
     @cached_property
     def least(self) -> CornerGap:
         """The least gap along the rack, and how far below the datum line [mm]."""
-        module, end = self.rack.pair.module, math.pi / 2.0 - self.rack.pair.pressure_angle
+        module, end = self.pair.module, math.pi / 2.0 - self.pair.pressure_angle
         gap, place = least_gap(self._gap, places_towards(0.0, end), near_of(module))
         return CornerGap(gap, module * self._rounding(place)[1])

@@ -67,7 +67,7 @@ def test_the_least_gap_is_that_of_drawn_teeth_turned_in_mesh(count: int) -> None
         try:
             rack = random_rack(rng)
             on_flank = rack.pair.tip_thickness[0] > 0.0 and rack.form_depth >= rack.end_depth
-            corner = CornerInRack(rack)
+            corner = CornerInRack(rack.pair, rack.center_distance, rack.end_depth)
             if not on_flank or not 0.0 < rack.tip_clearance[0] < 0.25 or corner.deepest <= rack.form_depth:
                 continue
             near, drawn = corner.least.gap, rolled(rack)
