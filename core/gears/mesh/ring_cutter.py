@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import cmath
 import math
 from dataclasses import dataclass
+from typing import Any, cast
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.gears.mesh.pitch_pair import PitchPair
@@ -138,15 +138,17 @@ class ShapedRing:
         which passes the pitch point. Where that lies beyond the centre the cutter turns the other way from the root
         circle to the flank.
         """
-        z0, z2 = self.cutter.teeth, -self.teeth
+        z0, z2, fn = self.cutter.teeth, -self.teeth, self.mesh.fn
         a0, radius = -self.mesh.center_distance, self._rounding_center
-        beside, sense = self._half_angle_of_center, math.copysign(1.0, self._turned_to_flank)
+        beside, sense = self._half_angle_of_center, fn.copysign(1.0, self._turned_to_flank)
         turn = sense * turn - (1.0 - sense) * beside
         axis = turn * z0 / z2
-        center = a0 * cmath.exp(-1j * axis) + radius * cmath.exp(1j * (turn - axis + beside))
-        pitch = (a0 + a0 * z0 / (z2 - z0)) * cmath.exp(-1j * axis)
-        normal = sense * (center - pitch) or center  # a centre on the pitch point leaves its own arc
-        return center + self.module * self.cutter.rounding * normal / abs(normal)
+        back = fn.turn(-axis)
+        center = a0 * back + radius * fn.turn(turn - axis + beside)
+        normal, where = sense * (center - (a0 + a0 * z0 / (z2 - z0)) * back), cast(Any, fn.where)
+        normal = where(normal == 0.0, center, normal)  # a centre on the pitch point leaves its own arc
+        point: complex = center + self.module * self.cutter.rounding * normal / abs(normal)
+        return point
 
     @cached_property
     def _turned_to_flank(self) -> float:

@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
 
-from gearlink.core.gears.mesh.tip_corner import CornerPath, TipCorner, near_of, places_towards
+from gearlink.core.gears.mesh.tip_corner import TipCorner, near_of, places_towards
+from gearlink.core.results import cached_property
+
+_GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0
+_FEW = 512
+"""Pairs of which none is left out: what they share is known already."""
+_ROUNDS = 40
+"""Of a golden section: the place to the root of a rounding, the gap to rounding."""
 
 
 @dataclass(frozen=True)
@@ -27,29 +35,83 @@ class TipCorners(TipCorner):
         Parameters
             judged : (N,) array - pairs whose contact ends on the flank; of others nothing is said
         """
-        near = judged & self.comes_near
-        if not self.pair.internal:
-            near = near & ~self.stays_in_tool
+        near = self._leaves_tool(judged)
+        if not near.any():
+            return near
+        some, places = self._those(near)
+        gaps = some._gaps(some._steps)
         found = np.zeros(near.shape, dtype=bool)
-        places = np.flatnonzero(near)
-        if places.size:
-            found[places] = self._pass_valleys(places, near.shape)
-        return found
+        found[places] = some._valleys(gaps).any(axis=0) | (gaps[0] < 0.0)
+        return found & near
 
-    def _pass_valleys(self, places: Any, shape: tuple[int, ...]) -> Any:
-        def part(value: Any) -> Any:
-            return np.broadcast_to(value, shape)[places]
+    def least_gaps(self, judged: Any) -> Any:
+        """`TipCorner.least` of each pair that is judged [mm]; infinite where the corner stays in the tool."""
+        near, found = self._leaves_tool(judged), np.full(judged.shape, np.inf)
+        if near.any():
+            some, places = self._those(near)
+            found[places] = some._least_gaps
+        return np.where(near, found, np.inf)
 
-        fn, *way = self.path
-        path, module = CornerPath(fn, *map(part, way)), part(self.pair.module)
-        root: Any = self.pair.cut_root(self.gear)  # a RackCutRoots
-        root = root.part(places)
-        steps = np.array(places_towards(0.0, root.end_normal))
-        radius, beside = root.polar(steps.reshape(len(steps), -1))
-        radius = module * radius
-        squared = path.squared(radius)
+    @property
+    def _least_gaps(self) -> Any:
+        gaps = self._gaps(self._steps)
+        valleys = self._valleys(gaps)
+        if not valleys.any():
+            return gaps.min(axis=0)
+        steps, depth = np.broadcast_to(self._steps, gaps.shape), np.where(valleys, gaps[1:-1], np.inf)
+        middle, columns = depth.argmin(axis=0) + 1, np.arange(depth.shape[1])
+        within = self._least_between(steps[middle - 1, columns], steps[middle + 1, columns])
+        return np.minimum(gaps.min(axis=0), np.where(valleys.any(axis=0), within, np.inf))
+
+    @cached_property
+    def _steps(self) -> Any:
+        """`places_towards` as rows; of fillets that are all alike one column."""
+        _, start, end = self._fillet
+        places = np.array(places_towards(start, end))
+        return places.reshape(len(places), -1)
+
+    def _gaps(self, places: Any) -> Any:
+        """Gaps along circles [mm]; infinite where no corner comes."""
+        radius, beside = self._fillet[0](places)
+        squared = self.path.squared(radius)
         reached = squared >= 0.0
-        gaps = np.where(reached, path.gap(np.where(reached, squared, 0.0), beside) * radius, np.inf)
+        return np.where(reached, self.path.gap(np.where(reached, squared, 0.0), beside) * radius, np.inf)
+
+    def _valleys(self, gaps: Any) -> Any:
+        """Of the steps between the first and the last, those whose gap is none of its neighbours' more, and near."""
         inside = gaps[1:-1]
-        valleys = (gaps[:-2] >= inside) & (inside <= gaps[2:]) & (inside < near_of(module))
-        return valleys.any(axis=0) | (gaps[0] < 0.0)
+        return (gaps[:-2] >= inside) & (inside <= gaps[2:]) & (inside < near_of(self.pair.module))
+
+    def _least_between(self, low: Any, high: Any) -> Any:
+        """The least gaps between places, by golden section."""
+        one, other = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
+        at_one, at_other = self._gaps(one), self._gaps(other)
+        least = np.minimum(at_one, at_other)
+        for _ in range(_ROUNDS):
+            left = at_one <= at_other
+            low, high = np.where(left, low, one), np.where(left, other, high)
+            middle = np.where(left, high - _GOLDEN * (high - low), low + _GOLDEN * (high - low))
+            at_middle = self._gaps(middle)
+            one, other = np.where(left, middle, other), np.where(left, one, middle)
+            at_one, at_other = np.where(left, at_middle, at_other), np.where(left, at_one, at_middle)
+            least = np.minimum(least, at_middle)
+        return least
+
+    def _leaves_tool(self, judged: Any) -> Any:
+        """Where the corner comes near, and is not known to be in the tool all the way."""
+        near = judged & self.comes_near
+        return near if self.pair.internal else near & ~self.stays_in_tool
+
+    def _those(self, near: Any) -> tuple[TipCorners, Any]:
+        """Corners of pairs that are near, few others among them, and their places."""
+        if near.size < _FEW:
+            return self, slice(None)
+        places = np.flatnonzero(near)
+
+        def part(value: Any) -> Any:
+            if isinstance(value, tuple):
+                return tuple(map(part, value))
+            return np.broadcast_to(value, near.shape)[places] if isinstance(value, np.ndarray) else value
+
+        given = {field.name: part(getattr(self.pair, field.name)) for field in fields(self.pair)}
+        return TipCorners(type(self.pair)(**given), self.gear), places

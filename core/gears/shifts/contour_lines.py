@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.gears.data import GearData
+from gearlink.core.gears.drawing_checks import corner_in_fillet
 from gearlink.core.gears.shifts.candidates import strengths
 
 Value = Callable[[GearData], float | None]
@@ -61,7 +62,8 @@ def _fillet(data: GearData, gear: int) -> float | None:
     form, used = data.pair.form_radius[gear], data.path.used_root_radius[gear]
     if form is None or data.pair.interference_margin[1 - gear] < 0.0:
         return None
-    return used - form
+    corner = corner_in_fillet(data.pair, gear) if used >= form else None
+    return used - form if corner is None else corner.gap
 
 
 def _sliding(data: GearData) -> float | None:

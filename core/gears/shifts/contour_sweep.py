@@ -9,7 +9,9 @@ from typing import Any
 import numpy as np
 
 from gearlink.core.errors import NoSolution
+from gearlink.core.gears.checks import FILLET_NOISE
 from gearlink.core.gears.data import GearData
+from gearlink.core.gears.mesh.tip_corner_sweep import TipCorners
 from gearlink.core.gears.shifts.candidates import strengths
 from gearlink.core.gears.shifts.contour_lines import Line
 from gearlink.core.gears.shifts.data_sweep import GearDatas, shifted
@@ -24,7 +26,9 @@ def _fillet(data: GearDatas, gear: int) -> Any:
     if data.pair.shaped is not None:  # a ring that its cutter cannot shape leaves no fillet to either gear
         shaped: Any = data.pair.form_radius_of(1)
         found = np.where(np.isnan(shaped), np.nan, found)
-    return np.where(data.pair.interference_margin[1 - gear] < 0.0, np.nan, found)
+    found = np.where(data.pair.interference_margin[1 - gear] < 0.0, np.nan, found)
+    corner = TipCorners(data.pair, gear).least_gaps(found >= 0.0)
+    return np.where(corner < -FILLET_NOISE * data.pair.module, corner, found)
 
 
 def _sliding(data: GearDatas) -> Any:

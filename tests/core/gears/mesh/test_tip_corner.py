@@ -171,6 +171,7 @@ def test_many_pairs_are_left_to_the_class_where_a_corner_may_cut() -> None:
         tip="none",
     )
     told = TipCorners(many, 0).may_cut(np.ones(count, dtype=bool))
+    gaps = TipCorners(many, 0).least_gaps(np.ones(count, dtype=bool))
     cuts, in_tool = np.zeros(count, dtype=bool), 0
     for k in range(count):
         one = GearPair(
@@ -186,6 +187,8 @@ def test_many_pairs_are_left_to_the_class_where_a_corner_may_cut() -> None:
         if single.comes_near and single.stays_in_tool:
             in_tool += 1
             assert not cuts[k]
+        if cuts[k]:
+            assert gaps[k] == pytest.approx(single.least.gap, abs=1e-12)
     assert 10 < cuts.sum() <= (told & cuts).sum()
     assert told.sum() < 2 * cuts.sum() + 40
     assert in_tool > 100

@@ -6,6 +6,7 @@ Tolerances: roots to the last bit of x_1, so values vanish to 1e-9 of their own 
 from __future__ import annotations
 
 import json
+import math
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -15,10 +16,11 @@ from sweeps import ALL
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.gears.data import GearData
+from gearlink.core.gears.drawing_checks import corner_in_fillet
 from gearlink.core.gears.mesh.pair import GearPair
 from gearlink.core.gears.shifts import contour as kernel
 from gearlink.core.gears.shifts.contour import BlockingContour
-from gearlink.core.gears.shifts.contour_lines import Line
+from gearlink.core.gears.shifts.contour_lines import Line, value_of
 from gearlink.core.gears.tooth.tools import PinionCutter, RackTool
 
 CASES = json.loads((Path(__file__).parents[3] / "reference" / "gears.json").read_text())["cases"]
@@ -56,6 +58,19 @@ def test_every_point_lies_on_its_line(teeth: tuple[int, int], shift: tuple[float
             value = line.value(data)
             assert value is not None
             assert abs(value) < 1e-6, (line.name, x1, x2)
+
+
+def test_shifts_whose_corners_cut_into_fillets_are_not_free() -> None:
+    """Whole tips at a large shift sum: contact ends on every flank, and a corner cuts beyond it."""
+    pair = GearPair(module=1.0, teeth=(40, 60), given_shift=(0.8, 0.8), tip="none", tools=(RackTool(), RackTool()))
+    found = BlockingContour(GearData(pair=pair))
+    corner = corner_in_fillet(pair, 0)
+    assert corner is not None
+    assert value_of(found.line("fillet 1"), found.placed) == corner.gap < -0.002
+    assert found.data.path.used_root_radius[0] > (pair.form_radius[0] or math.inf)
+    assert not found.is_free(found.placed)
+    shortened = replace(found.placed, pair=replace(found.pair, tip="full"))
+    assert found.is_free(shortened)
 
 
 @pytest.mark.parametrize(
