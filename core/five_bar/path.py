@@ -9,7 +9,7 @@ import numpy as np
 
 from gearlink.core.five_bar.family import near_places
 from gearlink.core.five_bar.path_motion import PathFiveBar
-from gearlink.core.numerics.arrays import Points, Reals
+from gearlink.core.numerics.arrays import Points, Reals, product
 from gearlink.core.numerics.extremes import Extreme, extremes_over
 
 _PER_TURN, _FEW_TURNS, _PER_WAVE = 720, 4, 48
@@ -91,10 +91,10 @@ def _rates(
 ) -> tuple[Points, Points]:
     """Velocity and acceleration of the coupler point, of what `_position` gives."""
     k, b, c = float(bar.ratio), bar.coupler, bar.follower
-    sine, apart = (u2 * np.conj(u3)).imag, 1j * (start - k * (end - bar.frame))
-    w2, w3 = (apart * np.conj(u3)).real / (b * sine), (apart * np.conj(u2)).real / (c * sine)
+    sine, apart = product(u2, np.conj(u3)).imag, 1j * (start - k * (end - bar.frame))
+    w2, w3 = (product(apart, np.conj(u)).real / (length * sine) for u, length in ((u3, b), (u2, c)))
     pull = -start + k * k * (end - bar.frame) - w2 * w2 * b * u2 + w3 * w3 * c * u3
-    a2 = (pull * np.conj(u3)).real / (b * sine)
+    a2 = product(pull, np.conj(u3)).real / (b * sine)
     velocity: Points = 1j * start + 1j * w2 * offset * u2
     acceleration: Points = -start + (1j * a2 - w2 * w2) * offset * u2
     return velocity, acceleration
@@ -108,7 +108,7 @@ def _continuous(bar: PathFiveBar, phi: Reals) -> Reals:
     start, end, u2, _, _ = _position(bar, phi)
     angle, way = np.angle(u2), end - start
     wound = np.concatenate(([0.0], np.cumsum(_windings(bar, phi[:-1], phi[1:]))))
-    turned = np.angle(way[:1]) + wound + np.angle(u2 * np.conj(way))
+    turned = np.angle(way[:1]) + wound + np.angle(product(u2, np.conj(way)))
     turns = np.round((turned - angle) / (2.0 * math.pi))
     return np.asarray(angle + 2.0 * math.pi * (turns - turns[:1]))
 
@@ -123,7 +123,7 @@ def _windings(bar: PathFiveBar, left: Reals, right: Reals) -> Reals:
     first, last = _way(bar, left), _way(bar, right)
     middle = 0.5 * (left + right)
     split = (fastest * (right - left) >= np.abs(first)) & (left < middle) & (middle < right)
-    turned = np.angle(last * np.conj(first))
+    turned = np.angle(product(last, np.conj(first)))
     if np.any(split):
         low, middle, high = left[split], middle[split], right[split]
         halves = _windings(bar, np.concatenate((low, middle)), np.concatenate((middle, high)))

@@ -95,8 +95,7 @@ class LoadsBase(Design):
         if given is None and (given := getattr(self.spec, "input_speed", None)) is None:
             raise MissingSection("`loads` needs the speed of the input: give loads.speed", key="loads.speed")
         if abs(given) < _SLOWEST:
-            message = f"a speed of {given:g} has no loads of motion: give the speed of the input, {_SLOWEST:g} or more"
-            raise NoSolution(message, key="loads.speed")
+            raise NoSolution(f"no loads of motion at speed {given:g}: give {_SLOWEST:g} or more", key="loads.speed")
         return given
 
     @property

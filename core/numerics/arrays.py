@@ -33,6 +33,16 @@ def turn_degrees(samples: int | None = None, turns: int = 1) -> Reals:
     return angles
 
 
+def product(one: Points | complex, other: Points) -> Points:
+    """one other, complex, whose bits do not depend on how many there are.
+
+    Where `other` is a temporary array of 256 KiB or more, numpy computes one * other in its place as other * one,
+    whose imaginary part is rounded otherwise.
+    """
+    found: Points = np.multiply(one, other)
+    return found
+
+
 def turned(angles: Reals) -> tuple[Reals, Reals]:
     """Cosine and sine, to some ulp of 1, by one tangent of half the angle: it costs an eighth of e^(i angle).
 

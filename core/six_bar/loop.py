@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.dyad import close_dyad, require_lengths
-from gearlink.core.numerics.arrays import Points, Reals, turned, units
+from gearlink.core.numerics.arrays import Points, Reals, product, turned, units
 from gearlink.core.results import cached_property
 from gearlink.core.six_bar.relations import LINKS, Row, reduced
 
@@ -156,7 +156,7 @@ class SixBar:
             height = 0.5 * np.sqrt((b + c - n) * (b + c + n) * (n - b + c) * (n + b - c)) / n
             pin = chord / n * (0.5 * (n + (b - c) * (b + c) / n) + 1j * side * height)
         for row, vector, close in zip(rows, (pin, chord - pin), moved, strict=True):
-            angles[row] = close + np.angle(vector * np.exp(-1j * close))
+            angles[row] = close + np.angle(product(vector, np.exp(-1j * close)))
         if not np.isfinite(angles).all():
             raise NoSolution("the six-bar does not close there")
         return angles

@@ -41,11 +41,12 @@ def tip(design: SwingGripper, samples: int | None = None) -> Table:
 
     import numpy as np
 
-    from gearlink.core.numerics.arrays import turn_degrees
+    from gearlink.core.numerics.arrays import product, turn_degrees
 
     degrees, spec, speed = turn_degrees(samples), design.spec, design.motion.shaft_speed
     beta = design.motion.law.evaluate(degrees, 3)
-    arm = spec.arm.length * cmath.exp(1j * math.radians(spec.arm.direction)) * np.exp(1j * spec.swing_sense * beta[0])
+    arm = np.exp(1j * spec.swing_sense * beta[0])
+    arm = product(spec.arm.length * cmath.exp(1j * math.radians(spec.arm.direction)), arm)
     velocity, acceleration = beta[1] * speed, beta[2] * speed**2
     place = complex(*spec.pivots.output) + arm
     columns = {

@@ -8,6 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import factory
 import pytest
 from factory import each_kind
 from sweeps import mostly_slow
@@ -98,3 +99,15 @@ def test_long_tables_are_read_as_often_as_asked() -> None:
     part = Table("t", ("x",), ("1",), ((1.0, 2.0),))
     whole = TableInParts("t", ("x",), ("1",), part.data, lambda: iter([part, part]))
     assert whole.rows() == whole.rows() == [[1.0], [2.0], [1.0], [2.0]]
+
+
+@pytest.mark.parametrize(
+    ("file", "table"),
+    [("geared_six_bar", "links"), ("geared_six_bar", "joints"), ("five_bar_path", "path"), ("swing_gripper", "tip")],
+)
+def test_rows_do_not_depend_on_how_many_there_are(file: str, table: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """From 256 KiB on numpy turns products with a temporary array round, which rounds complex ones otherwise."""
+    monkeypatch.setattr(gearlink.core.design, "_PART_SIZES", (5003,))
+    made = factory.design(file)
+    whole, parts = made.table(table, samples=17_011), made.table_in_parts(table, 17_011)
+    assert list(map(tuple, parts.each_row())) == list(map(tuple, whole.each_row()))
