@@ -8,13 +8,13 @@ PYTEST := PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -q
 # Long runs: tests of a module stay in one process, which keeps what they share.
 LONG := $(PYTEST) -n auto --maxprocesses 4 --dist loadfile
 
-.PHONY: demo test test-core test-rest check check-full format lint types docs bench bench-guard stress clean
+.PHONY: demo test test-core test-rest test-least check check-full format lint types docs bench bench-guard stress clean
 
 $(READY): pyproject.toml
 	$(PYTHON) -c 'import sys; sys.exit("gearlink needs Python 3.11 or newer" if sys.version_info < (3, 11) else 0)'
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip uninstall --quiet --yes gearlink 2>/dev/null  # as it was called in older checkouts
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]' $(EXACTLY)
 	mkdir -p .types/gearlink
 	ln -sfn ../../cli/door/__init__.py .types/gearlink/__init__.py
 	ln -sfn ../../cli/door/py.typed .types/gearlink/py.typed
@@ -45,7 +45,13 @@ test: $(READY)
 test-core: TESTS = tests/core
 test-rest: TESTS = tests --ignore=tests/core
 test-core test-rest: $(READY)
-	$(PYTEST) -p no:logging $(TESTS) --patience 200
+	$(PYTEST) -p no:logging $(TESTS) --patience 200 $(WARNINGS)
+
+# The same tests with the least versions of the libraries that pyproject.toml promises, in an environment of their own.
+# Old libraries use names that the newer ones beside them will drop one day: their deprecations are not ours.
+test-least:
+	@exactly=$$($(PYTHON) tests/least_versions.py) && echo "With $$exactly:" && \
+	$(MAKE) --no-print-directory test VENV=.venv-least EXACTLY="$$exactly" WARNINGS='-W ignore::DeprecationWarning'
 
 check: lint types test
 
@@ -84,4 +90,4 @@ docs: $(READY)
 	$(BIN)/python docs/generate.py
 
 clean:
-	rm -rf $(VENV) bench/.venv .types build *.egg-info .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) .venv-least bench/.venv .types build *.egg-info .pytest_cache .mypy_cache .ruff_cache .hypothesis

@@ -30,6 +30,12 @@ def test_the_workflow_runs_the_checks_on_every_python() -> None:
     assert least == ">=3.11"
 
 
+def test_the_workflow_tries_the_least_versions_on_the_least_python() -> None:
+    job = _read(".github/workflows/check.yml")["jobs"]["least"]
+    assert [step["run"] for step in job["steps"] if "run" in step] == ["make test-least"]
+    assert [step["with"]["python-version"] for step in job["steps"] if "with" in step] == ["3.11"]
+
+
 @pytest.mark.slow
 def test_the_action_runs_a_batch(tmp_path: Path) -> None:
     action = _read("action.yml")

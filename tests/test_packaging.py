@@ -6,6 +6,9 @@ import re
 import tomllib
 from pathlib import Path
 
+import pytest
+from least_versions import _least, least_versions
+
 ROOT = Path(__file__).resolve().parents[1]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
 
@@ -32,6 +35,16 @@ def test_every_package_has_an_init() -> None:
 def test_no_test_package() -> None:
     """With import-mode=importlib a tests/__init__.py would give modules two names."""
     assert not list((ROOT / "tests").rglob("__init__.py"))
+
+
+def test_every_library_has_a_least_version() -> None:
+    """`make test-least` tries them; the reader refuses a requirement without a lower bound."""
+    found = least_versions()
+    assert len(found) == len(PROJECT["project"]["dependencies"]) + 2
+    assert "numpy==2.0" in found
+    for requirement in ("numpy", "numpy<3", "numpy~=2.0", "numpy>=2.0.*"):
+        with pytest.raises(ValueError, match="has no lower bound"):
+            _least(requirement)
 
 
 def test_nobody_is_told_to_install_another_project_s_package() -> None:

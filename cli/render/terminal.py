@@ -108,7 +108,7 @@ def show_grid(grid: Grid, console: Console) -> None:
     if need > width - _TIGHT:  # rich would share out what is missing among all columns
         for column, each in zip(grid.columns, least, strict=True):
             column.width = each
-        console.width = max(width, need)
+        console.width = max(width, need + _TIGHT)  # rich before 14.3 counts a space beside the outer columns, too
     console.print(grid)
     console.width = width
 
