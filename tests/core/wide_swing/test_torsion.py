@@ -10,6 +10,7 @@ import json
 import math
 from pathlib import Path
 
+import factory
 import numpy as np
 import pytest
 from sweeps import mostly_slow
@@ -82,3 +83,12 @@ def test_refusals() -> None:
         dynamic_coefficient(HARMONIC, 10.0, 1.0)
     with pytest.raises(NoSolution, match=r"leave the section shaft out, or make speed 3 times higher"):
         dynamic_coefficient(HARMONIC, 60_000.0)
+
+
+def test_a_rocker_too_sharp_for_the_sum_is_refused_in_the_design_s_terms() -> None:
+    """Beside a pivot ratio of 1 the rocker turns over within a share of the stroke that 8192 terms do not resolve."""
+    made = factory.design("wide_swing_twin_cam", command="swing", unloader__pivot_ratio=1.0001)
+    with pytest.raises(NoSolution, match=r"raise the pivot ratio, reduce the swing, or leave out the drive") as refusal:
+        made.raw("dynamic_coefficient")
+    assert refusal.value.key == "shaft"
+    assert "nodes" not in refusal.value.message
