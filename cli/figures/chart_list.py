@@ -27,7 +27,10 @@ class Axis:
 
 @dataclass(frozen=True)
 class DesignChart:
-    """A chart: `function` of a module in `gearlink.core` gives y over x, one curve per parameter."""
+    """A chart: `function` of a module in `gearlink.core` gives y over x, one curve per parameter.
+
+    `peaked` : its curves come to a point, which lies between the rows of a table
+    """
 
     name: str
     title: str
@@ -40,6 +43,7 @@ class DesignChart:
     curves: tuple[float, ...] = ()
     module: str = "three_gear.symmetric.charts"
     kind: str = "three-gear-four-bar"
+    peaked: bool = False
 
     def values(self, x: Any, parameter: float | None) -> Any:
         """A curve of the chart, in the units of its axes."""
@@ -131,11 +135,26 @@ def _of_law(name: str, title: str, words: str, symbol: str, quantity: str) -> De
     )
 
 
-def _of_dwell(name: str, title: str, function: str, x: Axis, parameter: Axis, *ends: tuple[float, ...]) -> DesignChart:
+def _of_dwell(
+    name: str, title: str, function: str, x: Axis, parameter: Axis, *ends: tuple[float, ...], peaked: bool = False
+) -> DesignChart:
     """A chart of the dwell within a tolerance."""
     span, curves = ends
     module = "three_gear.symmetric.dwell_charts"
-    return DesignChart(name, title, "own derivation", function, x, _WINDOW, parameter, span, curves, module)  # type: ignore[arg-type]
+    low, high = span
+    return DesignChart(
+        name,
+        title,
+        "own derivation",
+        function,
+        x,
+        _WINDOW,
+        parameter,
+        (low, high),
+        curves,
+        module,
+        peaked=peaked,
+    )
 
 
 _I3 = _axis("i3", "gear ratio", "$i_3 = -z_3/z_5$")
@@ -215,6 +234,7 @@ CHARTS: dict[str, DesignChart] = {
             _I3,
             (2.5, 7.0),
             (-2.4, -1.8, -1.3),
+            peaked=True,
         ),
         _of_law(
             "velocity-peak", "Peak velocity of the unloading law of a cylinder", "peak velocity", "$B$", "velocity_peak"

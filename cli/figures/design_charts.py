@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from gearlink.core.report import Table
 
 _COLORS = (style.BLUE, style.RED, style.GREEN, style.ORANGE, style.PURPLE, style.SKY, style.BLACK)
+_BESIDE_A_POINT = 25
+"""Places between two rows beside the greatest of a pointed curve."""
 _DASHES: tuple[Any, ...] = ("-", (0, (6, 2)), (0, (6, 2, 1.5, 2)))
 
 
@@ -28,12 +30,15 @@ def draw(chart: DesignChart, table: Table, curves: tuple[float, ...], marked: Ma
     made = panels.page(chart.title, 0.45)
     axes = made.add_subplot()
     style.curves(axes, _label(chart.x), _label(chart.y))
-    for i, column in enumerate(table.data[1:]):
+    for i, values in enumerate(table.data[1:]):
+        x, y = table.data[0], values
+        if chart.peaked:
+            x, y = _pointed(chart, table.data[0], values, curves[i])
         dashes = _DASHES[(i // len(_COLORS)) % len(_DASHES)]
         label = _curve_label(chart, curves[i]) if chart.parameter is not None else None
         axes.plot(
-            table.data[0],
-            column,
+            x,
+            y,
             color=_COLORS[i % len(_COLORS)],
             linewidth=1.6,
             linestyle=dashes,
@@ -46,6 +51,21 @@ def draw(chart: DesignChart, table: Table, curves: tuple[float, ...], marked: Ma
     if chart.parameter is not None or marked is not None:
         _legend(axes, chart)
     return made
+
+
+def _pointed(chart: DesignChart, x: Any, y: Any, parameter: float) -> tuple[Any, Any]:
+    """A curve with more places about its greatest row, from the row before it to that after it."""
+    import numpy as np
+
+    x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
+    for _ in range(2):
+        top = int(np.argmax(np.nan_to_num(y, nan=-np.inf)))
+        if not 0 < top < len(x) - 1:
+            break
+        between = np.linspace(x[top - 1], x[top + 1], _BESIDE_A_POINT)
+        around = chart.values(between, parameter)
+        x, y = (np.concatenate((a[: top - 1], b, a[top + 2 :])) for a, b in ((x, between), (y, around)))
+    return x, y
 
 
 def write_chart(

@@ -8,8 +8,10 @@ from typing import Any
 import numpy as np
 import pytest
 from factory import design, worked
-from sheets import labels, panel, sheet, words
+from sheets import curve, labels, panel, sheet, words
 
+from gearlink.cli.figures import design_charts
+from gearlink.cli.figures.chart_list import CHARTS
 from gearlink.cli.figures.drawing import panels, style
 from gearlink.cli.figures.geared_five_bar import _gears
 from gearlink.cli.figures.sheets import cam_sheets, motion_sheet, timing_sheet
@@ -182,3 +184,13 @@ def test_the_film_calls_the_same_stretch_a_dwell_as_the_sheet(name: str, command
 def test_least_contact_torques_have_a_true_minus_sign() -> None:
     _, figure = sheet("swing_gripper", "gripper", speed=60000)
     assert not [text for text in labels(panel(figure, "Torques")) if "-" in text]
+
+
+def test_a_pointed_chart_reaches_its_point() -> None:
+    """Drawn by the rows of its table alone, the longest dwell of these gears had been 3 deg too short."""
+    chart, curves = CHARTS["dwell-frame"], (-2.4, -1.8)
+    figure = design_charts.draw(chart, chart.table(*chart.range, curves, 91), curves, None)
+    for i, (parameter, near) in enumerate(zip(curves, ((6.355, 6.365), (5.175, 5.185)), strict=True)):
+        _, drawn = curve(figure, f"curve-{i}")
+        longest = float(np.nanmax(chart.values(np.linspace(*near, 41), parameter)))
+        assert float(np.nanmax(drawn)) == pytest.approx(longest, abs=0.2)
