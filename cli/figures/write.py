@@ -84,8 +84,10 @@ def save(make: Callable[[], Figure], name: str, stream: IO[bytes], ending: str, 
     load_what_is_drawn(ending)
     with fonts_of(name):
         made = make()
-        made.set_dpi(dpi if ending == "png" else DPI)
-        made.savefig(stream, format=ending, metadata=_FIXED_METADATA[ending], **_PACKING.get(ending, {}))
+        resolution = dpi if ending == "png" else DPI  # else that of its first canvas, whatever the figure's own
+        made.savefig(
+            stream, format=ending, dpi=resolution, metadata=_FIXED_METADATA[ending], **_PACKING.get(ending, {})
+        )
 
 
 @contextmanager

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from textwrap import fill
 from typing import TYPE_CHECKING, Any
+from unicodedata import east_asian_width
 
 from gearlink.cli.figures.drawing import failing, style
 from gearlink.cli.scenes.colors import PHASE_TINTS
@@ -37,7 +38,7 @@ _NAME_SIZE = 7.5
 _BESIDE = 60.0
 """Points that numbers and words beside a panel take."""
 _LETTERS, _WIDE_LETTERS = 70, 45
-"""Letters of a title's line: of Latin script, and of any."""
+"""Letters of a title's line, and of one that has Chinese ones."""
 _LINE = 112
 """Characters of a legend that fill the width of a page."""
 
@@ -60,7 +61,7 @@ class Phase:
 def page(title: str, share: float = 1.0) -> Figure:
     """A figure as wide as a page, and as high as a share of it."""
     width, height = _A4
-    letters = _LETTERS if title.isascii() else _WIDE_LETTERS
+    letters = _WIDE_LETTERS if any(east_asian_width(letter) in "WF" for letter in title) else _LETTERS
     made = style.figure(width, share * height, fill(title.replace("$", r"\$"), letters))
     engine: Any = made.get_layout_engine()
     across, up = style.MARGIN / width, style.MARGIN / (share * height)

@@ -67,7 +67,7 @@ def _outlines(axes: Axes, design: Any) -> None:
     """The profiles; the line is as thick as the pressure angle is large, and red above the limit."""
     from matplotlib.collections import LineCollection
 
-    panels.drawing(axes, "On the profiles, thick where it is great")
+    panels.drawing(axes, "Profiles, line width by pressure angle")
     theta, limit = np.linspace(0.0, _TURN, 721), design.spec.limits.pressure_angle
     for cam, color in zip(discs(design), panels.CAM_COLORS, strict=False):
         _, profile = cam.points(theta)

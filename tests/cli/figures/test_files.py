@@ -52,6 +52,16 @@ def test_one_file_the_same_every_time(
     assert len(made[0]) > 5000
 
 
+@pytest.mark.parametrize("dpi", [40, 130, 260])
+def test_a_picture_has_the_pixels_that_it_is_asked_for(gearlink: Any, designs: Path, tmp_path: Path, dpi: int) -> None:
+    """A figure had been saved at the resolution of its first canvas, whatever --dpi said."""
+    arguments = ["crank", designs / "ty460_slider_crank.yaml", "--quiet", "--plot", "--out", tmp_path]
+    assert gearlink(*arguments, "--dpi", str(dpi)).status == 0
+    (file,) = tmp_path.iterdir()
+    width = int.from_bytes(file.read_bytes()[16:20])
+    assert width == int(8.27 * dpi)
+
+
 def test_nothing_half_written_remains(
     gearlink: Any, designs: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

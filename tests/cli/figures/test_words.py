@@ -79,7 +79,7 @@ def test_the_zone_of_a_press_is_not_called_its_print() -> None:
 
 def test_the_width_of_a_line_is_explained() -> None:
     figure = cam_sheets.pressure(design(worked("swing_gripper")))
-    assert panel(figure, "On the profiles, thick where it is great") is not None
+    assert panel(figure, "Profiles, line width by pressure angle") is not None
 
 
 def _legend(texts: list[str]) -> Any:
@@ -103,7 +103,9 @@ def test_a_legend_takes_the_rows_that_it_needs() -> None:
     assert axes.get_legend()._ncols == 5
 
 
-@pytest.mark.parametrize("name", ["印刷机间歇送纸机构设计第三版本" * 8, "X" * 180, "candy-feed"])
+@pytest.mark.parametrize(
+    "name", ["印刷机间歇送纸机构设计第三版本" * 8, "X" * 180, "candy-feed", "150° of a swing, and some more words"]
+)
 def test_a_title_stays_on_the_page(name: str) -> None:
     """Seventy letters of a line are twice as wide in some scripts: half of a Chinese name had lain beside the page."""
     figure = panels.page(f"{name}: analyze")
@@ -111,7 +113,8 @@ def test_a_title_stays_on_the_page(name: str) -> None:
         style.place_title(figure)
         box = figure._suptitle.get_window_extent()  # type: ignore[attr-defined]
     assert box.x0 >= 0.99 * style.MARGIN * figure.dpi
-    assert figure._suptitle.get_fontsize() == (12 if name == "candy-feed" else pytest.approx(9.5, abs=2.5))  # type: ignore[attr-defined]
+    assert 7.0 <= figure._suptitle.get_fontsize() <= 12.0  # type: ignore[attr-defined]
+    assert ("\n" in figure._suptitle.get_text()) == (len(name) > 70)  # type: ignore[attr-defined]
 
 
 def test_curvature_is_shown_as_far_as_it_goes() -> None:
