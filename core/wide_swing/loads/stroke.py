@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from gearlink.core.loads.cam_contact import LineContact, plane_modulus
+from gearlink.core.loads.kinematics import TURNING_BACK
 from gearlink.core.numerics.extremes import Extreme, extremes_over, maximum_over, minimum_over
 from gearlink.core.wide_swing.cams.outline import middle_of
 from gearlink.core.wide_swing.loads.roller import path
@@ -76,8 +77,9 @@ class SwingStroke:
         return np.minimum(self.start + k * self.cam.cycle_angle, last)
 
     def force(self, k: Reals) -> Reals:
-        """Force of the roller on its cam [N], out of the reactions."""
-        found: Reals = self.loads.machine.reactions(self.angle(k)).unknowns["roller"][0]
+        """Force of the roller on its cam [N], out of the reactions; at the very end that before friction turns back."""
+        last = self.start + self.cam.cycle_angle - 2.0 * TURNING_BACK
+        found: Reals = self.loads.machine.reactions(np.minimum(self.angle(k), last)).unknowns["roller"][0]
         return found
 
     def relative_radius(self, k: Reals) -> Reals:
