@@ -147,7 +147,7 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, FiveBarParts):
         """Links that are fitted to a target take tenths of a second each time; a path of few turns a millisecond."""
         if self.spec.target is not None:
             return 0
-        return 150 if self.is_path and self.period_turns <= _FEW_TURNS else 60
+        return (400 if self.period_turns <= _FEW_TURNS else 300) if self.is_path else 60
 
     @property
     def point_along(self) -> float | None:

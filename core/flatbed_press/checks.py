@@ -86,7 +86,7 @@ def register(design: FlatbedPress) -> Check:
     off = abs(ratio - max(1, round(ratio)))
     text = f"the cylinder makes {amount(ratio, 'turn', spec='g')} per sheet"
     if off > 1e-9:
-        text += f", so it does not come home: set cylinder.gear_ratio to {max(1, round(ratio))}"
+        text += ", so it does not come home: make cylinder.gear_ratio a whole number"
     return codes.REGISTER.check("fail" if off > 1e-9 else "pass", text, off, 1e-9)
 
 

@@ -245,7 +245,7 @@ class Compensation:
         most = math.degrees(next_sheet - self.transition_end)
         if most > 0.0:
             return NoSolution(
-                f"{text}: set cam.return_angle to at most {safely_below(most)} deg, the shorter the steeper the cam",
+                f"{text}: it leaves cam.return_angle {safely_below(most)} deg, the shorter the steeper the cam",
                 key="cam.return_angle",
             )
         room = safely_below(math.degrees(self.cam_sync_start + _TURN - self.transition_end))

@@ -215,8 +215,11 @@ class DwellSynthesis(BackStepFamily):
 
     @property
     def trials(self) -> int:
-        """A dwell within a tolerance is sought anew for each of them, which takes some hundredths of a second."""
-        return 150 if self._request.angle is not None and not self.general else 8
+        """A dwell within a tolerance is sought anew for each of them: some milliseconds with an idler that is given,
+        some hundredths of a second without."""
+        if self._request.angle is not None and not self.general:
+            return 150
+        return 8 if self.spec.gears.idler is None else 40
 
     @property
     def effort(self) -> int:

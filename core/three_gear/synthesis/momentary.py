@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from gearlink.core.design import Outline, placed
 from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.linkages.fourbar.position import FourBar
-from gearlink.core.report import safely_below
+from gearlink.core.remedies.ways import at_most
+from gearlink.core.report import Remedy
 from gearlink.core.results import cached_property
 from gearlink.core.three_gear.dwell import momentary_dwell
 from gearlink.core.three_gear.dwell.internal_dwell import is_internal
@@ -113,11 +116,12 @@ class MomentaryDwellSynthesis(Synthesis):
         request = self.section("momentary", "eccentricity (mm)")
         if request.gap is not None:
             return f"set momentary.gap to at least {self.spec.limits.gear_gap:g} mm"
-        if request.eccentricity is None:
+        if request.eccentricity is None or self._longest_crank_with_room() is None:
             return words
-        shorter = self._longest_crank_with_room()
-        return (
-            words
-            if shorter is None
-            else f"set momentary.eccentricity to at most {safely_below(shorter)} mm, or {words}"
-        )
+        return f"shorten momentary.eccentricity, or {words}"
+
+    def candidates(self, check: str, /) -> Iterable[Remedy]:
+        """The longest crank with which the gears have room."""
+        given = self.spec.momentary is not None and self.spec.momentary.eccentricity is not None
+        shorter = self._longest_crank_with_room() if check == "gear-collision" and given else None
+        return () if shorter is None else ((("momentary.eccentricity", at_most(shorter)),),)
