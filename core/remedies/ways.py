@@ -33,11 +33,11 @@ class Way(NamedTuple):
         if self.step == 0.0:
             return tuple((key, None) for key in self.keys)
         first, *others = old
-        new = [_on_grid(first, self.step, count)]
+        new, whole = [_on_grid(first, self.step, count)], all(isinstance(value, int) for value in old)
         if self.tie == "steps":
             new += [_on_grid(value, self.step, count) for value in others]
         elif self.tie == "sum":
-            new += [math.fsum((first, value, -new[0])) for value in others]
+            new += [first + value - new[0] if whole else math.fsum((first, value, -new[0])) for value in others]
         elif any(value * new[0] % first for value in others):
             return ()
         else:

@@ -11,6 +11,7 @@ from gearlink.core.clearance.bodies import Layout
 from gearlink.core.clearance.checks import SHAFT_WAYS, collision_check, shaft_checks
 from gearlink.core.design import Design, Outline, placed
 from gearlink.core.errors import NoSolution, at_key
+from gearlink.core.gears.checks import gear_ways
 from gearlink.core.gears.mesh.internal_mesh import InternalMesh
 from gearlink.core.gears.mesh.pair import GearPair
 from gearlink.core.gears.train.single_mesh import MESH_CHECKS, mesh_checks, mesh_quantity
@@ -18,7 +19,7 @@ from gearlink.core.linkages.checks import transmission_check
 from gearlink.core.linkages.output_rates import OutputRates
 from gearlink.core.motion_extremes import names
 from gearlink.core.real_speed import OUTPUT_SPEEDS, RealSpeed
-from gearlink.core.remedies.ways import down, either, up
+from gearlink.core.remedies.ways import Way, down, either, shared, up
 from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
 
@@ -35,7 +36,19 @@ _LINK_TOLERANCE = 1e-9
 _STANDSTILL = 1e-9
 _LINKS = ("frame", "input", "coupler_1", "coupler_2", "coupler_3", "output")
 _MOVED = _LINKS[2:]
+_MOST_MESHES = 4
 _FREE_LINKS = either(*(f"links.{name}" for name in ("coupler_2", "coupler_1", "coupler_3", "frame", "output", "input")))
+
+
+def _gear_ways() -> dict[str, tuple[Way, ...]]:
+    """Teeth that one gear gives its neighbour, which leaves the link under them as long as it is; pressure angles."""
+    found: dict[str, tuple[Way, ...]] = {}
+    for train in ("trains[0]", "trains[1]"):
+        pairs = ((f"{train}.gears[{k}]", f"{train}.gears[{k + 1}]") for k in range(_MOST_MESHES))
+        swaps = [way for pair in pairs for way in shared(*pair, step=1)]
+        for check, ways in gear_ways(*swaps, angle=f"{train}.pressure_angle").items():
+            found[check] = (*found.get(check, ()), *dict.fromkeys(ways))
+    return found
 
 
 class GearedSixBar(OutputRates, RealSpeed, Design):
@@ -76,6 +89,7 @@ class GearedSixBar(OutputRates, RealSpeed, Design):
         "transmission-angle": _FREE_LINKS,
         "gear-collision": (up("links.frame"), *_FREE_LINKS),
         "shaft-clearance": (*SHAFT_WAYS, down("shafts.F_radius"), *_FREE_LINKS),
+        **_gear_ways(),
     }
 
     @property

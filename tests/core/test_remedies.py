@@ -350,3 +350,20 @@ def test_no_part_greater_than_the_machine() -> None:
         check = fails(factory.design("ty460", command="cam", limits__pressure_angle=limit), "cam", "pressure-angle")
         assert dict(check.remedy).get("cam.base_radius") == radius
         assert ("set cam.base_radius" in check.message) is (radius is not None)
+
+
+def test_teeth_move_between_the_gears_of_a_six_bar() -> None:
+    """The link under them keeps its length."""
+    data = factory.worked("geared_six_bar")
+    gears = data["trains"][0]["gears"]
+    gears[0], gears[1] = 12, gears[0] + gears[1] - 12
+    made = design(data, "gear")
+    check = fails(made, "gear", "undercut")
+    assert len(check.remedy) == 2
+    assert {key.rpartition("[")[0] for key, _ in check.remedy} == {"trains[0].gears"}
+    assert all(isinstance(value, int) for _, value in check.remedy)
+    before, now = failing(data, "gear"), failing(with_values(data, check.remedy), "gear")
+    assert before is not None
+    assert now is not None
+    assert not any(now["undercut"])
+    assert no_worse(now, before)
