@@ -120,7 +120,7 @@ def _with_base_radius(design: FlatbedPress, radius: float) -> str:
     """In words, the least base radius [mm], where a press with such a cam can be built."""
     if can_be_built(design.spec, (("cam.base_radius", radius),), greatest_length(design.spec)):
         return f"set cam.base_radius to at least {safely_above(radius)} mm"
-    return f"a cam.base_radius of {radius:.4g} mm would do, more than can be built: allow more"
+    return f"a cam.base_radius of {safely_above(radius)} mm would do, more than can be built: allow more"
 
 
 def cam_undercut(design: FlatbedPress) -> Iterator[Check]:

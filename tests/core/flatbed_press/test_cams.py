@@ -227,7 +227,8 @@ def test_base_radius_that_is_named_keeps_the_pressure_angle(name, limit):
     failing = at(30.0)
     found = [check for check in failing.check("pressure-angle") if check.status == "fail"]
     assert found
-    named = re.search(r"above the limit ([\d.]+) deg: set cam\.base_radius to at least ([\d.]+) mm", found[0].message)
+    words = r"(?:set cam\.base_radius to at least|a cam\.base_radius of) ([\d.]+) mm"
+    named = re.search(rf"above the limit ([\d.]+) deg: {words}", found[0].message)
     assert float(named[1]) == limit
     assert status(at(float(named[2])), "pressure-angle") == ["pass", "pass"]
     # and not by much more than needed
