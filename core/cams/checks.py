@@ -96,10 +96,11 @@ def hub_checks(rule: Rule, cams: Sequence[DiscCam], shaft: float, farther: Calla
             reach = f"comes {-room:.4g} mm into" if room else "touches"
             text = f"the {cam.name} {reach} its shaft (radius {shaft:g} mm)"
         if status != "pass":
-            text += (
-                f": take a shaft_radius of at most {safely_below(cam.min_radius / HUB)} mm (hub of {HUB:g} times the "
-                f"shaft), or {farther(HUB * shaft - cam.min_radius)}"
+            thinner = (
+                f"take a shaft_radius of at most {safely_below(cam.min_radius / HUB)} mm (hub of {HUB:g} times the "
             )
+            thinner = f"{thinner}shaft), or " if cam.min_radius > 0.0 else ""
+            text += f": {thinner}{farther(HUB * shaft - cam.min_radius)}"
         yield rule.check(status, text, room, 0.0, "mm")
 
 

@@ -106,7 +106,10 @@ class HypocycloidDwell(SliderSpeed, Meshed):
             yield (("target.quality", "widest-dwell"),)
             return
         spec = changed(self.spec, (("rod", None), ("target", {"quality": "least-ripple"})))
-        found = type(self)(spec).rod_length
+        try:
+            found = type(self)(spec).rod_length
+        except NoSolution:  # a dwell beyond one arc has no such rod
+            return
         given: Remedy = () if rod.rule is None else (("rod.rule", None),)
         yield from ((("rod.length", round(found, digits)), *given) for digits in (1, 2))
 

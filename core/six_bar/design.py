@@ -20,7 +20,7 @@ from gearlink.core.linkages.output_rates import OutputRates
 from gearlink.core.motion_extremes import names
 from gearlink.core.real_speed import OUTPUT_SPEEDS, RealSpeed
 from gearlink.core.remedies.ways import Way, down, either, shared, up
-from gearlink.core.report import Check, Table
+from gearlink.core.report import Check, Table, without_noise
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
@@ -355,7 +355,8 @@ class GearedSixBar(OutputRates, RealSpeed, Design):
         """GL301: gears of one plane that do not mesh."""
         remedy = "take smaller gears, or lengthen the links between them"
         for pair in chain.from_iterable(layout.gear_pairs for layout in self.layouts):
-            why = f"their pins are {pair.distance:.6g} mm apart"
+            apart = without_noise(pair.distance, pair.one.outer + pair.other.outer)
+            why = f"their pins are {apart:.6g} mm apart"
             yield collision_check(pair, self.spec.limits.gear_gap, why, remedy)
 
     def check_shaft_clearance(self) -> Iterator[Check]:

@@ -367,3 +367,20 @@ def test_teeth_move_between_the_gears_of_a_six_bar() -> None:
     assert now is not None
     assert not any(now["undercut"])
     assert no_worse(now, before)
+
+
+def test_a_dwell_beyond_one_arc_may_ask_for_less() -> None:
+    """No rod makes it, which is no reason to try nothing more."""
+    data: Data = {"kind": "hypocycloid-dwell", "gears": {"module": 2, "planet": 26, "ring": 130}}
+    data |= {"rod": {"length": 134.79}, "dwell": {"angle": 78.96, "tolerance": 0.13}}
+    assert fails(design(data, "analyze"), "analyze", "dwell-quality").remedy
+
+
+def test_no_shaft_of_less_than_nothing() -> None:
+    """A cam that reaches over its own axis leaves room for none."""
+    rollers = {"roller": {"arm": 160, "angle": 49, "radius": 30}, "return_roller": {"arm": 160, "angle": 88}}
+    rollers["return_roller"]["radius"] = 300
+    made = factory.design("swing_gripper", cam={"center": [0, 0], "sense": -1, "shaft_radius": 40, **rollers})
+    found = [check for check in made.check("shaft-clearance") if check.status == "fail"]
+    assert found
+    assert not any("at most -" in check.message for check in found)
