@@ -1,4 +1,4 @@
-"""Corners of tips in the roots of their mates, of many pairs at once: where one has to be looked at more closely."""
+"""Corners of tips in the roots of their mates, of many pairs at once."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _ROUNDS = 40
 
 @dataclass(frozen=True)
 class TipCorners(TipCorner):
-    """The corners of many pairs beside the fillets of a gear that a rack tool cuts; its pair is a `GearPairs`.
+    """The corners of many pairs beside the fillets of a gear; the pair is a `GearPairs`.
 
     Example
         >>> from gearlink.core.gears.mesh.pair_sweep import GearPairs
