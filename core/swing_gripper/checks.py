@@ -244,7 +244,7 @@ def shaft_clearance(design: SwingGripper) -> Iterator[Check]:
         SHAFT_CLEARANCE,
         design.cams.discs,
         design.cams.section.shaft_radius,
-        lambda missing: f"cam.center {missing:.4g} mm farther from the roller",
+        lambda missing: f"set cam.center {missing:.4g} mm farther from the roller",
     )
 
 
