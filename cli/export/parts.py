@@ -106,13 +106,12 @@ def train_hands(design: Any, label: str = "") -> tuple[str, str]:
 
 def _three_gears(design: Any) -> Makers:
     """Gears 1, 3 and 5; of a mesh with a ring the idler is the pinion."""
-    gears = design.spec.gears
     titles = {"gear1": "gear 1, on the crank", "gear3": "gear 3, the idler", "gear5": "gear 5, the output"}
 
     def of(label: str, one: str, other: str) -> Makers:
         words = (titles[one], titles[other])
-        widths, hands = partial(design.widths_of, label), train_hands(design, label)
-        return _of_mesh(design.meshes[label], (one, other), words, "gears", gears, widths, hands=hands)
+        widths, hands, rim = partial(design.widths_of, label), train_hands(design, label), design.outer_rim(label)
+        return _of_mesh(design.meshes[label], (one, other), words, "gears", widths_of=widths, rim=rim, hands=hands)
 
     first = of("crank_idler", *(("gear3", "gear1") if design.crank_teeth < 0 else ("gear1", "gear3")))
     second = of("idler_output", "gear3", "gear5")
@@ -122,12 +121,14 @@ def _three_gears(design: Any) -> Makers:
 
 def _two_gears(design: Any) -> Makers:
     titles, hands = ("gear 2, on the coupler", "gear 5, the output"), train_hands(design)
-    return _of_mesh(design.mesh, ("gear2", "gear5"), titles, "gears", design.spec.gears, design.widths_of, hands=hands)
+    rim = design.outer_rim()
+    return _of_mesh(design.mesh, ("gear2", "gear5"), titles, "gears", widths_of=design.widths_of, rim=rim, hands=hands)
 
 
 def _hypocycloid(design: Any) -> Makers:
     titles, hands = ("planet", "ring gear, fixed"), train_hands(design)
-    return _of_mesh(design.mesh, ("planet", "ring"), titles, "gears", design.spec.gears, design.widths_of, hands=hands)
+    rim = design.outer_rim()
+    return _of_mesh(design.mesh, ("planet", "ring"), titles, "gears", widths_of=design.widths_of, rim=rim, hands=hands)
 
 
 def _mutilated(design: Any) -> Makers:
@@ -152,8 +153,8 @@ def _five_bar(design: Any) -> Makers:
         names = label.split("_") if label else _five_bar_gears(design, mesh)
         parts = (f"{names[0]}_gear", f"{names[1]}_gear")
         titles = (f"{names[0]} gear", f"{names[1]} gear")
-        widths, hands = partial(design.widths_of, label), train_hands(design, label)
-        found |= _of_mesh(mesh, parts, titles, "gears", design.spec.gears, widths, hands=hands)
+        widths, hands, rim = partial(design.widths_of, label), train_hands(design, label), design.outer_rim(label)
+        found |= _of_mesh(mesh, parts, titles, "gears", widths_of=widths, rim=rim, hands=hands)
     return found
 
 

@@ -96,10 +96,10 @@ def _path_gears(design: GearedFiveBar, phi: Reals, fraction: Reals) -> list[Part
     level, turned = np.zeros_like(phi), period * float(bar.ratio)
 
     def on_input(mesh: AnyMesh, number: int) -> list[Body]:
-        return gear(mesh, number, a, phi, period, BLUE, "1", "input gear", design.spec.gears.rim)
+        return gear(mesh, number, a, phi, period, BLUE, "1", "input gear", design.outer_rim(design.mesh_names[0]))
 
     def on_output(mesh: AnyMesh, number: int, turn: Reals) -> list[Body]:
-        return gear(mesh, number, e, turn, turned, ORANGE, "4", "output gear", design.spec.gears.rim)
+        return gear(mesh, number, e, turn, turned, ORANGE, "4", "output gear", design.outer_rim(design.mesh_names[0]))
 
     if first.internal:
         pinion, ring = (abs(z) for z in first.teeth)
@@ -169,7 +169,7 @@ def _function_gears(design: GearedFiveBar, phi: Reals, a: Points, b: Points) -> 
             ORANGE,
             "" if internal else "5",
             "ring gear, fixed" if internal else "sun, fixed",
-            design.spec.gears.rim,
+            design.outer_rim(design.mesh_names[0]),
         ),
         *gear(mesh, 0, b, turn, turns, BLUE, "2", "planet on the coupler"),
     ]

@@ -42,7 +42,7 @@ def build(design: ThreeGearFourBar, fraction: Reals) -> Scene:
                 ORANGE,
                 "5",
                 f"gear 5, output {_kind(design.output_teeth)}",
-                design.spec.gears.rim,
+                design.outer_rim("idler_output"),
             ),
             *(crank_gear if ring else ()),
             *gear(first, 0 if ring else 1, at.c, idler, idler_turns, GREEN, "3", "gear 3, idler"),

@@ -23,7 +23,7 @@ def build(design: TwoGearFourBar, fraction: Reals) -> Scene:
     at = Joints.of(design.linkage, phi)
     name = "gear 5, ring gear" if design.internal else "gear 5, sun"
     planet = gear(design.mesh, 0, at.b, at.coupler, coupler_windings(design.linkage), BLUE, "2", "gear 2, planet on BC")
-    rim = design.spec.gears.rim
+    rim = design.outer_rim()
     output = gear(design.mesh, 1, at.a, output_turn(design, phi), design.mean_ratio, ORANGE, "5", name, rim)
     swept = np.degrees(_output(design, phi))
     curve = Curve("output", ORANGE, np.degrees(_output(design, whole_turn())), swept)

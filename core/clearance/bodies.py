@@ -153,7 +153,7 @@ class Layout:
 
 def ring_gear(axis: str, mesh: GearPair | InternalMesh, mates: str = "", rim: float | None = None) -> Gear:
     """The ring gear of an internal mesh, on its axis, with the outer radius that the file gives [mm]."""
-    outer = rim_radius(mesh.root_radius[1], mesh.module, getattr(mesh, "rim", rim))
+    outer = rim_radius(mesh.root_radius[1], mesh.module, getattr(mesh, "rim", None) if rim is None else rim)
     return Gear("the ring gear", axis, outer, abs(mesh.tip_radius[1]), mates)
 
 

@@ -26,7 +26,7 @@ def _path(design: GearedFiveBar) -> tuple[tuple[Gear, ...], dict[str, Reach]]:
         ring, pinion = ("A", "E") if design.signed_teeth[0] < 0 else ("E", "A")
         name = {"A": "the input gear", "E": "the output gear"}[pinion]
         return (
-            ring_gear(ring, first, rim=design.spec.gears.rim),
+            ring_gear(ring, first, rim=design.outer_rim(design.mesh_names[0])),
             Gear(name, pinion, first.tip_radius[0], mates=ring),
         ), reaches
     driven = more[0] if more else first
@@ -44,7 +44,7 @@ def _function(design: GearedFiveBar) -> tuple[tuple[Gear, ...], dict[str, Reach]
     """The planet goes round the fixed gear as far as the range of the input takes it."""
     (mesh,), bar = design.meshes.values(), design.function_bar
     planet = Gear("the planet", "B", mesh.tip_radius[0], mates="A")
-    rim = design.spec.gears.rim
+    rim = design.outer_rim(design.mesh_names[0])
     fixed = ring_gear("A", mesh, rim=rim) if mesh.internal else Gear("the sun", "A", mesh.tip_radius[1])
     return (planet, fixed), {
         "AB": constant(bar.input),

@@ -16,7 +16,9 @@ def two_gear_layout(design: TwoGearFourBar) -> Layout:
     """Planet on B, sun or ring gear on A."""
     links, spec, mesh = design.linkage, design.spec, design.mesh
     planet = Gear("the planet", "B", mesh.tip_radius[0], mates="A")
-    output = ring_gear("A", mesh, rim=spec.gears.rim) if design.internal else Gear("the sun", "A", mesh.tip_radius[1])
+    output = (
+        ring_gear("A", mesh, rim=design.outer_rim()) if design.internal else Gear("the sun", "A", mesh.tip_radius[1])
+    )
     return Layout(
         gears=(planet, output),
         shafts=shafts_at("AD", spec.shafts),

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from gearlink.core.linkages.fourbar.position import FourBar
     from gearlink.core.report import Check
     from gearlink.core.three_gear.motion import GearTrain
-    from gearlink.core.three_gear.spec import ThreeGearSpec
+    from gearlink.core.three_gear.spec import Gears, ThreeGearSpec
 
 
 def layout(links: FourBar, train: GearTrain, spec: ThreeGearSpec, own: Mapping[str, Any] | None = None) -> Layout:
@@ -29,12 +29,12 @@ def layout(links: FourBar, train: GearTrain, spec: ThreeGearSpec, own: Mapping[s
     """
     module, shafts = spec.gears.module, spec.shafts
     gears = (
-        _own(own, train, spec.gears.rim)
+        _own(own, train, spec.gears)
         if own is not None
         else (
-            _gear("the crank gear", "B", train.crank, train, module, None, "CD" if train.internal else "C"),
+            _gear("the crank gear", "B", train.crank, train, spec.gears, "CD" if train.internal else "C"),
             Gear("the idler", "C", tip_radius(train.idler, module), mates="BD"),
-            _gear("the output gear", "D", train.output, train, module, spec.gears.rim, "C"),
+            _gear("the output gear", "D", train.output, train, spec.gears, "C"),
         )
     )
     return Layout(
@@ -53,34 +53,40 @@ def layout(links: FourBar, train: GearTrain, spec: ThreeGearSpec, own: Mapping[s
     )
 
 
-def _gear(name: str, axis: str, teeth: float, train: GearTrain, module: float, rim: float | None, mates: str) -> Gear:
+def _gear(name: str, axis: str, teeth: float, train: GearTrain, gears: Gears, mates: str) -> Gear:
     """A gear by its teeth; a ring for negative ones. Rings stand in a plane of their own, apart from the other gear."""
     if teeth > 0:
-        return Gear(name, axis, tip_radius(teeth, module), mates=mates)
+        return Gear(name, axis, tip_radius(teeth, gears.module), mates=mates)
     from gearlink.core.gears.mesh.internal_mesh import InternalMesh
 
-    mesh = InternalMesh(module, (int(train.idler), int(-teeth)), rim=rim)
-    return Gear(f"{name}, a ring,", axis, mesh.rim_radius, mesh.tip_radius[1], mates)
+    mesh = InternalMesh(gears.module, (int(train.idler), int(-teeth)))
+    return Gear(f"{name}, a ring,", axis, _outer(axis, mesh, gears), mesh.tip_radius[1], mates)
 
 
-def _own(meshes: Mapping[str, Any], train: GearTrain, rim: float | None) -> tuple[Gear, Gear, Gear]:
+def _outer(axis: str, mesh: Any, gears: Gears) -> float:
+    """Outer radius of a ring on B or D [mm]; the key `rim` is that of the output ring."""
+    root, given = mesh.root_radius[1], gears.rim if axis == "D" else None
+    return rim_radius(root, mesh.module, gears.rim_at(0 if axis == "B" else 2, root) if given is None else given)
+
+
+def _own(meshes: Mapping[str, Any], train: GearTrain, gears: Gears) -> tuple[Gear, Gear, Gear]:
     """Gears with tips of their own; in the pair of a ring the idler is the first."""
     first, second = meshes.values()
     idler = first.tip_radius[0 if first.internal else 1]
     mates = "CD" if train.internal else "C"
-    crank = ("the crank gear, a ring,", None, mates) if first.internal else ("the crank gear", None, mates)
-    output = ("the output gear, a ring," if second.internal else "the output gear", rim, "C")
+    crank = "the crank gear, a ring," if first.internal else "the crank gear"
+    output = "the output gear, a ring," if second.internal else "the output gear"
     return (
-        _end("B", first, *crank),
+        _end("B", first, crank, gears, mates),
         Gear("the idler", "C", idler, mates="BD"),
-        _end("D", second, *output),
+        _end("D", second, output, gears, "C"),
     )
 
 
-def _end(axis: str, pair: Any, name: str, rim: float | None, mates: str) -> Gear:
+def _end(axis: str, pair: Any, name: str, gears: Gears, mates: str) -> Gear:
     """Crank or output gear of its pair."""
     if pair.internal:
-        return Gear(name, axis, rim_radius(pair.root_radius[1], pair.module, rim), -pair.tip_radius[1], mates)
+        return Gear(name, axis, _outer(axis, pair, gears), -pair.tip_radius[1], mates)
     return Gear(name, axis, pair.tip_radius[0 if axis == "B" else 1], mates=mates)
 
 

@@ -3,6 +3,7 @@
 Tolerances: none of its own.
 """
 
+import factory
 import pytest
 from factory import worked
 
@@ -110,3 +111,25 @@ def test_the_page_shows_the_gear_tables(gearlink, designs, tmp_path):
     assert ended.status == 0
     page = (tmp_path / "drawn-lever.html").read_text()
     assert "span measurement, greatest" in page
+
+
+def test_a_ring_has_one_rim_whichever_key_gives_it() -> None:
+    """The shafts had been checked against two modules where rim_thickness, by which the ring is rated, gives more."""
+    base = factory.worked("five_bar_positions")
+    keys = {
+        "target": None,
+        "gears": {"module": 2, "planet": 20, "ring": 60},
+        "links": {"coupler": 30, "follower": 150, "output": 110, "frame": 120},
+        "shafts": {"E_radius": 40},
+    }
+    thick = {"gears__rim_thickness": [None, 20.0]}
+    for more in ({}, {"gears__profile_shift": [0.1, -0.1]}):
+        made = factory.design(base, **keys, **more, **thick)
+        root = abs(made.meshes[""].root_radius[1])
+        given = factory.design(base, **keys, **more, gears__rim=root + 20.0)
+        checks = made.check("shaft-clearance")
+        assert [(c.status, c.value) for c in checks] == [(c.status, c.value) for c in given.check("shaft-clearance")]
+        assert "fail" in {c.status for c in checks}
+        assert "fail" not in {c.status for c in factory.design(base, **keys, **more).check("shaft-clearance")}
+    ring = factory.design("ring_feed", command="synth dwell", gears__rim_thickness=[None, None, 9.0])
+    assert ring.layout.gears[2].outer == ring.meshes["idler_output"].root_radius[1] + 9.0

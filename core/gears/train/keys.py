@@ -158,6 +158,12 @@ class TrainKeys(ToothKeys):
         """x of a gear by its place in the lists."""
         return 0.0 if self.profile_shift is None else self.profile_shift[gear]
 
+    def rim_at(self, gear: int, root_radius: float) -> float | None:
+        """Outer radius of a ring by its place in the lists [mm], as its rim_thickness gives it; None without one."""
+        given = self.rim_thickness
+        thickness = given[gear] if isinstance(given, list) else given
+        return None if thickness is None else abs(root_radius) + float(thickness)
+
     def off_center(self, meshes: int) -> bool:
         """Whether the profile shifts of one of the first meshes do not cancel, which moves its centre distance."""
         return any(self.shift(i) + self.shift(i + 1) for i in range(meshes))

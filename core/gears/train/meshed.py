@@ -67,6 +67,15 @@ class Meshed(GearQuantities, Design):
         found: float | None = getattr(self.spec.gears, "rim", None)
         return found
 
+    def outer_rim(self, name: str = "") -> float | None:
+        """Outer radius of the ring of a mesh [mm], by `rim` or by its rim_thickness; None without either."""
+        given = self.rim_of(name)
+        if given is not None or self.spec.gears.rim_thickness is None:
+            return given
+        place = self.teeth_train.places[self.mesh_names.index(name)]
+        found: float | None = self.spec.gears.rim_at(place.gears[1], self.meshes[name].root_radius[1])
+        return found
+
     @classmethod
     def tables_of_page(cls, command: str, spec: Any) -> tuple[str, ...]:
         """The gear tables, where the file has keys of a drawing."""
