@@ -53,7 +53,7 @@ def gear(
         return _ring(look, teeth, RingProfile.of(pair).outline(), outer)
     if isinstance(pair, InternalMesh):
         if number == 1:
-            return _ring(look, teeth, RingProfile.of(pair).outline(6), pair.rim_radius)
+            return _ring(look, teeth, RingProfile.of(pair).outline(6), pair.rim_radius if rim is None else rim)
         pair = GearPair.from_shift(pair.module, (teeth, teeth), (0.0, 0.0), pressure_angle=pair.pressure_angle)
         number = 0
     outline = _teeth(pair, number)

@@ -4,8 +4,11 @@ Tolerances: none of its own.
 """
 
 import factory
+import numpy as np
 import pytest
 from factory import worked
+
+from gearlink.cli.scenes.gears import gear
 
 LEVER = """kind: geared-rocker
 gears:
@@ -132,4 +135,8 @@ def test_a_ring_has_one_rim_whichever_key_gives_it() -> None:
         assert "fail" in {c.status for c in checks}
         assert "fail" not in {c.status for c in factory.design(base, **keys, **more).check("shaft-clearance")}
     ring = factory.design("ring_feed", command="synth dwell", gears__rim_thickness=[None, None, 9.0])
-    assert ring.layout.gears[2].outer == ring.meshes["idler_output"].root_radius[1] + 9.0
+    outer = ring.meshes["idler_output"].root_radius[1] + 9.0
+    assert ring.layout.gears[2].outer == outer
+    mesh, still = ring.meshes["idler_output"], np.zeros(1)
+    drawn = gear(mesh, 1, still + 0j, still, 1.0, "#000000", "5", rim=ring.outer_rim("idler_output"))
+    assert np.abs(drawn[0].outline) == pytest.approx(outer, rel=1e-12)
