@@ -117,12 +117,16 @@ class TipCorner:
     def _mate(self) -> int:
         return 1 - self.gear
 
+    @property
+    def _form(self) -> Any:
+        """r_Ff of the gear [mm]."""
+        return self.pair.form_radius[self.gear]
+
     @cached_property
     def comes_near(self) -> Any:
         """Whether the corner comes deeper than the flank goes."""
-        form: Any = self.pair.form_radius[self.gear]
         deepest = abs(self.pair.center_distance - self.pair.tip_radius[self._mate])
-        return self.pair.signs[self.gear] * (deepest - abs(form)) < 0.0
+        return self.pair.signs[self.gear] * (deepest - abs(self._form)) < 0.0
 
     @cached_property
     def _rise(self) -> Any:
@@ -166,8 +170,8 @@ class TipCorner:
         """
         pair, fn, mate = self.pair, self.pair.fn, self._mate
         tool, slope = pair.tool(self.gear), fn.tan(pair.transverse_pressure_angle)
-        base, own, form = pair.base_radius[mate], pair.base_radius[self.gear], pair.form_radius[self.gear]
-        flank_end = fn.sqrt(fn.greatest(0.0, (form - own) * (form + own)))  # type: ignore[operator]
+        base, own, form = pair.base_radius[mate], pair.base_radius[self.gear], self._form
+        flank_end = fn.sqrt(fn.greatest(0.0, (form - own) * (form + own)))
         spare = slope * (pair.interference_margin[mate] - flank_end)
         rho, rounding = base * fn.tan(pair.tip_pressure_angle[mate]), _LESS * pair.module * tool.rounding
         stays = spare >= 0.0

@@ -29,6 +29,11 @@ class TipCorners(TipCorner):
         [False, False]
     """
 
+    @property
+    def _form(self) -> Any:
+        """r_Ff of the gear alone: where a tool cuts into flanks, that of the mate is another search."""
+        return self.pair.form_radius_of(self.gear)
+
     def may_cut(self, judged: Any) -> Any:
         """Where the steps of the search for the least gap pass a valley in which the corner could be in the fillet.
 
