@@ -264,21 +264,21 @@ def fails(made: Any, command: str, name: str) -> Check:
     return next(check for check in made.findings(command, name) if check.status == "fail")
 
 
-def test_loads_that_were_refused_hold_after_a_remedy() -> None:
+@pytest.mark.parametrize(("allowed", "angle"), [(540, 72.0), pytest.param(300, None, marks=pytest.mark.slow)])
+def test_loads_that_were_refused_hold_after_a_remedy(allowed: float, angle: float | None) -> None:
     """Both rollers on one side: 57 deg parts them, and presses the return roller beyond what the file allows."""
-    for allowed, angle in ((540, 72.0), (300, None)):
-        given: dict[str, Any] = {"cam__return_roller__angle": 20, "loads__material__allowed_pressure": allowed}
-        kind, spec = KINDS["swing-gripper"], spec_of("loaded_gripper", **given)
-        with pytest.raises(NoSolution, match="same side"):
-            kind.design("loads", spec).require("loads")
-        check = fails(kind.design("gripper", spec), "gripper", "lift-off")
-        assert check.remedy == (() if angle is None else (("cam.return_roller.angle", angle),))
-        if check.remedy:
-            loads = kind.design("loads", changed(spec, check.remedy))
-            assert all(found.status != "fail" for found in loads.report("loads").checks)
+    given: dict[str, Any] = {"cam__return_roller__angle": 20, "loads__material__allowed_pressure": allowed}
+    kind, spec = KINDS["swing-gripper"], spec_of("loaded_gripper", **given)
+    with pytest.raises(NoSolution, match="same side"):
+        kind.design("loads", spec).require("loads")
+    check = fails(kind.design("gripper", spec), "gripper", "lift-off")
+    assert check.remedy == (() if angle is None else (("cam.return_roller.angle", angle),))
+    if check.remedy:
+        loads = kind.design("loads", changed(spec, check.remedy))
+        assert all(found.status != "fail" for found in loads.report("loads").checks)
 
 
-@pytest.mark.parametrize(("allowed", "compared"), [(1200, False), (300, True)])
+@pytest.mark.parametrize(("allowed", "compared"), [(1200, False), pytest.param(300, True, marks=pytest.mark.slow)])
 def test_remedies_and_commands_of_a_file_share_its_loads(allowed: float, compared: bool) -> None:
     """Those of the file as it stands are computed where a remedy leaves something to compare them with."""
     given = {"spring__torque": 150, "loads__material__allowed_pressure": allowed}

@@ -15,6 +15,7 @@ import factory
 import numpy as np
 import pytest
 from oracles.gripper import CASES, machine
+from sweeps import mostly_slow
 
 from gearlink.core.errors import MissingSection, NoSolution
 
@@ -57,7 +58,7 @@ def test_the_chosen_centre_is_reported_and_may_be_given() -> None:
     assert "cam_center" not in again.outline("cam").quantities
 
 
-@pytest.mark.parametrize("limit", [26.0, 28.0, 30.0, 35.5, 42.0])
+@pytest.mark.parametrize("limit", mostly_slow([28.0, 26.0, 30.0, 35.5, 42.0], 1))
 def test_cams_that_are_sized_to_their_limit_pass_it(limit: float) -> None:
     """Two of three had failed GL401 by some 1e-14 of the limit; a hundred-millionth of a degree more still fails."""
     kept = {"pressure_angle": limit, "accelerate_pressure_angle": limit}
