@@ -99,7 +99,7 @@ def smallest_cam_of_rollers(
     else:
         phi = np.linspace(0.0, TURN, _PLACES)
         families = [partial(_largest_of, phi, *family(phi)) for family in planes]
-    center, places, margins = _nearest_admissible(families, target)
+    center, places, margins = _nearest_admissible(families, target, max_pressure_angle)
     return CamCenter(center, abs(target - center), places, margins)
 
 
@@ -126,7 +126,7 @@ _Violation: TypeAlias = tuple[float, float, tuple[complex, float]]
 
 
 def _nearest_admissible(
-    families: Sequence[Callable[[complex], _Violation]], target: complex
+    families: Sequence[Callable[[complex], _Violation]], target: complex, max_pressure_angle: float
 ) -> tuple[complex, tuple[float, ...], tuple[float, ...]]:
     """Point nearest to the target with Re(conj(n) p) >= c for every family of planes, by cutting planes."""
     cuts: list[tuple[complex, float]] = []
@@ -138,7 +138,10 @@ def _nearest_admissible(
             return point, tuple(place for _, place, _ in worst), tuple(max(0.0, -short) for short, _, _ in worst)
         cuts = [*cuts, *(cut for violation, _, cut in worst if violation > -1e-6 * scale)]
         point = _nearest_point(cuts, target, scale)
-    raise NoSolution("the smallest cam is not determined by this pressure-angle limit: raise it a little")
+    raise NoSolution(
+        f"the smallest cam is not determined by a pressure angle of {math.degrees(max_pressure_angle):.6g} deg: allow "
+        "a little more"
+    )
 
 
 def _largest_of(phi: Reals, normal: Points, limit: Reals, point: complex) -> _Violation:

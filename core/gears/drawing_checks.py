@@ -211,7 +211,7 @@ def _fillet_of(data: GearData, gear: int) -> Iterator[Check]:
     pair, form = data.pair, data.pair.form_radius[gear]
     if form is None and pair.interference_margin[1 - gear] > 0.0:
         return
-    found = fillet_measured(pair, data.path, gear)
+    found, more_shift = fillet_measured(pair, data.path, gear), "raise its profile shift, "
     if form is None or found.beyond:
         base = abs(pair.base_radius[gear])
         text = f"contact at the root of gear {gear + 1} would lie beyond its base circle ({base:.6g} mm)"
@@ -219,7 +219,7 @@ def _fillet_of(data: GearData, gear: int) -> Iterator[Check]:
         used = abs(data.path.used_root_radius[gear])
         text = f"contact at the root of gear {gear + 1} begins at {used:.7g} mm, its flank at {abs(form):.7g} mm"
         if not found.bad and (corner := corner_in_fillet(pair, gear)):
-            found = found._replace(margin=corner.gap, bad=True)
+            found, more_shift = found._replace(margin=corner.gap, bad=True), ""
             text = (
                 f"the corner of the tip of gear {2 - gear} cuts {-corner.gap:.4g} mm into the root fillet of gear "
                 f"{gear + 1}, at {corner.place:.7g} mm, outside the path of contact"
@@ -228,9 +228,7 @@ def _fillet_of(data: GearData, gear: int) -> Iterator[Check]:
     if found.bad:
         status = "fail" if found.judged else "warn"
         of_tool = "residual_undercut" if pair.teeth[gear] > 0 and pair.tool(gear).residual_undercut else "rounding"
-        text += (
-            f": raise its profile shift, shorten the tips of gear {2 - gear}, or take a tool with a smaller {of_tool}"
-        )
+        text += f": {more_shift}shorten the tips of gear {2 - gear}, or take a tool with a smaller {of_tool}"
     yield FILLET.check(status, text, found.margin, found.limit, "mm")
 
 

@@ -251,13 +251,14 @@ def _fillet(rack: RackMesh, _limits: Any) -> Iterator[Check]:
         yield _judged(FILLET.check, f"contact {_side(margin, noise)} the root fillet of gear 1", margin, noise)
     margin = rack.form_depth - rack.end_depth
     words = f"contact {_side(margin, noise)} the root rounding of the rack"
+    remedy = "lower the profile shift or the addendum of gear 1, or the rounding of the rack's tool"
     if margin >= noise and (corner := _corner_in_rack(rack, noise)):
         margin = corner.gap
         words = (
             "the corner of the tip of gear 1 cuts {:.4g} mm into the root rounding of the rack, "
             f"{corner.place:.7g} mm below its datum line, outside the path of contact"
         )
-    remedy = "lower the profile shift or the addendum of gear 1, or the rounding of the rack's tool"
+        remedy = "shorten the tips of gear 1, or take a tool with a smaller rounding for the rack"
     yield _judged(FILLET.check, words, margin, noise, remedy)
 
 

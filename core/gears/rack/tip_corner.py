@@ -25,7 +25,8 @@ class CornerInRack:
     """The corner of a gear's tip beside the root rounding of its rack.
 
     Parameters
-        pair : GearPair - gear 1 is the gear, the tool of gear 2 the rack's; contact ends on the flank of the rack
+        pair : GearPair - gear 1 is the gear, the tool of gear 2 the rack's; contact ends on the flank of the
+            rack, whose tool is not pointed
         center_distance : float [mm] - from the axis to the datum line
         end_depth : float [mm] - how far below the datum line contact ends
     Notes
@@ -70,7 +71,7 @@ class CornerInRack:
     def _rounding(self, normal: float) -> tuple[float, float]:
         """Place of the rounding beside the middle of the space and below the datum line, in the normal section [m]."""
         angle, tool = self.pair.pressure_angle, self.pair.tool(1)
-        beside = max(0.0, tool.rounding_center(angle)) + tool.rounding * math.sin(normal)
+        beside = tool.rounding_center(angle) + tool.rounding * math.sin(normal)
         return beside, tool.addendum - tool.rounding * (1.0 - math.cos(normal))
 
     @cached_property

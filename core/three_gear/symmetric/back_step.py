@@ -25,6 +25,7 @@ _SERIES_BELOW = 0.5
 _INTEGRAL_BELOW = 0.2  # h [rad]; ten Gauss points over 4 h are then exact to rounding
 _POLISHED_BELOW = 0.75  # h [rad]; the closed form loses some ulp / h^2, which a step with the integral gives back
 _POLISHED_I3 = -0.1
+_ROUNDING = 1e-9  # [rad]; at the limits 6e-13 of the wrong sign were seen, at i3 = -100
 _PART = 0.6  # longest stretch [rad] of that integral for ten Gauss points
 _NODES = tuple((s * x, w) for x, w in zip(GAUSS_NODES, GAUSS_WEIGHTS, strict=True) for s in (-1.0, 1.0))
 
@@ -257,9 +258,12 @@ def crank_angle_for_window(i3: float, window: float) -> float:
 def _rising_root(f: Callable[[float], float], low: float, high: float) -> float:
     """Root of a function that is negative at the low end and positive at the high one, or at a limit zero there.
 
-    At a limit rounding may leave either sign: that end is then the root.
+    At a limit rounding may leave either sign, and that end is the root.
     """
-    return bracketed_root(f, low, high, ends=(min(f(low), 0.0), max(f(high), 0.0)))
+    first, last = f(low), f(high)
+    if 0.0 <= first < _ROUNDING:
+        return low
+    return high if -_ROUNDING < last <= 0.0 else bracketed_root(f, low, high, ends=(first, last))
 
 
 def _back_step(v: float, h: float) -> float:
