@@ -23,6 +23,7 @@ _COLORS = (style.BLUE, style.RED, style.GREEN, style.ORANGE, style.PURPLE, style
 _BESIDE_A_POINT = 25
 """Places between two rows beside the greatest of a pointed curve."""
 _DASHES: tuple[Any, ...] = ("-", (0, (6, 2)), (0, (6, 2, 1.5, 2)))
+"""Neighbours differ in their lines as well, for grey print; each of 21 curves has its own look."""
 
 
 def draw(chart: DesignChart, table: Table, curves: tuple[float, ...], marked: Marked | None) -> Figure:
@@ -34,7 +35,7 @@ def draw(chart: DesignChart, table: Table, curves: tuple[float, ...], marked: Ma
         x, y = table.data[0], values
         if chart.peaked:
             x, y = _pointed(chart, table.data[0], values, curves[i])
-        dashes = _DASHES[(i // len(_COLORS)) % len(_DASHES)]
+        dashes = _DASHES[i % len(_DASHES)]
         label = _curve_label(chart, curves[i]) if chart.parameter is not None else None
         axes.plot(
             x,

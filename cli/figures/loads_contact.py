@@ -162,11 +162,11 @@ def _stroke(axes: Axes, design: Any, title: str, ylabel: str, column: str) -> No
     style.curves(axes, f"{'cam' if design.spec.drive is None else 'crank'} angle [deg]", ylabel)
     panels.small_ticks(axes)
     panels.heading(axes, title)
-    for stroke, color in zip(design.strokes, panels.CAM_COLORS, strict=False):
+    for stroke, color, line in zip(design.strokes, panels.CAM_COLORS, panels.CAM_LINES, strict=False):
         later = "" if stroke.name == "main" else "return_"
         values = table[column.format(stroke.name) if "{}" in column else f"{later}{column}"].astype(float)
         label = "working stroke" if stroke.name == "main" else "return stroke"
-        axes.plot(table[f"{later}cam_angle"], values, color=color, linewidth=1.5, label=label)
+        axes.plot(table[f"{later}cam_angle"], values, color=color, linewidth=1.5, linestyle=line, label=label)
     axes.set_xlim(0.0, 360.0 if design.whole else math.degrees(design.cam.cycle_angle))
     if len(design.strokes) > 1:
         panels.legend_above(axes, 2)

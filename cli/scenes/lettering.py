@@ -37,24 +37,29 @@ def shifts(scene: Scene, reach: float, label_reach: Callable[[Body], float]) -> 
     for mark in scene.marks:
         point = mark.point[::every]
         others = [_from_point(other.point[::every]) for other in scene.marks if other is not mark]
-        others += [_from_circle(gear.place[::every], gear.pitch) for gear in gears]
-        found.append(_clearest(point, reach, reach, [*taken, *others]) if mark.text else 0j)
+        circles = [_from_circle(gear.place[::every], gear.pitch) for gear in gears]
+        found.append(_clearest(point, reach, reach, [*taken, *others], circles) if mark.text else 0j)
         taken += [_from_point(point + found[-1])] if mark.text else []
     taken += [_from_point(mark.point[::every]) for mark in scene.marks]
     labels = []
     for body in scene.parts:
         if isinstance(body, Body) and body.label:
             far, place = label_reach(body), body.place[::every]
-            others = [_from_circle(gear.place[::every], gear.pitch) for gear in gears if gear is not body]
-            labels.append(_clearest(place, far, 2.0 * reach, [*taken, *others]) if far else 0j)
+            circles = [_from_circle(gear.place[::every], gear.pitch) for gear in gears if gear is not body]
+            labels.append(_clearest(place, far, 2.0 * reach, taken, circles) if far else 0j)
             taken.append(_from_point(place + labels[-1]))
     return found, labels
 
 
-def _clearest(point: Points, distance: float, enough: float, taken: list[_Clearance]) -> complex:
-    """The shift that keeps farthest from all that is taken, as far as `enough`; up and right among equals."""
+def _clearest(
+    point: Points, distance: float, enough: float, taken: list[_Clearance], circles: list[_Clearance]
+) -> complex:
+    """The shift that keeps farthest from all that is taken, as far as `enough`, circles included; up and right among
+    equals. A letter on a circle can still be read, so that of two shifts as near to one the freer counts."""
     places = point[:, None] + distance * _WAYS[None, :]
-    room = np.minimum(enough, np.min([clearance(places) for clearance in taken], axis=0)).mean(axis=0)
+    free = np.min([clearance(places) for clearance in taken], axis=0)
+    clear = np.min([free, *(clearance(places) for clearance in circles)], axis=0)
+    room = np.minimum(enough, clear).mean(axis=0) + 0.5 * np.minimum(enough, free).mean(axis=0)
     upwards = (_WAYS * np.exp(-0.125j * TURN)).real
     return complex(distance * _WAYS[int(np.argmax(room + 0.02 * enough * upwards))])
 
