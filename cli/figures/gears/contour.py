@@ -81,13 +81,13 @@ def _margins(axes: Axes, contour: BlockingContour) -> None:
         share = (x1 + way - low) / (high - low)
         outward = share > 0.35 if side == 0 else share < 0.65  # within the plot wherever the limit lies
         shift, align = ((-4, 3), "right") if (side == 0) == outward else ((4, -3), "left")
-        up = "center" if outward else "bottom" if side == 0 else "top"  # back beside the way, clear of the design's mark
-        if not outward:
-            shift = (shift[0], 4 if side == 0 else -4)
+        level = "center"
+        if not outward:  # back beside the way, clear of it and of the design's mark
+            shift, level = ((shift[0], 4), "bottom") if side == 0 else ((shift[0], -4), "top")
         box = {"facecolor": "white", "alpha": 0.75, "edgecolor": "none", "pad": 0.4}
         look: dict[str, Any] = {"fontsize": 6, "zorder": 7, "bbox": box, "annotation_clip": True}
         place = (x1 + way, x2 - way)
-        axes.annotate(text, place, shift, textcoords="offset points", ha=align, va=up, **look)
+        axes.annotate(text, place, shift, textcoords="offset points", ha=align, va=level, **look)
 
 
 def _named(axes: Axes, across: str, up: str) -> None:
