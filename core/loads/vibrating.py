@@ -112,8 +112,18 @@ class Vibrating:
 
     @cached_property
     def response(self) -> PeriodicResponse:
-        """The periodic steady state."""
-        return PeriodicResponse(self.bend, self.period, tuple(self._breaks), self.oscillator, abs(self.design.speed))
+        """The periodic steady state, by the angle that the input has turned through in its own sense."""
+        breaks = sorted(-place % self.period for place in self._breaks) if self._backwards else self._breaks
+        bend: Callable[[Reals], Reals] = self._bend_backwards if self._backwards else self.bend
+        return PeriodicResponse(bend, self.period, tuple(breaks), self.oscillator, abs(self.design.speed))
+
+    def _bend_backwards(self, turned: Reals) -> Reals:
+        return self.bend(np.mod(-turned, self.period))
+
+    @property
+    def _backwards(self) -> bool:
+        """Whether the input turns towards smaller angles: what comes after a motion is then before it."""
+        return self.design.speed < 0.0
 
     # Motions between the dwells
 
@@ -205,7 +215,8 @@ class Vibrating:
 
     def deflection(self, phi: Reals) -> Reals:
         """Deflection in the steady state [deg or mm]."""
-        return self.response.deflection(np.mod(phi, self.period))
+        turned = np.negative(phi) if self._backwards else phi
+        return self.response.deflection(np.mod(turned, self.period))
 
     def rows(self, width: float) -> int:
         """Rows over an angle of the input [rad] in which each natural period is seen, at most 20000."""
