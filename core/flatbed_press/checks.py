@@ -27,7 +27,7 @@ _ROUNDING = 1e-12
 
 
 def transmission_angle(design: FlatbedPress) -> Iterator[Check]:
-    """GL303 for both chains."""
+    """GL303 for both chains, and for the rod of the bed's slider-crank."""
     limit, motion = design.spec.limits.transmission_angle, design.motion
     angles = {"bed": motion.min_transmission_angle_bed, "cylinder": motion.min_transmission_angle_cylinder}
     for chain, angle in angles.items():
@@ -37,6 +37,8 @@ def transmission_angle(design: FlatbedPress) -> Iterator[Check]:
             f"bring coupler and rocker of {chain}.double_crank nearer to a right angle (shorter frame, longer coupler)",
             f"the least transmission angle of the {chain} chain",
         )
+    subject = "the least angle between the rod EF and the normal of its slide line"
+    yield transmission_check(motion.min_rod_angle, limit, "lengthen bed.rod, or bring the slide line nearer", subject)
 
 
 def sync_speed(design: FlatbedPress) -> Check:
@@ -67,8 +69,16 @@ def _speed_gap(design: FlatbedPress) -> tuple[float, float]:
     return motion.bed.speed(motion.sync_start) - cylinder, cylinder
 
 
-def sync_length(design: FlatbedPress) -> Check:
-    """GL502: the zone covers the print."""
+def sync_length(design: FlatbedPress) -> Iterator[Check]:
+    """GL502: the zone covers the print, and the print finds room on the cylinder."""
+    yield _zone_length(design)
+    asked, room = design.spec.sync.print_length, math.tau * design.spec.cylinder.radius
+    if asked > room:
+        text = f"the print of {asked:g} mm is longer than the cylinder's circumference, {room:.6g} mm: print less"
+        yield codes.SYNC_LENGTH.check("fail", f"{text}, or enlarge cylinder.radius", room, asked, "mm")
+
+
+def _zone_length(design: FlatbedPress) -> Check:
     length, asked = design.motion.zone_length, design.spec.sync.print_length
     if asked == 0.0:
         text = f"the zone is {length:.6g} mm long; no print_length is given"

@@ -31,11 +31,11 @@ SYNC_SPEED = Rule(
 SYNC_LENGTH = Rule(
     "GL502",
     "synchronous zone shorter than the print",
-    "The cylinder travels less in the synchronous zone than the print is long.",
-    "The rest of the print would be smeared.",
-    "Set sync.length to the print length and a margin.",
-    "R i (theta_MN(phi_s) - theta_MN(phi_e)) >= sync.print_length",
-    "TY-460 report 3.2",
+    "The cylinder travels less in the synchronous zone than the print is long, or is shorter about than the print.",
+    "The rest of the print would be smeared; a longer print than the circumference would fall on its own beginning.",
+    "Set sync.length to the print length and a margin; enlarge cylinder.radius.",
+    "R i (theta_MN(phi_s) - theta_MN(phi_e)) >= sync.print_length, 2 pi R >= sync.print_length",
+    "TY-460 report 3.2; the circumference: own derivation",
     ("sync-length",),
     ("sync.length", "sync.end", "sync", "cylinder"),
 )

@@ -73,8 +73,9 @@ class PressLoads(CamLoadsDesign):
 
     @property
     def transmission_angle(self) -> float:
-        """The lesser of both chains [rad]."""
-        return min(self.design.min_transmission_angle_bed, self.design.min_transmission_angle_cylinder)
+        """The least of both chains and the rod [rad]."""
+        motion = self.design.motion
+        return min(motion.min_transmission_angle_bed, motion.min_transmission_angle_cylinder, motion.min_rod_angle)
 
     @property
     def unknown_joints(self) -> tuple[str, ...]:

@@ -63,6 +63,11 @@ class PressMotion:
         return self.cylinder.linkage.min_transmission_angle()
 
     @cached_property
+    def min_rod_angle(self) -> float:
+        """Least angle between the rod EF and the normal of the slide line over the turn [rad]."""
+        return math.acos((self.slider_crank.crank_length + abs(self.spec.bed.offset)) / self.spec.bed.rod)
+
+    @cached_property
     def extremes(self) -> dict[str, float]:
         """Extremes of velocity and acceleration of bed and cylinder [mm/s, mm/s^2], and all their places [rad]."""
         from gearlink.core.motion_extremes import extremes

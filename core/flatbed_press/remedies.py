@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from gearlink.core.cams.checks import HUB, ROLLER_SHARE
 from gearlink.core.errors import NoSolution
 from gearlink.core.flatbed_press.zone import zone_end
+from gearlink.core.linkages.slider_crank.position import SliderCrank
 from gearlink.core.remedies.ways import REFUSAL, Way, at_least, at_most, down, either, left_out, refusal_ways, up
 
 if TYPE_CHECKING:
@@ -16,6 +17,9 @@ if TYPE_CHECKING:
     from gearlink.core.report import Remedy
 
 _LEAD_IN = 10.0
+_STEEPEST = 1e-3
+_ROUNDS = 20
+"""So often a rod is found from its crank, which grows less than the rod does."""
 _LINKS = tuple(f"{chain}.double_crank.{link}" for chain in ("bed", "cylinder") for link in ("frame", "coupler"))
 _LARGER = (up("cam.base_radius"), up("cam.return_angle", step=0.5))
 _ZONE = (left_out("sync.start"), up("cam.lead_in", step=1.0))
@@ -52,8 +56,20 @@ def candidates(design: FlatbedPress, check: str) -> Iterator[Remedy]:
     return _CLOSED[check](design) if check in _CLOSED else iter(())
 
 
+def _rod(design: FlatbedPress) -> Iterator[Remedy]:
+    """The rod of the bed that keeps the limit, well or just; the crank grows with it."""
+    bed, limit = design.spec.bed, design.spec.limits.transmission_angle
+    for aim in (limit + 5.0, limit):
+        rod, lean = bed.rod, math.cos(math.radians(aim))
+        if math.degrees(design.motion.min_rod_angle) >= aim or lean < _STEEPEST:
+            continue
+        for _ in range(_ROUNDS):
+            rod = (SliderCrank(bed.stroke / 2.0, rod, bed.offset).crank_length + abs(bed.offset)) / lean
+        yield (("bed.rod", at_least(rod)),)
+
+
 def _length(design: FlatbedPress) -> Iterator[Remedy]:
-    """A zone as long as the print, by its length or its end; last a print as long as the zone."""
+    """A zone as long as the print, by its length or its end; last a print that fits into zone and circumference."""
     sync, motion = design.spec.sync, design.motion
     if sync.end is None:
         yield (("sync.length", sync.print_length),)
@@ -61,7 +77,7 @@ def _length(design: FlatbedPress) -> Iterator[Remedy]:
         end = math.degrees(zone_end(motion.cylinder, motion.sync_start, sync.print_length))
         yield (("sync.end", at_least(end, 0.5)),)
         yield ("sync.length", sync.print_length), ("sync.end", None)
-    yield (("sync.print_length", at_most(motion.zone_length)),)
+    yield (("sync.print_length", at_most(min(motion.zone_length, math.tau * design.spec.cylinder.radius))),)
 
 
 def _pressure(design: FlatbedPress) -> Iterator[Remedy]:
@@ -107,6 +123,7 @@ def _smooth(design: FlatbedPress) -> Iterator[Remedy]:
 
 _CLOSED: dict[str, Callable[[FlatbedPress], Iterator[Remedy]]] = {
     REFUSAL: lambda _: iter(((("cam.return_law", "cycloidal"),),)),
+    "transmission-angle": _rod,
     "sync-length": _length,
     "pressure-angle": _pressure,
     "cam-undercut": _roller,

@@ -41,13 +41,16 @@ TRANSMISSION_ANGLE = Rule(
     "The angle between coupler and driven link, counted up to 90 deg, falls below limits.transmission_angle.",
     "The force along the coupler then hardly turns the driven link: joints are loaded heavily and play shows.",
     "Bring coupler and driven link nearer to a right angle: shorten the crank, take a larger idler, or a shorter "
-    "frame in a drag link.",
+    "frame in a drag link; of a slider lengthen the rod.",
     "mu = min(gamma, 180 deg - gamma), cos(gamma) = (l2^2 + l3^2 - n^2)/(2 l2 l3), n the diagonal from the crank "
-    "pin; fails below the limit, warns less than 5 deg above it; "
-    "below 3 deg the message names the condition number 1/sin(mu)",
+    "pin; of a rod and its slide line 90 deg less the rod's lean; fails below the limit, warns less than 5 deg above "
+    "it; below 3 deg the message names the condition number 1/sin(mu)",
     "VDI 2142; thesis 4.2",
     ("transmission-angle",),
-    ("links", "cylinder.double_crank", "bed.double_crank", "back_step", "dwell", "speed", "momentary", "gears"),
+    (
+        *("links", "cylinder.double_crank", "bed.double_crank", "drive", "slider"),
+        *("back_step", "dwell", "speed", "momentary", "gears"),
+    ),
 )
 TARGET = Rule(
     "GL307",

@@ -11,6 +11,7 @@ import numpy as np
 from gearlink.core.cams import codes as cams
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages import codes as linkages
+from gearlink.core.linkages.checks import transmission_check
 from gearlink.core.report import Check, Status, safely_above, safely_below
 from gearlink.core.wide_swing import codes, cycle_checks, remedies
 
@@ -72,6 +73,24 @@ def balancing(design: WideSwingDesign) -> Iterator[Check]:
         share = (lowest / design.spec.speed) ** 2
         text += f"; at {lowest:g} rev/min lower its force or rate to {share:.3g} of the design value, or take it off"
     yield codes.BALANCING.check(status, text, lowest, harm, "1/min")
+
+
+_TRANSMISSION = {
+    "drive": ("the least transmission angle of the drive", "shorten drive.crank, or bring coupler and rocker nearer"),
+    "slider.rod": (
+        "the least angle between the slider's rod and the normal of its slide line",
+        "lengthen slider.rod, or bring the slide line nearer",
+    ),
+}
+"""What a message calls an angle, and what raises it."""
+
+
+def transmission_angle(design: WideSwingDesign) -> Iterator[Check]:
+    """GL303: the crank-rocker that carries the cam, over its turn, and the slider's rod, over the swing."""
+    limit = design.spec.limits.transmission_angle
+    for key, angle in design.motion.transmission_angles.items():
+        subject, remedy = _TRANSMISSION[key]
+        yield transmission_check(angle, limit, remedy, subject)
 
 
 def force_reserve(design: WideSwingDesign) -> Check:

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from gearlink.core.wide_swing.spec import SwingCam, WideSwingSpec
 
 _CAM = ("max_pressure_angle", "min_curvature_radius", "max_radius", "min_radius")
-_LAW_CHECKS = ("unloader-turnability", "force-closure", "cycle-angles", "balancing")
+_LAW_CHECKS = ("unloader-turnability", "force-closure", "cycle-angles", "balancing", "transmission-angle")
 _CYCLE_CHECKS = ("acceleration-step", "closed-contour", "profile-planes")
 _CAM_CHECKS = ("profile-exists", "pressure-angle", "cam-undercut", "transition-zone", "shaft-clearance")
 
@@ -265,7 +265,7 @@ class WideSwingDesign(Design):
     check_profile_exists, check_pressure_angle = checks.profile_exists, checks.pressure_angle
     check_cam_undercut, check_transition_zone = checks.cam_undercut, checks.transition_zone
     check_shaft_clearance, check_force_reserve = checks.shaft_clearance, checks.force_reserve
-    check_side_change = checks.side_change
+    check_side_change, check_transmission_angle = checks.side_change, checks.transmission_angle
     check_acceleration_step, check_closed_contour = cycle_checks.acceleration_step, cycle_checks.closed_contour
     check_profile_planes = cycle_checks.profile_planes
 

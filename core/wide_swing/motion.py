@@ -160,6 +160,16 @@ class Motion:
         except NoSolution as error:
             raise with_number(error, drive_repair(section)) from error
 
+    @property
+    def transmission_angles(self) -> dict[str, float]:
+        """Least transmission angles [rad] by the key of the part that they are of: `drive`, `slider.rod`."""
+        found = {}
+        if self.spec.drive is not None:
+            found["drive"] = self.drive.linkage.min_transmission_angle()
+        if self.spec.slider is not None:
+            found["slider.rod"] = self.slider.drive.least_transmission(self.swing)
+        return found
+
     @cached_property
     def cycle_angle(self) -> float:
         """phi_ud, turn of the shaft that runs evenly during the working stroke [rad]."""

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, TypeAlias
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.remedies.ways import REFUSAL, at_least, at_most, down, up
+from gearlink.core.remedies.ways import REFUSAL, at_least, at_most, down, either, up
 from gearlink.core.spec_paths import changed, number_at
 
 if TYPE_CHECKING:
@@ -34,6 +34,7 @@ WAYS = {
     "transition-zone": _ROLLER,
     "shaft-clearance": (up("cam.center_distance"), down("cam.roller_radius"), down("cam.shaft_radius")),
     "force-reserve": (up("unloader.reserve", step=_RATIO),),
+    "transmission-angle": (down("drive.crank"), *either("drive.coupler", "drive.frame")),
 }
 
 
@@ -274,6 +275,17 @@ def drive_repair(section: SwingDrive) -> tuple[str, float]:
     return "drive.crank", at_most(0.5 * least)
 
 
+def _rod(design: WideSwingDesign) -> Iterator[Change]:
+    """The rod that keeps the limit, well or just."""
+    section, limit = design.spec.slider, design.spec.limits.transmission_angle
+    if section is None:
+        return
+    reach = section.rod * math.cos(design.motion.transmission_angles["slider.rod"])
+    for aim in (limit + 5.0, limit):
+        if aim < 90.0:
+            yield "slider.rod", at_least(reach / math.cos(math.radians(aim)))
+
+
 def _refused(design: WideSwingDesign) -> Iterator[Change]:
     """What makes device, drive or slider possible."""
     spec, motion = design.spec, design.motion
@@ -292,6 +304,7 @@ def _refused(design: WideSwingDesign) -> Iterator[Change]:
 _CLOSED: dict[str, Callable[[WideSwingDesign], Iterator[Change]]] = {
     REFUSAL: _refused,
     "unloader-turnability": lambda d: _one("unloader.pivot_ratio", at_least(d.motion.usual_pivot_ratio, _RATIO)),
+    "transmission-angle": _rod,
     "cycle-angles": lambda _: _one("cycle_angle", 180.0),
     "balancing": lambda d: _one("operating_speed_min", at_least(d.unloading.harmful_speed)),
     "profile-exists": _profile,

@@ -94,6 +94,23 @@ class SliderDrive:
         """Slider position at rocker angles phi from mid-swing, with derivatives with respect to phi up to 2 [mm]."""
         return slider(phi + (self.middle_angle - 0.5 * math.pi), self.crank, self.rod, self.offset, order)
 
+    def least_transmission(self, swing: float) -> float:
+        """Least angle between the rod and the normal of the slide line over a swing [rad].
+
+        mu = 90 deg - max |asin((R sin psi + e)/l)|, psi the arm's angle, middle_angle +- swing/2
+
+        Parameters
+            swing : float [rad]
+        Example
+            >>> drive = SliderDrive(crank=1.0, rod=2.0, middle_angle=0.0)
+            >>> [round(math.degrees(drive.least_transmission(math.radians(each)))) for each in (60, 180)]
+            [76, 60]
+        """
+        start, end = self.middle_angle - 0.5 * swing, self.middle_angle + 0.5 * swing
+        square = (0.5 + math.ceil(start / math.pi - 0.5)) * math.pi  # the first place of a square arm from the start on
+        places = (start, end, *(place for place in (square, square + math.pi) if place <= end))
+        return math.acos(max(abs(self.crank * math.sin(psi) + self.offset) for psi in places) / self.rod)
+
     def dead_centers(self) -> tuple[float, float]:
         """Rocker angles from mid-swing, within one turn, where arm and rod are in line [rad]."""
         extended = -math.asin(self.offset / (self.rod + self.crank))

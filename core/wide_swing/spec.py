@@ -161,6 +161,9 @@ class SwingLimits(LoadLimits):
     """Limits of the checks."""
 
     pressure_angle: AcuteAngle = Field(45.0, description="greatest pressure angle outside the transition zone")
+    transmission_angle: AcuteAngle = Field(
+        40.0, description="least transmission angle of `drive` and of a slider's rod"
+    )
     transition_zone: Annotated[float, Field(gt=0, lt=0.5, json_schema_extra={"unit": "1"})] = Field(
         0.05, description="largest half-width of the contact change at mid-swing, share of the stroke"
     )

@@ -10,6 +10,7 @@ Tolerances
 """
 
 import json
+import math
 import re
 from dataclasses import replace
 from math import cos, degrees, radians
@@ -326,11 +327,44 @@ def test_zone_against_the_print(print_length, status):
     [(30.0, ["pass", "pass"]), (31.0, ["pass", "warn"]), (36.0, ["pass", "fail"]), (47.0, ["fail", "fail"])],
 )
 def test_transmission_angles_of_both_chains(limit, statuses):
-    found = press(limits={"transmission_angle": limit}).check("transmission-angle")
+    *found, rod = press(limits={"transmission_angle": limit}).check("transmission-angle")
+    assert "rod EF" in rod.message
     assert [check.status for check in found] == statuses
     assert [check.value for check in found] == pytest.approx([46.531948123073, 35.723697488383266], rel=1e-13)
     assert "bed.double_crank" in found[0].message or statuses[0] == "pass"
     assert "cylinder.double_crank" in found[1].message or statuses[1] == "pass"
+
+
+@pytest.mark.parametrize(("rod", "status"), [(520.0, "pass"), (235.0, "warn"), (225.0, "fail"), (206.0, "fail")])
+def test_a_short_rod_pushes_its_slider_aside(rod: float, status: str) -> None:
+    """Second way: the slider on its line by Pythagoras, the rod's direction from both its ends, 36000 places."""
+    made = factory.design("ty460", bed__rod=rod)
+    check = made.check("transmission-angle")[2]
+    crank, offset = made.motion.slider_crank.crank_length, made.spec.bed.offset
+    pin = crank * np.exp(1j * np.linspace(0.0, 2.0 * math.pi, 36001))
+    slider = pin.real + np.sqrt(rod**2 - (pin.imag + offset) ** 2) - 1j * offset
+    lean = np.abs(np.angle(slider - pin)).max()
+    assert check.value == pytest.approx(90.0 - math.degrees(lean), abs=1e-6)
+    assert check.status == status
+
+
+def test_remedy_of_a_short_rod_holds() -> None:
+    made = factory.design("ty460", bed__rod=225.0, cam__base_radius=250.0)
+    (check,) = (check for check in made.report("press").checks if check.status == "fail")
+    ((path, value),) = check.remedy
+    repaired = factory.design("ty460", bed__rod=value, cam__base_radius=250.0)
+    assert path == "bed.rod"
+    assert {each.status for each in repaired.check("transmission-angle")} == {"pass"}
+
+
+@pytest.mark.parametrize(
+    ("radius", "statuses"), [(67.0, ["pass"]), (66.04, ["pass", "fail"]), (65.0, ["pass", "fail"])]
+)
+def test_a_print_longer_than_the_cylinder_is_round_falls_on_itself(radius: float, statuses: list[str]) -> None:
+    cylinder = {"cylinder__radius": radius, "cylinder__gear_ratio": 2.0}
+    found = factory.design("ty460", **cylinder, sync__print_length=415.0).check("sync-length")
+    assert [check.status for check in found] == statuses
+    assert [check.code for check in found] == ["GL502"] * len(found)
 
 
 # Nothing but what is asked for

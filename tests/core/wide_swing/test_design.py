@@ -24,6 +24,7 @@ from gearlink.core.report import remedy_words
 from gearlink.core.spec_paths import changed, replaced, value_at
 from gearlink.core.wide_swing import remedies
 from gearlink.core.wide_swing.design import WideSwingDesign
+from gearlink.core.wide_swing.slider import SliderDrive
 
 CASES = {
     case["id"]: case["outputs_float"]
@@ -628,3 +629,46 @@ def test_a_cam_that_swings_over_the_rocker_axis_is_warned_of_before_it_reaches_i
             outline = np.abs(made.cam.points(np.linspace(0.0, 1.0, 4001)).profile)
             assert check.value == pytest.approx(room, abs=1e-3)
             assert check.value == pytest.approx(made.section.center_distance - outline.max(), abs=0.05)
+
+
+@pytest.mark.parametrize(
+    ("links", "status"),
+    [
+        ((60.0, 180.0, 96.0, 192.0), "pass"),
+        ((60.0, 150.0, 96.0, 160.0), "warn"),
+        ((60.0, 110.0, 96.0, 115.0), "fail"),
+        ((40.0, 140.0, 45.0, 140.0), "fail"),
+    ],
+)
+def test_drive_is_judged_by_its_transmission_angle(links: tuple[float, ...], status: str) -> None:
+    """Second way: the triangle of coupler, rocker and diagonal at 36000 places of the crank."""
+    names = ("crank", "coupler", "rocker", "frame")
+    made = driven(**{f"drive__{name}": length for name, length in zip(names, links, strict=True)})
+    (check,) = made.check("transmission-angle")
+    crank, coupler, rocker, frame = links
+    diagonal = np.abs(crank * np.exp(1j * np.linspace(0.0, 2.0 * math.pi, 36001)) - frame)
+    cosine = (coupler**2 + rocker**2 - diagonal**2) / (2.0 * coupler * rocker)
+    assert check.value == pytest.approx(math.degrees(math.acos(np.abs(cosine).max())), abs=1e-6)
+    assert (check.code, check.status) == ("GL303", status)
+
+
+@pytest.mark.parametrize("middle", [-200.0, -90.0, -61.0, 0.0, 13.0, 29.0, 31.0, 73.18, 149.0, 151.0, 270.0, 3600.0])
+@pytest.mark.parametrize("offset", [-40.0, 0.0, 25.0])
+def test_slider_rod_is_judged_over_the_swing(middle: float, offset: float) -> None:
+    """Second way: the slider of the table's own kernel, the rod's direction from both its ends, 36000 places."""
+    drive = SliderDrive(150.0, 200.0, math.radians(middle), offset)
+    swing = math.radians(120.0)
+    phi = np.linspace(-0.5 * swing, 0.5 * swing, 36001)
+    # Along the slide line the slider, from the rocker's axis; its depth grows towards the axis' far side.
+    depth = np.abs(drive.depth(phi)[0] - 150.0 * np.cos(phi + drive.middle_angle))
+    leans = np.arccos(np.minimum(1.0, depth / 200.0))
+    assert drive.least_transmission(swing) == pytest.approx(0.5 * math.pi - leans.max(), abs=1e-6)
+
+
+def test_remedy_of_a_slider_rod_holds() -> None:
+    made = factory.design("wide_swing_slider", slider__rod=160.0)
+    (check,) = (check for check in made.report("swing").checks if check.status == "fail")
+    ((path, value),) = check.remedy
+    assert (check.code, path) == ("GL303", "slider.rod")
+    (repaired,) = factory.design("wide_swing_slider", slider__rod=value).check("transmission-angle")
+    assert repaired.status == "pass"
