@@ -117,7 +117,7 @@ class Panels:
         # a panel between two breaks that are one but for rounding is narrower than the rounding of its places
         place = np.clip(2.0 * (phi - self.edges[row]) / width - 1.0, -1.0, 1.0)
         terms = np.polynomial.legendre.legvander(place, self.order)
-        return np.asarray(width * np.sum(terms * series, axis=1))
+        return np.where(phi > self.edges[row], width * np.sum(terms * series, axis=1), 0.0)
 
     def running(self, values: Reals) -> Reals:
         """Integral from the start to each edge."""

@@ -131,10 +131,15 @@ class Running:
         return np.asarray(1.0 / np.abs(self.speed(self.design.machine.panels.nodes)))
 
     def time(self, phi: Reals) -> Reals:
-        """Time since input angle 0 at input angles of the period [s], the input turning one way; each stands alone."""
+        """Time since input angle 0 at input angles of the period [s], the input turning its own way; each stands alone.
+
+        Notes
+            An input that turns backwards comes to the greatest angles first.
+        """
         panels = self.design.machine.panels
         edges = panels.running(self._paces)
-        return np.asarray(edges[panels.row(phi)] + panels.within(self._paces, phi))
+        found = np.asarray(edges[panels.row(phi)] + panels.within(self._paces, phi))
+        return np.where(found > 0.0, edges[-1] - found, 0.0) if self.design.speed < 0.0 else found
 
     @cached_property
     def range(self) -> tuple[float, float]:

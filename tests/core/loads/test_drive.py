@@ -189,6 +189,10 @@ def test_turning_the_other_way_is_the_mirror_image() -> None:
     two = factory.design({**mirrored, "loads": back}, command="loads")
     assert two.speed_min == pytest.approx(one.speed_min, rel=1e-10)
     assert two.motor_torque_rms == pytest.approx(one.motor_torque_rms, rel=1e-10)
+    forth, back_again = one.table("speed"), two.table("speed")
+    assert forth["time"][0] == back_again["time"][0] == 0.0
+    for name, sign in (("speed", -1.0), ("time", 1.0), ("kinetic_energy", 1.0)):
+        assert sign * back_again[name][:0:-1] == pytest.approx(forth[name][1:], rel=1e-10), name
 
 
 @pytest.mark.parametrize(
