@@ -115,11 +115,12 @@ FILLET = Rule(
     "Contact reaches deeper than the involute that the tool leaves, r_Nf < r_Ff; or the corner of the mate's tip cuts "
     "into the fillet outside the path of contact.",
     "The tip of the mate runs on the fillet, which is no involute: noise, scoring, jamming.",
-    "Raise the profile shift, shorten the mate's tips, or take a tool with a smaller rounding or a larger addendum.",
+    "Raise the profile shift, shorten the mate's tips (tip_shortening), or take a tool with a smaller rounding or a "
+    "larger addendum. Tips of a ring of full height always reach into the fillet of a standard tool.",
     "r_Nf >= r_Ff - 1e-4 m, and the corner's least gap along its circle >= -1e-4 m; fails where the file names a tool "
-    "or cutter, for rings and helical gears, else warns",
+    "or cutter, for rings and helical gears, else warns, as for rings of machines whose file says nothing of the teeth",
     "ISO 21771; form radius: own derivation, compared with a rolled tool",
-    ("fillet-interference",),
+    ("fillet-interference", "ring-tips"),
     ("tool", "cutter", "gears.tool", "gears.cutter", "input_gears.tool", *_TEETH),
 )
 BACKLASH = Rule(

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.gears.tooth.involute import involute
 from gearlink.core.gears.tooth.teeth import rim_radius
 from gearlink.core.results import cached_property
+
+if TYPE_CHECKING:
+    from gearlink.core.gears.mesh.pair import GearPair
 
 Pair = tuple[float, float]
 _MOST_TEETH = 10_000
@@ -54,6 +57,28 @@ class InternalMesh:
 
     internal: ClassVar[bool] = True
     """As of a GearPair with a ring."""
+
+    @cached_property
+    def signed(self) -> GearPair:
+        """The mesh as a gear pair whose ring has negative teeth.
+
+        Example
+            >>> InternalMesh(2.0, (48, 62)).signed.center_distance
+            -14.0
+
+        Source
+            ISO 21771, whose signs of a ring are those of `GearPair`
+        """
+        from gearlink.core.gears.mesh.pair import GearPair
+
+        return GearPair(
+            module=self.module,
+            teeth=(self.teeth[0], -self.teeth[1]),
+            pressure_angle=self.pressure_angle,
+            given_shift=(0.0, 0.0),
+            addendum=self.addendum,
+            clearance=self.clearance,
+        )
 
     @property
     def center_distance(self) -> float:

@@ -67,17 +67,5 @@ def signed_pair(mesh: GearPair | InternalMesh) -> GearPair:
     Example
         >>> signed_pair(InternalMesh(2.0, (48, 62))).center_distance
         -14.0
-
-    Source
-        ISO 21771, whose signs of a ring are those of `GearPair`
     """
-    if isinstance(mesh, GearPair):
-        return mesh
-    return GearPair(
-        module=mesh.module,
-        teeth=(mesh.teeth[0], -mesh.teeth[1]),
-        pressure_angle=mesh.pressure_angle,
-        given_shift=(0.0, 0.0),
-        addendum=mesh.addendum,
-        clearance=mesh.clearance,
-    )
+    return mesh if isinstance(mesh, GearPair) else mesh.signed

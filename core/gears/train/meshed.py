@@ -15,7 +15,7 @@ from gearlink.core.errors import NoSolution, at_key, in_section
 from gearlink.core.gears.checks import GEAR_QUANTITIES, GearQuantities
 from gearlink.core.gears.drawing_names import DERIVED, RATING, lacking
 from gearlink.core.gears.train.names import TRAIN_CHECKS, TRAIN_QUANTITIES
-from gearlink.core.gears.train.single_mesh import MESH_CHECKS, MESH_QUANTITIES, mesh_checks, mesh_quantity
+from gearlink.core.gears.train.single_mesh import MESH_CHECKS, MESH_QUANTITIES, RING_TIPS, mesh_checks, mesh_quantity
 from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
 
@@ -276,6 +276,8 @@ class Meshed(GearQuantities, Design):
 
     def _mesh_check(self, name: str, label: str) -> list[Check]:
         mesh, limits, shifts = self.meshes[label], self.spec.limits, self.spec.gears.profile_shift is not None
+        if name == RING_TIPS and self.own_teeth:
+            return []  # judged by the check that knows the tool
         if self.own_teeth and (self.spec.gears.helix_angle or self._own_pairs[label].internal):
             from gearlink.core.gears.drawing_checks import pair_check
 
@@ -286,8 +288,8 @@ class Meshed(GearQuantities, Design):
         """Whether the file gives what a check of the drawing or of the strength needs."""
         gears = self.spec.gears
         needed = {
-            "fillet-interference": (gears.tool, gears.cutter),
             "radial-assembly": (gears.assembly, gears.cutter),
+            "fillet-interference": (self.own_teeth or None,),
             "backlash": (gears.allowances, gears.center_distance_allowance, *self._distances),
         }.get(name, (gears.load,))
         return any(each is not None for each in needed)

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, gear_check, gear_quantity
-from gearlink.core.gears.codes import CONTACT_RATIO, INTERFERENCE, TIP_FOULING, UNDERCUT
+from gearlink.core.gears.checks import FILLET_NOISE, GEAR_CHECKS, GEAR_QUANTITIES, gear_check, gear_quantity
+from gearlink.core.gears.codes import CONTACT_RATIO, FILLET, INTERFERENCE, TIP_FOULING, TIP_THICKNESS, UNDERCUT
 from gearlink.core.gears.mesh.pair import GearPair
 from gearlink.core.gears.tooth.teeth import min_shift_no_undercut
 from gearlink.core.report import Check, Rule, Status
@@ -27,7 +27,8 @@ INTERNAL_QUANTITIES = (
 )
 MESH_QUANTITIES = (*GEAR_QUANTITIES, "tip_fouling_margin")
 _OF_RING_TIPS = ("contact_ratio", "tip_pressure_angle", "tip_fouling_margin")
-MESH_CHECKS = (*GEAR_CHECKS, "tip-fouling")
+RING_TIPS = FILLET.checks[1]
+MESH_CHECKS = (*GEAR_CHECKS, TIP_FOULING.name, RING_TIPS)
 
 
 def mesh_quantity(mesh: GearPair | InternalMesh, name: str) -> Any:
@@ -55,11 +56,11 @@ def mesh_checks(
             replace(check, message=f"{label.replace('_', '-')} mesh: {check.message}") if label else check
             for check in found
         ]
-    return [] if name == "tip-fouling" else list(gear_check(name, mesh, limits, label, shifts))
+    return [] if name in (TIP_FOULING.name, RING_TIPS) else list(gear_check(name, mesh, limits, label, shifts))
 
 
 def _internal_check(name: str, mesh: InternalMesh, limits: Any) -> Iterator[Check]:
-    """The findings of one of MESH_CHECKS on an internal mesh; thickness and root clearance are the standard's."""
+    """The findings of one of MESH_CHECKS on an internal mesh, whose root clearance is the standard's."""
     if name == "undercut":
         least = min_shift_no_undercut(mesh.teeth[0], mesh.pressure_angle, mesh.addendum)
         subject, remedy = "the room of the planet's root before undercut, -x_min,", "take more planet teeth"
@@ -82,6 +83,29 @@ def _internal_check(name: str, mesh: InternalMesh, limits: Any) -> Iterator[Chec
         limit = limits.contact_ratio
         remedy = "take more teeth of a smaller module"
         yield CONTACT_RATIO.below(mesh.contact_ratio, limit, limit + 0.1, "1", "the contact ratio", remedy)
+    elif name == TIP_THICKNESS.name and mesh.ring_tip_margin >= 0.0:
+        yield from gear_check(name, mesh.signed, limits)
+    elif name == RING_TIPS and mesh.ring_tip_margin >= 0.0 and mesh.interference_margin > 0.0:
+        yield from _ring_tips_on_fillet(mesh)
+
+
+def _ring_tips_on_fillet(mesh: InternalMesh) -> Iterator[Check]:
+    """GL207: tips of full height of a ring, which is hollow, reach deeper into a root than those of the tool's rack.
+
+    Notes
+        A warning: the file says nothing of how the teeth are cut.
+    """
+    from gearlink.core.gears.mesh.contact import PathOfContact
+
+    used, form = PathOfContact(mesh.signed).used_root_radius[0], mesh.signed.form_radius_of(0)
+    if form is None:
+        return
+    margin, limit = used - form, -FILLET_NOISE * mesh.module
+    text = f"the ring gear's tips touch the planet down to {used:.7g} mm; cut by a standard tool its flank ends at"
+    text += f" {form:.7g} mm"
+    if margin < limit:
+        text += ": shorten the tips of the ring gear, or shift the profiles"
+    yield FILLET.check("warn" if margin < limit else "pass", text, margin, limit, "mm", name=RING_TIPS)
 
 
 def _margin(rule: Rule, margin: float, what: str, where: str, remedy: str) -> Check:
