@@ -146,7 +146,7 @@ def _make(source: str, options: Options, board: Board, sheets: Remembered, uncha
                 return ""
             put()
     except (DesignFileError, NoSolution) as error:
-        words = error.as_text() if isinstance(error, DesignFileError) else visible(f"{error.code}: {error}")
+        words = str(error) if isinstance(error, DesignFileError) else visible(f"{error.code}: {error}")
         board.fail(f"<pre>{escape(words)}</pre>")
         return words
     except Exception as fault:  # the page says so, and the next save is another try

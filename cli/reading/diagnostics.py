@@ -76,11 +76,7 @@ class DesignFileError(GearlinkError):
         self.file, self.line, self.column, self.key = first.file, first.line, first.column, first.key
 
     def __str__(self) -> str:
-        return self.as_text()
-
-    def as_text(self, encoding: str = "utf-8") -> str:
-        """Every diagnostic as text; the first hundred where there are more."""
-        return "\n".join(diagnostic.as_text(encoding) for diagnostic in self.diagnostics)
+        return "\n".join(diagnostic.as_text() for diagnostic in self.diagnostics)
 
 
 class Source:

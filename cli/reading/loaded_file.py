@@ -41,9 +41,9 @@ class LoadedFile:
         """The decoded text of the file."""
         return self.tree.source.text
 
-    def locate(self, path: KeyPath, *, value: bool = False) -> tuple[int, int, str]:
-        """Line, column and file of a key (or of its value); of the nearest parent where the key is missing."""
-        source, at = self._spot(path, value)
+    def locate(self, path: KeyPath) -> tuple[int, int, str]:
+        """Line, column and file of a key; of the nearest parent where the key is missing."""
+        source, at = self._spot(path)
         return *source.place(at), source.file
 
     def place_in_file(self, path: KeyPath) -> tuple[int, int]:
@@ -66,13 +66,13 @@ class LoadedFile:
         source, at = self._spot(path)
         return source.report(code, message, at, key=format_path(path) if key is None else key, help=help)
 
-    def _spot(self, path: KeyPath, value: bool = False) -> tuple[Source, int]:
+    def _spot(self, path: KeyPath) -> tuple[Source, int]:
         for override in reversed(self.overrides):
             depth = len(override.path)
             if path[:depth] == override.path:
-                at, _ = _find(override.marks, path[depth:], 0, value)
+                at, _ = _find(override.marks, path[depth:], 0, False)
                 return override.source, at
-        at, found = _find(self.tree.marks, path, self.tree.at, value)
+        at, found = _find(self.tree.marks, path, self.tree.at, False)
         if found < len(path):
             for override in reversed(self.overrides):
                 common = _common(override.path, path)

@@ -179,10 +179,10 @@ def bands(stretches: Iterable[tuple[str, float, float, str]]) -> tuple[Band, ...
     return tuple(found)
 
 
-def wheel(place: Any, radius: float, fraction: Reals, *, color: str, fill: str, label: str = "") -> Body:
+def wheel(place: Any, radius: float, fraction: Reals, *, color: str, fill: str) -> Body:
     """A plain disc, such as a roller: it looks the same at every turn."""
     at, level = track(place, fraction), np.zeros_like(fraction)
-    return Body(outline=circle(radius), place=at, turn=level, color=color, fill=fill, repeats=0, label=label)
+    return Body(outline=circle(radius), place=at, turn=level, color=color, fill=fill, repeats=0)
 
 
 def block(place: Points, width: float, height: float, color: str, label: str = "", *, fill: str = "") -> Body:

@@ -39,36 +39,22 @@ class CamProfile:
     """A cam over its angle; points stand in the cam's own frame, which is the world's at cam angle 0.
 
     Attributes
-        cam_angle : (N,) array [rad]
         pitch, profile : (N,) complex arrays [mm] - roller centre and contact point
         pressure_angle : (N,) array [rad] - signed
         curvature : (N,) array [1/mm] - of the pitch curve, positive where convex
-        roller_radius : float [mm]
-        flank : +1 for the flank towards the cam axis, -1 for the far flank of a groove
     """
 
-    cam_angle: Reals
     pitch: Points
     profile: Points
     pressure_angle: Reals
     curvature: Reals
-    roller_radius: float
-    flank: int = 1
 
     @property
     def curvature_radius(self) -> Reals:
         """Radius of curvature of the pitch curve [mm], positive where convex, inf where it is straight."""
-        return _inverse(self.curvature)
-
-    @property
-    def profile_curvature(self) -> Reals:
-        """Curvature of the profile [1/mm], kappa/(1 - flank r_g kappa), inf at a cusp."""
-        return self.curvature * _inverse(1.0 - self.flank * self.roller_radius * self.curvature)
-
-
-def _inverse(value: Reals) -> Reals:
-    inverse: Reals = np.divide(1.0, value, out=np.full(value.shape, math.inf), where=value != 0.0)
-    return inverse
+        bend, straight = self.curvature, np.full(self.curvature.shape, math.inf)
+        inverse: Reals = np.divide(1.0, bend, out=straight, where=bend != 0.0)
+        return inverse
 
 
 def oscillating(pivot: complex, arm: float, angle: ArrayLike, first: ArrayLike, second: ArrayLike = 0.0) -> RollerPath:
@@ -145,9 +131,7 @@ def pitch_points(cam_angle: ArrayLike, path: RollerPath, *, sense: int) -> Point
     return _back_turn(cam_angle, sense) * path.position
 
 
-def profile_points(
-    cam_angle: ArrayLike, path: RollerPath, *, sense: int, roller_radius: float, flank: int = 1
-) -> Points:
+def profile_points(cam_angle: ArrayLike, path: RollerPath, *, sense: int, roller_radius: float) -> Points:
     """Cam profile in the cam's frame: the point that the roller touches.
 
     C = e^(-i eps phi) (B + r_g N),  N = -i eps D1/|D1|
@@ -155,7 +139,6 @@ def profile_points(
     Parameters
         cam_angle, path, sense : as of pitch_points
         roller_radius : float [mm] - r_g
-        flank : +1 for the flank towards the cam axis, -1 for the far flank of a groove cam
     Returns
         points : (N,) complex array [mm]
     Raises
@@ -168,7 +151,7 @@ def profile_points(
         own derivation: envelope of the roller
     """
     d1 = _pitch_rate(path, sense)
-    reach = flank * sense * roller_radius / _speed(cam_angle, path, d1)
+    reach = sense * roller_radius / _speed(cam_angle, path, d1)
     return _back_turn(cam_angle, sense) * _contact(path, d1, reach)
 
 
@@ -251,7 +234,7 @@ def curvature(cam_angle: ArrayLike, path: RollerPath, *, sense: int) -> Reals:
     Parameters
         cam_angle, path, sense : as of pitch_points; the path must carry its second derivative
     Returns
-        kappa : (N,) array [1/mm] - the profile's is kappa/(1 - flank r_g kappa)
+        kappa : (N,) array [1/mm] - the profile's is kappa/(1 - r_g kappa)
     Raises
         NoSolution - the pitch curve stands still (D1 = 0)
     Example
@@ -270,11 +253,11 @@ def _curvature(path: RollerPath, sense: int, d1: Points, speed: Reals) -> Reals:
     return bend
 
 
-def profile(cam_angle: ArrayLike, path: RollerPath, *, sense: int, roller_radius: float, flank: int = 1) -> CamProfile:
+def profile(cam_angle: ArrayLike, path: RollerPath, *, sense: int, roller_radius: float) -> CamProfile:
     """Pitch curve, profile, pressure angle and curvature of a cam in one pass.
 
     Parameters
-        cam_angle, path, sense, roller_radius, flank : as of profile_points
+        cam_angle, path, sense, roller_radius : as of profile_points
     Returns
         cam : CamProfile
     Raises
@@ -297,20 +280,17 @@ def profile(cam_angle: ArrayLike, path: RollerPath, *, sense: int, roller_radius
         speed = _speed(phi[block], part, d1)
         turn = _back_turn(phi[block], sense)
         pitch[block] = turn * part.position
-        contact[block] = turn * _contact(part, d1, flank * sense * roller_radius / speed)
+        contact[block] = turn * _contact(part, d1, sense * roller_radius / speed)
         bend[block] = _curvature(part, sense, d1, speed)
         lever = _lever(part, d1)
         across[block], slope[block] = lever.real, lever.imag
     _check_lever(phi, across)
     np.divide(slope, across, out=slope)
     return CamProfile(
-        cam_angle=phi.reshape(shape),
         pitch=pitch.reshape(shape),
         profile=contact.reshape(shape),
         pressure_angle=np.arctan(slope, out=slope).reshape(shape),
         curvature=bend.reshape(shape),
-        roller_radius=roller_radius,
-        flank=flank,
     )
 
 

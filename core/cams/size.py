@@ -21,23 +21,6 @@ _PLACES = 2049
 
 
 @dataclass(frozen=True, slots=True)
-class CamCenter:
-    """The admissible cam centre nearest to the roller at the start.
-
-    Attributes
-        center : complex [mm] - O, in the frame of the pivot given
-        prime_radius : float [mm] - |B(start) - O|
-        cam_angles : floats [rad] - where the pressure angle of each roller reaches its upper and its lower limit
-        margins : floats [mm] - how far O lies inside each of these limits (0: on the limit)
-    """
-
-    center: complex
-    prime_radius: float
-    cam_angles: tuple[float, ...]
-    margins: tuple[float, ...]
-
-
-@dataclass(frozen=True, slots=True)
 class RockingRoller:
     """A roller on a rocking arm, and its law.
 
@@ -60,7 +43,7 @@ def smallest_cam_of_rollers(
     sense: int,
     joints: Sequence[float] = (),
     refined: bool = True,
-) -> CamCenter:
+) -> complex:
     """Cam centre nearest to the first roller at which every roller of a cam shaft keeps a pressure-angle limit.
 
     z = (O - A) e^(-i psi) - l (1 - eps psi');  side (Im z tan alpha_max +- Re z) >= 0 for every cam angle and roller
@@ -72,7 +55,7 @@ def smallest_cam_of_rollers(
         joints : floats [rad] - ends of the phases of the law
         refined : bool - False looks at 2048 cam angles alone: limits are met to about 1e-6, ten times as fast
     Returns
-        best : CamCenter - two cam angles and two margins for each roller, upper limit first
+        center : complex [mm] - O, in the frame of the rollers
     Raises
         NoSolution - limit outside 0 to 90 deg; no centre keeps it
     Notes
@@ -82,9 +65,9 @@ def smallest_cam_of_rollers(
     Example
         >>> first = RockingRoller(lambda phi: (0.0 * phi, 0.0 * phi), 0j, 100.0, 1)
         >>> second = RockingRoller(lambda phi: (0.0 * phi + 1.5, 0.0 * phi), 0j, 100.0, -1)
-        >>> best = smallest_cam_of_rollers([first, second], math.radians(30.0), sense=1)
-        >>> round(best.prime_radius, 6), len(best.margins)
-        (30.67862, 4)
+        >>> center = smallest_cam_of_rollers([first, second], math.radians(30.0), sense=1)
+        >>> round(abs(100.0 - center), 6)
+        30.67862
 
     Source
         own derivation: tan alpha = -Re z/Im z
@@ -98,9 +81,8 @@ def smallest_cam_of_rollers(
         families = [partial(_largest_violation, family, 0.0, TURN, joints) for family in planes]
     else:
         phi = np.linspace(0.0, TURN, _PLACES)
-        families = [partial(_largest_of, phi, *family(phi)) for family in planes]
-    center, places, margins = _nearest_admissible(families, target, max_pressure_angle)
-    return CamCenter(center, abs(target - center), places, margins)
+        families = [partial(_largest_of, *family(phi)) for family in planes]
+    return _nearest_admissible(families, target, max_pressure_angle)
 
 
 def _rocker_planes(roller: RockingRoller, slope: float, sense: int, sign: int, phi: Reals) -> tuple[Points, Reals]:
@@ -122,21 +104,21 @@ def _checked_slope(max_pressure_angle: float) -> float:
 
 
 _Planes: TypeAlias = Callable[[Reals], tuple[Points, Reals]]
-_Violation: TypeAlias = tuple[float, float, tuple[complex, float]]
+_Violation: TypeAlias = tuple[float, tuple[complex, float]]
 
 
 def _nearest_admissible(
     families: Sequence[Callable[[complex], _Violation]], target: complex, max_pressure_angle: float
-) -> tuple[complex, tuple[float, ...], tuple[float, ...]]:
+) -> complex:
     """Point nearest to the target with Re(conj(n) p) >= c for every family of planes, by cutting planes."""
     cuts: list[tuple[complex, float]] = []
     point, scale = target, 1.0
     for _ in range(_ROUNDS):
         worst = [largest(point) for largest in families]
-        scale = max(scale, abs(point), *(abs(cut[1]) for _, _, cut in worst))
-        if max(violation for violation, _, _ in worst) <= 1e-13 * scale:
-            return point, tuple(place for _, place, _ in worst), tuple(max(0.0, -short) for short, _, _ in worst)
-        cuts = [*cuts, *(cut for violation, _, cut in worst if violation > -1e-6 * scale)]
+        scale = max(scale, abs(point), *(abs(cut[1]) for _, cut in worst))
+        if max(violation for violation, _ in worst) <= 1e-13 * scale:
+            return point
+        cuts = [*cuts, *(cut for violation, cut in worst if violation > -1e-6 * scale)]
         point = _nearest_point(cuts, target, scale)
     raise NoSolution(
         f"the smallest cam is not determined by a pressure angle of {math.degrees(max_pressure_angle):.6g} deg: allow "
@@ -144,11 +126,11 @@ def _nearest_admissible(
     )
 
 
-def _largest_of(phi: Reals, normal: Points, limit: Reals, point: complex) -> _Violation:
-    """The most violated of some planes, its cam angle, and the plane."""
+def _largest_of(normal: Points, limit: Reals, point: complex) -> _Violation:
+    """How far the most violated of some planes is, and the plane."""
     short = limit - (np.conj(normal) * point).real
     i = int(np.argmax(short))
-    return float(short[i]), float(phi[i]), (complex(normal[i]), float(limit[i]))
+    return float(short[i]), (complex(normal[i]), float(limit[i]))
 
 
 def _largest_violation(
@@ -161,7 +143,7 @@ def _largest_violation(
 
     top = maximum_over(violation, start, end, joints=joints)
     normal, limit = planes(np.array([top.place]))
-    return top.value, top.place, (complex(normal[0]), float(limit[0]))
+    return top.value, (complex(normal[0]), float(limit[0]))
 
 
 def _nearest_point(cuts: list[tuple[complex, float]], target: complex, scale: float) -> complex:

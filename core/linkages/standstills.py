@@ -85,25 +85,24 @@ def turnings(speed: Function, acceleration: Function, grid: list[float] = GRID) 
     return [Turning(place, speed(place)) for place in zeros_over_turn(acceleration, grid)]
 
 
-def standstills(speed: Function, extremes: list[Turning], tolerance: float, period: float | None = TURN) -> list[float]:
+def standstills(speed: Function, extremes: list[Turning], tolerance: float) -> list[float]:
     """Crank angles at which the speed ratio is zero, touching zeros among them.
 
     Parameters
         speed : function of the crank angle [rad]
         extremes : list of Turning - of that speed; between two of them it runs one way, so no zero is missed
         tolerance : float - an extreme within it of zero is one momentary standstill
-        period : float [rad] - after which the speed repeats; None over a range, whose ends are among the extremes
     Returns
-        places : list of float [rad] - ascending, in [0, period)
+        places : list of float [rad] - ascending, in [0, 2 pi)
     Example
         >>> f, slope = (lambda x: 1 + 2 * math.sin(x)), (lambda x: 2 * math.cos(x))
         >>> [round(math.degrees(x), 9) for x in standstills(f, turnings(f, slope), 1e-9)]
         [210.0, 330.0]
     """
-    places, between = standing(extremes, tolerance, period)
+    places, between = standing(extremes, tolerance)
     for one, other in between:  # values as they were compared: a turn later the speed is rounded otherwise
         places.append(bracketed_root(speed, one.place, other.place, ends=(one.value, other.value)))
-    return sorted(place if period is None else place % period for place in places)
+    return sorted(place % TURN for place in places)
 
 
 def standing(
@@ -112,7 +111,8 @@ def standing(
     """Momentary standstills, and pairs of extremes between which a speed ratio passes zero once.
 
     Parameters
-        extremes, tolerance, period : as of `standstills`
+        extremes, tolerance : as of `standstills`
+        period : float [rad] - after which the speed repeats; None over a range, whose ends are among the extremes
     Returns
         places, between : list of float [rad], list of two Turnings - of opposite signs
     Example

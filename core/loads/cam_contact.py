@@ -30,7 +30,6 @@ class RollerOnCam:
         position, first, second : (N,) complex arrays [m] - B, B', B''
         sense : +1 or -1 - eps
         radius : float [m] - r_g
-        flank : +1: the flank towards the cam axis; -1: the far one of a groove
     """
 
     position: Points
@@ -38,7 +37,6 @@ class RollerOnCam:
     second: Points
     sense: int
     radius: float
-    flank: int = 1
 
     @cached_property
     def rate(self) -> Points:
@@ -53,12 +51,12 @@ class RollerOnCam:
     @cached_property
     def normal(self) -> Points:
         """n_out = i eps D1/|D1|, the direction in which the flank pushes the roller."""
-        return np.asarray(self.flank * 1j * self.sense * self.rate / np.abs(self.rate))
+        return np.asarray(1j * self.sense * self.rate / np.abs(self.rate))
 
     @cached_property
     def curvature(self) -> Reals:
-        """kappa of the pitch curve [1/m], positive where the flank that carries is convex."""
-        return np.asarray(-self.flank * self.sense * cross(self.rate, self.bend) / np.abs(self.rate) ** 3)
+        """kappa of the pitch curve [1/m], positive where it is convex."""
+        return np.asarray(-self.sense * cross(self.rate, self.bend) / np.abs(self.rate) ** 3)
 
     @cached_property
     def relative_radius(self) -> Reals:
@@ -67,14 +65,14 @@ class RollerOnCam:
 
     @cached_property
     def roller_speed(self) -> Reals:
-        """Turning of the roller that rolls, per cam speed: eps (1 - |D1|/r_g) on the near flank."""
-        return np.asarray(self.sense * (1.0 - self.flank * np.abs(self.rate) / self.radius))
+        """Turning of the roller that rolls, per cam speed: eps (1 - |D1|/r_g)."""
+        return np.asarray(self.sense * (1.0 - np.abs(self.rate) / self.radius))
 
     @cached_property
     def roller_acceleration(self) -> Reals:
         """Its derivative: -eps (D1 . (B'' - i eps B'))/(|D1| r_g)."""
         along = dot(self.rate, self.second - 1j * self.sense * self.first) / np.abs(self.rate)
-        return np.asarray(-self.flank * self.sense * along / self.radius)
+        return np.asarray(-self.sense * along / self.radius)
 
     @cached_property
     def entrainment(self) -> Reals:

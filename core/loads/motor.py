@@ -128,7 +128,7 @@ class MotorRun:
             edges.append(c + d * edges[-1])
         return np.array(edges), values + change + share * np.array(edges[:-1])[:, None], slope
 
-    def _at_once(self) -> tuple[Reals, Reals, float] | None:
+    def _at_once(self) -> tuple[Reals, Reals] | None:
         """The periodic run from one of even speed, all panels together; None where that does not lead to it."""
         load, inertia = self._given
         even = self.no_load - self.panels.integral(load.ravel()) / (float(self.panels.edges[-1]) * self.slope)
@@ -139,18 +139,18 @@ class MotorRun:
                 return None
             step, values = float(np.max(np.abs(found - values)) / np.max(found)), found
             if step <= _SETTLED or (step >= last and step < _ROUNDING):
-                return edges, self._rates(values)[0], slope
+                return edges, self._rates(values)[0]
             last = step
         return None
 
     @cached_property
-    def _periodic(self) -> tuple[Reals, Reals, float]:
-        """Energies at the edges, rates at the nodes, and P' of the periodic run."""
+    def _periodic(self) -> tuple[Reals, Reals]:
+        """Energies at the edges and rates at the nodes of the periodic run."""
         with np.errstate(all="ignore"):  # energies that are none are looked for after every step
             found = self._at_once()
         return found or self._turn_by_turn()
 
-    def _turn_by_turn(self) -> tuple[Reals, Reals, float]:
+    def _turn_by_turn(self) -> tuple[Reals, Reals]:
         """The same by whole turns one after the other, each panel by panel: slower, and certain to tell what stalls."""
         load, inertia = self._given
         fastest = self.no_load - float(load.min()) / self.slope
@@ -166,23 +166,18 @@ class MotorRun:
                 continue
             change, slope, edges, rates = found
             if abs(change) <= 8.0 * _SETTLED * energy:
-                return edges, rates, slope
+                return edges, rates
             if change < 0.0:
                 high = min(high, energy)
             step = energy + change / (1.0 - slope)
             energy = step if step > 0.0 else 0.25 * energy
         if abs(change) <= 1e-11 * energy:
-            return edges, rates, slope
+            return edges, rates
         raise _stalls()
-
-    @property
-    def contraction(self) -> float:
-        """P': share of a disturbance that is left after a period."""
-        return self._periodic[2]
 
     def kinetic(self, phi: Reals) -> Reals:
         """Kinetic energy at angles within the period [J]."""
-        edges, rates, _ = self._periodic
+        edges, rates = self._periodic
         return np.asarray(edges[self.panels.row(phi)] + self.panels.within(rates.ravel(), phi))
 
     def speed(self, phi: Reals) -> Reals:

@@ -36,7 +36,7 @@ def standstills(f: Function, extremes: list[Turning], tolerance: float, period: 
 
     Parameters
         f : function of arrays of input angles [rad]
-        extremes, tolerance, period : as of the function of the same name of all linkages
+        extremes, tolerance, period : as of `standing`
     Example
         >>> f, grid = (lambda x: 1.0 + 2.0 * np.sin(x)), np.linspace(0.0, 2.0 * np.pi, 100)
         >>> found = standstills(f, turnings(f, np.cos, grid, False), 1e-9, 2.0 * np.pi)

@@ -18,9 +18,9 @@ if TYPE_CHECKING:
 
     from gearlink.core.cams.disc_cam import DiscCam
     from gearlink.core.cams.profile import RollerPath
+    from gearlink.core.cams.size import RockingRoller
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.swing_gripper.motion import Motion
-    from gearlink.core.swing_gripper.size import RollerArm
     from gearlink.core.swing_gripper.spec import GripperCam, Roller, SwingGripperSpec
 
 
@@ -47,17 +47,20 @@ class GripperCams(DiscCams):
 
     def center_for(self, degrees: float, *, refined: bool = True) -> complex:
         """Cam centre of the smallest cams that keep a pressure angle [deg]."""
-        from gearlink.core.swing_gripper.size import smallest_cam_center
+        from gearlink.core.cams.size import smallest_cam_of_rollers
 
         with at_key("size.pressure_angle"):
-            limit, sense = math.radians(degrees), self.section.sense
-            return smallest_cam_center(self.motion.linkage, self._arms, sense, limit, refined=refined).center
+            return smallest_cam_of_rollers(
+                self._rollers,
+                math.radians(degrees),
+                sense=self.section.sense,
+                joints=tuple(math.radians(start) for start in self.motion.law.starts[1:-1]),
+                refined=refined,
+            )
 
     @property
-    def _arms(self) -> list[RollerArm]:
+    def _rollers(self) -> list[RockingRoller]:
         """The rollers on their arms, with the side on which the cam lies."""
-        from gearlink.core.swing_gripper.size import RollerArm
-
         cam, back = self.section, self.section.return_roller
         side = self.spec.size.side if self.spec.size is not None else None
         if side is None and cam.center is not None:
@@ -66,10 +69,23 @@ class GripperCams(DiscCams):
             side = 1 if math.remainder(back.angle, 360.0) > 0.0 else -1
         if side is None:
             raise NoSolution("one roller alone does not fix where the cam is: give size.side, 1 or -1", key="size")
-        arms = [RollerArm(cam.roller.arm, math.radians(cam.roller.angle), side)]
+        rollers = [self._rocking(cam.roller, cam.roller.angle, side)]
         if back is not None:
-            arms.append(RollerArm(back.arm, math.radians(cam.roller.angle + back.angle), -side))
-        return arms
+            rollers.append(self._rocking(back, cam.roller.angle + back.angle, -side))
+        return rollers
+
+    def _rocking(self, roller: Roller, from_input: float, side: int) -> RockingRoller:
+        import numpy as np
+
+        from gearlink.core.cams.size import RockingRoller
+
+        linkage, ahead = self.motion.linkage, math.radians(from_input)
+
+        def law(cam_angle: Reals) -> tuple[Reals, Reals]:
+            motion = linkage.motion(np.degrees(cam_angle), 1)
+            return motion.input_angle + ahead, motion.input_velocity
+
+        return RockingRoller(law, linkage.input_pivot, roller.arm, side)
 
     @property
     def from_pivot(self) -> complex:

@@ -224,12 +224,11 @@ def _absent(values: Mapping[str, Any], at: Place) -> list[Fault]:
     ]
 
 
-def problem(spec: Any, command: str | None = None) -> Problem:
+def problem(spec: Any) -> Problem:
     """Make the study of a design file ready.
 
     Parameters
         spec : a spec with the section `tolerance`
-        command : str - in place of that of the section
     Raises
         NoSolution - where the nominal design does not exist, or the section asks for what it does not have
     """
@@ -237,7 +236,7 @@ def problem(spec: Any, command: str | None = None) -> Problem:
     data = spec.model_dump(mode="json", exclude_unset=True, by_alias=True)
     for key in _ABOUT:
         data.pop(key, None)
-    asked = command or section.command or next(one for one in spec.commands() if one not in _ABOUT)
+    asked = section.command or next(one for one in spec.commands() if one not in _ABOUT)
     kind = KINDS[data["kind"]]
     if asked not in kind.commands or asked in _ABOUT:
         known = ", ".join(one for one in kind.commands if one not in _ABOUT)

@@ -81,13 +81,13 @@ def balance(design: WideSwingDesign, _samples: int | None = None) -> Table:
 
     share, spec, motion = _speed_shares(), design.spec, design.motion
     inertia, losses = design.unloading.even_inertia, (spec.unloader.residual, spec.unloader.reserve)
-    sweep = speed_sweep(inertia, motion.plain_law, motion.stroke_time, share, *losses)
+    without, left = speed_sweep(inertia, motion.plain_law, motion.stroke_time, share, *losses)
     with np.errstate(divide="ignore", invalid="ignore"):
-        ratio = sweep.torque_without / sweep.torque_with
+        ratio = without / left
     columns = {
         "speed": (share * spec.speed, "1/min"),
-        "torque_without": (sweep.torque_without, "N m"),
-        "torque_with": (sweep.torque_with, "N m"),
+        "torque_without": (without, "N m"),
+        "torque_with": (left, "N m"),
         "ratio": (ratio, "1"),
     }
     if spec.shaft is not None:

@@ -84,9 +84,7 @@ def _sense(axes: Axes, shown: Scene, center: complex, radius: float, sense: int,
     style.arrow(axes, complex(points[-2]), complex(points[-1] - points[-2]), color)
 
 
-def lightly(
-    axes: Axes, scene: Scene, i: int, color: str = style.GREY, name: str = "_", shown: int = 0, line: Any = "-"
-) -> None:
+def lightly(axes: Axes, scene: Scene, i: int, color: str = style.GREY, name: str = "_", line: Any = "-") -> None:
     """Another position of a scene: its links, its sliders, and the pitch circles of gears whose axes have moved."""
     for part in _position(scene, i).parts:
         if isinstance(part, Chain) and part.marked:
@@ -94,9 +92,9 @@ def lightly(
             style.link(axes, joints, color, 0.5 * _POINTS * part.width, label=name, zorder=3.6, linestyle=line)
             name = "_"
     for body in scene.parts:
-        if not isinstance(body, Body) or body.shows_turn or np.array_equal(placed(body, i), placed(body, shown)):
+        if not isinstance(body, Body) or body.shows_turn or np.array_equal(placed(body, i), placed(body, 0)):
             continue
-        if body.pitch and body.place[i] != body.place[shown]:
+        if body.pitch and body.place[i] != body.place[0]:
             look = {"color": color, "linewidth": 0.8, "alpha": 0.7, "linestyle": style.DASHED}
             style.circle(axes, complex(body.place[i]), body.pitch, **look, zorder=3.4)
         elif body.repeats == 1 and not body.pitch:

@@ -157,9 +157,10 @@ def link(
     axes.plot(x, y, "o", **dots, zorder=zorder + 0.5)  # type: ignore[arg-type]
 
 
-def pivot(axes: Axes, point: complex, size: float = 19.0) -> None:
+def pivot(axes: Axes, point: complex) -> None:
     """A fixed pivot: a pin on its hatched ground."""
     x, y = [point.real], [point.imag]
+    size = 19.0
     look: Any = {"color": BLACK, "markersize": size, "linestyle": "", "zorder": 5.5, "markeredgewidth": 0.9}
     axes.plot(x, y, marker=_ground(), markerfacecolor="white", **look)
     axes.plot(x, y, "o", color="white", markeredgecolor=BLACK, markersize=0.25 * size, zorder=5.6)

@@ -60,20 +60,19 @@ def in_time(axes: Axes, speed: float | None, order: int, measure: str, scale: fl
     right.yaxis.get_offset_text().set_horizontalalignment("left")
 
 
-def in_ms(axes: Axes, each: float | None, origin: float = 0.0) -> None:
+def in_ms(axes: Axes, each: float | None) -> None:
     """The x axis in time as well, in a row of its own below its words; nothing where the speed is not known.
 
     each : time of a unit of the x axis [ms]
-    origin : place of the x axis at which the time begins
     """
     if each is None:
         return
 
     def to_ms(values: Any) -> Any:
-        return (values - origin) * each
+        return values * each
 
     def from_ms(values: Any) -> Any:
-        return values / each + origin
+        return values / each
 
     _time_row(axes, (to_ms, from_ms), ROW)
 

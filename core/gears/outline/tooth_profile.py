@@ -93,13 +93,12 @@ class ToothProfile:
             )
 
     @classmethod
-    def of(cls, pair: GearPair, gear: int, tool_rounding: float | None = None) -> ToothProfile:
+    def of(cls, pair: GearPair, gear: int) -> ToothProfile:
         """The profile of gear 0 or 1 of a pair, as its tool cuts it; a pair without tools has those of ISO 53.
 
         Parameters
             pair : GearPair
             gear : int - 0 or 1
-            tool_rounding : float or None [module] - rho*; None takes the tool's
         Raises
             NoSolution - as the class
         Example
@@ -117,7 +116,7 @@ class ToothProfile:
             pressure_angle=pair.pressure_angle,
             tip_radius=pair.tip_radius[gear],
             tool_addendum=tool.addendum,
-            tool_rounding=tool.rounding if tool_rounding is None else tool_rounding,
+            tool_rounding=tool.rounding,
             helix_angle=pair.helix_angle,
             residual_undercut=tool.residual_undercut,
         )

@@ -7,7 +7,6 @@ with the difference J gamma c (1/T^2 - 1/T0^2).
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -15,22 +14,6 @@ from gearlink.core.errors import NoSolution
 from gearlink.core.numerics.arrays import Reals
 from gearlink.core.numerics.extremes import maximum_over
 from gearlink.core.wide_swing.law.elastic_law import ElasticLaw
-
-
-@dataclass(frozen=True, slots=True)
-class SpeedSweep:
-    """Torque peaks on the rocker axis over the speed.
-
-    Fields
-        speed_ratio : (N,) array - n/n0
-        torque_without, torque_with : (N,) arrays [N m] - peak without the device and with it
-        balancing_ratio : (N,) array - K_y = without over with; infinite where nothing is left
-    """
-
-    speed_ratio: Reals
-    torque_without: Reals
-    torque_with: Reals
-    balancing_ratio: Reals
 
 
 def stroke_time(cycle_angle: float, speed: float) -> float:
@@ -87,35 +70,6 @@ def inertia_torque_peak(inertia: float, law: ElasticLaw, time: float) -> float:
     return inertia * law.swing * law.acceleration_peak / time**2
 
 
-def balancing_ratio(speed_ratio: Reals, residual_fraction: float = 0.0, reserve: float = 0.0) -> Reals:
-    """How many times the device lowers the torque on the rocker axis.
-
-    K_y1 = n^2/(|n^2 - (1 + rho) n0^2| + f n0^2)
-
-    Parameters
-        speed_ratio : (N,) array - n/n0, 0 or more
-        residual_fraction : float - f, what friction, force error and linkage inertia leave at n0, as a part of
-            the inertia torque there; 1/4.6 and 1/3.4 were measured
-        reserve : float - rho, force of the device above the one that balances at n0, as a share of it
-    Returns
-        ratio : (N,) array - infinite at n0 when f = rho = 0
-    Raises
-        NoSolution - when a speed or f is negative
-    Notes
-        Below 1, where the device harms, for n < n0 sqrt((1 + rho + f)/2).
-    Example
-        >>> balancing_ratio(np.array([0.5, 1.0]), 0.25).round(12).tolist()
-        [0.25, 4.0]
-
-    Source
-        wide-swing dissertation, chapter 5; own derivation
-    """
-    left = _left(speed_ratio, residual_fraction, reserve)
-    with np.errstate(divide="ignore"):
-        result: Reals = speed_ratio**2 / left
-    return result
-
-
 def _left(speed_ratio: Reals, residual_fraction: float, reserve: float) -> Reals:
     """Torque that is left on the rocker axis, as a part of the inertia torque at n0."""
     if min(residual_fraction, reserve) < 0.0 or bool(np.any(speed_ratio < 0.0)):
@@ -131,35 +85,33 @@ def speed_sweep(
     speed_ratio: Reals,
     residual_fraction: float = 0.0,
     reserve: float = 0.0,
-) -> SpeedSweep:
+) -> tuple[Reals, Reals]:
     """Torque peaks on the rocker axis with and without the device over the speed.
 
-    M_in = J gamma C/T^2, M_1 = M_in/K_y1
+    M_in = J gamma C/T^2, M_1 = M_in/K_y1, K_y1 = K_y2 of `drive_balancing_ratio` with g = 0
 
     Parameters
         inertia : float [kg m^2] - J
         law : ElasticLaw
         time : float [s] - T0 of one stroke at the design speed
         speed_ratio : (N,) array - n/n0
-        residual_fraction, reserve : float - f and rho of `balancing_ratio`
+        residual_fraction, reserve : float - f and rho of `drive_balancing_ratio`
     Returns
-        sweep : SpeedSweep
+        without, with : (N,) arrays [N m] - peaks
     Raises
         NoSolution - when inertia or time is not positive, or a speed or f is negative
     Example
         >>> from gearlink.core.wide_swing.law.elastic_law import Pneumatic
         >>> law = ElasticLaw(Pneumatic(2.5), math.radians(120))
-        >>> sweep = speed_sweep(0.5, law, 0.20080321285140562, np.array([0.5, 1.2]))
-        >>> sweep.torque_without.round(6).tolist(), sweep.torque_with.round(6).tolist()
+        >>> without, left = speed_sweep(0.5, law, 0.20080321285140562, np.array([0.5, 1.2]))
+        >>> without.round(6).tolist(), left.round(6).tolist()
         ([28.308857, 163.059018], [84.926572, 49.823589])
 
     Source
         wide-swing dissertation, chapter 5; own derivation
     """
-    ratio = balancing_ratio(speed_ratio, residual_fraction, reserve)
     design = inertia_torque_peak(inertia, law, time)
-    left = _left(speed_ratio, residual_fraction, reserve)
-    return SpeedSweep(speed_ratio, design * speed_ratio**2, design * left, ratio)
+    return design * speed_ratio**2, design * _left(speed_ratio, residual_fraction, reserve)
 
 
 def power_peak(law: ElasticLaw) -> float:
@@ -201,8 +153,7 @@ def drive_torque_peak(inertia: float, law: ElasticLaw, time: float, cycle_angle:
     Raises
         NoSolution - when inertia or time is not positive
     Notes
-        With the device the peak is this one over `balancing_ratio`, besides what the rest of the linkage adds:
-        `drive_balancing_ratio`.
+        With the device the peak is this one over `drive_balancing_ratio`.
     Example
         >>> from gearlink.core.wide_swing.law.elastic_law import Pneumatic
         >>> law = ElasticLaw(Pneumatic(2.5), math.radians(120))
@@ -227,13 +178,16 @@ def drive_balancing_ratio(
         speed_ratio : (N,) array - n/n0, 0 or more
         linkage_fraction : float - g, torque of the links that the device does not unload, as a part of the
             rocker's inertia torque on the same shaft and at the same speed
-        residual_fraction, reserve : float - f and rho of `balancing_ratio`
+        residual_fraction : float - f, what friction, force error and linkage inertia leave at n0, as a part of
+            the inertia torque there; 1/4.6 and 1/3.4 were measured
+        reserve : float - rho, force of the device above the one that balances at n0, as a share of it
     Returns
         ratio : (N,) array - infinite at n0 when f = g = rho = 0
     Raises
         NoSolution - when a speed or g is negative
     Notes
-        Assumes that both peaks fall together, so it is the least favourable case.
+        Assumes that both peaks fall together, so it is the least favourable case. g = 0 gives the ratio on the rocker
+        axis: below 1, where the device harms, for n < n0 sqrt((1 + rho + f)/2).
     Example
         >>> drive_balancing_ratio(np.array([1.0]), 0.25).tolist()
         [5.0]

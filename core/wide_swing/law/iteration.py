@@ -10,7 +10,7 @@ import math
 from dataclasses import dataclass
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.wide_swing.law.device import Device, DeviceGeometry, Pneumatic, Spring, require_swing
+from gearlink.core.wide_swing.law.device import Device, DeviceGeometry, Spring, require_swing
 
 _FIXED_POINT_LIMIT = 400
 
@@ -20,17 +20,12 @@ class LegacyLaw:
     """Result of the iteration over the first half of the stroke.
 
     Fields
-        energy_parameter, velocity_peak : float - N and B = b(1/2)
+        energy_parameter : float - N
         passes : int - marches until N settled
-        displacement, velocity, acceleration : tuples of steps + 1 values, k = 0 ... 1/2
     """
 
     energy_parameter: float
-    velocity_peak: float
     passes: int
-    displacement: tuple[float, ...]
-    velocity: tuple[float, ...]
-    acceleration: tuple[float, ...]
 
 
 def legacy_law(
@@ -61,6 +56,7 @@ def legacy_law(
         Starts from B = 2. The trapezoid leaves an error O(dk^2): N is 8e-4 off with 20 steps, 3e-5 with 100.
         The error shrinks by |1 - B/2| a pass (e = 1) or |1 - B| (e = 2).
     Example
+        >>> from gearlink.core.wide_swing.law.device import Pneumatic
         >>> law = legacy_law(Pneumatic(2.5), math.radians(120), steps=20)
         >>> round(law.energy_parameter, 3), law.passes < 20
         (4.194, True)
@@ -74,12 +70,9 @@ def legacy_law(
     half = _HalfSwing(device, swing)
     parameter = (2.0 / half.velocity(0.5, 1.0)) ** 2
     for passes in range(1, max_passes + 1):
-        a = _march(half, parameter, steps)
-        scale = 0.5 / a[-1]
+        scale = 0.5 / _march(half, parameter, steps)
         if abs(scale - 1.0) <= tolerance:
-            b = tuple(half.velocity(x, parameter) for x in a)
-            c = tuple(half.acceleration(x, parameter) for x in a)
-            return LegacyLaw(parameter, half.velocity(0.5, parameter), passes, a, b, c)
+            return LegacyLaw(parameter, passes)
         parameter *= scale**exponent
     raise NoSolution(
         f"the source's iteration comes to no end in {max_passes} passes with this device and swing: "
@@ -94,23 +87,16 @@ def _otherwise(exponent: int) -> str:
 
 @dataclass(frozen=True, slots=True)
 class _HalfSwing:
-    """b(a) and c(a) of (6), (10), (11), (15) in plain scalars."""
+    """b(a) of (6), (11) in plain scalars."""
 
     device: Device
     swing: float
 
-    def _lengths(self, a: float) -> tuple[float, float, float]:
-        geometry = DeviceGeometry(self.device, self.swing)
-        angle = (0.5 - a) * self.swing
-        return (
-            geometry.longest,
-            geometry.stroke,
-            math.hypot(geometry.shortest, geometry.reach * math.sin(0.5 * angle)),
-        )
-
     def velocity(self, a: float, parameter: float) -> float:
-        longest, stroke, length = self._lengths(a)
+        geometry = DeviceGeometry(self.device, self.swing)
+        longest, stroke = geometry.longest, geometry.stroke
         angle = (0.5 - a) * self.swing
+        length = math.hypot(geometry.shortest, geometry.reach * math.sin(0.5 * angle))
         product = math.sin(0.25 * self.swing - 0.5 * angle) * math.sin(0.25 * self.swing + 0.5 * angle)
         x = 4.0 * self.device.pivot_ratio * product / (longest + length)
         if x < 0.0:
@@ -122,29 +108,21 @@ class _HalfSwing:
         energy = x * ((1.0 + self.device.stretch_ratio) * stroke - 0.5 * x) if isinstance(self.device, Spring) else x
         return math.sqrt(parameter * energy)
 
-    def acceleration(self, a: float, parameter: float) -> float:
-        longest, stroke, length = self._lengths(a)
-        force = 1.0
-        if not isinstance(self.device, Pneumatic):
-            force = (1.0 + self.device.stretch_ratio) * stroke - longest + length
-        lever = self.device.pivot_ratio * math.sin((0.5 - a) * self.swing) / length
-        return 0.5 * parameter * self.swing * force * lever
 
-
-def _march(half: _HalfSwing, parameter: float, steps: int) -> tuple[float, ...]:
-    """Displacements at k = 0 ... 1/2 by the implicit trapezoid, each step a fixed point."""
+def _march(half: _HalfSwing, parameter: float, steps: int) -> float:
+    """Displacement at k = 1/2 by the implicit trapezoid, each step a fixed point."""
     dk = 0.5 / steps
-    a, b = [0.0], 0.0
+    a = b = 0.0
     for _ in range(steps):
         # a = 0 solves the first step too; any a > 0 leads away from it
-        guess = a[-1] + (b * dk if b > 0.0 else 0.25 * dk)
+        guess = a + (b * dk if b > 0.0 else 0.25 * dk)
         for _ in range(_FIXED_POINT_LIMIT):
             b_next = half.velocity(guess, parameter)
-            following = a[-1] + 0.5 * (b + b_next) * dk
+            following = a + 0.5 * (b + b_next) * dk
             settled = abs(following - guess) <= 4e-16 * following
             guess = following
             if settled:
                 break
-        a.append(guess)
+        a = guess
         b = half.velocity(guess, parameter)
-    return tuple(a)
+    return a

@@ -137,7 +137,7 @@ def test_file_is_read_and_located(tmp_path: Path) -> None:
     loaded = load(path)
     assert loaded.data == {"kind": "gear-pair", "gears": {"module": 2}, "teeth": [72, 36]}
     assert loaded.locate(("gears", "module")) == (3, 3, str(path))
-    assert loaded.locate(("gears", "module"), value=True) == (3, 11, str(path))
+    assert loaded.value_in_file(("gears", "module")) == (3, 11, 12)
     assert loaded.locate(("teeth", 1)) == (5, 3, str(path))
     assert loaded.locate(("gears", "crank", "x")) == (2, 1, str(path))
     assert loaded.locate(()) == (1, 1, str(path))

@@ -58,7 +58,6 @@ def test_points_of_the_reference(name: str) -> None:
     assert abs(at.profile[0]) == pytest.approx(expected["r_c"], rel=0.0, abs=POINT)
     assert at.pressure_angle[0] == pytest.approx(expected["alpha"], rel=0.0, abs=math.radians(ANGLE))
     assert at.curvature[0] == pytest.approx(expected["kappa_p"], rel=0.0, abs=CURVATURE)
-    assert at.profile_curvature[0] == pytest.approx(expected["kappa_c"], rel=0.0, abs=2 * CURVATURE)
 
 
 def test_extremes_of_the_reference() -> None:

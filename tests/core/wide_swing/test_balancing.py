@@ -18,7 +18,6 @@ from sweeps import examples
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.wide_swing.law.balancing import (
-    balancing_ratio,
     drive_balancing_ratio,
     drive_torque_peak,
     inertia_torque_peak,
@@ -47,7 +46,7 @@ def test_reference() -> None:
     speeds = np.array([0.5, 1.0, 1.5, 1.8]) / 1.66
     listed = [expected[f"Ky(n={n})"] for n in ("0.5", "1.0", "1.5", "1.8")]
     # near n0 the difference of squares has the condition n^2/|n^2 - n0^2| in the rounded ratio
-    np.testing.assert_allclose(balancing_ratio(speeds), listed, rtol=2e-15)
+    np.testing.assert_allclose(drive_balancing_ratio(speeds, 0.0), listed, rtol=2e-15)
 
 
 def test_device_torque_is_the_inertia_torque_at_the_design_speed() -> None:
@@ -66,7 +65,6 @@ def residual_torque(speed_ratio: float, k: np.ndarray) -> np.ndarray:
 def test_nothing_is_left_at_the_design_speed() -> None:
     k = np.linspace(0.0, 1.0, 11)
     assert np.all(residual_torque(1.0, k) == 0.0)
-    assert balancing_ratio(np.array([1.0]))[0] == math.inf
     assert drive_balancing_ratio(np.array([1.0]), 0.0)[0] == math.inf
     # standing still the device's own torque is left
     still = residual_torque(0.0, np.array([0.0]))
@@ -76,28 +74,28 @@ def test_nothing_is_left_at_the_design_speed() -> None:
 @given(speed=st.floats(0.05, 2.0).filter(lambda n: abs(n - 1.0) > 1e-3))
 @examples(50)
 def test_sweep_is_the_peak_of_the_residual(speed: float) -> None:
-    sweep = speed_sweep(0.5, LAW, TIME, np.array([speed]))
+    without, left = speed_sweep(0.5, LAW, TIME, np.array([speed]))
     peak = float(np.abs(residual_torque(speed, np.linspace(0.0, 1.0, 101))).max())
-    assert float(sweep.torque_with[0]) == pytest.approx(peak, rel=ROUNDING)
-    assert float(sweep.torque_without[0]) == pytest.approx(inertia_torque_peak(0.5, LAW, TIME / speed), rel=ROUNDING)
-    assert float(sweep.balancing_ratio[0]) == pytest.approx(float(sweep.torque_without[0]) / peak, rel=ROUNDING)
+    assert float(left[0]) == pytest.approx(peak, rel=ROUNDING)
+    assert float(without[0]) == pytest.approx(inertia_torque_peak(0.5, LAW, TIME / speed), rel=ROUNDING)
+    ratio = drive_balancing_ratio(np.array([speed]), 0.0)
+    assert float(ratio[0]) == pytest.approx(float(without[0]) / peak, rel=ROUNDING)
 
 
 def test_the_device_harms_at_low_speed() -> None:
     edge = math.sqrt(0.5)
-    below, above = balancing_ratio(np.array([edge - 1e-6, edge + 1e-6]))
+    below, above = drive_balancing_ratio(np.array([edge - 1e-6, edge + 1e-6]), 0.0)
     assert below < 1.0 < above
 
 
 def test_residual_fraction_of_the_measurements() -> None:
     for measured in (4.6, 3.4):
-        assert balancing_ratio(np.array([1.0]), 1.0 / measured)[0] == pytest.approx(measured, rel=1e-15)
+        assert drive_balancing_ratio(np.array([1.0]), 0.0, 1.0 / measured)[0] == pytest.approx(measured, rel=1e-15)
 
 
 def test_friction_never_helps() -> None:
     speeds = np.linspace(0.1, 1.3, 25)
-    assert np.all(balancing_ratio(speeds, 0.2) < balancing_ratio(speeds, 0.1))
-    assert np.all(drive_balancing_ratio(speeds, 0.0) == balancing_ratio(speeds))
+    assert np.all(drive_balancing_ratio(speeds, 0.0, 0.2) < drive_balancing_ratio(speeds, 0.0, 0.1))
 
 
 def test_power_of_the_harmonic_law() -> None:
@@ -110,6 +108,6 @@ def test_refusals() -> None:
     with pytest.raises(NoSolution, match="must both be above 0"):
         inertia_torque_peak(0.0, LAW, 1.0)
     with pytest.raises(NoSolution, match="0 or more"):
-        balancing_ratio(np.array([-1.0]))
+        drive_balancing_ratio(np.array([-1.0]), 0.0)
     with pytest.raises(NoSolution, match="0 or more"):
         drive_balancing_ratio(np.array([1.0]), -0.1)
