@@ -16,9 +16,10 @@ from gearlink.core.tolerance.correlation import pairs
 from gearlink.core.tolerance.sampling import Estimate
 from gearlink.core.tolerance_study import allocation
 from gearlink.core.tolerance_study.band import Course, columns_of, courses
+from gearlink.core.tolerance_study.corners import corners
 from gearlink.core.tolerance_study.problem import MOST_WITH_INDICES, Problem, no, problem
 from gearlink.core.tolerance_study.samples import evaluated
-from gearlink.core.tolerance_study.sensitivity import Indices, Slope, corners, indices, linear_shares, slopes
+from gearlink.core.tolerance_study.sensitivity import Indices, Slope, indices, linear_shares, slopes
 from gearlink.core.tolerance_study.statistics import Result, Spread, capabilities, result
 
 _EXPLAINED = 0.9

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -200,75 +200,3 @@ def _not_negative(one: Estimate) -> Estimate:
 def _moved(one: Estimate, to: Estimate) -> Estimate:
     """An estimate at the value of a more certain one; the far end of its interval stays, or is that of the other."""
     return Estimate(to.value, max(to.half_width, one.half_width - abs(one.value - to.value)))
-
-
-def corners(
-    made: Problem, names: Sequence[str], gains: Mapping[str, list[Slope]]
-) -> dict[str, tuple[float, float, str]]:
-    """Least and greatest value of quantities at the corners of the limits, and the signs at the greatest.
-
-    Notes
-        All corners for up to 12 sources; beyond that the corner of the linear signs, then one source after the other
-        turned about until none helps. What lies inside may be worse where the quantity is not monotone.
-    """
-    sources = [source for source in made.sources if source.kind != "pin"]
-    found: dict[str, tuple[float, float, str]] = {}
-    if len(sources) <= _MOST_CORNERS:
-        bits = (np.arange(2 ** len(sources))[:, None] >> np.arange(len(sources))) & 1
-        signs = np.where(bits, -1.0, 1.0)
-        values = evaluated(made, _at_corners(made, sources, signs)).quantities
-        for name in names:
-            found[name] = _extremes(values[name], signs)
-        return found
-    for name in names:
-        rows = zip(gains[name], made.sources, strict=True)
-        start = np.array([1.0 if row.gain[0] >= 0.0 else -1.0 for row, source in rows if source in sources])
-
-        def value(signs: Reals, name: str = name) -> Reals:
-            return evaluated(made, _at_corners(made, sources, signs)).quantities[name]
-
-        found[name] = _climbed(value, start)
-    return found
-
-
-_MOST_CORNERS = 12
-
-
-def _at_corners(made: Problem, sources: Sequence[Scatter], signs: Reals) -> dict[str, Reals]:
-    shifts = [
-        {
-            source.key: source.law.upper if sign > 0 else source.law.lower
-            for source, sign in zip(sources, row, strict=True)
-        }
-        for row in signs
-    ]
-    return made.offsets(shifts)  # type: ignore[return-value]
-
-
-def _extremes(values: Reals, signs: Reals) -> tuple[float, float, str]:
-    if np.isnan(values).all():
-        return math.nan, math.nan, ""
-    most = int(np.nanargmax(values))
-    return float(np.nanmin(values)), float(values[most]), _shown(signs[most])
-
-
-def _shown(signs: Reals) -> str:
-    return "".join("+" if sign > 0 else "-" for sign in signs)
-
-
-def _climbed(value: Callable[[Reals], Reals], start: Reals) -> tuple[float, float, str]:
-    """Least and greatest corner that turning single sources about finds."""
-    ends = []
-    for sense in (-1.0, 1.0):
-        signs, best = sense * start, -math.inf
-        while True:
-            trials = np.vstack(
-                [signs, *(np.where(np.arange(signs.size) == i, -signs, signs) for i in range(signs.size))]
-            )
-            found = sense * value(trials)
-            at = int(np.nanargmax(found))
-            if found[at] <= best:
-                break
-            best, signs = float(found[at]), trials[at]
-        ends.append((sense * best, _shown(signs)))
-    return ends[0][0], ends[1][0], ends[1][1]
