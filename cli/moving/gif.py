@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from PIL.Image import Image as Picture
 
 _COLORS = 64
-_ALMOST = 250
 _WORTH_PROCESSES, _SHARE = 48, 6
 """Pictures from which on several processes pay, and how many of them one draws at a time."""
 
@@ -33,11 +32,17 @@ def write_gif(stream: IO[bytes], raster: Raster, count: int, fps: int, counted: 
 
 
 def _with_white(picture: Picture) -> Picture:
-    """The picture with what is almost white in its palette made white: paper has no tint."""
-    colors = list(picture.getpalette() or [])
-    rows = [colors[k : k + 3] for k in range(0, len(colors), 3)]
-    picture.putpalette([part for row in rows for part in ([255, 255, 255] if min(row) >= _ALMOST else row)])
-    return picture
+    """The picture with a palette in which white is white: paper has no tint.
+
+    Pillow takes for a colour what is nearest to it by the upper six bits of each part, not what is equal to it.
+    """
+    paper, colors = Image.new("RGB", (1, 1), "white"), list(picture.getpalette() or [])
+    while True:
+        at = paper.quantize(palette=picture, dither=Image.Dither.NONE).tobytes()[0]
+        if colors[3 * at : 3 * at + 3] == [255, 255, 255]:
+            return picture
+        colors[3 * at : 3 * at + 3] = [255, 255, 255]
+        picture.putpalette(colors)
 
 
 def _frames(raster: Raster, palette: Picture, counted: Iterable[int], count: int) -> Iterator[Picture]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
@@ -19,6 +20,7 @@ from gearlink.cli.scenes.scene import Body, Chain, Part, Points, placed
 if TYPE_CHECKING:
     from PIL.Image import Image as Picture
 
+_MINUS = re.compile(r"-(?=\d)")  # not the hyphen of a word
 _SEEN = 0.1
 """Outlines that differ by less are drawn alike [pixel]."""
 _DOT = 7
@@ -157,7 +159,7 @@ class Raster:
         draw, size = ImageDraw.Draw(made), self.stage.text_size
         letters_of_values, places = self._readouts
         for x, texts in zip(places, self._texts, strict=True):
-            draw.text((x, 2.5 * size), texts[i].replace("-", "−"), font=letters_of_values, fill=BLACK)
+            draw.text((x, 2.5 * size), _MINUS.sub("−", texts[i]), font=letters_of_values, fill=BLACK)
         letters, labels = self.stage.shifts
         labelled = [part for part in self.stage.scene.parts if isinstance(part, Body) and part.label]
         for body, shift in zip(labelled, labels, strict=True):

@@ -163,19 +163,25 @@ def standing(points: Points, fraction: Reals, color: str, name: str = "") -> Bod
 
 
 def bands(stretches: Iterable[tuple[str, float, float, str]]) -> tuple[Band, ...]:
-    """Stretches of a loop, name, start, end and colour each; one that passes the end of the loop is two bands.
+    """Stretches of a loop, name, start, end and colour each.
+
+    One that passes the end of the loop is two bands, the longer one with the name.
 
     Example
         >>> [(band.name, band.start, band.end) for band in bands([("dwell", 300.0, 400.0, "#cccccc")])]
         [('dwell', 300.0, 360.0), ('', 0.0, 40.0)]
+        >>> [(band.name, band.start, band.end) for band in bands([("dwell", 345.0, 445.0, "#cccccc")])]
+        [('', 345.0, 360.0), ('dwell', 0.0, 85.0)]
     """
     found = []
     for name, start, end, color in stretches:
         first = start % 360.0
         last = first + end - start
-        found.append(Band(name, first, min(last, 360.0), color))
-        if last > 360.0:
-            found.append(Band("", 0.0, last - 360.0, color))
+        over = max(0.0, last - 360.0)
+        first_is_longer = 360.0 - first >= over
+        found.append(Band(name if first_is_longer else "", first, min(last, 360.0), color))
+        if over:
+            found.append(Band("" if first_is_longer else name, 0.0, over, color))
     return tuple(found)
 
 

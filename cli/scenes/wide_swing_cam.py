@@ -116,11 +116,15 @@ class Cycle:
 def build(design: WideSwingDesign, fraction: Reals) -> Scene:
     """Positions over fractions of the loop; the rocker's pivot is the origin, the cam axis stands right of it."""
     cycle = Cycle(design, fraction)
-    marks = [Mark(track(0.0, fraction), pivot=True)]
+    base, pin = _device_pins(cycle)
+    marks = [Mark(track(0.0, fraction), "D", pivot=True), Mark(0.5 * (base + pin), "device")]
     if design.spec.cam is not None:
-        marks.append(Mark(track(design.spec.cam.center_distance, fraction), pivot=True))
+        marks.append(Mark(track(design.spec.cam.center_distance, fraction), "O", pivot=True))
     if cycle.oscillates:
-        marks.append(Mark(_crank_rocker(cycle)[0], "A", pivot=True))
+        crank, *pins, _ = _crank_rocker(cycle)
+        marks += [Mark(crank, "A", pivot=True), *(Mark(joint, name) for joint, name in zip(pins, "BC", strict=True))]
+    if design.spec.slider is not None:
+        marks += [Mark(joint, name) for joint, name in zip(_slider_joints(cycle), "EF", strict=True)]
     drive = "crank" if cycle.oscillates else "cam"
     return Scene(
         parts=(*_device(cycle), *_cams(cycle), *_slider(cycle)),
@@ -237,27 +241,36 @@ def _crank_rocker(cycle: Cycle) -> tuple[Points, ...]:
 
 def _device(cycle: Cycle) -> list[Part]:
     """The unloading device, shortest at mid-swing, and its arm."""
-    unloader = cycle.design.spec.unloader
-    pin = 1j * unloader.arm * np.exp(1j * cycle.swing)
-    base = track(1j * unloader.arm * unloader.pivot_ratio, cycle.fraction)
+    base, pin = _device_pins(cycle)
     return [
         Chain(joints=(base, pin), color=GREEN, width=6.0),
         Chain(joints=(track(0.0, cycle.fraction), pin)),
     ]
 
 
+def _device_pins(cycle: Cycle) -> tuple[Points, Points]:
+    """The pins of the device: on the frame, on the rocker."""
+    unloader = cycle.design.spec.unloader
+    base = track(1j * unloader.arm * unloader.pivot_ratio, cycle.fraction)
+    return base, 1j * unloader.arm * np.exp(1j * cycle.swing)
+
+
 def _slider(cycle: Cycle) -> list[Part]:
     """The slider that the rocker moves through a rod."""
-    section = cycle.design.spec.slider
-    if section is None:
+    if cycle.design.spec.slider is None:
         return []
-    drive = cycle.design.motion.slider.drive
-    arm = drive.crank * np.exp(1j * (cycle.swing + drive.middle_angle - 0.5 * math.pi))
-    place = -drive.offset - 1j * drive.depth(cycle.swing)[0]
+    rod, (pin, place) = cycle.design.motion.slider.drive.rod, _slider_joints(cycle)
     return [
-        block(place, 0.14 * drive.rod, 0.2 * drive.rod, BLUE),
-        Chain(joints=(track(0.0, cycle.fraction), arm, place)),
+        block(place, 0.14 * rod, 0.2 * rod, BLUE),
+        Chain(joints=(track(0.0, cycle.fraction), pin, place)),
     ]
+
+
+def _slider_joints(cycle: Cycle) -> tuple[Points, Points]:
+    """The pins of the rod: on the rocker, on the slider."""
+    drive = cycle.design.motion.slider.drive
+    pin = drive.crank * np.exp(1j * (cycle.swing + drive.middle_angle - 0.5 * math.pi))
+    return pin, -drive.offset - 1j * drive.depth(cycle.swing)[0]
 
 
 def _chart(cycle: Cycle, drive: str) -> Chart:

@@ -23,7 +23,7 @@ from PIL import Image
 from sweeps import mostly_slow
 
 from gearlink.cli.evaluate import open_design, read_spec, whole_design
-from gearlink.cli.moving import gif
+from gearlink.cli.moving import gif, raster
 from gearlink.cli.moving.page import page, player_stage
 from gearlink.cli.moving.raster import Raster
 from gearlink.cli.moving.stage import Stage
@@ -469,9 +469,35 @@ def test_nothing_half_written_where_drawing_breaks(
     assert list(tmp_path.iterdir()) == []
 
 
-def test_paper_is_white_in_every_picture(gearlink: Any, designs: Path, tmp_path: Path) -> None:
-    assert gearlink("animate", designs / "candy_feed.yaml", "--out", tmp_path, *QUICK).status == 0
-    with Image.open(tmp_path / "candy-feed-motion.gif") as film:
+@pytest.mark.parametrize(
+    ("name", "options"),
+    [
+        ("candy_feed", QUICK),
+        ("wide_swing_twin_rocker", ("--fps", "5", "--seconds", "0.4")),
+    ],
+)
+def test_paper_is_white_in_every_picture(
+    gearlink: Any, designs: Path, tmp_path: Path, name: str, options: tuple[str, ...]
+) -> None:
+    assert gearlink("animate", designs / f"{name}.yaml", "--out", tmp_path, *options).status == 0
+    (path,) = tmp_path.iterdir()
+    with Image.open(path) as film:
         for i in range(film.n_frames):
             film.seek(i)
             assert film.convert("RGB").getpixel((film.width - 2, 2)) == (255, 255, 255)
+
+
+def test_a_word_keeps_its_hyphen_beside_a_negative_number() -> None:
+    assert raster._MINUS.sub("\u2212", "rocker from mid-swing -11.7\u00b0") == "rocker from mid-swing \u221211.7\u00b0"
+
+
+@pytest.mark.parametrize(
+    ("name", "wanted"),
+    [
+        ("wide_swing_slider_cam", {"D", "device", "O", "E", "F"}),
+        ("wide_swing_oscillating_cam", {"D", "device", "O", "A", "B", "C"}),
+    ],
+)
+def test_joints_of_a_wide_swing_have_the_letters_of_its_loads(designs: Path, name: str, wanted: set[str]) -> None:
+    made = build(design_of(designs / f"{name}.yaml"), np.linspace(0.0, 0.9, 4))
+    assert {mark.text for mark in made.marks} == wanted
