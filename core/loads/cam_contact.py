@@ -16,10 +16,8 @@ from gearlink.core.loads.kinematics import cross, dot
 from gearlink.core.numerics.arrays import Points, Reals
 
 _PHI = 0.5 * (1.0 + math.sqrt(5.0))
-SHEAR_SHARE = _PHI**-2.5
-"""Greatest shear stress of a line contact over its greatest pressure."""
 SHEAR_DEPTH = _PHI**-0.5
-"""Depth of it over the half width of the contact."""
+"""Depth of the greatest shear stress of a line contact over its half width."""
 
 
 @dataclass(frozen=True)

@@ -219,10 +219,6 @@ class PeriodicResponse:
         """z at input angles, in the unit of x."""
         return np.asarray(-self.state(phi).imag / self.oscillator.damped)
 
-    def envelope(self, phi: Reals) -> Reals:
-        """|Z|/w_d, the amplitude where x rests."""
-        return np.asarray(np.abs(self.state(phi)) / self.oscillator.damped)
-
 
 def _one_less_exp(z: complex) -> complex:
     """1 - e^z without loss near z = 0."""

@@ -11,7 +11,7 @@ from gearlink.core.spec_paths import number_at, unit_at
 from gearlink.core.study.faults import Fault, Place, WrongStudy
 from gearlink.core.tolerance.bearings import radial_clearance
 from gearlink.core.tolerance.iso_286 import fit_clearances, limit_deviations
-from gearlink.core.tolerance.iso_1328 import tooth_tolerances
+from gearlink.core.tolerance.iso_1328 import cumulative_pitch
 from gearlink.core.tolerance.laws import Law, normal_between
 from gearlink.core.tolerance.spec import Tolerance, ToleranceSource
 
@@ -153,7 +153,7 @@ def _gear(key: str, name: str, entry: ToleranceSource, parts: Parts, place: Plac
     if entry.eccentricity is not None:
         return Scatter(key, "gear", 0.0, Law("fixed", 0.0, limit, mean=limit), entry)
     if entry.grade is not None and entry.width is not None:
-        pitch = tooth_tolerances(entry.grade, gear.module, gear.diameter, entry.width).cumulative_pitch
+        pitch = cumulative_pitch(entry.grade, gear.module, gear.diameter, entry.width)
         limit = 0.5 * pitch * math.cos(gear.pressure_angle)
     return Scatter(key, "gear", 0.0, Law("triangular", 0.0, limit, mode=limit), entry)
 

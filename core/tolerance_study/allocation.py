@@ -78,7 +78,10 @@ def choices(sources: Sequence[Graded], reached: LinearYield, target: float, rati
     Notes
         All combinations up to a million; beyond that the path of a greedy search from the finest grades.
     Example
-        >>> laws = [{g: at_grade(size, g) for g in range(5, 12)} for size in (38.94, 112.0, 112.0, 153.53)]
+        >>> def part(size: float, grade: int) -> Law:
+        ...     half = 0.5 * standard_tolerance(size, grade)
+        ...     return Law("normal", -half, half, 0.0, half / 3.0)
+        >>> laws = [{g: part(size, g) for g in range(5, 12)} for size in (38.94, 112.0, 112.0, 153.53)]
         >>> requirement = Requirement((2.9581448247, 1.0285307299, 1.0285307299, 0.7503110467), 0.05, 0.05)
         >>> next(choices([Graded(5, 11)] * 4, normal_yield(laws, requirement), 0.9973, 1.6)).grades
         (6, 7, 8, 8)
@@ -97,12 +100,6 @@ def choices(sources: Sequence[Graded], reached: LinearYield, target: float, rati
         share = reached(grades)
         if share >= target:
             yield Choice(tuple(grades), cost(grades), share)
-
-
-def at_grade(size: float, grade: int) -> Law:
-    """Normal law of a part made to a grade, to either side of its size [mm], C_p = 1."""
-    half = 0.5 * standard_tolerance(size, grade)
-    return Law("normal", -half, half, 0.0, half / 3.0)
 
 
 def normal_yield(laws: Sequence[Mapping[int, Law]], requirement: Requirement) -> LinearYield:

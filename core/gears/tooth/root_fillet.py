@@ -93,12 +93,6 @@ class RackCutRoot:
         """Whether the tool cuts into the involute at its foot."""
         return self.flank_start < 0.0
 
-    @cached_property
-    def min_shift(self) -> float:
-        """x_min = h_fP* - rho* (1 - sin(alpha_n)) - z sin^2(alpha_t)/(2 cos(beta)), where undercut begins."""
-        square = self.fn.sin(self._transverse) ** 2
-        return self.tool.straight_end(self.pressure_angle, self.fn) - self._r * square
-
     @property
     def last_normal(self) -> float:
         """Direction of the normal where the straight flank begins, 90 deg - alpha_n [rad]."""

@@ -293,11 +293,6 @@ class WideSwingLoads(LoadsDesign):
 
     # The stroke
 
-    def inertia_torque(self, k: Reals) -> Reals:
-        """Torque on the rocker that moves it, and its slider, in the working stroke at the design speed [N m]."""
-        motion = self.design.motion
-        return motion.inertia * motion.swing / motion.working_time**2 * motion.torque(k)
-
     @property
     def own_forces(self) -> bool:
         """Whether more acts than the inertia of rocker and slider, and the device."""

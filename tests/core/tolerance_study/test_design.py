@@ -14,9 +14,10 @@ import pytest
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.study.faults import WrongStudy
+from gearlink.core.tolerance.iso_286 import standard_tolerance
+from gearlink.core.tolerance.laws import Law
 from gearlink.core.tolerance_study import corners
-from gearlink.core.tolerance_study.allocation import Graded, Requirement, at_grade, choices, normal_yield
-from gearlink.core.tolerance_study.samples import evaluated
+from gearlink.core.tolerance_study.allocation import Graded, Requirement, choices, normal_yield
 
 CASES = json.loads((Path(__file__).parents[2] / "reference/tolerance.json").read_text(encoding="utf-8"))
 CANDY = {
@@ -137,11 +138,17 @@ def test_yield_of_a_stroke_is_erf() -> None:
     assert spread["sigma"] == pytest.approx(2.0 * given["tol"] / 3.0, rel=0.03)
 
 
+def _normal(half: float) -> Law:
+    """Of a part to either side of its size, C_p = 1."""
+    return Law("normal", -half, half, 0.0, half / 3.0)
+
+
 def test_cheapest_grades_are_those_of_all_choices() -> None:
     case = next(case for case in CASES if case["input"]["what"] == "grades")
     given = case["input"]
     graded = [Graded(given["finest"], given["coarsest"])] * len(given["sizes"])
-    laws = [{g: at_grade(size, g) for g in range(given["finest"], given["coarsest"] + 1)} for size in given["sizes"]]
+    grades = range(given["finest"], given["coarsest"] + 1)
+    laws = [{g: _normal(0.5 * standard_tolerance(size, g)) for g in grades} for size in given["sizes"]]
     requirement = Requirement(tuple(given["gains"]), given["limit"], given["limit"])
     found = next(choices(graded, normal_yield(laws, requirement), given["yield"], 1.6))
     assert list(found.grades) == case["expected"][0]
