@@ -18,6 +18,7 @@ from gearlink.core.tolerance.iso_286 import standard_tolerance
 from gearlink.core.tolerance.laws import Law
 from gearlink.core.tolerance_study import corners
 from gearlink.core.tolerance_study.allocation import Graded, Requirement, choices, normal_yield
+from gearlink.core.tolerance_study.samples import evaluated
 
 CASES = json.loads((Path(__file__).parents[2] / "reference/tolerance.json").read_text(encoding="utf-8"))
 CANDY = {
