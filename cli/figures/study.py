@@ -14,6 +14,7 @@ from gearlink.cli.figures.drawing import style
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+    from matplotlib.lines import Line2D
 
     from gearlink.core.design import Design
     from gearlink.core.explore.exploration import Exploration
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
 _FEASIBLE, _FEASIBLE_SCALAR = 5000, 150
 _MOST_LINES = 200
 _GREY = "#BBBBBB"
+_RING: dict[str, Any] = {"markerfacecolor": "none", "markeredgecolor": style.RED, "markersize": 10}
+_LEGEND: dict[str, Any] = {"fontsize": 8, "frameon": False}
 _LOW, _HIGH = "#CFE3F5", "#0B3C6F"
 
 
@@ -38,9 +41,12 @@ def draw(_command: str, design: Design) -> Figure:
     figures = _figures(study)
     grey = _feasible(study)
     for i, j in pairs or [(0, 0)]:
-        _scatter(made.add_subplot(grid[max(0, i - 1), j]), study, figures, grey, (j, i))
+        axes = made.add_subplot(grid[max(0, i - 1), j])
+        _scatter(axes, study, figures, grey, (j, i))
     if count > 2:
         _key(made.add_subplot(grid[0, across - 1]), study)
+    elif count == 2:
+        axes.legend(handles=_marks(study), loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=3, **_LEGEND)
     _parallel(made.add_subplot(grid[across, :]), study, figures)
     return made
 
@@ -77,19 +83,29 @@ def _scatter(axes: Axes, study: Exploration, figures: Any, grey: Any, places: tu
         gid = f"row-{row.index}-{x}-{y}"
         axes.plot([place], [figure[y]], "o", color=style.BLUE, markersize=4, gid=gid)
         if row.index == study.knee:
-            ring: Any = {"markerfacecolor": "none", "markeredgecolor": style.RED, "markersize": 10}
-            axes.plot([place], [figure[y]], "o", **ring, gid="knee")
+            axes.plot([place], [figure[y]], "o", **_RING, gid="knee")
 
 
 def _key(axes: Axes, study: Exploration) -> None:
     """What the marks mean, in the empty corner of the matrix."""
     axes.axis("off")
-    axes.plot([], [], ".", color=style.GREY, label="satisfies everything")
-    axes.plot([], [], "o", color=style.BLUE, markersize=4, label="kept: one design a box of the front")
+    axes.legend(handles=_marks(study), loc="center", **_LEGEND)
+
+
+def _marks(study: Exploration) -> list[Line2D]:
+    """A mark of each kind with its words."""
+    from matplotlib.lines import Line2D
+
+    of_all: Any = {"linestyle": "none"}
+    found = [
+        Line2D([], [], marker=".", color=_GREY, markersize=5, label="satisfies everything", **of_all),
+        Line2D(
+            [], [], marker="o", color=style.BLUE, markersize=4, label="kept: one design a box of the front", **of_all
+        ),
+    ]
     if study.knee is not None:
-        ring: Any = {"markerfacecolor": "none", "markeredgecolor": style.RED, "markersize": 10}
-        axes.plot([], [], "o", **ring, label=f"knee, design {study.knee}")
-    axes.legend(loc="center", fontsize=8, frameon=False)
+        found.append(Line2D([], [], marker="o", **_RING, label=f"knee, design {study.knee}", **of_all))
+    return found
 
 
 def _parallel(axes: Axes, study: Exploration, figures: Any) -> None:
@@ -108,7 +124,7 @@ def _parallel(axes: Axes, study: Exploration, figures: Any) -> None:
         )
         axes.plot(range(len(heights)), heights, gid=f"row-{row.index}-line", **look)
     for i, ((low, high), sign) in enumerate(zip(ranges, signs, strict=True)):
-        axes.axvline(i, color=style.GREY, linewidth=0.8, zorder=0)
+        axes.plot([i, i], [0.0, 1.0], color=style.GREY, linewidth=0.8, zorder=0)
         ends = (low, high) if sign > 0.0 else (high, low)
         for value, at, align in ((ends[0], -0.04, "top"), (ends[1], 1.04, "bottom")):
             axes.text(i, at, style.number(value, 4), ha="center", va=align, fontsize=7)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.figures.drawing import panels, style
@@ -14,12 +15,14 @@ if TYPE_CHECKING:
     from gearlink.core.tolerance_study.design import ToleranceStudy
 
 _MOST = 4
-_BINS = 60
+_MOST_BINS = 60
+_NOTHING = 1e-12  # of the motion
+_LETTERS = 39  # below a histogram
 
 
 def draw(study: ToleranceStudy) -> Figure:
     """The sheet: a row for each quantity, those of the requirements first, and one for each output over the cycle."""
-    names, courses = study.varying[:_MOST], study.courses
+    names, courses = study.varying[:_MOST], [one for one in study.courses if _scatters(one)]
     height = max(1, len(names)) + len(courses)
     made = panels.page(f"{study.spec.name}: tolerance", 0.12 + 0.22 * height)
     grid = made.add_gridspec(height, 2, width_ratios=[1.25, 1.0])
@@ -33,6 +36,13 @@ def draw(study: ToleranceStudy) -> Figure:
     for i, course in enumerate(courses, start=max(1, len(names))):
         _course(made.add_subplot(grid[i, :]), course)
     return made
+
+
+def _scatters(course: Course) -> bool:
+    """Whether an output leaves its place at all: one that a law prescribes has no band."""
+    import numpy as np
+
+    return bool(np.nanmax(np.abs(course.percentiles)) > _NOTHING * np.ptp(course.nominal))
 
 
 def _course(axes: Axes, course: Course) -> None:
@@ -79,7 +89,8 @@ def _histogram(axes: Axes, study: ToleranceStudy, name: str) -> None:
     style.curves(axes, f"{name} [{unit}]" if unit != "1" else name, "density")
     panels.small_ticks(axes)
     axes.ticklabel_format(axis="x", useOffset=False)
-    axes.hist(values, bins=_BINS, density=True, histtype="stepfilled", color=style.SKY)  # one patch for sixty
+    bins = min(_MOST_BINS, math.ceil(2.0 * math.cbrt(len(values))))  # more show the few samples, not the density
+    axes.hist(values, bins=bins, density=True, histtype="stepfilled", color=style.SKY)  # one patch for sixty
     axes.axvline(study.nominal[name], color=style.BLACK, linewidth=1.2, label="nominal")
     low, _, high = study.result.spreads[name].quantiles
     for place, label in ((low.value, "0.135 and 99.865 %"), (high.value, None)):
@@ -87,7 +98,14 @@ def _histogram(axes: Axes, study: ToleranceStudy, name: str) -> None:
     for i, limit in enumerate(one for one in study.limits(name) if one is not None):
         axes.axvline(limit, color=style.RED, linewidth=1.6, linestyle=style.CHAIN, label=None if i else "limit")
     axes.set_yticks([])
+    _numbers_that_fit(axes)
     panels.legend_under_heading(axes, _headline(study, name), 3)
+
+
+def _numbers_that_fit(axes: Axes) -> None:
+    """So few numbers below a histogram that all of their digits have room: 154.2075 takes that of two short ones."""
+    words = axes.xaxis.get_major_formatter().format_ticks(axes.get_xticks().tolist())
+    panels.few_ticks(axes.xaxis, max(2, min(6, _LETTERS // (2 + max(map(len, words))))))
 
 
 def _headline(study: ToleranceStudy, name: str) -> str:

@@ -48,6 +48,22 @@ def test_marks_and_lines_are_the_kept_designs(study: Exploration) -> None:
     assert scatter[0].get_xlabel() == "frame length [mm]"
 
 
+def test_marks_are_explained_and_numbers_stand_free_of_their_axes() -> None:
+    keys = KEYS | {"minimize": {"frame_length": "20 mm"}}
+    figure = draw("explore", Exploration(StudySpec.model_validate_json(json.dumps(keys))))
+    scatter, parallel = figure.axes
+    words = [text.get_text() for text in scatter.get_legend().get_texts()]
+    assert words[:2] == ["satisfies everything", "kept: one design a box of the front"]
+    upright = [line for line in parallel.get_lines() if len(set(line.get_xdata())) == 1]
+    ends = {text.get_position() for text in parallel.texts}
+    assert len(upright) == 4
+    for line in upright:
+        assert {(x, y) for x, y in ends if x == line.get_xdata()[0]} == {
+            (line.get_xdata()[0], y) for y in (-0.04, 1.04)
+        }
+        assert -0.04 < min(line.get_ydata()) < max(line.get_ydata()) < 1.04
+
+
 @pytest.mark.slow
 def test_picture_and_page(gearlink: Any, tmp_path: Path) -> None:
     path = tmp_path / "study.yaml"

@@ -101,3 +101,26 @@ def test_a_register_sheet_says_each_thing_once_and_what_it_leaves_out() -> None:
 def test_a_spread_has_its_unit() -> None:
     _, figure = sheet("candy_feed_tolerances", "tolerance", **SMALL)
     assert any(axes.get_title(loc="left").endswith(" deg") for axes in figure.axes)
+
+
+@pytest.mark.slow
+def test_numbers_below_histograms_have_room() -> None:
+    """At 8 pt an axis of 2.8 in takes some 40 letters, two of them between neighbours; few samples have few bins."""
+    _, figure = sheet("ty460_register", "tolerance", **SMALL)
+    found = [axes for axes in figure.axes if axes.get_ylabel() == "density"]
+    assert len(found) == 4
+    for axes in found:
+        low, high = axes.get_xlim()
+        ticks = [tick for tick in axes.get_xticks() if low <= tick <= high]
+        assert len(ticks) >= 2
+        assert sum(len(word) + 2 for word in axes.xaxis.get_major_formatter().format_ticks(ticks)) <= 42
+        assert len(axes.patches[0].get_xy()) < 30
+
+
+def test_an_output_that_a_law_prescribes_has_no_band() -> None:
+    places, still = np.arange(4) * 90.0, np.zeros((5, 4))
+    course = Course("output_angle", "theta", ("deg", "deg"), places, 10.0 * np.sin(places), still, None)
+    assert not tolerance._scatters(course)
+    still[1] = -1e-9
+    still[0] = np.nan
+    assert tolerance._scatters(course)
