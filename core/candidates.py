@@ -14,14 +14,13 @@ from typing import TYPE_CHECKING, Any
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.nomenclature import term
+from gearlink.core.remedies.ways import MODULES
 from gearlink.core.report import Table
 from gearlink.core.spec_paths import changed
 
 if TYPE_CHECKING:
     from gearlink.core.design import Design
 
-MODULES = (0.5, 0.6, 0.8, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 16.0, 20.0)
-"""Series I of ISO 54 [mm]."""
 _SHARES = (0.8, 0.9, 1.0, 1.1, 1.25, 1.5)
 
 

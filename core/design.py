@@ -104,10 +104,10 @@ class Design:
     """Keys of what the machine has to do: a remedy that changes one asks for less, and is sought last."""
     derived: ClassVar[frozenset[str]] = frozenset()  # quantities with a value or None wherever there is a mechanism
     advises = True
-    kin: Kin | None = None
-    """The designs of its file's other commands; None where it was made by itself."""
+    kin: Kin | None = None  # the designs of its file's other commands; None where it was made by itself
     warnings = True
     checks_need_search: ClassVar[bool] = False
+    guided: ClassVar[bool] = False  # whether remedies are sought first on ways that lead to the limit: trials are few
 
     def __init__(self, spec: Any) -> None:
         self.spec = spec
@@ -121,6 +121,11 @@ class Design:
     def effort(self) -> int:
         """What was computed of this design so far, in trials, where that differs much from one to the next."""
         return 0
+
+    @property
+    def weight(self) -> int:
+        """How many times as long it takes to judge this design as one of a turn."""
+        return 1
 
     @property
     def costly(self) -> bool:

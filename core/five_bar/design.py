@@ -21,7 +21,7 @@ from gearlink.core.gears.train.ways import train_ways
 from gearlink.core.linkages.checks import target_check, transmission_check
 from gearlink.core.motion_extremes import WithExtremes, names
 from gearlink.core.real_speed import OUTPUT_SPEEDS, OutputSpeed, RealSpeed, per_time
-from gearlink.core.remedies.ways import down, either, up
+from gearlink.core.remedies.ways import down, either, modules, up
 from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
 
@@ -37,6 +37,8 @@ _POSITION_TOLERANCE = math.degrees(1e-9)
 
 
 _FEW_TURNS = 3
+_FIT, _BESIDES = 60, 10
+"""Trials of designs without a target that one fit takes as long as, and how many are tried with one."""
 _TEETH = tuple(up(f"gears.{gear}", step=1) for gear in ("input", "output", "idler", "planet", "sun", "ring"))
 _FEWER = tuple(down(*way.keys, step=1) for way in _TEETH)
 _LINKS = (
@@ -136,18 +138,33 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, FiveBarParts):
             *either("phase", step=1.0),
             *_FEWER,
             *_TEETH,
+            *modules("gears.module"),
         ),
-        "shaft-clearance": (*SHAFT_WAYS, *_LINKS, *_FEWER, *_TEETH),
-        "gear-collision": (up("links.frame"), *_FEWER, *_TEETH),
+        "shaft-clearance": (*SHAFT_WAYS, *_LINKS, *_FEWER, *_TEETH, *modules("gears.module")),
+        "gear-collision": (up("links.frame"), *_FEWER, *_TEETH, *modules("gears.module")),
         **train_ways(3, up("gears.input", "gears.output", step=1), *_TEETH),
     }
+    guided = True
 
     @property
     def trials(self) -> int:
-        """Links that are fitted to a target take tenths of a second each time; a path of few turns a millisecond."""
-        if self.spec.target is not None:
-            return 0
+        """A path of few turns takes a millisecond; links found for points or positions a tenth of a second each time,
+        those for a function, or within a budget, more than remedies may take."""
+        target = self.spec.target
+        if target is not None and self._fits:
+            return 0 if target.function is not None or target.budget is not None else _FIT + _BESIDES
         return (400 if self.period_turns <= _FEW_TURNS else 300) if self.is_path else 60
+
+    @property
+    def _fits(self) -> bool:
+        """Whether the links are found for a target."""
+        target = self.spec.target
+        return target is not None and not (target.function is not None and target.function.links == "given")
+
+    @property
+    def effort(self) -> int:
+        """What finding the links took."""
+        return _FIT if self._fits and not {"fit", "function_bar"}.isdisjoint(self.__dict__) else 0
 
     @property
     def point_along(self) -> float | None:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from gearlink.core.candidates import MODULES, Sought, table
+from gearlink.core.candidates import Sought, table
 from gearlink.core.errors import MissingSection
+from gearlink.core.remedies.ways import MODULES
 
 if TYPE_CHECKING:
     from gearlink.core.flatbed_press.design import FlatbedPress

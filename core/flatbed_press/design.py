@@ -89,6 +89,7 @@ class FlatbedPress(WithExtremes, SliderCrankQuantities, GearQuantities, Design):
     extra_tables = ("chains", "drawing", "candidates")
     requirements = Design.requirements | {"sync.print_length"}
     trials = 30
+    guided = True
     candidates, ways_of = remedies.candidates, remedies.ways_of
 
     def completion(self) -> Iterator[Found]:

@@ -4,13 +4,26 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from gearlink.core.cams.checks import HUB, ROLLER_SHARE
 from gearlink.core.errors import NoSolution
 from gearlink.core.flatbed_press.zone import zone_end
 from gearlink.core.linkages.slider_crank.position import SliderCrank
-from gearlink.core.remedies.ways import REFUSAL, Way, at_least, at_most, down, either, left_out, refusal_ways, up
+from gearlink.core.remedies.ways import (
+    REFUSAL,
+    Way,
+    at_least,
+    at_most,
+    down,
+    either,
+    left_out,
+    refusal_ways,
+    shared,
+    up,
+)
+from gearlink.core.spec_paths import changed
 
 if TYPE_CHECKING:
     from gearlink.core.flatbed_press.design import FlatbedPress
@@ -20,11 +33,23 @@ _LEAD_IN = 10.0
 _STEEPEST = 1e-3
 _ROUNDS = 20
 """So often a rod is found from its crank, which grows less than the rod does."""
-_LINKS = tuple(f"{chain}.double_crank.{link}" for chain in ("bed", "cylinder") for link in ("frame", "coupler"))
+_BEHIND = (15.0, 25.0, 40.0, 60.0)
+"""Cam angles behind the end of the zone at which the lift may be greatest [deg]."""
+_LINKS = tuple(
+    f"{chain}.double_crank.{link}" for chain in ("bed", "cylinder") for link in ("frame", "coupler", "crank", "rocker")
+)
 _LARGER = (up("cam.base_radius"), up("cam.return_angle", step=0.5))
 _ZONE = (left_out("sync.start"), up("cam.lead_in", step=1.0))
+_LATER = (*shared("cam.transition_end", "cam.return_angle", step=0.5)[:1], down("cam.return_angle", step=0.5))
+_GEARS = tuple(f"input_gears.profile_shift[{gear}]" for gear in (0, 1))
+_SHIFTS = (*shared(*_GEARS, step=0.01), *either(*_GEARS, step=0.01))
+_TEETH = (*either("input_gears.pressure_angle", step=0.5), down("input_gears.addendum", step=0.01))
 _WIDER = (up("input_gears.face_width", step=1.0), Way(("input_gears.face_width[0]", "input_gears.face_width[1]"), 1.0))
+_OF_TEETH = ("undercut", "tip-thickness", "involute-interference", "tooth-form", "fillet-interference", "tip-fouling")
 _WAYS = {
+    **dict.fromkeys(_OF_TEETH, (*_SHIFTS, *_TEETH)),
+    "contact-ratio": (*_SHIFTS, *_TEETH[:2], up("input_gears.addendum", step=0.01)),
+    "root-clearance": (up("input_gears.clearance", step=0.01), up("input_gears.tool.addendum", step=0.01)),
     "backlash": tuple(
         Way((f"input_gears.allowances.upper[{gear}]", f"input_gears.allowances.lower[{gear}]"), -0.005)
         for gear in (0, 1)
@@ -47,7 +72,7 @@ _WAYS = {
 def ways_of(design: FlatbedPress, check: str) -> tuple[Way, ...]:
     """Ways in which a check that fails may be repaired; for cams that cannot be, those of their refusal."""
     if check == "pressure-angle" and design.cams.refusal is not None:
-        return (*refusal_ways(design.spec, design.cams.refusal.key), *_WAYS[check])
+        return (*refusal_ways(design.spec, design.cams.refusal.key), *_LATER, *_ZONE, *_WAYS[check])
     return _WAYS.get(check, ())
 
 
@@ -83,7 +108,9 @@ def _length(design: FlatbedPress) -> Iterator[Remedy]:
 def _pressure(design: FlatbedPress) -> Iterator[Remedy]:
     """The base radius that keeps the limit with room for roller and shaft, or the angle that it is chosen for."""
     cams, limit = design.cams, design.spec.limits.pressure_angle
-    if design.spec.size is not None and design.cams.section.base_radius is None:
+    if cams.refusal is not None and cams.refusal.key == "cam.transition_end":
+        yield from _later_transition(design)
+    elif design.spec.size is not None and design.cams.section.base_radius is None:
         yield (("size.pressure_angle", at_most(limit, 0.5)),)
     elif cams.follows:
         try:
@@ -91,6 +118,25 @@ def _pressure(design: FlatbedPress) -> Iterator[Remedy]:
         except NoSolution:
             radius = cams.base_radius_for_pressure(math.radians(limit))
         yield (("cam.base_radius", at_least(radius)),)
+
+
+def _later_transition(design: FlatbedPress) -> Iterator[Remedy]:
+    """The greatest lift farther behind the zone, with the base radius that its cams then need; none where one of them
+    needs no larger one, which a way finds."""
+    end, given = math.degrees(design.motion.cam_sync_end), design.cams.section.base_radius
+    found: list[tuple[float, Remedy]] = []
+    for more in _BEHIND:
+        later: Remedy = (("cam.transition_end", at_least(end + more, 0.5)),)
+        spec = changed(design.spec, later)
+        if spec is None or given is None:
+            break
+        with suppress(NoSolution):
+            cams = type(design)(spec).cams
+            if cams.refusal is None:
+                radius = at_least(cams.base_radius_for(math.radians(design.spec.limits.pressure_angle)))
+                found.append((radius, (*later, ("cam.base_radius", radius))))
+    if given is not None and all(radius > given for radius, _ in found):
+        yield from (remedy for _, remedy in sorted(found))
 
 
 def _roller(design: FlatbedPress) -> Iterator[Remedy]:

@@ -14,7 +14,7 @@ from gearlink.core.gears.drawing_checks import pair_check, rests_on
 from gearlink.core.gears.drawing_names import DERIVED, DRAWING_CHECKS, DRAWING_QUANTITIES, lacking
 from gearlink.core.gears.from_spec import data_of, pair_of
 from gearlink.core.gears.mesh.pair import GearPair
-from gearlink.core.remedies.ways import Way, down, either, shared, up
+from gearlink.core.remedies.ways import Way, down, either, modules, shared, up
 from gearlink.core.report import Check, Remedy, Table
 from gearlink.core.results import cached_property
 
@@ -50,8 +50,8 @@ def _ways(*teeth: Way) -> dict[str, tuple[Way, ...]]:
         "tip-fouling": (*_SHIFTS, _LOWER, *teeth, *_ANGLE),
         "radial-assembly": (*_SHIFTS, _LOWER, *teeth, *_ANGLE),
         "backlash": (*_THINNER, *either("center_distance", step=0.01), *_SHIFTS),
-        "pitting": (*_WIDER, up("module", step=0.25), *_SHIFTS, *teeth),
-        "bending": (*_WIDER, up("tool.rounding", step=0.01), up("module", step=0.25), *_SHIFTS, *teeth),
+        "pitting": (*_WIDER, modules("module")[0], *_SHIFTS, *teeth),
+        "bending": (*_WIDER, up("tool.rounding", step=0.01), modules("module")[0], *_SHIFTS, *teeth),
     }
 
 

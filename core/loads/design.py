@@ -6,7 +6,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from gearlink.core.design import Outline
-from gearlink.core.errors import GearlinkError, MissingSection
+from gearlink.core.errors import GearlinkError, MissingSection, NoSolution
 from gearlink.core.loads import checks, tables, vibration_checks
 from gearlink.core.loads.balance import BalancedLoads
 from gearlink.core.loads.base import RPM
@@ -100,6 +100,14 @@ class LoadsDesign(BalancedLoads):
             return super().raw(name)
         found = self.pin(joint.removeprefix("pin_")) if joint.startswith("pin_") else self.mesh(joint)
         return self._unless_locked(lambda: getattr(found, quantity, None), None)
+
+    @property
+    def weight(self) -> int:
+        """Loads are computed over every turn of the period."""
+        try:
+            return self.turns
+        except NoSolution:
+            return 1
 
     def rows(self, samples: int | None) -> tuple[Reals, dict[str, tuple[Any, str]]]:
         """Input angles [rad] of a table's rows, and its first columns."""

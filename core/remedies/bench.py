@@ -8,6 +8,7 @@ asks for is refused: whoever follows it gets what it says.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import replace
@@ -15,7 +16,7 @@ from itertools import islice
 from typing import TYPE_CHECKING
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.remedies.standing import HOLDS, PASSES, Standing, left_of, own_grade, warned
+from gearlink.core.remedies.standing import HOLDS, PASSES, Standing, left_of, own_grade, steps_to_limit, warned
 from gearlink.core.remedies.ways import REFUSAL, Way, can_be_built, counts, greatest_length, refusal_ways
 from gearlink.core.report import Check, Remedy, remedy_words
 from gearlink.core.results import cached_property
@@ -26,8 +27,10 @@ if TYPE_CHECKING:
 
 _COSTLY = 4
 """Trials that are costly, of a design that is not."""
-_ELSEWHERE, _OF_WAY = 6, 3
-"""For each finding, trials of commands that another class serves; values of one way that are worth one."""
+_FINDINGS, _REST = 4, 10
+"""Trials of all findings together are as many as so many findings have; then each has its share of a tenth."""
+_ELSEWHERE, _OF_WAY = 4, 3
+"""Trials of commands that another class serves, for all findings together; values of one way that are worth one."""
 
 
 def with_remedies(design: Design, command: str, findings: tuple[Check, ...]) -> tuple[Check, ...]:
@@ -63,6 +66,8 @@ class Bench:
         self._commands = commands_of(design, command)
         self._before = Standing(design)
         self._left = 0
+        self._of_all = _FINDINGS * design.trials
+        self._elsewhere_left = _ELSEWHERE * (_FINDINGS if patient else 1)
         self._costly = 0
         self._trials: dict[Remedy, Standing | None] = {}
         self._candidates: dict[str, tuple[list[Remedy], Iterator[Remedy]]] = {}
@@ -84,15 +89,23 @@ class Bench:
         return self._found[found.name, index]
 
     def _sought(self, found: Check, index: int) -> Remedy:
-        self._left = self._design.trials - self._design.effort
+        most = max(min(self._design.trials, self._of_all), self._design.trials // _REST)
+        self._left = most - self._design.effort
+        remedy = self._best(found, index)
+        self._of_all -= most - self._design.effort - self._left
+        return remedy
+
+    def _best(self, found: Check, index: int) -> Remedy:
         for wanted in (PASSES, HOLDS) if found.status == "fail" else (PASSES,):
 
             def good(tried: Remedy, wanted: int = wanted) -> bool:
                 return self._grade(tried, found.name, index) >= wanted
 
-            few = islice(self._all(found.name, good), _ELSEWHERE)
-            if remedy := next((each for each in few if self._grade_elsewhere(each) >= wanted), ()):
-                return remedy
+            for remedy in self._all(found.name, good, index):
+                if not self._is_affordable_elsewhere(remedy):
+                    break
+                if self._grade_elsewhere(remedy) >= wanted:
+                    return remedy
         return ()
 
     def warnings_left(self, remedy: Remedy, found: Check, index: int) -> tuple[str, ...]:
@@ -121,7 +134,7 @@ class Bench:
                 )
             return False
 
-        return next(self._all(found.name, good), ())
+        return next(self._all(found.name, good, index), ())
 
     def of_refusal(self, error: NoSolution) -> Iterator[Remedy]:
         """Remedies of a design that is refused: nothing of what its file asks for is refused then."""
@@ -130,17 +143,49 @@ class Bench:
         yield from (remedy for remedy in self._closed(REFUSAL) if self._stands(remedy))
         yield from (remedy for way in ways for remedy in islice(self._along(way, self._stands), 1))
 
-    def _all(self, name: str, good: Callable[[Remedy], bool]) -> Iterator[Remedy]:
-        """The remedies that are good, the best first."""
+    def _all(self, name: str, good: Callable[[Remedy], bool], index: int) -> Iterator[Remedy]:
+        """The remedies of a finding that are good, the best first."""
         for less in (False, True):
             for remedy in self._closed(name):
                 if self._left <= 0 and self._design.effort and remedy not in self._trials:
                     break  # the few of a closed form count where each takes as long as many
                 if self.asks_less(key for key, _ in remedy) is less and good(remedy):
                     yield remedy
-            for way in self._design.ways_of(name):
-                if self.asks_less(way.keys) is less:
-                    yield from islice(self._along(way, good), _OF_WAY)
+            ways = (way for way in self._design.ways_of(name) if self.asks_less(way.keys) is less)
+            for way, first in self._led(ways, good, name, index):
+                yield from islice(self._along(way, good, first), _OF_WAY)
+
+    def _led(
+        self, ways: Iterable[Way], good: Callable[[Remedy], bool], name: str, index: int
+    ) -> Iterator[tuple[Way, int]]:
+        """Ways that bear on a finding, by the first step of each, and the count of steps to try first.
+
+        Notes
+            Where a trial takes long, those whose first step leads to the limit come first, from half the steps on
+            that it seems to take, and ways that seem to lead elsewhere last.
+        """
+        later: list[tuple[Way, int]] = []
+        for way in ways:
+            old = self._numbers(way)
+            step = way.remedy(old, 1) if old else ()
+            known = (step in self._trials or self._left > 0) and not good(step)
+            trial = self._trials.get(step)
+            steps = steps_to_limit(self._before, trial, name, index) if known and trial is not None else 1.0
+            if not old or steps == math.inf:
+                continue
+            if steps is None or not self._design.guided:
+                yield way, 1
+            elif 0.0 <= steps <= way.most(old):
+                yield way, max(1, int(0.5 * steps))
+            else:
+                later.append((way, 1))
+        yield from later
+
+    def _numbers(self, way: Way) -> list[float]:
+        """The numbers of the file that a way changes; none where one of them is missing."""
+        values = [number_at(self._design.given, key) for key in way.keys]
+        old = [value for value in values if value is not None]
+        return old if len(old) == len(values) else []
 
     def asks_less(self, keys: Iterable[str]) -> bool:
         """Whether keys to be changed say what the machine has to do."""
@@ -155,15 +200,14 @@ class Bench:
                 kept.append(remedy)
                 yield remedy
 
-    def _along(self, way: Way, good: Callable[[Remedy], bool]) -> Iterator[Remedy]:
+    def _along(self, way: Way, good: Callable[[Remedy], bool], first: int = 1) -> Iterator[Remedy]:
         """The nearest remedy on a way: steps that grow until one is good, then halving back; then those farther on."""
-        values = [number_at(self._design.given, key) for key in way.keys]
-        old = [value for value in values if value is not None]
-        if len(old) < len(values):
+        old = self._numbers(way)
+        if not old:
             return
         bad = 0
         nearest: Remedy = ()
-        for count in counts(way.most(old)):
+        for count in counts(way.most(old), first):
             remedy = way.remedy(old, count)
             if self._left <= 0 and remedy not in self._trials:
                 return
@@ -240,6 +284,13 @@ class Bench:
         asked = () if design.kin is None else design.given.commands()
         return tuple(command for command in asked if command not in design.outlines)
 
+    def _is_affordable_elsewhere(self, remedy: Remedy) -> bool:
+        """Whether the commands of the file that another class serves may be judged once more."""
+        if self._elsewhere and (remedy, self._elsewhere[0]) not in self._others:
+            designs = (self._other(remedy, command).design for command in self._elsewhere)
+            self._elsewhere_left -= sum(design.weight for design in designs if design is not None)
+        return self._elsewhere_left >= 0
+
     def _grade_elsewhere(self, remedy: Remedy) -> int:
         """What a remedy leaves of them: none becomes worse, none is refused that was not."""
         grade = PASSES
@@ -259,7 +310,7 @@ class Bench:
             if command in spec.commands():
                 with suppress(NoSolution):
                     made = (kin.changed(spec) if remedy else kin).of(command)
-            self._others[key] = Standing(made)
+            self._others[key] = Standing(made, command)
         return self._others[key]
 
 

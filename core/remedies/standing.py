@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
@@ -9,6 +10,7 @@ from gearlink.core.errors import NoSolution
 
 if TYPE_CHECKING:
     from gearlink.core.design import Design
+    from gearlink.core.report import Check
 
 PASSES, HOLDS = 2, 1
 """Grades of a change: what is to pass passes and nothing is worse; something warns. 0: something fails."""
@@ -22,11 +24,14 @@ class Standing:
 
     Parameters
         design : None where it is refused before it is made
+        whole : str - a command that is looked at as a whole: what its results share is computed first, and once
     """
 
-    def __init__(self, design: Design | None) -> None:
+    def __init__(self, design: Design | None, whole: str = "") -> None:
         self.design = design
+        self._whole = whole
         self._ranks: dict[str, Ranks] = {}
+        self._found: dict[str, tuple[Check, ...]] = {}
         self._stands: dict[str, bool] = {}
 
     @property
@@ -41,9 +46,19 @@ class Standing:
             NoSolution
         """
         if check not in self._ranks:
-            found = () if self.design is None else self.design.check(check)
-            self._ranks[check] = tuple(_RANK[finding.status] for finding in found)
+            self._prepare()
+            self._found[check] = () if self.design is None else tuple(self.design.check(check))
+            self._ranks[check] = tuple(_RANK[finding.status] for finding in self._found[check])
         return self._ranks[check]
+
+    def found(self, check: str) -> tuple[Check, ...]:
+        """The findings of a check; none where they were not asked for."""
+        return self._found.get(check, ())
+
+    def _prepare(self) -> None:
+        if self.design is not None and self._whole:
+            self.design.prepare(self.design.decisive(self._whole))
+            self._whole = ""
 
     def stands(self, command: str) -> bool:
         """Whether the design is not refused to a command, nor to one of its checks."""
@@ -71,6 +86,21 @@ def own_grade(before: Standing, now: Standing, check: str, index: int) -> int:
     ranks = now.ranks(check)
     same = len(ranks) == len(before.ranks(check))
     return PASSES - (ranks[index] if same else max(ranks, default=0))
+
+
+def steps_to_limit(before: Standing, now: Standing, check: str, index: int) -> float | None:
+    """How many steps like the one tried bring what a finding judges to its limit, if it goes on so.
+
+    Returns
+        steps : float or None - below 0 where it went the other way, infinite where it did not move; None unless known
+    """
+    was, found = before.found(check), now.found(check)
+    if not found or len(was) != len(found):
+        return None
+    first, then, limit = was[index].value, found[index].value, was[index].limit
+    if first is None or then is None or limit is None:
+        return None
+    return math.inf if then == first else (limit - first) / (then - first)
 
 
 def left_of(commands: Iterable[str], before: Standing, now: Standing) -> int:

@@ -11,6 +11,8 @@ from gearlink.core.spec_paths import number_at, numbers_at, step_of, unit_at
 
 _GROWTH = 1.35
 _FARTHEST, _LEAST_STEPS, _FINE = 3.0, 30, 200
+MODULES = (0.5, 0.6, 0.8, 1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 16.0, 20.0)
+"""Series I of ISO 54 [mm]."""
 REFUSAL = "refusal"
 """Name under which a design gives candidates where it is refused."""
 
@@ -21,17 +23,21 @@ class Way(NamedTuple):
     Fields
         keys : dotted paths, changed together
         step : float - grid of the values, with the sign of the way to go; 0: the keys are left out
-        tie : str - what the others do: as many "steps", or they keep their "ratio" to the first, or the "sum"
+        tie : str - what the others do: as many "steps", or they keep their "ratio" to the first, or the "sum";
+            "series": each key goes along the standard modules, of which a step is one
     """
 
     keys: tuple[str, ...]
     step: float
-    tie: Literal["steps", "ratio", "sum"] = "steps"
+    tie: Literal["steps", "ratio", "sum", "series"] = "steps"
 
     def remedy(self, old: list[float], count: int) -> Remedy:
         """Every key with its value `count` steps on; empty where a tooth would be split, or a gear become a ring."""
         if self.step == 0.0:
             return tuple((key, None) for key in self.keys)
+        if self.tie == "series":
+            farther = [_modules(value, self.step)[count - 1 : count] for value in old]
+            return tuple((key, value) for key, values in zip(self.keys, farther, strict=True) for value in values)
         first, *others = old
         new, whole = [_on_grid(first, self.step, count)], all(isinstance(value, int) for value in old)
         if self.tie == "steps":
@@ -48,7 +54,17 @@ class Way(NamedTuple):
 
     def most(self, old: list[float]) -> int:
         """How many steps are tried."""
+        if self.tie == "series":
+            return len(_modules(old[0], self.step))
         return 1 if self.step == 0.0 else int(_FARTHEST * abs(old[0] / self.step)) + _LEAST_STEPS
+
+
+def _modules(old: float, side: float) -> tuple[float, ...]:
+    """The standard modules beyond one, to one side, the nearest first, as far as lengths may go."""
+    most = 1.0 + _FARTHEST
+    if side > 0.0:
+        return tuple(each for each in MODULES if old < each <= most * old)
+    return tuple(each for each in reversed(MODULES) if old / most <= each < old)
 
 
 def _on_grid(old: float, step: float, count: int) -> float:
@@ -108,6 +124,11 @@ def _built(value: float, step: float, way: Callable[[float], int]) -> float:
     return round(way(round(value / step, 9)) * step, max(0, 2 - math.floor(math.log10(step))))
 
 
+def modules(*keys: str) -> tuple[Way, ...]:
+    """For each key the ways to greater and to smaller standard modules."""
+    return tuple(Way((key,), side, "series") for key in keys for side in (1.0, -1.0))
+
+
 def left_out(key: str) -> Way:
     """The way to the default."""
     return Way((key,), 0.0)
@@ -144,9 +165,9 @@ def refusal_ways(spec: Any, key: str) -> Iterator[Way]:
         yield from either(path, step=step_of(spec, path))
 
 
-def counts(most: int) -> Iterator[int]:
-    """1, 2, 3, 4, 6, 8, ... and `most`; of many steps of a fine grid the second is half a hundredth of them."""
-    count = 1
+def counts(most: int, first: int = 1) -> Iterator[int]:
+    """1, 2, 3, 4, 6, 8, ... from `first` on, and `most`; of many of a fine grid the second is half a hundredth."""
+    count = first
     while count < most:
         yield count
         count = max(count + 1, int(count * _GROWTH), most // _FINE)

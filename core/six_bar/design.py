@@ -19,7 +19,7 @@ from gearlink.core.linkages.checks import transmission_check
 from gearlink.core.linkages.output_rates import OutputRates
 from gearlink.core.motion_extremes import names
 from gearlink.core.real_speed import OUTPUT_SPEEDS, RealSpeed
-from gearlink.core.remedies.ways import Way, down, either, shared, up
+from gearlink.core.remedies.ways import Way, down, either, modules, shared, up
 from gearlink.core.report import Check, Table, without_noise
 from gearlink.core.results import cached_property
 
@@ -38,6 +38,9 @@ _LINKS = ("frame", "input", "coupler_1", "coupler_2", "coupler_3", "output")
 _MOVED = _LINKS[2:]
 _MOST_MESHES = 4
 _FREE_LINKS = either(*(f"links.{name}" for name in ("coupler_2", "coupler_1", "coupler_3", "frame", "output", "input")))
+_CARRIERS = modules("trains[0].module", "trains[1].module")
+"""Another module changes the link under a mesh."""
+_STARTS = either(*(f"start.{name}" for name in ("coupler_1", "coupler_2", "coupler_3", "output")), step=1.0)
 
 
 def _gear_ways() -> dict[str, tuple[Way, ...]]:
@@ -86,16 +89,21 @@ class GearedSixBar(OutputRates, RealSpeed, Design):
     }
     extra_tables = ("links", "joints")
     ways = {
-        "transmission-angle": _FREE_LINKS,
-        "gear-collision": (up("links.frame"), *_FREE_LINKS),
-        "shaft-clearance": (*SHAFT_WAYS, down("shafts.F_radius"), *_FREE_LINKS),
+        "transmission-angle": (*_FREE_LINKS, *_CARRIERS, *_STARTS),
+        "gear-collision": (up("links.frame"), *_FREE_LINKS, *_CARRIERS),
+        "shaft-clearance": (*SHAFT_WAYS, down("shafts.F_radius"), *_FREE_LINKS, *_CARRIERS),
         **_gear_ways(),
     }
+    guided = True
+    trials = 300
 
     @property
     def effort(self) -> int:
-        """A motion of many turns, or near its dead centres, is followed over many places."""
-        return self.course.effort // 25 if "course" in self.__dict__ else 0
+        """A motion of many turns, or near its dead centres, is followed over many places, and then searched."""
+        if "course" not in self.__dict__:
+            return 0
+        searched = ("layouts" in self.__dict__) + 2 * ("acceleration_turnings" in self.__dict__)
+        return (1 + searched) * self.course.effort // 25
 
     # Gears and links
 

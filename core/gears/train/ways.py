@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from gearlink.core.gears.checks import gear_ways
 from gearlink.core.gears.codes import BACKLASH, BENDING, FILLET, PITTING, ROOT_CLEARANCE, TIP_FOULING
-from gearlink.core.remedies.ways import Way, down, either, shared, up
+from gearlink.core.remedies.ways import Way, down, either, modules, shared, up
 
 _THINNER = -0.005
 
@@ -27,7 +27,7 @@ def train_ways(gears: int, *teeth: Way, section: str = "gears") -> dict[str, tup
     wider = (
         up(f"{section}.face_width", step=1.0),
         up(*(f"{section}.face_width[{i}]" for i in range(gears)), step=1.0),
-        up(f"{section}.module", step=0.25),
+        modules(f"{section}.module")[0],
     )
     thinner = tuple(
         Way((f"{section}.allowances.upper[{i}]", f"{section}.allowances.lower[{i}]"), _THINNER) for i in range(gears)

@@ -1,0 +1,123 @@
+"""Remedies where trials are few: what does not bear on a finding is left, what leads to its limit comes first.
+
+No tolerances: a remedy is put into the data of the file, which is read anew, and its check passes.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import factory
+import pytest
+
+from gearlink.core.remedies.standing import Standing, steps_to_limit
+from gearlink.core.remedies.ways import modules
+from gearlink.core.report import Check, Remedy
+
+
+def path_of(key: str) -> str:
+    return key.replace(".", "__")
+
+
+def failing(made: Any, command: str, name: str) -> list[Check]:
+    return [check for check in made.findings(command, name) if check.status == "fail"]
+
+
+def repaired(worked: str, remedy: Remedy, name: str, command: str, **keys: Any) -> bool:
+    """Whether a check passes after a remedy, and nothing of its command fails."""
+    after = factory.design(worked, command=command, **{**keys, **{path_of(key): value for key, value in remedy}})
+    after.require(command)
+    return all(check.status != "fail" for each in (name, *after.outline(command).checks) for check in after.check(each))
+
+
+def test_modules_are_those_of_the_series() -> None:
+    more, less = modules("gears.module")
+    assert more.remedy([2.0], 1) == (("gears.module", 2.5),)
+    assert more.remedy([2.1], 2) == (("gears.module", 3.0),)
+    assert less.remedy([2.0], 3) == (("gears.module", 1.0),)
+    assert more.most([2.0]) == len((2.5, 3.0, 4.0, 5.0, 6.0, 8.0))
+    assert more.remedy([2.0], 7) == ()
+    assert more.remedy([20.0], more.most([20.0])) == ()
+
+
+class OneNumber:
+    """A design that judges the number it has, below 40."""
+
+    def __init__(self, value: float | None) -> None:
+        self.value = value
+
+    def check(self, name: str) -> list[Check]:
+        return [Check("GL303", name, "fail", "", self.value, 40.0, "deg")]
+
+
+@pytest.mark.parametrize(("then", "steps"), [(32.0, 5.0), (28.0, -5.0), (30.0, math.inf), (None, None)])
+def test_steps_to_the_limit(then: float | None, steps: float | None) -> None:
+    before, now = Standing(OneNumber(30.0)), Standing(OneNumber(then))  # type: ignore[arg-type]
+    for each in (before, now):
+        each.ranks("any")
+    assert steps_to_limit(before, now, "any", 0) == steps
+
+
+def test_the_chain_that_fails_is_changed() -> None:
+    """Links of the other chain, which come first, do not bear on it: none of the few trials is lost on them."""
+    keys = {"cylinder__double_crank__frame": 52}
+    (check,) = failing(factory.design("ty460", command="press", **keys), "press", "transmission-angle")
+    assert check.remedy[0][0].startswith("cylinder.")
+    assert repaired("ty460", check.remedy, "transmission-angle", "press", **keys)
+
+
+def test_the_input_gears_of_a_press_are_repaired() -> None:
+    keys = {"input_gears__pressure_angle": 42}
+    (check, *_) = failing(factory.design("ty460", command="gear", **keys), "gear", "tip-thickness")
+    assert check.remedy[0][0].startswith("input_gears.")
+    assert repaired("ty460", check.remedy, "tip-thickness", "gear", **keys)
+
+
+@pytest.mark.slow
+def test_a_transition_before_the_end_of_its_zone() -> None:
+    """Behind it alone where the cams bear that, or with the base radius that they need."""
+    for keys, changed in (
+        ({"cam__transition_end": 60}, ["cam.transition_end"]),
+        ({"sync__length": 522.07, "sync__start": 12.13}, ["cam.transition_end", "cam.base_radius"]),
+    ):
+        (check,) = failing(factory.design("ty460", command="press", **keys), "press", "pressure-angle")
+        assert [key for key, _ in check.remedy] == changed
+        assert repaired("ty460", check.remedy, "pressure-angle", "press", **keys)
+
+
+def test_given_links_are_repaired_though_a_function_is_asked_for() -> None:
+    """Nothing is searched there that a trial would have to wait for."""
+    keys = {"gears__planet": 13}
+    (check,) = failing(factory.design("five_bar_function_tolerances", **keys), "analyze", "undercut")
+    assert check.remedy
+    after = factory.design("five_bar_function_tolerances", **{path_of(key): value for key, value in check.remedy})
+    assert not failing(after, "analyze", "undercut")
+
+
+def test_a_six_bar_is_repaired_along_the_ways_that_lead_to_the_limit() -> None:
+    data = {
+        "kind": "geared-six-bar",
+        "links": {"frame": 150, "coupler_1": 60, "coupler_2": 143.8, "coupler_3": 90},
+        "trains": [
+            {"pins": ["A", "B"], "gears": [20, 20], "module": 2},
+            {"pins": ["E", "F"], "gears": [-60, 20], "module": 2},
+        ],
+        "start": {"coupler_1": 120, "output": 90},
+    }
+    (check,) = failing(factory.design(data), "analyze", "transmission-angle")
+    assert check.remedy
+
+
+@pytest.mark.slow
+def test_loads_of_many_turns_are_not_followed_for_a_remedy() -> None:
+    """Ten turns with friction take more than a second for each change that is tried."""
+    keys = {"links__coupler_2": 201, "links__coupler_1": 30}
+    trains = factory.worked("loaded_six_bar")["trains"]
+    trains[0]["gears"][0], trains[1]["gears"][0], trains[1]["gears"][1] = 14, 42, 31
+    made = factory.design("loaded_six_bar", trains=trains, **keys)
+    assert made.period_turns > 4
+    bench = made.bench("analyze")
+    for name in ("transmission-angle", "undercut"):
+        failing(made, "analyze", name)
+    assert all("machine" not in vars(each.design) for each in bench._others.values() if each.design is not None)
