@@ -5,8 +5,8 @@ from __future__ import annotations
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from gearlink.core.design import Outline
-from gearlink.core.errors import GearlinkError, MissingSection, NoSolution
+from gearlink.core.design import Outline, placed
+from gearlink.core.errors import GearlinkError, MissingSection
 from gearlink.core.loads import checks, tables, vibration_checks
 from gearlink.core.loads.balance import BalancedLoads
 from gearlink.core.loads.base import RPM
@@ -92,6 +92,7 @@ class LoadsDesign(BalancedLoads):
     """The loads of a design file that has the section; a subclass per machine says how its links move."""
 
     extra_tables: ClassVar[tuple[str, ...]] = TABLES[1:]
+    weight: int = placed("turns")  # every turn of the period is computed
 
     def raw(self, name: str) -> Any:
         """Quantities of a joint stand under its name."""
@@ -100,14 +101,6 @@ class LoadsDesign(BalancedLoads):
             return super().raw(name)
         found = self.pin(joint.removeprefix("pin_")) if joint.startswith("pin_") else self.mesh(joint)
         return self._unless_locked(lambda: getattr(found, quantity, None), None)
-
-    @property
-    def weight(self) -> int:
-        """Loads are computed over every turn of the period."""
-        try:
-            return self.turns
-        except NoSolution:
-            return 1
 
     def rows(self, samples: int | None) -> tuple[Reals, dict[str, tuple[Any, str]]]:
         """Input angles [rad] of a table's rows, and its first columns."""

@@ -286,9 +286,10 @@ class Bench:
 
     def _is_affordable_elsewhere(self, remedy: Remedy) -> bool:
         """Whether the commands of the file that another class serves may be judged once more."""
-        if self._elsewhere and (remedy, self._elsewhere[0]) not in self._others:
-            designs = (self._other(remedy, command).design for command in self._elsewhere)
-            self._elsewhere_left -= sum(design.weight for design in designs if design is not None)
+        for command in self._elsewhere:
+            known, other = (remedy, command) in self._others, self._other(remedy, command).design
+            with suppress(NoSolution):  # it costs nothing then
+                self._elsewhere_left -= 0 if known or other is None else other.weight
         return self._elsewhere_left >= 0
 
     def _grade_elsewhere(self, remedy: Remedy) -> int:
