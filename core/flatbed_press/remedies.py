@@ -55,6 +55,7 @@ _WAYS = {
         for gear in (0, 1)
     )
     + tuple(down(f"input_gears.profile_shift[{gear}]", step=0.01) for gear in (0, 1)),
+    "distance-limits": (down("input_gears.center_distance_allowance", step=0.001),),
     "pitting": _WIDER,
     "bending": (*_WIDER, up("input_gears.tool.rounding", step=0.01)),
     "transmission-angle": either(*_LINKS),

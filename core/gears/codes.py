@@ -12,6 +12,9 @@ def _within(*keys: str) -> tuple[str, ...]:
 
 _TEETH = ("profile_shift", "teeth", "gears", "input_gears")
 
+AT_LIMITS = "distance-limits"
+"""Name of the check that looks at the limits of the centre distance, and reports with the codes of what fails there."""
+
 UNDERCUT = Rule(
     "GL201",
     "tooth root undercut",
@@ -42,9 +45,10 @@ CONTACT_RATIO = Rule(
     "Below 1 the drive is interrupted; a little above 1 it runs roughly with worn or inaccurate teeth.",
     "Take more teeth of a smaller module, a smaller pressure angle, or less profile shift.",
     "eps = (z1 (tan alpha_a1 - tan alpha_wt) + z2 (tan alpha_a2 - tan alpha_wt))/(2 pi); fails below "
-    "limits.contact_ratio (1.1), warns up to 0.1 above; of helical gears with face_width eps_gamma is judged",
+    "limits.contact_ratio (1.1), warns up to 0.1 above; of helical gears with face_width eps_gamma is judged; fails "
+    "below 1 with the axes as far apart as center_distance_allowance lets them",
     "ISO 21771; the limit is usual practice",
-    ("contact-ratio",),
+    ("contact-ratio", AT_LIMITS),
     _TEETH,
 )
 INTERFERENCE = Rule(
@@ -57,7 +61,7 @@ INTERFERENCE = Rule(
     "teeth.",
     "a_w sin(alpha_wt) - sqrt(r_a^2 - r_b^2) >= 0 for both gears",
     "ISO 21771; own derivation of the margin",
-    ("involute-interference",),
+    ("involute-interference", AT_LIMITS),
     _TEETH,
 )
 ROOT_CLEARANCE = Rule(
@@ -66,9 +70,10 @@ ROOT_CLEARANCE = Rule(
     "The tip of a gear comes too near to the root of its mate.",
     "Dirt, wear or a bent shaft then make tip and root touch.",
     "Raise the clearance coefficient, or shorten the mate's tips.",
-    "c = a_w - r_a(mate) - r_f; fails below 0.05 m, warns below 0.15 m",
+    "c = a_w - r_a(mate) - r_f; fails below 0.05 m, warns below 0.15 m; fails at 0 where the axes are as near as "
+    "center_distance_allowance lets them, with the root that the upper thickness allowance gives",
     "ISO 21771; the limits are usual practice",
-    ("root-clearance",),
+    ("root-clearance", AT_LIMITS),
     ("clearance", *_TEETH),
 )
 SLIDING = Rule(
@@ -106,7 +111,7 @@ TIP_FOULING = Rule(
     "the line of centres to where the tip circles cross; radial-assembly: t_1 + inv alpha_a1 - inv alpha_wt >= z2/z1 "
     "(t_2 + inv alpha_a2 - inv alpha_wt) at the place of least room",
     "own derivation",
-    ("tip-fouling", "radial-assembly"),
+    ("tip-fouling", "radial-assembly", AT_LIMITS),
     ("gears", "teeth"),
 )
 FILLET = Rule(

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from gearlink.core.design import Design, Outline
 from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantities, gear_quantity
+from gearlink.core.gears.codes import AT_LIMITS
 from gearlink.core.gears.data import GearData
 from gearlink.core.gears.drawing_checks import pair_check, rests_on
 from gearlink.core.gears.drawing_names import DERIVED, DRAWING_CHECKS, DRAWING_QUANTITIES, lacking
@@ -49,6 +50,7 @@ def _ways(*teeth: Way) -> dict[str, tuple[Way, ...]]:
         "fillet-interference": (*_SHIFTS, _LOWER, *teeth, *_DEEPER),
         "tip-fouling": (*_SHIFTS, _LOWER, *teeth, *_ANGLE),
         "radial-assembly": (*_SHIFTS, _LOWER, *teeth, *_ANGLE),
+        "distance-limits": (down("center_distance_allowance", step=0.001), *_SHIFTS),
         "backlash": (*_THINNER, *either("center_distance", step=0.01), *_SHIFTS),
         "pitting": (*_WIDER, modules("module")[0], *_SHIFTS, *teeth),
         "bending": (*_WIDER, up("tool.rounding", step=0.01), modules("module")[0], *_SHIFTS, *teeth),
@@ -221,8 +223,9 @@ class GearPairDesign(GearQuantities, Design):
 
     def _decided_by(self, name: str) -> str:
         """The key that decides whether a quantity or a check exists."""
-        at_limits = "backlash" in name and self.spec.center_distance_allowance is not None
-        return "center_distance_allowance" if at_limits else self._placed_by
+        at_limits = "backlash" in name or name == AT_LIMITS
+        given = self.spec.center_distance_allowance is not None
+        return "center_distance_allowance" if at_limits and given else self._placed_by
 
     @property
     def _placed_by(self) -> str:

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple, Protocol
 
 from gearlink.core.gears.checks import FILLET_NOISE, MORE_CONTACT, Limits, gear_check
 from gearlink.core.gears.codes import (
+    AT_LIMITS,
     BACKLASH,
     BENDING,
     CONTACT_RATIO,
@@ -20,6 +21,7 @@ from gearlink.core.gears.codes import (
 )
 from gearlink.core.gears.cutter_checks import fed_in, tip_beyond_cutter
 from gearlink.core.gears.data import GearData
+from gearlink.core.gears.distance_checks import distance_limits
 from gearlink.core.gears.drawing_names import DRAWING_CHECKS
 from gearlink.core.gears.measures.inspection import preferred_pin
 from gearlink.core.gears.mesh.contact import PathOfContact
@@ -376,6 +378,7 @@ _OF_PAIR: dict[str, Callable[[GearData, DrawingLimits], Iterator[Check]]] = {
     "fillet-interference": _fillet,
     "backlash": _backlash,
     "inspection": _inspection,
+    AT_LIMITS: distance_limits,
     "pitting": _pitting,
     "bending": _bending,
 }

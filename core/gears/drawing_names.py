@@ -106,6 +106,7 @@ DRAWING_CHECKS = (
     "fillet-interference",
     "backlash",
     "inspection",
+    "distance-limits",
     "pitting",
     "bending",
 )

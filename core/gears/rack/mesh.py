@@ -15,7 +15,7 @@ from gearlink.core.gears.checks import (
     gear_quantity,
     most_sliding,
 )
-from gearlink.core.gears.codes import BACKLASH, CONTACT_RATIO, FILLET, INTERFERENCE, SLIDING, TIP_THICKNESS
+from gearlink.core.gears.codes import AT_LIMITS, BACKLASH, CONTACT_RATIO, FILLET, INTERFERENCE, SLIDING, TIP_THICKNESS
 from gearlink.core.gears.drawing_checks import drawing_check
 from gearlink.core.gears.drawing_names import RATING
 from gearlink.core.gears.mesh.pair import GearPair
@@ -228,6 +228,10 @@ class RackMesh:
             yield from _CHECKS[name](self, limits)
         if name in _OF_PAIR:
             yield from drawing_check(name, self.data, limits)
+        if name == AT_LIMITS:
+            from gearlink.core.gears.distance_checks import rack_limits
+
+            yield from rack_limits(self, limits)
 
 
 def _contact_ratio(rack: RackMesh, limits: Any) -> Iterator[Check]:

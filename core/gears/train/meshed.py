@@ -290,6 +290,7 @@ class Meshed(GearQuantities, Design):
         needed = {
             "radial-assembly": (gears.assembly, gears.cutter),
             "fillet-interference": (self.own_teeth or None,),
+            "distance-limits": (gears.center_distance_allowance,),
             "backlash": (gears.allowances, gears.center_distance_allowance, *self._distances),
         }.get(name, (gears.load,))
         return any(each is not None for each in needed)

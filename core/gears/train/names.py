@@ -6,4 +6,12 @@ from gearlink.core.gears.drawing_names import PLACES
 
 _OF_EVERY_MESH = "tip_fouling_margin"
 TRAIN_QUANTITIES = tuple(name for name in PLACES if name != _OF_EVERY_MESH)
-TRAIN_CHECKS = ("radial-assembly", "fillet-interference", "backlash", "inspection", "pitting", "bending")
+TRAIN_CHECKS = (
+    "radial-assembly",
+    "fillet-interference",
+    "backlash",
+    "inspection",
+    "distance-limits",
+    "pitting",
+    "bending",
+)

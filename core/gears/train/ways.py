@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from gearlink.core.gears.checks import gear_ways
-from gearlink.core.gears.codes import BACKLASH, BENDING, FILLET, PITTING, ROOT_CLEARANCE, TIP_FOULING
+from gearlink.core.gears.codes import AT_LIMITS, BACKLASH, BENDING, FILLET, PITTING, ROOT_CLEARANCE, TIP_FOULING
 from gearlink.core.remedies.ways import Way, down, either, modules, shared, up
 
 _THINNER = -0.005
@@ -37,6 +37,7 @@ def train_ways(gears: int, *teeth: Way, section: str = "gears") -> dict[str, tup
         ROOT_CLEARANCE.name: (up(f"{section}.clearance", step=0.01), up(f"{section}.tool.addendum", step=0.01)),
         FILLET.name: (down(f"{section}.tool.rounding", step=0.01), *moved, *teeth, lower),
         BACKLASH.name: (*thinner, down(f"{section}.center_distance_allowance", step=0.001), *moved),
+        AT_LIMITS: (down(f"{section}.center_distance_allowance", step=0.001), *moved),
         TIP_FOULING.checks[1]: (*moved, *teeth, *fewer, lower),
         PITTING.name: (*wider, *moved, *teeth),
         BENDING.name: (*wider, up(f"{section}.tool.rounding", step=0.01), *moved, *teeth),

@@ -1,0 +1,146 @@
+"""Checks of a gear pair where its axes stand as near to each other, and as far apart, as the drawing lets them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import TYPE_CHECKING, Protocol
+
+from gearlink.core.gears.codes import AT_LIMITS, CONTACT_RATIO, INTERFERENCE, ROOT_CLEARANCE, TIP_FOULING
+from gearlink.core.report import Check
+
+if TYPE_CHECKING:
+    from gearlink.core.gears.data import GearData
+    from gearlink.core.gears.mesh.pair import GearPair
+    from gearlink.core.gears.mesh.ring_interference import InternalInterference
+    from gearlink.core.gears.rack.mesh import RackMesh
+
+_NEAREST = "with the axes as near to each other as center_distance_allowance lets them"
+
+
+class Limits(Protocol):
+    """What the checks read of a spec's `limits`."""
+
+    @property
+    def contact_ratio(self) -> float: ...
+
+
+def moved(pair: GearPair, off: float) -> GearPair:
+    """The same two gears with their axes so much [mm] farther from meshing deeply; negative: deeper in each other.
+
+    Notes
+        Of a ring and its pinion a larger centre distance is the deeper one.
+    Raises
+        NoSolution - where the centre distance leaves no pressure angle
+    Example
+        >>> from gearlink.core.gears.mesh.pair import GearPair
+        >>> pair = GearPair.from_shift(2.0, (20, 40))
+        >>> apart = moved(pair, 0.5)
+        >>> apart.center_distance, apart.tip_radius == pair.tip_radius, apart.contact_ratio < pair.contact_ratio
+        (60.5, True, True)
+    """
+    one, other = pair.tip_radius
+    return replace(
+        pair,
+        given_shift=pair.profile_shift,
+        given_distance=abs(pair.center_distance) + pair.signs[1] * off,
+        given_first_shift=None,
+        tip=None,
+        given_tip_radius=(one, abs(other)),
+    )
+
+
+def distance_limits(data: GearData, limits: Limits) -> Iterator[Check]:
+    """What fails at a limit of the centre distance and holds at the nominal one; nothing where all holds.
+
+    Notes
+        GL203: a contact ratio below 1; GL205: a tip on the mate's root, which is cut deeper by the upper allowances of
+        the thickness; GL204, GL206: as of the nominal distance.
+    """
+    off = data.distance_allowance
+    if not off:
+        return
+    yield from _interrupted(data, moved(data.pair, off), limits)
+    deep = moved(data.pair, -off)
+    yield from _tips_on_roots(data, deep)
+    yield from _tips_beyond(data, deep)
+    if data.internal is not None:
+        yield from _fouling(data, deep)
+
+
+def _interrupted(data: GearData, apart: GearPair, limits: Limits) -> Iterator[Check]:
+    helical = data.pair.helix_angle != 0.0
+    overlap = (data.path.overlap_ratio or 0.0) if helical else 0.0
+    ratio, least = apart.contact_ratio + overlap, min(1.0, limits.contact_ratio)
+    if ratio < least <= data.pair.contact_ratio + overlap:
+        yield _no_drive(ratio, least)
+
+
+def _tips_on_roots(data: GearData, deep: GearPair) -> Iterator[Check]:
+    pair = data.pair
+    for gear in (0, 1):
+        by_cutter = pair.teeth[gear] < 0 and pair.cutter is not None
+        thinner = 0.0 if by_cutter else pair.module * (pair.profile_shift[gear] - data.cut_shift[gear])
+        room = deep.tip_clearance[1 - gear] + thinner
+        if room <= 0.0 < pair.tip_clearance[1 - gear]:
+            yield _on_root(room, data.called(1 - gear), data.called(gear))
+
+
+def _tips_beyond(data: GearData, deep: GearPair) -> Iterator[Check]:
+    for gear, (margin, nominal) in enumerate(zip(deep.interference_margin, data.pair.interference_margin, strict=True)):
+        if margin < 0.0 <= nominal:
+            yield _beyond(margin, data.called(gear))
+
+
+def _fouling(data: GearData, deep: GearPair) -> Iterator[Check]:
+    from gearlink.core.gears.mesh.ring_interference import InternalInterference
+
+    for pair in (deep, moved(data.pair, data.distance_allowance or 0.0)):
+        found, nominal = (_room(InternalInterference(each)) for each in (pair, data.pair))
+        if found < 0.0 <= nominal:
+            text = f"at a limit of center_distance_allowance the tips of pinion and ring cut {-found:.4g} mm into each"
+            text += " other: shorten them, or keep the centre distance closer"
+            yield TIP_FOULING.check("fail", text, found, 0.0, "mm", name=AT_LIMITS)
+
+
+def _room(internal: InternalInterference) -> float:
+    """How far the tips of pinion and ring keep off each other [mm]."""
+    apart, margin = internal.tip_circles_apart, internal.tip_fouling_margin
+    return apart if apart < 0.0 or margin is None else margin
+
+
+def rack_limits(rack: RackMesh, limits: Limits) -> Iterator[Check]:
+    """The same of a gear on a rack: off its datum line the line of action keeps its direction."""
+    data, pair = rack.data, rack.pair
+    off, sine = data.distance_allowance, math.sin(pair.transverse_pressure_angle)
+    if not off:
+        return
+    overlap = (rack.path.total_contact_ratio or rack.contact_ratio) - rack.contact_ratio
+    nominal, least = rack.contact_ratio + overlap, min(1.0, limits.contact_ratio)
+    ratio = nominal - off / (sine * pair.base_pitch)
+    if ratio < least <= nominal:
+        yield _no_drive(ratio, least)
+    thinner = 0.0 if data.allowances is None else -data.allowances[1][0] / (2.0 * math.tan(pair.pressure_angle))
+    room = rack.tip_clearance[0] - off + thinner
+    if room <= 0.0 < rack.tip_clearance[0]:
+        yield _on_root(room, "gear 1", "the rack")
+    start = rack.path.start - off / sine
+    if start < 0.0 <= rack.path.start:
+        yield _beyond(start, "the rack")
+
+
+def _no_drive(ratio: float, least: float) -> Check:
+    text = f"with the axes as far apart as center_distance_allowance lets them the contact ratio is {ratio:.6g}"
+    text += ": the drive is interrupted; keep the centre distance closer"
+    return CONTACT_RATIO.check("fail", text, ratio, least, name=AT_LIMITS)
+
+
+def _on_root(room: float, tips: str, root: str) -> Check:
+    text = f"{_NEAREST} the tips of {tips} come {-room:.4g} mm into the root of {root}: keep the centre distance closer"
+    return ROOT_CLEARANCE.check("fail", f"{text}, or raise the clearance", room, 0.0, "mm", name=AT_LIMITS)
+
+
+def _beyond(margin: float, tips: str) -> Check:
+    text = f"{_NEAREST} the tips of {tips} go {-margin:.4g} mm beyond the mate's base tangent point: shorten them"
+    return INTERFERENCE.check("fail", f"{text}, or keep the centre distance closer", margin, 0.0, "mm", name=AT_LIMITS)
