@@ -14,6 +14,7 @@ from gearlink.core.linkages import codes as linkages
 from gearlink.core.linkages.checks import transmission_check
 from gearlink.core.report import Check, Status, safely_above, safely_below
 from gearlink.core.wide_swing import codes, cycle_checks, remedies
+from gearlink.core.wide_swing.motion import MOST_STRETCH
 
 if TYPE_CHECKING:
     from gearlink.core.wide_swing.cams.outline import AnyCam
@@ -26,12 +27,25 @@ def unloader_turnability(design: WideSwingDesign) -> Iterator[Check]:
     """GL504: the device can follow the whole swing."""
     least, ratio = design.motion.min_pivot_ratio, design.spec.unloader.pivot_ratio
     if least is None:
+        yield from _room_for_steel(design)
         return
     status: Status = "fail" if ratio < least else "pass"
     text = f"pivot ratio {ratio:g}, at least {least:.6g} is needed over a swing of {design.spec.swing:g} deg"
     if status == "fail":
         text += f": increase unloader.pivot_ratio to at least {safely_above(least)}, or reduce the swing"
     yield codes.TURNABILITY.check(status, text, ratio, least)
+
+
+def _room_for_steel(design: WideSwingDesign) -> Iterator[Check]:
+    """GL504 of a spring of which the file gives no length: whether any spring of steel finds room between the pins."""
+    ratio, least = design.spec.unloader.pivot_ratio, design.motion.least_ratio_of_steel
+    if ratio < least:
+        text = (
+            f"pivot ratio {ratio:g}: a spring of steel, which bears a stretch of {MOST_STRETCH:g} times its closed "
+            f"length, needs {least:.6g} over a swing of {design.spec.swing:g} deg; increase unloader.pivot_ratio to at "
+            f"least {safely_above(least)}, or give unloader.closed_length or stretch_capacity of the spring that fits"
+        )
+        yield codes.TURNABILITY.check("warn", text, ratio, least)
 
 
 def force_closure(design: WideSwingDesign) -> Iterator[Check]:

@@ -11,7 +11,7 @@ TURNABILITY = Rule(
     "The device would reach its end stop, or its coils, before mid-swing.",
     "Increase unloader.pivot_ratio to the value of the message, or reduce the swing.",
     "cylinder: lambda_min = p + sqrt(p^2 - 1), p = (q^2 - cos(gamma/2))/(q^2 - 1); spring: lambda_min = 1 + "
-    "(l_0 + l_k + S_0)/r_d",
+    "(l_0 + l_k + S_0)/r_d; of a spring without a length warns below the ratio of steel, stretched by 2 l_0",
     "wide-swing dissertation (3), (4)",
     ("unloader-turnability",),
     ("unloader.pivot_ratio", "unloader"),

@@ -19,6 +19,10 @@ if TYPE_CHECKING:
     from gearlink.core.wide_swing.spec import SwingSlider, WideSwingSpec
 
 
+MOST_STRETCH = 2.0
+"""Stretch over closed length that a spring of steel bears at most."""
+
+
 class Motion:
     """How the rocker moves, from the design file; every result is computed when it is read."""
 
@@ -71,6 +75,17 @@ class Motion:
                 capacity = unloader.stretch_capacity
                 return device.least_pivot_ratio_spring_material(self.swing, stretch, capacity, fittings / arm)
         return None
+
+    @property
+    def least_ratio_of_steel(self) -> float:
+        """Least pivot ratio between whose pins a spring of steel finds room, whatever its length."""
+        from gearlink.core.wide_swing.law.device import least_pivot_ratio_spring_material
+
+        unloader = self.spec.unloader
+        assert unloader.type == "spring", "a cylinder has a length"
+        fittings = unloader.end_fittings / unloader.arm
+        with at_key("unloader"):
+            return least_pivot_ratio_spring_material(self.swing, unloader.stretch_ratio, MOST_STRETCH, fittings)
 
     # Law
 

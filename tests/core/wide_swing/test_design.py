@@ -672,3 +672,19 @@ def test_remedy_of_a_slider_rod_holds() -> None:
     assert (check.code, path) == ("GL303", "slider.rod")
     (repaired,) = factory.design("wide_swing_slider", slider__rod=value).check("transmission-angle")
     assert repaired.status == "pass"
+
+
+@pytest.mark.parametrize("swing", [40.0, 120.0, 250.0])
+@pytest.mark.parametrize("stretch", [0.0, 0.3, 1.0])
+@pytest.mark.parametrize("ratio", [1.02, 1.3, 1.9, 2.6, 4.0, 7.0])
+def test_spring_of_no_length_is_warned_of_where_no_steel_fits(ratio: float, stretch: float, swing: float) -> None:
+    """Second way: the pins placed in the plane, the longest coils that fit at mid-swing, and what they must bear."""
+    arm, fittings = 120.0, 20.0
+    spring = {"type": "spring", "pivot_ratio": ratio, "stretch_ratio": stretch, "arm": arm, "end_fittings": fittings}
+    made = design(unloader=spring, swing=swing)
+    shortest, longest = (abs(ratio * arm - arm * np.exp(1j * turn)) for turn in (0.0, math.radians(0.5 * swing)))
+    coils = shortest - fittings - stretch * (longest - shortest)
+    fits = coils > 0.0 and (1.0 + stretch) * (longest - shortest) <= 2.0 * coils
+    assert statuses(made, "unloader-turnability") == ([] if fits else ["warn"])
+    capacity = made.spec.model_dump(exclude_none=True)["unloader"] | {"stretch_capacity": 2.0}
+    assert statuses(design(unloader=capacity, swing=swing), "unloader-turnability") == ["pass" if fits else "fail"]
