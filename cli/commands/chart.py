@@ -11,14 +11,14 @@ from typing import TYPE_CHECKING, Any
 from gearlink.cli.commands.design import print_report
 from gearlink.cli.evaluate import open_design, read_spec, refusals_located, whole_design, wrong_kind
 from gearlink.cli.exit_codes import ExitCode
-from gearlink.cli.figures.chart_list import CHARTS, DesignChart
+from gearlink.cli.figures.chart_list import CHARTS, DesignChart, Marked
 from gearlink.cli.files import CannotWrite, wrote
 from gearlink.cli.options import Format, Options
 from gearlink.cli.patience import patience
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.errors import show_refusal
 from gearlink.core.errors import NoSolution, at_key, named
-from gearlink.core.report import Quantity, Report
+from gearlink.core.report import Report
 
 if TYPE_CHECKING:
     from gearlink.core.three_gear.design import ThreeGearFourBar
@@ -35,16 +35,6 @@ class Asked:
     curves: str = ""
     samples: int = 91
     design: str = ""
-
-
-@dataclass(frozen=True, slots=True)
-class Marked:
-    """A design in a chart: its name and place, and how far its links are from those of the family."""
-
-    name: str
-    place: tuple[float, float]
-    quantities: tuple[Quantity, ...]
-    off_family: float
 
 
 def run_chart(asked: Asked, options: Options) -> int:

@@ -10,7 +10,7 @@ from typing import Any
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.nomenclature import term
-from gearlink.core.report import Table
+from gearlink.core.report import Quantity, Table
 
 _CURVES = Callable[[Any, Any], Any]
 
@@ -23,6 +23,16 @@ class Axis:
     unit: str
     words: str
     symbol: str
+
+
+@dataclass(frozen=True, slots=True)
+class Marked:
+    """A design in a chart: its name and place, and how far its links are from those of the family."""
+
+    name: str
+    place: tuple[float, float]
+    quantities: tuple[Quantity, ...]
+    off_family: float
 
 
 @dataclass(frozen=True)

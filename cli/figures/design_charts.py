@@ -15,8 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from gearlink.cli.commands.chart import Marked
-    from gearlink.cli.figures.chart_list import Axis, DesignChart
+    from gearlink.cli.figures.chart_list import Axis, DesignChart, Marked
     from gearlink.core.report import Table
 
 _COLORS = (style.BLUE, style.RED, style.GREEN, style.ORANGE, style.PURPLE, style.SKY, style.BLACK)

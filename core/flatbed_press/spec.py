@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
+from gearlink.core.cams.spec import MotionLaw
 from gearlink.core.gears.keys.pair import PairKeys
 from gearlink.core.spec import (
     AcuteAngle,
@@ -18,7 +19,6 @@ from gearlink.core.spec import (
     GearLimits,
     Length,
     LoadLimits,
-    MotionLaw,
     Ratio,
     SignedLength,
     Spec,

@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal, LiteralString, NoReturn
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
+from gearlink.core.cams.spec import MotionLaw
 from gearlink.core.spec import (
     AcuteAngle,
     Angle,
@@ -15,7 +16,6 @@ from gearlink.core.spec import (
     Distance,
     Length,
     LoadLimits,
-    MotionLaw,
     SignedLength,
     Spec,
     TolerancedSpec,
