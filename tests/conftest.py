@@ -200,6 +200,15 @@ def designs() -> Path:
     return ROOT / "designs"
 
 
+@pytest.fixture(scope="module")
+def forty_digits() -> Generator[None, None, None]:
+    """mpmath reckons with 40 digits."""
+    from mpmath import workdps
+
+    with workdps(40):
+        yield
+
+
 @pytest.fixture
 def small_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
     """Pictures of commands are empty ones, where a test asks which files there are and not what they show."""

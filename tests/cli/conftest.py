@@ -17,3 +17,9 @@ def _few_lines_of_blocking_contours() -> Iterator[None]:
         patch.setattr(contour, "_DIAGONALS", 17)
         patch.setattr(contour, "_UPRIGHTS", 9)
         yield
+
+
+@pytest.fixture
+def no_remedies(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What would repair a finding is sought for long, and not asked here."""
+    monkeypatch.setattr("gearlink.core.remedies.bench.Bench.remedy", lambda *_: ())

@@ -35,12 +35,6 @@ _TWIN_ROCKER = """\
 """
 
 
-@pytest.fixture
-def no_remedies(monkeypatch: pytest.MonkeyPatch) -> None:
-    """What would repair a finding is sought for long, and not asked here."""
-    monkeypatch.setattr("gearlink.core.remedies.bench.Bench.remedy", lambda *_: ())
-
-
 @pytest.mark.usefixtures("no_remedies")
 @pytest.mark.parametrize(
     ("text", "code", "words"),

@@ -50,10 +50,7 @@ sampled = pytest.mark.parametrize("count", SAMPLE)
 sampled_at_length = pytest.mark.parametrize("count", SAMPLE[1:])  # by quadrature; tests/core does so every time
 
 
-@pytest.fixture(autouse=True)
-def _forty_digits() -> Any:
-    with mp.workdps(40):
-        yield
+pytestmark = pytest.mark.usefixtures("forty_digits")
 
 
 def off(angle: float, exact: Any) -> float:

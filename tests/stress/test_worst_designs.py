@@ -41,11 +41,7 @@ from gearlink.core.three_gear.symmetric.back_step import dwell_angle
 from gearlink.core.wide_swing.law.device import Spring
 from gearlink.core.wide_swing.law.elastic_law import ElasticLaw
 
-
-@pytest.fixture(autouse=True)
-def _forty_digits() -> Any:
-    with mp.workdps(40):
-        yield
+pytestmark = pytest.mark.usefixtures("forty_digits")
 
 
 MOTION: list[tuple[tuple[float, float, float, float, int], tuple[int, int, int], float]] = [

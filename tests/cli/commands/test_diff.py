@@ -24,10 +24,7 @@ links: {crank: 18, frame: 125}
 """
 
 
-@pytest.fixture(autouse=True)
-def no_remedies(monkeypatch: pytest.MonkeyPatch) -> None:
-    """What would repair a finding is sought for long, and not asked here."""
-    monkeypatch.setattr("gearlink.core.remedies.bench.Bench.remedy", lambda *_: ())
+pytestmark = pytest.mark.usefixtures("no_remedies")
 
 
 @pytest.fixture

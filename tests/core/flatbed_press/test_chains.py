@@ -32,10 +32,7 @@ OMEGA = 4500.0 / 3600.0 * 2.0 * math.pi
 DEGREES = (0, 7, 34, 90, 155, 179, 222.5, 300, 359)
 
 
-@pytest.fixture(autouse=True)
-def _digits():
-    with mp.workdps(40):
-        yield
+pytestmark = pytest.mark.usefixtures("forty_digits")
 
 
 def bed_of(press: Press) -> BedChain:

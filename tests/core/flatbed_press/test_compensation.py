@@ -41,10 +41,7 @@ ZONES = {
 }
 
 
-@pytest.fixture(autouse=True)
-def _digits():
-    with mp.workdps(40):
-        yield
+pytestmark = pytest.mark.usefixtures("forty_digits")
 
 
 def follower(press: Press, *, start=None, end=None, length=420.0, **changes) -> Compensation:

@@ -37,10 +37,7 @@ GEARS = {"module": 4.0, "horizontal_distance": 290.0}
 CAM = {"base_radius": 90.0, "roller_radius": 25.0, "transition_end": 125.0, "return_angle": 100.0}
 
 
-@pytest.fixture(autouse=True)
-def _digits():
-    with mp.workdps(40):
-        yield
+pytestmark = pytest.mark.usefixtures("forty_digits")
 
 
 def press(oracle: Press = TY460, **sections) -> FlatbedPress:

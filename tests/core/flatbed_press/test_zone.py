@@ -28,10 +28,7 @@ REFERENCE = json.loads((Path(__file__).parents[2] / "reference" / "flatbed_press
 EXACT = REFERENCE["flatbed_press"][0]["expect"]["sync_exact"]
 
 
-@pytest.fixture(autouse=True)
-def _digits():
-    with mp.workdps(40):
-        yield
+pytestmark = pytest.mark.usefixtures("forty_digits")
 
 
 def chains(press: Press) -> tuple[BedChain, CylinderChain]:

@@ -54,10 +54,7 @@ DESIGNS = {
 BOTH = mostly_slow([1, -1], 1)
 
 
-@pytest.fixture(autouse=True)
-def _digits():
-    with mp.workdps(30):
-        yield
+pytestmark = pytest.mark.usefixtures("forty_digits")
 
 
 design = partial(factory.design, {"kind": "three-gear-four-bar"})

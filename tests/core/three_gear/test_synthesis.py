@@ -44,10 +44,7 @@ TASKS = {
 }
 
 
-@pytest.fixture(autouse=True)
-def _digits():
-    with mp.workdps(30):
-        yield
+pytestmark = pytest.mark.usefixtures("forty_digits")
 
 
 def design(command, **sections):

@@ -33,10 +33,7 @@ PRESS = json.loads((REFERENCE / "flatbed_press.json").read_text())["gear_pair"]
 LENGTHS = ("center_distance", "working_radius", "base_radius", "tip_radius", "root_radius", "tooth_thickness")
 
 
-@pytest.fixture(autouse=True)
-def _digits():
-    with mp.workdps(40):
-        yield
+pytestmark = pytest.mark.usefixtures("forty_digits")
 
 
 def both(value):
