@@ -117,7 +117,7 @@ def test_the_page_shows_the_gear_tables(gearlink, designs, tmp_path):
 
 
 def test_a_ring_has_one_rim_whichever_key_gives_it() -> None:
-    """The shafts had been checked against two modules where rim_thickness, by which the ring is rated, gives more."""
+    """Shafts are checked against rim_thickness, by which the ring is rated, where it gives more than two modules."""
     base = factory.worked("five_bar_positions")
     keys = {
         "target": None,

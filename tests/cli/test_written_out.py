@@ -52,7 +52,7 @@ def test_keys_that_are_left_out_may_be_written(file: Path) -> None:
 
 
 def test_null_asks_for_no_more_than_nothing() -> None:
-    """Gears of a drawing, and the motion of a slider-crank, had been computed for the name of a key alone."""
+    """Neither gears of a drawing nor the motion of a slider-crank is computed for the name of a key alone."""
     for base, path in (("candy_feed", ("gears", "profile_shift")), ("ty460_slider_crank", ("input_speed",))):
         data = worked(base)
         model = KINDS[data["kind"]].spec_model()

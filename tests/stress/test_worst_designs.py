@@ -45,7 +45,7 @@ pytestmark = pytest.mark.usefixtures("forty_digits")
 
 
 MOTION: list[tuple[tuple[float, float, float, float, int], tuple[int, int, int], float]] = [
-    # short cranks, whose velocities once had an error of eps whatever their size: 7.2 eps of the condition
+    # short cranks, whose velocities may have no error of eps whatever their size: 7.2 eps of the condition
     (
         (39303.597244686265, 2935217.7808231814, 16143697.794527497, 17358141.17794813, -1),
         (16, 20, 178),

@@ -114,6 +114,6 @@ def test_sheets_drawn_side_by_side_are_the_same(
 
 
 def test_keys_in_force_are_written_as_in_a_file() -> None:
-    """Lists and truth values had been Python's: ['right', 'left'], False."""
+    """Lists and truth values are not Python's: ['right', 'left'], False."""
     rows = dict(sections._keys({"hand": ["right", "left"], "sobol": False, "teeth": (23, 71), "own": {"width": 20.0}}))
     assert rows == {"hand": "[right, left]", "sobol": "false", "teeth": "[23, 71]", "own.width": "20.0"}

@@ -58,7 +58,7 @@ def test_jerk_of_the_gripper_joins_its_acceleration() -> None:
 
 @pytest.mark.parametrize("name", ["candy_feed", "ring_feed", "drawn_feed"])
 def test_marked_extremes_are_those_of_the_analysis(name: str) -> None:
-    """A parabola through points half a degree apart had missed their places by up to 0.003 deg."""
+    """A parabola through points half a degree apart would miss their places by up to 0.003 deg."""
     made = design(worked(name))
     course = motion_sheet.courses(made)[0]
     for order, found in ((1, made.speed_extremes), (2, made.acceleration_extremes)):

@@ -254,7 +254,7 @@ def test_what_a_refusal_of_too_many_points_recommends_works(
 
 @pytest.mark.slow
 def test_a_gear_of_a_thousand_teeth_is_written_in_bounded_work(gearlink: Any, tmp_path: Path) -> None:
-    """Each vertex is written once: what copied the polyline for every vertex called numpy 40,000 times."""
+    """Each vertex is written once: to copy the polyline for every vertex would call numpy 40,000 times."""
     many = ("--set", "teeth=[1000, 1000]", "--set", "center_distance=4000", "--part", "gear1", "--out", tmp_path)
     calls = Counter[str]()
     sys.setprofile(lambda *call: calls.update([call[1]]))

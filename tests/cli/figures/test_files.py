@@ -54,7 +54,7 @@ def test_one_file_the_same_every_time(
 
 @pytest.mark.parametrize("dpi", [40, 130, 260])
 def test_a_picture_has_the_pixels_that_it_is_asked_for(gearlink: Any, designs: Path, tmp_path: Path, dpi: int) -> None:
-    """A figure had been saved at the resolution of its first canvas, whatever --dpi said."""
+    """--dpi counts, not the resolution of the figure's first canvas."""
     arguments = ["crank", designs / "ty460_slider_crank.yaml", "--quiet", "--plot", "--out", tmp_path]
     assert gearlink(*arguments, "--dpi", str(dpi)).status == 0
     (file,) = tmp_path.iterdir()

@@ -22,7 +22,7 @@ from gearlink.core.gears.outline.mesh_phase import signed_pair
 
 
 def test_extremes_of_a_slider_are_those_of_the_analysis() -> None:
-    """They had been the greatest of curve points half a degree apart: 190.5 in place of 190.66 deg."""
+    """The greatest of curve points half a degree apart would stand at 190.5 in place of 190.66 deg."""
     made, figure = sheet("ty460_slider_crank", "crank")
     for side in ("max", "min"):
         value, place = (made.quantity(f"velocity_{side}{at}").value for at in ("", "_at"))
@@ -40,7 +40,7 @@ FIVE_BARS: list[tuple[str, dict[str, Any]]] = [
 
 @pytest.mark.parametrize(("name", "keys"), FIVE_BARS)
 def test_gears_of_a_five_bar_have_the_names_of_the_mechanism(name: str, keys: dict[str, Any]) -> None:
-    """The sheet of `gear` had called them 1 and 2, which on the mechanism are 1 and 4, or 2 and 5."""
+    """Those that mesh are 1 and 4, or 2 and 5, on the mechanism as on the sheet of `gear`."""
     made = design(name, **keys)
     keyed = {"1": "input", "4": "output", "idler": "idler", "2": "planet", "5": "sun"}
     for mesh, names in zip(made.meshes.values(), _gears(made), strict=True):
@@ -91,7 +91,7 @@ def _legend(texts: list[str]) -> Any:
 
 
 def test_a_legend_takes_the_rows_that_it_needs() -> None:
-    """In one row, that of a gripper's torques had begun left of the page's margin."""
+    """In one row, that of a gripper's torques would begin left of the page's margin."""
     long = ["inertia", "main roller, ≥ 112.4 N m", "return roller, ≥ 387.8 N m", "spring 400 N m", "least wanted 0 N m"]
     for texts in (long, ["A", "B", "C", "D", "E"]):
         axes = _legend(texts)
@@ -107,7 +107,7 @@ def test_a_legend_takes_the_rows_that_it_needs() -> None:
     "name", ["印刷机间歇送纸机构设计第三版本" * 8, "X" * 180, "candy-feed", "150° of a swing, and some more words"]
 )
 def test_a_title_stays_on_the_page(name: str) -> None:
-    """Seventy letters of a line are twice as wide in some scripts: half of a Chinese name had lain beside the page."""
+    """Seventy letters of a line are twice as wide in some scripts: half of a Chinese name would lie beside the page."""
     figure = panels.page(f"{name}: analyze")
     with fonts_of(name):
         style.place_title(figure)
@@ -118,7 +118,7 @@ def test_a_title_stays_on_the_page(name: str) -> None:
 
 
 def test_curvature_is_shown_as_far_as_it_goes() -> None:
-    """The panel had gone up to 100 centre distances, 200 times the greatest radius."""
+    """The panel goes no farther: not up to 100 centre distances, 200 times the greatest radius."""
     _, figure = sheet("wide_swing_slider_cam", "cam")
     axes = panel(figure, "Curvature radius")
     radius = next(line for line in axes.lines if line.get_label().startswith("cam, ≥")).get_ydata()
@@ -146,7 +146,7 @@ def test_numbers_below_small_drawings_do_not_meet() -> None:
 
 
 def test_a_legend_in_two_rows_leaves_the_heading_free() -> None:
-    """Its last column is not the longest: the width had been that of full columns, and the heading lay under a row."""
+    """Its last column is not the longest: with the width of full columns the heading would lie under a row."""
     texts = ["main cam, ρ ≥ 27.739 mm", "undercut", "return cam, ρ ≥ 48.698 mm", "undercut: 1/roller radius 60 mm"]
     axes = panels.page("legend").add_subplot()
     panels.heading(axes, "Curvature")
@@ -173,7 +173,7 @@ def test_a_negative_offset_has_a_true_minus_sign() -> None:
 
 @pytest.mark.parametrize(("name", "command"), [("candy_feed", "synth dwell"), ("standing_feed", "synth dwell")])
 def test_the_film_calls_the_same_stretch_a_dwell_as_the_sheet(name: str, command: str) -> None:
-    """Asked for by its angle, a dwell had been longer in the film: that within a tolerance that nobody asked for."""
+    """Asked for by its angle, a dwell is not that within a tolerance that nobody asked for, which is longer."""
     made = design(worked(name), command=command)
     chart = three_gear_four_bar.build(made, np.zeros(1)).chart
     (band,) = [band for band in chart.bands if band.name == "dwell"]
@@ -190,7 +190,7 @@ def test_least_contact_torques_have_a_true_minus_sign() -> None:
 
 
 def test_a_pointed_chart_reaches_its_point() -> None:
-    """Drawn by the rows of its table alone, the longest dwell of these gears had been 3 deg too short."""
+    """Drawn by the rows of its table alone, the longest dwell of these gears would be 3 deg too short."""
     chart, curves = CHARTS["dwell-frame"], (-2.4, -1.8)
     figure = design_charts.draw(chart, chart.table(*chart.range, curves, 91), curves, None)
     for i, (parameter, near) in enumerate(zip(curves, ((6.355, 6.365), (5.175, 5.185)), strict=True)):

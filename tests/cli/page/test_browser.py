@@ -63,7 +63,7 @@ def test_report_fits_and_its_film_is_in_view(window: Browser, pages: Path, width
 @pytest.mark.slow
 @pytest.mark.parametrize(("width", "columns"), [(1280, 2), (390, 1)])
 def test_keys_in_force_fill_the_width(window: Browser, pages: Path, width: int, columns: int) -> None:
-    """The table had stood in the left half alone, its keys broken within words."""
+    """The table takes the width of the page, and no key is broken within a word."""
     window.size(width, 900)
     window.open(pages / "candy-feed.html")
     rows = "Array.from(document.querySelectorAll('.keys tr')).map(row => row.getBoundingClientRect().left)"

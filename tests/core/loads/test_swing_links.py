@@ -410,6 +410,6 @@ def test_directions_left_out_are_those_of_the_film(way: str) -> None:
 
 
 def test_a_mass_of_nothing_is_as_one_that_is_left_out() -> None:
-    """`rod: null` where there is no rod had been refused."""
+    """`rod: null` is no rod, and refused nowhere."""
     made = factory.design("loaded_wide_swing", command="loads", loads__links={"rod": None})
     assert made.own_links == factory.design("loaded_wide_swing", command="loads").own_links

@@ -145,7 +145,7 @@ def test_every_result_can_be_asked_for(swing: Any) -> None:
 
 @pytest.mark.parametrize("name", ["loaded_swing_slider", "loaded_wide_swing"])
 def test_a_stroke_ends_before_its_friction_turns_back(name: str) -> None:
-    """The last row had the resistance of the return, 3.4 N less than the row before it: its slider stands there."""
+    """The last row has not the resistance of the return, 3.4 N less than the row before it: its slider stands there."""
     changes = {} if name == "loaded_swing_slider" else {"loads__forces": [{"on": "rocker", "resistance": 5}]}
     made = factory.design(name, command="loads", **changes)
     force = np.asarray(made.table("contact_stroke", samples=1000)["main_force"], dtype=float)

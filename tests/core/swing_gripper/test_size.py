@@ -60,7 +60,7 @@ def test_the_chosen_centre_is_reported_and_may_be_given() -> None:
 
 @pytest.mark.parametrize("limit", mostly_slow([28.0, 26.0, 30.0, 35.5, 42.0], 1))
 def test_cams_that_are_sized_to_their_limit_pass_it(limit: float) -> None:
-    """Two of three had failed GL401 by some 1e-14 of the limit; a hundred-millionth of a degree more still fails."""
+    """Rounding, some 1e-14 of the limit, fails no GL401; a hundred-millionth of a degree more does."""
     kept = {"pressure_angle": limit, "accelerate_pressure_angle": limit}
     assert {check.status for check in sized(limit, limits=kept).check("pressure-angle")} == {"pass"}
     less = dict.fromkeys(kept, limit - 1e-8)

@@ -167,7 +167,7 @@ def test_refuses_a_back_step_out_of_reach():
 
 @pytest.mark.parametrize(("i3", "phi12"), [(-0.04, 3.141), (-0.0156949174, 3.0441540192), (-1e-3, 3.1), (-0.19, 3.0)])
 def test_many_at_once_never_take_the_root_at_the_back_step_s_own_end(i3: float, phi12: float) -> None:
-    # y = h solves the equation too; a start near 2 h once fell to it
+    # y = h solves the equation too; a start near 2 h may fall to it
     from gearlink.core.three_gear.many import symmetric as symmetric_many
 
     found = symmetric_many.dwell_angle(np.array([1.0 - i3]), np.array([0.5 * phi12]))[0]

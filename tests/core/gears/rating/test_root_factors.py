@@ -52,7 +52,7 @@ def test_the_rim_of_a_ring_counts_in_modules() -> None:
 
 
 def test_a_rim_that_is_left_out_is_rated_as_it_stands_in_the_machine() -> None:
-    """Two modules, against which the shafts are checked: the root stress had been that of a solid ring."""
+    """Two modules, against which the shafts are checked: the root stress is not that of a solid ring."""
     left_out = design("drawn_ring", command="gear", gears__rim=None)
     root = left_out.quantity("root_radius").value[1]
     given = design("drawn_ring", command="gear", gears__rim=root + 2.0 * left_out.spec.gears.module)
