@@ -23,11 +23,10 @@ _BLOCK = 8192
 class OutputMotion:
     """Motion over crank angles, fields of their shape.
 
-    crank_angle [rad], output_angle [rad] (0 at crank angle 0, continuous), speed_ratio, acceleration_ratio [1/rad],
+    output_angle [rad] (0 at crank angle 0, continuous), speed_ratio, acceleration_ratio [1/rad],
     transmission_angle [rad] (0..pi/2)
     """
 
-    crank_angle: Reals
     output_angle: Reals
     speed_ratio: Reals
     acceleration_ratio: Reals
@@ -71,7 +70,6 @@ def output_motion(linkage: FourBar, train: GearTrain, crank_angle: ArrayLike) ->
     p, q = train.coupler_share, train.rocker_share
     coupler, rocker = state.coupler_angle - start.coupler_angle, state.rocker_angle - start.rocker_angle
     return OutputMotion(
-        phi,
         train.ratio * phi + p * coupler + q * rocker,
         train.ratio + p * state.coupler_velocity + q * state.rocker_velocity,
         p * state.coupler_acceleration + q * state.rocker_acceleration,

@@ -28,7 +28,6 @@ DRAG_TRAIN = GearTrain(23.441236459944996, 12.003476037635881, 27.87850422292809
 def test_motion_agrees_with_the_scalar_kernels(linkage, train):
     phi = np.linspace(-7.0, 14.0, 301)
     motion = output_motion(linkage, train, phi)
-    assert motion.crank_angle.tolist() == phi.tolist()
     for rate, scalar in (
         (motion.output_angle, output_angle),
         (motion.speed_ratio, output_speed),
