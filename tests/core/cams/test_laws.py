@@ -19,7 +19,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from oracles.forty_digits import scca_acceleration
+from oracles.forty_digits import COEFFICIENTS as OF_REST_TO_REST
+from oracles.forty_digits import SHARES, scca_acceleration
 from sweeps import examples, mostly_slow
 
 from gearlink.core.cams.laws import REST_TO_REST, REST_TO_SPEED, Law, law
@@ -41,18 +42,7 @@ NAMES = {
     "mcv33": "mcv-33",
     "mcv20": "mcv-20",
 }
-SHARES = {
-    "simple-harmonic": (0, 0, 1, 0),
-    "cycloidal": (Fraction(1, 2), 0, Fraction(1, 2), 0),
-    "modified-trapezoid": (Fraction(1, 4), Fraction(1, 2), Fraction(1, 4), 0),
-    "modified-sine": (Fraction(1, 4), 0, Fraction(3, 4), 0),
-    "mcv-50": (Fraction(1, 8), 0, Fraction(3, 8), Fraction(1, 2)),
-    "mcv-33": (Fraction(1, 6), 0, Fraction(1, 2), Fraction(1, 3)),
-    "mcv-20": (Fraction(1, 5), 0, Fraction(3, 5), Fraction(1, 5)),
-}
-COEFFICIENTS = {
-    "polynomial-345": [0, 0, 0, 10, -15, 6],
-    "polynomial-4567": [0, 0, 0, 0, 35, -84, 70, -20],
+COEFFICIENTS = OF_REST_TO_REST | {
     "velocity-345": [0, 0, 0, 0, Fraction(5, 2), -3, 1],
     "velocity-4567": [0, 0, 0, 0, 0, 7, -14, 10, Fraction(-5, 2)],
 }

@@ -7,14 +7,13 @@ of which the doubles keep all but a few ulp (the file states each).
 from __future__ import annotations
 
 import cmath
-import json
 import math
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import pytest
 from factory import design
+from gear_cases import CASES, spec_of
 
 from gearlink.core.gears.measures.allowances import thickness_allowances
 from gearlink.core.gears.mesh.pair import GearPair
@@ -23,13 +22,8 @@ from gearlink.core.gears.tooth.involute import involute
 from gearlink.core.gears.tooth.root_fillet import RackCutRoot
 from gearlink.core.gears.tooth.tools import PinionCutter, RackTool
 
-CASES = json.loads((Path(__file__).parents[2] / "reference" / "gears.json").read_text())["cases"]
 PAIRS = [case for case in CASES if isinstance(case["input"].get("teeth"), list) and "module" in case["input"]]
 SINGLE = [case for case in CASES if case["name"].startswith("gearcore-generation")]
-KEYS = (
-    "module", "teeth", "pressure_angle", "helix_angle", "addendum", "center_distance", "profile_shift", "shift_split",
-    "tip_diameter", "face_width", "tool", "span_teeth", "pin_diameter",
-)  # fmt: skip
 PLAIN = {
     "working_pressure_angle", "center_distance", "reference_center_distance", "shift_sum", "contact_ratio",
     "overlap_ratio", "center_distance_modification", "span_teeth", "span_measurement", "measure_over_balls",
@@ -72,16 +66,6 @@ DIAMETERS = {
     "d_Ff_external": "form_radius",
 }
 WITHOUT_BOUND = {("spur-undercut-9-50", "zeta_root")}  # the mate's tip reaches beyond the base tangent point
-
-
-def spec_of(given: dict[str, Any]) -> dict[str, Any]:
-    """The design file of a case."""
-    spec: dict[str, Any] = {"kind": "gear-pair"} | {key: given[key] for key in KEYS if key in given}
-    if "F_t" in given:
-        spec["load"] = {"tangential_force": given["F_t"]}
-    if "tip_shortening" in given and "tip_diameter" not in given:
-        spec["tip_shortening"] = "full" if given["tip_shortening"] else "none"
-    return spec
 
 
 def quantities(case: dict[str, Any]) -> list[tuple[str, str, float, Any]]:

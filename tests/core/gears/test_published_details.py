@@ -5,7 +5,6 @@ Tolerances: each value's own, half a unit of its last printed digit or 1e-9 rela
 
 from __future__ import annotations
 
-import json
 import math
 import runpy
 from collections.abc import Callable
@@ -14,6 +13,7 @@ from typing import Any
 
 import pytest
 from factory import design
+from gear_cases import CASES, spec_of
 
 from gearlink.core.gears.data import GearData
 from gearlink.core.gears.mesh.pair import GearPair
@@ -22,25 +22,11 @@ from gearlink.core.gears.rating.root_stress import RootStress
 from gearlink.core.gears.tooth import teeth
 from gearlink.core.gears.tooth.involute import inverse_involute, involute
 
-CASES = json.loads((Path(__file__).parents[2] / "reference" / "gears.json").read_text())["cases"]
-KEYS = (
-    "module", "teeth", "pressure_angle", "helix_angle", "addendum", "center_distance", "profile_shift", "tip_diameter",
-    "face_width", "tool", "span_teeth", "pin_diameter",
-)  # fmt: skip
 ELSEWHERE = {  # compared by the tests named after them
     "profile_shift_1", "zeta_root", "profile_shift_2", "pressure_A", "pressure_B-", "pressure_B+", "pressure_C",
     "pressure_D-", "pressure_D+", "pressure_E", "least", "greatest", "js7", "allowances_um", "upper_um", "lower_um",
     "M_1", "theta", "tip_fouling_angle", "trimming_angle", "d_Ff", "x_Emin",
 }  # fmt: skip
-
-
-def spec_of(given: dict[str, Any]) -> dict[str, Any]:
-    spec: dict[str, Any] = {"kind": "gear-pair"} | {key: given[key] for key in KEYS if key in given}
-    if "F_t" in given:
-        spec["load"] = {"tangential_force": given["F_t"]}
-    if "tip_shortening" in given and "tip_diameter" not in given:
-        spec["tip_shortening"] = "full" if given["tip_shortening"] else "none"
-    return spec
 
 
 def pair_of(given: dict[str, Any]) -> Any:
