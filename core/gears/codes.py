@@ -46,7 +46,7 @@ CONTACT_RATIO = Rule(
     "Take more teeth of a smaller module, a smaller pressure angle, or less profile shift.",
     "eps = (z1 (tan alpha_a1 - tan alpha_wt) + z2 (tan alpha_a2 - tan alpha_wt))/(2 pi); fails below "
     "limits.contact_ratio (1.1), warns up to 0.1 above; of helical gears with face_width eps_gamma is judged; fails "
-    "below 1 with the axes as far apart as center_distance_allowance lets them",
+    "below 1 with the gears as far out of mesh as center_distance_allowance lets them",
     "ISO 21771; the limit is usual practice",
     ("contact-ratio", AT_LIMITS),
     _TEETH,
@@ -70,7 +70,7 @@ ROOT_CLEARANCE = Rule(
     "The tip of a gear comes too near to the root of its mate.",
     "Dirt, wear or a bent shaft then make tip and root touch.",
     "Raise the clearance coefficient, or shorten the mate's tips.",
-    "c = a_w - r_a(mate) - r_f; fails below 0.05 m, warns below 0.15 m; fails at 0 where the axes are as near as "
+    "c = a_w - r_a(mate) - r_f; fails below 0.05 m, warns below 0.15 m; fails at 0 with the gears as deep in mesh as "
     "center_distance_allowance lets them, with the root that the upper thickness allowance gives",
     "ISO 21771; the limits are usual practice",
     ("root-clearance", AT_LIMITS),

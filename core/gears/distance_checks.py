@@ -1,4 +1,4 @@
-"""Checks of a gear pair where its axes stand as near to each other, and as far apart, as the drawing lets them."""
+"""Checks of a gear pair where its gears mesh as deeply, and as slightly, as the drawing of the housing lets them."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from gearlink.core.gears.mesh.ring_interference import InternalInterference
     from gearlink.core.gears.rack.mesh import RackMesh
 
-_NEAREST = "with the axes as near to each other as center_distance_allowance lets them"
+_DEEPEST = "with the gears as deep in each other as center_distance_allowance lets them"
 
 
 class Limits(Protocol):
@@ -131,16 +131,16 @@ def rack_limits(rack: RackMesh, limits: Limits) -> Iterator[Check]:
 
 
 def _no_drive(ratio: float, least: float) -> Check:
-    text = f"with the axes as far apart as center_distance_allowance lets them the contact ratio is {ratio:.6g}"
+    text = f"with the gears as far out of mesh as center_distance_allowance lets them the contact ratio is {ratio:.6g}"
     text += ": the drive is interrupted; keep the centre distance closer"
     return CONTACT_RATIO.check("fail", text, ratio, least, name=AT_LIMITS)
 
 
 def _on_root(room: float, tips: str, root: str) -> Check:
-    text = f"{_NEAREST} the tips of {tips} come {-room:.4g} mm into the root of {root}: keep the centre distance closer"
+    text = f"{_DEEPEST} the tips of {tips} come {-room:.4g} mm into the root of {root}: keep the centre distance closer"
     return ROOT_CLEARANCE.check("fail", f"{text}, or raise the clearance", room, 0.0, "mm", name=AT_LIMITS)
 
 
 def _beyond(margin: float, tips: str) -> Check:
-    text = f"{_NEAREST} the tips of {tips} go {-margin:.4g} mm beyond the mate's base tangent point: shorten them"
+    text = f"{_DEEPEST} the tips of {tips} go {-margin:.4g} mm beyond the mate's base tangent point: shorten them"
     return INTERFERENCE.check("fail", f"{text}, or keep the centre distance closer", margin, 0.0, "mm", name=AT_LIMITS)
