@@ -80,7 +80,7 @@ def _report(spec: Spec, options: Options) -> None:
 @app.command("watch")
 @takes("overrides", "strict", "quiet")
 def _watch(
-    spec: Spec,
+    spec: Annotated[str, typer.Argument(metavar="SPEC", help="design file")],
     options: Options,
     port: Annotated[int, typer.Option(min=0, max=65535, help="port of the page; 0: a free one")] = 0,
     show: Annotated[bool, typer.Option("--open", help="open the page in the browser")] = False,

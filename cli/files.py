@@ -89,6 +89,17 @@ def require_free(path: Path, option: str, *, force: bool) -> None:
         raise CannotWrite(f"{path} is there already: give another {option}, or --force to overwrite it")
 
 
+def require_folder(path: Path) -> None:
+    """Refuse a folder that cannot be had, since a file stands in its place, before work begins that takes long.
+
+    Raises
+        CannotWrite
+    """
+    there = next((place for place in (path, *path.parents) if os.path.lexists(place)), None)
+    if there is not None and not os.path.isdir(there):
+        raise CannotWrite(f"cannot write into {path}: {there} is no folder")
+
+
 def write_atomically(path: Path, write: Callable[[IO[bytes]], object]) -> None:
     """Let `write` fill a temporary file beside `path`, then move it there.
 

@@ -12,6 +12,7 @@ import typer
 
 from gearlink.cli.bench.families import FAMILIES, measured
 from gearlink.cli.exit_codes import ExitCode
+from gearlink.cli.files import require_folder
 from gearlink.cli.options import Options
 from gearlink.cli.typer_options import option, takes
 
@@ -71,6 +72,8 @@ def run_bench(names: Sequence[str], form: BenchFormat, *, quick: bool, out: Path
     except BenchNeedsMpmath as error:
         print(f"error: {error}", file=sys.stderr)
         return ExitCode.WRONG_INPUT
+    if out is not None:
+        require_folder(out)
     found = []
     for name in dict.fromkeys(names):
         say(f"measuring {name} ...")

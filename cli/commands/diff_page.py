@@ -14,6 +14,7 @@ from gearlink.cli.render.json_report import FORMAT
 from gearlink.core.wording import amount
 
 _PARTS = {"inputs": "input", "quantities": "quantity", "checks": "check", "tables": "table"}
+_NO_MEMBERS = "[]"
 _PERCENT = len("+1.23e-05 %")
 _HEADS = ("old", "new", "unit", "change", "command")
 
@@ -64,7 +65,8 @@ def _parts(found: Difference, text: Callable[[object], str]) -> Iterator[tuple[s
             unit = "" if c.unit == "1" else c.unit
             # A check may be here for its limit alone: values that count as equal look equal, some ulp of zero too.
             old = c.new if part == "checks" and same(c.old, c.new, found.tolerance) else c.old
-            rows.append((c.name, text(old), text(c.new), unit, told, c.command))
+            values = (_NO_MEMBERS if value == [] else text(value) for value in (old, c.new))
+            rows.append((c.name, *values, unit, told, c.command))
         if rows:
             yield part, rows
 
@@ -98,8 +100,10 @@ def _show(found: Difference, options: Options) -> None:
             shown = [i for i in shown if heads[i] != "command"]
         for i in shown:
             number_like = heads[i] in ("old", "new")
-            # Words of a change may be folded, a number and its per cent sign not.
-            whole = number_like or i == 0 or (heads[i] == "change" and all(len(row[i]) <= _PERCENT for row in rows))
+            # Words and members of a list may stand on lines of their own, a number and its per cent sign not.
+            whole = heads[i] in (part, "unit") or (
+                heads[i] == "change" and all(len(row[i]) <= _PERCENT for row in rows)
+            )
             grid.add_column(heads[i], justify="right" if number_like else "left", no_wrap=whole, overflow="fold")
         for row in rows:
             grid.add_row(*(row[i] for i in shown))

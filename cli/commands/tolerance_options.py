@@ -10,7 +10,7 @@ import typer
 from gearlink.cli.options import OPTIONS, Options
 from gearlink.cli.typer_options import Jobs, Spec, takes
 
-_SHARED = [name for name in OPTIONS if name not in ("samples", "suggest", "save", "round", "force")]
+_SHARED = [name for name in OPTIONS if name not in ("samples", "suggest", "save", "round", "force", "candidates")]
 
 
 class Method(StrEnum):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import glob
 import re
 from functools import partial
 from pathlib import Path
@@ -78,8 +79,11 @@ def _put(text: str, stream: IO[bytes]) -> None:
     stream.write(text.encode())
 
 
-def write(found: Found, folder: Path) -> int:
-    """Write the kept designs as NAME-0001.yaml and so on, in their order; how many there are.
+def write(found: Found, folder: Path) -> tuple[int, int]:
+    """Write the kept designs as NAME-0001.yaml and so on, in their order.
+
+    Returns
+        count, others : int - how many were written; how many files of such names stand there besides
 
     Raises
         CannotWrite
@@ -88,4 +92,6 @@ def write(found: Found, folder: Path) -> int:
     for number, row in enumerate(found.rows, 1):
         text = text_of(found.problem, found, row.index)
         write_atomically(folder / f"{stem}-{number:04d}.yaml", partial(_put, text))
-    return len(found.rows)
+    numbers = [path.stem.removeprefix(f"{stem}-") for path in folder.glob(f"{glob.escape(stem)}-*.yaml")]
+    others = sum(number.isdecimal() and int(number) > len(found.rows) for number in numbers)
+    return len(found.rows), others

@@ -22,7 +22,7 @@ from gearlink.cli.exploring.store import (
     ready,
     same_study,
 )
-from gearlink.cli.files import CannotWrite
+from gearlink.cli.files import CannotWrite, require_folder
 from gearlink.cli.options import Format
 from gearlink.cli.printable import visible
 from gearlink.cli.progress import progress
@@ -51,6 +51,9 @@ def run_explore(asked: Exploring) -> int:
 
 
 def _run(asked: Exploring) -> int:
+    for folder in (asked.write, asked.options.out if asked.options.plot else None):
+        if folder is not None:
+            require_folder(folder)
     if asked.merge:
         return _merge(asked)
     if len(asked.sources) > 1:
@@ -174,7 +177,9 @@ def _print(study: Exploration, asked: Exploring) -> int:
     if asked.write is not None:
         from gearlink.cli.exploring.designs import write
 
-        _tell(f"wrote {amount(write(study.found, asked.write), 'design')} to {visible(str(asked.write))}", asked)
+        count, others = write(study.found, asked.write)
+        earlier = f", beside {others} of an earlier run" if others else ""
+        _tell(f"wrote {amount(count, 'design')} to {visible(str(asked.write))}{earlier}", asked)
     if asked.options.plot:
         from gearlink.cli.commands.design import plot
 

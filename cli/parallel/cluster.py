@@ -47,6 +47,10 @@ def client(address: str) -> Iterator[Any]:
         made = make(address, timeout=_SECONDS)
     except (OSError, ValueError) as error:
         raise _refused("GL115", f"no Dask scheduler answers at {address}: {error}", address) from None
+    except Exception as error:  # what another server says is no message of Dask: MemoryError for its size, and others
+        message = f"what answers at {address} is no Dask scheduler ({type(error).__name__})"
+        remedy = "`dask scheduler` prints the address; that of its dashboard is another"
+        raise _refused("GL115", message, address, remedy) from None
     with made:
         own = program()
         for worker, theirs in made.run(program).items():

@@ -66,6 +66,16 @@ def test_wrong_family_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
     assert "the families are four-bar" in capsys.readouterr().err
 
 
+def test_a_file_in_the_place_of_a_folder_is_told_before_anything_is_measured(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("gearlink.cli.bench.command.measured", pytest.fail)
+    taken = tmp_path / "taken"
+    taken.touch()
+    assert run(["bench", "involute", "--out", str(taken)]) == 2
+    assert capsys.readouterr().err == f"error: cannot write into {taken}: {taken} is no folder\n"
+
+
 def test_without_mpmath_the_remedy_is_named(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

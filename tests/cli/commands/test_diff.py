@@ -78,6 +78,19 @@ def test_table_shows_physical_units(gearlink: Any, two: Any) -> None:
     assert out.splitlines()[-1].endswith(": 1 input, 4 quantities")
 
 
+def test_members_of_long_lists_stand_below_each_other(gearlink: Any, two: Any) -> None:
+    """Beside them the numbers keep their place; a list without members is told from nothing."""
+    wishes = "[crank_length <= 156 mm, quick_return_ratio <= 1.2]"
+    more = f"tolerance: {{sources: {{rod: {{plus_minus: 0.02}}}}, require: {wishes}}}\n"
+    out = gearlink("diff", *two(CRANK, CRANK + more)).out
+    assert "crank_length <= 156 mm quick_return_ratio" not in out
+    assert max(len(line) for line in out.splitlines() if line.startswith("tolerance.")) <= 80
+    empty = "loads: {links: {crank: {mass: 1, inertia: 1}}, speed: 60, forces: []}\n"
+    out = gearlink("diff", *two(CRANK, CRANK + empty)).out
+    (row,) = (line.split() for line in out.splitlines() if line.startswith("loads.forces"))
+    assert row == ["loads.forces", "-", "[]"]
+
+
 def test_markdown(gearlink: Any, two: Any) -> None:
     out = gearlink("diff", *two(CRANK, CRANK.replace("310", "341")), "--format", "md").out
     assert "## inputs\n\n| inputs | old | new | unit | change | command |" in out

@@ -297,3 +297,12 @@ def test_every_name_that_is_unknown_is_said_at_its_line(gearlink: Any, tmp_path:
     assert "feed.yaml:8:5: error GL170: this design has no pin 'Q'" in ended.out + ended.err
     assert "feed.yaml:9:5: error GL170: this design has no centre distance 'x'" in ended.out + ended.err
     assert gearlink("tolerance", path).err.count("error GL170") == 2
+
+
+def test_candidates_are_not_offered_where_there_are_none(gearlink: Any, spec: Path, designs: Path) -> None:
+    """Neither of these commands has any; where a command may have some, the option that was given is named."""
+    for command in ("tolerance", "register"):
+        assert "--candidates" not in gearlink(command, "--help").out
+    ended = gearlink("loads", designs / "loaded_feed.yaml", "--candidates")
+    assert ended.status == 2
+    assert ended.err.startswith("<--candidates>:1:1: error GL115: `loads` has nothing that could be chosen otherwise")

@@ -80,9 +80,11 @@ class Client:
     """A client of `distributed` whose workers run these programs."""
 
     programs: list[dict[str, str]] = []
-    answers = True
+    answers: bool | Exception = True
 
     def __init__(self, address: str, timeout: int) -> None:
+        if isinstance(self.answers, Exception):
+            raise self.answers
         if not self.answers:
             raise OSError("timed out")
         self.address, self.timeout, self.open = address, timeout, False
@@ -140,6 +142,15 @@ def test_where_no_client_can_be_had(distributed: type[Client], monkeypatch: pyte
     found = refusal("tcp://there:2")
     assert (found.code, found.key) == ("GL115", "--dask")
     assert "pip install distributed" in found.message
+
+
+def test_another_server_is_no_lack_of_memory(distributed: type[Client]) -> None:
+    """The first eight bytes of a web server's answer are the size of a message: of 3 EiB."""
+    distributed.answers = MemoryError((3543824036068086856,))
+    found = refusal("tcp://there:8787")
+    assert (found.code, found.key) == ("GL115", "tcp://there:8787")
+    assert found.message == "what answers at tcp://there:8787 is no Dask scheduler (MemoryError)"
+    assert "dashboard" in found.help
 
 
 @pytest.mark.parametrize(

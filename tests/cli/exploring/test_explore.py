@@ -49,6 +49,27 @@ def test_json(gearlink: Any, written: Any) -> None:
     assert found["tables"]["why"]["columns"][:4] == ["name", "code", "fails", "alone_removes"]
 
 
+def test_a_file_in_the_place_of_a_folder_is_told_before_the_study_is_computed(
+    gearlink: Any, written: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("gearlink.cli.exploring.run._computed", pytest.fail)
+    taken = written("taken")
+    for line in (("--plot", "--out", taken), ("--write", taken / "below")):
+        ended = gearlink("explore", written(), *line)
+        assert ended.status == 2
+        assert f"{taken} is no folder" in ended.err
+
+
+def test_designs_of_an_earlier_run_are_told_of(gearlink: Any, written: Any, tmp_path: Path) -> None:
+    folder = tmp_path / "kept"
+    first = gearlink("explore", written(), "--write", folder)
+    assert first.err == f"wrote {len(list(folder.iterdir()))} designs to {folder}\n"
+    count = len(list(folder.iterdir()))
+    assert count > 1
+    ended = gearlink("explore", written(variables={"gears.idler": {"values": [60]}}), "--write", folder)
+    assert ended.err == f"wrote 1 design to {folder}, beside {count - 1} of an earlier run\n"
+
+
 def test_none_feasible_is_exit_1_and_a_warning_is_with_strict(gearlink: Any, written: Any) -> None:
     ended = gearlink("explore", written(where=["frame_length <= 2 mm"]), "--format", "json")
     assert (ended.status, ended.json["ok"]) == (1, False)
