@@ -40,6 +40,15 @@ def test_the_key_that_is_to_change(gearlink: Any, tmp_path: Path, text: str, key
     assert "sign change" not in found["message"]
 
 
+@pytest.mark.parametrize(("key", "value"), [("gears.rim", "2.5"), ("gears.cutter.teeth", "500")])
+def test_a_refusal_that_every_command_meets_is_one_at_its_key(
+    gearlink: Any, designs: Path, key: str, value: str
+) -> None:
+    """The meshes of a linkage are looked at by several commands, each by a way of its own to the key."""
+    ended = gearlink("check", designs / "drawn_ring.yaml", "--set", f"{key}={value}", "--format", "json")
+    assert [(each["file"], each["key"]) for each in ended.json["findings"]] == [("<--set>", key)]
+
+
 def test_the_least_swing_that_is_named_is_taken(gearlink: Any, tmp_path: Path) -> None:
     path = tmp_path / "design.yaml"
     path.write_text(_ROCKER.replace("1e-5", "0.000248"))

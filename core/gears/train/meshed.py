@@ -146,9 +146,9 @@ class Meshed(GearQuantities, Design):
     @cached_property
     def mesh_data(self) -> dict[str, GearData]:
         """The meshes with all that their drawing needs; a ring is the second gear of its pair."""
-        train = self.teeth_train
+        train, pairs = self.teeth_train, self._own_pairs  # whose refusals name the section already
         with in_section("gears"):
-            found = zip(self.mesh_names, train.places, self._own_pairs.values(), strict=True)
+            found = zip(self.mesh_names, train.places, pairs.values(), strict=True)
             return {name: train.data(place, pair, self.rim_of(name)) for name, place, pair in found}
 
     def widths_of(self, name: str = "") -> tuple[float, float] | None:
