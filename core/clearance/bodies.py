@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from itertools import chain, combinations
+from itertools import chain, combinations, product
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from gearlink.core.clearance.reach import Reach
@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from gearlink.core.gears.mesh.pair import GearPair
 
 LEAST_SHAFT_MODULES = 2.0
+FULL_HEIGHT = 2.25
+"""Height of standard teeth, in modules."""
 
 
 class Gear(NamedTuple):
@@ -34,6 +36,7 @@ class Gear(NamedTuple):
         inner : float [mm] - tip radius of a ring gear, within which a body may lie; an external gear has none
         mates : str - letters of the axes whose gears mesh with it; it is enough if one of two mates names the other
         turns_with : str - letters of the shafts that are one body with it, which may pass through its blank
+        root : float [mm] - root radius, where a shaft may be within the gear on its own axis; None elsewhere
     """
 
     name: str
@@ -42,6 +45,7 @@ class Gear(NamedTuple):
     inner: float = -math.inf
     mates: str = ""
     turns_with: str = ""
+    root: float | None = None
 
 
 class Shaft(NamedTuple):
@@ -68,6 +72,19 @@ class Shaft(NamedTuple):
     def outer(self) -> float:
         """Radius [mm], 0 for a bare axis."""
         return self.radius or 0.0
+
+
+class Seat(NamedTuple):
+    """A gear on a shaft of the file: the rim that its teeth leave round the shaft, and the least that bears them [mm].
+
+    Source
+        ISO 6336-3: no root stress is given for a rim of half the height of the teeth and less
+    """
+
+    gear: Gear
+    shaft: Shaft
+    rim: float
+    least: float
 
 
 class Clearance(NamedTuple):
@@ -138,6 +155,13 @@ class Layout:
         """Every gear against every shaft that it does not turn with, then the shafts against each other."""
         gears = ((gear, shaft) for shaft in self.shafts for gear in self.gears if shaft.axis not in gear.turns_with)
         return tuple(self._gaps(chain(gears, combinations(self.shafts, 2))))
+
+    @property
+    def seats(self) -> Iterator[Seat]:
+        """Every gear on the axis of a shaft that the file names."""
+        for gear, shaft in product(self.gears, self.shafts):
+            if gear.axis == shaft.axis and gear.root is not None and shaft.radius is not None:
+                yield Seat(gear, shaft, gear.root - shaft.radius, 0.5 * (gear.outer - gear.root))
 
     def _gaps(self, pairs: Iterable[tuple[Gear | Shaft, Gear | Shaft]]) -> Iterator[Clearance]:
         for one, other in pairs:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from typing import Protocol
 
-from gearlink.core.clearance.bodies import Clearance, Gear, Layout, Shaft
+from gearlink.core.clearance.bodies import Clearance, Gear, Layout, Seat, Shaft
 from gearlink.core.linkages.codes import GEAR_COLLISION, SHAFT_CLEARANCE
 from gearlink.core.remedies.ways import down
 from gearlink.core.report import Check, Status
@@ -50,6 +51,28 @@ def shaft_checks(layout: Layout) -> Iterator[Check]:
         yield SHAFT_CLEARANCE.check(status, text, pair.gap, limit, "mm")
 
 
+class Placed(Protocol):
+    """A design with gears and shafts in one plane."""
+
+    @property
+    def layout(self) -> Layout: ...
+
+
+def shaft_seat(design: Placed) -> Iterator[Check]:
+    """GL302: the rims of gears round their own shafts; see `seat_checks`."""
+    return seat_checks(design.layout)
+
+
+def seat_checks(layout: Layout) -> Iterator[Check]:
+    """GL302: every gear whose own shaft leaves its teeth no rim that bears them; a warning, since they may be cut into
+    the shaft. Nothing where all have one."""
+    for seat in layout.seats:
+        if seat.rim < seat.least:
+            yield SHAFT_CLEARANCE.check(
+                "warn", _thin_rim(seat), seat.rim, seat.least, "mm", name=SHAFT_CLEARANCE.checks[1]
+            )
+
+
 def _place(pair: Clearance) -> str:
     """Where in the cycle, as the end of a clause; empty where the gap never changes."""
     return "" if pair.angle is None else f" at input angle {math.degrees(pair.angle):.6g} deg"
@@ -68,6 +91,14 @@ def _overlap(pair: Clearance) -> str:
         return f"{text}: overhang one of them, or make them thinner"
     thinner = ", or make it thinner" if pair.gap + pair.other.outer > 0.0 else ""
     return f"{text}: overhang the shaft{thinner}"
+
+
+def _thin_rim(seat: Seat) -> str:
+    left = f"leaves only {seat.rim:.4g} mm below its teeth round" if seat.rim > 0.0 else "has its teeth within"
+    return (
+        f"{seat.gear.name} {left} {_words(seat.shaft)}, half the height of the teeth is {seat.least:.4g} mm: lower "
+        f"{seat.shaft.key}, or cut the teeth into the shaft"
+    )
 
 
 def _covered_axis(pair: Clearance) -> str:

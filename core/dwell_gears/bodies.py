@@ -28,7 +28,7 @@ def hypocycloid_layout(design: HypocycloidDwell) -> Layout:
 def mutilated_layout(design: MutilatedGearDwell) -> Layout:
     """The wheel stands on any side of A, its distance from the rocker's shaft D free, unless the loads say where."""
     spec, mesh, linkage = design.spec, design.mesh, design.linkage
-    wheel, driven = mesh.tip_radius
+    (wheel, driven), roots = mesh.tip_radius, mesh.root_radius
     reaches = {"AW": constant(mesh.center_distance)}
     if linkage is not None:
         reaches["AD"] = constant(linkage.frame)
@@ -36,7 +36,10 @@ def mutilated_layout(design: MutilatedGearDwell) -> Layout:
             place = cmath.rect(mesh.center_distance, math.radians(spec.loads.wheel_direction))
             reaches["DW"] = constant(abs(place - linkage.frame))
     return Layout(
-        gears=(Gear("the mutilated wheel", "W", wheel, mates="A"), Gear("the driven gear", "A", driven)),
+        gears=(
+            Gear("the mutilated wheel", "W", wheel, mates="A", root=roots[0]),
+            Gear("the driven gear", "A", driven, root=roots[1]),
+        ),
         shafts=shafts_at("AW" if linkage is None else "ADW", spec.shafts),
         reaches=reaches,
         least_shaft=least_shaft(spec.limits, spec.gears.module),

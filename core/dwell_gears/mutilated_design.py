@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 from gearlink.core.clearance.bodies import Layout
-from gearlink.core.clearance.checks import SHAFT_WAYS, shaft_checks
+from gearlink.core.clearance.checks import SHAFT_WAYS, shaft_checks, shaft_seat
 from gearlink.core.design import Found, Outline, placed
 from gearlink.core.dwell_gears.bodies import mutilated_layout
 from gearlink.core.dwell_gears.codes import GAP, START_SHOCK
@@ -107,7 +107,7 @@ class MutilatedGearDwell(RealSpeed, Meshed):
                 "driven_speed",
                 "rocker_speed_at_start",
             ),
-            ("target", "start-shock", "gap", "shaft-clearance", "transmission-angle", *GEAR_CHECKS),
+            ("target", "start-shock", "gap", "shaft-clearance", "shaft-seat", "transmission-angle", *GEAR_CHECKS),
             ("motion",),
         ),
         "gear": Outline((*OF_MESH, "output_play"), (*MESH_CHECKS, *TRAIN_CHECKS)),
@@ -338,6 +338,8 @@ class MutilatedGearDwell(RealSpeed, Meshed):
     def check_shaft_clearance(self) -> Iterator[Check]:
         """GL302."""
         return shaft_checks(self.layout)
+
+    check_shaft_seat = shaft_seat
 
     def check_transmission_angle(self) -> Iterator[Check]:
         """GL303, where there is a four-bar."""

@@ -27,17 +27,17 @@ def _path(design: GearedFiveBar) -> tuple[tuple[Gear, ...], dict[str, Reach]]:
         name = {"A": "the input gear", "E": "the output gear"}[pinion]
         return (
             ring_gear(ring, first, rim=design.outer_rim(design.mesh_names[0])),
-            Gear(name, pinion, first.tip_radius[0], mates=ring),
+            Gear(name, pinion, first.tip_radius[0], mates=ring, root=first.root_radius[0]),
         ), reaches
     driven = more[0] if more else first
     ends = (
-        Gear("the input gear", "A", first.tip_radius[0], mates="O" if more else "E"),
-        Gear("the output gear", "E", driven.tip_radius[1], mates="O" if more else "A"),
+        Gear("the input gear", "A", first.tip_radius[0], mates="O" if more else "E", root=first.root_radius[0]),
+        Gear("the output gear", "E", driven.tip_radius[1], mates="O" if more else "A", root=driven.root_radius[1]),
     )
     if not more:
         return ends, reaches
     reaches |= {"AO": constant(design.center_distance[0]), "EO": constant(design.center_distance[1])}
-    return (*ends, Gear("the idler", "O", first.tip_radius[1])), reaches
+    return (*ends, Gear("the idler", "O", first.tip_radius[1], root=first.root_radius[1])), reaches
 
 
 def _function(design: GearedFiveBar) -> tuple[tuple[Gear, ...], dict[str, Reach]]:
@@ -45,7 +45,11 @@ def _function(design: GearedFiveBar) -> tuple[tuple[Gear, ...], dict[str, Reach]
     (mesh,), bar = design.meshes.values(), design.function_bar
     planet = Gear("the planet", "B", mesh.tip_radius[0], mates="A")
     rim = design.outer_rim(design.mesh_names[0])
-    fixed = ring_gear("A", mesh, rim=rim) if mesh.internal else Gear("the sun", "A", mesh.tip_radius[1])
+    fixed = (
+        ring_gear("A", mesh, rim=rim)
+        if mesh.internal
+        else Gear("the sun", "A", mesh.tip_radius[1], root=mesh.root_radius[1])
+    )
     return (planet, fixed), {
         "AB": constant(bar.input),
         "AE": constant(bar.frame),

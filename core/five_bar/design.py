@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from gearlink.core.clearance.bodies import Layout
-from gearlink.core.clearance.checks import SHAFT_WAYS, collision_check, shaft_checks
+from gearlink.core.clearance.checks import SHAFT_WAYS, collision_check, shaft_checks, shaft_seat
 from gearlink.core.design import Outline, placed
 from gearlink.core.errors import NoSolution
 from gearlink.core.five_bar import bodies, tables
@@ -103,7 +103,16 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, FiveBarParts):
                 "point_acceleration_max",
                 *OUTPUT_SPEEDS,
             ),
-            ("closure", "target", "gear-collision", "shaft-clearance", "transmission-angle", *MESH_CHECKS, "backlash"),
+            (
+                "closure",
+                "target",
+                "gear-collision",
+                "shaft-clearance",
+                "shaft-seat",
+                "transmission-angle",
+                *MESH_CHECKS,
+                "backlash",
+            ),
             ("path", "function", "deviations", "structural_error", "search"),
         ),
         "gear": Outline(
@@ -365,6 +374,8 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, FiveBarParts):
     def check_shaft_clearance(self) -> Iterator[Check]:
         """GL302."""
         return shaft_checks(self.layout)
+
+    check_shaft_seat = shaft_seat
 
     def check_transmission_angle(self) -> Check:
         """GL303."""

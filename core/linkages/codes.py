@@ -24,15 +24,16 @@ SHAFT_CLEARANCE = Rule(
     "A gear's tips, the teeth or the rim of a ring gear, a cam roller or another shaft come into a shaft of the file; "
     "or they leave less room beside the axis of a shaft whose radius the file does not name than the thinnest shaft "
     "takes (limits.least_shaft, 2 modules; a warning). A cam is warned of that leaves less room beside the axis of its "
-    "rocker or gripper than a shaft as thick as the roller takes.",
+    "rocker or gripper than a shaft as thick as the roller takes, and a gear whose own shaft leaves less rim below its "
+    "teeth than half their height.",
     "The shaft cannot pass through the plane of the gears there: it must end before it (be overhung).",
     "Overhang the shaft, make it thinner, or enlarge the distance; name the radius (shafts, cam.shaft_radius) so "
     "that it is checked.",
     "least distance of the axes over the cycle - tip radius - shaft radius >= 0; joint C from A: max(l2 - l1, l4 - "
     "l3); a ring gear: its tip radius - distance - shaft radius within, distance - rim - shaft radius without, the "
-    "greater of the two; rim = m (z/2 + 3.25) or gears.rim",
-    "own derivation",
-    ("shaft-clearance",),
+    "greater of the two; rim = m (z/2 + 3.25) or gears.rim; root radius - radius of the own shaft >= h/2",
+    "own derivation; the least rim: ISO 6336-3",
+    ("shaft-clearance", "shaft-seat"),
     ("shafts", "cam.shaft_radius", "cam", "links", "gears"),
 )
 TRANSMISSION_ANGLE = Rule(

@@ -17,7 +17,9 @@ def two_gear_layout(design: TwoGearFourBar) -> Layout:
     links, spec, mesh = design.linkage, design.spec, design.mesh
     planet = Gear("the planet", "B", mesh.tip_radius[0], mates="A")
     output = (
-        ring_gear("A", mesh, rim=design.outer_rim()) if design.internal else Gear("the sun", "A", mesh.tip_radius[1])
+        ring_gear("A", mesh, rim=design.outer_rim())
+        if design.internal
+        else Gear("the sun", "A", mesh.tip_radius[1], root=mesh.root_radius[1])
     )
     return Layout(
         gears=(planet, output),
@@ -36,7 +38,10 @@ def rocker_layout(design: GearedRocker) -> Layout:
     links, spec = design.linkage, design.spec
     coupler, output = design.mesh.tip_radius
     return Layout(
-        gears=(Gear("the coupler gear", "C", coupler, mates="D"), Gear("the output gear", "D", output)),
+        gears=(
+            Gear("the coupler gear", "C", coupler, mates="D"),
+            Gear("the output gear", "D", output, root=design.mesh.root_radius[1]),
+        ),
         shafts=shafts_at("AD", spec.shafts),
         reaches={"AC": coupler_joint(links), "AD": constant(links.frame), "CD": constant(links.rocker)},
         least_shaft=least_shaft(spec.limits, spec.gears.module),

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, cast
 
 from gearlink.core.clearance.bodies import Layout
-from gearlink.core.clearance.checks import SHAFT_WAYS, shaft_checks
+from gearlink.core.clearance.checks import SHAFT_WAYS, shaft_checks, shaft_seat
 from gearlink.core.design import Found, Outline, placed
 from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.gears.checks import GEAR_CHECKS
@@ -72,7 +72,7 @@ class GearedRocker(OutputRates, RealSpeed, Meshed):
                 "turn_time",
                 *OUTPUT_SPEEDS,
             ),
-            ("target", "shaft-clearance", "transmission-angle", *GEAR_CHECKS, "backlash"),
+            ("target", "shaft-clearance", "shaft-seat", "transmission-angle", *GEAR_CHECKS, "backlash"),
             ("motion",),
         ),
         "gear": Outline((*OF_MESH, "output_play"), (*GEAR_CHECKS, *TRAIN_CHECKS)),
@@ -290,6 +290,8 @@ class GearedRocker(OutputRates, RealSpeed, Meshed):
     def check_shaft_clearance(self) -> Iterator[Check]:
         """GL302."""
         return shaft_checks(self.layout)
+
+    check_shaft_seat = shaft_seat
 
     def check_transmission_angle(self) -> Check:
         """GL303."""

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, ClassVar
 
 from gearlink.core.clearance.bodies import Layout
-from gearlink.core.clearance.checks import SHAFT_WAYS, shaft_checks
+from gearlink.core.clearance.checks import SHAFT_WAYS, shaft_checks, shaft_seat
 from gearlink.core.design import Outline, placed
 from gearlink.core.errors import MissingSection, NoSolution, at_key
 from gearlink.core.gears.train.meshed import QUANTITIES as OF_MESH
@@ -72,7 +72,7 @@ QUANTITIES = (
     "back_step_time",
     *FEED_QUANTITIES,
 )
-CHECKS = ("dwell-condition", "shaft-clearance", "transmission-angle", *MESH_CHECKS, "backlash")
+CHECKS = ("dwell-condition", "shaft-clearance", "shaft-seat", "transmission-angle", *MESH_CHECKS, "backlash")
 
 UNIDIRECTIONAL, MOMENTARY_DWELL, BACK_STEP = "unidirectional", "momentary-dwell", "back-step"
 
@@ -357,6 +357,8 @@ class TwoGearFourBar(OutputRates, FeedResults, Meshed):
     def check_shaft_clearance(self) -> Iterator[Check]:
         """GL302."""
         return shaft_checks(self.layout)
+
+    check_shaft_seat = shaft_seat
 
     def check_transmission_angle(self) -> Check:
         """GL303."""

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.core.clearance.bodies import Gear, Layout, least_shaft, ring_gear, shafts_at
+from gearlink.core.clearance.bodies import FULL_HEIGHT, Gear, Layout, least_shaft, ring_gear, shafts_at
 from gearlink.core.clearance.reach import Reach, constant
 from gearlink.core.gears.mesh.internal_mesh import InternalMesh
 from gearlink.core.numerics.extremes import extremes_over
@@ -54,7 +54,9 @@ def _gears(design: GearedSixBar, number: int) -> list[Gear]:
             found.append(ring._replace(name=f"the ring gear on {pin}", turns_with=shaft))
             continue
         tip = 0.5 * train.module * teeth + train.module
-        found.append(Gear(f"the gear on {pin}", pin, tip, mates=mates, turns_with=shaft))
+        found.append(
+            Gear(f"the gear on {pin}", pin, tip, mates=mates, turns_with=shaft, root=tip - FULL_HEIGHT * train.module)
+        )
     return found
 
 

@@ -8,7 +8,7 @@ from itertools import chain, pairwise
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.clearance.bodies import Layout
-from gearlink.core.clearance.checks import SHAFT_WAYS, collision_check, shaft_checks
+from gearlink.core.clearance.checks import SHAFT_WAYS, collision_check, seat_checks, shaft_checks
 from gearlink.core.design import Design, Outline, placed
 from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.gears.checks import gear_ways
@@ -82,7 +82,7 @@ class GearedSixBar(OutputRates, RealSpeed, Design):
                 "turn_time",
                 *OUTPUT_SPEEDS,
             ),
-            ("gear-collision", "shaft-clearance", "transmission-angle", *MESH_CHECKS),
+            ("gear-collision", "shaft-clearance", "shaft-seat", "transmission-angle", *MESH_CHECKS),
             ("motion",),
         ),
         "gear": Outline(("center_distance", "contact_ratio"), MESH_CHECKS),
@@ -370,6 +370,10 @@ class GearedSixBar(OutputRates, RealSpeed, Design):
     def check_shaft_clearance(self) -> Iterator[Check]:
         """GL302."""
         return chain.from_iterable(shaft_checks(layout) for layout in self.layouts)
+
+    def check_shaft_seat(self) -> Iterator[Check]:
+        """GL302."""
+        return chain.from_iterable(seat_checks(layout) for layout in self.layouts)
 
     def check_transmission_angle(self) -> Check:
         """GL303: the angle at which the two free directions close the loop."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from gearlink.core.clearance.bodies import Gear, Layout, Shaft, least_gap, least_shaft
+from gearlink.core.clearance.bodies import FULL_HEIGHT, Gear, Layout, Shaft, least_gap, least_shaft
 from gearlink.core.clearance.reach import constant, coupler_joint, crank_pin
 from gearlink.core.gears.tooth.teeth import rim_radius
 from gearlink.core.linkages.codes import GEAR_COLLISION
@@ -56,7 +56,8 @@ def layout(links: FourBar, train: GearTrain, spec: ThreeGearSpec, own: Mapping[s
 def _gear(name: str, axis: str, teeth: float, train: GearTrain, gears: Gears, mates: str) -> Gear:
     """A gear by its teeth; a ring for negative ones. Rings stand in a plane of their own, apart from the other gear."""
     if teeth > 0:
-        return Gear(name, axis, tip_radius(teeth, gears.module), mates=mates)
+        tip = tip_radius(teeth, gears.module)
+        return Gear(name, axis, tip, mates=mates, root=tip - FULL_HEIGHT * gears.module)
     from gearlink.core.gears.mesh.internal_mesh import InternalMesh
 
     mesh = InternalMesh(gears.module, (int(train.idler), int(-teeth)))
@@ -87,7 +88,8 @@ def _end(axis: str, pair: Any, name: str, gears: Gears, mates: str) -> Gear:
     """Crank or output gear of its pair."""
     if pair.internal:
         return Gear(name, axis, _outer(axis, pair, gears), -pair.tip_radius[1], mates)
-    return Gear(name, axis, pair.tip_radius[0 if axis == "B" else 1], mates=mates)
+    place = 0 if axis == "B" else 1
+    return Gear(name, axis, pair.tip_radius[place], mates=mates, root=pair.root_radius[place])
 
 
 def ring_planes(layout: Layout, train: GearTrain, limit: float) -> Check:

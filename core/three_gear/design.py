@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from gearlink.core.clearance.bodies import Layout
-from gearlink.core.clearance.checks import SHAFT_WAYS, collision_check, shaft_checks
+from gearlink.core.clearance.checks import SHAFT_WAYS, collision_check, shaft_checks, shaft_seat
 from gearlink.core.design import Outline, placed
 from gearlink.core.errors import MissingSection, at_key
 from gearlink.core.gears.train.meshed import Meshed
@@ -359,6 +359,8 @@ class ThreeGearFourBar(OutputSpeed, FeedResults, Meshed):
     def check_shaft_clearance(self) -> Iterator[Check]:
         """GL302."""
         return shaft_checks(self.layout)
+
+    check_shaft_seat = shaft_seat
 
     def check_transmission_angle(self) -> Check:
         """GL303."""

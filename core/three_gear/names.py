@@ -47,6 +47,7 @@ QUANTITIES = (
 CHECKS = (
     "gear-collision",
     "shaft-clearance",
+    "shaft-seat",
     "transmission-angle",
     "rounded-ratio",
     "dwell-tolerance",

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from gearlink.core.clearance.bodies import LEAST_SHAFT_MODULES
+from gearlink.core.clearance.bodies import FULL_HEIGHT, LEAST_SHAFT_MODULES
 from gearlink.core.design_axis import Evaluated, Findings
 from gearlink.core.gears.train.unshifted import Mesh, UnshiftedMeshes
 from gearlink.core.linkages.checks import WINDOW_FIT
@@ -354,6 +354,10 @@ class Batch:
             self._at_limit |= _near(gap, limit) & ~(exact & (gap == limit))
             low = gap < limit
             yield Findings(SHAFT_CLEARANCE.code, gap, limit, low & (axes == 0), low & (axes > 0), "mm")
+        height = FULL_HEIGHT * self.module
+        rim, limit = tips[2] - height - radii[1], 0.5 * height
+        self._at_limit |= _near(rim, limit)
+        yield Findings(SHAFT_CLEARANCE.code, rim, limit, self.none, (rim < limit) & ~bare[1], "mm")
 
     def evaluated(self, outside: Mask) -> Evaluated:
         """All that a study asks for; what lies outside is left to the class."""

@@ -339,3 +339,29 @@ def test_a_crank_gear_that_stays_within_the_output_ring_needs_no_plane_of_its_ow
     (through,) = design("ring_feed", command="synth dwell").check("gear-collision")
     assert near.status == through.status == "warn"
     assert "planes of their own" in through.message
+
+
+SEATS = {
+    "three gears": ("candy_feed", "shafts__output_radius", 2.0, 40),
+    "geared rocker": ("wide_lever", "shafts__D_radius", None, None),
+    "five-bar": ("five_bar_path", "shafts__E_radius", None, None),
+    "two gears": ("two_gear_drag_link", "shafts__A_radius", None, None),
+    "mutilated gear": ("mutilated_gear_press", "shafts__A_radius", None, None),
+}
+
+
+@pytest.mark.parametrize("name", SEATS)
+def test_a_shaft_that_leaves_its_gear_no_rim_is_warned_of(name: str) -> None:
+    """Standard teeth: root 1.25 modules within the reference circle, half the height of the teeth 1.125 modules."""
+    worked, key, module, teeth = SEATS[name]
+    made = design(worked)
+    if module is None:
+        gears, place = made.spec.gears, {"E": 1, "D": 1, "A": -1}[key[8]]
+        module, teeth = gears.module, abs(made.signed_teeth[place])
+    root = module * (0.5 * teeth - 1.25)
+    for radius, status in ((root - 1.13 * module, []), (root - 1.12 * module, ["warn"]), (root + 0.1, ["warn"])):
+        found = design(worked, **{key: radius}).check("shaft-seat")
+        assert [check.status for check in found] == status, radius
+        assert [check.code for check in found] == ["GL302"] * len(status)
+        assert all(check.value == pytest.approx(root - radius, abs=1e-9) for check in found)
+    assert design(worked).check("shaft-seat") == []
