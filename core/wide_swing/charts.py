@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import Literal
 
 import numpy as np
@@ -14,10 +15,13 @@ from gearlink.core.wide_swing.law.device import Pneumatic
 from gearlink.core.wide_swing.law.elastic_law import ElasticLaw
 
 
-def velocity_peak(swing: ArrayLike, pivot_ratio: float) -> Reals:
-    """B over the swing at constant pivot ratio.
+def peaks(
+    name: Literal["velocity_peak", "acceleration_peak", "energy_parameter"], swing: ArrayLike, pivot_ratio: float
+) -> Reals:
+    """B, C or N of the law over the swing at constant pivot ratio.
 
     Parameters
+        name : which one
         swing : array [rad] - above 0, at most 300 deg
         pivot_ratio : float - lambda, above 1
     Returns
@@ -25,42 +29,13 @@ def velocity_peak(swing: ArrayLike, pivot_ratio: float) -> Reals:
     Example
         >>> velocity_peak(np.radians([120.0]), 2.5).round(9).tolist()
         [1.687523657]
-
-    Source
-        wide-swing dissertation, figure 6
-    """
-    return _peaks("velocity_peak", swing, pivot_ratio)
-
-
-def acceleration_peak(swing: ArrayLike, pivot_ratio: float) -> Reals:
-    """C over the swing at constant pivot ratio; arguments as of `velocity_peak`.
-
-    Example
-        >>> bool(acceleration_peak(np.radians([120.0]), 2.5)[0] > 4.0)
-        True
-
-    Source
-        wide-swing dissertation, figure 6
-    """
-    return _peaks("acceleration_peak", swing, pivot_ratio)
-
-
-def energy_parameter(swing: ArrayLike, pivot_ratio: float) -> Reals:
-    """N over the swing at constant pivot ratio; arguments as of `velocity_peak`.
-
-    Example
         >>> energy_parameter(np.radians([120.0]), 2.5).round(9).tolist()
         [4.191240425]
 
     Source
         wide-swing dissertation, figure 6
     """
-    return _peaks("energy_parameter", swing, pivot_ratio)
 
-
-def _peaks(
-    name: Literal["velocity_peak", "acceleration_peak", "energy_parameter"], swing: ArrayLike, pivot_ratio: float
-) -> Reals:
     def value(gamma: float) -> float:
         try:
             return float(getattr(ElasticLaw(Pneumatic(pivot_ratio), gamma), name))
@@ -68,3 +43,8 @@ def _peaks(
             return math.nan
 
     return np.array([value(float(gamma)) for gamma in np.atleast_1d(np.asarray(swing, dtype=float))])
+
+
+velocity_peak = partial(peaks, "velocity_peak")
+acceleration_peak = partial(peaks, "acceleration_peak")
+energy_parameter = partial(peaks, "energy_parameter")
