@@ -167,11 +167,10 @@ class FunctionFiveBar:
         Source
             own derivation; VDI 2142
         """
-        found = []
-        for place, distance in self.closure(start, end):
-            gamma = acute(transmission_angle(distance, self.follower, self.output))
-            found.append((gamma, place))
-        return min(found)
+        return min(
+            (acute(transmission_angle(distance, self.follower, self.output)), place)
+            for place, distance in self.closure(start, end)
+        )
 
     def output_angles(self, angles: list[float]) -> list[float]:
         """Output angles over ascending input angles, without jumps from the first on [rad].

@@ -138,11 +138,10 @@ class PathFiveBar:
             own derivation; VDI 2142
         """
         self.closure()
-        found = []
-        for place, distance in self.span_extremes:
-            gamma = acute(transmission_angle(distance, self.coupler, self.follower))
-            found.append((gamma, place))
-        return min(found)
+        return min(
+            (acute(transmission_angle(distance, self.coupler, self.follower)), place)
+            for place, distance in self.span_extremes
+        )
 
     def coupler_angle(self, phi: float) -> float:
         """Direction of the coupler B->C in (-pi, pi] [rad].
