@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.dyad import acute, close_dyad, direction, require_lengths, transmission_angle
+from gearlink.core.linkages.dyad import acute, close_dyad, require_lengths, transmission_angle
 from gearlink.core.numerics.harmonic_sum import HarmonicSum
 from gearlink.core.report import safely_above
 from gearlink.core.results import cached_property
@@ -73,7 +73,7 @@ class FunctionFiveBar:
         Raises
             NoSolution - where follower and output do not reach
         """
-        return direction(self.end(phi) - self.frame)
+        return cmath.phase(self.end(phi) - self.frame)
 
     def output_speed(self, phi: float) -> float:
         """Output speed per input speed.

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.linkages.dyad import acute, close_dyad, direction, require_lengths, transmission_angle
+from gearlink.core.linkages.dyad import acute, close_dyad, require_lengths, transmission_angle
 from gearlink.core.numerics.harmonic_sum import HarmonicSum
 from gearlink.core.report import safely_above
 from gearlink.core.results import cached_property
@@ -150,7 +150,7 @@ class PathFiveBar:
             NoSolution - where the five-bar opens at that input angle
         """
         start, end = self.ends(phi)
-        return direction(close_dyad(start, end, self.coupler, self.follower, self.assembly) - start)
+        return cmath.phase(close_dyad(start, end, self.coupler, self.follower, self.assembly) - start)
 
     def point(self, phi: float, offset: complex) -> complex:
         """The coupler point M [mm].

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import cmath
 import math
 
 from gearlink.core.errors import NoSolution
@@ -92,8 +91,3 @@ def require_dyad(distance: float, first: float, second: float) -> None:
             f"{distance:.9g} mm apart, less than the difference of the two links, {shortest:.9g} mm: make them more "
             f"equal by {safely_above(shortest - distance, 4)} mm"
         )
-
-
-def direction(vector: complex) -> float:
-    """Direction of a vector in (-pi, pi]."""
-    return cmath.phase(vector)

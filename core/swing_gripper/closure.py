@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from typing import TYPE_CHECKING, Any
 
@@ -82,7 +83,7 @@ class Closure:
         """Sign of the cam rocker's turn by which the main cam lifts its roller."""
         sense = self._lift_sense(self.cams.main_cam)
         if self.cams.return_cam is not None and self._lift_sense(self.cams.return_cam) == sense:
-            arm = math.degrees(math.remainder(_angle(self.cams.from_pivot / self.cams.main_arm), 2.0 * math.pi))
+            arm = math.degrees(math.remainder(cmath.phase(self.cams.from_pivot / self.cams.main_arm), 2.0 * math.pi))
             way = "less" if arm > 0.0 else "more"
             raise NoSolution(
                 "both rollers lie on the same side of the cam, so a spring that closes one lifts the other: "
@@ -139,7 +140,3 @@ class Closure:
         """Least spring torque that keeps both rollers on their cams at the design speed [N m]."""
         reserve = self.spec.spring.reserve if self.spec.spring else 0.0
         return max(0.0, *(extreme.value for extreme in self.worst_unloading)) + reserve
-
-
-def _angle(z: complex) -> float:
-    return math.atan2(z.imag, z.real)
