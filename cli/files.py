@@ -166,13 +166,16 @@ def read_plain_file(path: Path, limit: int, *, private: bool = False) -> bytes:
 
 
 def safe_stem(name: str) -> str:
-    """A design's name as a file name: letters, digits, dot, dash and underscore, 100 bytes of them; never a path.
+    """A design's name as a file name: letters, digits, dot, dash and underscore, 100 bytes of them; never a path, nor a
+    device of Windows, where no checkout could hold it.
 
     Example
-        >>> safe_stem("../a b/TY-460")
-        'a-b-TY-460'
+        >>> safe_stem("../a b/TY-460"), safe_stem("aux")
+        ('a-b-TY-460', 'design-aux')
     """
     stem = re.sub(r"[^\w.-]+", "-", name).strip("-.")
+    if re.match(r"(con|prn|aux|nul|(com|lpt)[0-9])(\.|$)", stem, re.IGNORECASE):
+        stem = f"design-{stem}"
     return stem.encode(errors="ignore")[:100].decode(errors="ignore") or "design"
 
 

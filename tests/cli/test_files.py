@@ -58,3 +58,13 @@ def test_a_file_name_is_cut_by_bytes_between_letters(letter: str, start: str) ->
 )
 def test_a_name_never_decides_a_path(name: str, stem: str) -> None:
     assert safe_stem(name) == stem
+
+
+@pytest.mark.parametrize(
+    ("name", "stem"),
+    [("CON", "design-CON"), ("nul.txt", "design-nul.txt"), ("Com1", "design-Com1"), ("lpt9.", "design-lpt9"),
+     ("console", "console"), ("com", "com"), ("com10", "com10"), ("a.nul", "a.nul")],
+)  # fmt: skip
+def test_no_file_has_the_name_of_a_device(name: str, stem: str) -> None:
+    """Of Windows, which takes the part before the first dot for the device whatever follows."""
+    assert safe_stem(name) == stem
