@@ -245,13 +245,16 @@ def window_of(drive: PlanetLinkage) -> float:
     return before + after - step.crank_angle
 
 
-def solved(family: Family, measure: Callable[[PlanetLinkage], float], target: float, what: str) -> float:
+def solved(
+    family: Family, measure: Callable[[PlanetLinkage], float], target: float, what: str, share: float = 1.0
+) -> float:
     """Frame with which the output steps back and a measure that rises with the back-step meets a target.
 
     Parameters
         measure : `back_step_of` or `window_of`
         target : float [rad] - positive
         what : str - the request in words, for a refusal
+        share : float - of the target that the words speak of: a tolerance is half a back-step
     Returns
         frame : float [mm]
     Raises
@@ -267,10 +270,21 @@ def solved(family: Family, measure: Callable[[PlanetLinkage], float], target: fl
     quiet, steep = stepping(family)
     most = measure(family.drive(steep))
     if not target <= most:
-        limit = safely_below(math.degrees(most))
+        limit = safely_below(math.degrees(share * most))
         raise NoSolution(f"{what} is more than these gears and links reach, {limit} deg; ask for less")
     ends = (-target, most - target)  # at the momentary dwell itself rounding may leave a back-step
     return bracketed_root(lambda frame: measure(family.drive(frame)) - target, quiet, steep, ends=ends)
+
+
+def filling(family: Family, tolerance: float) -> float | None:
+    """The frame whose back-step fills the band of a tolerance: the dwell is longest; None where none steps back so far.
+
+    Parameters
+        tolerance : float [rad] - to either side
+    """
+    if back_step_of(family.drive(stepping(family)[1])) < 2.0 * tolerance:
+        return None
+    return solved(family, back_step_of, 2.0 * tolerance, f"a tolerance of {math.degrees(tolerance):.9g} deg", 0.5)
 
 
 def _never(family: Family) -> str:

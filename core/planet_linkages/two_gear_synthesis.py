@@ -155,10 +155,14 @@ class DwellSynthesis(Synthesis):
         self._refuse_wide_band()
         with at_key("dwell.tolerance" if self.window is None else "dwell.window"):
             if self.window is None:
-                return self._frame_of_band(self._aimed_at)
+                return self._filled_frame()
             self._refuse_even_motion(self.window)
             words = f"a window of {self._request.window:g} deg"
-            frame = kernel.solved(self.family, kernel.window_of, self.window, words)
+            try:
+                frame = kernel.solved(self.family, kernel.window_of, self.window, words)
+            except NoSolution:
+                self._refuse_long_window(self.window)
+                raise
             self._refuse_narrow_band(0.5 * kernel.back_step_of(self.family.drive(frame)))
             return frame
 
@@ -168,9 +172,13 @@ class DwellSynthesis(Synthesis):
         assert tolerance is not None
         return tolerance * (1.0 - (_MARGIN if self._request.margin is None else self._request.margin))
 
-    def _frame_of_band(self, tolerance: float) -> float:
-        words = f"a back-step of twice the tolerance, {math.degrees(2.0 * tolerance):.6g} deg,"
-        return kernel.solved(self.family, kernel.back_step_of, 2.0 * tolerance, words)
+    def _filled_frame(self) -> float:
+        """The frame whose back-step fills the band but for its margin; the whole band limits the tolerance."""
+        whole, aimed = self.asked_tolerance or 0.0, self._aimed_at
+        words = f"a tolerance of {math.degrees(whole):.9g} deg"
+        most = kernel.back_step_of(self.family.drive(kernel.stepping(self.family)[1]))
+        target, share = (2.0 * whole, 0.5) if 2.0 * whole > most else (2.0 * aimed, 0.5 * whole / aimed)
+        return kernel.solved(self.family, kernel.back_step_of, target, words, share)
 
     @property
     def _mean(self) -> float:
@@ -194,19 +202,26 @@ class DwellSynthesis(Synthesis):
                 "ask for a longer window or a smaller tolerance"
             )
 
-    def _refuse_narrow_band(self, least: float) -> None:
-        band = self.asked_tolerance
-        if band is None or least <= band:
+    def _refuse_long_window(self, window: float) -> None:
+        """A window beyond the family is refused by the longest within the tolerance, where that is shorter yet."""
+        band, longest = self.asked_tolerance, self.window_limit
+        if band is None or longest is None or longest >= window:
             return
-        longest = safely_below(math.degrees(self._longest(band)))
+        raise NoSolution(
+            f"the output cannot stay within +-{math.degrees(band):.9g} deg over {self._request.window:g} deg with "
+            f"these gears and links: at most over {safely_below(math.degrees(longest))} deg; ask for that"
+        )
+
+    def _refuse_narrow_band(self, least: float) -> None:
+        band, limit = self.asked_tolerance, self.window_limit
+        if band is None or limit is None or least <= band:
+            return
+        longest = safely_below(math.degrees(limit))
         raise NoSolution(
             f"the output cannot stay within +-{math.degrees(band):.9g} deg over {self._request.window:g} deg with "
             f"these gears and links: at most over {longest} deg, or within +-{safely_above(math.degrees(least))} deg; "
             "ask for one of these"
         )
-
-    def _longest(self, band: float) -> float:
-        return kernel.window_of(self.family.drive(self._frame_of_band(band)))
 
     # What is reached
 
@@ -235,14 +250,16 @@ class DwellSynthesis(Synthesis):
 
     @cached_property
     def window_limit(self) -> float | None:
-        """Longest window that these gears and links reach at the asked tolerance [rad]."""
-        return None if self.asked_tolerance is None else self._longest(self.asked_tolerance)
+        """Longest window of these gears and links at the asked tolerance [rad], where a back-step fills its band."""
+        filled = None if self.asked_tolerance is None else kernel.filling(self.family, self.asked_tolerance)
+        return None if filled is None else kernel.window_of(self.family.drive(filled))
 
     @cached_property
     def frame_length_interval(self) -> list[float] | None:
         """Frames [mm] between which window and tolerance are met.
 
-        At one end the back-step fills the band, at the other the window is just as long as asked.
+        At one end the back-step fills the band or the crank turns just so, at the other the window is just as long as
+        asked.
         """
         window, band = self.window, self.asked_tolerance
         if window is None or band is None:
@@ -252,7 +269,7 @@ class DwellSynthesis(Synthesis):
         def spare(other: float) -> float:
             return kernel.tolerance_dwell(family.drive(other), band).crank_angle - window
 
-        filled, far = self._frame_of_band(band), kernel.quiet_end(family)
+        filled, far = kernel.filling(family, band) or kernel.stepping(family)[1], kernel.quiet_end(family)
         ends = spare(frame), spare(far)
         if ends[1] >= 0.0:
             return sorted((filled, far))

@@ -12,7 +12,7 @@ from gearlink.core.linkages.band_dwell import ToleranceDwell
 from gearlink.core.linkages.checks import dwell_edge_check, dwell_window_check
 from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.numerics.roots import bracketed_root
-from gearlink.core.report import Check, safely_below
+from gearlink.core.report import Check, safely_above, safely_below
 from gearlink.core.results import cached_property
 from gearlink.core.three_gear.codes import BACK_STEP
 from gearlink.core.three_gear.dwell.momentary_dwell import wrap
@@ -112,7 +112,7 @@ class DwellSynthesis(BackStepFamily):
 
     def in_family(self, family: Family, train: GearTrain) -> FourBar:
         """phi13, the window of equal ripple, or the back-step that fills the band: the root of the one unknown."""
-        from gearlink.core.three_gear.synthesis.families import back_step_of, dwell_angle_of, ripple, solved, window_of
+        from gearlink.core.three_gear.synthesis.families import dwell_angle_of, ripple, solved, window_of
 
         request = self._request
         if request.angle is not None:
@@ -121,15 +121,28 @@ class DwellSynthesis(BackStepFamily):
                 return solved(family, dwell_angle_of(train), math.radians(request.angle), words)
         with at_key(self._key()):
             if self.window is None:
-                words = f"a back-step of twice the tolerance, {math.degrees(2.0 * self._aimed_at()):.6g} deg,"
-                return solved(family, back_step_of(train), 2.0 * self._aimed_at(), words)
+                return self._fills(family, train)
             self._refuse_even_motion(abs(train.ratio))
             if self.spec.gears.idler is None:
                 self._refuse_short_reach(family, train)
             words = f"a window of {request.window:g} deg"
-            linkage = solved(family, window_of(train), self.window, words)
+            try:
+                linkage = solved(family, window_of(train), self.window, words)
+            except NoSolution:
+                self._refuse_short_reach(family, train)  # which names the longest within the tolerance
+                raise
             self._refuse_narrow_band(family, train, ripple(linkage, train).tolerance)
             return linkage
+
+    def _fills(self, family: Family, train: GearTrain) -> FourBar:
+        """The linkage whose back-step fills the band but for its margin; the whole band limits the tolerance."""
+        from gearlink.core.three_gear.synthesis.families import back_step_of, solved
+
+        whole, aimed = self.asked_tolerance or 0.0, self._aimed_at()
+        words = f"a tolerance of {math.degrees(whole):.9g} deg"
+        most = back_step_of(train)(family.linkage(family.stepping()[1]))
+        target, share = (2.0 * whole, 0.5) if 2.0 * whole > most else (2.0 * aimed, 0.5 * whole / aimed)
+        return solved(family, back_step_of(train), target, words, share)
 
     def _aimed_at(self) -> float:
         tolerance = self.asked_tolerance
@@ -149,29 +162,37 @@ class DwellSynthesis(BackStepFamily):
         band, window = self._band, self.window
         if band is None or window is None:
             return
-        from gearlink.core.three_gear.synthesis.families import back_step_of, ripple, solved
+        from gearlink.core.three_gear.synthesis.families import filling, ripple
 
         try:
-            longest = ripple(solved(family, back_step_of(train), 2.0 * band, "this tolerance"), train).crank_angle
+            filled = filling(family, train, band)
         except NoSolution:
-            return  # no band of this family is as wide
+            return  # every back-step of this family is wider
+        if filled is None:
+            return
+        longest = ripple(filled, train).crank_angle
         if longest < window * (1.0 - _ROUNDING):
+            remedy = "; ask for that"
+            if self.spec.gears.idler is None:  # the least one: the limits are not looked at yet
+                remedy = f", with an idler of {train.idler:g} teeth where the limits allow it; ask for less"
             raise NoSolution(
                 f"the output cannot stay within +-{math.degrees(band):.9g} deg over {self._request.window:g} deg with "
-                f"these gears: at most over {math.degrees(longest):.5g} deg; ask for that"
+                f"these gears: at most over {safely_below(math.degrees(longest))} deg{remedy}"
             )
 
     def _refuse_narrow_band(self, family: Family, train: GearTrain, least: float) -> None:
         band = self._band
         if band is None or least <= band:
             return
-        from gearlink.core.three_gear.synthesis.families import back_step_of, ripple, solved
+        from gearlink.core.three_gear.synthesis.families import filling, ripple
 
-        longest = ripple(solved(family, back_step_of(train), 2.0 * band, "this tolerance"), train).crank_angle
+        filled = filling(family, train, band)
+        assert filled is not None  # a back-step of twice the least is wider than the band
+        longest = ripple(filled, train).crank_angle
         raise NoSolution(
             f"the output cannot stay within +-{math.degrees(band):.9g} deg over {self._request.window:g} deg with "
-            f"these gears: at most over {math.degrees(longest):.5g} deg, or within +-{math.degrees(least):.5g} deg; "
-            "ask for one of these"
+            f"these gears: at most over {safely_below(math.degrees(longest))} deg, or within "
+            f"+-{safely_above(math.degrees(least))} deg; ask for one of these"
         )
 
     def chosen_idler(self) -> int:
@@ -202,7 +223,7 @@ class DwellSynthesis(BackStepFamily):
             return ""
         assert limit is not None
         return (
-            f"; within the limits the output stays within +-{math.degrees(self._band):.9g} deg over at most "
+            f"; within the limits the output stays within +-{math.degrees(self._band):.9g} deg over "
             f"{safely_below(0.996 * math.degrees(limit))} deg (idler {idler})"
         )
 
@@ -267,7 +288,7 @@ class DwellSynthesis(BackStepFamily):
 
     @cached_property
     def window_limit(self) -> float | None:
-        """Longest window that these gears reach at the asked tolerance [rad]."""
+        """Longest window that these gears reach at the asked tolerance [rad], where a back-step fills its band."""
         band = self._band
         if band is None:
             return None
@@ -276,10 +297,10 @@ class DwellSynthesis(BackStepFamily):
 
             with at_key(self._key()):
                 return window_dwell.longest_window(self.i3, band)
-        from gearlink.core.three_gear.synthesis.families import back_step_of, ripple, solved
+        from gearlink.core.three_gear.synthesis.families import filling, ripple
 
-        family = self._family(self.idler_teeth)
-        return ripple(solved(family, back_step_of(self.train), 2.0 * band, "this tolerance"), self.train).crank_angle
+        filled = filling(self._family(self.idler_teeth), self.train, band)
+        return None if filled is None else ripple(filled, self.train).crank_angle
 
     @cached_property
     def frame_ratio_interval(self) -> list[float] | None:
@@ -297,14 +318,14 @@ class DwellSynthesis(BackStepFamily):
     def frame_length_interval(self) -> list[float] | None:
         """Frames [mm] between which this crank meets window and tolerance.
 
-        At the one the back-step fills the band (the longer one, but with a ring gear round the train), at the other the
-        window is just as long as asked.
+        At the one the back-step fills the band or the crank turns just so (the longer one, but with a ring gear round
+        the train), at the other the window is just as long as asked.
         """
         window, band = self.window, self._band
         if window is None or band is None:
             return None
         from gearlink.core.three_gear.dwell.tolerance_dwell import tolerance_dwell
-        from gearlink.core.three_gear.synthesis.families import back_step_of, solved
+        from gearlink.core.three_gear.synthesis.families import filling
 
         links, train = self.linkage, self.train
         radii = self._radii(self.idler_teeth)
@@ -313,7 +334,7 @@ class DwellSynthesis(BackStepFamily):
         def spare(frame: float) -> float:
             return tolerance_dwell(family.linkage(frame), train, band).crank_angle - window
 
-        filled = solved(family, back_step_of(train), 2.0 * band, "this tolerance").frame
+        filled = (filling(family, train, band) or family.linkage(family.stepping()[1])).frame
         end = family.ends()[0]
         ends = spare(end), spare(links.frame)
         if ends[0] >= 0.0:

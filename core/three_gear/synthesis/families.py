@@ -165,13 +165,16 @@ def balanced(r1: float, r3: float, r5: float, assembly: int = 1) -> Family:
         return Family(linkage, 0.0, None, min(b, c), error.message)
 
 
-def solved(family: Family, measure: Callable[[FourBar], float], target: float, what: str) -> FourBar:
+def solved(
+    family: Family, measure: Callable[[FourBar], float], target: float, what: str, share: float = 1.0
+) -> FourBar:
     """The linkage of a family whose output steps back and whose rising measure meets a target.
 
     Parameters
         measure : of a back-step [rad], such as `window_of`; rises along the family
         target : float [rad]
         what : str - the request in words, for a refusal
+        share : float - of the target that the words speak of: a tolerance is half a back-step
     Raises
         NoSolution - for a target beyond the family, naming its limits
     """
@@ -180,11 +183,26 @@ def solved(family: Family, measure: Callable[[FourBar], float], target: float, w
     if most <= 0.0:
         raise NoSolution(f"{what} cannot be had: no linkage with this crank or frame makes the output step back")
     if not target <= most:
-        raise NoSolution(f"{what} is more than these gears reach, {_deg(most)} deg; ask for less")
+        raise NoSolution(f"{what} is more than these gears reach, {_deg(share * most)} deg; ask for less")
     if not target >= least:
-        raise NoSolution(f"{what} is less than the least of these linkages, {_deg(least)} deg; take a shorter crank")
+        limit = _deg(share * least)
+        raise NoSolution(f"{what} is less than the least of these linkages, {limit} deg; take a shorter crank")
     ends = (least - target, most - target)
     return family.linkage(bracketed_root(lambda x: measure(family.linkage(x)) - target, low, high, ends=ends))
+
+
+def filling(family: Family, train: GearTrain, band: float) -> FourBar | None:
+    """The linkage whose back-step fills a band, of which the dwell is longest; None where none steps back so far.
+
+    Parameters
+        band : float [rad] - the tolerance to either side
+    Raises
+        NoSolution - for a family of which each back-step is wider
+    """
+    measure = back_step_of(train)
+    if 0.0 < measure(family.linkage(family.stepping()[1])) < 2.0 * band:
+        return None
+    return solved(family, measure, 2.0 * band, f"a tolerance of {_deg(band)} deg", 0.5)
 
 
 def with_speed_quotient(family: Family, train: GearTrain, quotient: float) -> FourBar:

@@ -327,6 +327,26 @@ def test_refusals(command: str, data: dict[str, Any], sections: Any, key: str, w
     assert words in refusal.value.message
 
 
+NARROW = {"gears": {"module": 2.0, "planet": 28, "ring": 71}, "links": {"coupler": 73.7, "rocker": 122.9}}
+
+
+def test_a_tolerance_that_no_back_step_fills_is_met_the_better() -> None:
+    """Its limit is that of a tolerance, half the back-step; a window asks for no more than it needs."""
+    with pytest.raises(NoSolution, match=r"a tolerance of 4\.975 deg is more") as refusal:
+        made("dwell", NARROW, dwell={"tolerance": 4.975}).linkage  # noqa: B018
+    limit = float(refusal.value.message.partition("reach, ")[2].split()[0])
+    assert made("dwell", NARROW, dwell={"tolerance": limit}).window_limit is not None
+    with pytest.raises(NoSolution, match="is more"):
+        made("dwell", NARROW, dwell={"tolerance": 1.001 * limit}).linkage  # noqa: B018
+    wide = made("dwell", NARROW, dwell={"window": 65.87, "tolerance": 4.975})
+    assert wide.linkage == made("dwell", NARROW, dwell={"window": 65.87}).linkage
+    assert wide.window_limit is None
+    low, high = wide.frame_length_interval
+    for frame in (low + 1e-6, 0.5 * (low + high), high - 1e-6):
+        dwell = kernel.tolerance_dwell(wide.family.drive(frame), math.radians(4.975))
+        assert dwell.crank_angle > math.radians(65.87), frame
+
+
 def test_frame_and_sections() -> None:
     with pytest.raises(NoSolution, match="leave it out"):
         made("momentary-dwell", SUNS | {"links": {"coupler": 48.0, "rocker": 50.0, "frame": 20.0}}).linkage  # noqa: B018

@@ -200,7 +200,7 @@ def test_what_the_limits_leave_is_named_and_can_be_had() -> None:
     with pytest.raises(NoSolution, match="within the limits") as caught:
         _ = refused.linkage
     assert caught.value.key == "gears.idler"
-    longest = float(caught.value.message.rpartition("at most ")[2].split()[0])
+    longest = float(caught.value.message.rpartition("deg over ")[2].split()[0])
     made = design({**request, "dwell": {"window": longest, "tolerance": 0.5}}, command="synth dwell")
     assert {check.status for check in made.report("synth dwell").checks} <= {"pass", "warn"}
 
@@ -255,3 +255,53 @@ def test_the_longest_window_leaves_one_frame(teeth: int, idler: int, window: flo
     data = {"kind": "three-gear-four-bar", "gears": gears, "dwell": {"window": window, "tolerance": tolerance}}
     made = design(data, command="synth dwell")
     assert made.frame_length_interval == pytest.approx([made.frame_length] * 2, rel=1e-6)
+
+
+RING = {"kind": "three-gear-four-bar", "gears": {"module": 2, "crank": 39, "idler": 50, "output": -163}}
+EXTERNAL = {"kind": "three-gear-four-bar", "gears": {"module": 2, "crank": 47, "idler": 20, "output": 47}}
+
+
+@pytest.mark.parametrize("tolerance", [0.97, 0.98, 3.62])
+def test_a_tolerance_that_no_back_step_fills_is_met_the_better(tolerance: float) -> None:
+    """A back-step of these gears is at most 1.948 deg: up to 0.974 deg the band can be filled."""
+    wide = design({**RING, "dwell": {"window": 44.5, "tolerance": tolerance}}, command="synth dwell")
+    plain = design({**RING, "dwell": {"window": 44.5}}, command="synth dwell")
+    assert wide.linkage == plain.linkage
+    assert (wide.window_limit is None) is (tolerance > 0.974)
+    assert wide.report("synth dwell").ok
+    (just, last), crank = wide.frame_length_interval, wide.crank_length
+    for frame in (just + 1e-6, 0.5 * (just + last), last - 1e-6):
+        links = {"crank": crank, "frame": frame}
+        made = design({**RING, "links": links, "dwell_tolerance": tolerance}, command="analyze")
+        assert made.tolerance_dwell_angle > math.radians(44.5), frame
+
+
+@pytest.mark.parametrize(
+    ("base", "dwell"),
+    [(RING, {}), (EXTERNAL, {"frame": 114.4}), (EXTERNAL, {"crank": 24.0}), (EXTERNAL, {"crank": 24.0, "margin": 0.2})],
+)
+def test_the_limit_of_a_tolerance_is_its_own(base: Any, dwell: Any) -> None:
+    """Not that of the back-step, which is twice as wide; with a margin too it is the tolerance that is asked for."""
+    refused = design({**base, "dwell": {**dwell, "tolerance": 60.0}}, command="synth dwell")
+    with pytest.raises(NoSolution, match="a tolerance of 60 deg is more than these gears reach") as caught:
+        refused.report("synth dwell")
+    assert caught.value.key == "dwell.tolerance"
+    limit = float(caught.value.message.partition("reach, ")[2].split()[0])
+    less = design({**base, "dwell": {**dwell, "tolerance": limit * (1.0 - 1e-6)}}, command="synth dwell")
+    assert less.report("synth dwell").quantities
+    more = design({**base, "dwell": {**dwell, "tolerance": limit * (1.0 + 1e-6)}}, command="synth dwell")
+    with pytest.raises(NoSolution, match="more than these gears reach"):
+        _ = more.linkage
+
+
+def test_a_long_window_is_refused_by_the_longest_within_the_tolerance() -> None:
+    """The family ends with 119.3 deg, at a wider band."""
+    gears = {"module": 2, "crank": 52, "idler": 118, "output": 36}
+    request = {"window": 125.9, "tolerance": 4.781, "crank": 11.8}
+    base = {"kind": RING["kind"], "gears": gears}
+    refused = design({**base, "dwell": request}, command="synth dwell")
+    with pytest.raises(NoSolution, match="at most over") as caught:
+        _ = refused.linkage
+    longest = float(caught.value.message.partition("at most over ")[2].split()[0])
+    made = design({**base, "dwell": {**request, "window": longest}}, command="synth dwell")
+    assert made.tolerance_dwell_angle >= math.radians(longest)
