@@ -40,14 +40,15 @@ _THINNER = tuple(Way((f"allowances.upper[{gear}]", f"allowances.lower[{gear}]"),
 
 
 def _ways(*teeth: Way) -> dict[str, tuple[Way, ...]]:
+    fewer = tuple(Way(way.keys, -way.step) for way in teeth)
     return {
-        "undercut": (*_SHIFTS, *teeth, *_ANGLE),
+        "undercut": (*_SHIFTS, *teeth, *_ANGLE, *fewer),
         "tip-thickness": (*_SHIFTS, _LOWER, *teeth, *_ANGLE),
         "contact-ratio": (*_SHIFTS, up("addendum", step=0.01), *teeth, *_ANGLE),
-        "involute-interference": (*_SHIFTS, _LOWER, *teeth, *_ANGLE),
-        "tooth-form": (*_SHIFTS, _LOWER, *teeth, *_ANGLE),
+        "involute-interference": (*_SHIFTS, _LOWER, *teeth, *_ANGLE, *fewer),
+        "tooth-form": (*_SHIFTS, _LOWER, *teeth, *_ANGLE, *fewer),
         "root-clearance": (up("clearance", step=0.01), *_DEEPER),
-        "fillet-interference": (*_SHIFTS, _LOWER, *teeth, *_DEEPER),
+        "fillet-interference": (*_SHIFTS, _LOWER, *teeth, *_DEEPER, *_ANGLE, *fewer),
         "tip-fouling": (*_SHIFTS, _LOWER, *teeth, *_ANGLE),
         "radial-assembly": (*_SHIFTS, _LOWER, *teeth, *_ANGLE),
         "distance-limits": (down("center_distance_allowance", step=0.001), *_SHIFTS),

@@ -41,6 +41,9 @@ _SWING_TOLERANCE = math.radians(1e-9)
 _TEETH = (up("gears.coupler", step=1), up("gears.output", step=1), up("gears.coupler", "gears.output", step=1))
 _FEWER = (down("gears.coupler", step=1), down("gears.output", step=1))
 _LINKS = either("links.crank", "links.frame", "links.coupler")
+_OF_TEETH = train_ways(2, *_TEETH)
+_CRANK = 10
+"""Trials of a crank that is given, which one that is sought takes as long as."""
 
 
 class GearedRocker(OutputRates, RealSpeed, Meshed):
@@ -82,13 +85,16 @@ class GearedRocker(OutputRates, RealSpeed, Meshed):
     ways = {
         "shaft-clearance": (*SHAFT_WAYS, *_LINKS, *_FEWER, *_TEETH),
         "transmission-angle": (*_LINKS, *_TEETH, *_FEWER),
-        **train_ways(2, *_TEETH),
+        **_OF_TEETH,
+        "backlash": (*_OF_TEETH["backlash"], *either("links.rocker", step=0.01)),
     }
 
+    guided = True
+
     @property
-    def trials(self) -> int:
-        """A crank that is sought for a swing takes nearly a tenth of a second each time."""
-        return 150 if self.spec.target is None else 10
+    def effort(self) -> int:
+        """A crank that is sought for a swing takes ten milliseconds."""
+        return _CRANK if self.spec.target is not None and "crank_length" in self.__dict__ else 0
 
     def completion(self) -> Iterator[Found]:
         """The crank in place of the target."""

@@ -68,6 +68,8 @@ class Synthesis(TwoGearFourBar):
         known = tuple(name for name in found if name in self.quantity_names())
         return table(self, Sought(command, keys, rows, known))
 
+    guided = True
+
     @property
     def trials(self) -> int:
         """A frame that is sought for a back-step takes nearly a tenth of a second each time."""

@@ -29,7 +29,7 @@ _COSTLY = 4
 """Trials that are costly, of a design that is not."""
 _FINDINGS, _REST = 4, 10
 """Trials of all findings together are as many as so many findings have; then each has its share of a tenth."""
-_ELSEWHERE, _OF_WAY = 4, 3
+_ELSEWHERE, _OF_WAY = 3, 3
 """Trials of commands that another class serves, for all findings together; values of one way that are worth one."""
 
 
@@ -137,11 +137,13 @@ class Bench:
         return next(self._all(found.name, good, index), ())
 
     def of_refusal(self, error: NoSolution) -> Iterator[Remedy]:
-        """Remedies of a design that is refused: nothing of what its file asks for is refused then."""
-        self._left = self._design.trials - self._design.effort
-        ways = refusal_ways(self._design.given, error.key)
-        yield from (remedy for remedy in self._closed(REFUSAL) if self._stands(remedy))
-        yield from (remedy for way in ways for remedy in islice(self._along(way, self._stands), 1))
+        """Remedies of a design that is refused: nothing of what its file asks for is refused then, and first those with
+        which nothing of it fails."""
+        ways = tuple(refusal_ways(self._design.given, error.key))
+        for good in (self._holds, self._stands):
+            self._left = self._design.trials - self._design.effort
+            yield from (remedy for remedy in self._closed(REFUSAL) if good(remedy))
+            yield from (remedy for way in ways for remedy in islice(self._along(way, good), 1))
 
     def _all(self, name: str, good: Callable[[Remedy], bool], index: int) -> Iterator[Remedy]:
         """The remedies of a finding that are good, the best first."""
@@ -220,8 +222,8 @@ class Bench:
                 yield remedy
 
     def _back(self, way: Way, old: list[float], bad: int, found: int, good: Callable[[Remedy], bool]) -> Remedy:
-        """The nearest that is good, by halving between one that is not and one that is."""
-        while found - bad > 1:
+        """The nearest that is good, by halving between one that is not and one that is, for half as many trials."""
+        while found - bad > 1 and 2 * self._left > -self._design.trials:
             middle = (bad + found) // 2
             bad, found = (bad, middle) if good(way.remedy(old, middle)) else (middle, found)
         return way.remedy(old, found)
@@ -257,6 +259,10 @@ class Bench:
     def _stands(self, remedy: Remedy) -> bool:
         trial = self._trial(remedy)
         return trial is not None and all(map(trial.stands, self._commands))
+
+    def _holds(self, remedy: Remedy) -> bool:
+        trial = self._trial(remedy)
+        return trial is not None and all(trial.holds(command) for command in self._commands)
 
     def _grade(self, remedy: Remedy, name: str, index: int) -> int:
         """What a remedy makes of a finding, and leaves of the commands of its class."""

@@ -16,7 +16,8 @@ PASSES, HOLDS = 2, 1
 """Grades of a change: what is to pass passes and nothing is worse; something warns. 0: something fails."""
 Ranks = tuple[int, ...]
 """How bad the findings of a check are."""
-_RANK = {"pass": 0, "warn": 1, "fail": 2}
+_FAILS = 2
+_RANK = {"pass": 0, "warn": 1, "fail": _FAILS}
 
 
 class Standing:
@@ -75,6 +76,10 @@ class Standing:
         except NoSolution:
             return False
         return self.design is not None
+
+    def holds(self, command: str) -> bool:
+        """Whether it is not refused, and nothing of the command fails."""
+        return self.stands(command) and all(max(self.ranks(name), default=0) < _FAILS for name in self.checks(command))
 
     def checks(self, command: str) -> tuple[str, ...]:
         """The checks that a command shows."""

@@ -57,6 +57,7 @@ class SwingGripper(WithExtremes, Design):
     extreme_names = _EXTREMES
     motion_extremes: dict[str, Any] = placed("motion.extremes")
     trials = 20
+    guided = True
     candidates, ways_of = remedies.candidates, remedies.ways_of
 
     # Parts

@@ -19,6 +19,7 @@ _RESERVE = 1.1
 _FINE = 3
 """Digits behind the point of what places the handover."""
 _LINKAGE = (*either("output_direction", step=0.5), *either("links.coupler", "links.output", "links.input"))
+_ROLLERS = either("cam.roller.angle", "cam.return_roller.angle", step=1.0)
 _WAYS = {
     "transmission-angle": _LINKAGE,
     "conditioning": _LINKAGE,
@@ -26,7 +27,10 @@ _WAYS = {
     "pressure-angle": (
         shared("phases.return", "phases.near_dwell", step=1.0)[0],
         shared("phases.decelerate", "phases.far_dwell", step=1.0)[0],
+        *_ROLLERS,
+        *_LINKAGE,
     ),
+    "shaft-clearance": (*_ROLLERS, down("cam.return_roller.radius"), down("cam.roller.radius")),
     "lift-off": either("cam.return_roller.angle", step=1.0),
 }
 _QUIET = {"accelerate": "velocity-345", "decelerate": "velocity-345", "return": "modified-sine"}

@@ -270,11 +270,12 @@ class WideSwingDesign(Design):
     check_profile_planes = cycle_checks.profile_planes
 
     ways = remedies.WAYS
+    guided = True
     requirements = Design.requirements | {"swing", "operating_speed_min"}
 
     @property
     def trials(self) -> int:
-        """A slider's cam takes a quarter of a second to judge, a contour of a whole turn a tenth, a rocker's less."""
+        """A slider's cam takes a tenth of a second to judge, a contour of a whole turn half of it, others less."""
         return 6 if self.spec.slider is not None else 20 if self.spec.cycle is not None else 40
 
     candidates, varied = remedies.candidates, remedies.varied

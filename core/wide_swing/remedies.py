@@ -27,6 +27,7 @@ _SAME_ANGLE = 0.011
 _CYCLE = down("cycle_angle", step=_DEGREES)
 _ROLLER = (down("cam.roller_radius"), up("cam.center_distance"))
 WAYS = {
+    "pressure-angle": (*either("slider.middle_angle", step=1.0), down("slider.crank")),
     "unloader-turnability": (up("unloader.pivot_ratio", step=_RATIO), down("swing", step=_DEGREES)),
     "force-closure": (up("unloader.stretch_ratio"),),
     "profile-exists": (_CYCLE, down("drive.crank"), up("swing", step=_DEGREES)),

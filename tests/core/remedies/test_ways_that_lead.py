@@ -121,3 +121,28 @@ def test_loads_of_many_turns_are_not_followed_for_a_remedy() -> None:
     for name in ("transmission-angle", "undercut"):
         failing(made, "analyze", name)
     assert all("machine" not in vars(each.design) for each in bench._others.values() if each.design is not None)
+
+
+@pytest.mark.parametrize(
+    ("worked", "command", "name", "keys"),
+    [
+        ("wide_lever", "analyze", "transmission-angle", {"gears__coupler": 16, "links__frame": 90}),
+        (
+            "swing_gripper",
+            "gripper",
+            "shaft-clearance",
+            {"cam__center": [30, -30], "cam__return_roller__radius": 100.0, "cam__shaft_radius": 40},
+        ),
+        pytest.param(
+            *("wide_swing_slider_cam", "swing", "pressure-angle", {"slider__middle_angle": 55}),
+            marks=pytest.mark.slow,
+        ),
+    ],
+)
+def test_few_trials_that_lead_to_the_limit_suffice(worked: str, command: str, name: str, keys: dict[str, Any]) -> None:
+    """A crank that is sought for its swing, rollers of a gripper, the arm of a slider."""
+    (check,) = failing(factory.design(worked, command=command, **keys), command, name)
+    assert check.remedy
+    after = factory.design(worked, command=command, **{**keys, **{path_of(key): value for key, value in check.remedy}})
+    after.require(command)
+    assert all(found.status != "fail" for found in after.check(name))
