@@ -70,12 +70,22 @@ def _speed_gap(design: FlatbedPress) -> tuple[float, float]:
 
 
 def sync_length(design: FlatbedPress) -> Iterator[Check]:
-    """GL502: the zone covers the print, and the print finds room on the cylinder."""
+    """GL502: the zone covers the print, ends before the bed turns back, and the print finds room on the cylinder."""
     yield _zone_length(design)
+    yield from _turning_back(design)
     asked, room = design.spec.sync.print_length, math.tau * design.spec.cylinder.radius
     if asked > room:
         text = f"the print of {asked:g} mm is longer than the cylinder's circumference, {room:.6g} mm: print less"
         yield codes.SYNC_LENGTH.check("fail", f"{text}, or enlarge cylinder.radius", room, asked, "mm")
+
+
+def _turning_back(design: FlatbedPress) -> Iterator[Check]:
+    motion = design.motion
+    turning = motion.bed_turns_back
+    if turning is not None:
+        at, end = (math.degrees(angle) for angle in (turning, motion.sync_end))
+        text = f"the bed turns back at input angle {at:.6g} deg, within the zone, which ends at {end:.6g} deg: end it"
+        yield codes.SYNC_LENGTH.check("fail", f"{text} before (sync.length, or sync.end)", at, end, "deg")
 
 
 def _zone_length(design: FlatbedPress) -> Check:

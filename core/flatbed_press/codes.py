@@ -31,7 +31,8 @@ SYNC_SPEED = Rule(
 SYNC_LENGTH = Rule(
     "GL502",
     "synchronous zone shorter than the print",
-    "The cylinder travels less in the synchronous zone than the print is long, or is shorter about than the print.",
+    "The cylinder travels less in the synchronous zone than the print is long, or is shorter about than the print; or "
+    "the bed turns back within the zone.",
     "The rest of the print would be smeared; a longer print than the circumference would fall on its own beginning.",
     "Set sync.length to the print length and a margin; enlarge cylinder.radius.",
     "R i (theta_MN(phi_s) - theta_MN(phi_e)) >= sync.print_length, 2 pi R >= sync.print_length",

@@ -97,6 +97,9 @@ def _rod(design: FlatbedPress) -> Iterator[Remedy]:
 def _length(design: FlatbedPress) -> Iterator[Remedy]:
     """A zone as long as the print, by its length or its end; last a print that fits into zone and circumference."""
     sync, motion = design.spec.sync, design.motion
+    if motion.bed_turns_back is not None:
+        most = motion.cylinder.travel(motion.bed_turns_back).value - motion.cylinder.travel(motion.sync_start).value
+        yield ("sync.length", at_most(float(most))), ("sync.end", None)
     if sync.end is None:
         yield (("sync.length", sync.print_length),)
     else:

@@ -364,6 +364,19 @@ def test_a_print_longer_than_the_cylinder_is_round_falls_on_itself(radius: float
     assert [check.code for check in found] == ["GL502"] * len(found)
 
 
+@pytest.mark.parametrize("start", [None, 20.0, 100.0, 350.0])
+@pytest.mark.parametrize("length", [300.0, 420.0, 540.0, 569.0, 570.0, 700.0])
+def test_a_zone_in_which_the_bed_turns_back_fails(length: float, start: float | None) -> None:
+    """Second way: the sign of the bed's velocity at 20000 places of the zone."""
+    made = factory.design("ty460", cam=None, sync={"length": length} | ({} if start is None else {"start": start}))
+    zone = np.linspace(made.motion.sync_start, made.motion.sync_end, 20001)[1:-1]
+    turns = np.any(np.diff(np.sign(made.bed.travel(zone, 1).first)) != 0)
+    assert [check.status for check in made.check("sync-length")] == (["pass", "fail"] if turns else ["pass"])
+    if turns:
+        place = zone[np.argmax(np.diff(np.sign(made.bed.travel(zone, 1).first)) != 0)]
+        assert made.check("sync-length")[1].value == pytest.approx(math.degrees(place), abs=0.05)
+
+
 # Nothing but what is asked for
 
 
