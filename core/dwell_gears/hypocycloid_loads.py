@@ -12,7 +12,7 @@ from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
     from gearlink.core.dwell_gears.hypocycloid_spec import HypocycloidDwellSpec
-    from gearlink.core.loads.mechanism import Connection, Mechanism
+    from gearlink.core.loads.forces.mechanism import Connection, Mechanism
     from gearlink.core.numerics.arrays import Reals
 
 _MM = 1e-3
@@ -41,8 +41,8 @@ class HypocycloidDwellLoads(LoadsDesign):
 
     def kinematics(self, phi: Reals) -> Mechanism:
         """The four links at carrier angles, the ring's centre at 0."""
-        from gearlink.core.loads.kinematics import fixed, slider, standing, steady
-        from gearlink.core.loads.mechanism import FRAME, Guide, Link, Mechanism, Mesh, Pin
+        from gearlink.core.loads.forces.kinematics import fixed, slider, standing, steady
+        from gearlink.core.loads.forces.mechanism import FRAME, Guide, Link, Mechanism, Mesh, Pin
 
         geometry = self.design.slider
         r, n = geometry.planet_radius * _MM, geometry.cusps

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 from gearlink.core.errors import MissingSection
 from gearlink.core.flatbed_press.design import FlatbedPress
-from gearlink.core.loads.cam_checks import CAM_CHECKS
-from gearlink.core.loads.cam_design import CONTACT, CamLoadsDesign
+from gearlink.core.loads.cams.checks import CAM_CHECKS
+from gearlink.core.loads.cams.design import CONTACT, CamLoadsDesign
 from gearlink.core.loads.design import loads_outline
 from gearlink.core.results import cached_property
 
@@ -24,9 +24,9 @@ if TYPE_CHECKING:
     from gearlink.core.flatbed_press.loads_spec import PressLoads as Section
     from gearlink.core.flatbed_press.spec import FlatbedPressSpec
     from gearlink.core.loads.base import Wanted
-    from gearlink.core.loads.cam_contact import RollerOnCam
-    from gearlink.core.loads.kinematics import Turn
-    from gearlink.core.loads.mechanism import Connection, Link, Mechanism
+    from gearlink.core.loads.cams.contact import RollerOnCam
+    from gearlink.core.loads.forces.kinematics import Turn
+    from gearlink.core.loads.forces.mechanism import Connection, Link, Mechanism
     from gearlink.core.numerics.arrays import Reals
 
 _MM = 1e-3
@@ -111,7 +111,7 @@ class PressLoads(CamLoadsDesign):
 
     def kinematics(self, phi: Reals) -> Mechanism:
         """The twelve links at input angles."""
-        from gearlink.core.loads.mechanism import Mechanism
+        from gearlink.core.loads.forces.mechanism import Mechanism
 
         if self.spec.cam is None:
             raise MissingSection(
@@ -130,8 +130,8 @@ class PressLoads(CamLoadsDesign):
     def _bed_chain(self, phi: Reals) -> tuple[dict[str, Link], Travel]:
         """The links from gear 2 to the bed, and the lift of the follower."""
         from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
-        from gearlink.core.loads.kinematics import Point, Turn, carried, fixed, slider, standing, steady
-        from gearlink.core.loads.mechanism import Link
+        from gearlink.core.loads.forces.kinematics import Point, Turn, carried, fixed, slider, standing, steady
+        from gearlink.core.loads.forces.mechanism import Link
 
         bed = self.design.bed
         four = bed.linkage
@@ -166,7 +166,7 @@ class PressLoads(CamLoadsDesign):
         return links, cam
 
     def _bed_joints(self, links: dict[str, Link]) -> list[Connection]:
-        from gearlink.core.loads.mechanism import FRAME, Guide, Pin, Rack
+        from gearlink.core.loads.forces.mechanism import FRAME, Guide, Pin, Rack
 
         four = self.design.bed.linkage
         f, tangent, r8 = links["carriage"].origin.value, math.tan(_RACK_ANGLE), self.pinion_radius
@@ -187,7 +187,7 @@ class PressLoads(CamLoadsDesign):
         """The roller of the rack's follower on the cams, one force: positive on the main cam, negative on the other."""
         import numpy as np
 
-        from gearlink.core.loads.mechanism import Contact
+        from gearlink.core.loads.forces.mechanism import Contact
 
         rho = (self.design.cams.base_radius + cam.value) * _MM
         normal = (rho + 1j * cam.first * _MM) * 1j / np.hypot(rho, cam.first * _MM)
@@ -209,7 +209,7 @@ class PressLoads(CamLoadsDesign):
 
     def roller_at(self, name: str, phi: Reals) -> RollerOnCam:
         """A roller of the rack's follower from the cam axis, over the angle turned by the cams."""
-        from gearlink.core.loads.cam_contact import RollerOnCam
+        from gearlink.core.loads.cams.contact import RollerOnCam
 
         cams, links = self.design.cams, self.machine.at(phi)
         cam = links.once("lift", lambda: self.lift(phi, links.links["CDE"].turn))
@@ -220,7 +220,7 @@ class PressLoads(CamLoadsDesign):
 
     def _cam_turn(self, phi: Reals) -> Turn:
         """Angle turned by the cams."""
-        from gearlink.core.loads.kinematics import from_start
+        from gearlink.core.loads.forces.kinematics import from_start
 
         return from_start(self.machine.at(phi).links["CDE"].turn, self.design.bed.cam_angle_start)
 
@@ -228,7 +228,7 @@ class PressLoads(CamLoadsDesign):
         """Out of the reactions: the main cam pushes, the return cam pulls back; with a preload both press."""
         import numpy as np
 
-        from gearlink.core.loads.cam_contact import positive_drive
+        from gearlink.core.loads.cams.contact import positive_drive
 
         net = self.side_force(phi)
         if not self._preload:
@@ -297,8 +297,8 @@ class PressLoads(CamLoadsDesign):
 
     def _cylinder_chain(self, links: dict[str, Link], phi: Reals) -> list[Connection]:
         from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
-        from gearlink.core.loads.kinematics import Turn, fixed, from_start, mixed, steady
-        from gearlink.core.loads.mechanism import FRAME, Link, Mesh, Pin
+        from gearlink.core.loads.forces.kinematics import Turn, fixed, from_start, mixed, steady
+        from gearlink.core.loads.forces.mechanism import FRAME, Link, Mesh, Pin
 
         chain, pair = self.design.cylinder, self.design.gear_pair
         four = chain.linkage

@@ -18,7 +18,7 @@ from gearlink.core.results import cached_property
 if TYPE_CHECKING:
     from gearlink.core.gears.mesh.pair import GearPair
     from gearlink.core.gears.spec import GearPairSpec
-    from gearlink.core.loads.mechanism import Mechanism
+    from gearlink.core.loads.forces.mechanism import Mechanism
     from gearlink.core.numerics.arrays import Reals
 
 _MM = 1e-3
@@ -72,8 +72,8 @@ class GearPairLoads(LoadsDesign):
 
     def kinematics(self, phi: Reals) -> Mechanism:
         """Both gears at angles of gear 1."""
-        from gearlink.core.loads.kinematics import fixed, steady
-        from gearlink.core.loads.mechanism import FRAME, Link, Mechanism, Mesh, Pin
+        from gearlink.core.loads.forces.kinematics import fixed, steady
+        from gearlink.core.loads.forces.mechanism import FRAME, Link, Mechanism, Mesh, Pin
 
         pair = self.pair
         r1, r2 = (radius * _MM for radius in pair.working_radius)

@@ -12,10 +12,10 @@ from gearlink.core.errors import GearlinkError, MissingSection, NoSolution
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
-    from gearlink.core.loads.dynamics import Mass
     from gearlink.core.loads.flywheel import Energy
+    from gearlink.core.loads.forces.dynamics import Mass
+    from gearlink.core.loads.forces.mechanism import Connection, Mechanism
     from gearlink.core.loads.machine import Machine
-    from gearlink.core.loads.mechanism import Connection, Mechanism
     from gearlink.core.loads.running import Running
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.numerics.extremes import Extreme
@@ -133,7 +133,7 @@ class LoadsBase(Design):
     @cached_property
     def masses(self) -> dict[str, Mass]:
         """Masses by link, those of the file."""
-        from gearlink.core.loads.sources import mass_of
+        from gearlink.core.loads.forces.sources import mass_of
         from gearlink.core.loads.spec import of_body
 
         bodies = {name: of_body(self.section.links, name) for name in self.own_links}
@@ -147,8 +147,8 @@ class LoadsBase(Design):
     @cached_property
     def machine(self) -> Machine:
         """Everything together."""
+        from gearlink.core.loads.forces.sources import Sources, vector
         from gearlink.core.loads.machine import Machine, free_what_others_kept
-        from gearlink.core.loads.sources import Sources, vector
 
         free_what_others_kept()
         sources = Sources(self.section, self.own_links, self.sliding)
@@ -176,8 +176,8 @@ class LoadsBase(Design):
         given = self.section.friction
         if given is None:
             return None
-        from gearlink.core.loads.friction import Coefficients, require_coefficients
-        from gearlink.core.loads.mechanism import Guide, Mesh, Pin, Rack
+        from gearlink.core.loads.forces.friction import Coefficients, require_coefficients
+        from gearlink.core.loads.forces.mechanism import Guide, Mesh, Pin, Rack
 
         self._require_joints("friction.joints", given.joints, Pin, Guide, Mesh, Rack)
         require_coefficients(given, self._connections)
@@ -217,7 +217,7 @@ class LoadsBase(Design):
     def _unless_locked(self, find: Callable[[], Any], otherwise: Any) -> Any:
         if self.section.friction is None:
             return find()
-        from gearlink.core.loads.rubbing import SelfLocking
+        from gearlink.core.loads.forces.rubbing import SelfLocking
 
         try:
             return find()
@@ -233,7 +233,7 @@ class LoadsBase(Design):
     @cached_property
     def locks_between(self) -> bool:
         """Whether the machine locks itself at angles between those that are looked at first."""
-        from gearlink.core.loads.rubbing import SelfLocking
+        from gearlink.core.loads.forces.rubbing import SelfLocking
 
         try:
             _ = self.torque_range

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.core.loads.mechanism import Pin, ToothDrive, rates
+from gearlink.core.loads.forces.mechanism import Pin, ToothDrive, rates
 from gearlink.core.loads.panels import Panels
 from gearlink.core.loads.reversals import Function, places, places_of
 from gearlink.core.loads.zeros import zeros, zeros_of
@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from gearlink.core.loads.design import LoadsDesign
+    from gearlink.core.loads.forces.mechanism import Mechanism
     from gearlink.core.loads.machine import Machine
-    from gearlink.core.loads.mechanism import Mechanism
     from gearlink.core.loads.spec import Bearing
     from gearlink.core.numerics.arrays import Points, Reals
 

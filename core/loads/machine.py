@@ -16,13 +16,13 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from gearlink.core.loads.dynamics import Applied, Force, Mass, Reactions, Reduced, Torque, reduced
-from gearlink.core.loads.friction import Coefficients, passes_ratio, with_friction
-from gearlink.core.loads.kinematics import TURNING_BACK, dot
-from gearlink.core.loads.mechanism import Coupling, Mechanism, Pin
+from gearlink.core.loads.forces.dynamics import Applied, Force, Mass, Reactions, Reduced, Torque, reduced
+from gearlink.core.loads.forces.friction import Coefficients, passes_ratio, with_friction
+from gearlink.core.loads.forces.kinematics import TURNING_BACK, dot
+from gearlink.core.loads.forces.mechanism import Coupling, Mechanism, Pin
+from gearlink.core.loads.forces.rubbing import LOCKED, LOCKS, SelfLocking
+from gearlink.core.loads.forces.sources import Sources
 from gearlink.core.loads.panels import APART, Panels
-from gearlink.core.loads.rubbing import LOCKED, LOCKS, SelfLocking
-from gearlink.core.loads.sources import Sources
 from gearlink.core.loads.zeros import zeros_of
 from gearlink.core.numerics.arrays import Reals
 

@@ -9,8 +9,8 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.errors import MissingSection, NoSolution
-from gearlink.core.loads.cam_checks import CAM_CHECKS
-from gearlink.core.loads.cam_design import CONTACT, CamLoadsDesign
+from gearlink.core.loads.cams.checks import CAM_CHECKS
+from gearlink.core.loads.cams.design import CONTACT, CamLoadsDesign
 from gearlink.core.loads.design import loads_outline
 from gearlink.core.results import cached_property
 from gearlink.core.swing_gripper.design import SwingGripper
@@ -18,10 +18,10 @@ from gearlink.core.swing_gripper.motion import require
 
 if TYPE_CHECKING:
     from gearlink.core.cams.disc_cam import DiscCam
-    from gearlink.core.loads.cam_contact import RollerOnCam
-    from gearlink.core.loads.dynamics import Force, Mass, Torque
+    from gearlink.core.loads.cams.contact import RollerOnCam
+    from gearlink.core.loads.forces.dynamics import Force, Mass, Torque
+    from gearlink.core.loads.forces.mechanism import Connection, Mechanism
     from gearlink.core.loads.machine import Machine
-    from gearlink.core.loads.mechanism import Connection, Mechanism
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.swing_gripper.loads_spec import GripperLoads as Section
     from gearlink.core.swing_gripper.spec import SwingGripperSpec
@@ -72,7 +72,7 @@ class GripperLoads(CamLoadsDesign):
     @cached_property
     def masses(self) -> dict[str, Mass]:
         """From the section `inertia`."""
-        from gearlink.core.loads.dynamics import Mass
+        from gearlink.core.loads.forces.dynamics import Mass
 
         given = require(self.spec, "inertia", "input, output, coupler, coupler_mass, return_rocker")
         found = {
@@ -95,7 +95,7 @@ class GripperLoads(CamLoadsDesign):
         """The spring presses both rockers to their cams; it turns with them and does no work."""
         import numpy as np
 
-        from gearlink.core.loads.dynamics import Torque
+        from gearlink.core.loads.forces.dynamics import Torque
 
         if self.spec.spring is None:
             return []
@@ -134,7 +134,7 @@ class GripperLoads(CamLoadsDesign):
 
     def roller_at(self, name: str, phi: Reals) -> RollerOnCam:
         """A roller from the cam axis; the cam turns as far as the cylinder."""
-        from gearlink.core.loads.cam_contact import RollerOnCam
+        from gearlink.core.loads.cams.contact import RollerOnCam
 
         cam = self._cam(name)
         path = cam.path(phi, 2)
@@ -174,8 +174,8 @@ class GripperLoads(CamLoadsDesign):
         """The links at cylinder angles, in the machine's frame."""
         import numpy as np
 
-        from gearlink.core.loads.kinematics import Turn, fixed, steady
-        from gearlink.core.loads.mechanism import FRAME, Contact, Link, Mechanism, Pin
+        from gearlink.core.loads.forces.kinematics import Turn, fixed, steady
+        from gearlink.core.loads.forces.mechanism import FRAME, Contact, Link, Mechanism, Pin
 
         if self.spec.cam is None:
             raise MissingSection("`loads` needs the section cam: its rollers carry the forces", key="cam")

@@ -6,9 +6,9 @@ from collections.abc import Mapping
 
 from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
 from gearlink.core.linkages.fourbar.position import FourBar
-from gearlink.core.loads.dynamics import Mass
-from gearlink.core.loads.kinematics import Turn, carried, fixed, steady
-from gearlink.core.loads.mechanism import FRAME, Link, Pin
+from gearlink.core.loads.forces.dynamics import Mass
+from gearlink.core.loads.forces.kinematics import Turn, carried, fixed, steady
+from gearlink.core.loads.forces.mechanism import FRAME, Link, Pin
 from gearlink.core.numerics.arrays import Reals
 
 MM = 1e-3

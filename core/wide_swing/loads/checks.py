@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from gearlink.core.loads import codes, vibration_checks
-from gearlink.core.loads.cam_checks import no_width, pressed_where_undercut
+from gearlink.core.loads.cams.checks import no_width, pressed_where_undercut
 from gearlink.core.remedies.ways import at_least
 from gearlink.core.report import Check
 from gearlink.core.wide_swing.remedies import side_changes, side_words

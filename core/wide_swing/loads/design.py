@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from gearlink.core.design import placed
 from gearlink.core.errors import MissingSection, NoSolution
-from gearlink.core.loads.cam_checks import CAM_CHECKS
+from gearlink.core.loads.cams.checks import CAM_CHECKS
 from gearlink.core.loads.design import LoadsDesign, loads_outline
 from gearlink.core.report import Quantity
 from gearlink.core.results import cached_property
@@ -24,10 +24,10 @@ from gearlink.core.wide_swing.loads import tables as loads_tables
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from gearlink.core.loads.dynamics import Mass
-    from gearlink.core.loads.kinematics import Turn
+    from gearlink.core.loads.forces.dynamics import Mass
+    from gearlink.core.loads.forces.kinematics import Turn
+    from gearlink.core.loads.forces.mechanism import Connection, Link, Mechanism
     from gearlink.core.loads.machine import Machine
-    from gearlink.core.loads.mechanism import Connection, Link, Mechanism
     from gearlink.core.loads.vibrating import Vibrating
     from gearlink.core.numerics.arrays import Points, Reals
     from gearlink.core.report import Remedy
@@ -123,7 +123,7 @@ class WideSwingLoads(LoadsDesign):
     @cached_property
     def masses(self) -> dict[str, Mass]:
         """Rocker and slider of their own sections, and what the file gives the others."""
-        from gearlink.core.loads.dynamics import Mass
+        from gearlink.core.loads.forces.dynamics import Mass
 
         found = super().masses
         if self.spec.inertia:
@@ -228,7 +228,7 @@ class WideSwingLoads(LoadsDesign):
         """The rocker's angle, the centre of the guided roller [m], and the direction in which its cam pushes it."""
         import numpy as np
 
-        from gearlink.core.loads.kinematics import Turn
+        from gearlink.core.loads.forces.kinematics import Turn
 
         motion, rows = self.design.motion, len(share)
         turn, place, normal = np.zeros((3, rows)), *np.zeros((2, rows), dtype=np.complex128)
@@ -248,8 +248,8 @@ class WideSwingLoads(LoadsDesign):
         """Rocker and cams at input angles."""
         import numpy as np
 
-        from gearlink.core.loads.kinematics import fixed
-        from gearlink.core.loads.mechanism import FRAME, Link, Mechanism, Pin, SharedContact
+        from gearlink.core.loads.forces.kinematics import fixed
+        from gearlink.core.loads.forces.mechanism import FRAME, Link, Mechanism, Pin, SharedContact
         from gearlink.core.wide_swing.loads.links import SLIDER_DIRECTION, with_slider
 
         sector, share = self._share(phi)
@@ -279,7 +279,7 @@ class WideSwingLoads(LoadsDesign):
 
     def _driven(self, phi: Reals) -> tuple[dict[str, Link], list[Connection], float, complex]:
         """The cams with what drives them, their pins, the sense of the driven link and its pivot [m]."""
-        from gearlink.core.loads.kinematics import fixed
+        from gearlink.core.loads.forces.kinematics import fixed
         from gearlink.core.wide_swing.cams.outline import middle_of
         from gearlink.core.wide_swing.loads.links import DRIVE_DIRECTION, with_drive, with_shafts
 

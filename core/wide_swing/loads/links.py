@@ -12,15 +12,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gearlink.core.loads.dynamics import Force
-from gearlink.core.loads.kinematics import Point, carried, dyad, fixed, slider, standing, steady
-from gearlink.core.loads.mechanism import FRAME, Connection, Coupling, Guide, Link, Pin
+from gearlink.core.loads.forces.dynamics import Force
+from gearlink.core.loads.forces.kinematics import Point, carried, dyad, fixed, slider, standing, steady
+from gearlink.core.loads.forces.mechanism import FRAME, Connection, Coupling, Guide, Link, Pin
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from gearlink.core.loads.dynamics import Torque
-    from gearlink.core.loads.mechanism import Mechanism
+    from gearlink.core.loads.forces.dynamics import Torque
+    from gearlink.core.loads.forces.mechanism import Mechanism
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.wide_swing.crank_rocker import CrankRockerDrive
     from gearlink.core.wide_swing.loads.design import WideSwingLoads

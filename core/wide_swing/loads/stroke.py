@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from gearlink.core.loads.cam_contact import LineContact, plane_modulus
-from gearlink.core.loads.kinematics import TURNING_BACK
+from gearlink.core.loads.cams.contact import LineContact, plane_modulus
+from gearlink.core.loads.forces.kinematics import TURNING_BACK
 from gearlink.core.numerics.extremes import Extreme, extremes_over, maximum_over, minimum_over
 from gearlink.core.wide_swing.cams.outline import middle_of
 from gearlink.core.wide_swing.loads.roller import path

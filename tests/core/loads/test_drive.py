@@ -18,9 +18,9 @@ import pytest
 from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.linkages.fourbar.loads import four_bar, full_balance
 from gearlink.core.linkages.fourbar.position import FourBar
-from gearlink.core.loads.dynamics import Mass, shaking
 from gearlink.core.loads.flywheel import Energy
-from gearlink.core.loads.mechanism import Mechanism
+from gearlink.core.loads.forces.dynamics import Mass, shaking
+from gearlink.core.loads.forces.mechanism import Mechanism
 from gearlink.core.loads.motor import MotorRun
 from gearlink.core.loads.panels import Panels
 

@@ -10,7 +10,8 @@ from typing import Any
 import factory
 import pytest
 
-from gearlink.core.loads import cam_checks, checks
+from gearlink.core.loads import checks
+from gearlink.core.loads.cams import checks as cam_checks
 
 FEED = "loaded_feed"
 

@@ -15,9 +15,9 @@ import factory
 import numpy as np
 import pytest
 
-from gearlink.core.loads.dynamics import Force, Mass, Torque, power_parts, reduced, shaking
-from gearlink.core.loads.kinematics import cross
-from gearlink.core.loads.mechanism import FRAME, Guide, Mechanism, Pin
+from gearlink.core.loads.forces.dynamics import Force, Mass, Torque, power_parts, reduced, shaking
+from gearlink.core.loads.forces.kinematics import cross
+from gearlink.core.loads.forces.mechanism import FRAME, Guide, Mechanism, Pin
 
 CASES = json.loads((Path(__file__).parents[2] / "reference" / "loads.json").read_text())["cases"]
 COLUMNS = ("input_torque", "reflected_inertia", "reflected_inertia_slope")

@@ -18,10 +18,10 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.special import ellipk
 
-from gearlink.core.loads.dynamics import Mass, System, reduced
 from gearlink.core.loads.flywheel import Energy, SteadyRun
-from gearlink.core.loads.kinematics import fixed, standing, steady
-from gearlink.core.loads.mechanism import FRAME, Link, Mechanism, Pin
+from gearlink.core.loads.forces.dynamics import Mass, System, reduced
+from gearlink.core.loads.forces.kinematics import fixed, standing, steady
+from gearlink.core.loads.forces.mechanism import FRAME, Link, Mechanism, Pin
 from gearlink.core.loads.panels import Panels
 
 G = -9.81j

@@ -17,9 +17,10 @@ import pytest
 
 from gearlink.core.flatbed_press.chains import Travel
 from gearlink.core.flatbed_press.loads import PressLoads
-from gearlink.core.loads import friction, machine
-from gearlink.core.loads.kinematics import Turn
-from gearlink.core.loads.mechanism import Contact, Link, Mechanism
+from gearlink.core.loads import machine
+from gearlink.core.loads.forces import friction
+from gearlink.core.loads.forces.kinematics import Turn
+from gearlink.core.loads.forces.mechanism import Contact, Link, Mechanism
 from gearlink.core.numerics.arrays import Reals
 
 PRESS = json.loads((Path(__file__).parents[2] / "reference" / "loads.json").read_text())["press"]

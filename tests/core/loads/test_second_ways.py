@@ -19,10 +19,10 @@ from sweeps import mostly_slow
 
 from gearlink.core.errors import GearlinkError
 from gearlink.core.kinds import KINDS
-from gearlink.core.loads.dynamics import Force, Mass, reduced
-from gearlink.core.loads.friction import with_friction
-from gearlink.core.loads.kinematics import Point, Turn, carried, fixed
-from gearlink.core.loads.mechanism import FRAME, Link, Mechanism, Pin
+from gearlink.core.loads.forces.dynamics import Force, Mass, reduced
+from gearlink.core.loads.forces.friction import with_friction
+from gearlink.core.loads.forces.kinematics import Point, Turn, carried, fixed
+from gearlink.core.loads.forces.mechanism import FRAME, Link, Mechanism, Pin
 
 MASSES = {"mass": 1.5, "inertia": 0.01}
 LOADS: dict[str, tuple[str, dict[str, Any]]] = {

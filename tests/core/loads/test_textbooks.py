@@ -18,9 +18,9 @@ from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 from scipy.special import ellipe
 
-from gearlink.core.loads.dynamics import Mass, System, Torque, reduced, shaking
-from gearlink.core.loads.kinematics import fixed, slider, standing, steady
-from gearlink.core.loads.mechanism import FRAME, Guide, Link, Mechanism, Pin
+from gearlink.core.loads.forces.dynamics import Mass, System, Torque, reduced, shaking
+from gearlink.core.loads.forces.kinematics import fixed, slider, standing, steady
+from gearlink.core.loads.forces.mechanism import FRAME, Guide, Link, Mechanism, Pin
 
 
 def _norton() -> tuple[Mechanism, dict[str, Mass]]:

@@ -13,9 +13,9 @@ from typing import NamedTuple
 import numpy as np
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.loads.blocks import Block, blocks
-from gearlink.core.loads.kinematics import Point, cross, dot
-from gearlink.core.loads.mechanism import FRAME, Act, Column, Mechanism
+from gearlink.core.loads.forces.blocks import Block, blocks
+from gearlink.core.loads.forces.kinematics import Point, cross, dot
+from gearlink.core.loads.forces.mechanism import FRAME, Act, Column, Mechanism
 from gearlink.core.numerics.arrays import Points, Reals
 
 

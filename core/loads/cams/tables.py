@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from gearlink.core.report import Table
 
 if TYPE_CHECKING:
-    from gearlink.core.loads.cam_design import CamLoadsDesign
+    from gearlink.core.loads.cams.design import CamLoadsDesign
 
 _RPM = 2.0 * math.pi / 60.0
 

@@ -9,9 +9,9 @@ import numpy as np
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.loads import courses
-from gearlink.core.loads.dynamics import Force, Mass, Torque
-from gearlink.core.loads.kinematics import Point, dot, fixed, sense_of
-from gearlink.core.loads.mechanism import FRAME, Mechanism
+from gearlink.core.loads.forces.dynamics import Force, Mass, Torque
+from gearlink.core.loads.forces.kinematics import Point, dot, fixed, sense_of
+from gearlink.core.loads.forces.mechanism import FRAME, Mechanism
 from gearlink.core.numerics.arrays import Reals
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ from gearlink.core.report import Check, safely_above
 from gearlink.core.wording import amount
 
 if TYPE_CHECKING:
-    from gearlink.core.loads.cam_design import CamLoadsDesign
+    from gearlink.core.loads.cams.design import CamLoadsDesign
 
 CAM_CHECKS = ("contact-pressure", "contact-loss", "roller-skid", "preload")
 _NEAR = 0.9

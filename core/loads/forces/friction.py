@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from gearlink.core.errors import MissingSection, NoSolution
-from gearlink.core.loads.dynamics import Applied, Masses, Reactions, System
-from gearlink.core.loads.kinematics import dot, sense_of
-from gearlink.core.loads.mechanism import (
+from gearlink.core.loads.forces.dynamics import Applied, Masses, Reactions, System
+from gearlink.core.loads.forces.kinematics import dot, sense_of
+from gearlink.core.loads.forces.mechanism import (
     FRAME,
     Act,
     Connection,
@@ -29,7 +29,7 @@ from gearlink.core.loads.mechanism import (
     Toothed,
     rates,
 )
-from gearlink.core.loads.rubbing import Rubbing
+from gearlink.core.loads.forces.rubbing import Rubbing
 from gearlink.core.numerics.arrays import Mask, Reals
 
 if TYPE_CHECKING:

@@ -7,13 +7,13 @@ from collections.abc import Callable, Iterable
 from functools import partial
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from gearlink.core.loads import cam_checks, cam_tables
+from gearlink.core.loads.cams import checks, tables
 from gearlink.core.loads.design import LoadsDesign
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
     from gearlink.core.loads.base import Wanted
-    from gearlink.core.loads.cam_contact import LineContact, RollerOnCam
+    from gearlink.core.loads.cams.contact import LineContact, RollerOnCam
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.numerics.extremes import Extreme
 
@@ -89,7 +89,7 @@ class CamLoadsDesign(LoadsDesign):
         return self.machine.at(phi).once(f"contact {name}", lambda: self._contact_at(name, phi))
 
     def _contact_at(self, name: str, phi: Reals) -> LineContact:
-        from gearlink.core.loads.cam_contact import LineContact, plane_modulus
+        from gearlink.core.loads.cams.contact import LineContact, plane_modulus
         from gearlink.core.loads.spec import Material
 
         material = self.section.material or Material()
@@ -275,11 +275,11 @@ class CamLoadsDesign(LoadsDesign):
         """Force of a follower between two cams [N], positive on the main cam; of those `on_two_sides`."""
         raise NotImplementedError
 
-    table_contact: Any = cam_tables.contact
+    table_contact: Any = tables.contact
 
-    check_contact_pressure, check_contact_loss = cam_checks.contact_pressure, cam_checks.contact_loss
-    check_roller_skid, check_preload = cam_checks.roller_skid, cam_checks.preload
-    check_load_reversal = cam_checks.load_reversal
+    check_contact_pressure, check_contact_loss = checks.contact_pressure, checks.contact_loss
+    check_roller_skid, check_preload = checks.roller_skid, checks.preload
+    check_load_reversal = checks.load_reversal
 
 
 def _values(found: list[Extreme | None] | None) -> list[float | None] | None:

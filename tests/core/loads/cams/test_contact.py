@@ -15,16 +15,16 @@ import numpy as np
 import pytest
 
 from gearlink.core.cams.laws import law
-from gearlink.core.loads.cam_contact import (
+from gearlink.core.loads.cams.contact import (
     SHEAR_DEPTH,
     LineContact,
     RollerOnCam,
     plane_modulus,
     positive_drive,
 )
-from gearlink.core.loads.springs import lift_off_speed, preload
+from gearlink.core.loads.cams.springs import lift_off_speed, preload
 
-DATA = json.loads((Path(__file__).parents[2] / "reference" / "loads.json").read_text())
+DATA = json.loads((Path(__file__).parents[3] / "reference" / "loads.json").read_text())
 GRIPPER = DATA["gripper"]
 
 

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
-from gearlink.core.loads.kinematics import Point, Turn, carried
+from gearlink.core.loads.forces.kinematics import Point, Turn, carried
 from gearlink.core.numerics.arrays import Mask, Points, Reals, units
 
 FRAME = "frame"
