@@ -43,6 +43,12 @@ def with_base(loaded: LoadedFile, spec: Any) -> Any:
         validate(base, KINDS[read_kind(base, tuple(KINDS))].spec_model())
     except DesignFileError as error:
         below = "" if spec.of is not None else "design."
+        if spec.of is None and isinstance(base.data, dict) and set(base.data) == {"of"}:
+            message = "'of' stands in the place of design, not in it"
+            remedy = f"write of: {base.data['of']} without design:"
+            raise DesignFileError(
+                [loaded.report("GL156", message, ("design", "of"), key="design.of", help=remedy)]
+            ) from None
         raise DesignFileError([_of_base(d, where, below) for d in error.diagnostics]) from None
     return spec.model_copy(update={"design": base.data})
 

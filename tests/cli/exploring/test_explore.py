@@ -106,6 +106,7 @@ def test_the_base_may_be_a_file(gearlink: Any, written: Any, designs: Path) -> N
         ({"of": "x.yaml"}, "GL150", "of"),
         ({"where": ["frame_lenght > 2"]}, "GL152", "where[0]"),
         ({"design": {"kind": "study"}}, "GL156", "design.kind"),
+        ({"design": {"of": "feed.yaml"}}, "GL156", "design.of"),
         ({"design": {**STUDY["design"], "dwel": 3}}, "GL156", "design.dwel"),
         ({"command": "gripper"}, "GL113", "command"),
         ({"sampling": {"budget": 1e300}}, "GL108", "sampling.budget"),
