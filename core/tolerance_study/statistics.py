@@ -16,7 +16,7 @@ from gearlink.core.tolerance_study.samples import judged_replication
 from gearlink.core.tolerance_study.shares import replicated
 
 QUANTILES = (0.00135, 0.5, 0.99865)
-_KEPT = 2  # replications whose values pictures show
+_KEPT = 16_384  # values of a quantity that pictures show, of the first replications
 
 
 @dataclass(frozen=True)
@@ -103,7 +103,7 @@ def counted(made: Problem, number: int) -> Counted:
         float(1.0 - one.exists.mean()),
         {name: float(mask.mean()) for name, mask in one.passes.items()},
         {name: _numbers(value) for name, value in real.items()},
-        real if number < _KEPT else {},
+        real if number * one.exists.size < _KEPT else {},
     )
 
 

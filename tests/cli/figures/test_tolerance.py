@@ -25,6 +25,7 @@ def test_histogram_is_of_the_samples_with_nominal_value_and_limit() -> None:
     verticals = [float(line.get_xdata()[0]) for line in axes.lines]
     assert 20.4 in [pytest.approx(place) for place in verticals]
     assert design.nominal["back_step_angle"] in verticals
+    assert design.result.values["back_step_angle"].size == 128  # every sample, where there are few
 
 
 def test_bars_are_the_linear_shares() -> None:
