@@ -91,11 +91,14 @@ def check_linkage(linkage: FourBar) -> str:
         return kind
     shortest, p, q, longest = sorted((linkage.crank, linkage.coupler, linkage.rocker, linkage.frame))
     excess = math.fsum((shortest, longest, -p, -q))
-    remedy = (
-        f"shorten the longest link, {longest:.9g} mm, by more than {safely_above(max(excess, 0.0), 3)} mm"
-        if excess >= 0.0 or kind in ("change-point", "impossible")
-        else "make crank or frame the shortest link"
-    )
+    remedies = []
+    if excess >= 0.0 or kind in ("change-point", "impossible"):
+        remedies.append(
+            f"shorten the longest link, {longest:.9g} mm, by more than {safely_above(max(excess, 0.0), 3)} mm"
+        )
+    if shortest < min(linkage.crank, linkage.frame):
+        remedies.append("make crank or frame the shortest link")
+    remedy = " and ".join(remedies)
     raise NoSolution(
         f"crank {linkage.crank:.9g}, coupler {linkage.coupler:.9g}, rocker {linkage.rocker:.9g}, frame "
         f"{linkage.frame:.9g} mm form a linkage that is {kind}; the drive needs a crank-rocker or a drag link: "

@@ -220,6 +220,28 @@ def test_refuses_a_crank_that_does_not_turn(links, words):
         speed_extremes(FourBar(*links), EX3_TRAIN)
 
 
+@pytest.mark.parametrize(
+    ("links", "closing", "shortest"),
+    [
+        ((103.0, 45.06, 79.77, 149.26), True, True),
+        ((20.0, 30.0, 40.0, 80.0), True, False),
+        ((60, 30, 50, 70), False, True),
+    ],
+)
+def test_the_remedy_of_a_linkage_is_a_whole_one(links, closing, shortest):
+    """Links that Grashof's rule holds for after the longest is shorter may still have the wrong one shortest."""
+    with pytest.raises(NoSolution) as caught:
+        check_linkage(FourBar(*links))
+    remedy = caught.value.message.rpartition("; ")[2]
+    assert ("shorten the longest link" in remedy, "make crank or frame the shortest" in remedy) == (closing, shortest)
+    crank, coupler, rocker, frame = links
+    if closing:
+        frame -= float(remedy.partition("more than ")[2].split()[0]) + 1e-6
+    if shortest:
+        crank, coupler = coupler, crank
+    assert check_linkage(FourBar(crank, coupler, rocker, frame)) == "crank-rocker"
+
+
 @pytest.mark.parametrize("teeth", [(0, 20, 20), (20, -1, 20), (20, 20, math.nan), (math.inf, 20, 20)])
 def test_refuses_gears_without_teeth(teeth):
     with pytest.raises(NoSolution, match="teeth; the number must be positive"):
