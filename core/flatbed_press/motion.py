@@ -22,10 +22,11 @@ _TURN = 2.0 * math.pi
 
 
 class PressMotion:
-    """Chains and synchronous zone of a design file."""
+    """Chains and synchronous zone of a design file; one that advises says in a refusal what would help."""
 
-    def __init__(self, spec: FlatbedPressSpec) -> None:
+    def __init__(self, spec: FlatbedPressSpec, *, advises: bool = True) -> None:
         self.spec = spec
+        self.advises = advises
 
     @cached_property
     def input_speed(self) -> float:
@@ -95,7 +96,9 @@ class PressMotion:
     def sync_start(self) -> float:
         """Input angle at the start of the zone [rad]."""
         given = self.spec.sync.start
-        return equal_speed_angle(self.bed, self.cylinder) if given is None else math.radians(given)
+        if given is not None:
+            return math.radians(given)
+        return equal_speed_angle(self.bed, self.cylinder, advise=self.advises)
 
     @cached_property
     def sync_end(self) -> float:

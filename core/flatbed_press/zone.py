@@ -26,14 +26,14 @@ def forward_stroke_end(bed: BedChain) -> float:
     return float(bed.input_angle(math.pi + dead_center_extended(*lengths) - dead_center_folded(*lengths)))
 
 
-def equal_speed_angle(bed: BedChain, cylinder: CylinderChain) -> float:
+def equal_speed_angle(bed: BedChain, cylinder: CylinderChain, *, advise: bool = True) -> float:
     """First input angle after the start at which bed and cylinder have the same speed [rad].
 
     p'(phi) = q'(phi),  0 < phi < the bed's turning point
 
     Raises
-        NoSolution - when the speeds never meet on the forward stroke; the message says which change of the
-            cylinder's initial crank angle makes them meet
+        NoSolution - when the speeds never meet on the forward stroke; where advice is asked for, the message says which
+            change of the cylinder's initial crank angle makes them meet
     Notes
         Signs are taken every 3 deg; a crest that comes near zero between two points is refined first, so two
         close roots are not stepped over. The root is then exact to the last bits.
@@ -43,11 +43,9 @@ def equal_speed_angle(bed: BedChain, cylinder: CylinderChain) -> float:
     end = forward_stroke_end(bed)
     root = _first_root(bed, cylinder, end)
     if root is None:
-        raise NoSolution(
-            "bed and cylinder never have the same speed on the forward stroke, so there is no synchronous zone "
-            f"without a jolt: {_shift_that_helps(bed, cylinder, end)}",
-            key="cylinder.initial_crank_angle",
-        )
+        text = "bed and cylinder never have the same speed on the forward stroke, so there is no synchronous zone "
+        help_ = f": {_shift_that_helps(bed, cylinder, end)}" if advise else ""
+        raise NoSolution(f"{text}without a jolt{help_}", key="cylinder.initial_crank_angle")
     return root
 
 

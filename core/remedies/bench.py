@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 _COSTLY = 4
 """Trials that are costly, of a design that is not."""
-_FINDINGS, _REST = 4, 10
+_FINDINGS, _REST = 5, 10
 """Trials of all findings together are as many as so many findings have; then each has its share of a tenth."""
 _ELSEWHERE, _OF_WAY = 3, 3
 """Trials of commands that another class serves, for all findings together; values of one way that are worth one."""
@@ -69,6 +69,8 @@ class Bench:
         self._of_all = _FINDINGS * design.trials
         self._elsewhere_left = _ELSEWHERE * (_FINDINGS if patient else 1)
         self._costly = 0
+        self._seen: set[Remedy] = set()
+        self._weighed: set[Remedy] = set()
         self._trials: dict[Remedy, Standing | None] = {}
         self._candidates: dict[str, tuple[list[Remedy], Iterator[Remedy]]] = {}
         self._grades: dict[tuple[Remedy, str, int], int] = {}
@@ -89,13 +91,7 @@ class Bench:
         return self._found[found.name, index]
 
     def _sought(self, found: Check, index: int) -> Remedy:
-        most = max(min(self._design.trials, self._of_all), self._design.trials // _REST)
-        self._left = most - self._design.effort
-        remedy = self._best(found, index)
-        self._of_all -= most - self._design.effort - self._left
-        return remedy
-
-    def _best(self, found: Check, index: int) -> Remedy:
+        self._begin()
         for wanted in (PASSES, HOLDS) if found.status == "fail" else (PASSES,):
 
             def good(tried: Remedy, wanted: int = wanted) -> bool:
@@ -107,6 +103,13 @@ class Bench:
                 if self._grade_elsewhere(remedy) >= wanted:
                     return remedy
         return ()
+
+    def _begin(self) -> None:
+        """Trials for one finding, those counted that are known from another: what it gets does not depend on others."""
+        most = self._design.trials if self._of_all > 0 else self._design.trials // _REST
+        self._left = most - self._design.effort
+        self._seen.clear()
+        self._weighed.clear()
 
     def warnings_left(self, remedy: Remedy, found: Check, index: int) -> tuple[str, ...]:
         """The checks that warn after a remedy: its own, and those that passed before."""
@@ -122,7 +125,7 @@ class Bench:
 
     def detour(self, found: Check, index: int) -> Remedy:
         """What repairs a finding at the price of others, from where a design may be repaired further."""
-        self._left = self._design.trials - self._design.effort
+        self._begin()
 
         def good(remedy: Remedy) -> bool:
             trial = self._trial(remedy)
@@ -141,7 +144,7 @@ class Bench:
         which nothing of it fails."""
         ways = tuple(refusal_ways(self._design.given, error.key))
         for good in (self._holds, self._stands):
-            self._left = self._design.trials - self._design.effort
+            self._begin()
             yield from (remedy for remedy in self._closed(REFUSAL) if good(remedy))
             yield from (remedy for way in ways for remedy in islice(self._along(way, good), 1))
 
@@ -149,7 +152,7 @@ class Bench:
         """The remedies of a finding that are good, the best first."""
         for less in (False, True):
             for remedy in self._closed(name):
-                if self._left <= 0 and self._design.effort and remedy not in self._trials:
+                if self._left <= 0 and self._design.effort and remedy not in self._seen:
                     break  # the few of a closed form count where each takes as long as many
                 if self.asks_less(key for key, _ in remedy) is less and good(remedy):
                     yield remedy
@@ -170,7 +173,7 @@ class Bench:
         for way in ways:
             old = self._numbers(way)
             step = way.remedy(old, 1) if old else ()
-            known = (step in self._trials or self._left > 0) and not good(step)
+            known = (step in self._seen or self._left > 0) and not good(step)
             trial = self._trials.get(step)
             steps = steps_to_limit(self._before, trial, name, index) if known and trial is not None else 1.0
             if not old or steps == math.inf:
@@ -211,7 +214,7 @@ class Bench:
         nearest: Remedy = ()
         for count in counts(way.most(old), first):
             remedy = way.remedy(old, count)
-            if self._left <= 0 and remedy not in self._trials:
+            if self._left <= 0 and remedy not in self._seen:
                 return
             if not good(remedy):
                 bad = bad if nearest else count
@@ -240,9 +243,12 @@ class Bench:
                 with suppress(NoSolution):
                     trial = self._affordable(self._design.varied(spec))
             if trial is not None:
-                self._left -= 1
+                self._of_all -= 1
                 trial.advises = False
             self._trials[remedy] = None if trial is None else Standing(trial)
+        if remedy not in self._seen:
+            self._seen.add(remedy)
+            self._left -= self._trials[remedy] is not None
         return self._trials[remedy]
 
     @cached_property
@@ -266,12 +272,16 @@ class Bench:
 
     def _grade(self, remedy: Remedy, name: str, index: int) -> int:
         """What a remedy makes of a finding, and leaves of the commands of its class."""
-        key = (remedy, name, index)
+        key, trial = (remedy, name, index), self._trial(remedy)
+        if trial is None:
+            return 0
         if key not in self._grades:
-            trial = self._trial(remedy)
-            before = 0 if trial is None else trial.effort
-            self._grades[key] = 0 if trial is None else self._graded(trial, name, index)
-            self._left -= 0 if trial is None else trial.effort - before
+            before = trial.effort
+            self._grades[key] = self._graded(trial, name, index)
+            self._of_all -= trial.effort - before
+        if remedy not in self._weighed:
+            self._weighed.add(remedy)
+            self._left -= trial.effort
         return self._grades[key]
 
     def _graded(self, trial: Standing, name: str, index: int) -> int:

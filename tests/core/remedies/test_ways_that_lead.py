@@ -10,7 +10,10 @@ from typing import Any
 
 import factory
 import pytest
+from oracles.random_designs import draw
 
+from gearlink.core.errors import NoSolution
+from gearlink.core.flatbed_press import zone
 from gearlink.core.remedies.standing import Standing, steps_to_limit
 from gearlink.core.remedies.ways import modules
 from gearlink.core.report import Check, Remedy
@@ -146,3 +149,29 @@ def test_few_trials_that_lead_to_the_limit_suffice(worked: str, command: str, na
     after = factory.design(worked, command=command, **{**keys, **{path_of(key): value for key, value in check.remedy}})
     after.require(command)
     assert all(found.status != "fail" for found in after.check(name))
+
+
+def test_what_is_tried_seeks_no_advice(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The shift of the crank with which bed and cylinder meet takes as long as twenty trials: that of the file is."""
+    sought: list[Any] = []
+    monkeypatch.setattr(zone, "_shift_that_helps", lambda _, cylinder, __: sought.append(cylinder.gear_ratio) or "")
+    made = factory.design("ty460", command="press", cylinder__gear_ratio=1.4)
+    (check,) = failing(made, "press", "register")
+    assert check.remedy == (("cylinder.gear_ratio", 2.0),)
+    assert set(sought) == {1.4}
+
+
+@pytest.mark.parametrize(("kind", "count"), [("gear_pair", 6), pytest.param("six_bar", 20, marks=pytest.mark.slow)])
+def test_a_remedy_does_not_depend_on_other_findings(kind: str, count: int) -> None:
+    """Trials that are known from another finding count as those that are not."""
+    for data, command in draw(kind, 77, count):
+        try:
+            made = factory.design(data, command=command)
+            made.require(command)
+        except (ValueError, NoSolution):
+            continue
+        for name in made.outline(command).checks:
+            in_order = [check.remedy for check in made.findings(command, name)]
+            alone = factory.design(data, command=command)
+            alone.require(command)
+            assert in_order == [check.remedy for check in alone.findings(command, name)], (data, name)
