@@ -60,6 +60,13 @@ def test_a_file_in_the_place_of_a_folder_is_told_before_the_study_is_computed(
         assert f"{taken} is no folder" in ended.err
 
 
+@pytest.mark.parametrize("other", [("--plot",), ("--write", "kept")])
+def test_one_design_is_printed_or_all_are_written(gearlink: Any, written: Any, other: tuple[str, ...]) -> None:
+    ended = gearlink("explore", written(), "--show", "3", *other)
+    assert (ended.status, ended.out) == (2, "")
+    assert f"leave {other[0]} out" in ended.err
+
+
 def test_designs_of_an_earlier_run_are_told_of(gearlink: Any, written: Any, tmp_path: Path) -> None:
     folder = tmp_path / "kept"
     first = gearlink("explore", written(), "--write", folder)
