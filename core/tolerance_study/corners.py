@@ -65,7 +65,8 @@ def corners(
                 best = float(_values(made, name, sense, [start])[0])
             known = every and not pins
             ends.append((best, start) if known else _climbed(partial(_values, made, name, sense), best, start, pins))
-        found[name] = (-ends[0][0], ends[1][0], _shown(made, ends[1][1]))
+        (least, _), (most, place) = ends
+        found[name] = (-least, most, "" if math.isnan(most) else _shown(made, place))
     return found
 
 

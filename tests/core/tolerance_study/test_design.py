@@ -104,6 +104,13 @@ def test_play_of_pins_counts_in_the_worst_case() -> None:
     assert nominal + 0.8 * width < values.max() < found["greatest"]
 
 
+def test_where_no_corner_is_a_mechanism_there_is_no_worst_case() -> None:
+    made = study(CANDY, sources={"links.crank": {"plus_minus": 36.0}}, samples=16)
+    found = {row["quantity"]: row for row in rows(made.table_corners())}["back_step_angle"]
+    assert np.isnan([found["least"], found["greatest"]]).all()
+    assert found["signs"] == ""
+
+
 def test_the_worst_case_of_many_sizes_is_climbed_to() -> None:
     """As if four were more than all corners are computed of."""
     few = study(CANDY, sources=FOUR, require=["dwell_swing <= 10.17 deg"], samples=16)
