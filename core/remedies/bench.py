@@ -302,10 +302,10 @@ class Bench:
 
     def _is_affordable_elsewhere(self, remedy: Remedy) -> bool:
         """Whether the commands of the file that another class serves may be judged once more."""
-        for command in self._elsewhere:
-            known, other = (remedy, command) in self._others, self._other(remedy, command).design
-            with suppress(NoSolution):  # it costs nothing then
-                self._elsewhere_left -= 0 if known or other is None else other.weight
+        new = [command for command in self._elsewhere if (remedy, command) not in self._others]
+        with suppress(NoSolution):  # it costs nothing then
+            designs = [self._other(remedy, command).design for command in new]
+            self._elsewhere_left -= max((design.weight for design in designs if design is not None), default=0)
         return self._elsewhere_left >= 0
 
     def _grade_elsewhere(self, remedy: Remedy) -> int:

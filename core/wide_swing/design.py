@@ -276,7 +276,7 @@ class WideSwingDesign(Design):
     @property
     def trials(self) -> int:
         """A slider's cam takes a tenth of a second to judge, a contour of a whole turn half of it, others less."""
-        return 6 if self.spec.slider is not None else 20 if self.spec.cycle is not None else 40
+        return 5 if self.spec.slider is not None else 20 if self.spec.cycle is not None else 40
 
     candidates, varied = remedies.candidates, remedies.varied
 
