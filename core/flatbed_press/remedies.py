@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from gearlink.core.cams.checks import HUB, ROLLER_SHARE
 from gearlink.core.errors import NoSolution
 from gearlink.core.flatbed_press.zone import zone_end
+from gearlink.core.gears.codes import AT_LIMITS
 from gearlink.core.linkages.slider_crank.position import SliderCrank
 from gearlink.core.remedies.ways import (
     REFUSAL,
@@ -55,7 +56,7 @@ _WAYS = {
         for gear in (0, 1)
     )
     + tuple(down(f"input_gears.profile_shift[{gear}]", step=0.01) for gear in (0, 1)),
-    "distance-limits": (down("input_gears.center_distance_allowance", step=0.001),),
+    **dict.fromkeys(AT_LIMITS, (down("input_gears.center_distance_allowance", step=0.001),)),
     "pitting": _WIDER,
     "bending": (*_WIDER, up("input_gears.tool.rounding", step=0.01)),
     "transmission-angle": either(*_LINKS),

@@ -12,8 +12,8 @@ def _within(*keys: str) -> tuple[str, ...]:
 
 _TEETH = ("profile_shift", "teeth", "gears", "input_gears")
 
-AT_LIMITS = "distance-limits"
-"""Name of the check that looks at the limits of the centre distance, and reports with the codes of what fails there."""
+AT_LIMITS = tuple(f"{name}-at-limits" for name in ("contact-ratio", "interference", "root-clearance", "tip-fouling"))
+"""Names of the checks that look at the limits of the centre distance."""
 
 UNDERCUT = Rule(
     "GL201",
@@ -48,7 +48,7 @@ CONTACT_RATIO = Rule(
     "limits.contact_ratio (1.1), warns up to 0.1 above; of helical gears with face_width eps_gamma is judged; fails "
     "below 1 with the gears as far out of mesh as center_distance_allowance lets them",
     "ISO 21771; the limit is usual practice",
-    ("contact-ratio", AT_LIMITS),
+    ("contact-ratio", AT_LIMITS[0]),
     _TEETH,
 )
 INTERFERENCE = Rule(
@@ -61,7 +61,7 @@ INTERFERENCE = Rule(
     "teeth.",
     "a_w sin(alpha_wt) - sqrt(r_a^2 - r_b^2) >= 0 for both gears",
     "ISO 21771; own derivation of the margin",
-    ("involute-interference", AT_LIMITS),
+    ("involute-interference", AT_LIMITS[1]),
     _TEETH,
 )
 ROOT_CLEARANCE = Rule(
@@ -73,7 +73,7 @@ ROOT_CLEARANCE = Rule(
     "c = a_w - r_a(mate) - r_f; fails below 0.05 m, warns below 0.15 m; fails at 0 with the gears as deep in mesh as "
     "center_distance_allowance lets them, with the root that the upper thickness allowance gives",
     "ISO 21771; the limits are usual practice",
-    ("root-clearance", AT_LIMITS),
+    ("root-clearance", AT_LIMITS[2]),
     ("clearance", *_TEETH),
 )
 SLIDING = Rule(
@@ -111,7 +111,7 @@ TIP_FOULING = Rule(
     "the line of centres to where the tip circles cross; radial-assembly: t_1 + inv alpha_a1 - inv alpha_wt >= z2/z1 "
     "(t_2 + inv alpha_a2 - inv alpha_wt) at the place of least room",
     "own derivation",
-    ("tip-fouling", "radial-assembly", AT_LIMITS),
+    ("tip-fouling", "radial-assembly", AT_LIMITS[3]),
     ("gears", "teeth"),
 )
 FILLET = Rule(

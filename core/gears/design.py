@@ -51,7 +51,7 @@ def _ways(*teeth: Way) -> dict[str, tuple[Way, ...]]:
         "fillet-interference": (*_SHIFTS, _LOWER, *teeth, *_DEEPER, *_ANGLE, *fewer),
         "tip-fouling": (*_SHIFTS, _LOWER, *teeth, *_ANGLE),
         "radial-assembly": (*_SHIFTS, _LOWER, *teeth, *_ANGLE),
-        "distance-limits": (down("center_distance_allowance", step=0.001), *_SHIFTS),
+        **dict.fromkeys(AT_LIMITS, (down("center_distance_allowance", step=0.001), *_SHIFTS)),
         "backlash": (*_THINNER, *either("center_distance", step=0.01), *_SHIFTS),
         "pitting": (*_WIDER, modules("module")[0], *_SHIFTS, *teeth),
         "bending": (*_WIDER, up("tool.rounding", step=0.01), modules("module")[0], *_SHIFTS, *teeth),
@@ -224,7 +224,7 @@ class GearPairDesign(GearQuantities, Design):
 
     def _decided_by(self, name: str) -> str:
         """The key that decides whether a quantity or a check exists."""
-        at_limits = "backlash" in name or name == AT_LIMITS
+        at_limits = "backlash" in name or name in AT_LIMITS
         given = self.spec.center_distance_allowance is not None
         return "center_distance_allowance" if at_limits and given else self._placed_by
 

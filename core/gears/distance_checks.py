@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING, Protocol
 
-from gearlink.core.gears.codes import AT_LIMITS, CONTACT_RATIO, INTERFERENCE, ROOT_CLEARANCE, TIP_FOULING
+from gearlink.core.gears.codes import CONTACT_RATIO, INTERFERENCE, ROOT_CLEARANCE, TIP_FOULING
 from gearlink.core.report import Check
 
 if TYPE_CHECKING:
@@ -51,25 +51,22 @@ def moved(pair: GearPair, off: float) -> GearPair:
     )
 
 
-def distance_limits(data: GearData, limits: Limits) -> Iterator[Check]:
-    """What fails at a limit of the centre distance and holds at the nominal one; nothing where all holds.
+def distance_limits(name: str, data: GearData, limits: Limits) -> Iterator[Check]:
+    """What fails at a limit of the centre distance and holds at the nominal one; nothing where it holds.
 
+    Parameters
+        name : str - one of AT_LIMITS
+        data, limits : of the pair
     Notes
         GL203: a contact ratio below 1; GL205: a tip on the mate's root, which is cut deeper by the upper allowances of
         the thickness; GL204, GL206: as of the nominal distance.
     """
-    off = data.distance_allowance
-    if not off:
-        return
-    yield from _interrupted(data, moved(data.pair, off), limits)
-    deep = moved(data.pair, -off)
-    yield from _tips_on_roots(data, deep)
-    yield from _tips_beyond(data, deep)
-    if data.internal is not None:
-        yield from _fouling(data, deep)
+    if data.distance_allowance:
+        yield from _OF_PAIR[name](data, data.distance_allowance, limits)
 
 
-def _interrupted(data: GearData, apart: GearPair, limits: Limits) -> Iterator[Check]:
+def _interrupted(data: GearData, off: float, limits: Limits) -> Iterator[Check]:
+    apart = moved(data.pair, off)
     helical = data.pair.helix_angle != 0.0
     overlap = (data.path.overlap_ratio or 0.0) if helical else 0.0
     ratio, least = apart.contact_ratio + overlap, min(1.0, limits.contact_ratio)
@@ -77,8 +74,8 @@ def _interrupted(data: GearData, apart: GearPair, limits: Limits) -> Iterator[Ch
         yield _no_drive(ratio, least)
 
 
-def _tips_on_roots(data: GearData, deep: GearPair) -> Iterator[Check]:
-    pair = data.pair
+def _tips_on_roots(data: GearData, off: float, _limits: Limits) -> Iterator[Check]:
+    pair, deep = data.pair, moved(data.pair, -off)
     for gear in (0, 1):
         by_cutter = pair.teeth[gear] < 0 and pair.cutter is not None
         thinner = 0.0 if by_cutter else pair.module * (pair.profile_shift[gear] - data.cut_shift[gear])
@@ -87,21 +84,24 @@ def _tips_on_roots(data: GearData, deep: GearPair) -> Iterator[Check]:
             yield _on_root(room, data.called(1 - gear), data.called(gear))
 
 
-def _tips_beyond(data: GearData, deep: GearPair) -> Iterator[Check]:
+def _tips_beyond(data: GearData, off: float, _limits: Limits) -> Iterator[Check]:
+    deep = moved(data.pair, -off)
     for gear, (margin, nominal) in enumerate(zip(deep.interference_margin, data.pair.interference_margin, strict=True)):
         if margin < 0.0 <= nominal:
             yield _beyond(margin, data.called(gear))
 
 
-def _fouling(data: GearData, deep: GearPair) -> Iterator[Check]:
+def _fouling(data: GearData, off: float, _limits: Limits) -> Iterator[Check]:
+    if not data.pair.internal:
+        return
     from gearlink.core.gears.mesh.ring_interference import InternalInterference
 
-    for pair in (deep, moved(data.pair, data.distance_allowance or 0.0)):
+    for pair in (moved(data.pair, -off), moved(data.pair, off)):
         found, nominal = (_room(InternalInterference(each)) for each in (pair, data.pair))
         if found < 0.0 <= nominal:
             text = f"at a limit of center_distance_allowance the tips of pinion and ring cut {-found:.4g} mm into each"
             text += " other: shorten them, or keep the centre distance closer"
-            yield TIP_FOULING.check("fail", text, found, 0.0, "mm", name=AT_LIMITS)
+            yield TIP_FOULING.check("fail", text, found, 0.0, "mm", name=TIP_FOULING.checks[2])
 
 
 def _room(internal: InternalInterference) -> float:
@@ -110,7 +110,7 @@ def _room(internal: InternalInterference) -> float:
     return apart if apart < 0.0 or margin is None else margin
 
 
-def rack_limits(rack: RackMesh, limits: Limits) -> Iterator[Check]:
+def rack_limits(name: str, rack: RackMesh, limits: Limits) -> Iterator[Check]:
     """The same of a gear on a rack: off its datum line the line of action keeps its direction."""
     data, pair = rack.data, rack.pair
     off, sine = data.distance_allowance, math.sin(pair.transverse_pressure_angle)
@@ -119,28 +119,40 @@ def rack_limits(rack: RackMesh, limits: Limits) -> Iterator[Check]:
     overlap = (rack.path.total_contact_ratio or rack.contact_ratio) - rack.contact_ratio
     nominal, least = rack.contact_ratio + overlap, min(1.0, limits.contact_ratio)
     ratio = nominal - off / (sine * pair.base_pitch)
-    if ratio < least <= nominal:
+    if name == CONTACT_RATIO.checks[1] and ratio < least <= nominal:
         yield _no_drive(ratio, least)
     thinner = 0.0 if data.allowances is None else -data.allowances[1][0] / (2.0 * math.tan(pair.pressure_angle))
     room = rack.tip_clearance[0] - off + thinner
-    if room <= 0.0 < rack.tip_clearance[0]:
+    if name == ROOT_CLEARANCE.checks[1] and room <= 0.0 < rack.tip_clearance[0]:
         yield _on_root(room, "gear 1", "the rack")
     start = rack.path.start - off / sine
-    if start < 0.0 <= rack.path.start:
+    if name == INTERFERENCE.checks[1] and start < 0.0 <= rack.path.start:
         yield _beyond(start, "the rack")
 
 
 def _no_drive(ratio: float, least: float) -> Check:
     text = f"with the gears as far out of mesh as center_distance_allowance lets them the contact ratio is {ratio:.6g}"
     text += ": the drive is interrupted; keep the centre distance closer"
-    return CONTACT_RATIO.check("fail", text, ratio, least, name=AT_LIMITS)
+    return CONTACT_RATIO.check("fail", text, ratio, least, name=CONTACT_RATIO.checks[1])
 
 
 def _on_root(room: float, tips: str, root: str) -> Check:
     text = f"{_DEEPEST} the tips of {tips} come {-room:.4g} mm into the root of {root}: keep the centre distance closer"
-    return ROOT_CLEARANCE.check("fail", f"{text}, or raise the clearance", room, 0.0, "mm", name=AT_LIMITS)
+    return ROOT_CLEARANCE.check(
+        "fail", f"{text}, or raise the clearance", room, 0.0, "mm", name=ROOT_CLEARANCE.checks[1]
+    )
 
 
 def _beyond(margin: float, tips: str) -> Check:
     text = f"{_DEEPEST} the tips of {tips} go {-margin:.4g} mm beyond the mate's base tangent point: shorten them"
-    return INTERFERENCE.check("fail", f"{text}, or keep the centre distance closer", margin, 0.0, "mm", name=AT_LIMITS)
+    return INTERFERENCE.check(
+        "fail", f"{text}, or keep the centre distance closer", margin, 0.0, "mm", name=INTERFERENCE.checks[1]
+    )
+
+
+_OF_PAIR: dict[str, Callable[[GearData, float, Limits], Iterator[Check]]] = {
+    CONTACT_RATIO.checks[1]: _interrupted,
+    INTERFERENCE.checks[1]: _tips_beyond,
+    ROOT_CLEARANCE.checks[1]: _tips_on_roots,
+    TIP_FOULING.checks[2]: _fouling,
+}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import partial
 from typing import Any, NamedTuple, Protocol
 
 from gearlink.core.gears.checks import FILLET_NOISE, MORE_CONTACT, Limits, gear_check
@@ -378,7 +379,7 @@ _OF_PAIR: dict[str, Callable[[GearData, DrawingLimits], Iterator[Check]]] = {
     "fillet-interference": _fillet,
     "backlash": _backlash,
     "inspection": _inspection,
-    AT_LIMITS: distance_limits,
+    **{name: partial(distance_limits, name) for name in AT_LIMITS},
     "pitting": _pitting,
     "bending": _bending,
 }

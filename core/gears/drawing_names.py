@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from gearlink.core.gears.codes import AT_LIMITS
+
 PLACES = {
     "transverse_pressure_angle": "pair.transverse_pressure_angle",
     "base_helix_angle": "pair.base_helix_angle",
@@ -106,7 +108,7 @@ DRAWING_CHECKS = (
     "fillet-interference",
     "backlash",
     "inspection",
-    "distance-limits",
+    *AT_LIMITS,
     "pitting",
     "bending",
 )

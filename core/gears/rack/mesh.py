@@ -228,10 +228,10 @@ class RackMesh:
             yield from _CHECKS[name](self, limits)
         if name in _OF_PAIR:
             yield from drawing_check(name, self.data, limits)
-        if name == AT_LIMITS:
+        if name in AT_LIMITS:
             from gearlink.core.gears.distance_checks import rack_limits
 
-            yield from rack_limits(self, limits)
+            yield from rack_limits(name, self, limits)
 
 
 def _contact_ratio(rack: RackMesh, limits: Any) -> Iterator[Check]:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from gearlink.core.design import Design, Outline
 from gearlink.core.errors import NoSolution, at_key, in_section
 from gearlink.core.gears.checks import GEAR_QUANTITIES, GearQuantities
+from gearlink.core.gears.codes import AT_LIMITS
 from gearlink.core.gears.drawing_names import DERIVED, RATING, lacking
 from gearlink.core.gears.train.names import TRAIN_CHECKS, TRAIN_QUANTITIES
 from gearlink.core.gears.train.single_mesh import MESH_CHECKS, MESH_QUANTITIES, RING_TIPS, mesh_checks, mesh_quantity
@@ -290,7 +291,7 @@ class Meshed(GearQuantities, Design):
         needed = {
             "radial-assembly": (gears.assembly, gears.cutter),
             "fillet-interference": (self.own_teeth or None,),
-            "distance-limits": (gears.center_distance_allowance,),
+            **dict.fromkeys(AT_LIMITS, (gears.center_distance_allowance,)),
             "backlash": (gears.allowances, gears.center_distance_allowance, *self._distances),
         }.get(name, (gears.load,))
         return any(each is not None for each in needed)

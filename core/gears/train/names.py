@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from gearlink.core.gears.codes import AT_LIMITS
 from gearlink.core.gears.drawing_names import PLACES
 
 _OF_EVERY_MESH = "tip_fouling_margin"
@@ -11,7 +12,7 @@ TRAIN_CHECKS = (
     "fillet-interference",
     "backlash",
     "inspection",
-    "distance-limits",
+    *AT_LIMITS,
     "pitting",
     "bending",
 )

@@ -37,7 +37,7 @@ def train_ways(gears: int, *teeth: Way, section: str = "gears") -> dict[str, tup
         ROOT_CLEARANCE.name: (up(f"{section}.clearance", step=0.01), up(f"{section}.tool.addendum", step=0.01)),
         FILLET.name: (down(f"{section}.tool.rounding", step=0.01), *moved, *teeth, lower),
         BACKLASH.name: (*thinner, down(f"{section}.center_distance_allowance", step=0.001), *moved),
-        AT_LIMITS: (down(f"{section}.center_distance_allowance", step=0.001), *moved),
+        **dict.fromkeys(AT_LIMITS, (down(f"{section}.center_distance_allowance", step=0.001), *moved)),
         TIP_FOULING.checks[1]: (*moved, *teeth, *fewer, lower),
         PITTING.name: (*wider, *moved, *teeth),
         BENDING.name: (*wider, up(f"{section}.tool.rounding", step=0.01), *moved, *teeth),
