@@ -21,7 +21,8 @@ def as_markdown(report: Report) -> str:
         parts.append(markdown_table(("status", "code", "check", "finding"), checks))
     for table in report.tables:
         heads = [
-            f"{column} [{unit}]" if unit else column for column, unit in zip(table.columns, table.units, strict=True)
+            column if unit in ("", "1") else f"{column} [{unit}]"
+            for column, unit in zip(table.columns, table.units, strict=True)
         ]
         parts.append(
             f"## {table.name}\n\n" + markdown_table(heads, ([text_of(item) for item in row] for row in table.rows()))
