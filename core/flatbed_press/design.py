@@ -109,7 +109,7 @@ class FlatbedPress(WithExtremes, SliderCrankQuantities, GearQuantities, Design):
     @cached_property
     def motion(self) -> PressMotion:
         """Chains and synchronous zone."""
-        return PressMotion(self.spec, advises=self.advises)
+        return PressMotion(self.spec, advise=self.advises)
 
     @cached_property
     def cams(self) -> PressCams:

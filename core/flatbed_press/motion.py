@@ -22,11 +22,11 @@ _TURN = 2.0 * math.pi
 
 
 class PressMotion:
-    """Chains and synchronous zone of a design file; one that advises says in a refusal what would help."""
+    """Chains and synchronous zone of a design file; one that is to advise says in a refusal what would help."""
 
-    def __init__(self, spec: FlatbedPressSpec, *, advises: bool = True) -> None:
+    def __init__(self, spec: FlatbedPressSpec, *, advise: bool = True) -> None:
         self.spec = spec
-        self.advises = advises
+        self.advise = advise
 
     @cached_property
     def input_speed(self) -> float:
@@ -98,7 +98,7 @@ class PressMotion:
         given = self.spec.sync.start
         if given is not None:
             return math.radians(given)
-        return equal_speed_angle(self.bed, self.cylinder, advise=self.advises)
+        return equal_speed_angle(self.bed, self.cylinder, advise=self.advise)
 
     @cached_property
     def sync_end(self) -> float:

@@ -100,7 +100,8 @@ def _length(design: FlatbedPress) -> Iterator[Remedy]:
     sync, motion = design.spec.sync, design.motion
     if motion.bed_turns_back is not None:
         most = motion.cylinder.travel(motion.bed_turns_back).value - motion.cylinder.travel(motion.sync_start).value
-        yield ("sync.length", at_most(float(most))), ("sync.end", None)
+        shorter = ("sync.length", at_most(float(most)))
+        yield (shorter,) if sync.end is None else (shorter, ("sync.end", None))
     if sync.end is None:
         yield (("sync.length", sync.print_length),)
     else:

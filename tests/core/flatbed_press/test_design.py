@@ -51,7 +51,7 @@ PARTS = {"motion", "cams"}
 def computed(design) -> set[str]:
     """Names of the results that a design and its parts have worked out."""
     parts = [vars(design)[name] for name in PARTS & set(vars(design))]
-    return {name for each in (design, *parts) for name in vars(each)} - {"spec", "kin", "advises"}
+    return {name for each in (design, *parts) for name in vars(each)} - {"spec", "kin", "advise"}
 
 
 # Published
