@@ -127,12 +127,15 @@ def warned(commands: Iterable[str], before: Standing, now: Standing) -> dict[str
 
 
 def _left_of(command: str, commands: tuple[str, ...], before: Standing, now: Standing) -> int:
-    """What is refused already may stay so; what is possible after the change alone is held to all of its checks."""
+    """What is refused already may stay so; what is possible after the change alone is held to all of its checks, and a
+    check that a command had not to show is new to it, though another showed it."""
     grade = PASSES
     try:
         for name in now.checks(command):
             ranks = now.ranks(name)
-            grade = min(grade, _against(_known(name, commands, before), ranks)) if any(ranks) else grade
+            if any(ranks):
+                new = before.stands(command) and name not in before.checks(command)
+                grade = min(grade, _against(() if new else _known(name, commands, before), ranks))
             if grade <= 0:
                 break
         if now.stands(command):

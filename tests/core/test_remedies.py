@@ -211,6 +211,23 @@ def test_cams_that_a_remedy_makes_possible_keep_their_own_checks() -> None:
         assert bool(check.remedy) is (shaft == 5)
 
 
+@pytest.mark.slow
+def test_a_check_that_a_command_had_not_to_show_is_new_to_it() -> None:
+    """`cam` shows the lift-off where nothing can close both rollers; `gripper` had shown it, of another cause."""
+    data = factory.worked("swing_gripper")
+    data["cam"]["roller"]["radius"], data["laws"]["accelerate"], data["links"]["coupler"] = 90.63, "half-mcv-50", 316.39
+    stood = {command: failing(data, command) for command in ("gripper", "cam")}
+    findings = [(i, found) for name in stood["gripper"] or () for i, found in enumerate(_found(data, name))]
+    assert {found.name for _, found in findings if found.status == "fail" and not found.remedy} == {"shaft-clearance"}
+    for i, found in findings:
+        if found.remedy:
+            follow(data, found, i, stood)
+
+
+def _found(data: Data, name: str) -> tuple[Any, ...]:
+    return tuple(design(data, "gripper").findings("gripper", name))
+
+
 def test_findings_that_are_new_count_with_the_check() -> None:
     """With a height of the teeth in the file each gear of a mesh is judged for itself: one finding becomes two."""
     data: Data = {
