@@ -25,15 +25,18 @@ def value_at(spec: Any, path: str) -> Any:
     """The value that a path leads to.
 
     Parameters
-        spec : a spec, or anything with attributes
+        spec : a spec, or anything with attributes; of a section whose keys the file chooses, as links are named, a dict
         path : str - such as `cam.roller_radius`
+    Raises
+        AttributeError, LookupError, TypeError - where it leads nowhere
     Example
         >>> from types import SimpleNamespace
         >>> value_at(SimpleNamespace(cam=SimpleNamespace(roller_radius=8.0)), "cam.roller_radius")
         8.0
     """
     for step in _steps(path):
-        spec = spec[step] if isinstance(step, int) else getattr(spec, _name_of(spec, step))
+        inside = isinstance(step, int) or isinstance(spec, dict)
+        spec = spec[step] if inside else getattr(spec, _name_of(spec, str(step)))
     return spec
 
 
@@ -67,7 +70,7 @@ def number_at(spec: Any, path: str) -> float | None:
     """
     try:
         value = value_at(spec, path)
-    except (AttributeError, TypeError, IndexError):
+    except (AttributeError, TypeError, LookupError):
         return None
     return value if isinstance(value, (int, float)) and not isinstance(value, bool) else None
 
@@ -81,7 +84,7 @@ def numbers_at(spec: Any, path: str) -> Iterator[str]:
     """
     try:
         value = value_at(spec, path)
-    except (AttributeError, TypeError, IndexError):
+    except (AttributeError, TypeError, LookupError):
         return
     if number_at(spec, path) is not None:
         yield path

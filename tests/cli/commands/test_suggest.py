@@ -83,6 +83,26 @@ def test_refused_design_is_repaired(gearlink: Any, tmp_path: Path) -> None:
     assert ended.json["suggestions"][0]["path"] == "unloader.pivot_ratio"
 
 
+@pytest.mark.parametrize("name", ["follower", "last link", "a.b", "x[0]", "7"])
+def test_length_of_a_link_that_the_file_names(gearlink: Any, tmp_path: Path, name: str) -> None:
+    """A key that the file has chosen, whatever it is called: a train keeps the pins of the link 256 mm apart."""
+    pins = {"frame": "AF", "crank": "AB", "one": "BC", "two": "CD", "three": "DE", name: "EF"}
+    gears = [("A", "frame", 20), ("B", "one", 20)], [("F", "frame", 240), ("E", "three", 16)]
+    data = {
+        "kind": "gear-train-mobility",
+        "links": {link: {"pins": list(ends)} for link, ends in pins.items()},
+        "trains": [
+            {"module": 2, "gears": [{"at": at, "fixed_to": link, "teeth": teeth} for at, link, teeth in train]}
+            for train in gears
+        ],
+    }
+    data["links"][name]["length"] = 40
+    path = tmp_path / "loop.yaml"
+    path.write_text(json.dumps(data), encoding="utf-8")
+    ended = gearlink("analyze", path, "--suggest")
+    assert ended.status == ExitCode.OK
+
+
 @pytest.mark.slow
 def test_key_that_is_left_out(gearlink: Any, designs: Path) -> None:
     arguments = ("swing", designs / "wide_swing_twin_cam.yaml", "--set", "cam.rocker_radius=80", "--suggest")
