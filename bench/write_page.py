@@ -59,7 +59,7 @@ _REASONS = """## Where a goal is missed, and why
   results and checks take 0.1 ms (slider-crank), 0.6 ms (gear pair) and 1.6 ms (synthesis with its meshes, dwell and
   extremes) a design in Python. What cannot refuse a pair of gears, as its measures over pins, is computed where it is
   shown alone. The program takes a second process from 0.15 s of work on.
-  Two processes are 1.6 to 1.7 times as fast as one, on small designs and on presses, on a busy machine no faster at
+  Two processes are 1.5 to 1.7 times as fast as one, on small designs and on presses, on a busy machine no faster at
   all: forking, sending results back and the caches that both cores share are the rest. Where the output
   shows findings alone (everything but JSON and `--out`), quantities are computed, since they tell whether there is a
   mechanism at all, but put into no words, and no table is computed.
