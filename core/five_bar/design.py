@@ -158,10 +158,11 @@ class GearedFiveBar(WithExtremes, OutputSpeed, RealSpeed, FiveBarParts):
     @property
     def trials(self) -> int:
         """A path of few turns takes a millisecond; links found for points or positions a tenth of a second each time,
-        those for a function, or within a budget, more than remedies may take."""
+        those for a function, for points with times, or within a budget, more than remedies may take."""
         target = self.spec.target
         if target is not None and self._fits:
-            return 0 if target.function is not None or target.budget is not None else _FIT + _BESIDES
+            takes_long = target.function, target.input_angles, target.budget
+            return _FIT + _BESIDES if all(each is None for each in takes_long) else 0
         return (400 if self.period_turns <= _FEW_TURNS else 300) if self.is_path else 60
 
     @property

@@ -2,17 +2,9 @@
 
 from __future__ import annotations
 
-from gearlink.core.gears.codes import AT_LIMITS
-from gearlink.core.gears.drawing_names import PLACES
+from gearlink.core.gears.codes import TIP_FOULING
+from gearlink.core.gears.drawing_names import DRAWING_CHECKS, PLACES
 
 _OF_EVERY_MESH = "tip_fouling_margin"
 TRAIN_QUANTITIES = tuple(name for name in PLACES if name != _OF_EVERY_MESH)
-TRAIN_CHECKS = (
-    "radial-assembly",
-    "fillet-interference",
-    "backlash",
-    "inspection",
-    *AT_LIMITS,
-    "pitting",
-    "bending",
-)
+TRAIN_CHECKS = tuple(name for name in DRAWING_CHECKS if name != TIP_FOULING.name)

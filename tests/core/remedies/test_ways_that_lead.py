@@ -13,6 +13,7 @@ import pytest
 from oracles.random_designs import draw
 
 from gearlink.core.errors import NoSolution
+from gearlink.core.five_bar import timed_fit
 from gearlink.core.flatbed_press import zone
 from gearlink.core.remedies.standing import Standing, steps_to_limit
 from gearlink.core.remedies.ways import modules
@@ -159,6 +160,16 @@ def test_what_is_tried_seeks_no_advice(monkeypatch: pytest.MonkeyPatch) -> None:
     (check,) = failing(made, "press", "register")
     assert check.remedy == (("cylinder.gear_ratio", 2.0),)
     assert set(sought) == {1.4}
+
+
+def test_links_for_points_with_times_are_not_sought_for_a_remedy(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each search takes tenths of a second, and a gear of one tooth fails five checks: seconds in all."""
+    sought: list[Any] = []
+    fit = timed_fit.fit_timed
+    monkeypatch.setattr(timed_fit, "fit_timed", lambda *given: sought.append(given) or fit(*given))
+    made = factory.design("five_bar_timed_points", command="gear", gears__output=1)
+    assert failing(made, "gear", "undercut")
+    assert len(sought) <= 1
 
 
 @pytest.mark.parametrize(("kind", "count"), [("gear_pair", 6), pytest.param("six_bar", 20, marks=pytest.mark.slow)])
