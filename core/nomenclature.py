@@ -264,7 +264,7 @@ _LOADS = {
     "speed_max": Term("n_max", "1/min", "greatest speed of the input with its flywheel or motor"),
     "speed_fluctuation": Term("delta", "1", "(greatest - least)/mean speed of the input"),
     "motor_torque_rms": Term("M_mot", "N m", "root mean square over the time of the motor's torque"),
-    "motor_torque_peak": Term("M_mot,max", "N m", "greatest torque of the motor"),
+    "motor_torque_peak": Term("M_mot,max", "N m", "greatest torque of the motor; negative where the load drives it"),
     "shaking_force_max": Term("F_s", "N", "greatest force of the moving masses on the frame"),
     "shaking_moment_max": Term("M_s", "N m", "greatest moment of the moving masses about the input's pivot"),
     "peak": Term("F_max", "N", "greatest force of a pin over the period"),

@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from gearlink.core.loads import codes
-from gearlink.core.report import Check, safely_above
+from gearlink.core.loads.base import RPM
+from gearlink.core.report import Check, Status, safely_above
 from gearlink.core.wording import amount
 
 if TYPE_CHECKING:
@@ -17,6 +18,7 @@ CHECKS = (
     "power-identity",
     "load-reversal",
     "motor-torque",
+    "motor-speed",
     "speed-fluctuation",
     "bearing-life",
     "force-amplification",
@@ -26,6 +28,7 @@ CHECKS = (
 _IDENTITY = 1e-9
 _NEAR = 0.9
 _LEAST_LIFE_MARGIN = 1.2
+_OTHER_SPEED, _NEAR_SPEED = 0.1, 0.05
 _AMPLIFICATION = 5.0
 _SWING_PER_BODY = 2.0 * 360.0
 _SWING_UNKNOWN = 20.0
@@ -76,11 +79,11 @@ def motor_torque(design: LoadsDesign) -> Iterator[Check]:
         return
     margin = design.limit("torque_margin")
     pairs = (("peak", running.motor_peak, motor.max_torque), ("rms", running.motor_rms, motor.rated_torque))
-    for words, value, limit in pairs:
-        if value is None or limit is None:
+    for words, signed, limit in pairs:
+        if signed is None or limit is None:
             continue
-        bound = limit / margin
-        text = f"{words} of the motor's torque is {value:.5g} N m"
+        value, bound = abs(signed), limit / margin
+        text = f"{words} of the motor's torque is {value:.5g} N m{', against its turning' if signed < 0.0 else ''}"
         remedy = f"it needs a motor of {safely_above(value * margin, 4)} N m or more, or a heavier flywheel"
         if value > bound:
             yield codes.MOTOR_TORQUE.check("fail", f"{text}, above {bound:.5g}: {remedy}", value, bound, "N m")
@@ -88,6 +91,21 @@ def motor_torque(design: LoadsDesign) -> Iterator[Check]:
             yield codes.MOTOR_TORQUE.check("warn", f"{text}, little below {bound:.5g}: {remedy}", value, bound, "N m")
         else:
             yield codes.MOTOR_TORQUE.check("pass", text, value, bound, "N m")
+
+
+def motor_speed(design: LoadsDesign) -> Iterator[Check]:
+    """GL603: the mean of the speeds at which the motor runs the machine against that of the file."""
+    motor, running = design.section.motor, design.running
+    if motor is None:
+        return
+    mean, asked = 0.5 * sum(running.range), abs(design.speed) / RPM
+    off, name = abs(mean / asked - 1.0), codes.MOTOR_TORQUE.checks[1]
+    text = f"loads.motor runs the input at {mean:.5g} rev/min, {asked:.5g} are those of the file"
+    status: Status = "fail" if off > _OTHER_SPEED else "warn" if off > _NEAR_SPEED else "pass"
+    if status != "pass":
+        ratio = motor.ratio * mean / asked
+        text += f": forces, lives and vibration are not those of this speed; take a ratio near {ratio:.4g}"
+    yield codes.MOTOR_TORQUE.check(status, text, off, _OTHER_SPEED, name=name)
 
 
 def speed_fluctuation(design: LoadsDesign) -> Iterator[Check]:

@@ -30,13 +30,15 @@ LOAD_REVERSAL = Rule(
 MOTOR_TORQUE = Rule(
     "GL603",
     "motor torque",
-    "The motor gives more than it can for a moment (peak), or all the time (root mean square).",
-    "Above its greatest torque it stalls or trips; above its rated torque in the mean it overheats.",
+    "The motor gives more than it can for a moment (peak, driving or braking), or all the time (root mean square), or "
+    "it runs the machine at another speed than that of the file, at which forces, lives and vibration are computed.",
+    "Above its greatest torque it stalls or trips; above its rated torque in the mean it overheats. Forces of masses "
+    "grow with the square of the speed.",
     "Take a larger motor or ratio, add a flywheel (loads.flywheel.inertia) that levels the peak, or balance the load "
-    "by springs.",
-    "peak <= max_torque/margin, rms <= rated_torque/margin",
+    "by springs. Where the speed is another one, set loads.motor.ratio, or the speed to the one found.",
+    "|peak| <= max_torque/margin, rms <= rated_torque/margin, |(w_max + w_min)/(2 w) - 1| <= 0.1",
     "thermal and pull-out limit of an electric motor",
-    checks=("motor-torque",),
+    checks=("motor-torque", "motor-speed"),
     keys=("loads.motor",),
 )
 SPEED_FLUCTUATION = Rule(

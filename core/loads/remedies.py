@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
+from gearlink.core.loads.base import RPM
 from gearlink.core.remedies.ways import at_least, at_most
 from gearlink.core.spec_paths import number_at
 
@@ -42,12 +43,19 @@ def _wider(design: LoadsDesign) -> Iterator[Remedy]:
 def _stronger_motor(design: LoadsDesign) -> Iterator[Remedy]:
     """Rated and greatest torque for what runs; a motor with another slope gives another peak."""
     motor, margin = design.section.motor, design.limit("torque_margin") / _HOLDS
-    needs = {"rated_torque": design.running.motor_rms, "max_torque": design.running.motor_peak}
+    needs = {"rated_torque": design.running.motor_rms, "max_torque": abs(design.running.motor_peak or 0.0)}
     for more in _MORE:
         given = {name: (getattr(motor, name), (need or 0.0) * margin * more) for name, need in needs.items()}
         found = {name: at_least(need) for name, (was, need) in given.items() if was is not None and was < need}
         if found:
             yield tuple((f"loads.motor.{name}", value) for name, value in found.items())
+
+
+def _other_ratio(design: LoadsDesign) -> Iterator[Remedy]:
+    """The ratio with which the motor runs the input at the speed of the file."""
+    motor, mean = design.section.motor, 0.5 * sum(design.running.range)
+    ratio = motor.ratio * mean / (abs(design.speed) / RPM)
+    yield from ((("loads.motor.ratio", float(f"{ratio:.{digits}g}")),) for digits in (2, 3))
 
 
 def _heavier_flywheel(design: LoadsDesign) -> Iterator[Remedy]:
@@ -146,6 +154,7 @@ _FINDERS: dict[str, Callable[[LoadsDesign], Iterator[Remedy]]] = {
     "contact-pressure": _wider,
     "contact-loss": _closed_rollers,
     "motor-torque": _stronger_motor,
+    "motor-speed": _other_ratio,
     "speed-fluctuation": _heavier_flywheel,
     "bearing-life": _better_bearing,
     "residual-vibration": lambda design: iter((*_stiffer(design), *_slower(design))),

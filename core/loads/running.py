@@ -163,7 +163,12 @@ class Running:
 
     @cached_property
     def motor_peak(self) -> float | None:
-        """Greatest torque of the motor at its own shaft [N m]: at its least speed."""
+        """The motor's torque of the greatest magnitude at its own shaft [N m]; negative where the load drives it.
+
+        Notes
+            Its torque falls with its speed, so that the greatest is that at the least speed or at the greatest.
+        """
         if self.motor is None:
             return None
-        return float(self.slope * (self.motor_run.no_load - self.motor_run.range[0]) / self.motor.ratio)
+        at_ends = [self.slope * (self.motor_run.no_load - speed) / self.motor.ratio for speed in self.motor_run.range]
+        return float(max(at_ends, key=abs))

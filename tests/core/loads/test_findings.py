@@ -121,3 +121,27 @@ def test_a_jump_of_speed_is_an_impact() -> None:
     (check,) = checks.impact(SimpleNamespace(engagement_energy=3.25))
     assert (check.code, check.status, check.value, check.unit) == ("GL614", "warn", 3.25, "J")
     assert list(checks.impact(SimpleNamespace())) == []
+
+
+@pytest.mark.parametrize(("most", "status"), [(1.9, "fail"), (2.05, "warn"), (2.5, "pass")])
+def test_a_motor_that_a_load_drives_brakes_with_what_it_may_give(most: float, status: str) -> None:
+    """6 N m that drive the input, at a ratio of 3: 2 N m at the motor, against its turning; -2 is not below its limit."""
+    pair = {"kind": "gear-pair", "module": 2, "teeth": [30, 30], "profile_shift": [0, 0]}
+    motor = {"no_load_speed": 1500, "slope": 0.5, "ratio": 3, "max_torque": most}
+    links = {"gear1": {"inertia": 0.01}}
+    loads = {"speed": 500, "links": links, "forces": [{"on": "gear1", "torque": 6.0}], "motor": motor}
+    design = factory.design({**pair, "loads": loads}, command="loads")
+    (peak,) = design.check("motor-torque")
+    assert (peak.status, peak.value) == (status, pytest.approx(2.0, rel=1e-9))
+    assert design.motor_torque_peak == pytest.approx(-2.0, rel=1e-9)
+    assert "against its turning" in peak.message
+
+
+@pytest.mark.parametrize(("ratio", "status"), [(12, "pass"), (11.5, "warn"), (11, "fail"), (14, "fail"), (1, "fail")])
+def test_a_motor_runs_the_machine_at_the_speed_at_which_its_forces_are_computed(ratio: float, status: str) -> None:
+    """1500/12 less the slip are 122.7 rev/min beside 120; a ratio that was left out is 1, twelve times as fast."""
+    motor = {"no_load_speed": 1500, "slope": 0.5, "ratio": ratio}
+    check = found("motor-speed", loads__motor=motor, loads__flywheel={"inertia": 20.0})
+    assert (check.code, check.status) == ("GL603", status)
+    slip = 18.0 / (0.5 * ratio**2) * 30.0 / math.pi
+    assert check.value == pytest.approx(abs((1500.0 / ratio - slip) / 120.0 - 1.0), rel=1e-2, abs=2e-3)

@@ -19,6 +19,7 @@ CASES: list[tuple[str, str, dict[str, Any]]] = [
     ("GL610", FEED, {"loads__vibration__allowed_residual": 0.05}),
     ("GL602", FEED, {"loads__forces": [{"on": "output", "torque": -1.0}]}),
     ("GL603", FEED, {"loads__motor__rated_torque": 1.2}),
+    ("GL603", FEED, {"loads__motor__ratio": 10}),
     ("GL604", FEED, {"loads__flywheel": {"inertia": 2.0, "fluctuation": 0.03}}),
     ("GL604", FEED, {"loads__motor": None, "loads__flywheel": {"inertia": 2.0, "fluctuation": 0.03}}),
     ("GL606", FEED, {"loads__bearings__C__dynamic_rating": 900}),
