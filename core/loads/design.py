@@ -16,7 +16,7 @@ from gearlink.core.report import Quantity
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Iterable, Sequence
 
     from gearlink.core.loads.base import Wanted
     from gearlink.core.loads.machine import Machine
@@ -294,9 +294,11 @@ class LoadsDesign(BalancedLoads):
         """Range of the output with its deflection in a dwell [deg or mm]."""
         return self._of_vibration(lambda v: v.twisted_ripple)
 
-    def harmonic_share(self, order: int) -> float:
-        """Acceleration of a harmonic of the output over that of the greatest.
+    def harmonic_shares(self, orders: Sequence[int]) -> list[float]:
+        """Acceleration of harmonics of the output over that of the greatest.
 
+        Parameters
+            orders : ascending - cycles over the period
         Notes
             0 above 10000 a turn: even where the acceleration jumps, it has fallen below 1e-3 there.
         """
@@ -304,13 +306,13 @@ class LoadsDesign(BalancedLoads):
 
         from gearlink.core.loads.vibration import harmonics
 
-        if order > _HIGHEST * self.turns:
-            return 0.0
-        rows = max(720 * self.turns, 4 * order)
+        seen = [order for order in orders if order <= _HIGHEST * self.turns]
+        rows = max([720 * self.turns, *(4 * order for order in seen[-1:])])
         phi = np.arange(rows, dtype=np.float64) * (self.machine.period / rows)
-        found = harmonics(self.vibrating.bend(phi), rows // 2)
+        found = harmonics(self.vibrating.bend(phi), rows // 2) if seen else np.zeros(1)
         top = float(np.max(found))
-        return float(found[order - 1]) / top if top > 0.0 else 0.0
+        shares = [float(found[order - 1]) / top if top > 0.0 else 0.0 for order in seen]
+        return shares + [0.0] * (len(orders) - len(seen))
 
     def has(self, name: str) -> bool:
         """Whether this design has a joint of the name."""

@@ -72,20 +72,43 @@ def resonance(design: LoadsDesign) -> Iterator[Check]:
     """GL611: a harmonic of the motion at the natural frequency."""
     if design.section.vibration is None:
         return
-    vibrating = design.vibrating
-    ratio = vibrating.frequency_ratio * design.turns
+    vibrating, turns = design.vibrating, design.turns
+    ratio = vibrating.frequency_ratio * turns
     order = max(1, round(ratio))
-    off = abs(ratio / order - 1.0)
-    text = f"the nearest harmonic, number {order}, lies {100.0 * off:.3g} % off the natural frequency"
     if vibrating.response.unbounded:
+        text = _nearness("nearest harmonic", order, turns, off := abs(ratio / order - 1.0))
         message = f"{text}, without damping: the vibration grows without limit; change the speed or give damping"
         yield codes.RESONANCE.check("fail", message, off, _NEAR_RESONANCE)
         return
-    share = design.harmonic_share(order)
-    if off < _NEAR_RESONANCE and share > _ONE_PERCENT and math.isfinite(share):
-        # from the fifth harmonic on the next one is as near, whatever the speed
-        remedy = "change the speed by a tenth" if order < _CLOSE else "stiffen the output, or take a smoother law"
-        message = f"{text} and has {100.0 * share:.3g} % of the greatest: {remedy}"
-        yield codes.RESONANCE.check("warn", message, off, _NEAR_RESONANCE)
-    else:
-        yield codes.RESONANCE.check("pass", text, off, _NEAR_RESONANCE)
+    # Of a period of several turns, or a motion of which every second harmonic is none, the nearest may be nothing.
+    near = [n for n in orders_near(ratio) if abs(ratio / n - 1.0) < _NEAR_RESONANCE]
+    shares = dict(zip(near, design.harmonic_shares(near), strict=True))
+    strong = [n for n in near if math.isfinite(shares[n]) and shares[n] > _ONE_PERCENT]
+    if not strong:
+        off = abs(ratio / order - 1.0)
+        yield codes.RESONANCE.check("pass", _nearness("nearest harmonic", order, turns, off), off, _NEAR_RESONANCE)
+        return
+    found = min(strong, key=lambda n: abs(ratio / n - 1.0))
+    off = abs(ratio / found - 1.0)
+    text = _nearness("nearest harmonic" if found == order else "harmonic", found, turns, off)
+    # from the fifth harmonic on the next one is as near, whatever the speed
+    remedy = "change the speed by a tenth" if found < _CLOSE * turns else "stiffen the output, or take a smoother law"
+    message = f"{text} and has {100.0 * shares[found]:.3g} % of the greatest: {remedy}"
+    yield codes.RESONANCE.check("warn", message, off, _NEAR_RESONANCE)
+
+
+def orders_near(ratio: float) -> range:
+    """Whole numbers from which a ratio is not farther than a tenth of them, and its nearest one.
+
+    Example
+        >>> list(orders_near(3.1)), list(orders_near(27.5)), list(orders_near(1.4))
+        ([3], [25, 26, 27, 28, 29, 30], [1])
+    """
+    low, high = math.ceil(ratio / (1.0 + _NEAR_RESONANCE)), math.floor(ratio / (1.0 - _NEAR_RESONANCE))
+    nearest = max(1, round(ratio))
+    return range(max(1, min(low, nearest)), max(high, nearest) + 1)
+
+
+def _nearness(which: str, order: int, turns: int, off: float) -> str:
+    over = f" over {turns} turns" if turns > 1 else ""
+    return f"the {which}, number {order}{over}, lies {100.0 * off:.3g} % off the natural frequency"

@@ -32,6 +32,16 @@ def test_a_bearing_of_the_rating_that_is_named_lives_long_enough() -> None:
     assert found("bearing-life", loads__bearings__C__dynamic_rating=0.99 * named).status == "fail"
 
 
+@pytest.mark.parametrize(("frequency", "status"), [(6.12, "warn"), (7.2, "pass")])
+def test_a_resonance_is_one_over_whatever_turns_the_period_has(frequency: float, status: str) -> None:
+    """An idler out of balance makes the period nine turns: of its harmonics only every ninth is one of the motion."""
+    vibration = {"frequency": frequency, "damping": 0.01}
+    plain = found("resonance", loads__vibration=vibration)
+    heavy = found("resonance", loads__vibration=vibration, loads__links__idler__center=[3, 0])
+    assert (plain.status, heavy.status) == (status, status)
+    assert status == "pass" or (heavy.value == pytest.approx(plain.value) and "number 27 over 9 turns" in heavy.message)
+
+
 def test_a_bearing_that_hardly_swings_has_no_life() -> None:
     """Rolling bodies are to change places: 720 deg over their number, 20 deg where none is given."""
 
@@ -125,7 +135,7 @@ def test_a_jump_of_speed_is_an_impact() -> None:
 
 @pytest.mark.parametrize(("most", "status"), [(1.9, "fail"), (2.05, "warn"), (2.5, "pass")])
 def test_a_motor_that_a_load_drives_brakes_with_what_it_may_give(most: float, status: str) -> None:
-    """6 N m that drive the input, at a ratio of 3: 2 N m at the motor, against its turning; -2 is not below its limit."""
+    """6 N m that drive the input, at a ratio of 3: 2 N m at the motor, against its turning."""
     pair = {"kind": "gear-pair", "module": 2, "teeth": [30, 30], "profile_shift": [0, 0]}
     motor = {"no_load_speed": 1500, "slope": 0.5, "ratio": 3, "max_torque": most}
     links = {"gear1": {"inertia": 0.01}}
