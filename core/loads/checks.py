@@ -132,8 +132,24 @@ def speed_fluctuation(design: LoadsDesign) -> Iterator[Check]:
         yield codes.SPEED_FLUCTUATION.check("pass", text, found, allowed)
 
 
+def _thrust(design: LoadsDesign) -> float:
+    """Greatest axial force of helical teeth [N], which forces in the plane do not show; 0 of spur gears.
+
+    F_a = F_t tan(beta_w),   tan(beta_w) = tan(beta) r_w/r
+    """
+    pair = getattr(design, "pair", None)
+    meshes = getattr(getattr(design, "design", None), "meshes", {}) if pair is None else {"": pair}
+    helical = [mesh for mesh in meshes.values() if getattr(mesh, "helix_angle", 0.0)]
+    if not helical:
+        return 0.0
+    shares = [math.tan(mesh.helix_angle) * mesh.working_radius[0] / mesh.reference_radius[0] for mesh in helical]
+    return max(shares) * max(mesh.tooth_force_max for mesh in design.meshes_found.values())
+
+
 def bearing_life(design: LoadsDesign) -> Iterator[Check]:
     """GL606, for the bearings of the file."""
+    rolling = any(bearing.kind != "plain" for bearing in design.section.bearings.values())
+    thrust = _thrust(design) if rolling else 0.0
     for name in design.section.bearings:
         pin = design.pins_found.get(name)
         if pin is None:
@@ -148,6 +164,10 @@ def bearing_life(design: LoadsDesign) -> Iterator[Check]:
                 yield codes.BEARING_LIFE.check("warn", f"{text} hold; take a plain bearing", swing, least, "deg")
         if life is None or bearing.life is None:
             continue
+        if thrust:
+            text = f"the rating life of the bearing of {name} is that of forces in the plane: helical teeth push along"
+            text += f" their axis with up to {thrust:.5g} N besides, and tilt their gear"
+            yield codes.BEARING_LIFE.check("warn", f"{text}; add what the bearing takes of it", thrust, 0.0, "N")
         text = f"the bearing of {name} has a rating life of {life:.5g} h"
         if life < bearing.life:
             rating = bearing.dynamic_rating * (bearing.life / life) ** (1.0 / pin.exponent)

@@ -42,6 +42,21 @@ def test_a_resonance_is_one_over_whatever_turns_the_period_has(frequency: float,
     assert status == "pass" or (heavy.value == pytest.approx(plain.value) and "number 27 over 9 turns" in heavy.message)
 
 
+def test_a_bearing_beside_helical_teeth_is_told_their_axial_force() -> None:
+    """400 N m at r = 69.28 mm push with 5773.5 N, 3333.3 N along the axis at 30 deg; spur gears with nothing."""
+    bearing = {"kind": "ball", "dynamic_rating": 2e5, "life": 1000}
+    loads = {"speed": 1000, "forces": [{"on": "gear2", "torque": -400}], "bearings": {"gear2": bearing}}
+    pair = {"kind": "gear-pair", "module": 3, "teeth": [20, 40], "profile_shift": [0, 0], "loads": loads}
+    helical = factory.design({**pair, "helix_angle": 30}, command="loads").check("bearing-life")
+    assert [check.status for check in helical] == ["warn", "pass"]
+    assert helical[0].value == pytest.approx(400e3 / 69.282032 * math.tan(math.radians(30)), rel=1e-6)
+    spur = factory.design(pair, command="loads").check("bearing-life")
+    assert [check.status for check in spur] == ["pass"]
+    teeth = {"gears__helix_angle": 12, "gears__face_width": 20, "gears__profile_shift": [0, 0, 0]}
+    feed = factory.design(FEED, command="loads", **teeth, links__crank=38.857, links__frame=157)
+    assert [check.status for check in feed.check("bearing-life")] == ["warn", "pass"]
+
+
 def test_a_bearing_that_hardly_swings_has_no_life() -> None:
     """Rolling bodies are to change places: 720 deg over their number, 20 deg where none is given."""
 
