@@ -193,6 +193,18 @@ def test_turning_the_other_way_is_the_mirror_image() -> None:
         assert sign * back_again[name][:0:-1] == pytest.approx(forth[name][1:], rel=1e-10), name
 
 
+def test_the_dwell_of_a_crank_that_turns_backwards_is_the_mirror_image() -> None:
+    """From the end of the back-step backwards, as long as forwards from its start: mirrored, the machine is the same."""
+    forth = factory.design({**FEED, "loads": FEED["loads"]}, command="loads")
+    back = factory.design({**FEED, "assembly": -1, "loads": {**FEED["loads"], "speed": -120}}, command="loads")
+    ((start, width),), ((mirrored, wide),) = forth.quiet_zones, back.quiet_zones
+    assert wide == pytest.approx(width, rel=1e-12)
+    assert math.remainder(start + width + mirrored, 2.0 * math.pi) == pytest.approx(0.0, abs=1e-10)
+    turned = factory.design({**FEED, "loads": {**FEED["loads"], "speed": -120}}, command="loads")
+    ((first, _),) = turned.quiet_zones
+    assert abs(math.remainder(first - start, 2.0 * math.pi)) > 0.1, "the same machine run backwards dwells elsewhere"
+
+
 @pytest.mark.parametrize(
     ("loads", "quantity", "key"),
     [
