@@ -69,6 +69,7 @@ GEAR_PAIR = {
     "helix_angle_factor_bending": Term("Y_beta", "1", "helix angle factor of the root", "ISO 6336-3"),
     "rim_factor": Term("Y_B", "1", "rim thickness factor", "ISO 6336-3, IACS UR M56"),
     "deep_tooth_factor": Term("Y_DT", "1", "deep tooth factor of accurate gears", "ISO 6336-3, IACS UR M56"),
+    "load_reversal_factor": Term("Y_d", "1", "factor of teeth that are bent both ways, an idler's", "IACS UR M56.3.9"),
     "tip_form_factor": Term("Y_Fa", "1", "form factor for load at the tip (method C)", "ISO 6336-3:1996"),
     "tip_stress_correction_factor": Term(
         "Y_Sa", "1", "stress correction factor for load at the tip (method C)", "ISO 6336-3:1996"

@@ -56,6 +56,7 @@ class GearData:
         load_share : str - "third" or "half", what a pair of flanks carries beside another
         rims : (float or None, float or None) [mm] - rim under the tooth roots; None: solid
         accuracy_grade : int or None - of ISO 1328
+        idlers : (bool, bool) - gears that have another mate besides
     """
 
     pair: GearPair
@@ -69,6 +70,7 @@ class GearData:
     load_share: str = "third"
     rims: Both = (None, None)
     accuracy_grade: int | None = None
+    idlers: tuple[bool, bool] = (False, False)
 
     @cached_property
     def path(self) -> PathOfContact:
@@ -228,6 +230,7 @@ class GearData:
             "edition": self.edition,
             "rims": self.rims,
             "accuracy_grade": self.accuracy_grade,
+            "idlers": self.idlers,
         }
 
     @property

@@ -319,7 +319,8 @@ def _safety(
     for gear, safety in enumerate(found or ()):
         if safety is None:
             continue
-        text = f"the safety of {data.called(gear)} against {against} is {safety:.4g}, nominal: {inputs}"
+        both_ways = ", an idler's, bent both ways (Y_d 0.7)" if data.idlers[gear] and rule is BENDING else ""
+        text = f"the safety of {data.called(gear)} against {against} is {safety:.4g}{both_ways}, nominal: {inputs}"
         if safety < least:
             text += f"; below the limit {least:g}: widen the gears, take a larger module or a better material"
         yield rule.check("fail" if safety < least else "pass", text, safety, least)

@@ -49,6 +49,7 @@ PLACES = {
     "helix_angle_factor_bending": "root.helix_angle_factor",
     "rim_factor": "root.rim_factor",
     "deep_tooth_factor": "root.deep_tooth_factor",
+    "load_reversal_factor": "root.load_reversal_factor",
     "tip_form_factor": "root.tip_form_factor",
     "tip_stress_correction_factor": "root.tip_stress_correction_factor",
     "contact_ratio_factor_bending": "root.contact_ratio_factor",

@@ -22,6 +22,8 @@ _RING_RIM = (3.5, 1.75, 1.15, 8.324)
 """Of Y_B: the rim from which on it is 1, that down to which it is known, and its two constants between."""
 _DEEP_GRADE = 4
 """Deep teeth share the load from this accuracy grade on."""
+_BOTH_WAYS = 0.7
+"""Y_d of teeth that are bent both ways, those of idlers."""
 _OVERHANG = 2.0
 """Modules by which a gear may be wider than its mate and still carry with all its width."""
 
@@ -42,11 +44,13 @@ class RootStress:
         edition : int - 2006, or 2019, whose Y_beta and f_eps were not compared with any published value
         rims : (float or None, float or None) [mm] - rim under the tooth roots; None: solid
         accuracy_grade : int or None - of ISO 1328; 4 or better lowers the stress of deep teeth
+        idlers : (bool, bool) - gears with two mates, which load one flank and the other
     Returns
         Properties: a pair is (gear 1, gear 2); lengths in mm, stresses in N/mm^2.
 
     Source
-        ISO 6336-3:2006; the standard was not opened. Y_S, Y_beta, Y_B and Y_DT stand as here in IACS UR M56 (Rev. 4)
+        ISO 6336-3:2006; the standard was not opened. Y_S, Y_beta, Y_B and Y_DT stand as here in IACS UR M56 (Rev. 4),
+        which has Y_d in M56.3.9
     """
 
     path: PathOfContact
@@ -58,6 +62,7 @@ class RootStress:
     edition: int = 2006
     rims: Both = (None, None)
     accuracy_grade: int | None = None
+    idlers: tuple[bool, bool] = (False, False)
 
     @cached_property
     def sections(self) -> tuple[RootSection | None, RootSection | None]:
@@ -125,6 +130,12 @@ class RootStress:
         """Y_DT; None where the file names no accuracy grade."""
         grade = self.accuracy_grade
         return None if grade is None else deep_tooth_factor(self.virtual_contact_ratio, grade)
+
+    @property
+    def load_reversal_factor(self) -> Pair | None:
+        """Y_d, what teeth that are bent both ways bear of what others do; None without an idler."""
+        one, other = (_BOTH_WAYS if idler else 1.0 for idler in self.idlers)
+        return (one, other) if any(self.idlers) else None
 
     def raised(self, gear: int) -> float | None:
         """Y_B Y_DT of a gear, 1 where the file has no data for them; None for a rim too thin to be rated."""
@@ -219,14 +230,15 @@ class RootStress:
 
     @cached_property
     def safety(self) -> Both | None:
-        """S_F = sigma_Flim Y_ST Y_N (Y_drelT Y_RrelT Y_X)/sigma_F."""
+        """S_F = sigma_Flim Y_ST Y_d Y_N (Y_drelT Y_RrelT Y_X)/sigma_F."""
         return None if self.stress is None else (self._safety(0, self.stress[0]), self._safety(1, self.stress[1]))
 
     def _safety(self, gear: int, stress: float | None) -> float | None:
         limit = self.materials[gear].bending_limit
         if limit is None or not stress:
             return None
-        return limit * _STRESS_CORRECTION * self.materials[gear].bending_factors / stress
+        borne = limit * (_BOTH_WAYS if self.idlers[gear] else 1.0)
+        return borne * _STRESS_CORRECTION * self.materials[gear].bending_factors / stress
 
 
 def _corrected(section: RootSection | None) -> float | None:

@@ -128,7 +128,9 @@ class Train:
         if pair.internal and (rim is not None or (rims[1] is None and "rim" in type(keys).model_fields)):
             root = abs(pair.root_radius[1])  # a rim that is left out is the one that stands in the machine
             rims = rims[0], rim_radius(root, pair.module, rim) - root
-        return replace(data, load=self._load(place), rims=rims)
+        count = len(self.teeth)  # those between the ends hand the force on, with one flank to the other
+        one, other = (0 < gear < count - 1 for gear in place.gears)
+        return replace(data, load=self._load(place), rims=rims, idlers=(one, other))
 
     def _load(self, place: Place) -> Load:
         """The load of a mesh; one tangential force on the reference circles goes through all of them.

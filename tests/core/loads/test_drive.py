@@ -194,7 +194,7 @@ def test_turning_the_other_way_is_the_mirror_image() -> None:
 
 
 def test_the_dwell_of_a_crank_that_turns_backwards_is_the_mirror_image() -> None:
-    """From the end of the back-step backwards, as long as forwards from its start: mirrored, the machine is the same."""
+    """From the end of the back-step backwards, as long as forwards from its start: mirrored, it is the same machine."""
     forth = factory.design({**FEED, "loads": FEED["loads"]}, command="loads")
     back = factory.design({**FEED, "assembly": -1, "loads": {**FEED["loads"], "speed": -120}}, command="loads")
     ((start, width),), ((mirrored, wide),) = forth.quiet_zones, back.quiet_zones

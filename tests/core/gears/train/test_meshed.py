@@ -7,6 +7,7 @@ Tolerances
 """
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -342,6 +343,28 @@ def test_one_force_goes_through_all_meshes():
     turned = design(THREE | {"gears": gears | {"load": speed}}, command="analyze")
     assert turned.mesh_data["crank_idler"].load.speed == pytest.approx(500.0 * 28 / 24)
     assert turned.raw("crank_idler.tangential_force") == pytest.approx(10e3 / (500 * math.pi / 30) / 0.028)
+
+
+def test_teeth_of_an_idler_are_bent_both_ways():
+    """IACS UR M56.3.9: seven tenths of what they bear one way, in either mesh."""
+    rated = {"face_width": 20.0, "load": {"torque": 100.0}, "material": {"bending_limit": 300.0}}
+    one = design(THREE | {"gears": THREE["gears"] | rated}, command="gear")
+    for mesh, idler in (("crank_idler", 1), ("idler_output", 0)):
+        one_way = replace(one.mesh_data[mesh], idlers=(False, False)).root.safety
+        factors = [pytest.approx(0.7 if gear == idler else 1.0) for gear in (0, 1)]
+        rated_both_ways = one.raw(f"{mesh}.safety_bending")
+        assert [found / alone for found, alone in zip(rated_both_ways, one_way, strict=True)] == factors
+        assert list(one.raw(f"{mesh}.load_reversal_factor")) == factors
+    least = 0.9 * min(replace(data, idlers=(False, False)).root.safety[0] for data in one.mesh_data.values())
+    judged = design(THREE | {"gears": THREE["gears"] | rated, "limits": {"safety_bending": least}}, command="gear")
+    failing = [check.message for check in judged.check("bending") if check.status == "fail"]
+    assert failing
+    assert all("an idler's" in message for message in failing)
+    path = {"kind": "geared-five-bar", "phase": 40, "coupler_point": {"along": 60}}
+    links = {"input": 20, "coupler": 60, "follower": 60, "output": 20, "frame": 70}
+    gears = {"module": 2.5, "input": 20, "idler": 30, "output": 30, **rated}
+    bars = design({**path, "links": links, "gears": gears}, command="gear")
+    assert [data.idlers for data in bars.mesh_data.values()] == [(False, True), (True, False)]
 
 
 def test_helix_widens_the_links_of_three_gears_and_nothing_else():
