@@ -67,8 +67,8 @@ TARGET = Rule(
 TRAIN_FIT = Rule(
     "GL308",
     "gear train does not fit the linkage",
-    "A gear in the middle of a train is fixed, neighbours do not sit on one link, or a centre distance is not the "
-    "link's length.",
+    "A gear in the middle of a train is fixed, neighbours do not sit on one link, a centre distance is not the "
+    "link's length, a ring is too small for the gear in it, or what the gears are fixed to holds them fast.",
     "Gears stay in mesh only where one link keeps their distance; only the ends of a train may be fixed to links.",
     "Put neighbours on two pins of one link, fix end gears only, and to a link that carries their pin.",
     "dF = 3 (J - R) - 2 (J - R) - (J - 1) = 1 - R",
@@ -79,7 +79,8 @@ TRAIN_FIT = Rule(
 MOBILITY = Rule(
     "GL309",
     "degrees of freedom are not those wanted",
-    "Linkage and trains together have another number of degrees of freedom than `mobility` asks for.",
+    "Linkage and trains together have another number of degrees of freedom than `mobility` asks for, or the number is "
+    "right only because joints and trains that say again what others say are counted.",
     "With none the mechanism is locked; with two it needs a second input.",
     "Fix or free end gears: a train takes R - 1 degrees of freedom away.",
     "F = F_linkage + sum(1 - R_i)",

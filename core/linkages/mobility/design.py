@@ -11,6 +11,7 @@ from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.linkages.codes import MOBILITY, TRAIN_FIT
 from gearlink.core.linkages.mobility import freedom as mobility
 from gearlink.core.linkages.mobility import remedies
+from gearlink.core.linkages.mobility.repeats import Constraints
 from gearlink.core.report import Check, Table
 from gearlink.core.results import cached_property
 from gearlink.core.wording import amount
@@ -95,7 +96,9 @@ class GearTrainMobility(Design):
         """GL308: what keeps a train from running on the linkage, one finding per reason."""
         self.require_names()
         for i, train in enumerate(self.spec.trains, start=1):
-            reasons = [*self._fixing(train), *self._meshes(train)]
+            reasons = self._reasons[i - 1]
+            if i in self._held:
+                reasons = ["its gears cannot turn: what they are fixed to holds them; put it on other pins"]
             for reason in reasons:
                 yield TRAIN_FIT.check("fail", f"train {i}: {reason}")
             if not reasons:
@@ -108,9 +111,38 @@ class GearTrainMobility(Design):
         free = amount(found, "degree of freedom", "degrees of freedom")
         text = f"{free}: linkage {self.linkage_mobility}, trains{terms or ' none'}"
         if found == wanted:
-            return MOBILITY.check("pass", text, float(found), float(wanted))
+            return self._general(text) or MOBILITY.check("pass", text, float(found), float(wanted))
         text += f"; {wanted} wanted: {self._mobility_remedy(found - wanted)}"
         return MOBILITY.check("fail", text, float(found), float(wanted))
+
+    @cached_property
+    def _reasons(self) -> list[list[str]]:
+        """Why each train does not fit, one by one."""
+        return [[*self._fixing(train), *self._meshes(train)] for train in self.spec.trains]
+
+    @cached_property
+    def _constraints(self) -> Constraints | None:
+        """Joints and meshes of trains that fit; None where one does not."""
+        return None if any(self._reasons) else Constraints(self.links, self.spec.trains)
+
+    @cached_property
+    def _held(self) -> frozenset[int]:
+        return frozenset(() if self._constraints is None else self._constraints.held())
+
+    def _general(self, text: str) -> Check | None:
+        """GL309 where constraints that repeat others leave more freedom than is counted; None where they do not."""
+        found, wanted = self._constraints, self.spec.mobility
+        if found is None or found.freedom == wanted:
+            return None
+        again = " and ".join(found.repeated)
+        text += (
+            f"; but {again} {'says' if len(found.repeated) == 1 else 'say'} again what other parts say: what is held "
+        )
+        text += (
+            f"twice cannot move, all together have {amount(found.freedom, 'degree', 'degrees')} of freedom; put it on "
+        )
+        text += "other pins or links"
+        return MOBILITY.check("fail", text, float(found.freedom), float(wanted))
 
     def _mobility_remedy(self, excess: int) -> str:
         """What brings the degrees of freedom to those that are wanted, by the rule of composition."""
@@ -167,6 +199,10 @@ class GearTrainMobility(Design):
             return
         if one.ring and other.ring:
             yield f"{which} are both ring gears, which cannot mesh: leave out ring at one of them"
+            return
+        ring, inner = (one, other) if one.ring else (other, one)
+        if ring.ring and ring.teeth is not None and inner.teeth is not None and ring.teeth <= inner.teeth:
+            yield f"{which}: a ring of {ring.teeth} teeth does not take a gear of {inner.teeth}, it needs more"
             return
         if length is not None:
             if abs(distance - length) > _DISTANCE_TOLERANCE * module:

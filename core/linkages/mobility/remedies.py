@@ -74,6 +74,8 @@ def _fixings(design: GearTrainMobility) -> Iterator[Remedy]:
 def _freed_or_fixed(design: GearTrainMobility) -> Iterator[Remedy]:
     """As many end gears free, or fixed to a link at their pins, as degrees of freedom are missing or too many."""
     excess = design.mobility - design.spec.mobility
+    if excess == 0:  # what holds twice is not told by the count
+        return
     ends = [(i, j) for i, train in enumerate(design.spec.trains) for j in _ends(train)]
     gears = {(i, j): design.spec.trains[i].gears[j] for i, j in ends}
     if excess < 0:

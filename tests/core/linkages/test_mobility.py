@@ -16,6 +16,7 @@ import pytest
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.mobility.freedom import common_links, linkage_mobility, pin_names, train_change
+from gearlink.core.linkages.mobility.repeats import Constraints
 from gearlink.core.spec_paths import changed
 
 REFERENCE = Path(__file__).parents[2] / "reference"
@@ -117,6 +118,71 @@ def test_rule_against_the_rank_of_the_constraints(links, trains):
     made = design(links, trains, 0)
     assert made.mobility == freedom_by_rank(links, trains)
     assert [c.status for c in made.check("train-fit")] == ["pass"] * len(trains)
+
+
+TWICE = [("A:frame", 20), ("B:q", 20)], [("A:frame", 40), ("B:q", 40)]
+HELD = [("A:frame", 20), ("B:q", 20)], [("A:frame", 50), ("B:q", 30)]
+
+
+def toothed(*gears):
+    made = train(*(gear for gear, _ in gears))
+    return {"gears": [{**gear, "teeth": z} for gear, (_, z) in zip(made["gears"], gears, strict=True)]}
+
+
+def test_two_trains_that_tie_the_same_count_once():
+    """Equal gears on A and B twice: the loop keeps two degrees of freedom, though 3 - 1 - 1 = 1 is counted."""
+    made = design(SIX_LOOP, [toothed(*gears) for gears in TWICE])
+    (found,) = made.check("mobility")
+    assert made.mobility == 1
+    assert (found.status, found.value) == ("fail", 2.0)
+    assert "train 2 says again" in found.message
+    assert {check.status for check in made.check("train-fit")} == {"pass"}
+
+
+def test_two_trains_that_hold_their_gears_fast():
+    """Other ratios on the same pins: AB and BC stand, and what moves are the four links beyond."""
+    made = design(SIX_LOOP, [toothed(*gears) for gears in HELD])
+    assert [check.status for check in made.check("train-fit")] == ["fail", "fail"]
+    assert [check.status for check in made.check("mobility")] == ["pass"]
+    other = design(SIX_LOOP, [toothed(("A:frame", 20), ("B:q", 20)), toothed(("F:frame", 20), ("E:s", 30))])
+    assert {check.status for name in ("train-fit", "mobility") for check in other.check(name)} == {"pass"}
+
+
+def test_a_bar_too_many_in_one_part_does_not_pay_for_a_bar_too_few_in_another():
+    links = {"frame": "ABDP", "one": "AC", "two": "BC", "three": "DC", "crank": "PQ", "rod": "QR"}
+    assert linkage_mobility(links) == 1
+    assert freedom_by_rank(links, []) == 2
+    (found,) = design(links, []).check("mobility")
+    assert (found.status, found.value) == ("fail", 2.0)
+    assert "pin C says again" in found.message
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_freedom_of_random_linkages_against_the_rank(seed):
+    """Loops with further bars, and trains of free and fixed gears on them."""
+    draw = random.Random(seed)
+    links = dict(draw.choice([FOUR_BAR, FIVE_BAR, SIX_LOOP, WATT]))
+    pins = pin_names(links)
+    for k in range(draw.randrange(3)):
+        links[f"more {k}"] = draw.sample(pins, 2) if draw.random() < 0.6 else [draw.choice(pins), f"Z{k}"]
+    carriers = [name for name, own in links.items() if len(own) > 1]
+    trains = []
+    for _ in range(draw.randrange(3)):
+        ends = draw.sample(list(links[draw.choice(carriers)]), 2)
+        held = [draw.choice(["", *(f":{name}" for name, own in links.items() if end in own)]) for end in ends]
+        trains.append(train(*(end + fixed for end, fixed in zip(ends, held, strict=True))))
+    found = Constraints(links, design(links, trains).spec.trains)
+    assert found.freedom == freedom_by_rank(links, trains)
+    assert bool(found.repeated) == (found.freedom != linkage_mobility(links) + sum(
+        train_change(sum("fixed_to" in gear for gear in each["gears"])) for each in trains
+    ))  # fmt: skip
+
+
+@pytest.mark.parametrize(("ring", "status"), [(60, "pass"), (41, "pass"), (40, "fail"), (20, "fail")])
+def test_a_ring_has_more_teeth_than_the_gear_in_it(ring, status):
+    gears = [{"at": "B", "fixed_to": "coupler", "teeth": 40}, {"at": "A", "teeth": ring, "ring": True}]
+    made = design(FOUR_BAR, [{"module": 2.0, "gears": gears}])
+    assert [check.status for check in made.check("train-fit")] == [status]
 
 
 def test_ends_on_one_link_take_no_freedom_away():
