@@ -143,7 +143,7 @@ def _thrust(design: LoadsDesign) -> float:
     if not helical:
         return 0.0
     shares = [math.tan(mesh.helix_angle) * mesh.working_radius[0] / mesh.reference_radius[0] for mesh in helical]
-    return max(shares) * max(mesh.tooth_force_max for mesh in design.meshes_found.values())
+    return float(max(shares) * max(mesh.tooth_force_max for mesh in design.meshes_found.values()))
 
 
 def bearing_life(design: LoadsDesign) -> Iterator[Check]:
