@@ -16,6 +16,7 @@ from gearlink.core.report import Table
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
+    from gearlink.core.gears.data import GearData
     from gearlink.core.gears.mesh.pair import GearPair
     from gearlink.core.gears.spec import GearPairSpec
     from gearlink.core.loads.forces.mechanism import Mechanism
@@ -35,9 +36,18 @@ class GearPairLoads(LoadsDesign):
     outlines = loads_outline(pins, meshes, ("axial_force_max", "tilting_moment_max"))
 
     @cached_property
+    def _geometry(self) -> GearPairDesign:
+        return GearPairDesign(self.spec)
+
+    @property
     def pair(self) -> GearPair:
         """The geometry."""
-        return GearPairDesign(self.spec).gear_pair
+        return self._geometry.gear_pair
+
+    @property
+    def mesh_data(self) -> dict[str, GearData]:
+        """The pair with what its rating needs."""
+        return {"": self._geometry.data}
 
     @property
     def turns(self) -> int:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.loads import codes
 from gearlink.core.loads.base import RPM
+from gearlink.core.loads.teeth import rated_forces, thrust
 from gearlink.core.report import Check, Status, safely_above
 from gearlink.core.wording import amount
 
@@ -24,6 +25,7 @@ CHECKS = (
     "force-amplification",
     "impact",
     "self-locking",
+    "tooth-load",
 )
 _IDENTITY = 1e-9
 _NEAR = 0.9
@@ -33,6 +35,7 @@ _AMPLIFICATION = 5.0
 _SWING_PER_BODY = 2.0 * 360.0
 _SWING_UNKNOWN = 20.0
 _NEAR_LOCKING = 0.5
+_ROUNDING = 1e-9
 _LESS_FRICTION = "take thinner pins or less friction"
 
 
@@ -132,24 +135,8 @@ def speed_fluctuation(design: LoadsDesign) -> Iterator[Check]:
         yield codes.SPEED_FLUCTUATION.check("pass", text, found, allowed)
 
 
-def _thrust(design: LoadsDesign) -> float:
-    """Greatest axial force of helical teeth [N], which forces in the plane do not show; 0 of spur gears.
-
-    F_a = F_t tan(beta_w),   tan(beta_w) = tan(beta) r_w/r
-    """
-    pair = getattr(design, "pair", None)
-    meshes = getattr(getattr(design, "design", None), "meshes", {}) if pair is None else {"": pair}
-    helical = [mesh for mesh in meshes.values() if getattr(mesh, "helix_angle", 0.0)]
-    if not helical:
-        return 0.0
-    shares = [math.tan(mesh.helix_angle) * mesh.working_radius[0] / mesh.reference_radius[0] for mesh in helical]
-    return float(max(shares) * max(mesh.tooth_force_max for mesh in design.meshes_found.values()))
-
-
 def bearing_life(design: LoadsDesign) -> Iterator[Check]:
     """GL606, for the bearings of the file."""
-    rolling = any(bearing.kind != "plain" for bearing in design.section.bearings.values())
-    thrust = _thrust(design) if rolling else 0.0
     for name in design.section.bearings:
         pin = design.pins_found.get(name)
         if pin is None:
@@ -164,10 +151,10 @@ def bearing_life(design: LoadsDesign) -> Iterator[Check]:
                 yield codes.BEARING_LIFE.check("warn", f"{text} hold; take a plain bearing", swing, least, "deg")
         if life is None or bearing.life is None:
             continue
-        if thrust:
+        if axial := thrust(design):
             text = f"the rating life of the bearing of {name} is that of forces in the plane: helical teeth push along"
-            text += f" their axis with up to {thrust:.5g} N besides, and tilt their gear"
-            yield codes.BEARING_LIFE.check("warn", f"{text}; add what the bearing takes of it", thrust, 0.0, "N")
+            text += f" their axis with up to {axial:.5g} N besides, and tilt their gear"
+            yield codes.BEARING_LIFE.check("warn", f"{text}; add what the bearing takes of it", axial, 0.0, "N")
         text = f"the bearing of {name} has a rating life of {life:.5g} h"
         if life < bearing.life:
             rating = bearing.dynamic_rating * (bearing.life / life) ** (1.0 / pin.exponent)
@@ -225,3 +212,15 @@ def self_locking(design: LoadsDesign) -> Iterator[Check]:
         yield codes.SELF_LOCKING.check("warn", message, ratio, _NEAR_LOCKING)
     else:
         yield codes.SELF_LOCKING.check("pass", text, ratio, _NEAR_LOCKING)
+
+
+def tooth_load(design: LoadsDesign) -> Iterator[Check]:
+    """GL616, of meshes whose teeth the file has rated."""
+    for name, rated in rated_forces(design).items():
+        found = design.meshes_found[name].tooth_force_max
+        text = f"{name}: the teeth carry up to {found:.5g} N, and are rated for {rated:.5g} N, K_A counted"
+        if found > rated * (1.0 + _ROUNDING):
+            text += f": their safeties are those of a smaller force; rate them for {found / rated:.4g} times the load"
+            yield codes.TOOTH_LOAD.check("warn", text, found, rated, "N")
+        else:
+            yield codes.TOOTH_LOAD.check("pass", text, found, rated, "N")

@@ -97,6 +97,17 @@ SELF_LOCKING = Rule(
     checks=("self-locking",),
     keys=("loads.friction",),
 )
+TOOTH_LOAD = Rule(
+    "GL616",
+    "teeth rated for less than they carry",
+    "The greatest tooth force of the loads is above the one for which the file has the teeth rated, K_A counted.",
+    "The safeties against pitting and breaking (GL210, GL211) are those of a smaller force.",
+    "Raise the load of the rating (torque, power or tangential_force), or its application factor.",
+    "F_t <= K_A F_t,rated r/r_w",
+    "ISO 6336-6 for a load that varies; own derivation",
+    checks=("tooth-load",),
+    keys=("gears.load", "load", "loads"),
+)
 CONTACT_PRESSURE = Rule(
     "GL607",
     "contact pressure",

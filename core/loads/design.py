@@ -378,7 +378,7 @@ class LoadsDesign(BalancedLoads):
     table_spectrum, table_harmonics = tables.spectrum, tables.harmonics
 
     check_power_identity, check_load_reversal = checks.power_identity, checks.load_reversal
-    check_motor_speed = checks.motor_speed
+    check_motor_speed, check_tooth_load = checks.motor_speed, checks.tooth_load
     check_motor_torque, check_speed_fluctuation = checks.motor_torque, checks.speed_fluctuation
     check_bearing_life, check_force_amplification = checks.bearing_life, checks.force_amplification
     check_rigid_model, check_resonance = vibration_checks.rigid_model, vibration_checks.resonance

@@ -170,3 +170,26 @@ def test_a_motor_runs_the_machine_at_the_speed_at_which_its_forces_are_computed(
     assert (check.code, check.status) == ("GL603", status)
     slip = 18.0 / (0.5 * ratio**2) * 30.0 / math.pi
     assert check.value == pytest.approx(abs((1500.0 / ratio - slip) / 120.0 - 1.0), rel=1e-2, abs=2e-3)
+
+
+@pytest.mark.parametrize(
+    ("torque", "application", "status"), [(40, 1.0, "pass"), (41, 1.0, "warn"), (41, 1.25, "pass")]
+)
+def test_teeth_are_rated_for_what_they_carry(torque: float, application: float, status: str) -> None:
+    """The output of the lever is rated for 40 N m; on shifted teeth the force at the pitch circle is less."""
+    load = {"torque": 40, "gear": "output", "factors": {"application": application}}
+    forces = [{"on": "output", "torque": -float(torque)}]
+    design = factory.design("drawn_lever", command="loads", gears__load=load, loads={"speed": 60, "forces": forces})
+    (check,) = design.check("tooth-load")
+    assert (check.code, check.status) == ("GL616", status)
+    radius = design.design.mesh.working_radius[1]
+    assert check.value == pytest.approx(1e3 * torque / radius, rel=1e-12)
+    assert check.limit == pytest.approx(1e3 * 40 * application / radius, rel=1e-12)
+
+
+def test_every_mesh_of_a_train_is_held_against_its_rating() -> None:
+    rated = {"gears__face_width": 20, "gears__load": {"torque": 18, "gear": "output"}}
+    both = factory.design(FEED, command="loads", **rated).check("tooth-load")
+    assert [check.message.partition(":")[0] for check in both] == ["mesh_13", "mesh_35"]
+    assert {check.status for check in both} == {"warn"}, "masses add to the 18 N m that the output takes"
+    assert factory.design(FEED, command="loads").check("tooth-load") == []
