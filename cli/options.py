@@ -76,6 +76,18 @@ DPI = 130
 """Pixels per inch of a picture: 1075 across a page."""
 
 
+class Keyed(NamedTuple):
+    """A key that an option of its own sets: what is wrong with it is wrong with the option.
+
+    option : str - such as --at
+    path : str - dotted path of the key
+    """
+
+    option: str
+    path: str
+    value: bool | float | str
+
+
 class Options(NamedTuple):
     """What the user asked for besides the command and the design file."""
 
@@ -84,7 +96,7 @@ class Options(NamedTuple):
     plot_format: PlotFormat = PlotFormat.PNG
     dpi: int = DPI
     out: Path = Path()
-    overrides: tuple[str, ...] = ()
+    overrides: tuple[str | Keyed, ...] = ()
     quantities: tuple[str, ...] = ()
     tables: tuple[str, ...] = ()
     samples: int | None = None

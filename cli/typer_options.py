@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import wraps
 from importlib import import_module
 from inspect import Parameter, signature
@@ -12,7 +12,7 @@ from typing import Annotated, Any
 import typer
 from typer.models import OptionInfo
 
-from gearlink.cli.options import OPTIONS, Options, file, folder, plain_file
+from gearlink.cli.options import OPTIONS, Keyed, Options, file, folder, plain_file
 
 Spec = Annotated[str, typer.Argument(metavar="SPEC", help="design file, or - for standard input")]
 Jobs = Annotated[int, typer.Option("--jobs", "-j", min=0, help="number of processes; 0: chosen automatically")]
@@ -73,6 +73,18 @@ def share(text: str) -> tuple[int, int]:
     if text.isascii() and index.isdecimal() and count.isdecimal() and 1 <= int(index) <= int(count):
         return int(index), int(count)
     raise typer.BadParameter(f"{text!r} is not I/N with 1 <= I <= N", param_hint="--shard")
+
+
+def keyed(options: Options, section: str, keys: Mapping[str, bool | float | str | None]) -> Options:
+    """Options with the keys of a section set that other options name, those that were given.
+
+    Parameters
+        keys : values by option; the key is called as its option
+    """
+    given = (
+        Keyed(flag, f"{section}.{flag.removeprefix('--')}", value) for flag, value in keys.items() if value is not None
+    )
+    return options._replace(overrides=(*options.overrides, *given))
 
 
 def takes(*names: str, **words: str) -> Callable[[Callable[..., None]], Callable[..., None]]:

@@ -130,7 +130,7 @@ def complete(
         changes : that `--suggest` made
     """
     data = _ordered(design.spec.model_dump(mode="json", exclude_unset=True, by_alias=True), loaded.data)
-    notes = {".".join(map(str, o.path)): "from --set" for o in loaded.overrides}
+    notes = {".".join(map(str, o.path)): f"from {o.source.file.strip('<>')}" for o in loaded.overrides}
     notes |= {change.path: f"was {_shown(change.old)}: --suggest" for change in changes if change.new is not None}
     left_out, units = [], {key.path: key.unit for key in spec_keys(kind)}
     for found in design.completion():

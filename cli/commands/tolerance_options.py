@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from enum import StrEnum
 from typing import Annotated
 
 import typer
 
 from gearlink.cli.options import OPTIONS, Options
-from gearlink.cli.typer_options import Jobs, Spec, takes
+from gearlink.cli.typer_options import Jobs, Spec, keyed, takes
 
 _SHARED = [name for name in OPTIONS if name not in ("samples", "suggest", "save", "round", "force", "candidates")]
 
@@ -36,10 +37,13 @@ def register(app: typer.Typer) -> None:
     app.command("register")(_register)
 
 
-def _keyed(options: Options, section: str, keys: dict[str, object]) -> Options:
-    """Options with keys of a section set, those that were given."""
-    given = tuple(f"{section}.{key}={value}" for key, value in keys.items() if value not in (None, False))
-    return options._replace(overrides=(*options.overrides, *(text.replace("=True", "=true") for text in given)))
+def _place(text: str) -> str | float:
+    """An input angle [deg], or the name of a place."""
+    try:
+        angle = float(text)
+    except ValueError:
+        return text
+    return angle if math.isfinite(angle) else text
 
 
 @takes(*_SHARED)
@@ -66,7 +70,7 @@ def _tolerance(
     from gearlink.cli.commands.design import run_design
     from gearlink.cli.parallel.shares import shares_by
 
-    options = _keyed(options, "tolerance", {"samples": samples, "seed": seed, "sobol": sobol})
+    options = keyed(options, "tolerance", {"--samples": samples, "--seed": seed, "--sobol": sobol or None})
     added = (*(("corners",) if worst_case else ()), *(("allocation",) if allocate else ()))
     options = options._replace(tables=(*options.tables, *added))
     with shares_by(jobs, executor, dask, words="samples", quiet=options.quiet):
@@ -97,7 +101,8 @@ def _register(
     from gearlink.cli.commands.design import run_design
     from gearlink.cli.parallel.shares import shares_by
 
-    options = _keyed(options, "register", {"at": at, "method": method and method.value, "radius": radius})
-    options = _keyed(options, "tolerance", {"samples": samples, "seed": seed})
+    place = None if at is None else _place(at)
+    options = keyed(options, "register", {"--at": place, "--method": method and method.value, "--radius": radius})
+    options = keyed(options, "tolerance", {"--samples": samples, "--seed": seed})
     with shares_by(jobs, executor, dask, words="samples", quiet=options.quiet):
         raise typer.Exit(run_design("register", spec, options))

@@ -49,7 +49,7 @@ def _index(made: Problem, found: Found | None, asked: str) -> int:
 
 
 def _wrong(message: str, asked: str) -> DesignFileError:
-    return DesignFileError([Diagnostic("GL115", message, file="<command line>", key=asked)])
+    return DesignFileError([Diagnostic("GL115", message, file="<--show>", key=asked)])
 
 
 def text_of(made: Problem, found: Found | None, index: int) -> str:

@@ -9,7 +9,7 @@ import typer
 
 from gearlink.cli.exploring.options import Exploring
 from gearlink.cli.options import Options, folder, plain_file
-from gearlink.cli.typer_options import Dask, Jobs, place, share, takes
+from gearlink.cli.typer_options import Dask, Jobs, keyed, place, share, takes
 
 
 def register(app: typer.Typer) -> None:
@@ -45,8 +45,6 @@ def _explore(
     """
     from gearlink.cli.exploring.run import run_explore
 
-    given = [f"sampling.budget={budget!r}"] if budget is not None else []
-    given += [f"sampling.seed={seed}"] if seed is not None else []
-    options = options._replace(overrides=(*options.overrides, *given))
+    options = keyed(options, "sampling", {"--budget": budget, "--seed": seed})
     asked = Exploring(options, store, resume, merge, jobs, executor, dask, show, write, share(shard), tuple(sources))
     raise typer.Exit(run_explore(asked))

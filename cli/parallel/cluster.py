@@ -62,4 +62,4 @@ def client(address: str) -> Iterator[Any]:
 
 
 def _refused(code: str, message: str, key: str, help: str = "") -> DesignFileError:
-    return DesignFileError([Diagnostic(code, message, file="<command line>", key=key, help=help)])
+    return DesignFileError([Diagnostic(code, message, file="<--dask>", key=key, help=help)])

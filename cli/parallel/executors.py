@@ -67,4 +67,4 @@ def _theirs(name: str, words: str) -> Iterator[None]:
 
 
 def _usage(message: str, key: str) -> DesignFileError:
-    return DesignFileError([Diagnostic("GL115", message, file="<command line>", key=key)])
+    return DesignFileError([Diagnostic("GL115", message, file="<--executor>", key=key)])

@@ -11,6 +11,7 @@ from contextlib import nullcontext
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
 
+from gearlink.cli.options import Keyed
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic, Source
 from gearlink.cli.reading.loaded_file import KeyPath, LoadedFile, Override, parse_path
 from gearlink.cli.reading.places import ENDINGS, astray, is_named_pipe, nearest_file, piped
@@ -38,7 +39,9 @@ _LONGEST_KIND = 60
 _NUMBERS = {"2": "two", "3": "three", "4": "four", "5": "five"}
 
 
-def load(source: str | os.PathLike[str], *, overrides: Sequence[str] = (), stdin: BinaryIO | None = None) -> LoadedFile:
+def load(
+    source: str | os.PathLike[str], *, overrides: Sequence[str | Keyed] = (), stdin: BinaryIO | None = None
+) -> LoadedFile:
     """The design file at a path, or on standard input for `-`.
 
     Raises
@@ -69,7 +72,7 @@ def read_at_most(source: str | os.PathLike[str], limit: int, stdin: BinaryIO | N
         raise DesignFileError([_unreadable("<stdin>" if source == "-" else os.fspath(source), error)]) from None
 
 
-def parse(data: bytes, file: str, *, overrides: Sequence[str] = ()) -> LoadedFile:
+def parse(data: bytes, file: str, *, overrides: Sequence[str | Keyed] = ()) -> LoadedFile:
     """The design file that some bytes hold, with `--set` arguments put in.
 
     Raises
@@ -89,7 +92,7 @@ def parse(data: bytes, file: str, *, overrides: Sequence[str] = ()) -> LoadedFil
     return loaded
 
 
-def with_overrides(loaded: LoadedFile, overrides: Sequence[str]) -> LoadedFile:
+def with_overrides(loaded: LoadedFile, overrides: Sequence[str | Keyed]) -> LoadedFile:
     """The same file with further `--set` arguments put in.
 
     Raises
@@ -101,7 +104,7 @@ def with_overrides(loaded: LoadedFile, overrides: Sequence[str]) -> LoadedFile:
     return copy
 
 
-def _put_in(loaded: LoadedFile, overrides: Sequence[str]) -> list[Diagnostic]:
+def _put_in(loaded: LoadedFile, overrides: Sequence[str | Keyed]) -> list[Diagnostic]:
     wrong: list[Diagnostic] = []
     for argument in overrides:
         try:
@@ -217,7 +220,11 @@ def _no_size(loaded: LoadedFile, model: type[Model], path: KeyPath, value: float
     return loaded.report("GL108", message, path, help=f"allowed: {allowed}" if allowed else "")
 
 
-def _override(argument: str) -> Override:
+def _override(argument: str | Keyed) -> Override:
+    if isinstance(argument, Keyed):
+        path = parse_path(argument.path)
+        assert path is not None
+        return Override(path, argument.value, None, Source(f"<{argument.option}>", str(argument.value)))
     source = Source("<--set>", argument)
     name, sign, text = argument.partition("=")
     path = parse_path(name.strip())

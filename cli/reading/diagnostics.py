@@ -65,7 +65,7 @@ class DesignFileError(GearlinkError):
 
     def __init__(self, diagnostics: Iterable[Diagnostic], omitted: int = 0) -> None:
         unique = list(dict.fromkeys(diagnostics))
-        unique.sort(key=lambda d: (d.file == "<--set>", d.line, d.column))
+        unique.sort(key=lambda d: (d.file.startswith("<--"), d.line, d.column))
         self.diagnostics = unique[:MAX_SHOWN]
         omitted += len(unique) - len(self.diagnostics)
         if omitted:

@@ -16,8 +16,11 @@ _PLAIN = r"(?:[-+]?[.0-9][-+.0-9eE]*|[a-z][-a-z0-9]*)(?=[\s,\]}]|$)"
 _STEP = r"""(?:(?:^|(?<=.)\.)(?:(["'])([^"'=]+)\1|([^.\[\]=\s"']+))|\[([0-9]{1,6})\])"""
 
 
+_SET = "<--set>"
+
+
 class Override(NamedTuple):
-    """A value that `--set` put in; its marks are positions in the argument."""
+    """A value that `--set` put in, or an option of its own; its marks are positions in the argument."""
 
     path: KeyPath
     value: Any
@@ -76,7 +79,7 @@ class LoadedFile:
         if found < len(path):
             for override in reversed(self.overrides):
                 common = _common(override.path, path)
-                if common > found:
+                if common > found and override.source.file == _SET:
                     return override.source, 0
         return self.tree.source, at
 

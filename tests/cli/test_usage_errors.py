@@ -5,15 +5,39 @@ from __future__ import annotations
 import re
 import shlex
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import pytest
+from conftest import ROOT
 
 from gearlink.cli.app import _tree
 from gearlink.cli.usage_errors import _leaves, _values, _writer
 
 PAIR = "kind: gear-pair\nmodule: 4\nteeth: [30, 40]\n"
 
+NUMBERS = ("3x", "nan", "1e999", "-1e9")
+FEED = "designs/candy_feed.yaml"
+FEED_WITH_TOLERANCES = "designs/candy_feed_tolerances.yaml"
+STUDY = "designs/studies/dwell_feed.yaml"
+TEXTS = [
+    f"register {FEED_WITH_TOLERANCES} --at nowhere",
+    f"tolerance {FEED_WITH_TOLERANCES} --executor nothing",
+    f"explore {STUDY} --show x",
+    f"explore {STUDY} --show m99",
+    f"explore {STUDY} --shard 5/3",
+    f"explore {STUDY} --budget inf",
+    f"batch {FEED} --shard 0/3",
+    f"export {FEED} --part nothing",
+    f"animate {FEED} --size big",
+    f"analyze {FEED} --table nothing",
+    f"analyze {FEED} --quantity nothing",
+    f"analyze {FEED} --set nothing",
+    "chart back-step --range 5:1",
+    "chart back-step --curves 1,,2",
+    "gears --ratio 2 --center-distance 100 --modules 1,-2",
+    "gears --ratio 2 --center-distance 100 --shift-sum 2:1",
+    "laws --law nothing",
+]
 TREE: Any = _tree()
 COMMANDS = dict(_leaves(TREE))
 WORDS = sorted({word for each in COMMANDS.values() for param in each.params for word in _values(param)})
@@ -81,3 +105,34 @@ def test_whatever_is_recommended_for_a_format_takes_it(name: str) -> None:
             command = COMMANDS[max(path for path in COMMANDS if shlex.split(head)[: len(path.split())] == path.split())]
             (param,) = [each for each in command.params if option in each.opts]
             assert value in _values(param), remedy
+
+
+def _of_numbers() -> list[tuple[str, str]]:
+    return [(path, param.opts[0]) for path, each in COMMANDS.items() for param in each.params if _is_number(param)]
+
+
+def _is_number(param: Any) -> bool:
+    kind = param.type_descriptor.annotation
+    return param.param_type_name == "option" and not {int, float}.isdisjoint({kind, *get_args(kind)})
+
+
+@pytest.mark.parametrize(("command", "option"), _of_numbers())
+def test_a_number_that_is_none_names_its_option(gearlink: Any, pair: Path, command: str, option: str) -> None:
+    params = COMMANDS[command].params
+    sources = [str(pair) for param in params if param.param_type_name == "argument"]
+    ends = next(param.max is not None for param in params if option in param.opts)
+    for value in NUMBERS:
+        if value == "1e999" and not ends:
+            continue  # it is beyond no limit of the option
+        ended = gearlink(*command.split(), *sources, f"{option}={value}")
+        assert ended.status == 2, value
+        assert option in ended.err, value
+        assert repr(value) in ended.err, value
+
+
+@pytest.mark.parametrize("line", TEXTS)
+def test_a_text_that_is_none_names_its_option(gearlink: Any, line: str) -> None:
+    words = [str(ROOT / word) if word.endswith(".yaml") else word for word in line.split()]
+    ended = gearlink(*words)
+    assert ended.status == 2
+    assert next(word for word in reversed(words) if word.startswith("--")) in ended.err

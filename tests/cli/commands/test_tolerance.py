@@ -225,12 +225,20 @@ def test_a_page_has_no_samples_where_nothing_scatters(
         assert "<h2>tolerance</h2>" not in (tmp_path / "feed.html").read_text()
 
 
-@pytest.mark.parametrize("at", ["nan", "abc", "zone"])
-def test_a_place_that_is_none_is_refused_at_its_key(gearlink: Any, spec: Path, at: str) -> None:
+@pytest.mark.parametrize("at", ["nan", "abc", "zone", "1e999", ""])
+def test_a_place_that_is_none_is_refused_as_that_of_its_option(gearlink: Any, spec: Path, at: str) -> None:
     ended = gearlink("register", str(spec), "--at", at)
     assert ended.status == 2
-    assert "register.at" in ended.err
+    assert ended.err.startswith("<--at>:1:1: error GL112: no place ")
     assert "give dwell or an input angle" in ended.err
+    ended = gearlink("register", str(spec), "--set", f"register.at={at or repr(at)}", "--format", "json")
+    assert [(each["file"], each["key"]) for each in ended.json["errors"]] == [("<--set>", "register.at")]
+
+
+def test_an_option_is_not_at_fault_for_what_its_section_lacks(gearlink: Any, designs: Path) -> None:
+    ended = gearlink("tolerance", designs / "candy_feed.yaml", "--samples", "64", "--format", "json")
+    assert ended.status == 2
+    assert [each["file"] for each in ended.json["errors"]] == [str(designs / "candy_feed.yaml")]
 
 
 def test_estimates_stand_with_their_intervals_on_a_terminal(gearlink: Any, spec: Path) -> None:
