@@ -50,6 +50,38 @@ class Valley(NamedTuple):
         return bracketed_root(lambda phi: self.angle(phi) - level, left, right, ends=(f_left, f_right))
 
 
+def least_band(valley: Valley, window: float) -> float:
+    """Least tolerance of a window that holds both standstills.
+
+    tau = (phi5(L + window) - phi5(L))/2,   phi5(L) <= phi5(2),   phi5(L + window) >= phi5(1)
+
+    Parameters
+        valley : Valley - of an output with at most one back-step a turn
+        window : float [rad] - at least that of equal ripple, which has no room to either side
+    Returns
+        tolerance : float [rad]
+    Notes
+        The inverse of `longest_in_band` where the band is at least as wide as the back-step.
+
+    Source
+        own derivation
+    """
+    top, bottom = valley.angle(valley.first), valley.angle(valley.second)
+    first = max(valley.low, valley.reach(top, valley.second, valley.high) - window)
+    last = min(valley.reach(bottom, valley.low, valley.first), valley.high - window)
+
+    def gain(left: float) -> float:
+        return valley.speed(left + window) - valley.speed(left)
+
+    if first >= last or (most := gain(last)) <= 0.0:
+        left = last
+    elif (least := gain(first)) >= 0.0:
+        left = first
+    else:
+        left = bracketed_root(gain, first, last, ends=(least, most))
+    return 0.5 * max(valley.angle(left + window) - valley.angle(left), top - bottom)
+
+
 def longest_in_band(valley: Valley, tolerance: float) -> ToleranceDwell:
     """Longest crank interval over which the output stays within +- tol of a place that is free to choose.
 

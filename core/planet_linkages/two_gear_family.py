@@ -21,17 +21,19 @@ from dataclasses import dataclass
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages import standstills
-from gearlink.core.linkages.band_dwell import ToleranceDwell, Valley, longest_in_band
+from gearlink.core.linkages.band_dwell import ToleranceDwell, Valley, least_band, longest_in_band
 from gearlink.core.linkages.fourbar.loop import rates_of
 from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.linkages.standstills import BackStep, Turning
 from gearlink.core.numerics.gauss import integral
-from gearlink.core.numerics.roots import bracketed_root, roots_on
+from gearlink.core.numerics.roots import bracketed_root, maximum, roots_on
 from gearlink.core.planet_linkages.planet import PlanetLinkage
 from gearlink.core.report import safely_above, safely_below
 
 _BEFORE_CHANGE_POINT = 1e-6  # share of a range of frames left out at the end where the linkage flattens
 _AT_CHANGE_POINT = 1e-10  # for limits of the teeth, which approach theirs with the root of this share
+_PROBES = (1e-3, 1e-2, 0.1)  # shares of the way to the momentary dwell at which a hump shows
+_PROBED = 1e-9
 _TURN = 2.0 * math.pi
 
 
@@ -212,6 +214,11 @@ def tolerance_dwell(drive: PlanetLinkage, tolerance: float) -> ToleranceDwell:
     Notes
         See `gearlink.core.linkages.band_dwell`; the speed runs one way between the extremes beside the least one.
     """
+    return longest_in_band(_valley(drive), tolerance)
+
+
+def _valley(drive: PlanetLinkage) -> Valley:
+    """The part of the turn around the least speed."""
     extremes, step = turnings(drive), back_step(drive)
     at = min(range(len(extremes)), key=lambda i: extremes[i].value)
     least = extremes[at].place
@@ -221,7 +228,7 @@ def tolerance_dwell(drive: PlanetLinkage, tolerance: float) -> ToleranceDwell:
         first = least - (least - step.start) % _TURN
         second = first + step.crank_angle
     low, high = least - (least - before) % _TURN, least + (after - least) % _TURN
-    return longest_in_band(Valley(drive.angle, drive.speed, first, second, low, high, drive.mean_ratio()), tolerance)
+    return Valley(drive.angle, drive.speed, first, second, low, high, drive.mean_ratio())
 
 
 def back_step_of(drive: PlanetLinkage) -> float:
@@ -285,6 +292,76 @@ def filling(family: Family, tolerance: float) -> float | None:
     if back_step_of(family.drive(stepping(family)[1])) < 2.0 * tolerance:
         return None
     return solved(family, back_step_of, 2.0 * tolerance, f"a tolerance of {math.degrees(tolerance):.9g} deg", 0.5)
+
+
+def longest(family: Family, tolerance: float) -> tuple[float, float] | None:
+    """The frame of the longest dwell within a tolerance; None where no back-step fills the band.
+
+    Parameters
+        tolerance : float [rad] - to either side
+    Returns
+        frame, window : float [mm], float [rad]
+    Notes
+        Of the frames whose output steps back or just stops. The back-step fills the band, unless the output is so much
+        faster at one end of the window than at the other that a shorter back-step leaves more room beside it than it
+        costs: of long windows at poor transmission angles.
+    Example
+        >>> frame, window = longest(Family(18.0, 51.39, 41.202, 62 / 98), math.radians(17.519))
+        >>> round(frame, 2), round(math.degrees(window), 6)
+        (28.86, 195.27792)
+
+    Source
+        own derivation; that there is one hump: scans in the tests
+    """
+    filled = filling(family, tolerance)
+    if filled is None:
+        return None
+    window = window_of(family.drive(filled))
+
+    def reached(frame: float) -> float:
+        return tolerance_dwell(family.drive(frame), tolerance).crank_angle
+
+    return _better(family, reached, filled, window) or (filled, window)
+
+
+def flattest(family: Family, window: float, what: str, *, beyond: bool = False) -> tuple[float, float]:
+    """The frame with which the output keeps nearest to its place over a window, and how near.
+
+    Parameters
+        window : float [rad]
+        what : str - the request in words, for a refusal
+        beyond : bool - whether to seek windows too that no back-step fills
+    Returns
+        frame, tolerance : float [mm], float [rad] - of equal ripple; where a shorter back-step serves better (see
+            `longest`) the frame of the least tolerance
+    Raises
+        NoSolution - for a window that neither gives
+    """
+    steep, refusal = stepping(family)[1], None
+    try:
+        frame = solved(family, window_of, window, what)
+        least = 0.5 * back_step_of(family.drive(frame))
+    except NoSolution as error:
+        if not beyond:
+            raise
+        frame, least, refusal = steep, least_band(_valley(family.drive(steep)), window), error
+    better = _better(family, lambda other: -least_band(_valley(family.drive(other)), window), frame, -least)
+    if better is not None:
+        return better[0], -better[1]
+    if refusal is not None:
+        raise refusal
+    return frame, least
+
+
+def _better(
+    family: Family, measure: Callable[[float], float], frame: float, value: float
+) -> tuple[float, float] | None:
+    """Frame and value where a measure has its maximum behind a frame, towards the quieter ones; None at its edge."""
+    quiet = stepping(family)[0]
+    probes = (measure(frame + share * (quiet - frame)) for share in _PROBES)
+    if not any(probe - value > _PROBED * abs(value) for probe in probes):
+        return None
+    return maximum(measure, frame, quiet)
 
 
 def _never(family: Family) -> str:

@@ -159,14 +159,25 @@ class DwellSynthesis(Synthesis):
             if self.window is None:
                 return self._filled_frame()
             self._refuse_even_motion(self.window)
-            words = f"a window of {self._request.window:g} deg"
-            try:
-                frame = kernel.solved(self.family, kernel.window_of, self.window, words)
-            except NoSolution:
-                self._refuse_long_window(self.window)
-                raise
-            self._refuse_narrow_band(0.5 * kernel.back_step_of(self.family.drive(frame)))
+            frame, least = self._flattest
+            self._refuse_narrow_band(least)
             return frame
+
+    @cached_property
+    def _flattest(self) -> tuple[float, float]:
+        """The frame for the window, and its tolerance [rad]."""
+        assert self.window is not None
+        words = f"a window of {self._request.window:g} deg"
+        try:
+            return kernel.flattest(self.family, self.window, words, beyond=self._longest is not None)
+        except NoSolution:
+            self._refuse_long_window(self.window)
+            raise
+
+    @cached_property
+    def _longest(self) -> tuple[float, float] | None:
+        """Frame [mm] and length [rad] of the longest window within the asked tolerance, where it can be filled."""
+        return None if self.asked_tolerance is None else kernel.longest(self.family, self.asked_tolerance)
 
     @property
     def _aimed_at(self) -> float:
@@ -175,12 +186,15 @@ class DwellSynthesis(Synthesis):
         return tolerance * (1.0 - (_MARGIN if self._request.margin is None else self._request.margin))
 
     def _filled_frame(self) -> float:
-        """The frame whose back-step fills the band but for its margin; the whole band limits the tolerance."""
+        """The frame of the longest dwell in the band but for its margin; the whole band limits the tolerance."""
         whole, aimed = self.asked_tolerance or 0.0, self._aimed_at
         words = f"a tolerance of {math.degrees(whole):.9g} deg"
         most = kernel.back_step_of(self.family.drive(kernel.stepping(self.family)[1]))
-        target, share = (2.0 * whole, 0.5) if 2.0 * whole > most else (2.0 * aimed, 0.5 * whole / aimed)
-        return kernel.solved(self.family, kernel.back_step_of, target, words, share)
+        if 2.0 * whole > most:
+            kernel.solved(self.family, kernel.back_step_of, 2.0 * whole, words, 0.5)
+        longest = kernel.longest(self.family, aimed)
+        assert longest is not None
+        return longest[0]
 
     @property
     def _mean(self) -> float:
@@ -210,8 +224,8 @@ class DwellSynthesis(Synthesis):
         if band is None or longest is None or longest >= window:
             return
         raise NoSolution(
-            f"the output cannot stay within +-{math.degrees(band):.9g} deg over {self._request.window:g} deg with "
-            f"these gears and links: at most over {safely_below(math.degrees(longest))} deg; ask for that"
+            f"the output cannot stop and stay within +-{math.degrees(band):.9g} deg over {self._request.window:g} deg "
+            f"with these gears and links: at most over {safely_below(math.degrees(longest))} deg; ask for that"
         )
 
     def _refuse_narrow_band(self, least: float) -> None:
@@ -220,17 +234,20 @@ class DwellSynthesis(Synthesis):
             return
         longest = safely_below(math.degrees(limit))
         raise NoSolution(
-            f"the output cannot stay within +-{math.degrees(band):.9g} deg over {self._request.window:g} deg with "
-            f"these gears and links: at most over {longest} deg, or within +-{safely_above(math.degrees(least))} deg; "
-            "ask for one of these"
+            f"the output cannot stop and stay within +-{math.degrees(band):.9g} deg over {self._request.window:g} deg "
+            f"with these gears and links: at most over {longest} deg, or within "
+            f"+-{safely_above(math.degrees(least))} deg; ask for one of these"
         )
 
     # What is reached
 
     @property
     def dwell_tolerance(self) -> float | None:
-        """Half of what the output covers in the window, which is half the back-step [rad]."""
-        return None if self.back_step is None else 0.5 * self.back_step.angle
+        """Half of what the output covers in the window [rad], which is half the back-step unless that is shorter."""
+        if self.back_step is None:
+            return None
+        half = 0.5 * self.back_step.angle
+        return half if self.window is None else max(half, self._flattest[1])
 
     @cached_property
     def tolerance_dwell(self) -> ToleranceDwell | None:
@@ -250,33 +267,40 @@ class DwellSynthesis(Synthesis):
 
     tolerance_dwell_time: float | None = per_time("tolerance_dwell_angle", -1)
 
-    @cached_property
+    @property
     def window_limit(self) -> float | None:
         """Longest window of these gears and links at the asked tolerance [rad], where a back-step fills its band."""
-        filled = None if self.asked_tolerance is None else kernel.filling(self.family, self.asked_tolerance)
-        return None if filled is None else kernel.window_of(self.family.drive(filled))
+        return None if self._longest is None else self._longest[1]
 
     @cached_property
     def frame_length_interval(self) -> list[float] | None:
         """Frames [mm] between which window and tolerance are met.
 
         At one end the back-step fills the band or the crank turns just so, at the other the window is just as long as
-        asked.
+        asked; of a window longer than that back-step's it is so at both.
         """
         window, band = self.window, self.asked_tolerance
         if window is None or band is None:
             return None
         family, frame = self.family, self.linkage.frame
+        edge = kernel.filling(family, band) or kernel.stepping(family)[1]
 
         def spare(other: float) -> float:
             return kernel.tolerance_dwell(family.drive(other), band).crank_angle - window
 
-        filled, far = kernel.filling(family, band) or kernel.stepping(family)[1], kernel.quiet_end(family)
-        ends = spare(frame), spare(far)
-        if ends[1] >= 0.0:
-            return sorted((filled, far))
-        # A window as long as the limit leaves one frame, where rounding decides the sign.
-        return sorted((filled, bracketed_root(spare, frame, far, ends=ends) if ends[0] > 0.0 else frame))
+        def just(*ends: float) -> float:
+            """Where the window is just as long, on the way from the design's frame to some ends; the last one else."""
+            near, room = frame, spare(frame)
+            for end in ends:
+                lack = spare(end)
+                if lack < 0.0:
+                    # A window as long as the limit leaves one frame, where rounding decides the sign.
+                    return bracketed_root(spare, near, end, ends=(room, lack)) if room > 0.0 else near
+                near, room = end, lack
+            return near
+
+        filled = kernel.window_of(family.drive(edge)) >= window
+        return sorted((edge if filled else just(edge), just(kernel.stepping(family)[0], kernel.quiet_end(family))))
 
     # Checks
 
@@ -288,6 +312,6 @@ class DwellSynthesis(Synthesis):
 
     def check_dwell_edge(self) -> Iterator[Check]:
         """GL314 where the file asks for a tolerance: how near the window is to its jump."""
-        reached, band = self.dwell_tolerance, self.asked_tolerance
-        if reached is not None and band is not None:
-            yield dwell_edge_check(reached / band, self.frame_length_interval)
+        step, band = self.back_step, self.asked_tolerance
+        if step is not None and band is not None:
+            yield dwell_edge_check(0.5 * step.angle / band, self.frame_length_interval)

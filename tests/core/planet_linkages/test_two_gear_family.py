@@ -12,17 +12,19 @@ import random
 from bisect import bisect_left
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import factory
+import mpmath
 import numpy as np
 import pytest
 from scipy.ndimage import maximum_filter1d, minimum_filter1d
 
 from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
-from gearlink.core.linkages.fourbar.position import FourBar
+from gearlink.core.linkages.fourbar.position import FourBar, solve
 from gearlink.core.linkages.standstills import standstills
 from gearlink.core.planet_linkages import two_gear_family as kernel
 from gearlink.core.planet_linkages.planet import PlanetLinkage
@@ -185,6 +187,88 @@ def test_no_frame_has_a_longer_window_than_the_one_whose_back_step_fills_the_ban
     frames = [low + part * (high - low) for part in np.linspace(0.02, 0.98, 15)]
     frames += [best + step * (high - low) for step in (-0.01, -0.001, 0.001, 0.01)]
     assert max(scanned_window(family.drive(d), tolerance) for d in frames) < window
+
+
+ONE_SIDED = [
+    (Family(18.0, 51.39, 41.202, 62 / 98), 17.519),
+    (Family(9.0, 23.3163, 17.7381, 20 / 29), 14.2911),
+    (Family(53.0, 69.006, 56.71, -49 / 42, -1), 31.798),
+]
+"""With a tolerance [deg] of which the longest window does not fill the band with its back-step."""
+
+
+@pytest.mark.quick(1)
+@pytest.mark.parametrize(("family", "tolerance"), ONE_SIDED)
+def test_a_window_of_uneven_ends_is_longest_with_a_shorter_back_step(family: Family, tolerance: float) -> None:
+    """No frame whose output stops is better in a scan; its own is by 0.007 to 0.4 deg longer than that of ripple."""
+    band = math.radians(tolerance)
+    frame, window = kernel.longest(family, band)
+    filled, (quiet, steep) = kernel.filling(family, band), kernel.stepping(family)
+    assert kernel.window_of(family.drive(filled)) < window
+    assert kernel.back_step_of(family.drive(frame)) < 2.0 * band * (1.0 - 1e-3)
+    assert scanned_window(family.drive(frame), tolerance) >= math.degrees(window) - 2.0 * GRID
+    for other in (filled + part * (end - filled) for end in (quiet, steep) for part in (0.01, 0.1, 0.5, 1.0)):
+        assert scanned_window(family.drive(other), tolerance) <= math.degrees(window)
+    assert kernel.flattest(family, window, "this", beyond=True) == pytest.approx((frame, band), rel=1e-6)
+
+
+@pytest.mark.parametrize(("family", "tolerance"), ONE_SIDED)
+def test_the_longest_window_of_uneven_ends_at_thirty_digits(family: Family, tolerance: float) -> None:
+    """The chain closed by circles: the window begins at the height of phi(2) and ends a band above it, or begins a band
+    below phi(1) and ends at its height; and its derivative by the frame is zero, to the second order of which it is
+    exact."""
+    frame, window = kernel.longest(family, math.radians(tolerance))
+    drive = family.drive(frame)
+    step, start = kernel.back_step(drive), kernel.tolerance_dwell(drive, math.radians(tolerance)).start
+    start -= 2.0 * math.pi * (start > step.start)
+    places = start, step.start, step.start + step.crank_angle, start + window
+    with mpmath.workdps(30):
+        output = partial(closed_by_circles, drive)
+        left, first, second, right = (output(frame, place) for place in places)
+        near = mpmath.mpf("1e-10")
+        rates = [(output(frame, at + near) - output(frame, at - near)) / (2 * near) for at in places]
+        drifts = [(output(frame + near, at) - output(frame - near, at)) / (2 * near) for at in places]
+        band = 2 * mpmath.mpf(math.radians(tolerance))
+        touched = 2 if rates[0] > rates[3] else 1
+        off = (left - second, right - second - band) if touched == 2 else (right - first, left - first + band)
+        assert max(map(abs, off)) < 1e-14 * max(1.0, abs(left))
+        assert max(abs(rates[1]), abs(rates[2])) < 1e-13
+        ends = [-(drifts[place] - drifts[touched]) / rates[place] for place in (0, 3)]
+        assert abs(ends[1] - ends[0]) < 1e-7 * abs(ends[0])
+
+
+def closed_by_circles(drive: PlanetLinkage, frame: Any, place: Any) -> Any:
+    """Output angle of a linkage with another frame: C where the circles round B and D meet, beside where it was."""
+    links, place = drive.linkage, mpmath.mpf(place)
+    b = links.crank * mpmath.expj(place)
+    across = frame - b
+    along = (abs(across) ** 2 + mpmath.mpf(links.coupler) ** 2 - mpmath.mpf(links.rocker) ** 2) / (2 * abs(across))
+    height = mpmath.sqrt(mpmath.mpf(links.coupler) ** 2 - along**2)
+    about = solve(links, float(place)).coupler_angle
+    turns = (mpmath.arg(across * mpmath.mpc(along, side * height) * mpmath.expj(-about)) for side in (1, -1))
+    ratio = mpmath.mpf(drive.ratio)
+    return (1 - ratio) * place + ratio * (about + min(turns, key=abs))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("margin", [0.0, 0.01])
+def test_designs_of_uneven_ends_reach_the_limit(margin: float) -> None:
+    """A ring gear whose window was said to be at most 206.54 deg long."""
+    data = {"gears": {"module": 2.0, "planet": 20, "ring": 29}, "links": {"coupler": 23.3163, "rocker": 17.7381}}
+    tolerance = 14.2911
+    alone = made("dwell", data, dwell={"tolerance": tolerance, "margin": margin})
+    limit = math.degrees(alone.window_limit)
+    assert limit > 206.551
+    lost = limit - math.degrees(alone.tolerance_dwell_angle)
+    assert (lost == pytest.approx(0.0, abs=1e-6)) if margin == 0.0 else (0.0 < lost < 0.1)
+    both = made("dwell", data, dwell={"window": limit * (1.0 - 1e-9), "tolerance": tolerance})
+    assert [check.status for check in both.check_dwell_window()] == ["pass"]
+    assert math.degrees(both.dwell_tolerance) == pytest.approx(tolerance, rel=1e-6)
+    low, high = both.frame_length_interval
+    assert low <= both.linkage.frame <= high < low + 0.01
+    longer = made("dwell", data, dwell={"window": limit * (1.0 + 1e-9), "tolerance": tolerance})
+    with pytest.raises(NoSolution, match=r"at most over 206\.55 deg"):
+        longer.linkage  # noqa: B018
 
 
 @pytest.mark.parametrize(
