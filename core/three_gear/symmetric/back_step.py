@@ -244,7 +244,7 @@ def crank_angle_for_window(i3: float, window: float) -> float:
     if not 0.0 < window < limit:
         raise NoSolution(
             f"a window of {_deg(window)} deg is out of reach with i3 = {i3:.9g}: it must lie above 0 and below "
-            f"{_deg(limit)} deg, whatever the tolerance; reduce it"
+            f"{_deg(limit)} deg, whatever the tolerance that a back-step fills; reduce it"
         )
     y = 0.5 * window
     h = _rising_root(lambda h: _fallen(i3, h, y), y / 3.0, min(y, 0.5 * math.pi))

@@ -17,16 +17,18 @@ import math
 from functools import lru_cache
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.numerics.roots import bracketed_root
+from gearlink.core.numerics.roots import bracketed_root, maximum
 from gearlink.core.report import safely_above, safely_below
 from gearlink.core.three_gear.symmetric.back_step import (
     back_step_angle,
     crank_angle_for_back_step,
     crank_angle_for_window,
     dwell_angle,
+    window_limit,
 )
 from gearlink.core.three_gear.symmetric.family import check_ratio, frame_ratio_for_back_step
 
+_INSIDE = 1e-9
 _NEAREST, _FARTHEST = 0.1, 1e3  # -i3 between which the greatest idler is sought
 
 
@@ -43,7 +45,7 @@ def longest_window(i3: float, tolerance: float) -> float:
     Raises
         NoSolution - for a tolerance outside the range
     Notes
-        Rises with the tolerance and falls with -i3 (an idler of more teeth).
+        Rises with the tolerance; falls with -i3 (an idler of more teeth) for narrow bands, see `reaching_ratios`.
     Example
         >>> round(math.degrees(longest_window(-1.8, math.radians(0.5))), 9)
         70.436491503
@@ -80,8 +82,8 @@ def check_tolerance(i3: float, tolerance: float) -> None:
         NoSolution - naming the limit
     """
     check_ratio(i3)
-    limit = min(math.pi, -0.5 * i3 * math.pi)
-    if not 0.0 < tolerance < limit:
+    if not (tolerance > 0.0 and fills(i3, tolerance)):
+        limit = min(math.pi, -0.5 * i3 * math.pi)
         raise NoSolution(
             f"a tolerance of {_deg(tolerance)} deg has no longest window with i3 = {i3:.9g}: it must lie above 0 and "
             f"below {_deg(limit)} deg; reduce it"
@@ -115,7 +117,8 @@ def frame_ratio_interval(i3: float, window: float, tolerance: float) -> tuple[fl
         window : float [rad] - Phi, above 2 tau
         tolerance : float [rad] - tau, at least `least_tolerance`
     Returns
-        low, high : float, float - at low the back-step fills the band, at high both ends of the window lie on its edges
+        low, high : float, float - at low the back-step fills the band (1 where none does: there the linkage folds, and
+            does not turn), at high both ends of the window lie on its edges
     Raises
         NoSolution - where no frame meets both, or a linkage that turns evenly does
     Notes
@@ -131,56 +134,99 @@ def frame_ratio_interval(i3: float, window: float, tolerance: float) -> tuple[fl
             f"window of {_deg(window)} deg needs no linkage; ask for a longer one"
         )
     check_reach(i3, window, tolerance)
-    phi12 = crank_angle_for_tolerance(i3, tolerance)
     k = math.sin((0.5 * window - tolerance) / (1.0 - i3)) / math.sin(0.5 * window)
-    low, high = frame_ratio_for_back_step(i3, phi12), (1.0 + math.sqrt((1.0 - k) * (1.0 + k))) / k
-    return min(low, high), high
+    high = (1.0 + math.sqrt((1.0 - k) * (1.0 + k))) / k
+    if not fills(i3, tolerance):
+        return 1.0, high
+    return min(frame_ratio_for_back_step(i3, crank_angle_for_tolerance(i3, tolerance)), high), high
+
+
+def reach(i3: float, tolerance: float) -> float:
+    """The windows that given gears have a flattest mechanism for within a tolerance lie below this or, where a
+    back-step fills the band, are this at most.
+
+    Parameters
+        i3 : float - negative
+        tolerance : float [rad] - below pi
+    Returns
+        window : float [rad] - `longest_window`; `window_limit` where every back-step is narrower than the band
+    """
+    return longest_window(i3, tolerance) if fills(i3, tolerance) else window_limit(i3)
+
+
+def fills(i3: float, tolerance: float) -> bool:
+    """Whether a back-step of given gears fills the band of a tolerance [rad]: below -i3 pi/2, half of the greatest."""
+    return tolerance < min(math.pi, -0.5 * i3 * math.pi)
 
 
 def check_reach(i3: float, window: float, tolerance: float) -> None:
     """Refuse a window that no frame of given gears reaches within a tolerance.
 
     Raises
-        NoSolution - naming the longest window, the least tolerance and the greatest idler ratio
+        NoSolution - naming the longest window, the least tolerance and the nearest idler ratio
     """
-    longest = longest_window(i3, tolerance)
-    if window <= longest:
+    longest = reach(i3, tolerance)
+    if window < longest or (window == longest and fills(i3, tolerance)):
         return
-    ratio = greatest_ratio(window, tolerance)
-    remedy = "" if ratio is None else f", or take -i3 of at most {safely_below(ratio)} (a smaller idler)"
+    at_most = "at most over" if fills(i3, tolerance) else "only below"
+    words = f"{at_most} {safely_below(math.degrees(longest))} deg"
+    if window < window_limit(i3):
+        words += f", or within +-{safely_above(math.degrees(least_tolerance(i3, window)))} deg; ask for one of these"
+    else:
+        words += "; ask for that"
     raise NoSolution(
-        f"the output cannot stay within +-{_deg(tolerance)} deg over {_deg(window)} deg with i3 = {i3:.9g}: at most "
-        f"over {safely_below(math.degrees(longest))} deg, or within "
-        f"+-{safely_above(math.degrees(least_tolerance(i3, window)))} deg; ask for one of these{remedy}"
+        f"the output cannot stay within +-{_deg(tolerance)} deg over {_deg(window)} deg with i3 = {i3:.9g}: {words}"
+        f"{_other_idler(i3, window, tolerance)}"
     )
 
 
+def _other_idler(i3: float, window: float, tolerance: float) -> str:
+    """The idler that reaches a window which this one does not, in words; empty where none does."""
+    ratios = reaching_ratios(window, tolerance)
+    if ratios is None:
+        return ""
+    if -i3 < ratios[0]:
+        return f", or take -i3 of at least {safely_above(ratios[0])} (a larger idler)"
+    return f", or take -i3 of at most {safely_below(ratios[1])} (a smaller idler)"
+
+
 @lru_cache
-def greatest_ratio(window: float, tolerance: float) -> float | None:
-    """Greatest -i3 with which the output can stay within +- tolerance over a window.
+def reaching_ratios(window: float, tolerance: float) -> tuple[float, float] | None:
+    """Least and greatest -i3 with which the output can stay within +- tolerance over a window.
 
     Parameters
         window, tolerance : float [rad]
     Returns
-        ratio : float - greatest idler teeth over output teeth; infinite where every ratio will do, None where none
-            from 0.1 to 1000 does
+        low, high : float - idler teeth over output teeth, from 0.1 up; infinite where every greater ratio will do
+        or None where none from 0.1 to 1000 does
     Notes
-        Bracketed root: the longest window falls as -i3 grows. Kept, for where an idler is sought all that are refused
+        The reach rises with -i3 up to a maximum, which lies at -i3 = 0.15 for a tolerance of 10 deg, at 2 for 30 deg
+        and at infinity from 32 deg on, and falls from there. Kept, for where an idler is sought all that are refused
         ask for it.
     Example
-        >>> round(greatest_ratio(math.radians(70.0), math.radians(0.5)), 6)
+        >>> round(reaching_ratios(math.radians(70.0), math.radians(0.5))[1], 6)
         2.020462
-        >>> greatest_ratio(math.radians(60.0), math.radians(0.5))
-        inf
+        >>> reaching_ratios(math.radians(60.0), math.radians(0.5))
+        (0.1, inf)
+        >>> [round(ratio, 6) for ratio in reaching_ratios(math.radians(218.0), math.radians(20.0))]
+        [0.264135, 1.043444]
     """
-    if window <= window_of_large_idler(tolerance):
-        return math.inf
-    nearest = max(_NEAREST, 2.0 * tolerance / math.pi * (1.0 + 1e-9))
-    if longest_window(-nearest, tolerance) < window:
+
+    def spare(logarithm: float) -> float:
+        return reach(-math.exp(logarithm), tolerance) - window
+
+    nearest, farthest = math.log(_NEAREST), math.log(_FARTHEST)
+    best, most = maximum(spare, nearest, farthest)
+    if most < 0.0:
         return None
-    if longest_window(-_FARTHEST, tolerance) >= window:
-        return _FARTHEST
-    return bracketed_root(lambda ratio: longest_window(-ratio, tolerance) - window, nearest, _FARTHEST)
+    low, high = _NEAREST, _FARTHEST
+    if spare(nearest) < 0.0:
+        low = math.exp(bracketed_root(spare, nearest, best)) * (1.0 + _INSIDE)  # where no band is filled it is none yet
+    if window <= window_of_large_idler(tolerance):
+        high = math.inf
+    elif spare(farthest) < 0.0:
+        high = math.exp(bracketed_root(spare, best, farthest))
+    return low, high
 
 
 def window_of_large_idler(tolerance: float) -> float:

@@ -228,11 +228,20 @@ class DwellSynthesis(BackStepFamily):
         )
 
     def depends_on_idler(self, refusal: NoSolution) -> bool:
-        """A window that the smallest idler does not reach, no idler does: it falls with the idler's teeth."""
-        if refusal.key not in ("dwell.window", "dwell.tolerance"):
+        """A window that the smallest idler does not reach, no idler does: it falls with the idler's teeth, unless the
+        band is so wide that a larger one reaches further."""
+        if refusal.key not in ("dwell.window", "dwell.tolerance") or self._larger_reach_further():
             return super().depends_on_idler(refusal)
         self.linkage_of(LEAST_IDLER)  # its refusal names the best that can be had
         return True
+
+    def _larger_reach_further(self) -> bool:
+        if self.window is None or self._band is None or self.general:
+            return False
+        from gearlink.core.three_gear.symmetric.window_dwell import reaching_ratios
+
+        ratios = reaching_ratios(self.window, self._band)
+        return ratios is not None and ratios[0] * self.spec.gears.output > LEAST_IDLER
 
     @property
     def trials(self) -> int:
@@ -295,6 +304,8 @@ class DwellSynthesis(BackStepFamily):
         if not self.general:
             from gearlink.core.three_gear.symmetric import window_dwell
 
+            if self.window is not None and not window_dwell.fills(self.i3, band):
+                return None
             with at_key(self._key()):
                 return window_dwell.longest_window(self.i3, band)
         from gearlink.core.three_gear.synthesis.families import filling, ripple

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import mpmath
+import numpy as np
 import pytest
 from factory import design
 from hypothesis import given, settings
@@ -70,8 +71,8 @@ def test_frame_interval(given_: Any, wanted: Any) -> None:
 
 @pytest.mark.parametrize(("given_", "wanted"), cases("A5."))
 def test_greatest_idler(given_: Any, wanted: Any) -> None:
-    ratio = window_dwell.greatest_ratio(rad(given_["window_deg"]), rad(given_["tolerance_deg"]))
-    assert -ratio == pytest.approx(wanted["i3_limit"], rel=1e-10)
+    ratios = window_dwell.reaching_ratios(rad(given_["window_deg"]), rad(given_["tolerance_deg"]))
+    assert -ratios[1] == pytest.approx(wanted["i3_limit"], rel=1e-10)
 
 
 def test_the_closed_form_at_i3_minus_two() -> None:
@@ -173,6 +174,25 @@ class TestRefusals:
     def test_what_is_named_is_possible(self) -> None:
         window_dwell.frame_ratio_interval(-1.8, rad(70.436), rad(0.5))
         window_dwell.frame_ratio_interval(-1.8, rad(72.0), rad(0.53485))
+
+    @pytest.mark.parametrize(
+        ("i3", "window", "tolerance", "words"),
+        [
+            (-0.5, 300.0, 100.0, "only below 252 deg; ask for that, or take -i3 of at least 1.0001 "),
+            (-0.6, 265.0, 50.0, "at most over 259.86 deg; ask for that, or take -i3 of at least 0.83117 "),
+            (-0.2, 218.0, 20.0, "only below 212.72 deg; ask for that, or take -i3 of at least 0.26414 "),
+            (-3.0, 218.0, 20.0, "-i3 of at most 1.0434 "),
+        ],
+    )
+    def test_wide_bands_name_the_idler_that_reaches(
+        self, i3: float, window: float, tolerance: float, words: str
+    ) -> None:
+        with pytest.raises(NoSolution) as caught:
+            window_dwell.frame_ratio_interval(i3, rad(window), rad(tolerance))
+        assert words in caught.value.message
+        ratio = float(words.rpartition(" of at ")[2].split()[1])
+        low, high = window_dwell.frame_ratio_interval(-ratio, rad(window), rad(tolerance))
+        assert low < high
 
     def test_window_that_needs_no_linkage(self) -> None:
         with pytest.raises(NoSolution, match="needs no linkage"):
@@ -292,6 +312,36 @@ def test_the_limit_of_a_tolerance_is_its_own(base: Any, dwell: Any) -> None:
     more = design({**base, "dwell": {**dwell, "tolerance": limit * (1.0 + 1e-6)}}, command="synth dwell")
     with pytest.raises(NoSolution, match="more than these gears reach"):
         _ = more.linkage
+
+
+@pytest.mark.parametrize("tolerance", [10.0, 20.0, 31.0, 45.0])
+def test_the_reach_of_an_idler_rises_to_one_maximum_and_falls(tolerance: float) -> None:
+    """Which the ratios that reach a window stand on: its maximum is 180 deg + 2 tau where it is not at infinity."""
+    ratios = np.geomspace(0.1, 1e3, 400)
+    reached = [math.degrees(window_dwell.reach(-ratio, rad(tolerance))) for ratio in ratios]
+    turns = np.flatnonzero(np.diff(np.sign(np.diff(reached))))
+    assert len(turns) == (1 if tolerance < 32.0 else 0)
+    assert max(reached) == pytest.approx(180.0 + 2.0 * tolerance, abs=0.02) if tolerance < 32.0 else reached[-1]
+    window = 0.5 * (max(reached) + reached[-1]) if tolerance < 32.0 else 0.99 * reached[-1]
+    low, high = window_dwell.reaching_ratios(rad(window), rad(tolerance))
+    inside = [low <= ratio <= high for ratio in ratios]
+    assert inside == [value >= window for value in reached]
+
+
+@pytest.mark.parametrize(("idler", "window", "tolerance"), [(20, 150.0, 46.0), (20, 150.0, 60.0), (20, 240.0, 45.0)])
+def test_equal_gears_keep_a_band_that_no_back_step_fills(idler: int, window: float, tolerance: float) -> None:
+    """A back-step of 40/20/40 teeth is below 90 deg: a band of +-45 deg and more cannot be filled, but met."""
+    base = {"kind": "three-gear-four-bar", "gears": {"module": 2, "crank": 40, "idler": idler, "output": 40}}
+    wide = design({**base, "dwell": {"window": window, "tolerance": tolerance}}, command="synth dwell")
+    assert wide.linkage == design({**base, "dwell": {"window": window}}, command="synth dwell").linkage
+    assert wide.window_limit is None
+    assert wide.dwell_tolerance < math.radians(45.0)
+    low, high = wide.frame_ratio_interval
+    assert low == 1.0
+    for ratio, met in ((1.0 + 1e-4, True), (0.5 * (low + high), True), (high - 1e-6, True), (high + 1e-6, False)):
+        made = symmetric_linkage(ratio, 60.0)
+        found = tolerance_dwell(made, GearTrain(40, idler, 40), math.radians(tolerance)).crank_angle
+        assert (found > math.radians(window)) is met, ratio
 
 
 def test_a_long_window_is_refused_by_the_longest_within_the_tolerance() -> None:
