@@ -1,0 +1,66 @@
+"""Drum and gripper arm beside the axes of cam and cam rocker, against points along the arm in many places."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from typing import Any
+
+import factory
+import numpy as np
+import pytest
+
+from gearlink.core.swing_gripper.axes import room_beside_arm
+
+
+def warned(made: Any) -> dict[str, float]:
+    """Values of the warnings of GL302, by what they are of."""
+    return {check.message: check.value for check in made.check("shaft-clearance") if check.status == "warn"}
+
+
+def test_a_drum_over_the_cam_shaft_is_warned_of() -> None:
+    """Turned by arm.direction alone, the drum stood round the cam shaft, and every check passed."""
+    made = factory.design("swing_gripper", arm__direction=211)
+    drum = complex(made.handover_center)
+    assert abs(drum) < 135.0 - 40.0  # the cam axis is the origin
+    (text, value), *_ = [item for item in warned(made).items() if "cam shaft" in item[0]]
+    assert "the cylinder that takes the sheet reaches" in text
+    assert value == pytest.approx(abs(drum) - 135.0 - 40.0, rel=1e-12)
+
+
+def test_a_cam_on_the_shaft_of_the_drum_is_none_of_it() -> None:
+    made = factory.design("swing_gripper", arm__direction=211)
+    drum = made.handover_center
+    coaxial = factory.design("swing_gripper", arm__direction=211, cam__center=[drum.real, drum.imag])
+    assert not [text for text in warned(coaxial) if "takes the sheet" in text and "cam shaft" in text]
+    assert not warned(factory.design("swing_gripper"))
+
+
+def test_an_arm_over_the_axis_of_the_cam_rocker_is_warned_of() -> None:
+    made = factory.design("swing_gripper", arm__direction=211)
+    arm, between = made.spec.arm.length, abs(complex(*made.spec.pivots.input) - complex(*made.spec.pivots.output))
+    (text, value), *_ = [item for item in warned(made).items() if "gripper arm" in item[0]]
+    assert "over the cam rocker's axis" in text
+    assert value == pytest.approx(between - arm, rel=1e-12)
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+def test_room_beside_the_arm(sense: int) -> None:
+    """Sampled arms are as far from points around them as the closed form says, to the step of the samples."""
+    made = factory.design("swing_gripper", swing_sense=sense)
+    pivot, swing = complex(*made.spec.pivots.output), made.law.total_swing
+    turns = math.radians(125.0) + sense * np.linspace(0.0, swing, 400)
+    along = np.linspace(0.0, 300.0, 301)
+    points = pivot + along[:, None] * np.exp(1j * turns)
+    over = 0
+    for radius, angle in ((r, a) for r in (20.0, 150.0, 290.0, 330.0) for a in np.arange(0.1, 6.2, 0.5)):
+        place = pivot + cmath.rect(radius, angle)
+        room = room_beside_arm(made, place)
+        nearest = float(np.abs(points - place).min())
+        if room < 0.0:
+            over += 1
+            assert nearest < 0.8
+            assert room == pytest.approx(radius - 300.0)
+        else:
+            assert nearest == pytest.approx(room, abs=0.8)
+    assert over
