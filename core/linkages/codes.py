@@ -24,8 +24,8 @@ SHAFT_CLEARANCE = Rule(
     "A gear's tips, the teeth or the rim of a ring gear, a cam roller or another shaft come into a shaft of the file; "
     "or they leave less room beside the axis of a shaft whose radius the file does not name than the thinnest shaft "
     "takes (limits.least_shaft, 2 modules; a warning). A cam is warned of that leaves less room beside the axis of its "
-    "rocker or gripper than a shaft as thick as the roller takes; so are the arm of a gripper and the cylinder that takes "
-    "its sheet beside the axes of cam and cam rocker, and a gear whose own shaft leaves less rim below its teeth than "
+    "rocker or gripper than a shaft as thick as the roller takes; so are a gripper's arm and the cylinder that takes "
+    "the sheet beside the axes of cam and cam rocker, and a gear whose own shaft leaves less rim below its teeth than "
     "half their height.",
     "The shaft cannot pass through the plane of the gears there: it must end before it (be overhung).",
     "Overhang the shaft, make it thinner, or enlarge the distance; name the radius (shafts, cam.shaft_radius) so "

@@ -114,9 +114,17 @@ def force_reserve(design: WideSwingDesign) -> Check:
     if lift_off < 1.1 * speed * (1.0 - 1e-9):
         status = "fail" if speed > lift_off * (1.0 + 1e-9) else "warn"
     text = f"above {lift_off:.6g} rev/min the roller leaves its cam; the design speed is {speed:g} rev/min"
+    back = design.unloading.way_back
+    if back is not None and back.value > 1.0:
+        text += (
+            f"; least is left at k = {back.place:.4g} on the way back, which asks {back.value:.4g} times the stroke's"
+        )
     if status != "pass":
-        just, safe = (safely_above(remedies.reserve(unloader.residual, margin)) for margin in (0.0, 0.1))
+        need = design.unloading.need
+        just, safe = (safely_above(remedies.reserve(unloader.residual, margin, need)) for margin in (0.0, 0.1))
         text += f": make unloader.reserve {safe} or more for a tenth of speed to spare, {just} just holds it"
+        if back is not None and back.value > 1.0:
+            text += "; drive.coupler and drive.frame longer make the way back more like the stroke"
     return codes.FORCE_RESERVE.check(status, text, lift_off, speed, "1/min")
 
 

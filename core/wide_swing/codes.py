@@ -84,8 +84,9 @@ FORCE_RESERVE = Rule(
     "the rocker swings free of it.",
     "Make unloader.reserve the value of the message or more, or lower the speed; the torque that is left grows with "
     "the reserve.",
-    "n_l = n0 sqrt(1 + rho - f), rho unloader.reserve, f unloader.residual; F = J gamma |c| (1 + rho - (n/n0)^2)/"
-    "(T0^2 r cos delta)",
+    "n_l = n0 sqrt((1 + rho - f)/k_b), rho unloader.reserve, f unloader.residual, k_b 1, or of an oscillating cam that "
+    "swings home the greatest acceleration of the rocker over that of the stroke at the same place; in the stroke "
+    "F = J gamma |c| (1 + rho - (n/n0)^2)/(T0^2 r cos delta)",
     "own derivation",
     ("force-reserve",),
     ("unloader.reserve", "unloader"),

@@ -16,6 +16,7 @@ from gearlink.core.wide_swing.unloading import Unloading
 
 if TYPE_CHECKING:
     from gearlink.core.numerics.arrays import Reals
+    from gearlink.core.numerics.extremes import Extreme
     from gearlink.core.report import Quantity
     from gearlink.core.wide_swing.cams.cam import Layout, WideSwingCam
     from gearlink.core.wide_swing.cams.oscillating_cam import OscillatingCam
@@ -53,7 +54,12 @@ class WideSwingDesign(Design):
     @cached_property
     def unloading(self) -> Unloading:
         """Size of the device and torques."""
-        return Unloading(self.spec, self.motion)
+        return Unloading(self.spec, self.motion, None if self.spec.drive is None else self._way_back)
+
+    def _way_back(self) -> Extreme:
+        from gearlink.core.wide_swing.way_back import need
+
+        return need(self.oscillating_cam)
 
     @property
     def section(self) -> SwingCam:

@@ -46,12 +46,12 @@ def candidates(design: WideSwingDesign, check: str) -> Iterable[Remedy]:
     return ((change,) for change in _CLOSED[check](design)) if check in _CLOSED else ()
 
 
-def reserve(residual: float, margin: float) -> float:
+def reserve(residual: float, margin: float, need: float = 1.0) -> float:
     """Reserve of the device with which the roller lifts off a share of the speed above the design speed.
 
-    rho = (1 + margin)^2 - 1 + f
+    rho = (1 + margin)^2 k_b - 1 + f, k_b the need of the way back
     """
-    return max(0.0, margin * (2.0 + margin) + residual)
+    return max(0.0, margin * (2.0 + margin) * need + (need - 1.0) + residual)
 
 
 # Lengths that follow from similarity
@@ -314,7 +314,7 @@ _CLOSED: dict[str, Callable[[WideSwingDesign], Iterator[Change]]] = {
     "transition-zone": lambda d: _one("cam.roller_radius", at_most(roller_for_zone(d))),
     "shaft-clearance": lambda d: _one("cam.center_distance", at_least(center_distance(d))),
     "force-reserve": lambda d: _one(
-        "unloader.reserve", at_least(reserve(d.spec.unloader.residual, 0.1 + 1e-9), _RATIO)
+        "unloader.reserve", at_least(reserve(d.spec.unloader.residual, 0.1 + 1e-9, d.unloading.need), _RATIO)
     ),
 }
 

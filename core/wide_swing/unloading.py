@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING
 
-from gearlink.core.errors import MissingSection, at_key
+from gearlink.core.errors import MissingSection, NoSolution, at_key
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
     from gearlink.core.numerics.arrays import Reals
+    from gearlink.core.numerics.extremes import Extreme
     from gearlink.core.wide_swing.cams.outline import AnyCam
     from gearlink.core.wide_swing.law.iteration import LegacyLaw
     from gearlink.core.wide_swing.motion import Motion
@@ -20,8 +21,8 @@ if TYPE_CHECKING:
 class Unloading:
     """Size of the device and torques of the shafts, from the design file and the rocker's motion."""
 
-    def __init__(self, spec: WideSwingSpec, motion: Motion) -> None:
-        self.spec, self.motion = spec, motion
+    def __init__(self, spec: WideSwingSpec, motion: Motion, way_back: Callable[[], Extreme] | None = None) -> None:
+        self.spec, self.motion, self._way_back = spec, motion, way_back
 
     # Size
 
@@ -118,10 +119,23 @@ class Unloading:
 
     # Force closure
 
+    @cached_property
+    def way_back(self) -> Extreme | None:
+        """The place where an oscillating cam that swings home asks most of the device; None with no such way back."""
+        try:
+            return None if self._way_back is None else self._way_back()
+        except NoSolution:  # of a cam that cannot be, which fails in checks of its own
+            return None
+
+    @property
+    def need(self) -> float:
+        """k_b, greatest acceleration of the rocker on its way back over that of the stroke; 1 where they are alike."""
+        return 1.0 if self.way_back is None else self.way_back.value
+
     @property
     def lift_off_speed(self) -> float:
-        """Speed above which the roller leaves its cam, n0 sqrt(1 + rho - f) [rev/min]."""
-        return self.spec.speed * math.sqrt(self._whole - self.spec.unloader.residual)
+        """Speed above which the roller leaves its cam, n0 sqrt((1 + rho - f)/k_b) [rev/min]."""
+        return self.spec.speed * math.sqrt((self._whole - self.spec.unloader.residual) / self.need)
 
     def contact_force(self, cam: AnyCam, k: Reals, speed_ratio: float | Reals = 1.0) -> Reals:
         """Force of the roller on a cam, along their normal.

@@ -622,7 +622,8 @@ def test_a_bend_that_no_smaller_roller_makes_short_enough_asks_for_the_rocker_ra
 def test_a_cam_that_swings_over_the_rocker_axis_is_warned_of_before_it_reaches_it() -> None:
     """The oscillating cam's body by its outline: farthest from its axis at the ends of the stroke."""
     for swing, room in ((150.0, None), (170.0, 3.836), (200.0, -6.706)):
-        made = factory.design("wide_swing_oscillating_cam", swing=swing, unloader__pivot_ratio=5.0)
+        lengths = {"drive__crank": 60.0, "drive__coupler": 180.0, "drive__frame": 192.0}
+        made = factory.design("wide_swing_oscillating_cam", swing=swing, unloader__pivot_ratio=5.0, **lengths)
         found = [check for check in made.check("shaft-clearance") if "rocker's axis" in check.message]
         assert [check.status for check in found] == ([] if room is None else ["warn"])
         for check in found:
