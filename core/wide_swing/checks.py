@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from gearlink.core.wide_swing.cams.outline import AnyCam
     from gearlink.core.wide_swing.design import WideSwingDesign
 
+_ROUNDING = 1e-9
+
 # Device and stroke
 
 
@@ -265,20 +267,30 @@ def transition_zone(design: WideSwingDesign) -> Iterator[Check]:
 
 def shaft_clearance(design: WideSwingDesign) -> Iterator[Check]:
     """GL302: roller against the cam shaft, and the rocker's axis against the cam."""
-    section = design.section
+    from gearlink.core.cams.checks import HUB
+    from gearlink.core.wide_swing.cams.outline import is_external
+
+    section, shaft = design.section, design.section.shaft_radius
     yield from _over_rocker_axis(design)
-    if section.shaft_radius == 0.0:
+    if shaft == 0.0:
         return
     for words, cam in design.cams.items():
-        room = cam.min_radius - section.roller_radius - section.shaft_radius
-        text = f"the roller of the {words} keeps {room:.4g} mm from the cam shaft (radius {section.shaft_radius:g} mm)"
+        bottom = cam.min_radius - section.roller_radius
+        room = bottom - shaft
+        status: Status = "pass"
+        text = f"the roller of the {words} keeps {room:.4g} mm from the cam shaft (radius {shaft:g} mm)"
         if room <= 0.0:
-            text = (
-                f"the roller of the {words} comes {-room:.4g} mm into the cam shaft (radius "
-                f"{section.shaft_radius:g} mm): make cam.center_distance at least "
-                f"{safely_above(remedies.center_distance(design))} mm, or the roller smaller"
-            )
-        yield linkages.SHAFT_CLEARANCE.check("fail" if room <= 0.0 else "pass", text, room, 0.0, "mm")
+            text = f"the roller of the {words} comes {-room:.4g} mm into the cam shaft (radius {shaft:g} mm)"
+            status = "fail"
+        elif is_external(cam) and bottom < HUB * shaft * (1.0 - _ROUNDING):
+            text = f"below the slot of the {words} {room:.4g} mm are left round its shaft (radius {shaft:g} mm)"
+            text += f": take a shaft_radius of at most {safely_below(bottom / HUB)} mm (hub of {HUB:g} times the shaft)"
+            status = "warn"
+        if status != "pass":
+            least = safely_above(remedies.center_distance(design))
+            text += f"{':' if status == 'fail' else ', or'} make cam.center_distance at least {least} mm"
+            text += ", or the roller smaller"
+        yield linkages.SHAFT_CLEARANCE.check(status, text, room, 0.0, "mm")
 
 
 def _over_rocker_axis(design: WideSwingDesign) -> Iterator[Check]:

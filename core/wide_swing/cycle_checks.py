@@ -69,6 +69,8 @@ def acceleration_step(design: WideSwingDesign) -> Iterator[Check]:
 
 def closed_contour(design: WideSwingDesign) -> Iterator[Check]:
     """GL512: the roller goes round each closed contour without a cut, and the contour does not cross itself."""
+    from gearlink.core.cams.checks import HUB
+
     shaft, clearance = design.section.shaft_radius, design.section.free_clearance
     for words, cam in _contours(design):
         cut, least = cam.cut, cam.least_radius
@@ -94,6 +96,13 @@ def closed_contour(design: WideSwingDesign) -> Iterator[Check]:
                 f"{shaft:g} mm: take less cam.free_clearance or a larger cam.center_distance"
             )
             yield codes.CLOSED_CONTOUR.check("fail", text, least, shaft, "mm")
+        elif cam.cam.sense > 0 and least < HUB * shaft and least < cam.cam.min_radius - cam.cam.roller_radius:
+            text = (
+                f"in its free sector the contour of the {words} leaves {least - shaft:.4g} mm round the shaft, radius "
+                f"{shaft:g} mm, whose hub of {HUB:g} times the shaft takes {(HUB - 1.0) * shaft:.4g} mm: take less "
+                "cam.free_clearance, a larger cam.center_distance or a thinner shaft"
+            )
+            yield codes.CLOSED_CONTOUR.check("warn", text, least, shaft, "mm")
         else:
             text = f"the contour of the {words} clears the roller, by {clearance:g} mm in its free sector"
             yield codes.CLOSED_CONTOUR.check("pass", text, least, shaft, "mm")

@@ -58,9 +58,11 @@ def reserve(residual: float, margin: float, need: float = 1.0) -> float:
 
 
 def center_distance(design: WideSwingDesign) -> float:
-    """Centre distance at which the rollers clear the cam shaft [mm]."""
+    """Centre distance at which the rollers leave the cam shaft its hub [mm]."""
+    from gearlink.core.cams.checks import HUB
+
     section = design.section
-    needed = section.shaft_radius + section.roller_radius
+    needed = HUB * section.shaft_radius + section.roller_radius
     if section.rocker_radius is not None:
         return (section.rocker_radius + needed) * _STRICTLY
     least = min(cam.min_radius for cam in design.cams.values())

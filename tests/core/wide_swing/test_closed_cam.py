@@ -237,6 +237,16 @@ def test_contour_in_the_shaft_fails() -> None:
     assert [check.message for check in made.check("closed-contour") if "into the shaft" in check.message]
 
 
+def test_contour_without_a_hub_is_warned_of() -> None:
+    """Half the shaft's radius is the usual least hub; a free sector that left 0.9 mm of it had passed."""
+    slot = min(cam.least_radius for cam in rocker(cam__free_clearance=0).cycle.contours.values())
+    clearance = 40.0
+    made = rocker(cam__free_clearance=clearance, cam__shaft_radius=slot - clearance - 0.9)
+    (found,) = [check for check in made.check("closed-contour") if check.status == "warn"]
+    assert "free sector" in found.message
+    assert found.value - made.section.shaft_radius == pytest.approx(0.9, abs=0.2)
+
+
 def test_rest_of_no_length_warns() -> None:
     made = rocker(cycle__far_dwell=0, cycle__near_dwell=180)
     found = made.check("cycle-angles")

@@ -357,6 +357,28 @@ class TestLoops:
         assert refusal.value.key == "cycle_angle"
 
 
+@pytest.mark.parametrize("changes", [{}, {"layout": "twin-rocker", "swing": 150.0, "cycle_angle": 80.0}])
+def test_slot_that_leaves_the_shaft_no_hub_is_warned_of(changes: dict[str, Any]) -> None:
+    """As of every disc cam, 1.5 times the shaft: of a slot 0.5 mm above the shaft nothing was said."""
+    made = design(**changes)
+    cam = made.cam if not changes else made.return_cam
+    assert cam is not None
+    bottom = float(np.abs(cam.points(np.array([0.5])).pitch[0])) - made.section.roller_radius
+    for shaft, status in (
+        (bottom - 0.5, "warn"),
+        (bottom / 1.499, "warn"),
+        (bottom / 1.501, None),
+        (bottom + 1, "fail"),
+    ):
+        judged = design(cam=CAM | {"shaft_radius": shaft}, **changes).check("shaft-clearance")
+        found = [check for check in judged if check.status != "pass"]
+        assert [check.status for check in found] == ([] if status is None else [status])
+        if status == "warn":
+            assert found[0].value == pytest.approx(bottom - shaft, abs=1e-9)
+            most = float(found[0].message.split("at most ")[1].split(" ")[0])
+            assert most == pytest.approx(bottom / 1.5, rel=1e-4)
+
+
 MENDED: list[tuple[WideSwingDesign, str, str]] = [
     (design(unloader=PNEUMATIC | {"pivot_ratio": 0.9}), "", "unloader.pivot_ratio"),
     (design(unloader=PNEUMATIC | {"pivot_ratio": 2.5}), "unloader-turnability", "unloader.pivot_ratio"),
