@@ -1,4 +1,4 @@
-"""GL302 of drum and gripper arm: what turns beside the axes of cam and cam rocker."""
+"""GL302 of drum, gripper arm and rollers: what turns beside the axes of cam and cam rocker."""
 
 from __future__ import annotations
 
@@ -38,6 +38,17 @@ def drum_and_arm(design: SwingGripper) -> Iterator[Check]:
             yield from over_axis_check(SHAFT_CLEARANCE, "cylinder that takes the sheet", room, needed, axis, advice)
         room = room_beside_arm(design, place) - within
         yield from over_axis_check(SHAFT_CLEARANCE, "gripper arm", room, needed, axis, advice)
+
+
+def rollers(design: SwingGripper) -> Iterator[Check]:
+    """The rollers against the axis of their own rockers, about which no shaft fits where the arm is short."""
+    section = design.cams.section
+    for words, key, roller in (("main", "roller", section.roller), ("return", "return_roller", section.return_roller)):
+        if roller is not None:
+            room = roller.arm - roller.radius
+            advice = f"lengthen cam.{key}.arm, or take a smaller roller"
+            name, axis = f"{words} roller", "the cam rocker's axis"
+            yield from over_axis_check(SHAFT_CLEARANCE, name, room, roller.radius, axis, advice)
 
 
 def room_beside_arm(design: SwingGripper, place: complex) -> float:

@@ -44,6 +44,22 @@ def test_an_arm_over_the_axis_of_the_cam_rocker_is_warned_of() -> None:
     assert value == pytest.approx(between - arm, rel=1e-12)
 
 
+@pytest.mark.parametrize(("arm", "radius", "reaches"), [(28.0, 30.0, True), (40.0, 30.0, True), (61.0, 30.0, False)])
+def test_a_roller_over_the_axis_of_its_own_rocker_is_warned_of(arm: float, radius: float, reaches: bool) -> None:
+    """On an arm shorter than its radius a roller stands round the pivot; nothing was said of it."""
+    both = {"cam__roller__arm": arm, "cam__roller__radius": radius, "cam__return_roller__arm": arm}
+    made = factory.design(
+        "swing_gripper",
+        **both,
+        cam__return_roller__radius=radius,
+        cam__return_roller__angle=150,
+        cam__center=[135, -57],
+    )
+    found = {text: value for text, value in warned(made).items() if " roller " in text and "rocker's axis" in text}
+    found = {text: value for text, value in found.items() if text.startswith("the main roller")}
+    assert list(found.values()) == ([pytest.approx(arm - radius)] if reaches else [])
+
+
 @pytest.mark.parametrize("sense", [1, -1])
 def test_room_beside_the_arm(sense: int) -> None:
     """Sampled arms are as far from points around them as the closed form says, to the step of the samples."""
