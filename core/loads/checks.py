@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.loads import codes
 from gearlink.core.loads.base import RPM
-from gearlink.core.loads.teeth import rated_forces, thrust
+from gearlink.core.loads.teeth import drawn_play, rated_forces, thrust
 from gearlink.core.report import Check, Status, safely_above
 from gearlink.core.wording import amount
 
@@ -55,10 +55,11 @@ def listed(places: list[float]) -> str:
 
 def load_reversal(design: LoadsDesign) -> Iterator[Check]:
     """GL602: each mesh."""
-    backlash = design.section.backlash
+    backlash, drawn = design.section.backlash, drawn_play(design)
     for name, mesh in design.meshes_found.items():
         places = [math.degrees(place) for place in mesh.reversal_places]
         play = backlash.get(name) if isinstance(backlash, dict) else backlash
+        play = drawn.get(name) if play is None else play
         if not places:
             text = f"{name}: the teeth stay on one flank"
             yield codes.LOAD_REVERSAL.check("pass", text, 0.0, 0.0)

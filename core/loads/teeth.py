@@ -25,6 +25,16 @@ def rated_forces(design: LoadsDesign) -> dict[str, float]:
     return found
 
 
+def drawn_play(design: LoadsDesign) -> dict[str, float]:
+    """Greatest circumferential backlash that the gears as drawn leave [mm], by mesh; empty without allowances."""
+    machine, keys = _with_gears(design)
+    if getattr(keys, "allowances", None) is None:
+        return {}
+    names = [name for name in design.meshes if design.has(name)]
+    plays = {name: data.backlash for name, data in zip(names, machine.mesh_data.values(), strict=True)}
+    return {name: play.circumferential[1] for name, play in plays.items() if play is not None}
+
+
 def thrust(design: LoadsDesign) -> float:
     """Greatest axial force of helical teeth [N], which forces in the plane do not show; 0 of spur gears.
 

@@ -193,3 +193,14 @@ def test_every_mesh_of_a_train_is_held_against_its_rating() -> None:
     assert [check.message.partition(":")[0] for check in both] == ["mesh_13", "mesh_35"]
     assert {check.status for check in both} == {"warn"}, "masses add to the 18 N m that the output takes"
     assert factory.design(FEED, command="loads").check("tooth-load") == []
+
+
+@pytest.mark.parametrize(("loads", "status"), [({}, "fail"), ({"backlash": 0.0}, "warn"), ({"backlash": 0.05}, "fail")])
+def test_play_that_the_drawing_of_the_gears_leaves_counts_in_a_dwell(loads: dict[str, Any], status: str) -> None:
+    """Without a load the teeth change flanks in the middle of the dwell; 25cd leaves play, unless loads say none."""
+    masses = {"links": {"output": {"inertia": 0.05}}, "speed": 400, **loads}
+    keys = {"dwell_tolerance": 1.0, "loads": masses}
+    design = factory.design("drawn_feed", command="loads", **keys)
+    assert {check.status for check in design.check("load-reversal")} == {status}
+    plain = factory.design("drawn_feed", command="loads", **keys, gears__allowances=None)
+    assert {check.status for check in plain.check("load-reversal")} == {"fail" if loads.get("backlash") else "warn"}
