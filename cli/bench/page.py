@@ -13,6 +13,7 @@ from typing import Any
 
 from gearlink.cli.bench.timing import Family, Row
 from gearlink.cli.printable import visible
+from gearlink.cli.render.lists import hanging
 
 _HEAD = ("method", "N", "time each", "error", "ratio")
 
@@ -24,7 +25,7 @@ def as_text(families: Sequence[Family], machine: Mapping[str, str]) -> str:
         rows = [_head(family), *(_cells(row) for row in family.rows)]
         widths = [max(len(row[i]) for row in rows) for i in range(len(_HEAD))]
         lines = [_aligned(row, widths) for row in rows]
-        notes = [f"  {note}" for note in _notes(family)]
+        notes = [hanging(note, "    ", "  ") for note in _notes(family)]
         blocks.append("\n".join([family.title, *lines, *notes]))
     return "\n\n".join(blocks)
 

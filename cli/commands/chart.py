@@ -17,6 +17,7 @@ from gearlink.cli.options import Format, Options
 from gearlink.cli.patience import patience
 from gearlink.cli.reading.diagnostics import DesignFileError, Diagnostic
 from gearlink.cli.render.errors import show_refusal
+from gearlink.cli.render.lists import listed
 from gearlink.core.errors import NoSolution, at_key, named
 from gearlink.core.report import Report
 
@@ -67,8 +68,7 @@ def _list_charts(options: Options) -> int:
 
         print(json.dumps({chart.name: {"title": chart.title, "source": chart.source} for chart in CHARTS.values()}))
         return ExitCode.OK
-    for chart in CHARTS.values():
-        print(f"{chart.name:18}{chart.title} ({chart.source})")
+    print(listed((chart.name, f"{chart.title} ({chart.source})") for chart in CHARTS.values()))
     return ExitCode.OK
 
 

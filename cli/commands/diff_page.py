@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.commands.difference import Change, Difference, same
 from gearlink.cli.options import Format, Options
@@ -13,9 +13,15 @@ from gearlink.cli.printable import json_text, visible
 from gearlink.cli.render.json_report import FORMAT
 from gearlink.core.wording import amount
 
+if TYPE_CHECKING:
+    from rich.console import Console
+    from rich.table import Table as Grid
+
 _PARTS = {"inputs": "input", "quantities": "quantity", "checks": "check", "tables": "table"}
 _NO_MEMBERS = "[]"
 _PERCENT = len("+1.23e-05 %")
+_NAME = 16
+_WORD = 18  # columns of the longest words of values, where a table is wider than the terminal
 _HEADS = ("old", "new", "unit", "change", "command")
 
 
@@ -88,25 +94,51 @@ def _as_markdown(found: Difference) -> str:
 
 def _show(found: Difference, options: Options) -> None:
     from gearlink.cli.render.numbers import number
-    from gearlink.cli.render.terminal import console_for, grid_for, show_grid
+    from gearlink.cli.render.terminal import console_for, room_for_names, show_grid
 
     console = console_for(options)
-    for part, rows in _parts(found, partial(number, digits=9)):
-        grid = grid_for(console)
-        heads = (part, *_HEADS)
-        # A column that says nothing takes room from the numbers.
-        shown = [i for i, head in enumerate(heads) if head in (part, "old", "new") or any(row[i] for row in rows)]
-        if len({row[-1] for row in rows}) == 1:
-            shown = [i for i in shown if heads[i] != "command"]
-        for i in shown:
-            number_like = heads[i] in ("old", "new")
-            # Words and members of a list may stand on lines of their own, a number and its per cent sign not.
-            whole = heads[i] in (part, "unit") or (
-                heads[i] == "change" and all(len(row[i]) <= _PERCENT for row in rows)
-            )
-            grid.add_column(heads[i], justify="right" if number_like else "left", no_wrap=whole, overflow="fold")
-        for row in rows:
-            grid.add_row(*(row[i] for i in shown))
-        show_grid(grid, console)
-        console.print()
+    for part, told in _parts(found, partial(number, digits=9)):
+        rows = [tuple(map(visible, row)) for row in told]
+        grid = _grid(part, rows, console)
+        if room_for_names(grid, console) >= max(len(row[0]) for row in rows):
+            show_grid(grid, console)
+            console.print()
+            continue
+        # Names and words on several lines, and the command above its rows.
+        commands = list(dict.fromkeys(row[-1] for row in rows))
+        for command in commands:
+            own = [(row[0], *(_broken(text) for text in row[1:3]), *row[3:]) for row in rows if row[-1] == command]
+            head = part if len(commands) == 1 else f"{part} of {command}"
+            room = max(_NAME, room_for_names(_grid(head, own, console), console))
+            show_grid(_grid(head, own, console, room), console)
+            console.print()
     print(_verdict(found))
+
+
+def _broken(text: str) -> str:
+    """Words of a value, those that are long broken within."""
+    from gearlink.cli.render.terminal import folded
+
+    return " ".join(folded(word, _WORD) for word in text.split())
+
+
+def _grid(head: str, rows: Sequence[Sequence[str]], console: Console, room: int | None = None) -> Grid:
+    """A table of changes, its names folded to some columns."""
+    from rich.text import Text
+
+    from gearlink.cli.render.terminal import folded, grid_for
+
+    grid, heads = grid_for(console), (head, *_HEADS)
+    # A column that says nothing takes room from the numbers.
+    shown = [i for i in range(len(heads)) if heads[i] in (head, "old", "new") or any(row[i] for row in rows)]
+    if len({row[-1] for row in rows}) == 1:
+        shown = [i for i in shown if heads[i] != "command"]
+    for i in shown:
+        # Words and members of a list may stand on lines of their own, a number and its per cent sign not.
+        whole = heads[i] in (head, "unit") or (heads[i] == "change" and all(len(row[i]) <= _PERCENT for row in rows))
+        grid.add_column(
+            heads[i], justify="right" if heads[i] in ("old", "new") else "left", no_wrap=whole, overflow="fold"
+        )
+    for name, *others in ([row[i] for i in shown] for row in rows):
+        grid.add_row(Text(name if room is None else folded(name, room)), *map(Text, others))
+    return grid

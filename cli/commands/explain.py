@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import re
-import textwrap
 from collections.abc import Iterator
 from dataclasses import dataclass
-from shutil import get_terminal_size
 from typing import TYPE_CHECKING, Any
 
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.options import Format, Options
+from gearlink.cli.render.lists import hanging, listed
 from gearlink.cli.texts.known import index
 from gearlink.cli.texts.words import COLUMNS, CONSTANTS, FORMULAS, column_words
 from gearlink.core.errors import named
@@ -19,7 +18,6 @@ if TYPE_CHECKING:
     from gearlink.core.kinds import Kind
     from gearlink.core.report import Rule
 
-_WIDTH, _NARROWEST = 100, 40
 _JSON_NAMES = {"How to repair": "how_to_mend"}  # scripts depend on the name
 _LABELS = {"what": "What", "why": "Why", "formula": "Formula", "source": "Source", "remedy": "How to repair"}
 
@@ -264,14 +262,9 @@ _LAW_FORMULAS = {
 
 
 def _as_text(topic: Topic) -> str:
-    width = max(_NARROWEST, min(_WIDTH, get_terminal_size((80, 24)).columns))
     told = [f"{topic.name}: {topic.title}"]
     told += [f"{label}: {words}" for label, words in topic.paragraphs.items() if words not in topic.title]
-    lines = [
-        textwrap.wrap(each, width, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False)
-        for each in told
-    ]
-    return "\n".join(line for each in lines for line in each)
+    return "\n".join(map(hanging, told))
 
 
 def _as_markdown(topic: Topic) -> str:
@@ -307,9 +300,9 @@ def _index(format: Format) -> str:
         from gearlink.cli.render.markdown_report import markdown_table
 
         return markdown_table(("code", "meaning", "check"), rows)
-    lines = [f"{code}  {title}" + (f" [{checks}]" if checks else "") for code, title, checks in rows]
+    known = listed((code, title + (f" [{checks}]" if checks else "")) for code, title, checks in rows)
     more = "`gearlink explain NAME` takes a code, and the name of a check, quantity, symbol, key, column, kind or law."
-    return "\n".join([*lines, "", more])
+    return f"{known}\n\n{hanging(more, '')}"
 
 
 def _unknown(subject: str, format: Format) -> int:

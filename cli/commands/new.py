@@ -49,11 +49,10 @@ def run_new(kind_name: str, out: Path | None, *, force: bool = False, quiet: boo
 
 def list_of_kinds() -> str:
     """Each kind with a few words, and what to do with them."""
-    width = max(map(len, SUMMARIES))
-    lines = [f"{name:<{width}}  {words}" for name, words in SUMMARIES.items()]
-    return "\n".join(
-        [*lines, "", "`gearlink new KIND --out FILE.yaml` writes a design of that kind, ready to run and to change."]
-    )
+    from gearlink.cli.render.lists import hanging, listed
+
+    more = "`gearlink new KIND --out FILE.yaml` writes a design of that kind, ready to run and to change."
+    return f"{listed(SUMMARIES.items())}\n\n{hanging(more, '')}"
 
 
 def template(kind: Kind, name: str = "") -> str:

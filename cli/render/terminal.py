@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import re
 import sys
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
@@ -111,6 +112,32 @@ def show_grid(grid: Grid, console: Console) -> None:
         console.width = max(width, need + _TIGHT)  # rich before 14.3 counts a space beside the outer columns, too
     console.print(grid)
     console.width = width
+
+
+def room_for_names(grid: Grid, console: Console) -> int:
+    """Columns of the terminal that the other columns of a table leave to its first one."""
+    others = [_least_width(column) for column in grid.columns[1:]]
+    return console.width - sum(others) - _BETWEEN * len(others)
+
+
+def folded(name: str, width: int) -> str:
+    """A name on lines of so many columns, broken behind a point, a hyphen or an underscore, within a word only where
+    that is longer.
+
+    Example
+        >>> folded("tolerance.sources.links.crank.plus_minus", 24).split("\\n")
+        ['tolerance.sources.links.', 'crank.plus_minus']
+    """
+    lines = [""]
+    for word in re.findall(r"[^-._]*[-._]+|[^-._]+", name):
+        rest = word
+        if cell_len(lines[-1]) + cell_len(rest) > width and lines[-1]:
+            lines.append("")
+        while cell_len(rest) > width:
+            lines[-1:] = [rest[:width], ""]
+            rest = rest[width:]
+        lines[-1] += rest
+    return "\n".join(lines)
 
 
 def _least_width(column: Column) -> int:

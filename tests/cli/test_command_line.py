@@ -494,3 +494,11 @@ def test_no_memory_is_no_fault_of_the_program(gearlink: Any, crank: Path, monkey
     monkeypatch.setattr("gearlink.cli.commands.design.build", broken)
     ended = gearlink("crank", crank)
     assert (ended.status, ended.err[:20]) == (ExitCode.WRONG_INPUT, "error: out of memory")
+
+
+@pytest.mark.parametrize(
+    "words", [["chart"], ["new"], ["explain"], ["laws"], ["gears", "--ratio", "2", "--center-distance", "150"]]
+)
+def test_lists_fit_the_terminal(gearlink: Any, monkeypatch: pytest.MonkeyPatch, words: list[str]) -> None:
+    monkeypatch.setenv("COLUMNS", "80")
+    assert max(map(len, gearlink(*words).out.splitlines())) <= 80

@@ -7,14 +7,21 @@ far smaller (1e-12) than the tolerance of the comparison (1e-9) that is under te
 from __future__ import annotations
 
 import json
+import re
 import resource
+from itertools import combinations
 from pathlib import Path
 from typing import Any
 
 import pytest
+from conftest import ROOT
 
 from gearlink.cli.commands import result_file
-from gearlink.cli.commands.difference import relative_change, same
+from gearlink.cli.commands.diff_page import show_difference
+from gearlink.cli.commands.difference import Change, Difference, relative_change, same
+from gearlink.cli.options import Options
+
+DESIGNS = ROOT / "designs"
 
 CRANK = "kind: slider-crank\nstroke: 310\nrod: 520\noffset: 50\n"
 PAIR = "kind: gear-pair\nmodule: 4\nteeth: [72, 72]\ncenter_distance: 290.2912330746487\n"
@@ -89,6 +96,51 @@ def test_members_of_long_lists_stand_below_each_other(gearlink: Any, two: Any) -
     out = gearlink("diff", *two(CRANK, CRANK + empty)).out
     (row,) = (line.split() for line in out.splitlines() if line.startswith("loads.forces"))
     assert row == ["loads.forces", "-", "[]"]
+
+
+def test_long_names_fit_the_terminal(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    """Names break behind points, words of values too, and the commands stand above their rows; no figure is lost."""
+    monkeypatch.setenv("COLUMNS", "80")
+    key = "tolerance.sources.pins.planet_and_carrier.clearance.plus_minus[0]"
+    draft = Change("name", "loaded-oscillating-cam-of-the-first-draft", "b", "", None)
+    inputs = [Change(key, 1.23456789e-05, -0.123456789, "N mm/rad", -1e4), draft]
+    quantities = [
+        Change("acceleration_ratio_max_at[0]", 1.23456789, -0.123456789, "mm", -1.1, command)
+        for command in ("synth momentary-dwell", "loads")
+    ]
+    found = Difference("old.yaml", "new.yaml", 1e-9, inputs, quantities)
+    show_difference(found, Options())
+    lines = capsys.readouterr().out.splitlines()
+    assert max(map(len, lines)) <= 80
+    # What was folded stands whole in its column: the names in the first one.
+    start = lines.index(next(line for line in lines if line.startswith("inputs")))
+    names = "".join(line.split()[0] for line in lines[start + 2 : lines.index("", start)] if not line.startswith(" "))
+    assert names == f"{key}name"
+    assert "1.23456789e-05" in "".join(lines)
+    assert "-0.123456789" in "".join(lines)
+    assert "quantities of synth momentary-dwell" in "\n".join(lines)
+    monkeypatch.setenv("COLUMNS", "200")
+    show_difference(found, Options())
+    wide = capsys.readouterr().out
+    assert key in wide
+    assert "quantities of" not in wide
+
+
+def _pairs() -> list[tuple[str, str]]:
+    kinds: dict[str, list[str]] = {}
+    for path in sorted(DESIGNS.glob("*.yaml")):
+        kinds.setdefault(re.search(r"^kind: *(\S+)", path.read_text(), re.MULTILINE)[1], []).append(path.name)  # type: ignore[index]
+    return [pair for names in kinds.values() for pair in list(combinations(names, 2))[:2]]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("old", "new"), _pairs())
+def test_worked_designs_of_a_kind_differ_within_the_terminal(
+    gearlink: Any, monkeypatch: pytest.MonkeyPatch, old: str, new: str
+) -> None:
+    monkeypatch.setenv("COLUMNS", "80")
+    lines = gearlink("diff", DESIGNS / old, DESIGNS / new).out.splitlines()
+    assert max(map(len, lines[:-1]), default=0) <= 80  # the last one names the files
 
 
 def test_markdown(gearlink: Any, two: Any) -> None:
