@@ -203,15 +203,28 @@ class WideSwingDesign(Design):
 
     @cached_property
     def contact_force(self) -> float:
-        """Greatest force of the roller on any of the cams over the stroke at the design speed [N]."""
+        """Greatest force of the roller on any of the cams over the stroke, and home, at the design speed [N]."""
         from gearlink.core.numerics.extremes import maximum_over
 
-        return max(
+        found = [
             maximum_over(lambda k, cam=cam: self.unloading.contact_force(cam, k), *part, samples=128).value  # type: ignore[misc]
             for cam in self.cams.values()
             if cam is self.cam or self.has_zone(cam)
             for part in self.contact_of(cam)
-        )
+        ]
+        if self.spec.drive is not None:
+            from gearlink.core.wide_swing.way_back import parts
+
+            home = self._force_home
+            found += [maximum_over(home, *part, samples=128).value for part in parts(self.oscillating_cam)]
+        return max(found)
+
+    def _force_home(self, k: Reals) -> Reals:
+        """The same on the way home, where an oscillating cam stands as at k."""
+        from gearlink.core.wide_swing.way_back import ratio
+
+        cam = self.oscillating_cam
+        return self.unloading.contact_force(cam, k, need=ratio(cam, k))
 
     @cached_property
     def extremes(self) -> Places:

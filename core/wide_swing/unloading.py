@@ -137,15 +137,18 @@ class Unloading:
         """Speed above which the roller leaves its cam, n0 sqrt((1 + rho - f)/k_b) [rev/min]."""
         return self.spec.speed * math.sqrt((self._whole - self.spec.unloader.residual) / self.need)
 
-    def contact_force(self, cam: AnyCam, k: Reals, speed_ratio: float | Reals = 1.0) -> Reals:
+    def contact_force(
+        self, cam: AnyCam, k: Reals, speed_ratio: float | Reals = 1.0, need: float | Reals = 1.0
+    ) -> Reals:
         """Force of the roller on a cam, along their normal.
 
-        F = J gamma |c| ((1 + rho) - (n T0/(n0 T))^2)/(T0^2 r cos delta), with a slider +-(N/2) E_a in place of |c|
+        F = J gamma |c| ((1 + rho) - k_b (n T0/(n0 T))^2)/(T0^2 r cos delta), with a slider +-(N/2) E_a in place of |c|
 
         Parameters
             cam : WideSwingCam or OscillatingCam
             k : (N,) array - fractions of the stroke, mid-swing left out
             speed_ratio : float or (N,) array - n/n0
+            need : float or (N,) array - k_b, the rocker's acceleration over that of the stroke
         Returns
             force : (N,) array [N] - positive where the profile is pressed, in run-up and run-out; negative where the
                 roller leaves it
@@ -163,7 +166,7 @@ class Unloading:
         speed_ratio = speed_ratio * (motion.device_angle / cam.cycle_angle)
         scale = 1e3 * motion.inertia * motion.swing / (motion.stroke_time**2 * cam.rocker_radius)
         torque = motion.torque(k) * np.where(k < middle_of(cam), 1.0, -1.0)
-        excess = self.spec.unloader.reserve - (speed_ratio - 1.0) * (speed_ratio + 1.0)
+        excess = self.spec.unloader.reserve - (speed_ratio - 1.0) * (speed_ratio + 1.0) * need - (need - 1.0)
         force: Reals = scale * excess * torque / np.cos(cam.pressure_angle(k))
         return force
 

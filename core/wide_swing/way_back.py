@@ -30,10 +30,18 @@ def need(cam: OscillatingCam) -> Extreme:
     Raises
         NoSolution - for a loop, or where the roller touches nothing
     """
-    (first, start), (end, last) = cam.contact
-    parts = ((max(first, _STOP), start), (end, min(last, 1.0 - _STOP)))
-    found = [maximum_over(lambda k: ratio(cam, k), *part, samples=128) for part in parts]
+    found = [maximum_over(lambda k: ratio(cam, k), *part, samples=128) for part in parts(cam)]
     return max(*found, Extreme(1.0, 0.0), key=lambda extreme: extreme.value)
+
+
+def parts(cam: OscillatingCam) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Parts of the stroke in which the roller touches the profile, without the stops, where the ratio is 0/0.
+
+    Raises
+        NoSolution - for a loop, or where the roller touches nothing
+    """
+    (first, start), (end, last) = cam.contact
+    return (max(first, _STOP), start), (end, min(last, 1.0 - _STOP))
 
 
 def ratio(cam: OscillatingCam, k: Reals) -> Reals:

@@ -11,6 +11,7 @@ import pytest
 
 from gearlink.core.spec_paths import replaced
 from gearlink.core.wide_swing.design import WideSwingDesign
+from gearlink.core.wide_swing.remedies import candidates
 from gearlink.core.wide_swing.way_back import need, ratio
 
 SHORT = {"drive__crank": 60.0, "drive__coupler": 180.0, "drive__frame": 192.0, "unloader__reserve": 0.25}
@@ -71,8 +72,8 @@ def test_the_way_back_is_judged() -> None:
     assert (check.status, check.code) == ("fail", "GL511")
     assert check.value == pytest.approx(60.0 * math.sqrt(1.25 / most), rel=1e-4)
     assert check.value == pytest.approx(34.157, abs=1e-3)
-    (found,) = design.findings("swing", "force-reserve")
-    repaired = WideSwingDesign(replaced(design.spec, *found.remedy[0]))
+    ((change,),) = candidates(design, "force-reserve")
+    repaired = WideSwingDesign(replaced(design.spec, *change))
     assert repaired.check("force-reserve")[0].status == "pass"
 
 
@@ -80,3 +81,15 @@ def test_long_links_make_both_ways_alike() -> None:
     design = made(drive__crank=20.0, drive__coupler=2000.0, drive__frame=2001.0, cam__roller_radius=2.0)
     assert need(design.oscillating_cam).value == pytest.approx(1.0, abs=0.05)
     assert factory.design("wide_swing_oscillating_cam").check("force-reserve")[0].status == "pass"
+
+
+def test_greatest_force_is_that_of_both_ways() -> None:
+    """Where the rocker is slower on the way home the device presses the roller harder."""
+    design = factory.design("wide_swing_oscillating_cam")
+    cam = design.oscillating_cam
+    grids = [np.linspace(low, high, 801)[1:-1] for low, high in cam.contact]
+    forth = max(float(design.unloading.contact_force(cam, k).max()) for k in grids)
+    inertia = [design.unloading.contact_force(cam, k, 0.0) / 1.7 for k in grids]  # device alone, less its reserve
+    home = max(float((part * (1.7 - ratio(cam, k))).max()) for part, k in zip(inertia, grids, strict=True))
+    assert home > 1.08 * forth
+    assert design.contact_force == pytest.approx(home, rel=1e-4)
