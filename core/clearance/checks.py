@@ -22,11 +22,16 @@ def collision_check(pair: Clearance, limit: float, why: str, remedy: str) -> Che
         pair : Clearance - of two gears
         limit : float [mm] - least gap
         why, remedy : str - which lengths make the gap, and what would give the gears room
+    Notes
+        A limit below 0 allows gears that overlap, which is a warning: they do not turn in one plane.
     """
     gap, names = pair.gap, f"{pair.one.name} and {pair.other.name}"
-    if gap >= limit:
+    if gap >= max(limit, 0.0):
         text = f"{names} keep {gap:.6g} mm between their tips at the closest{_place(pair)}: {why}"
         return GEAR_COLLISION.check("pass", text, gap, limit, "mm")
+    if gap >= limit:
+        text = f"{names} overlap by {-gap:.6g} mm{_place(pair)}, as limits.gear_gap allows: put them in planes of their own"
+        return GEAR_COLLISION.check("warn", text, gap, limit, "mm")
     found = f"collide by {-gap:.6g} mm" if gap < 0.0 else f"keep only {gap:.6g} mm between their tips at the closest"
     text = f"{names} {found}{_place(pair)}: {why}; {remedy}"
     return GEAR_COLLISION.check("fail", text, gap, limit, "mm")

@@ -7,7 +7,8 @@ from gearlink.core.report import Rule
 GEAR_COLLISION = Rule(
     "GL301",
     "gears collide",
-    "Two gears of one plane that do not mesh come nearer to each other than limits.gear_gap somewhere in the cycle.",
+    "Two gears of one plane that do not mesh come nearer to each other than limits.gear_gap somewhere in the cycle; "
+    "where that is below 0 and lets them overlap, a warning.",
     "A gear on the crank pin travels: its least distance counts, not the frame length. The source's own example 3 "
     "compares the tip circles with the frame length and misses a collision of 1.6 mm.",
     "Lengthen the frame or shorten the crank by the missing amount, or take smaller gears; in a synthesis a larger "

@@ -30,7 +30,7 @@ CHECKS = (
 _IDENTITY = 1e-9
 _NEAR = 0.9
 _LEAST_LIFE_MARGIN = 1.2
-_OTHER_SPEED, _NEAR_SPEED = 0.1, 0.05
+_OTHER_SPEED, _NEAR_SPEED, _UNEVEN = 0.1, 0.05, 0.2
 _AMPLIFICATION = 5.0
 _SWING_PER_BODY = 2.0 * 360.0
 _SWING_UNKNOWN = 20.0
@@ -113,20 +113,23 @@ def motor_speed(design: LoadsDesign) -> Iterator[Check]:
 
 
 def speed_fluctuation(design: LoadsDesign) -> Iterator[Check]:
-    """GL604, where the file has a flywheel."""
+    """GL604, where the file has a flywheel or a motor."""
     flywheel, running = design.section.flywheel, design.running
-    if flywheel is None:
+    if flywheel is None and design.section.motor is None:
         return
     if running.stops:
         text = f"the machine stops: its load takes more than is stored in {running.inertia:.5g} kg m^2 of flywheel"
         remedy = "give loads.flywheel: {fluctuation: 0.05} alone to have the least one found"
         yield codes.SPEED_FLUCTUATION.check("fail", f"{text}; {remedy}", running.inertia, None, "kg m^2")
         return
-    allowed, found = flywheel.fluctuation, running.fluctuation
-    if allowed is None:
-        return
+    allowed, found = getattr(flywheel, "fluctuation", None), running.fluctuation
     text = f"the speed varies by {found:.4g} of its mean"
-    if found > allowed * (1.0 + 1e-9):
+    if allowed is None:
+        if found > _UNEVEN:
+            text += ", and forces, lives and vibration are those of an even speed: take a heavier flywheel, or allow it"
+            text += " by loads.flywheel.fluctuation"
+            yield codes.SPEED_FLUCTUATION.check("warn", text, found, _UNEVEN)
+    elif found > allowed * (1.0 + 1e-9):
         needed = safely_above(running.needed or 0.0, 4)
         message = f"{text}, more than {allowed:g}: at a constant drive torque {needed} kg m^2 would do"
         yield codes.SPEED_FLUCTUATION.check("fail", message, found, allowed)

@@ -60,6 +60,8 @@ def _other_ratio(design: LoadsDesign) -> Iterator[Remedy]:
 
 def _heavier_flywheel(design: LoadsDesign) -> Iterator[Remedy]:
     """The least that holds the speed within nine tenths of what is allowed; with a motor it may need more."""
+    if design.section.flywheel is None:
+        return
     allowed, running = design.section.flywheel.fluctuation, design.running
     share = _HOLDS * allowed if allowed is not None else _USUAL_FLUCTUATION
     needed = design.energy.flywheel_for(share, abs(design.speed), running.motor_inertia)

@@ -316,7 +316,8 @@ class Batch:
     def findings(self) -> Iterator[Findings]:
         """Every finding of the command's checks."""
         limit = self.key("limits.gear_gap")
-        yield Findings(GEAR_COLLISION.code, self.gap, limit, self.gap < limit, self.none, "mm")
+        overlap = (self.gap >= limit) & (self.gap < 0.0)
+        yield Findings(GEAR_COLLISION.code, self.gap, limit, self.gap < limit, overlap, "mm")
         yield from self._shafts()
         mu, limit = np.degrees(self.mu), self.key("limits.transmission_angle")
         warns = (mu >= limit) & (mu < limit + _POOR)

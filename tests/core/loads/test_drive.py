@@ -87,6 +87,14 @@ def test_the_flywheel_that_a_failed_check_names_repairs_it() -> None:
     assert feed(flywheel={"inertia": named, "fluctuation": 0.05}).check("speed-fluctuation")[0].status != "fail"
 
 
+@pytest.mark.parametrize(("inertia", "statuses"), [(0.5, ["warn"]), (5.0, [])])
+def test_an_uneven_speed_is_told_though_the_file_allows_no_number(inertia: float, statuses: list[str]) -> None:
+    """Forces grow with the square of the speed, and are those of the mean one."""
+    design = feed(flywheel={"inertia": inertia})
+    assert [check.status for check in design.check("speed-fluctuation")] == statuses
+    assert (design.speed_max - design.speed_min > 0.2 * 120.0) is bool(statuses)
+
+
 # Motor
 
 
