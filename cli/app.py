@@ -26,7 +26,7 @@ from gearlink.cli.exploring.register import register as register_exploring
 from gearlink.cli.export.register import register as register_export
 from gearlink.cli.options import COMMANDS, OF_REPORT, OPTIONS, Options, folder
 from gearlink.cli.quick import run_line
-from gearlink.cli.typer_options import Dask, Jobs, Spec, option, place, share, takes
+from gearlink.cli.typer_options import Dask, Jobs, Spec, offers, option, place, share, takes
 from gearlink.core.kinds import KINDS
 
 _HELP = """Design calculator for the mechanisms of printing machines.
@@ -140,7 +140,11 @@ app.command("gears")(gears)
 
 
 @app.command("help")
-def _help(words: Annotated[list[str] | None, typer.Argument(metavar="COMMAND", help="command")] = None) -> None:
+def _help(
+    words: Annotated[
+        list[str] | None, typer.Argument(metavar="COMMAND", help="command", autocompletion=offers("commands"))
+    ] = None,
+) -> None:
     """Show the help of a command, as COMMAND --help does.
 
     Example: gearlink help synth dwell

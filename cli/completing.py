@@ -76,6 +76,76 @@ def settings(incomplete: str) -> Offer:
     )
 
 
+def parts(incomplete: str) -> Offer:
+    """Parts that `export` takes of the design file on the line."""
+    kind, _ = _design()
+    if kind is not None and kind.name == "geared-six-bar":
+        return _beginning(incomplete, ((name, "") for name in _gears_on_pins()))
+    known = _PARTS.values() if kind is None else [_PARTS.get(kind.name, ())]
+    return _beginning(incomplete, ((name, "") for names in known for name in names))
+
+
+def sheets(incomplete: str) -> Offer:
+    """Further sheets of the design file on the line."""
+    kind, _ = _design()
+    names = _SHEETS_OF_CAMS if kind is None else _SHEETS.get(kind.name, ("motion",))
+    return _beginning(incomplete, ((name, "") for name in names))
+
+
+def places(incomplete: str) -> Offer:
+    """Where the register of the design file on the line is asked for, beside angles."""
+    kind, _ = _design()
+    known = _PLACES.values() if kind is None else [_PLACES[kind.name]] if kind.name in _PLACES else []
+    return _beginning(incomplete, ((name, "") for name in known))
+
+
+def families(incomplete: str) -> Offer:
+    """Families that `bench` measures."""
+    from gearlink.cli.bench.command import NAMES
+
+    return _beginning(incomplete, ((name, "") for name in NAMES))
+
+
+def commands(incomplete: str) -> Offer:
+    """Commands to have help on; behind `synth` its own."""
+    from gearlink.cli.command_groups import GROUPS
+    from gearlink.cli.options import COMMANDS
+
+    words = _words()[2:]
+    group = words[0] if words and (len(words) > 1 or not incomplete) else ""
+    inner = [name.removeprefix(f"{group} ") for name in COMMANDS if group and name.startswith(f"{group} ")]
+    outer = [] if group else [name for names in GROUPS.values() for name in names]
+    return _beginning(incomplete, ((name, "") for name in (*inner, *outer)))
+
+
+_PARTS = {
+    "flatbed-press": ("main_cam", "return_cam", "gear1", "gear2"),
+    "gear-pair": ("gear1", "gear2", "rack", "blocking_contour"),
+    "geared-five-bar": ("input_gear", "output_gear", "idler_gear", "planet_gear", "sun_gear", "ring_gear"),
+    "geared-rocker": ("gear2", "gear5"),
+    "hypocycloid-dwell": ("planet", "ring"),
+    "mutilated-gear-dwell": ("wheel", "gear2"),
+    "swing-gripper": ("main_cam", "return_cam"),
+    "three-gear-four-bar": ("gear1", "gear3", "gear5"),
+    "two-gear-four-bar": ("gear2", "gear5"),
+    "wide-swing-cam": ("main_cam", "return_cam", "contour", "return_contour"),
+}
+"""Names of parts by kind; written down here, for the designs themselves take too long to make on Tab."""
+
+_SHEETS_OF_CAMS = ("motion", "timing", "pressure", "drawing", "drawing-1", "drawing-2")
+_SHEETS: dict[str, tuple[str, ...]] = {"flatbed-press": _SHEETS_OF_CAMS, "swing-gripper": _SHEETS_OF_CAMS}
+_SHEETS |= dict.fromkeys(("gear-pair", "gear-train-mobility", "mutilated-gear-dwell"), ())
+_PLACES = {"three-gear-four-bar": "dwell", "flatbed-press": "zone", "swing-gripper": "handover"}
+_PINS = re.compile(r"\bpins\W*:\s*\[([^\]]*)\]")
+
+
+def _gears_on_pins() -> Iterator[str]:
+    """Gears of the trains of a geared six-bar, as far as its pins stand in brackets."""
+    text = next(_texts(_words()), "")
+    for number, train in enumerate(_PINS.findall(text), 1):
+        yield from (f"gear{number}{pin}" for pin in re.findall(r"\w+", train))
+
+
 def _beginning(incomplete: str, offers: Iterable[tuple[str, str]]) -> Offer:
     """Those that begin as the word does; letters count alike, large or small."""
     start = incomplete.casefold()

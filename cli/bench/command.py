@@ -14,7 +14,7 @@ from gearlink.cli.bench.families import FAMILIES, measured
 from gearlink.cli.exit_codes import ExitCode
 from gearlink.cli.files import require_folder
 from gearlink.cli.options import Options
-from gearlink.cli.typer_options import option, takes
+from gearlink.cli.typer_options import offers, option, takes
 
 NAMES = tuple(FAMILIES)
 
@@ -35,7 +35,9 @@ def register(app: typer.Typer) -> None:
 @takes("quiet")
 def _bench(
     options: Options,
-    families: Annotated[list[str] | None, typer.Argument(metavar="FAMILY", help=", ".join(NAMES))] = None,
+    families: Annotated[
+        list[str] | None, typer.Argument(metavar="FAMILY", help=", ".join(NAMES), autocompletion=offers("families"))
+    ] = None,
     quick: Annotated[bool, typer.Option("--quick", help="fewer rounds, nothing above 1e5")] = False,
     out: Annotated[Path | None, option("out", help="write a picture of each family")] = None,
     format: Annotated[BenchFormat, option("format", help="how the tables are printed")] = BenchFormat.TABLE,

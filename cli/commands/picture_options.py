@@ -75,7 +75,10 @@ def _sheet(
     spec: Spec,
     options: Options,
     names: Annotated[
-        list[str] | None, typer.Argument(metavar="[NAME]...", help="motion, timing, pressure, drawing; default: all")
+        list[str] | None,
+        typer.Argument(
+            metavar="[NAME]...", help="motion, timing, pressure, drawing; default: all", autocompletion=offers("sheets")
+        ),
     ] = None,
 ) -> None:
     """Write further sheets of a design: motion of every output, timing, pressure angles, drawings of cams.

@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from gearlink.cli.options import OPTIONS, Options
-from gearlink.cli.typer_options import Jobs, Spec, keyed, takes
+from gearlink.cli.typer_options import Jobs, Spec, keyed, offers, takes
 
 _SHARED = [name for name in OPTIONS if name not in ("samples", "suggest", "save", "round", "force", "candidates")]
 
@@ -81,7 +81,12 @@ def _tolerance(
 def _register(
     spec: Spec,
     options: Options,
-    at: Annotated[str | None, typer.Option("--at", metavar="PLACE", help="dwell, zone, handover, or an angle")] = None,
+    at: Annotated[
+        str | None,
+        typer.Option(
+            "--at", metavar="PLACE", help="dwell, zone, handover, or an angle", autocompletion=offers("places")
+        ),
+    ] = None,
     method: Annotated[Method | None, typer.Option("--method", help="how the band is computed")] = None,
     radius: Annotated[
         float | None, typer.Option("--radius", min=1e-6, help="radius of the output's error in mm")

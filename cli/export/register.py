@@ -8,7 +8,7 @@ import typer
 
 from gearlink.cli.export.options import LEAST_TOLERANCE, MOST_TOLERANCE, CurveForm, Export, FileFormat
 from gearlink.cli.options import Options
-from gearlink.cli.typer_options import Spec, takes
+from gearlink.cli.typer_options import Spec, offers, takes
 
 
 def register(app: typer.Typer) -> None:
@@ -22,7 +22,13 @@ def _export(
     options: Options,
     as_: Annotated[list[FileFormat], typer.Option("--as", help="format of the files (repeatable)")] = [FileFormat.DXF],  # noqa: B006 - Typer copies it
     part: Annotated[
-        list[str], typer.Option("--part", metavar="NAME", help="main_cam, gear1, blocking_contour ... (repeatable)")
+        list[str],
+        typer.Option(
+            "--part",
+            metavar="NAME",
+            help="main_cam, gear1, blocking_contour ... (repeatable)",
+            autocompletion=offers("parts"),
+        ),
     ] = [],  # noqa: B006
     tolerance: Annotated[
         float, typer.Option(min=LEAST_TOLERANCE, max=MOST_TOLERANCE, metavar="MM", help="greatest chord error")

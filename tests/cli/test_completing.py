@@ -9,10 +9,14 @@ import sys
 from pathlib import Path
 
 import pytest
-from factory import DESIGNS
+from factory import DESIGNS, each_kind
 from sweeps import mostly_slow
 
 from gearlink.cli import completing
+from gearlink.cli.evaluate import open_design, read_spec, whole_design
+from gearlink.cli.export.parts import kinds, makers
+from gearlink.cli.figures.sheets.sheet_list import sheets_of
+from gearlink.cli.options import Options
 from gearlink.core.kinds import FILES, KINDS, SUMMARIES
 
 BIN = Path(sys.executable).parent
@@ -57,6 +61,61 @@ def test_keys_are_those_of_the_design(line: pytest.MonkeyPatch) -> None:
     assert "gears.idler=" in words(completing.settings("gears."))
 
 
+OF_KINDS = each_kind(sorted(DESIGNS.glob("*.yaml")))
+
+
+@pytest.mark.quick(4)
+@pytest.mark.parametrize("path", OF_KINDS, ids=lambda path: path.stem)
+def test_parts_sheets_and_places_are_those_of_the_design(monkeypatch: pytest.MonkeyPatch, path: Path) -> None:
+    """The names that Tab offers are written down; here each comes from the design itself."""
+    loaded, kind = open_design(str(path), Options())
+    design = whole_design(kind, read_spec(loaded, kind, str(path)))
+    monkeypatch.setenv("COMP_WORDS", f"gearlink export {path} ")
+    if kind.name in kinds() and getattr(design.spec, "cam", True) is not None:
+        assert set(makers(design)) <= set(words(completing.parts("")))
+    elif kind.name not in kinds():
+        assert completing.parts("") == []
+    assert set(sheets_of(design)) <= set(words(completing.sheets("")))
+    offered = words(completing.places(""))
+    assert bool(offered) is ("register" in kind.commands)
+    if offered:
+        assert offered == [kind.design_class("register").default_at]
+
+
+def test_without_a_design_all_names_are_offered(line: pytest.MonkeyPatch) -> None:
+    line.setenv("COMP_WORDS", "gearlink export nowhere.yaml --part ")
+    assert {"rack", "main_cam", "gear5"} <= set(words(completing.parts("")))
+    assert {"motion", "drawing"} <= set(words(completing.sheets("")))
+    assert set(words(completing.places(""))) == {"dwell", "zone", "handover"}
+
+
+def test_families_and_commands() -> None:
+    assert words(completing.families("inv")) == ["involute"]
+    assert "synth" in words(completing.commands(""))
+
+
+@pytest.mark.parametrize(
+    ("typed", "start", "wanted"), [("sy", "sy", "synth"), ("synth ", "", "dwell"), ("synth b", "b", "back-step")]
+)
+def test_help_offers_commands_and_those_of_a_group(
+    line: pytest.MonkeyPatch, typed: str, start: str, wanted: str
+) -> None:
+    line.setenv("COMP_WORDS", f"gearlink help {typed}")
+    assert wanted in words(completing.commands(start))
+
+
+def test_names_of_designs_are_offered_without_heavy_libraries() -> None:
+    """What needs the design itself would take seconds on Tab."""
+    code = (
+        "import sys; from gearlink.cli import completing; "
+        "completing.parts(''), completing.sheets(''), completing.places(''), completing.commands(''); "
+        "print([name for name in ('numpy', 'scipy', 'matplotlib', 'pydantic') if name in sys.modules])"
+    )
+    env = {**os.environ, "COMP_WORDS": f"gearlink export {DESIGNS / 'ty460.yaml'} "}
+    done = subprocess.run([sys.executable, "-c", code], env=env, capture_output=True, text=True, check=True)
+    assert done.stdout == "[]\n"
+
+
 def test_a_fault_offers_nothing(line: pytest.MonkeyPatch, tmp_path: Path) -> None:
     assert completing.offered("nonsense", "") == []
     folder = tmp_path / "x.yaml"
@@ -82,6 +141,11 @@ LINES = [
     ("gearlink explain GL30", "GL301"),
     (f"gearlink analyze {DESIGNS / 'ty460.yaml'} --set cylinder.ra", "cylinder.radius="),
     ("gearlink laws --law modified-s", "modified-sine"),
+    (f"gearlink sheet {DESIGNS / 'ty460.yaml'} ti", "timing"),
+    (f"gearlink export {DESIGNS / 'gear_pair.yaml'} --part blo", "blocking_contour"),
+    (f"gearlink register {DESIGNS / 'ty460_register.yaml'} --at z", "zone"),
+    ("gearlink bench inv", "involute"),
+    ("gearlink help synth mom", "momentary-dwell"),
 ]
 
 
