@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from gearlink.core.design import Design, Outline
+from gearlink.core.design import Design, Found, Outline
 from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantities, gear_quantity
 from gearlink.core.gears.codes import AT_LIMITS
@@ -99,6 +99,17 @@ class GearPairDesign(GearQuantities, Design):
                 yield (("shift_split", first),)
             else:
                 yield ("profile_shift[0]", first), ("profile_shift[1]", math.fsum((*shift, -first)))
+
+    def as_found(self) -> Iterator[Found]:
+        """Shifts and tips that the nominal centre distance asks for: gears are cut once, wherever their axes lie."""
+        spec, by = self.spec, "found for center_distance"
+        if spec.center_distance is None or spec.rack:
+            return
+        if spec.profile_shift is None:
+            yield Found("profile_shift", list(self.gear_pair.profile_shift), by)
+            yield Found("shift_split", "equal")
+        if spec.tip_shortening in (None, "full") and spec.tip_diameter is None:
+            yield Found("tip_shortening", list(self.gear_pair.tip_alteration), by)
 
     @cached_property
     def gear_pair(self) -> GearPair:

@@ -37,6 +37,35 @@ STUDIES: dict[str, tuple[list[str], str]] = {
 }
 
 
+PAIR = {
+    "kind": "gear-pair",
+    "module": 2.5,
+    "teeth": [26, 53],
+    "center_distance": 100.0,
+    "shift_split": "sliding",
+    "allowances": {"upper": [-0.1, -0.1], "lower": [-0.15, -0.15]},
+}
+
+
+@pytest.mark.parametrize("more", [{}, {"tip_shortening": "none"}, {"shift_split": 0.4}])
+def test_gears_are_cut_once_whatever_their_distance(more: dict[str, Any]) -> None:
+    """Backlash rises by 2 tan(alpha_wt) of what the axes stand apart, as between two racks; it had stayed the same."""
+    source = {"center_distance": {"plus_minus": 0.02}}
+    made = factory.design({**PAIR, **more}, command="tolerance", tolerance={"sources": source, "samples": 16})
+    base = made.problem.base
+    near, nominal, far = (base.design([("center_distance", 100.0 + step)]) for step in (-0.02, 0.0, 0.02))
+    assert near.profile_shift == nominal.profile_shift == far.profile_shift
+    assert near.tip_radius == pytest.approx(nominal.tip_radius, rel=1e-15)
+    assert nominal.profile_shift == pytest.approx(
+        factory.design({**PAIR, **more}, command="gear").profile_shift, abs=1e-15
+    )
+    angle = nominal.gear_pair.working_pressure_angle
+    for one, other in ((near, nominal), (nominal, far)):
+        rises = [b - a for a, b in zip(one.backlash_circumferential, other.backlash_circumferential, strict=True)]
+        assert rises == pytest.approx([2.0 * math.tan(angle) * 0.02] * 2, rel=1e-2)
+    assert far.contact_ratio < nominal.contact_ratio < near.contact_ratio
+
+
 def study(name: str, **section: Any) -> Any:
     return factory.design(name, command="tolerance", tolerance=section)
 
