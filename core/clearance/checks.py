@@ -30,7 +30,9 @@ def collision_check(pair: Clearance, limit: float, why: str, remedy: str) -> Che
         text = f"{names} keep {gap:.6g} mm between their tips at the closest{_place(pair)}: {why}"
         return GEAR_COLLISION.check("pass", text, gap, limit, "mm")
     if gap >= limit:
-        text = f"{names} overlap by {-gap:.6g} mm{_place(pair)}, as limits.gear_gap allows: put them in planes of their own"
+        text = (
+            f"{names} overlap by {-gap:.6g} mm{_place(pair)}, as limits.gear_gap allows: they need planes of their own"
+        )
         return GEAR_COLLISION.check("warn", text, gap, limit, "mm")
     found = f"collide by {-gap:.6g} mm" if gap < 0.0 else f"keep only {gap:.6g} mm between their tips at the closest"
     text = f"{names} {found}{_place(pair)}: {why}; {remedy}"

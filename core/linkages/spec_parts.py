@@ -23,7 +23,9 @@ class LinkageLimits(DrawingLimits, GearLimits, LoadLimits):
     """Limits of the checks."""
 
     transmission_angle: AcuteAngle = Field(40.0, description="least transmission angle")
-    gear_gap: SignedLength = Field(0.0, description="least gap between gears that do not mesh; below 0 in planes of their own")
+    gear_gap: SignedLength = Field(
+        0.0, description="least gap between gears that do not mesh; below 0 in planes of their own"
+    )
     least_shaft: Distance | None = Field(
         None, description="radius of the thinnest shaft that would be built; left out: 2 modules"
     )

@@ -44,8 +44,8 @@ MOTOR_TORQUE = Rule(
 SPEED_FLUCTUATION = Rule(
     "GL604",
     "speed fluctuation",
-    "The speed of the input varies by more than is allowed over a period, or the machine stops; where the file allows no "
-    "number, by more than a fifth (a warning), since forces, lives and vibration are computed for an even speed.",
+    "The speed of the input varies by more than is allowed over a period, or the machine stops; where the file allows "
+    "no number, by more than a fifth (a warning), since forces, lives and vibration are computed for an even speed.",
     "Uneven speed shows in the print, and all loads of motion grow with the square of the greatest speed.",
     "Add flywheel inertia: loads.flywheel.fluctuation alone gives the least that is needed.",
     "(w_max - w_min)/w_m <= loads.flywheel.fluctuation, left out: 0.2",
