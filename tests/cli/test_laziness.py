@@ -272,8 +272,8 @@ def test_a_quantity_evaluates_what_it_needs_and_no_more(command: str, design: st
 
 def _computed(made: object) -> set[str]:
     """Names of the results that a design and its parts have worked out."""
-    # the file as completed and as read, whether to advise, and the kind that made it: nothing worked out
-    given = ("spec", "asked", "advise", "kin")
+    # the file as completed and as read, whether to advise, the kind that made it, and a function: nothing worked out
+    given = ("spec", "asked", "advise", "kin", "_way_back")
     parts = [each for name, each in vars(made).items() if hasattr(each, "spec") and name not in given]
     return {
         name
