@@ -150,10 +150,11 @@ def stroke_profile(axes: Axes, stroke: Any) -> None:
     import numpy as np
 
     parts = [np.linspace(low, high, 121) for low, high in stroke.parts]
-    k = np.concatenate([parts[0], [0.5], parts[1]])
-    points, pressure = stroke.cam.points(k).profile, stroke.contact(k).pressure
+    gap = 0.5 * (parts[0][-1] + parts[1][0])
+    k = np.concatenate([parts[0], [gap], parts[1]])
+    points, pressure = stroke.cam.points(stroke.profile(k)[0]).profile, stroke.contact(k).pressure
     points[len(parts[0])] = complex(np.nan, np.nan)
-    _colored(axes, points, pressure, f"{'cam' if stroke.name == 'main' else 'return cam'}: pressure [N/mm²]")
+    _colored(axes, points, pressure, f"{stroke.cam_words}: pressure [N/mm²]")
     axes.plot([0.0], [0.0], "+", color=style.BLACK, markersize=8)
 
 
@@ -165,8 +166,10 @@ def _stroke(axes: Axes, design: Any, title: str, ylabel: str, column: str) -> No
     for stroke, color, line in zip(design.strokes, panels.CAM_COLORS, panels.CAM_LINES, strict=False):
         later = "" if stroke.name == "main" else "return_"
         values = table[column.format(stroke.name) if "{}" in column else f"{later}{column}"].astype(float)
-        label = "working stroke" if stroke.name == "main" else "return stroke"
-        axes.plot(table[f"{later}cam_angle"], values, color=color, linewidth=1.5, linestyle=line, label=label)
-    axes.set_xlim(0.0, 360.0 if design.whole else math.degrees(design.cam.cycle_angle))
+        x = table[f"{later}cam_angle"]
+        axes.plot(x, values, color=color, linewidth=1.5, linestyle=line, label=stroke.words)
+    axes.set_xlim(0.0, _TURN if design.whole else math.degrees(design.cam.cycle_angle))
+    if design.whole:
+        style.numbers_at(axes, [30.0 * i for i in range(13)])
     if len(design.strokes) > 1:
         panels.legend_above(axes, 2)

@@ -213,10 +213,7 @@ class WideSwingDesign(Design):
             for part in self.contact_of(cam)
         ]
         if self.spec.drive is not None:
-            from gearlink.core.wide_swing.way_back import parts
-
-            home = self._force_home
-            found += [maximum_over(home, *part, samples=128).value for part in parts(self.oscillating_cam)]
+            found += [maximum_over(self._force_home, *part, samples=128).value for part in self.contact_of(self.cam)]
         return max(found)
 
     def _force_home(self, k: Reals) -> Reals:

@@ -1,8 +1,8 @@
-"""The way back of an oscillating cam: the acceleration that its profile asks of the rocker when the cam swings home."""
+"""The way home of an oscillating cam: its crank goes on evenly, and the profile leads the rocker back."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -13,14 +13,73 @@ if TYPE_CHECKING:
     from gearlink.core.numerics.arrays import Reals
     from gearlink.core.wide_swing.cams.oscillating_cam import OscillatingCam
 
-_STOP = 1e-4
-"""Nearer to a stop, in strokes, both accelerations are as good as one, and their ratio has few digits."""
+_TURN = 2.0 * np.pi
+
+
+class Home(NamedTuple):
+    """Where the cam stands on its way home, and how it goes on.
+
+    Fields
+        k : (N,) array - fraction of the stroke at which it stood there, from 1 to 0
+        first, second : (N,) arrays - derivatives of k by the crank angle
+    """
+
+    k: Reals
+    first: Reals
+    second: Reals
+
+
+def home(cam: OscillatingCam, turned: Reals) -> Home:
+    """The cam at crank angles of its way home.
+
+    psi(k) = 2 arg C - psi,  psi'(k) = 2 Im(C'/C) - 1,  psi''(k) = 2 Im(C''/C - (C'/C)^2)
+
+    Parameters
+        cam : OscillatingCam
+        turned : (N,) array [rad] - crank angle from the start of the stroke, from the stroke's to a whole turn
+    Notes
+        C is the end of the rocker that carries the cam, seen from the crank's pivot: the crank pins of both ways are
+        mirror images on that line. At both ends, where cam and rocker stand still, nothing is 0/0.
+    """
+    bar, span = cam.drive.linkage, cam.drive.crank_span
+    found = solve(bar, cam.drive.crank_angles[0] + turned, 2)
+    arm = bar.rocker * np.exp(1j * found.rocker_angle)
+    end = bar.frame + arm
+    rate = 1j * found.rocker_velocity * arm / end
+    bend = (1j * found.rocker_acceleration - found.rocker_velocity**2) * arm / end - rate * rate
+    forth = _from(0.5 * (span - _TURN), 2.0 * np.angle(end) - 2.0 * cam.drive.crank_angles[0] - turned)
+    return Home(_within(forth, 0.0, span) / span, (2.0 * rate.imag - 1.0) / span, 2.0 * bend.imag / span)
+
+
+def crank_angle(cam: OscillatingCam, k: Reals) -> Reals:
+    """Crank angle from the start of the stroke at which the cam, on its way home, stands as at k [rad].
+
+    Parameters
+        cam : OscillatingCam
+        k : (N,) array - fractions of the stroke
+    Returns
+        turned : (N,) array [rad] - from a whole turn at k = 0 down to the stroke's at k = 1
+    """
+    bar, start, span = cam.drive.linkage, cam.drive.crank_angles[0], cam.drive.crank_span
+    forth = k * span
+    end = bar.frame + bar.rocker * np.exp(1j * solve(bar, start + forth, 0).rocker_angle)
+    return _within(_from(0.5 * span, 2.0 * np.angle(end) - 2.0 * start - forth), span, _TURN)
+
+
+def _from(low: float, angle: Reals) -> Reals:
+    """The angle in the turn that begins at `low`, far from every angle of the stroke or of the way home."""
+    return np.asarray(low + np.mod(angle - low, _TURN))
+
+
+def _within(angle: Reals, low: float, high: float) -> Reals:
+    """Rounding beyond an end is the end."""
+    return np.asarray(np.minimum(np.maximum(angle, low), high))
 
 
 def need(cam: OscillatingCam) -> Extreme:
-    """Greatest acceleration of the rocker on the way back over that of the stroke at the same place, and the place k.
+    """Greatest acceleration of the rocker on the way home over that of the stroke at the same place, and the place k.
 
-    Where the device holds the rocker of the stroke to its cam with a force above J phi'', it holds it on the way back
+    Where the device holds the rocker of the stroke to its cam with a force above J phi'', it holds it on the way home
     only with a force above that ratio of it.
 
     Parameters
@@ -30,45 +89,20 @@ def need(cam: OscillatingCam) -> Extreme:
     Raises
         NoSolution - for a loop, or where the roller touches nothing
     """
-    found = [maximum_over(lambda k: ratio(cam, k), *part, samples=128) for part in parts(cam)]
+    found = [maximum_over(lambda k: ratio(cam, k), *part, samples=128) for part in cam.contact]
     return max(*found, Extreme(1.0, 0.0), key=lambda extreme: extreme.value)
 
 
-def parts(cam: OscillatingCam) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Parts of the stroke in which the roller touches the profile, without the stops, where the ratio is 0/0.
-
-    Raises
-        NoSolution - for a loop, or where the roller touches nothing
-    """
-    (first, start), (end, last) = cam.contact
-    return (max(first, _STOP), start), (end, min(last, 1.0 - _STOP))
-
-
 def ratio(cam: OscillatingCam, k: Reals) -> Reals:
-    """Acceleration of the rocker on the way back over that of the stroke, where the cam stands as at k.
+    """Acceleration of the rocker on the way home over that of the stroke, where the cam stands as at k.
 
-    phi_b'' = phi_cc chi_b'^2 + phi_c chi_b'',  phi_c = phi'/chi',  phi_cc = (phi'' - phi_c chi'')/chi'^2
+    (phi_kk k'^2 + phi_k k'')/(phi_kk/span^2)
 
     Parameters
         cam : OscillatingCam
-        k : (N,) array - fractions of the stroke, without 0, 1/2 and 1
-    Notes
-        The crank pins of the two ways are mirror images on the line from the crank's pivot to the rocker's end; primes
-        are derivatives by the crank angle.
-    Source
-        own derivation
+        k : (N,) array - fractions of the stroke, without 1/2, where the rocker has no acceleration in it
     """
-    drive, span, swing = cam.drive, cam.drive.crank_span, cam.law.swing
-    bar = drive.linkage
-    forth = drive.crank_angles[0] + k * span
-    there = solve(bar, forth, 2)
-    tip = bar.frame + bar.rocker * np.exp(1j * there.rocker_angle)
-    here = solve(bar, 2.0 * np.angle(tip) - forth, 2)
-    view = cam.law.middle_view(k)
-    first, second = swing * view.velocity / span, swing * view.acceleration / span**2
-    sense = drive.rising
-    chi1, chi2 = sense * there.rocker_velocity, sense * there.rocker_acceleration
-    slope = first / chi1
-    bend = (second - slope * chi2) / (chi1 * chi1)
-    back: Reals = bend * here.rocker_velocity**2 + slope * sense * here.rocker_acceleration
-    return back / second
+    back = home(cam, crank_angle(cam, k))
+    view, span = cam.law.middle_view(k), cam.drive.crank_span
+    found: Reals = span**2 * (back.first**2 + back.second * view.velocity / view.acceleration)
+    return found

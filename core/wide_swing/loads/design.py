@@ -2,7 +2,8 @@
 
 The input angle is that of the cam, from the start of the working stroke; torques are positive in the sense of that
 stroke. With `cycle` the whole turn is computed, with `cycle_angle` the working stroke alone. In a stroke its own cam
-guides the rocker, and in the rest after it that cam's arc holds it against the device.
+guides the rocker, and in the rest after it that cam's arc holds it against the device. A cam on a crank-rocker swings
+home on the profile of its stroke: the whole turn is that of the crank, without a rest.
 """
 
 from __future__ import annotations
@@ -85,14 +86,16 @@ class WideSwingLoads(LoadsDesign):
     @property
     def whole(self) -> bool:
         """Whether the file gives the whole turn."""
-        return self.spec.cycle is not None
+        return self.spec.cycle is not None or self.spec.drive is not None
 
     @cached_property
     def strokes(self) -> tuple[SwingStroke, ...]:
-        """The working stroke, and with a cycle the return stroke."""
-        from gearlink.core.wide_swing.loads.stroke import SwingStroke
+        """The working stroke, and what brings the rocker back where the whole turn is known."""
+        from gearlink.core.wide_swing.loads.stroke import SwingStroke, WayHome
 
         main = SwingStroke("main", self.cam, 0.0, self)
+        if self.spec.drive is not None:
+            return main, WayHome("return", self.cam, self.cam.cycle_angle, self)
         if not self.whole:
             return (main,)
         back = self.design.return_cam or self.cam
@@ -101,7 +104,14 @@ class WideSwingLoads(LoadsDesign):
     @property
     def has_return_cam(self) -> bool:
         """Whether a second cam turns the other way."""
-        return self.whole and self.spec.layout == "twin-cam"
+        return self.spec.cycle is not None and self.spec.layout == "twin-cam"
+
+    @cached_property
+    def _phases(self) -> tuple[float, ...]:
+        """Input angles of working stroke, rest, return stroke and rest [rad]; of a stroke alone its own."""
+        if self.spec.drive is not None:
+            return self.cam.cycle_angle, 0.0, self.strokes[1].width, 0.0
+        return self.design.motion.cycle_angles if self.whole else (self.cam.cycle_angle,)
 
     @cached_property
     def own_links(self) -> tuple[str, ...]:
@@ -153,11 +163,10 @@ class WideSwingLoads(LoadsDesign):
         given = next((key for key in _OF_TURN if getattr(self.section, key)), None)
         if self.whole or given is None:
             return
-        spec, message = self.spec, f"{given} needs the whole turn of the cam: give cycle in place of cycle_angle"
-        if spec.drive is not None or spec.slider is not None:
-            other = "slider" if spec.drive is None else "drive"
+        message = f"{given} needs the whole turn of the cam: give cycle in place of cycle_angle"
+        if self.spec.slider is not None:
             message = (
-                f"{given} needs the whole turn of the cam, and with {other} the stroke alone is known: leave it out"
+                f"{given} needs the whole turn of the cam, and with slider the stroke alone is known: leave it out"
             )
         raise MissingSection(message, key=f"loads.{given}")
 
@@ -178,18 +187,18 @@ class WideSwingLoads(LoadsDesign):
         from gearlink.core.wide_swing.cams.outline import middle_of
 
         ends = [
-            stroke.start + share * stroke.cam.cycle_angle
+            stroke.start + share * stroke.width
             for stroke in self.strokes
-            for share in (0.0, middle_of(stroke.cam), 1.0)
+            for share in (0.0, stroke.at_profile(middle_of(stroke.cam)), 1.0)
         ]
         return [angle for angle in ends if angle > 0.0]
 
     @property
     def dwell_zones(self) -> list[tuple[float, float]]:
         """Both rests of a whole turn."""
-        if not self.whole:
+        if self.spec.cycle is None:
             return []
-        working, far, back, near = self.design.motion.cycle_angles
+        working, far, back, near = self._phases
         return [(working, far), (working + far + back, near)]
 
     @property
@@ -214,9 +223,7 @@ class WideSwingLoads(LoadsDesign):
         """Number of the phase in which input angles lie (0 to 3), and the fraction of the phase that has passed."""
         import numpy as np
 
-        motion = self.design.motion
-        angles = motion.cycle_angles if self.whole else (self.cam.cycle_angle,)
-        edges = np.concatenate(([0.0], np.cumsum(angles)))
+        edges = np.concatenate(([0.0], np.cumsum(self._phases)))
         turned = np.mod(phi, 2.0 * math.pi) if self.whole else phi
         sector = np.searchsorted(edges[1:-1], turned, side="right")
         width = np.where(np.diff(edges) > 0.0, np.diff(edges), 1.0)
@@ -230,17 +237,15 @@ class WideSwingLoads(LoadsDesign):
 
         from gearlink.core.loads.forces.kinematics import Turn
 
-        motion, rows = self.design.motion, len(share)
+        rows = len(share)
         turn, place, normal = np.zeros((3, rows)), *np.zeros((2, rows), dtype=np.complex128)
         for number, stroke in enumerate(self.strokes):
             moving, resting = sector == 2 * number, sector == 2 * number + 1
-            swing, angle = (motion.swing if number == 0 else -motion.swing), stroke.cam.cycle_angle
             if moving.any():
-                a, b, c = motion.law.invariants(share[moving], 2)
-                turn[:, moving] = (a - 0.5) * swing, swing / angle * b, swing / angle**2 * c
+                turn[:, moving] = stroke.turn(share[moving])
                 place[moving], normal[moving] = stroke.roller(share[moving])
             if resting.any():
-                turn[0, resting] = 0.5 * swing
+                turn[0, resting] = stroke.turn(np.ones(1)).value
                 place[resting], normal[resting] = stroke.roller(np.ones(1), resting=True)
         return Turn(*turn), place, normal
 
@@ -287,7 +292,7 @@ class WideSwingLoads(LoadsDesign):
         if self.spec.drive is not None:
             direction = math.radians(_or(self.section.drive_direction, DRIVE_DIRECTION))
             return with_drive(phi, axis, self.design.motion.drive, direction)
-        middles = [stroke.start + middle_of(stroke.cam) * stroke.cam.cycle_angle for stroke in self.strokes]
+        middles = [stroke.start + middle_of(stroke.cam) * stroke.width for stroke in self.strokes]
         links, connections = with_shafts(phi, axis, self._side, middles[: 1 + self.has_return_cam])
         return links, connections, self._side, 0j
 
@@ -339,7 +344,7 @@ class WideSwingLoads(LoadsDesign):
         if not self.has_pressure:
             return None
         if self.spec.drive is not None:
-            return self.strokes[0].shear_depth_at_greatest_pressure
+            return max(self.strokes, key=lambda each: each.pressed["pressure"].value).shear_depth_at_greatest_pressure
         return self._pressed("shear_depth")
 
     @property

@@ -48,7 +48,7 @@ def contact_stroke(design: WideSwingLoads, samples: int | None = None) -> Table:
 def harmonics(design: WideSwingLoads, samples: int | None = None) -> Table:
     """Harmonics of the rocker's motion over a whole turn."""
     if not design.whole:
-        if design.spec.drive is not None or design.spec.slider is not None:
+        if design.spec.slider is not None:
             raise NoSolution("harmonics are those of a whole turn, and here the stroke alone is known", key="loads")
         message = "harmonics are those of a whole turn: give cycle in place of cycle_angle"
         raise MissingSection(message, key="cycle_angle")
