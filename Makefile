@@ -83,8 +83,9 @@ bench: $(READY) bench/.venv/.ready
 bench-guard: $(READY)
 	$(BIN)/python bench/guard.py
 
+# Tests that share nothing: each goes to the next free process.
 stress: $(READY)
-	$(LONG) -m stress tests/stress -rP
+	$(PYTEST) -n auto --maxprocesses 4 --dist load -m stress tests/stress -rP
 
 docs: $(READY)
 	$(BIN)/python docs/generate.py

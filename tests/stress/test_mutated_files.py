@@ -1,7 +1,8 @@
 """Mutated design files: exit status 0, 1 or 2, no traceback, each within two seconds (more
 where a command computes many designs) and 200 MB more.
 
-GEARLINK_MUTATIONS=100000 make stress tries so many; 100,000 take three quarters of an hour of one core.
+GEARLINK_MUTATIONS=100000 make stress tries so many, in parts that go to different processes; 100,000 take about half
+an hour of one core.
 """
 
 from __future__ import annotations
@@ -36,6 +37,7 @@ LONGER = {
     "check": 5.0,
     "--worst-case": 2.0,
     "--allocate": 2.0,
+    "--sobol": 8.0,
     "--suggest": 5.0,
     "--candidates": 3.0,
     "--budget": 2.0,
@@ -43,7 +45,8 @@ LONGER = {
 """How many times the seconds of one design, by how many designs a command computes.
 
 `check` and `batch` run each command of a file, up to five; `--worst-case` and `--allocate` have some hundred designs
-with their cams, `--suggest` the checks of every command anew for up to eight repairs, `--candidates` whole designs
+with their cams, `--sobol` as many times the samples as there are coordinates and two more (278 of the gripper of 9),
+`--suggest` the checks of every command anew for up to eight repairs, `--candidates` whole designs
 side by side (a five-bar's function is searched for each), `--budget 8` eight designs. `loads` has the design and, for
 a flywheel or a motor, the forces of several hundred positions for each trial speed. All other commands, and so the
 limit that a reader waits for, keep 2 s.
@@ -51,7 +54,7 @@ limit that a reader waits for, keep 2 s.
 OF_A_STUDY = 40.0
 """The same of `batch` on a study: half a million designs as arrays (17 s), or 4,096 of a kind without (15 ms each)."""
 MEGABYTES = 200.0
-FEW, MANY = 10, int(os.environ.get("GEARLINK_MUTATIONS", "6000"))
+FEW, MANY, PARTS = 10, int(os.environ.get("GEARLINK_MUTATIONS", "6000")), 8
 CONTROLS = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f]")
 FORMATS = ("json", "json", "json", "table", "csv", "md")
 
@@ -114,12 +117,12 @@ def _no_number(word: str) -> Any:
     raise ValueError(f"{word} is no number")
 
 
-def fuzz(count: int, seed: int, folder: Path) -> list[str]:
-    """Failures among so many mutated files, each with the seed that makes it again."""
+def fuzz(draws: range, seed: int, folder: Path) -> list[str]:
+    """Failures among mutated files, each with the seed and the draw that make it again."""
     names = list(SEEDS)
     failures: list[str] = []
     path = folder / "design.yaml"
-    for i in range(count):
+    for i in draws:
         rng = Random(f"{seed}/{i}")
         name = rng.choice(names)
         text = base_of(name)
@@ -151,16 +154,18 @@ def left_behind(folder: Path) -> str:
 
 
 def test_a_few_mutated_files(tmp_path: Path) -> None:
-    assert not fuzz(FEW, 1, tmp_path)
+    assert not fuzz(range(FEW), 1, tmp_path)
 
 
 @pytest.mark.stress
-def test_many_mutated_files(tmp_path: Path) -> None:
+@pytest.mark.parametrize("part", range(PARTS))
+def test_many_mutated_files(part: int, tmp_path: Path) -> None:
     import_all()
     begun, before = perf_counter(), resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    failures = fuzz(MANY, 2, tmp_path)
+    draws = range(part, MANY, PARTS)
+    failures = fuzz(draws, 2, tmp_path)
     grown = (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) / 1024.0
-    print(f"\n{MANY} mutated files, {len(failures)} failures, {perf_counter() - begun:.0f} s, {grown:.0f} MB more")
+    print(f"\n{len(draws)} mutated files, {len(failures)} failures, {perf_counter() - begun:.0f} s, {grown:.0f} MB more")
     assert not failures, "\n\n".join(failures[:5])
     assert grown < MEGABYTES
 
