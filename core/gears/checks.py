@@ -55,7 +55,7 @@ GEAR_CHECKS = tuple(
 )
 _USUAL_TIP = 0.15
 """So many modules above the least tip thickness a tip is no longer called thin."""
-MORE_CONTACT = 0.1
+_MORE_CONTACT = 0.1
 """So much above the least contact ratio it is no longer called little."""
 _UNUSUAL_SLIDING = 8.0
 FILLET_NOISE = 1e-4
@@ -126,7 +126,7 @@ def gear_check(name: str, pair: GearPair, limits: Limits, mesh: str = "", shifts
     before = f"{mesh.replace('_', '-')} mesh: " if mesh else ""
     if name == CONTACT_RATIO.name:
         remedy = f"take more teeth, {_either(shifts, 'a smaller pressure angle or less profile shift')}"
-        yield CONTACT_RATIO.below(*measured(name, pair, 0, limits), "1", f"{before}the contact ratio", remedy)
+        yield contact_check(pair.contact_ratio, limits, f"{before}the contact ratio", remedy)
         return
     for gear in (0, 1):
         which = _Gear(pair, gear, f"{before}{{}}gear {gear + 1}", shifts)
@@ -189,8 +189,23 @@ def most_sliding(limits: Any) -> float:
     return _UNUSUAL_SLIDING if given is None else given
 
 
+def contact_measure(ratio: Any, limits: Any) -> Measured:
+    """A contact ratio beside its limits: below 1, where the drive is interrupted, it warns whatever the file allows."""
+    least = limits.contact_ratio
+    return Measured(ratio, least, max(least + _MORE_CONTACT, 1.0))
+
+
+def contact_check(ratio: float, limits: Any, subject: str, remedy: str) -> Check:
+    """GL203."""
+    found = contact_measure(ratio, limits)
+    if found.status == "warn" and ratio < 1.0:
+        text = f"{subject} is {ratio:.6g}, below 1, so that the drive is interrupted: {remedy}"
+        return CONTACT_RATIO.check("warn", text, ratio, found.fails_below)
+    return CONTACT_RATIO.below(*found, "1", subject, remedy)
+
+
 def _contact_measure(pair: GearPair, _gear: int, limits: Limits) -> Measured:
-    return Measured(pair.contact_ratio, limits.contact_ratio, limits.contact_ratio + MORE_CONTACT)
+    return contact_measure(pair.contact_ratio, limits)
 
 
 def _undercut_measure(pair: GearPair, gear: int, limits: Limits) -> Measured:

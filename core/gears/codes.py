@@ -45,8 +45,9 @@ CONTACT_RATIO = Rule(
     "Below 1 the drive is interrupted; a little above 1 it runs roughly with worn or inaccurate teeth.",
     "Take more teeth of a smaller module, a smaller pressure angle, or less profile shift.",
     "eps = (z1 (tan alpha_a1 - tan alpha_wt) + z2 (tan alpha_a2 - tan alpha_wt))/(2 pi); fails below "
-    "limits.contact_ratio (1.1), warns up to 0.1 above; of helical gears with face_width eps_gamma is judged; fails "
-    "below 1 with the gears as far out of mesh as center_distance_allowance lets them",
+    "limits.contact_ratio (1.1), warns up to 0.1 above, and below 1 whatever the limit; of helical gears with "
+    "face_width eps_gamma is judged; fails below 1 with the gears as far out of mesh as center_distance_allowance lets "
+    "them",
     "ISO 21771; the limit is usual practice",
     ("contact-ratio", AT_LIMITS[0]),
     _TEETH,

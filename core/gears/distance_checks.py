@@ -69,9 +69,7 @@ def _interrupted(data: GearData, off: float, limits: Limits) -> Iterator[Check]:
     apart = moved(data.pair, off)
     helical = data.pair.helix_angle != 0.0
     overlap = (data.path.overlap_ratio or 0.0) if helical else 0.0
-    ratio, least = apart.contact_ratio + overlap, min(1.0, limits.contact_ratio)
-    if ratio < least <= data.pair.contact_ratio + overlap:
-        yield _no_drive(ratio, least)
+    yield from _no_drive(apart.contact_ratio + overlap, data.pair.contact_ratio + overlap, limits.contact_ratio)
 
 
 def _tips_on_roots(data: GearData, off: float, _limits: Limits) -> Iterator[Check]:
@@ -117,10 +115,9 @@ def rack_limits(name: str, rack: RackMesh, limits: Limits) -> Iterator[Check]:
     if not off:
         return
     overlap = (rack.path.total_contact_ratio or rack.contact_ratio) - rack.contact_ratio
-    nominal, least = rack.contact_ratio + overlap, min(1.0, limits.contact_ratio)
-    ratio = nominal - off / (sine * pair.base_pitch)
-    if name == CONTACT_RATIO.checks[1] and ratio < least <= nominal:
-        yield _no_drive(ratio, least)
+    if name == CONTACT_RATIO.checks[1]:
+        nominal = rack.contact_ratio + overlap
+        yield from _no_drive(nominal - off / (sine * pair.base_pitch), nominal, limits.contact_ratio)
     thinner = 0.0 if data.allowances is None else -data.allowances[1][0] / (2.0 * math.tan(pair.pressure_angle))
     room = rack.tip_clearance[0] - off + thinner
     if name == ROOT_CLEARANCE.checks[1] and room <= 0.0 < rack.tip_clearance[0]:
@@ -130,10 +127,15 @@ def rack_limits(name: str, rack: RackMesh, limits: Limits) -> Iterator[Check]:
         yield _beyond(start, "the rack")
 
 
-def _no_drive(ratio: float, least: float) -> Check:
+def _no_drive(ratio: float, nominal: float, least: float) -> Iterator[Check]:
+    """Below 1, or what the file allows below that, it fails; where the file allows it, it warns."""
     text = f"with the gears as far out of mesh as center_distance_allowance lets them the contact ratio is {ratio:.6g}"
     text += ": the drive is interrupted; keep the centre distance closer"
-    return CONTACT_RATIO.check("fail", text, ratio, least, name=CONTACT_RATIO.checks[1])
+    lowest = min(1.0, least)
+    if ratio < lowest <= nominal:
+        yield CONTACT_RATIO.check("fail", text, ratio, lowest, name=CONTACT_RATIO.checks[1])
+    elif ratio < 1.0 <= nominal:
+        yield CONTACT_RATIO.check("warn", text, ratio, 1.0, name=CONTACT_RATIO.checks[1])
 
 
 def _on_root(room: float, tips: str, root: str) -> Check:

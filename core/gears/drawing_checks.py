@@ -8,7 +8,7 @@ from dataclasses import replace
 from functools import partial
 from typing import Any, NamedTuple, Protocol
 
-from gearlink.core.gears.checks import FILLET_NOISE, MORE_CONTACT, Limits, gear_check
+from gearlink.core.gears.checks import FILLET_NOISE, Limits, contact_check, gear_check
 from gearlink.core.gears.codes import (
     AT_LIMITS,
     BACKLASH,
@@ -113,15 +113,8 @@ def helical_contact(data: GearData, limits: DrawingLimits) -> Check | None:
     total = data.path.total_contact_ratio
     if data.pair.helix_angle == 0.0 or total is None:
         return None
-    least, transverse = limits.contact_ratio, data.pair.contact_ratio
-    found = CONTACT_RATIO.below(
-        total,
-        least,
-        least + MORE_CONTACT,
-        "1",
-        "the total contact ratio",
-        "take a greater width, helix angle or more teeth",
-    )
+    transverse, remedy = data.pair.contact_ratio, "take a greater width, helix angle or more teeth"
+    found = contact_check(total, limits, "the total contact ratio", remedy)
     if found.status != "pass" or transverse >= 1.0:
         return found
     text = f"the transverse contact ratio is {transverse:.6g}, below 1: the overlap of the helix alone carries on"

@@ -165,7 +165,9 @@ def test_many_mutated_files(part: int, tmp_path: Path) -> None:
     draws = range(part, MANY, PARTS)
     failures = fuzz(draws, 2, tmp_path)
     grown = (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) / 1024.0
-    print(f"\n{len(draws)} mutated files, {len(failures)} failures, {perf_counter() - begun:.0f} s, {grown:.0f} MB more")
+    print(
+        f"\n{len(draws)} mutated files, {len(failures)} failures, {perf_counter() - begun:.0f} s, {grown:.0f} MB more"
+    )
     assert not failures, "\n\n".join(failures[:5])
     assert grown < MEGABYTES
 

@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Any
 from gearlink.core.gears.checks import (
     FILLET_NOISE,
     GEAR_QUANTITIES,
-    MORE_CONTACT,
+    contact_check,
     gear_check,
     gear_quantity,
     most_sliding,
 )
-from gearlink.core.gears.codes import AT_LIMITS, BACKLASH, CONTACT_RATIO, FILLET, INTERFERENCE, SLIDING, TIP_THICKNESS
+from gearlink.core.gears.codes import AT_LIMITS, BACKLASH, FILLET, INTERFERENCE, SLIDING, TIP_THICKNESS
 from gearlink.core.gears.drawing_checks import drawing_check
 from gearlink.core.gears.drawing_names import RATING
 from gearlink.core.gears.mesh.pair import GearPair
@@ -237,9 +237,7 @@ class RackMesh:
 def _contact_ratio(rack: RackMesh, limits: Any) -> Iterator[Check]:
     total = rack.path.total_contact_ratio
     eps = total if rack.pair.helix_angle and total else rack.contact_ratio
-    least = limits.contact_ratio
-    remedy = "take more teeth or less profile shift"
-    yield CONTACT_RATIO.below(eps, least, least + MORE_CONTACT, "1", "the contact ratio", remedy)
+    yield contact_check(eps, limits, "the contact ratio", "take more teeth or less profile shift")
 
 
 def _interference(rack: RackMesh, _limits: Any) -> Iterator[Check]:

@@ -6,8 +6,15 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from gearlink.core.gears.checks import FILLET_NOISE, GEAR_CHECKS, GEAR_QUANTITIES, gear_check, gear_quantity
-from gearlink.core.gears.codes import CONTACT_RATIO, FILLET, INTERFERENCE, TIP_FOULING, TIP_THICKNESS, UNDERCUT
+from gearlink.core.gears.checks import (
+    FILLET_NOISE,
+    GEAR_CHECKS,
+    GEAR_QUANTITIES,
+    contact_check,
+    gear_check,
+    gear_quantity,
+)
+from gearlink.core.gears.codes import FILLET, INTERFERENCE, TIP_FOULING, TIP_THICKNESS, UNDERCUT
 from gearlink.core.gears.mesh.pair import GearPair
 from gearlink.core.gears.tooth.teeth import min_shift_no_undercut
 from gearlink.core.report import Check, Rule, Status
@@ -80,9 +87,8 @@ def _internal_check(name: str, mesh: InternalMesh, limits: Any) -> Iterator[Chec
         elif mesh.ring_tip_margin >= 0.0:
             yield _margin(TIP_FOULING, mesh.tip_fouling_margin, what, "each other", remedy)
     elif name == "contact-ratio" and mesh.ring_tip_margin >= 0.0:
-        limit = limits.contact_ratio
         remedy = "take more teeth of a smaller module"
-        yield CONTACT_RATIO.below(mesh.contact_ratio, limit, limit + 0.1, "1", "the contact ratio", remedy)
+        yield contact_check(mesh.contact_ratio, limits, "the contact ratio", remedy)
     elif name == TIP_THICKNESS.name and mesh.ring_tip_margin >= 0.0:
         yield from gear_check(name, mesh.signed, limits)
     elif name == RING_TIPS and mesh.ring_tip_margin >= 0.0 and mesh.interference_margin > 0.0:

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from gearlink.core.design_axis import Findings
-from gearlink.core.gears.checks import MORE_CONTACT, Limits, gear_check, most_sliding
+from gearlink.core.gears.checks import Limits, contact_measure, gear_check, most_sliding
 from gearlink.core.gears.codes import (
     CONTACT_RATIO,
     INTERFERENCE,
@@ -163,10 +163,10 @@ class Mesh:
         """The findings of the checks of gears on every mesh."""
         for gear in (0, 1):
             yield from self._own(gear)
-        ratio, least = self.contact_ratio, self.limits.contact_ratio
+        ratio = self.contact_ratio
+        _, least, usual = contact_measure(ratio, self.limits)
         fails = ratio < least
-        warns = ~fails & (ratio < least + MORE_CONTACT)
-        yield Findings(CONTACT_RATIO.code, ratio, np.full(ratio.shape, least), fails, warns, "1")
+        yield Findings(CONTACT_RATIO.code, ratio, np.full(ratio.shape, least), fails, ~fails & (ratio < usual), "1")
         nothing = np.zeros(ratio.shape, dtype=bool)
         scale = 0.5 * self.module * math.cos(self.pressure_angle)
         margins = [scale * self._left_at_root(1), scale * self._left_at_root(0)]

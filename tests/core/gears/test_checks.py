@@ -14,7 +14,7 @@ import pytest
 from pydantic import ValidationError
 
 from gearlink.core.errors import NoSolution
-from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, gear_check, gear_quantity
+from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, contact_check, gear_check, gear_quantity
 from gearlink.core.gears.mesh.pair import GearPair
 from gearlink.core.numerics.roots import bracketed_root
 from gearlink.core.spec import GearLimits
@@ -96,6 +96,16 @@ def test_contact_ratio_at_its_limits(limit, below):
     x = bracketed_root(lambda x: pair_of((20, 20), (x, x)).contact_ratio - limit, 0.3, 1.0)
     statuses = tuple(checks("contact-ratio", pair_of((20, 20), (x + d, x + d)))[0].status for d in (-1e-9, 1e-9))
     assert statuses == below
+
+
+@pytest.mark.parametrize(
+    ("ratio", "status"), [(0.8, "warn"), (1.0 - 1e-9, "warn"), (1.0 + 1e-9, "pass"), (0.4, "fail")]
+)
+def test_a_limit_below_1_does_not_let_an_interrupted_drive_pass(ratio, status):
+    """Whatever the file allows: with 0.5 a pair of 0.8, whose teeth come apart, had passed without a word."""
+    found = contact_check(ratio, GearLimits(contact_ratio=0.5), "the contact ratio", "take more teeth")
+    assert found.status == status
+    assert ("interrupted" in found.message) == (status == "warn")
 
 
 def test_one_contact_ratio_of_a_pair():

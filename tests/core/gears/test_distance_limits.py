@@ -130,3 +130,10 @@ def test_a_rack_too_far_from_its_gear():
         found = {check.code for check in at_limits(design(data | {"center_distance_allowance": off}, command="gear"))}
         assert ("GL203" in found) == (eps < 1.0), (off, eps)
         assert ("GL205" in found) == (off >= 0.25)
+
+
+def test_a_drive_that_the_file_lets_be_interrupted_is_told():
+    data = {"kind": "gear-pair", "module": 1.0, "teeth": [20, "rack"], "profile_shift": [0, 0],
+            "center_distance_allowance": 0.9, "limits": {"contact_ratio": 0.5}}  # fmt: skip
+    (found,) = (check for check in at_limits(design(data, command="gear")) if check.code == "GL203")
+    assert (found.status, found.limit, 0.5 < found.value < 1.0) == ("warn", 1.0, True)
