@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.loads import codes
 from gearlink.core.loads.base import RPM
-from gearlink.core.loads.teeth import drawn_play, rated_forces, thrust
+from gearlink.core.loads.teeth import bending_force, drawn_play, rated_forces, thrust
 from gearlink.core.report import Check, Status, safely_above
 from gearlink.core.wording import amount
 
@@ -221,8 +221,12 @@ def self_locking(design: LoadsDesign) -> Iterator[Check]:
 def tooth_load(design: LoadsDesign) -> Iterator[Check]:
     """GL616, of meshes whose teeth the file has rated."""
     for name, rated in rated_forces(design).items():
-        found = design.meshes_found[name].tooth_force_max
-        text = f"{name}: the teeth carry up to {found:.5g} N, and are rated for {rated:.5g} N, K_A counted"
+        mesh = design.meshes_found[name]
+        found, back = bending_force(mesh), mesh.tooth_force_back
+        text = f"{name}: the teeth carry up to {mesh.tooth_force_max:.5g} N"
+        if back > 0.0:
+            text += f", and {back:.5g} N on the other flanks, which bends them as {found:.5g} N one way"
+        text += f", and are rated for {rated:.5g} N, K_A counted"
         if found > rated * (1.0 + _ROUNDING):
             text += f": their safeties are those of a smaller force; rate them for {found / rated:.4g} times the load"
             yield codes.TOOTH_LOAD.check("warn", text, found, rated, "N")

@@ -101,11 +101,12 @@ SELF_LOCKING = Rule(
 TOOTH_LOAD = Rule(
     "GL616",
     "teeth rated for less than they carry",
-    "The greatest tooth force of the loads is above the one for which the file has the teeth rated, K_A counted.",
+    "The greatest tooth force of the loads is above the one for which the file has the teeth rated, K_A counted; a "
+    "force on the other flanks bends the teeth both ways and counts for 3/7 of it besides.",
     "The safeties against pitting and breaking (GL210, GL211) are those of a smaller force.",
     "Raise the load of the rating (torque, power or tangential_force), or its application factor.",
-    "F_t <= K_A F_t,rated r/r_w",
-    "ISO 6336-6 for a load that varies; own derivation",
+    "F_t + 3/7 F_back <= K_A F_t,rated r/r_w, 3/7 = (1 - M)/(1 + M) with M = 0.4 of tempered steel",
+    "ISO 6336-6 for a load that varies, ISO 6336-3 annex B for one that turns back; own derivation",
     checks=("tooth-load",),
     keys=("gears.load", "load", "loads"),
 )

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from gearlink.core.numerics.arrays import Points, Reals
 
 BALL, ROLLER = 3.0, 10.0 / 3.0
+_NOISE = 1e-9
 
 
 class PinLoad:
@@ -174,6 +175,13 @@ class MeshLoad:
     def tooth_force_max(self) -> float:
         """Greatest magnitude of the tangential force [N]."""
         return self.design.extreme_of(self.name).value
+
+    @cached_property
+    def tooth_force_back(self) -> float:
+        """Greatest force on the flanks that carry less [N]; 0 where the teeth never change flanks."""
+        low, high = (self.design.extreme(self.force, greatest).value for greatest in (False, True))
+        back = min(-low, high)
+        return back if back > _NOISE * self.tooth_force_max else 0.0
 
     @cached_property
     def reversal_places(self) -> list[float]:

@@ -7,6 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from gearlink.core.loads.design import LoadsDesign
+    from gearlink.core.loads.joints import MeshLoad
+
+_MEAN_STRESS = 0.4
+"""M of tempered steel."""
 
 
 def rated_forces(design: LoadsDesign) -> dict[str, float]:
@@ -23,6 +27,18 @@ def rated_forces(design: LoadsDesign) -> dict[str, float]:
         force, pair = data.flank.tangential_force, data.pair
         found[name] = force * data.load.factors.application * pair.reference_radius[0] / pair.working_radius[0]
     return found
+
+
+def bending_force(mesh: MeshLoad) -> float:
+    """Force on one flank that bends teeth of tempered steel as those on both do, F + (1 - M)/(1 + M) F_back [N].
+
+    Notes
+        The mean stress influence of a load from -F_back to F, Y_M = 1/(1 + (1 - M)/(1 + M) F_back/F) with M = 0.4: of
+        F_back = F the 0.7 with which idlers are rated.
+    Source
+        ISO 6336-3, annex B
+    """
+    return mesh.tooth_force_max + (1.0 - _MEAN_STRESS) / (1.0 + _MEAN_STRESS) * mesh.tooth_force_back
 
 
 def drawn_play(design: LoadsDesign) -> dict[str, float]:

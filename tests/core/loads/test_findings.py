@@ -187,6 +187,21 @@ def test_teeth_are_rated_for_what_they_carry(torque: float, application: float, 
     assert check.limit == pytest.approx(1e3 * 40 * application / radius, rel=1e-12)
 
 
+@pytest.mark.parametrize(("back", "status"), [(0.0, "pass"), (20.0, "warn"), (40.0, "warn")])
+def test_teeth_that_are_bent_both_ways_need_a_higher_rating(back: float, status: str) -> None:
+    """A load that turns round fully is as one of 1/0.7, with which idlers are rated; half of it back as 1 + 3/14."""
+    load = {"torque": 41, "gear": "output"}
+    zones = [{"from": 0, "to": 180, "value": -40.0}, {"from": 180, "to": 360, "value": back}]
+    forces = [{"on": "output", "torque": {"zones": zones}}]
+    design = factory.design("drawn_lever", command="loads", gears__load=load, loads={"speed": 60, "forces": forces})
+    (check,) = design.check("tooth-load")
+    radius = design.design.mesh.working_radius[1]
+    assert (check.status, "other flanks" in check.message) == (status, back > 0.0)
+    assert check.value == pytest.approx(1e3 * (40.0 + 3.0 / 7.0 * back) / radius, rel=1e-12)
+    if back == 40.0:
+        assert check.value == pytest.approx(1e3 * 40.0 / (0.7 * radius), rel=1e-12)
+
+
 def test_every_mesh_of_a_train_is_held_against_its_rating() -> None:
     rated = {"gears__face_width": 20, "gears__load": {"torque": 18, "gear": "output"}}
     both = factory.design(FEED, command="loads", **rated).check("tooth-load")
