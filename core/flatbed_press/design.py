@@ -147,6 +147,11 @@ class FlatbedPress(WithExtremes, SliderCrankQuantities, GearQuantities, Design):
         with in_section("input_gears"):
             return data_of(self.spec.input_gears, pair)
 
+    @property
+    def mesh_data(self) -> dict[str, GearData]:
+        """The meshes that the file draws: the input gears alone."""
+        return {"": self.gear_data}
+
     input_speed: float = placed("motion.input_speed")
     zone_length: float = placed("motion.zone_length")
     slider_crank: SliderCrank = placed("motion.slider_crank")

@@ -314,9 +314,11 @@ def _safety(
             continue
         both_ways = ", an idler's, bent both ways (Y_d 0.7)" if data.idlers[gear] and rule is BENDING else ""
         text = f"the safety of {data.called(gear)} against {against} is {safety:.4g}{both_ways}, nominal: {inputs}"
-        if safety < least:
-            text += f"; below the limit {least:g}: widen the gears, take a larger module or a better material"
-        yield rule.check("fail" if safety < least else "pass", text, safety, least)
+        if safety < max(least, 1.0):
+            limit = f"the limit {least:g}" if safety < least else f"1, though the limit {least:g} allows it"
+            text += f"; below {limit}: widen the gears, take a larger module or a better material"
+        status: Status = "fail" if safety < least else "warn" if safety < 1.0 else "pass"
+        yield rule.check(status, text, safety, least)
 
 
 def rests_on(quantity: str, data: GearData) -> str:

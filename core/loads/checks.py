@@ -91,6 +91,9 @@ def motor_torque(design: LoadsDesign) -> Iterator[Check]:
         remedy = f"it needs a motor of {safely_above(value * margin, 4)} N m or more, or a heavier flywheel"
         if value > bound:
             yield codes.MOTOR_TORQUE.check("fail", f"{text}, above {bound:.5g}: {remedy}", value, bound, "N m")
+        elif value > limit:
+            text += f", above the motor's own {limit:.5g}, though limits.torque_margin allows it: {remedy}"
+            yield codes.MOTOR_TORQUE.check("warn", text, value, bound, "N m")
         elif value > _NEAR * bound:
             yield codes.MOTOR_TORQUE.check("warn", f"{text}, little below {bound:.5g}: {remedy}", value, bound, "N m")
         else:
@@ -155,7 +158,7 @@ def bearing_life(design: LoadsDesign) -> Iterator[Check]:
                 yield codes.BEARING_LIFE.check("warn", f"{text} hold; take a plain bearing", swing, least, "deg")
         if life is None or bearing.life is None:
             continue
-        if axial := thrust(design):
+        if axial := thrust(design, name):
             text = f"the rating life of the bearing of {name} is that of forces in the plane: helical teeth push along"
             text += f" their axis with up to {axial:.5g} N besides, and tilt their gear"
             yield codes.BEARING_LIFE.check("warn", f"{text}; add what the bearing takes of it", axial, 0.0, "N")

@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
+from gearlink.core.loads.forces.mechanism import FRAME, Pin
+
 if TYPE_CHECKING:
     from gearlink.core.loads.design import LoadsDesign
+    from gearlink.core.loads.forces.mechanism import Connection
     from gearlink.core.loads.joints import MeshLoad
 
 _MEAN_STRESS = 0.4
@@ -21,9 +27,8 @@ def rated_forces(design: LoadsDesign) -> dict[str, float]:
     machine, keys = _with_gears(design)
     if getattr(keys, "load", None) is None:
         return {}
-    names = [name for name in design.meshes if design.has(name)]
     found = {}
-    for name, data in zip(names, machine.mesh_data.values(), strict=True):
+    for name, data in zip(_drawn(design), machine.mesh_data.values(), strict=False):
         force, pair = data.flank.tangential_force, data.pair
         found[name] = force * data.load.factors.application * pair.reference_radius[0] / pair.working_radius[0]
     return found
@@ -46,25 +51,46 @@ def drawn_play(design: LoadsDesign) -> dict[str, float]:
     machine, keys = _with_gears(design)
     if getattr(keys, "allowances", None) is None:
         return {}
-    names = [name for name in design.meshes if design.has(name)]
-    plays = {name: data.backlash for name, data in zip(names, machine.mesh_data.values(), strict=True)}
+    plays = {name: data.backlash for name, data in zip(_drawn(design), machine.mesh_data.values(), strict=False)}
     return {name: play.circumferential[1] for name, play in plays.items() if play is not None}
 
 
-def thrust(design: LoadsDesign) -> float:
-    """Greatest axial force of helical teeth [N], which forces in the plane do not show; 0 of spur gears.
+def thrust(design: LoadsDesign, pin: str) -> float:
+    """Greatest axial force of the helical teeth that a pin holds [N], which forces in the plane do not show; or 0.
 
     F_a = F_t tan(beta_w),   tan(beta_w) = tan(beta) r_w/r
+
+    Parameters
+        pin : str - of a gear, or of the link that a gear is fixed to
     """
     machine, keys = _with_gears(design)
     if not getattr(keys, "helix_angle", 0.0):
         return 0.0
-    pairs = [data.pair for data in machine.mesh_data.values()]
-    shares = [math.tan(pair.helix_angle) * pair.working_radius[0] / pair.reference_radius[0] for pair in pairs]
-    return float(max(shares) * max(mesh.tooth_force_max for mesh in design.meshes_found.values()))
+    connections = {each.name: each for each in design.machine.at(np.zeros(1)).connections}
+    pins = [_links_of(each) for each in connections.values() if isinstance(each, Pin)]
+    held = _links_of(connections[pin])
+    found = [0.0]
+    for name, data in zip(_drawn(design), machine.mesh_data.values(), strict=False):
+        gears = _links_of(connections[name])
+        on_one_pin = [links for gear in gears if len(links := [each for each in pins if gear in each]) == 1]
+        if held & gears.union(*itertools.chain(*on_one_pin)):  # a gear on one pin pushes the link that carries it
+            share = math.tan(data.pair.helix_angle) * data.pair.working_radius[0] / data.pair.reference_radius[0]
+            found.append(abs(share) * design.meshes_found[name].tooth_force_max)
+    return max(found)
+
+
+def _links_of(connection: Connection) -> set[str]:
+    """The moving links that it joins."""
+    return {getattr(connection, "first", FRAME), connection.second} - {FRAME}
+
+
+def _drawn(design: LoadsDesign) -> list[str]:
+    """The meshes that a design has; those whose gears the file draws come first."""
+    return [name for name in design.meshes if design.has(name)]
 
 
 def _with_gears(design: Any) -> tuple[Any, Any]:
     """The part of a machine that knows its meshes, and the section with their keys."""
     machine = getattr(design, "design", design)
-    return machine, getattr(machine.spec, "gears", machine.spec)
+    spec = machine.spec
+    return machine, getattr(spec, "gears", None) or getattr(spec, "input_gears", None) or spec

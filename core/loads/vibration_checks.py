@@ -23,7 +23,12 @@ def rigid_model(design: LoadsDesign) -> Iterator[Check]:
     """GL605: natural frequency over the input's, and what is left of a motion over its lift."""
     if design.section.vibration is None:
         return
-    found, limit, vibrating = design.vibrating.frequency_ratio, design.limit("frequency_ratio"), design.vibrating
+    # Below its own frequency nothing follows the input as if it were rigid, whatever the file allows.
+    found, limit, vibrating = (
+        design.vibrating.frequency_ratio,
+        max(design.limit("frequency_ratio"), 1.0),
+        design.vibrating,
+    )
     r = vibrating.rise_periods
     text = f"the natural frequency is {found:.4g} times that of the input"
     text += f"; {r:.4g} natural periods in a motion" if r is not None else ""

@@ -219,3 +219,73 @@ def test_play_that_the_drawing_of_the_gears_leaves_counts_in_a_dwell(loads: dict
     assert {check.status for check in design.check("load-reversal")} == {status}
     plain = factory.design("drawn_feed", command="loads", **keys, gears__allowances=None)
     assert {check.status for check in plain.check("load-reversal")} == {"fail" if loads.get("backlash") else "warn"}
+
+
+# A press: its input gears are the ones that the file draws and rates
+
+GEARS = {"module": 4, "horizontal_distance": 290, "pressure_angle": 20}
+
+
+def pressed(gears: dict[str, Any], **loads: Any) -> Any:
+    return factory.design("loaded_press", command="loads", input_gears={**GEARS, **gears}, **loads)
+
+
+def test_input_gears_of_a_press_are_held_against_their_rating() -> None:
+    """Rated for 20 N m they carried 374 N m without a word; rated for that, K_A 1.1 for the other flanks, they pass."""
+    weak = pressed({"load": {"torque": 20}, "face_width": 20})
+    (check,) = weak.check("tooth-load")
+    assert (check.code, check.status, check.message.partition(":")[0]) == ("GL616", "warn", "mesh_12")
+    radius = weak.design.gear_pair.working_radius[0]
+    assert check.limit == pytest.approx(20e3 / radius, rel=1e-12)
+    torque = check.value * radius / 1e3
+    strong = pressed({"load": {"torque": torque * 1.001}, "face_width": 20})
+    assert [each.status for each in strong.check("tooth-load")] == ["pass"]
+
+
+def test_drawn_play_of_a_press_counts_in_its_zone() -> None:
+    """A print that ends in the zone lets the input gears change flanks there; 25cd leaves play."""
+    print_ = {"on": "cylinder", "torque": {"zones": [{"from": 34, "to": 150, "value": -120}]}}
+    forces = {"loads__forces": [{"on": "bed", "resistance": 350}, print_]}
+    statuses = [
+        next(each.status for each in pressed(gears, **forces).check("load-reversal") if "mesh_12" in each.message)
+        for gears in ({}, {"allowances": {"series": "25cd"}})
+    ]
+    assert statuses == ["warn", "fail"]
+
+
+def test_helical_input_gears_push_on_their_own_bearings_alone() -> None:
+    bearing = {"kind": "roller", "dynamic_rating": 300000, "life": 1000}
+    teeth = {"helix_angle": 20, "face_width": 60}
+    found = pressed(teeth, loads__bearings={"A": bearing, "C": bearing}).check("bearing-life")
+    assert [(each.status, each.message.partition("bearing of ")[2][0]) for each in found] == [
+        ("warn", "A"),
+        ("pass", "A"),
+        ("pass", "C"),
+    ]
+
+
+# Limits that allow what physics does not
+
+
+@pytest.mark.parametrize(("most", "status"), [(10.0, "warn"), (100.0, "pass"), (1.0, "fail")])
+def test_a_margin_below_1_does_not_make_a_motor_stronger(most: float, status: str) -> None:
+    motor = {"no_load_speed": 125, "slope": 23.2, "max_torque": most}  # 22.26 N m are needed
+    design = factory.design("loaded_feed", command="loads", loads__motor=motor, limits={"torque_margin": 0.05})
+    (check,) = design.check("motor-torque")
+    assert (check.status, "own" in check.message) == (status, status == "warn")
+
+
+def test_a_natural_frequency_below_the_input_is_never_rigid() -> None:
+    vibration = {"frequency": 0.5, "damping": 0.05}
+    design = factory.design(
+        "loaded_feed", command="loads", loads__vibration=vibration, limits={"frequency_ratio": 1e-6}
+    )
+    assert [check.status for check in design.check("rigid-model")] == ["warn"]
+
+
+@pytest.mark.parametrize(("least", "status"), [(1.4, "fail"), (0.1, "warn")])
+def test_a_safety_below_1_never_passes(least: float, status: str) -> None:
+    gears = {"load": {"torque": 374}, "face_width": 4, "material": {"contact_limit": 1500, "bending_limit": 150}}
+    spec = {"kind": "gear-pair", "module": 4, "teeth": [72, 72], "profile_shift": [0, 0], **gears}
+    found = factory.design({**spec, "limits": {"safety_bending": least}}, command="gear").check("bending")
+    assert {check.status for check in found if 0.1 < check.value < 1.0} == {status}
