@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from gearlink.core.cams.codes import ACCELERATION_STEP, LARGER, VELOCITY_STEP
 from gearlink.core.errors import NoSolution
 from gearlink.core.flatbed_press import codes
+from gearlink.core.flatbed_press.bodies import return_overlap
 from gearlink.core.linkages.checks import transmission_check
 from gearlink.core.linkages.codes import SHAFT_CLEARANCE
 from gearlink.core.remedies.ways import can_be_built, greatest_length
@@ -100,14 +101,15 @@ def _zone_length(design: FlatbedPress) -> Check:
     return codes.SYNC_LENGTH.below(length, asked, asked, "mm", "the cylinder's travel in the zone", remedy)
 
 
-def register(design: FlatbedPress) -> Check:
-    """GL506: the cylinder makes whole turns per sheet."""
+def register(design: FlatbedPress) -> Iterator[Check]:
+    """GL506: the cylinder makes whole turns per sheet, and of several prints in one alone."""
     ratio = design.spec.cylinder.gear_ratio
     off = abs(ratio - max(1, round(ratio)))
     text = f"the cylinder makes {amount(ratio, 'turn', spec='g')} per sheet"
     if off > 1e-9:
         text += ", so it does not come home: make cylinder.gear_ratio a whole number"
-    return codes.REGISTER.check("fail" if off > 1e-9 else "pass", text, off, 1e-9)
+    yield codes.REGISTER.check("fail" if off > 1e-9 else "pass", text, off, 1e-9)
+    yield from return_overlap(design)
 
 
 # Cams

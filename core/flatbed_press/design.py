@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from gearlink.core.design import Design, Found, Outline, placed
 from gearlink.core.errors import MissingSection, NoSolution, at_key, in_section
-from gearlink.core.flatbed_press import checks, remedies, tables
+from gearlink.core.flatbed_press import bodies, checks, remedies, tables
 from gearlink.core.flatbed_press.cams import PressCams
 from gearlink.core.flatbed_press.motion import PressMotion
 from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantities, gear_quantity
@@ -49,7 +49,7 @@ _CAM = (
     "return_max_radius",
     "return_min_radius",
 )
-_PRESS_CHECKS = ("transmission-angle", "sync-speed", "sync-length", "register")
+_PRESS_CHECKS = ("transmission-angle", "sync-speed", "sync-length", "register", "crank-clearance")
 _BEARING = ("pressure-angle", "cam-undercut")
 _CAM_CHECKS = (
     *_BEARING,
@@ -226,6 +226,7 @@ class FlatbedPress(WithExtremes, SliderCrankQuantities, GearQuantities, Design):
     table_main_cam, table_return_cam = tables.main_cam, tables.return_cam
 
     check_transmission_angle, check_register = checks.transmission_angle, checks.register
+    check_crank_clearance = bodies.crank_axes
     check_sync_speed, check_sync_length = checks.sync_speed, checks.sync_length
     check_pressure_angle, check_cam_undercut = checks.pressure_angle, checks.cam_undercut
     check_shaft_clearance, check_constant_sum = checks.shaft_clearance, checks.constant_sum

@@ -177,7 +177,7 @@ BENDING = Rule(
     "Teeth break at the root.",
     "Take a larger module, wider gears, a larger rounding of the tool, or a better material.",
     "S_F = sigma_Flim Y_ST Y_d Y_N (Y_drelT Y_RrelT Y_X)/(F_t/(b m) Y_F Y_S Y_beta Y_B Y_DT K_A K_v K_Fb K_Fa) >= "
-    "limits.safety_bending (1.4), warns below 1 whatever the limit; Y_ST = 2, Y_d = 0.7 of a gear with two mates, whose "
+    "limits.safety_bending (1.4), warns below 1 whatever the limit; Y_ST = 2, Y_d = 0.7 of a gear with two mates, its "
     "teeth are bent both ways, else 1",
     "ISO 6336-3:2006, method B; K and life factors are not computed: 1 unless given; no published example of "
     "rings and racks; a rack is the limit of ever larger wheels",

@@ -35,7 +35,7 @@ SHAFT_CLEARANCE = Rule(
     "l3); a ring gear: its tip radius - distance - shaft radius within, distance - rim - shaft radius without, the "
     "greater of the two; rim = m (z/2 + 3.25) or gears.rim; root radius - radius of the own shaft >= h/2",
     "own derivation; the least rim: ISO 6336-3",
-    ("shaft-clearance", "shaft-seat"),
+    ("shaft-clearance", "shaft-seat", "crank-clearance"),
     ("shafts", "cam.shaft_radius", "cam", "links", "gears"),
 )
 TRANSMISSION_ANGLE = Rule(

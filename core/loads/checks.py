@@ -81,6 +81,10 @@ def motor_torque(design: LoadsDesign) -> Iterator[Check]:
     motor, running = design.section.motor, design.running
     if motor is None:
         return
+    if motor.max_torque is None and motor.rated_torque is None:
+        text = f"the motor gives up to {abs(running.motor_peak or 0.0):.5g} N m, {running.motor_rms:.5g} N m root mean "
+        text += "square, and the file names no torque of its own: give loads.motor.rated_torque and max_torque"
+        yield codes.MOTOR_TORQUE.check("warn", text)
     margin = design.limit("torque_margin")
     pairs = (("peak", running.motor_peak, motor.max_torque), ("rms", running.motor_rms, motor.rated_torque))
     for words, signed, limit in pairs:
