@@ -36,7 +36,8 @@ MOTOR_TORQUE = Rule(
     "grow with the square of the speed.",
     "Take a larger motor or ratio, add a flywheel (loads.flywheel.inertia) that levels the peak, or balance the load "
     "by springs. Where the speed is another one, set loads.motor.ratio, or the speed to the one found.",
-    "|peak| <= max_torque/margin, rms <= rated_torque/margin (warns where neither is given), |(w_max + w_min)/(2 w) - 1| <= 0.1",
+    "|peak| <= max_torque/margin, rms <= rated_torque/margin (a file with neither warns), |(w_max + w_min)/(2 w) - 1| "
+    "<= 0.1",
     "thermal and pull-out limit of an electric motor",
     checks=("motor-torque", "motor-speed"),
     keys=("loads.motor",),
