@@ -1,7 +1,8 @@
 """The loads of a flatbed press: both chains from gears 1 and 2 to bed and cylinder, the racks and the cam's follower.
 
 Frame: A at 0, D on +x (which is the machine's vertical), the bed travels along +y. The lower rack and the follower of
-the cams move by the lift along +y.
+the cams move by the lift along +y. Bed and lower rack lie on two sides of F along x, N lies from G along x as the bed
+from F: towards +x, or towards -x as the machine is drawn (`loads.bed_side`).
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
     from gearlink.core.flatbed_press.spec import FlatbedPressSpec
     from gearlink.core.loads.base import Wanted
     from gearlink.core.loads.cams.contact import RollerOnCam
-    from gearlink.core.loads.forces.kinematics import Turn
+    from gearlink.core.loads.forces.kinematics import Point, Turn
     from gearlink.core.loads.forces.mechanism import Connection, Link, Mechanism
     from gearlink.core.numerics.arrays import Reals
 
@@ -84,10 +85,10 @@ class PressLoads(CamLoadsDesign):
         return gears if self.section.cylinder_direction is not None else (*gears, "N", "cylinder")
 
     @cached_property
-    def _pitch_radii(self) -> tuple[float, float]:
-        """Of gears 3 and 4 [m]."""
+    def pitch_radii(self) -> tuple[float, float]:
+        """Of gears 3 and 4 [mm]."""
         given = self.section.cylinder_gear_radius
-        gear_4 = (self.spec.cylinder.radius * _GEAR_4 if given is None else given) * _MM
+        gear_4 = self.spec.cylinder.radius * _GEAR_4 if given is None else given
         return gear_4 * self.spec.cylinder.gear_ratio, gear_4
 
     @cached_property
@@ -95,6 +96,11 @@ class PressLoads(CamLoadsDesign):
         """Pitch radius of the pinion [m]."""
         given = self.section.pinion_radius
         return (self.spec.bed.stroke * _PINION if given is None else given) * _MM
+
+    @property
+    def _side(self) -> float:
+        """Towards +x or -x, where the bed lies from F and N from G."""
+        return float(self.section.bed_side)
 
     @cached_property
     def own_joints(self) -> list[float]:
@@ -117,7 +123,8 @@ class PressLoads(CamLoadsDesign):
             raise MissingSection(
                 "`loads` of a press needs the section cam: its follower moves the lower rack", key="cam"
             )
-        links, cam = self._bed_chain(phi)
+        links = self._rods(phi)
+        cam = self._racks(links, phi)
         connections = [*self._bed_joints(links), *self._follower(links, cam)]
         connections += self._cylinder_chain(links, phi)
         drive, sense = ("gear2", 1.0) if self.section.drive_gear == 2 else ("gear1", -1.0)
@@ -127,10 +134,10 @@ class PressLoads(CamLoadsDesign):
 
     # Bed
 
-    def _bed_chain(self, phi: Reals) -> tuple[dict[str, Link], Travel]:
-        """The links from gear 2 to the bed, and the lift of the follower."""
+    def _rods(self, phi: Reals) -> dict[str, Link]:
+        """The links from gear 2 to the carriage."""
         from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
-        from gearlink.core.loads.forces.kinematics import Point, Turn, carried, fixed, slider, standing, steady
+        from gearlink.core.loads.forces.kinematics import Turn, carried, fixed, slider, standing, steady
         from gearlink.core.loads.forces.mechanism import Link
 
         bed = self.design.bed
@@ -143,32 +150,39 @@ class PressLoads(CamLoadsDesign):
         psi = Turn(rocker.value - bed.crank_offset_angle, rocker.first, rocker.second)
         e = carried(pivot, psi, bed.slider_crank_length * _MM)
         rod, f = slider(e, bed.rod * _MM, (four.frame - bed.offset) * _MM + 0j, -1j)
-        cam = self.lift(phi, rocker)
-        slope, bend = cam.first * _MM, cam.second * _MM
-        lift = (cam.value * _MM, slope * rocker.first, bend * rocker.first**2 + slope * rocker.second)
-        r8 = self.pinion_radius
-        still = standing(0.0, phi)
-        place = (f.value - r8, 0.0, 0.0)
-        rack = Point(*(np_real(part) + 1j * value for part, value in zip(place, lift, strict=True)))
-        travel = [2.0 * part.imag - value for part, value in zip(f, lift, strict=True)]
-        bed_at = Point(*(np_real(part) + 1j * t for part, t in zip((f.value + r8, 0.0, 0.0), travel, strict=True)))
-        pinion = Turn(*((part.imag - value) / r8 for part, value in zip(f, lift, strict=True)))
-        links = {
+        return {
             "gear2": gear2,
             "BC": Link(gear2.at(four.crank * _MM), coupler),
             "CDE": Link(pivot, rocker),
             "EF": Link(e, rod),
-            "carriage": Link(f, still),
-            "pinion": Link(f, pinion),
-            "rack": Link(rack, still),
-            "bed": Link(bed_at, still),
+            "carriage": Link(f, standing(0.0, phi)),
         }
-        return links, cam
+
+    def _lift_by_input(self, phi: Reals, rocker: Turn) -> tuple[Travel, tuple[Reals, ...]]:
+        """The lift over the cam's angle [mm], and the same with its derivatives by the input angle [m]."""
+        cam = self.lift(phi, rocker)
+        slope, bend = cam.first * _MM, cam.second * _MM
+        return cam, (cam.value * _MM, slope * rocker.first, bend * rocker.first**2 + slope * rocker.second)
+
+    def _racks(self, links: dict[str, Link], phi: Reals) -> Travel:
+        """Pinion, lower rack and bed, put to the links that move them; the lift of the follower."""
+        from gearlink.core.loads.forces.kinematics import Turn, standing
+        from gearlink.core.loads.forces.mechanism import Link
+
+        f, still = links["carriage"].origin, standing(0.0, phi)
+        cam, lift = self._lift_by_input(phi, links["CDE"].turn)
+        to_bed = self._side * self.pinion_radius
+        rolled = [(part.imag - value) / to_bed for part, value in zip(f, lift, strict=True)]
+        travel = tuple(2.0 * part.imag - value for part, value in zip(f, lift, strict=True))
+        links["pinion"] = Link(f, Turn(*rolled))
+        links["rack"] = Link(_sliding(f.value.real - to_bed, lift), still)
+        links["bed"] = Link(_sliding(f.value.real + to_bed, travel), still)
+        return cam
 
     def _bed_joints(self, links: dict[str, Link]) -> list[Connection]:
         from gearlink.core.loads.forces.mechanism import FRAME, Guide, Pin, Rack
 
-        four = self.design.bed.linkage
+        four, side = self.design.bed.linkage, self._side
         f, tangent, r8 = links["carriage"].origin.value, math.tan(_RACK_ANGLE), self.pinion_radius
         return [
             Pin("A", FRAME, "gear2", links["gear2"].origin.value),
@@ -179,8 +193,8 @@ class PressLoads(CamLoadsDesign):
             Pin("F", "EF", "carriage", f),
             Pin("F_pinion", "carriage", "pinion", f),
             *(Guide(f"guide_{name}", FRAME, name, links[name].origin.value, -1j) for name in self.sliding),
-            Rack("rack_lower", "rack", "pinion", f, -1j, 1.0 + 0j, r8, tangent, carrier="carriage"),
-            Rack("rack_upper", "bed", "pinion", f, -1j, -1.0 + 0j, r8, tangent, carrier="carriage"),
+            Rack("rack_lower", "rack", "pinion", f, -1j, side + 0j, r8, tangent, carrier="carriage"),
+            Rack("rack_upper", "bed", "pinion", f, -1j, -side + 0j, r8, tangent, carrier="carriage"),
         ]
 
     def _follower(self, links: dict[str, Link], cam: Travel) -> list[Connection]:
@@ -304,17 +318,18 @@ class PressLoads(CamLoadsDesign):
         four = chain.linkage
         state = fourbar_sweep.solve(four, chain.initial_angle - phi, 2, velocity=-1.0)
         toward = _unit(self.section.gear_1_direction, 90.0)
+        turned = 0.0 if self._side > 0.0 else math.pi
         g = fixed(pair.center_distance * _MM * toward, phi)
-        links["gear1"] = Link(g, steady(phi, -1.0, chain.initial_angle))
-        links["HM"] = Link(links["gear1"].at(four.crank * _MM), Turn(state.coupler_angle, state.coupler_velocity,
-                                                                     state.coupler_acceleration))  # fmt: skip
+        links["gear1"] = Link(g, steady(phi, -1.0, chain.initial_angle + turned))
+        coupler = Turn(state.coupler_angle + turned, state.coupler_velocity, state.coupler_acceleration)
+        links["HM"] = Link(links["gear1"].at(four.crank * _MM), coupler)
         rocker = Turn(state.rocker_angle, state.rocker_velocity, state.rocker_acceleration)
-        links["MN"] = Link(fixed(complex(g.value[0]) + four.frame * _MM, phi), rocker)
-        r3, r4 = self._pitch_radii
+        n = complex(g.value[0]) + self._side * four.frame * _MM
+        links["MN"] = Link(fixed(n, phi), Turn(rocker.value + turned, rocker.first, rocker.second))
+        r3, r4 = (radius * _MM for radius in self.pitch_radii)
         side = _unit(self.section.cylinder_direction, 0.0)
         axis = fixed(complex(links["MN"].origin.value[0]) + (r3 + r4) * side, phi)
-        start = _start(chain)
-        links["cylinder"] = Link(axis, mixed((-chain.gear_ratio, from_start(rocker, start))))
+        links["cylinder"] = Link(axis, mixed((-chain.gear_ratio, from_start(rocker, _start(chain)))))
         r1, r2 = pair.working_radius
         tangent = math.tan(pair.working_pressure_angle)
         return [
@@ -328,6 +343,14 @@ class PressLoads(CamLoadsDesign):
         ]
 
 
+def _sliding(place: Reals, way: tuple[Reals, ...]) -> Point:
+    """A point that moves along +y by a way with its derivatives."""
+    from gearlink.core.loads.forces.kinematics import Point
+
+    along: list[Any] = [1j * each for each in way]
+    return Point(place + along[0], along[1], along[2])
+
+
 def _unit(direction: float | None, default: float) -> complex:
     return cmath.exp(1j * math.radians(default if direction is None else direction))
 
@@ -336,8 +359,3 @@ def _start(chain: Any) -> float:
     from gearlink.core.linkages.fourbar import position as fourbar
 
     return fourbar.solve(chain.linkage, chain.initial_angle).rocker_angle
-
-
-def np_real(value: Any) -> Any:
-    """The real part of an array or a number."""
-    return value.real

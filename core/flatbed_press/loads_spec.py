@@ -35,6 +35,11 @@ class PressLoads(CommonLoads):
     links: PressMasses = Field(
         PressMasses.model_construct(), description="masses of the links; what is left out has none"
     )
+    bed_side: Literal[1, -1] = Field(
+        1,
+        description="side of F on which the bed lies, along x: 1, and N lies from G along +x; -1, the machine as it is "
+        "drawn, bed and N towards -x, which is up: gravity [9.81, 0]",
+    )
     gear_1_direction: Direction | None = Field(
         None, description="direction from A to G; left out: no bearing forces of gears 1 and 2"
     )

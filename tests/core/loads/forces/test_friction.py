@@ -56,7 +56,10 @@ def test_newton_ends_where_the_passes_end(base: str) -> None:
 
 
 def test_the_roller_that_carries_is_that_of_the_forces_with_friction() -> None:
-    """The follower's own balance across its guide, over degrees at which friction alone decides which cam pushes."""
+    """The follower's own balance across its guide, over degrees at which friction alone decides which cam pushes.
+
+    The pinion pushes the lower rack away from the bed.
+    """
     phi = np.radians(np.arange(76.0, 79.0, 0.05))
     keys = {"command": "loads", "speed": 3000, "loads__gravity": [0, 0]}
     heavy = {"pins": 0.1, "pin_radius": 30, "guides": 0.15}
@@ -68,7 +71,7 @@ def test_the_roller_that_carries_is_that_of_the_forces_with_friction() -> None:
     assert not np.array_equal(np.sign(force), np.full_like(force, np.sign(force[0])))
     across = found.unknowns["guide_rack"][0] + (force * cam.normal).real
     separating = math.tan(math.radians(20.0)) * np.abs(found.unknowns["rack_lower"][0])
-    assert across == pytest.approx(separating, abs=1e-9 * separating.max())
+    assert across == pytest.approx(press.section.bed_side * separating, abs=1e-9 * separating.max())
 
 
 def test_a_rack_wears_on_the_carriage_of_its_pinion() -> None:
