@@ -174,10 +174,21 @@ class PressLoads(CamLoadsDesign):
         to_bed = self._side * self.pinion_radius
         rolled = [(part.imag - value) / to_bed for part, value in zip(f, lift, strict=True)]
         travel = tuple(2.0 * part.imag - value for part, value in zip(f, lift, strict=True))
-        links["pinion"] = Link(f, Turn(*rolled))
+        links["pinion"] = Link(f, Turn(rolled[0] - self._rolled_at_start, *rolled[1:]))
         links["rack"] = Link(_sliding(f.value.real - to_bed, lift), still)
         links["bed"] = Link(_sliding(f.value.real + to_bed, travel), still)
         return cam
+
+    @cached_property
+    def _rolled_at_start(self) -> float:
+        """What the pinion has rolled at input angle 0, where its own x axis lies along that of the frame [rad]."""
+        import numpy as np
+
+        start = np.zeros(1)
+        links = self._rods(start)
+        _, (lift, *_) = self._lift_by_input(start, links["CDE"].turn)
+        depth = links["carriage"].origin.value.imag - lift
+        return float(depth[0]) / (self._side * self.pinion_radius)
 
     def _bed_joints(self, links: dict[str, Link]) -> list[Connection]:
         from gearlink.core.loads.forces.mechanism import FRAME, Guide, Pin, Rack
