@@ -53,3 +53,18 @@ REGISTER = Rule(
     ("register",),
     ("cylinder.gear_ratio", "cylinder"),
 )
+PLACE = Rule(
+    "GL516",
+    "cylinder or gear 1 does not stand where the machine has it",
+    "loads.cylinder_direction puts the cylinder on the side of the bed on which its surface runs against the bed's, "
+    "through the pitch line of the bed's rack, or over the slide line or an axis (A, D, G, N); or "
+    "loads.gear_1_direction is another one than that of the axes' distances. A warning: torque and chains do not "
+    "depend on it.",
+    "The bearing forces of gears and cylinder are those of a machine that cannot be built, or that does not print.",
+    "With loads.bed_side -1 and gravity [9.81, 0] the machine is as it is drawn: then give the direction in which the "
+    "cylinder stands on the bed. Take gear_1_direction from the axes.",
+    "x_bed - (x_cylinder + R) >= 0, |cylinder - axis| >= R; tan = w/(AD - e), from +x to A->G, within 1 deg",
+    "own derivation: a pair of rolling forces does no work where bed and cylinder run the same way; TY-460 report 1.1",
+    ("cylinder-place", "gear-direction"),
+    ("loads.cylinder_direction", "loads.gear_1_direction", "loads"),
+)

@@ -12,6 +12,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from gearlink.core.errors import MissingSection
+from gearlink.core.flatbed_press import loads_checks
 from gearlink.core.flatbed_press.design import FlatbedPress
 from gearlink.core.loads.cams.checks import CAM_CHECKS
 from gearlink.core.loads.cams.design import CONTACT, CamLoadsDesign
@@ -48,7 +49,7 @@ class PressLoads(CamLoadsDesign):
     pins = ("A", "B", "C", "D", "E", "F", "F_pinion", "G", "H", "M", "N", "cylinder")
     meshes = ("mesh_12", "mesh_34", "rack_lower", "rack_upper")
     output = "bed"
-    outlines = loads_outline(pins, meshes, CONTACT, CAM_CHECKS)
+    outlines = loads_outline(pins, meshes, CONTACT, (*CAM_CHECKS, *loads_checks.PLACE_CHECKS))
     on_two_sides = True
 
     @cached_property
@@ -131,6 +132,19 @@ class PressLoads(CamLoadsDesign):
         made = Mechanism(links, connections, drive, sense, travel=dict.fromkeys(self.sliding, 1j))
         made.once("lift", lambda: cam)
         return made
+
+    check_cylinder_place, check_gear_direction = loads_checks.cylinder_place, loads_checks.gear_direction
+
+    @cached_property
+    def places(self) -> tuple[dict[str, complex], dict[str, complex]]:
+        """Where pins and racks stand at input angle 0 [mm], in the frame of the forces."""
+        from gearlink.core.loads.forces.mechanism import Pin, Rack
+
+        joints = self._connections
+        return (
+            {each.name: complex(each.at[0]) / _MM for each in joints if isinstance(each, Pin)},
+            {each.name: complex(each.pitch_point[0]) / _MM for each in joints if isinstance(each, Rack)},
+        )
 
     # Bed
 

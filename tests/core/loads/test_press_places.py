@@ -1,7 +1,10 @@
-"""Where the frames of a press's bodies lie."""
+"""Directions of a press's loads that its own geometry contradicts, and where the frames of its bodies lie."""
 
 from __future__ import annotations
 
+import json
+import math
+from pathlib import Path
 from typing import Any
 
 import factory
@@ -9,12 +12,95 @@ import numpy as np
 import pytest
 
 PRESS = "loaded_press"
+REFERENCE = json.loads((Path(__file__).parents[2] / "reference" / "loads.json").read_text())["press"]
 SLOW = 0.001
 """Sheets an hour: what is left of the forces of motion is below 1e-12 N."""
 
 
 def _press(**keys: Any) -> Any:
     return factory.design(PRESS, command="loads", **keys)
+
+
+def _places(press: Any) -> list[tuple[str, str]]:
+    return [(check.status, check.message) for check in press.check("cylinder-place")]
+
+
+# Directions
+
+
+def test_the_worked_press_stands_as_its_geometry_has_it() -> None:
+    """N is 40 mm above G, the cylinder's axis 272 mm from it at 151 deg from the vertical downwards.
+
+    The pitch line lies 100 mm above the slide. Three digits of the direction from A to G leave 1.5e-3 mm.
+    """
+    press = _press()
+    (place,), (gear,) = press.check("cylinder-place"), press.check("gear-direction")
+    height = 13.0 + 40.0 - 272.0 * math.cos(math.radians(151.0))
+    assert (place.code, place.status) == ("GL516", "pass")
+    assert place.value == pytest.approx(height - 140.0 - (13.0 + 100.0), abs=2e-3)
+    assert (gear.code, gear.status, gear.limit) == ("GL516", "pass", 1.0)
+    assert gear.value == pytest.approx(abs(-92.567 + math.degrees(math.atan2(290.0, -13.0))), abs=1e-9)
+
+
+def test_the_frame_of_the_theory_warns_and_does_not_fail() -> None:
+    press = factory.design("ty460", command="loads", loads=REFERENCE["loads"])
+    assert "fail" not in {check.status for check in press.report("loads").checks}
+    (found, *axes) = _places(press)
+    assert found[0] == "warn"
+    assert "runs against the bed's: loads.bed_side -1, with gravity [9.81, 0]" in found[1]
+    assert axes == []
+    assert [check.status for check in press.check("gear-direction")] == ["pass"]
+
+
+@pytest.mark.parametrize(
+    ("keys", "words"),
+    [
+        ({"cylinder_direction": -140}, "runs with the bed, 8.36"),
+        ({"cylinder_direction": -130}, "reaches 25.16 mm through the pitch line of the bed's rack: from 137.4 to"),
+        ({"cylinder_direction": 0}, "runs against the bed's: from 137.4 to 222.6 deg it runs with the bed"),
+        ({"cylinder_direction": 150, "bed_side": 1}, "on the side of the pinion: loads.bed_side -1"),
+        ({"cylinder_direction": 100, "bed_side": 1}, "on the side of the pinion, over the slide line: loads.bed_side"),
+        ({"cylinder_direction": 170, "cylinder_gear_radius": 50}, "no direction does, the gears are 100 mm apart"),
+    ],
+)
+def test_where_the_cylinder_lies_is_told(keys: dict[str, Any], words: str) -> None:
+    """53 + 272 sin 50 deg - 140 - 113 = 8.364 mm, 40 deg in its place: -25.16; 272 sin 47.33 deg = 200."""
+    first, *_ = _places(_press(**{f"loads__{name}": value for name, value in keys.items()}))
+    assert words in first[1]
+    assert first[0] == ("pass" if "clear of the pitch" in first[1] else "warn")
+
+
+def test_the_directions_that_are_named_are_clear_to_the_tenth() -> None:
+    """Their ends hold, a tenth of a degree beyond them does not."""
+    (_, message), *_ = _places(_press(loads__cylinder_direction=0))
+    low, high = (float(word) for word in message.partition(": from ")[2].removesuffix(" deg").split()[0:3:2])
+    for at, beyond in ((low, low - 0.1), (high, high + 0.1)):
+        assert _places(_press(loads__cylinder_direction=at - 360.0))[0][0] == "pass"
+        assert _places(_press(loads__cylinder_direction=beyond - 360.0))[0][0] == "warn"
+
+
+def test_a_cylinder_over_an_axis_is_told_by_how_much() -> None:
+    found = _places(_press(loads__cylinder_direction=90))
+    press = _press(loads__cylinder_direction=90)
+    links = press.machine.at(np.zeros(1)).links
+    axis = 1e3 * complex(links["cylinder"].origin.value[0])
+    (_, message) = found[-1]
+    assert f"reaches {140.0 - abs(axis - 37.0):.5g} mm over the axis D" in message
+    assert len(found) == 3
+
+
+def test_gear_1_beside_its_axes_is_told_by_how_much() -> None:
+    for direction, off in ((88.0, 4.57), (-92.0, 0.567), (267.5, 0.0667), (180.0, 87.4)):
+        (found,) = _press(loads__gear_1_direction=direction).check("gear-direction")
+        assert found.value == pytest.approx(off, rel=1e-2)
+        assert found.status == ("warn" if off > 1.0 else "pass")
+
+
+def test_without_directions_nothing_is_judged() -> None:
+    press = _press(loads__gear_1_direction=None, loads__cylinder_direction=None)
+    assert press.check("cylinder-place") == press.check("gear-direction") == []
+    alone = _places(_press(loads__gear_1_direction=None))
+    assert alone == _places(_press(loads__gear_1_direction=math.degrees(math.atan2(-290.0, -13.0))))
 
 
 # Frames
