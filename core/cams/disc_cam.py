@@ -13,6 +13,7 @@ import numpy as np
 from gearlink.core.cams import profile
 from gearlink.core.cams.profile import CamProfile, RollerPath
 from gearlink.core.cams.undercut import Undercut, undercut
+from gearlink.core.errors import at_key
 from gearlink.core.numerics.arrays import Points, Reals, turn_degrees
 from gearlink.core.numerics.extremes import (
     Extreme,
@@ -88,6 +89,7 @@ class DiscCam:
         sense : +1 or -1 - the cam turns counter-clockwise or clockwise
         roller_radius : float [mm]
         joints : cam angles [rad] - where the law changes; extremes are sought on each side
+        key : str - of the design file, which refusals name that have none of their own
     """
 
     name: str
@@ -95,6 +97,7 @@ class DiscCam:
     sense: int
     roller_radius: float
     joints: tuple[float, ...] = ()
+    key: str = ""
 
     @cached_property
     def bounds(self) -> tuple[float, ...]:
@@ -103,12 +106,14 @@ class DiscCam:
 
     def at(self, cam_angle: Reals) -> CamProfile:
         """Points, pressure angle and curvature at cam angles [rad]."""
-        path = self.path(cam_angle, 2)
-        return profile.profile(cam_angle, path, sense=self.sense, roller_radius=self.roller_radius)
+        with at_key(self.key):
+            path = self.path(cam_angle, 2)
+            return profile.profile(cam_angle, path, sense=self.sense, roller_radius=self.roller_radius)
 
     def pressure_angle(self, cam_angle: Reals) -> Reals:
         """Signed pressure angle [rad] at cam angles."""
-        return profile.pressure_angle(cam_angle, self.path(cam_angle, 1), sense=self.sense)
+        with at_key(self.key):
+            return profile.pressure_angle(cam_angle, self.path(cam_angle, 1), sense=self.sense)
 
     def size_of_pressure_angle(self, cam_angle: Reals) -> Reals:
         """Its magnitude."""
@@ -116,18 +121,21 @@ class DiscCam:
 
     def curvature(self, cam_angle: Reals) -> Reals:
         """Curvature of the pitch curve [1/mm], convex positive, at cam angles."""
-        return profile.curvature(cam_angle, self.path(cam_angle, 2), sense=self.sense)
+        with at_key(self.key):
+            return profile.curvature(cam_angle, self.path(cam_angle, 2), sense=self.sense)
 
     def points(self, cam_angle: Reals) -> tuple[Points, Points]:
         """Pitch and profile points [mm] at cam angles, in the cam's frame."""
-        path = self.path(cam_angle, 1)
-        pitch = profile.pitch_points(cam_angle, path, sense=self.sense)
-        contact = profile.profile_points(cam_angle, path, sense=self.sense, roller_radius=self.roller_radius)
-        return pitch, contact
+        with at_key(self.key):
+            path = self.path(cam_angle, 1)
+            pitch = profile.pitch_points(cam_angle, path, sense=self.sense)
+            contact = profile.profile_points(cam_angle, path, sense=self.sense, roller_radius=self.roller_radius)
+            return pitch, contact
 
     def normals(self, cam_angle: Reals) -> Points:
         """Direction from the profile to the roller's centre at cam angles, in the frame of the machine."""
-        return profile.normals(cam_angle, self.path(cam_angle, 1), sense=self.sense)
+        with at_key(self.key):
+            return profile.normals(cam_angle, self.path(cam_angle, 1), sense=self.sense)
 
     def radius(self, cam_angle: Reals) -> Reals:
         """Distance of the roller from the cam axis [mm] at cam angles.

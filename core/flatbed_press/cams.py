@@ -205,7 +205,8 @@ class PressCams(DiscCams):
             return translating(at_zero_lift + lift.value, lift.first, lift.second if order > 1 else 0.0)
 
         joints = tuple(segment.start for segment in self.follower.segments)
-        return DiscCam(name, path, 1, self.section.roller_radius, joints)
+        key = "cam" if self.section.base_radius is None else "cam.base_radius"
+        return DiscCam(name, path, 1, self.section.roller_radius, joints, key)
 
     def _lift(self, theta: Reals, order: int) -> Travel:
         """The follower's lift; that of the last angles is kept, for both cams are looked at in the same places."""

@@ -22,7 +22,7 @@ import pytest
 from oracles.press import PRESSES, TY460
 from sweeps import mostly_slow
 
-from gearlink.core.errors import MissingSection
+from gearlink.core.errors import MissingSection, NoSolution
 from gearlink.core.flatbed_press.design import FlatbedPress
 
 CONTRACT = json.loads((Path(__file__).parents[2] / "reference" / "contract" / "cam.json").read_text())
@@ -409,3 +409,21 @@ def test_quantities_of_the_return_cam(name):
     assert design.return_max_radius == pytest.approx(np.abs(rows.profile).max(), rel=1e-6)
     assert design.return_min_radius == pytest.approx(np.abs(rows.profile).min(), rel=1e-6)
     assert design.return_max_pressure_angle != design.max_pressure_angle
+
+
+@pytest.mark.parametrize(
+    "ask",
+    [
+        lambda design: design.quantity("max_pressure_angle"),
+        lambda design: design.table("main_cam"),
+        lambda design: design.table("return_cam"),
+        lambda design: design.main_cam.pressure_angle(np.linspace(0.0, 6.0, 99)),
+    ],
+)
+def test_a_cam_that_cannot_be_names_its_base_radius(ask):
+    """The roller's centre on the axis of its cam, at a lift of 0."""
+    data = factory.worked("loaded_press")
+    data["cam"]["base_radius"] = 1e-9
+    with pytest.raises(NoSolution, match="relative pole") as refused:
+        ask(factory.design(data))
+    assert refused.value.key == "cam.base_radius"
