@@ -1,4 +1,4 @@
-"""GL302 of drum, gripper arm and rollers: what turns beside the axes of cam and cam rocker."""
+"""GL302 of drum, gripper arm, links and rollers: what turns beside the axes of the frame."""
 
 from __future__ import annotations
 
@@ -8,11 +8,33 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from gearlink.core.cams.checks import over_axis_check
+from gearlink.core.clearance.links import beside_turning_arm
 from gearlink.core.linkages.codes import SHAFT_CLEARANCE
 from gearlink.core.report import Check
+from gearlink.core.swing_gripper.passes import Pass, Passes, axes_of, cam_turns_drum, drum_axis
 
 if TYPE_CHECKING:
     from gearlink.core.swing_gripper.design import SwingGripper
+
+_OVER = 1e-6
+"""Of the shaft's radius: a link no farther from its middle is over it."""
+
+
+def beside_axes(design: SwingGripper) -> Iterator[Check]:
+    """All of them; warnings alone."""
+    yield from cams(design)
+    yield from rollers(design)
+    yield from drum_and_arm(design)
+    yield from links(design)
+
+
+def cams(design: SwingGripper) -> Iterator[Check]:
+    """The cams against the axes of rocker and gripper, and that of the drum unless they stand on its shaft."""
+    for cam in design.cams.discs:
+        for axis in axes_of(design)[1:]:
+            room = abs(axis.place - design.cams.center) - cam.max_radius
+            advice = f"overhang the shaft beside the cam, move cam.center away from it, or {axis.remedy}"
+            yield from over_axis_check(SHAFT_CLEARANCE, cam.name, room, cam.roller_radius, axis.name, advice)
 
 
 def drum_and_arm(design: SwingGripper) -> Iterator[Check]:
@@ -22,22 +44,16 @@ def drum_and_arm(design: SwingGripper) -> Iterator[Check]:
         Both reach across the machine, as the shafts there do. A cam may stand on the drum's own shaft. Where the file
         names the radius of the cam shaft that is kept clear, else room for a shaft as thick as the roller.
     """
-    spec, section = design.spec, design.cams.section
-    drum = complex(*spec.cylinder.center) if spec.cylinder.center is not None else design.handover.center
-    roller, shaft = section.roller.radius, section.shaft_radius
-    named = f"the cam shaft (radius {shaft:g} mm)" if shaft > 0.0 else "the cam axis"
-    axes = (
-        (named, design.cams.center, shaft, 0.0 if shaft > 0.0 else roller, "cam.center"),
-        ("the cam rocker's axis", design.motion.linkage.input_pivot, 0.0, roller, "pivots.input"),
-    )
-    for axis, place, within, needed, key in axes:
-        advice = f"overhang the shaft beside it, turn arm.direction, or move {key}"
-        away = abs(drum - place)
-        if away > spec.limits.handover_place:
-            room = away - spec.cylinder.radius - within
-            yield from over_axis_check(SHAFT_CLEARANCE, "cylinder that takes the sheet", room, needed, axis, advice)
-        room = room_beside_arm(design, place) - within
-        yield from over_axis_check(SHAFT_CLEARANCE, "gripper arm", room, needed, axis, advice)
+    drum, radius, needed = drum_axis(design), design.spec.cylinder.radius, design.cams.section.roller.radius
+    for axis in axes_of(design)[:2]:
+        within, thick = axis.radius, 0.0 if axis.radius > 0.0 else needed
+        advice = f"overhang the shaft beside it, turn arm.direction, or {axis.remedy}"
+        if not (axis.letter == "O" and cam_turns_drum(design)):
+            room = abs(drum - axis.place) - radius - within
+            words = "cylinder that takes the sheet"
+            yield from over_axis_check(SHAFT_CLEARANCE, words, room, thick, axis.name, advice)
+        room = room_beside_arm(design, axis.place) - within
+        yield from over_axis_check(SHAFT_CLEARANCE, "gripper arm", room, thick, axis.name, advice)
 
 
 def rollers(design: SwingGripper) -> Iterator[Check]:
@@ -51,6 +67,36 @@ def rollers(design: SwingGripper) -> Iterator[Check]:
             yield from over_axis_check(SHAFT_CLEARANCE, name, room, roller.radius, axis, advice)
 
 
+def links(design: SwingGripper) -> Iterator[Check]:
+    """Links and rollers over their whole motion against the axes of the frame that they do not turn about.
+
+    Notes
+        Links are lines of no width; a shaft of the file is kept clear by its radius, beside other axes there must be
+        room for one as thick as the main roller. A warning, since a shaft may end before the plane of the link.
+    """
+    passes, thick = Passes(design), design.cams.section.roller.radius
+    for found in passes:
+        needed = found.axis.radius or found.radius or thick
+        if found.distance - found.radius < needed:
+            where = f"{found.axis.name} at cylinder angle {passes.cylinder_angle(found):.5g} deg"
+            advice = f"that shaft must end before the plane of the {found.body} (be overhung), or {found.axis.remedy}"
+            if found.radius:
+                room = found.distance - found.radius
+                yield from over_axis_check(SHAFT_CLEARANCE, found.body, room, needed, where, advice)
+            else:
+                yield _line_check(found, where, needed, advice)
+
+
+def _line_check(found: Pass, where: str, needed: float, advice: str) -> Check:
+    """GL302 of a link that passes through the place of a shaft."""
+    takes = "" if found.axis.radius else f", a shaft as thick as the roller takes {needed:g} mm"
+    how = f"passes {found.distance:.4g} mm beside {'the middle of ' if found.axis.radius else ''}"
+    if found.distance < _OVER * needed:
+        how, takes = "sweeps over ", ""
+    text = f"the {found.body} {how}{where}{takes}: {advice}"
+    return SHAFT_CLEARANCE.check("warn", text, found.distance, needed, "mm")
+
+
 def room_beside_arm(design: SwingGripper, place: complex) -> float:
     """Least distance of a point from the line E-F over the swing; of one that it passes over, the tip's lead on it.
 
@@ -60,10 +106,7 @@ def room_beside_arm(design: SwingGripper, place: complex) -> float:
     Returns
         room : float [mm] - negative where the line passes over the point, by as much as the tip reaches beyond it
     """
-    arm, swing = design.spec.arm, design.motion.law.total_swing
-    seen = (place - design.motion.linkage.output_pivot) * cmath.exp(-1j * math.radians(arm.direction))
-    turned = seen if design.spec.swing_sense > 0 else seen.conjugate()
-    if cmath.phase(turned) % math.tau <= swing:
-        return abs(turned) - arm.length
-    ends = (turned, turned * cmath.exp(-1j * swing))
-    return min(abs(end - min(max(end.real, 0.0), arm.length)) for end in ends)
+    arm, linkage = design.spec.arm, design.motion.linkage
+    seen, at_bite = place - linkage.output_pivot, cmath.rect(arm.length, math.radians(arm.direction))
+    near = beside_turning_arm(seen, at_bite, linkage.swing_sense * linkage.law.total_swing)
+    return near.distance or abs(seen) - arm.length
