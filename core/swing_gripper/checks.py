@@ -115,7 +115,7 @@ def jerk_step(design: SwingGripper) -> Check:
 
 def handover(design: SwingGripper) -> Iterator[Check]:
     """GL503: speed, place and release window."""
-    yield _speed_check(design)
+    yield _backward_check(design) if runs_backwards(design) else _speed_check(design)
     if design.spec.cylinder.center is not None:
         yield _place_check(design, complex(*design.spec.cylinder.center))
     if design.spec.release is not None:
@@ -132,6 +132,28 @@ def _speed_check(design: SwingGripper) -> Check:
         start, end = design.motion.law.starts[1:3]
         text += f": set handover to {0.5 * (start + end):g}, the middle of the constant phase"
     return codes.HANDOVER.check(status, text, share, _SPEED_SHARE)
+
+
+def runs_backwards(design: SwingGripper) -> bool:
+    """Whether the cam stands on the shaft of the cylinder that takes the sheet and turns it as the gripper swings."""
+    cam = design.spec.cam
+    if cam is None or cam.center is None or cam.sense != design.spec.swing_sense:
+        return False
+    from gearlink.core.swing_gripper.passes import cam_turns_drum
+
+    return cam_turns_drum(design)
+
+
+def _backward_check(design: SwingGripper) -> Check:
+    """GL503 of a cylinder that turns with the gripper: on the line of centres the two then run against each other."""
+    speed = design.spec.cylinder.radius * design.motion.shaft_speed
+    apart = abs(design.handover.speed + speed)
+    text = (
+        f"the cam turns the cylinder on its shaft in the sense of the gripper's swing, so that tip and surface meet "
+        f"at {apart:.6g} mm/s against each other at the handover: reverse cam.sense or swing_sense, or move cam.center "
+        "to a shaft of its own"
+    )
+    return codes.HANDOVER.check("fail", text, apart / speed, _SPEED_SHARE)
 
 
 def _place_check(design: SwingGripper, center: complex) -> Check:

@@ -35,11 +35,12 @@ LIFT_OFF = Rule(
 HANDOVER = Rule(
     "GL503",
     "handover at unequal speeds",
-    "Gripper and cylinder surface do not run equally fast at the handover.",
+    "Gripper and cylinder surface do not run equally fast at the handover, or not the same way: a cam on the cylinder's "
+    "own shaft turns it with cam.sense, which must be against the gripper's swing.",
     "The sheet is torn, or loses its register.",
-    "Set handover within the constant-speed phase.",
-    "|l_EF beta'(handover) w - R w| <= 1e-9 R w",
+    "Set handover within the constant-speed phase; reverse cam.sense where the cam turns the cylinder.",
+    "|l_EF beta'(handover) w - R w| <= 1e-9 R w; cam.sense = -swing_sense where cam and cylinder have one axis",
     "swing-gripper paper 2",
     ("handover",),
-    ("handover",),
+    ("handover", "cam.sense"),
 )

@@ -50,10 +50,17 @@ def candidates(design: SwingGripper, check: str) -> Iterator[Remedy]:
 
 
 def _handover(design: SwingGripper) -> Iterator[Remedy]:
-    """The middle of the constant phase; the arm or the cylinder's axis where the tip meets the line of centres."""
+    """The middle of the constant phase; the arm or the cylinder's axis where the tip meets the line of centres.
+
+    First the sense of a cam on the cylinder's own shaft, which must turn that against the gripper's swing.
+    """
+    from gearlink.core.swing_gripper.checks import runs_backwards
     from gearlink.core.swing_gripper.handover_geometry import misplacement, widest_window
 
     spec, (start, end) = design.spec, design.motion.law.starts[1:3]
+    if spec.cam is not None and runs_backwards(design):
+        yield (("cam.sense", -spec.swing_sense),)
+        yield (("swing_sense", -spec.cam.sense),)
     if spec.cylinder.center is not None:
         center = complex(*spec.cylinder.center)
         off = misplacement(complex(*spec.pivots.output), design.handover.tip, center, spec.cylinder.radius)

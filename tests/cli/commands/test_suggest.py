@@ -83,6 +83,38 @@ def test_refused_design_is_repaired(gearlink: Any, tmp_path: Path) -> None:
     assert ended.json["suggestions"][0]["path"] == "unloader.pivot_ratio"
 
 
+BACKWARDS = """kind: swing-gripper
+speed: 6400
+cylinder: {radius: 106.4, center: [43.9, 269.1]}
+arm: {length: 306.4, direction: -3.9}
+links: {input: 158, coupler: 282, output: 112}
+pivots: {input: [-179.7, 196.4], output: [-342.7, 414]}
+output_direction: 52.3
+swing_sense: -1
+assembly: -1
+phases: {accelerate: 83, constant: 13, decelerate: 58, far_dwell: 4, return: 97, near_dwell: 105}
+handover: 89.5
+cam:
+  center: [43.9, 269.1]
+  sense: -1
+  shaft_radius: 35
+  roller: {arm: 160, angle: 31, radius: 27}
+  return_roller: {arm: 171, angle: -90, radius: 27}
+inertia: {input: 0.02, output: 0.25, coupler: 0.03, coupler_mass: 2.3, return_rocker: 0.03}
+spring: {torque: 1500}
+limits: {handover_place: 0.9}
+"""
+
+
+def test_a_cam_that_turns_the_drum_backwards_is_reversed(gearlink: Any, tmp_path: Path) -> None:
+    path = tmp_path / "drum.yaml"
+    path.write_text(BACKWARDS)
+    assert gearlink("gripper", path).status == ExitCode.FINDING
+    ended = gearlink("gripper", path, "--suggest", "--format", "json")
+    assert ended.status == ExitCode.OK
+    assert [(c["path"], c["new"]) for c in ended.json["suggestions"]] == [("cam.sense", 1)]
+
+
 @pytest.mark.parametrize("name", ["follower", "last link", "a.b", "x[0]", "7"])
 def test_length_of_a_link_that_the_file_names(gearlink: Any, tmp_path: Path, name: str) -> None:
     """A key that the file has chosen, whatever it is called: a train keeps the pins of the link 256 mm apart."""
