@@ -269,10 +269,19 @@ def shaft_clearance(design: SwingGripper) -> Iterator[Check]:
 
 
 def lift_off(design: SwingGripper) -> Check:
-    """GL406: contact at the design speed, with a tenth of speed in reserve; it fails where nothing closes both."""
+    """GL406: contact at the design speed, with a tenth of speed in reserve; it fails where nothing closes both.
+
+    Notes
+        The two rollers sit on rockers of their own, which the spring pulls together: without it neither is pressed on
+        its cam. That is a warning, since the file may leave out the spring that the machine has.
+    """
     if design.closure.refusal is not None:
         text = design.closure.refusal.message
         return codes.LIFT_OFF.check("fail", text, None, design.spec.speed, "sheets/h")
+    if design.spec.spring is None:
+        rollers = "either roller on its cam" if len(design.cams.discs) > 1 else "the roller on its cam"
+        text = f"nothing presses {rollers}: give the spring between the rockers, spring.torque or its levers"
+        return codes.LIFT_OFF.check("warn", text, None, design.spec.speed, "sheets/h")
     torque, speed, reserve = design.closure.closing_torque, design.closure.lift_off_speed, design.closure.spring.reserve
     names = [cam.name.removesuffix(" cam") for cam in design.cams.discs]
     roller, worst = max(zip(names, design.closure.worst_unloading, strict=True), key=lambda item: item[1].value)

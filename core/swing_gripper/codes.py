@@ -23,20 +23,21 @@ LIFT_OFF = Rule(
     "roller leaves its cam",
     "At the design speed the inertia takes up the spring's torque, or keeps less than a tenth of speed in reserve; "
     "or both rollers lie on one side of the cam, or the spring pushes: nothing keeps both on it then (no value is "
-    "given).",
+    "given). A file without `spring` is warned of: each roller has a rocker of its own, and only a spring between them "
+    "presses the two on their cams.",
     "A roller that has left its cam falls back on it: wear, noise and a wrong motion.",
     "Raise spring.torque to the value of the message, lower the masses, or run slower; turn cam.return_roller.angle "
     "past the cam axis.",
     "n* = n sqrt(T_s/max(T_inertia)) must exceed n; warns below 1.1 n",
     "own derivation: virtual work of links and coupler",
     ("lift-off",),
-    ("spring.torque", "spring", "cam.return_roller", "speed"),
+    ("spring.torque", "spring", "cam.return_roller", "cam", "speed"),
 )
 HANDOVER = Rule(
     "GL503",
     "handover at unequal speeds",
-    "Gripper and cylinder surface do not run equally fast at the handover, or not the same way: a cam on the cylinder's "
-    "own shaft turns it with cam.sense, which must be against the gripper's swing.",
+    "Gripper and cylinder surface do not run equally fast at the handover, or not the same way: a cam on the "
+    "cylinder's own shaft turns it with cam.sense, which must be against the gripper's swing.",
     "The sheet is torn, or loses its register.",
     "Set handover within the constant-speed phase; reverse cam.sense where the cam turns the cylinder.",
     "|l_EF beta'(handover) w - R w| <= 1e-9 R w; cam.sense = -swing_sense where cam and cylinder have one axis",

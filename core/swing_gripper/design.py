@@ -178,12 +178,12 @@ class SwingGripper(WithExtremes, Design):
         return Outline(tuple(quantities), tuple(checks), tables)
 
     def _of_cams(self, outline: Outline) -> Outline:
-        """`cam`, with the centre where it is chosen, and what is wrong where nothing keeps the rollers on the cams."""
+        """`cam`, with the centre where it is chosen, and what is wrong where nothing presses the rollers on them."""
         cam = self.spec.cam
         if cam is None or self.cams.is_refused:
             return outline
         chosen = ("cam_center",) if cam.center is None else ()
-        closing = () if self.closure.refusal is None else ("lift-off",)
+        closing = ("lift-off",) if self.spec.spring is None or self.closure.refusal is not None else ()
         tables = outline.tables if cam.return_roller is not None else outline.tables[:1]
         return Outline((*chosen, *outline.quantities), (*outline.checks, *closing), tables)
 

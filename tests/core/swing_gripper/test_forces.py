@@ -217,3 +217,17 @@ def test_missing_sections_are_named() -> None:
         with pytest.raises(MissingSection) as missing:
             getattr(bare, name)
         assert missing.value.key == key
+
+
+@pytest.mark.parametrize("command", ["gripper", "cam", "analyze"])
+@pytest.mark.parametrize(("back", "words"), [({}, "either roller"), ({"cam__return_roller": None}, "the roller")])
+def test_rollers_that_no_spring_presses_on_their_cams_are_warned_of(command: str, back: dict, words: str) -> None:
+    """Without the section nothing was said, though each roller has a rocker of its own."""
+    checks = machine(spring=None, **back).report(command).checks
+    (found,) = [check for check in checks if check.name == "lift-off"]
+    assert (found.code, found.status, found.value) == ("GL406", "warn", None)
+    assert f"nothing presses {words} on its cam: give the spring" in found.message
+
+
+def test_a_spring_without_masses_is_not_judged() -> None:
+    assert not [check for check in machine(inertia=None).report("gripper").checks if check.name == "lift-off"]
