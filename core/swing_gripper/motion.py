@@ -85,6 +85,7 @@ class Motion:
         from gearlink.core.swing_gripper.swing import require_swing
 
         spec = self.spec
+        self._require_pivots_apart()
         linkage = GripperLinkage(
             law=self.law,
             input_pivot=complex(*spec.pivots.input),
@@ -99,6 +100,15 @@ class Motion:
         with at_key("pivots"):
             require_swing(linkage, math.radians(spec.limits.transmission_angle))
         return linkage
+
+    def _require_pivots_apart(self) -> None:
+        pivots = self.spec.pivots
+        if pivots.input == pivots.output:
+            raise NoSolution(
+                f"pivots.input and pivots.output are one point, ({pivots.input[0]:g}, {pivots.input[1]:g}) mm, and the "
+                "frame length is 0 mm: cam rocker and gripper turn about axes of their own, move one of them",
+                key="pivots",
+            )
 
     def rows(self, samples: int | None = None) -> tuple[Reals, GripperMotion]:
         """Cylinder angles in degrees and the motion there, for the tables."""

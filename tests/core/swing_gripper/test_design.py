@@ -230,6 +230,11 @@ def test_a_linkage_that_cannot_swing_is_refused_with_its_own_key(command: str) -
     assert refused.value.key == "links"
 
 
+def test_pivots_in_one_point_are_both_named() -> None:
+    with pytest.raises(NoSolution, match=r"pivots\.input and pivots\.output are one point, \(230, 0\) mm.*move one"):
+        machine(pivots__output=[230.0, 0.0]).report("gripper")
+
+
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
