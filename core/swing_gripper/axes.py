@@ -7,8 +7,10 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from gearlink.core.cams.checks import over_axis_check
-from gearlink.core.clearance.links import beside_turning_arm
+from gearlink.core.clearance.links import beside_line, beside_turning_arm
 from gearlink.core.linkages.codes import SHAFT_CLEARANCE
 from gearlink.core.report import Check
 from gearlink.core.swing_gripper.passes import Pass, Passes, axes_of, cam_turns_drum, drum_axis
@@ -26,6 +28,7 @@ def beside_axes(design: SwingGripper) -> Iterator[Check]:
     yield from rollers(design)
     yield from drum_and_arm(design)
     yield from links(design)
+    yield from spring(design)
 
 
 def cams(design: SwingGripper) -> Iterator[Check]:
@@ -95,6 +98,26 @@ def _line_check(found: Pass, where: str, needed: float, advice: str) -> Check:
         how, takes = "sweeps over ", ""
     text = f"the {found.body} {how}{where}{takes}: {advice}"
     return SHAFT_CLEARANCE.check("warn", text, found.distance, needed, "mm")
+
+
+def spring(design: SwingGripper) -> Iterator[Check]:
+    """The line of a spring given by its levers against the axis of the two rockers, which it passes alike all the turn.
+
+    Notes
+        At right angles to the line that is the lever of its torque.
+    """
+    given, needed = design.spec.spring, design.cams.section.roller.radius
+    if given is None or given.arms is None or given.angle is None:
+        return
+    (p, q), turned = given.arms, cmath.exp(1j * math.radians(given.angle))
+    distance = float(beside_line(0j, np.array([p + 0j]), np.array([q * turned]))[0])
+    if distance < needed:
+        text = (
+            f"the line of the spring passes {distance:.4g} mm beside the cam rocker's axis, a shaft as thick as the "
+            f"roller takes {needed:g} mm: {'lessen spring.angle or ' if min(p, q) >= needed else ''}lengthen "
+            "spring.arms, or let that shaft end before the plane of the spring"
+        )
+        yield SHAFT_CLEARANCE.check("warn", text, distance, needed, "mm")
 
 
 def room_beside_arm(design: SwingGripper, place: complex) -> float:

@@ -28,6 +28,33 @@ def test_a_drum_over_the_cam_shaft_is_warned_of() -> None:
     assert value == pytest.approx(abs(drum) - 135.0 - 40.0, rel=1e-12)
 
 
+def test_no_limit_takes_the_drum_off_the_cam_shaft() -> None:
+    """limits.handover_place had said too which axes are one."""
+    made = factory.design("swing_gripper", arm__direction=211, limits={"handover_place": 1e6})
+    assert [text for text in warned(made) if "cylinder that takes the sheet reaches" in text and "cam shaft" in text]
+
+
+@pytest.mark.parametrize(
+    ("arms", "angle", "beside"),
+    [
+        ((100.0, 100.0), 178.0, 100.0 * math.cos(math.radians(89.0))),
+        ((120.0, 110.0), 88.0, None),
+        ((40.0, 100.0), 140.0, 4000.0 * math.sin(math.radians(140.0))),
+        ((20.0, 100.0), 40.0, 20.0),  # the foot lies beyond the spring's end
+    ],
+)
+def test_a_spring_across_the_axis_of_its_rockers_is_warned_of(
+    arms: tuple[float, float], angle: float, beside: float | None
+) -> None:
+    """The lever of the torque, p q sin(delta)/L, where the foot lies within the spring."""
+    if beside is not None and beside > max(arms):
+        beside /= math.sqrt(arms[0] ** 2 + arms[1] ** 2 - 2.0 * arms[0] * arms[1] * math.cos(math.radians(angle)))
+    made = factory.design("swing_gripper", spring={"arms": list(arms), "angle": angle, "preload": 9000.0})
+    found = {text: value for text, value in warned(made).items() if "spring" in text}
+    assert list(found.values()) == ([] if beside is None else [pytest.approx(beside, rel=1e-12)])
+    assert all("lengthen spring.arms" in text for text in found)
+
+
 def test_a_cam_on_the_shaft_of_the_drum_is_none_of_it() -> None:
     made = factory.design("swing_gripper", arm__direction=211)
     drum = made.handover_center
