@@ -37,10 +37,14 @@ HANDOVER = Rule(
     "GL503",
     "handover at unequal speeds",
     "Gripper and cylinder surface do not run equally fast at the handover, or not the same way: a cam on the "
-    "cylinder's own shaft turns it with cam.sense, which must be against the gripper's swing.",
+    "cylinder's own shaft turns it with cam.sense, which must be against the gripper's swing. Or the tip "
+    "stands farther off its place on the line of centres than limits.handover_place, or than 1 mm where that allows "
+    "more (a warning).",
     "The sheet is torn, or loses its register.",
-    "Set handover within the constant-speed phase; reverse cam.sense where the cam turns the cylinder.",
-    "|l_EF beta'(handover) w - R w| <= 1e-9 R w; cam.sense = -swing_sense where cam and cylinder have one axis",
+    "Set handover within the constant-speed phase; reverse cam.sense where the cam turns the cylinder; turn "
+    "arm.direction or move cylinder.center until the tip stands on the line of centres.",
+    "|l_EF beta'(handover) w - R w| <= 1e-9 R w; cam.sense = -swing_sense where cam and cylinder have one "
+    "axis; tip off its place <= limits.handover_place",
     "swing-gripper paper 2",
     ("handover",),
     ("handover", "cam.sense"),

@@ -150,3 +150,15 @@ def test_the_table_is_flat_at_the_handover() -> None:
     assert [columns[name][20] for name in ("gap", "slip", "speed_difference")] == [0.0, 0.0, 0.0]
     assert np.abs(columns["gap"] - columns["gap"][::-1]).max() <= 1e-12
     assert np.abs(columns["slip"] + columns["slip"][::-1]).max() <= 1e-12
+
+
+@pytest.mark.parametrize(("off", "limit", "status"), [(0.9, 2.0, "pass"), (1.1, 2.0, "warn"), (1.1, 1.0, "fail")])
+def test_no_limit_allows_a_tip_more_than_a_millimetre_off_its_place(off: float, limit: float, status: str) -> None:
+    center = complex(machine().handover_center)
+    away = center + off * (center - complex(*machine().spec.pivots.output)) / 435.0
+    limits = {"handover_place": limit}
+    place = machine(cylinder__center=[away.real, away.imag], limits=limits).check("handover")[1]
+    assert (place.status, place.value) == (status, pytest.approx(off, rel=1e-9))
+    assert place.limit == (1.0 if status == "warn" else limit)
+    if status != "pass":
+        assert f"set cylinder.center to [{center.real:.6g}, {center.imag:.6g}]" in place.message
