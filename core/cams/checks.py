@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 # A hub of 1.5 times the shaft is the usual least, a roller of 0.8 of the least curvature radius the usual most.
 HUB = 1.5
 ROLLER_SHARE = 0.8
+AS_THICK_AS_ROLLER = "a shaft as thick as the roller takes"
 _FIT = 1e-11
 """Of the limit: cams that are sized to it came out up to 2e-13 above it."""
 
@@ -105,7 +106,9 @@ def hub_checks(rule: Rule, cams: Sequence[DiscCam], shaft: float, farther: Calla
         yield rule.check(status, text, room, 0.0, "mm")
 
 
-def over_axis_check(rule: Rule, words: str, room: float, shaft: float, axis: str, remedy: str) -> Iterator[Check]:
+def over_axis_check(
+    rule: Rule, words: str, room: float, shaft: float, axis: str, remedy: str, *, takes: str = AS_THICK_AS_ROLLER
+) -> Iterator[Check]:
     """GL302: a cam that turns over another axis of the frame, or leaves no room for a shaft there, is warned of.
 
     Parameters
@@ -114,6 +117,7 @@ def over_axis_check(rule: Rule, words: str, room: float, shaft: float, axis: str
         room : float [mm] - from the body to the axis, negative where it reaches over it
         shaft : float [mm] - radius of the thinnest shaft that would be built there: the roller's
         axis, remedy : str - "the cam rocker's axis", and what would clear it
+        takes : str - what shaft that is
     Notes
         Never a failure, since what turns there may be overhung beside the cam.
     """
@@ -121,7 +125,7 @@ def over_axis_check(rule: Rule, words: str, room: float, shaft: float, axis: str
         return
     text = f"the {words} reaches {-room:.4g} mm over {axis}"
     if room > 0.0:
-        text = f"the {words} leaves only {room:.4g} mm to {axis}, a shaft as thick as the roller takes {shaft:g} mm"
+        text = f"the {words} leaves only {room:.4g} mm to {axis}, {takes} {shaft:g} mm"
     yield rule.check("warn", f"{text}: {remedy}", room, shaft, "mm")
 
 

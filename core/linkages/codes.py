@@ -28,8 +28,9 @@ SHAFT_CLEARANCE = Rule(
     "rocker, gripper or drum than a shaft as thick as the roller takes; so are a gripper's arm and the cylinder that "
     "takes the sheet beside the axes of cam and cam rocker, and its links and rollers, over the whole turn, beside "
     "every axis that they do not turn about (links are lines, which may come as near to the middle of a shaft as the "
-    "radius cam.shaft_radius or, elsewhere, that of the roller), and a spring beside the rockers' axis; and "
-    "a gear whose own shaft leaves less rim below its teeth than half their height.",
+    "radius cam.shaft_radius or, elsewhere, that of the roller), and a spring beside the rockers' axis; a gripper's "
+    "limits.least_shaft stands in place of its roller's radius. So is a gear whose own shaft leaves less rim below its "
+    "teeth than half their height.",
     "The shaft cannot pass through the plane of the gears there: it must end before it (be overhung).",
     "Overhang the shaft, make it thinner, or enlarge the distance; name the radius (shafts, cam.shaft_radius) so "
     "that it is checked.",

@@ -5,11 +5,11 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from gearlink.core.cams.checks import over_axis_check
+from gearlink.core.cams.checks import AS_THICK_AS_ROLLER, over_axis_check
 from gearlink.core.clearance.links import beside_line, beside_turning_arm
 from gearlink.core.linkages.codes import SHAFT_CLEARANCE
 from gearlink.core.report import Check
@@ -18,8 +18,22 @@ from gearlink.core.swing_gripper.passes import Pass, Passes, axes_of, cam_turns_
 if TYPE_CHECKING:
     from gearlink.core.swing_gripper.design import SwingGripper
 
+_THINNEST = "the thinnest shaft (limits.least_shaft) takes"
 _OVER = 1e-6
-"""Of the shaft's radius: a link no farther from its middle is over it."""
+"""A link no farther from an axis [mm] sweeps over it, where no shaft is thin enough."""
+
+
+class Room(NamedTuple):
+    """The thinnest shaft that would be built beside a body [mm], and the words for it."""
+
+    radius: float
+    takes: str
+
+
+def room_for_shaft(design: SwingGripper, roller: float) -> Room:
+    """That of limits.least_shaft, or one as thick as the roller."""
+    least = design.spec.limits.least_shaft
+    return Room(roller, AS_THICK_AS_ROLLER) if least is None else Room(least, _THINNEST)
 
 
 def beside_axes(design: SwingGripper) -> Iterator[Check]:
@@ -37,7 +51,8 @@ def cams(design: SwingGripper) -> Iterator[Check]:
         for axis in axes_of(design)[1:]:
             room = abs(axis.place - design.cams.center) - cam.max_radius
             advice = f"overhang the shaft beside the cam, move cam.center away from it, or {axis.remedy}"
-            yield from over_axis_check(SHAFT_CLEARANCE, cam.name, room, cam.roller_radius, axis.name, advice)
+            shaft, takes = room_for_shaft(design, cam.roller_radius)
+            yield from over_axis_check(SHAFT_CLEARANCE, cam.name, room, shaft, axis.name, advice, takes=takes)
 
 
 def drum_and_arm(design: SwingGripper) -> Iterator[Check]:
@@ -47,16 +62,17 @@ def drum_and_arm(design: SwingGripper) -> Iterator[Check]:
         Both reach across the machine, as the shafts there do. A cam may stand on the drum's own shaft. Where the file
         names the radius of the cam shaft that is kept clear, else room for a shaft as thick as the roller.
     """
-    drum, radius, needed = drum_axis(design), design.spec.cylinder.radius, design.cams.section.roller.radius
+    drum, radius = drum_axis(design), design.spec.cylinder.radius
+    needed, takes = room_for_shaft(design, design.cams.section.roller.radius)
     for axis in axes_of(design)[:2]:
         within, thick = axis.radius, 0.0 if axis.radius > 0.0 else needed
         advice = f"overhang the shaft beside it, turn arm.direction, or {axis.remedy}"
         if not (axis.letter == "O" and cam_turns_drum(design)):
             room = abs(drum - axis.place) - radius - within
             words = "cylinder that takes the sheet"
-            yield from over_axis_check(SHAFT_CLEARANCE, words, room, thick, axis.name, advice)
+            yield from over_axis_check(SHAFT_CLEARANCE, words, room, thick, axis.name, advice, takes=takes)
         room = room_beside_arm(design, axis.place) - within
-        yield from over_axis_check(SHAFT_CLEARANCE, "gripper arm", room, thick, axis.name, advice)
+        yield from over_axis_check(SHAFT_CLEARANCE, "gripper arm", room, thick, axis.name, advice, takes=takes)
 
 
 def rollers(design: SwingGripper) -> Iterator[Check]:
@@ -67,7 +83,8 @@ def rollers(design: SwingGripper) -> Iterator[Check]:
             room = roller.arm - roller.radius
             advice = f"lengthen cam.{key}.arm, or take a smaller roller"
             name, axis = f"{words} roller", "the cam rocker's axis"
-            yield from over_axis_check(SHAFT_CLEARANCE, name, room, roller.radius, axis, advice)
+            shaft, takes = room_for_shaft(design, roller.radius)
+            yield from over_axis_check(SHAFT_CLEARANCE, name, room, shaft, axis, advice, takes=takes)
 
 
 def links(design: SwingGripper) -> Iterator[Check]:
@@ -75,29 +92,30 @@ def links(design: SwingGripper) -> Iterator[Check]:
 
     Notes
         Links are lines of no width; a shaft of the file is kept clear by its radius, beside other axes there must be
-        room for one as thick as the main roller. A warning, since a shaft may end before the plane of the link.
+        room for the thinnest that would be built. A warning, since a shaft may end before the plane of the link.
     """
-    passes, thick = Passes(design), design.cams.section.roller.radius
+    passes, main = Passes(design), design.cams.section.roller.radius
     for found in passes:
-        needed = found.axis.radius or found.radius or thick
-        if found.distance - found.radius < needed:
+        least, takes = room_for_shaft(design, found.radius or main)
+        needed = found.axis.radius or least
+        if found.distance - found.radius < max(needed, _OVER):
             where = f"{found.axis.name} at cylinder angle {passes.cylinder_angle(found):.5g} deg"
             advice = f"that shaft must end before the plane of the {found.body} (be overhung), or {found.axis.remedy}"
             if found.radius:
                 room = found.distance - found.radius
-                yield from over_axis_check(SHAFT_CLEARANCE, found.body, room, needed, where, advice)
+                yield from over_axis_check(SHAFT_CLEARANCE, found.body, room, needed, where, advice, takes=takes)
             else:
-                yield _line_check(found, where, needed, advice)
+                yield _line_check(found, where, Room(needed, takes), advice)
 
 
-def _line_check(found: Pass, where: str, needed: float, advice: str) -> Check:
+def _line_check(found: Pass, where: str, needed: Room, advice: str) -> Check:
     """GL302 of a link that passes through the place of a shaft."""
-    takes = "" if found.axis.radius else f", a shaft as thick as the roller takes {needed:g} mm"
+    takes = "" if found.axis.radius else f", {needed.takes} {needed.radius:g} mm"
     how = f"passes {found.distance:.4g} mm beside {'the middle of ' if found.axis.radius else ''}"
-    if found.distance < _OVER * needed:
+    if found.distance < _OVER:
         how, takes = "sweeps over ", ""
     text = f"the {found.body} {how}{where}{takes}: {advice}"
-    return SHAFT_CLEARANCE.check("warn", text, found.distance, needed, "mm")
+    return SHAFT_CLEARANCE.check("warn", text, found.distance, needed.radius, "mm")
 
 
 def spring(design: SwingGripper) -> Iterator[Check]:
@@ -106,15 +124,15 @@ def spring(design: SwingGripper) -> Iterator[Check]:
     Notes
         At right angles to the line that is the lever of its torque.
     """
-    given, needed = design.spec.spring, design.cams.section.roller.radius
+    given, (needed, takes) = design.spec.spring, room_for_shaft(design, design.cams.section.roller.radius)
     if given is None or given.arms is None or given.angle is None:
         return
     (p, q), turned = given.arms, cmath.exp(1j * math.radians(given.angle))
     distance = float(beside_line(0j, np.array([p + 0j]), np.array([q * turned]))[0])
     if distance < needed:
         text = (
-            f"the line of the spring passes {distance:.4g} mm beside the cam rocker's axis, a shaft as thick as the "
-            f"roller takes {needed:g} mm: {'lessen spring.angle or ' if min(p, q) >= needed else ''}lengthen "
+            f"the line of the spring passes {distance:.4g} mm beside the cam rocker's axis, {takes} "
+            f"{needed:g} mm: {'lessen spring.angle or ' if min(p, q) >= needed else ''}lengthen "
             "spring.arms, or let that shaft end before the plane of the spring"
         )
         yield SHAFT_CLEARANCE.check("warn", text, distance, needed, "mm")

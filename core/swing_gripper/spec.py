@@ -191,6 +191,9 @@ class GripperLimits(LoadLimits):
         100.0, description="greatest condition number of the loop, 1/sin(mu); only warns"
     )
     handover_place: Length = Field(0.01, description="gripper tip off the line of centres at the handover")
+    least_shaft: Length | None = Field(
+        None, description="radius of the thinnest shaft that would be built; left out: that of the roller"
+    )
     jerk_step: Annotated[float, Field(ge=0, json_schema_extra={"unit": "1"})] | None = Field(
         None, description="jump of the swing's third derivative by the cylinder angle; only warns; none: no limit"
     )

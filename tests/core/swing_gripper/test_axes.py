@@ -87,6 +87,18 @@ def test_a_roller_over_the_axis_of_its_own_rocker_is_warned_of(arm: float, radiu
     assert list(found.values()) == ([pytest.approx(arm - radius)] if reaches else [])
 
 
+def test_the_thinnest_shaft_that_would_be_built_takes_the_place_of_the_roller() -> None:
+    """Nothing is wrong with the worked gripper until its shafts are to be as thick as a barrel."""
+    assert not warned(factory.design("swing_gripper", limits={"least_shaft": 30.0}))
+    found = warned(factory.design("swing_gripper", limits={"least_shaft": 250.0}, cam__shaft_radius=0.0))
+    assert len(found) > 8
+    near = [text for text in found if " over " not in text]
+    assert near
+    assert all("the thinnest shaft (limits.least_shaft) takes 250 mm" in text for text in near)
+    crossed = {"arms": [100.0, 100.0], "angle": 178.0, "preload": 9000.0}
+    assert not warned(factory.design("swing_gripper", limits={"least_shaft": 1.5}, spring=crossed))
+
+
 @pytest.mark.parametrize("sense", [1, -1])
 def test_room_beside_the_arm(sense: int) -> None:
     """Sampled arms are as far from points around them as the closed form says, to the step of the samples."""

@@ -230,6 +230,12 @@ def test_a_gripper_that_had_passed_every_check(body: str, axis: str) -> None:
     assert made.check("transmission-angle")[0].status != "fail"
 
 
+def test_no_shaft_is_thin_enough_where_a_link_sweeps_over_its_axis() -> None:
+    data = given(NAMED["cam rocker AC", "the gripper's axis"])
+    made = factory.design(data, limits={"least_shaft": 1e-9})
+    assert ["cam rocker AC sweeps over the gripper's axis" in check.message for check in links(made)] == [True]
+
+
 def test_the_worked_gripper_is_clear_of_every_shaft() -> None:
     assert not list(links(factory.design("swing_gripper")))
 
