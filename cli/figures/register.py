@@ -102,7 +102,8 @@ def _cycle(axes: Axes, design: RegisterDesign) -> None:
     style.full_turn(axes)
     _in_time(axes, design)
     _from_zero(axes)
-    panels.legend_under_heading(axes, "Over the cycle, absolute", 4)
+    known = "" if np.isfinite(band).all() else "; without cam nothing is known outside the zone"
+    panels.legend_under_heading(axes, f"Over the cycle, absolute{known}", 4)
 
 
 def _from_zero(axes: Axes) -> None:

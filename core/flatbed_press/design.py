@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from gearlink.core.design import Design, Found, Outline, placed
 from gearlink.core.errors import MissingSection, NoSolution, at_key, in_section
 from gearlink.core.flatbed_press import bodies, checks, remedies, tables
+from gearlink.core.flatbed_press.bed_motion import BedMotion
 from gearlink.core.flatbed_press.cams import PressCams
 from gearlink.core.flatbed_press.motion import PressMotion
 from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantities, gear_quantity
@@ -115,6 +116,11 @@ class FlatbedPress(WithExtremes, SliderCrankQuantities, GearQuantities, Design):
     def cams(self) -> PressCams:
         """The compensation cams and their follower."""
         return PressCams(self.spec, self.motion)
+
+    @cached_property
+    def bed_motion(self) -> BedMotion:
+        """The bed, the lift of its cam taken off where the file has one."""
+        return BedMotion(self.motion, None if self.spec.cam is None else self.cams.follower)
 
     @cached_property
     def gear_pair(self) -> GearPair:

@@ -8,14 +8,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from gearlink.core.errors import MissingSection, NoSolution
-from gearlink.core.flatbed_press.chains import difference
 from gearlink.core.flatbed_press.design import FlatbedPress
 from gearlink.core.flatbed_press.register_chain import PressErrors, register_error
+from gearlink.core.flatbed_press.register_lift import RackLift
 from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
 from gearlink.core.linkages.fourbar.loop_gains import LoopGains, loop_gains
 from gearlink.core.linkages.standstills import zeros_over_turn
@@ -42,7 +43,7 @@ class PressGains:
     """
 
     def __init__(self, design: FlatbedPress, input_angle: Reals) -> None:
-        self.motion, self.phi = design.motion, input_angle
+        self.motion, self.phi, self.lift = design.motion, input_angle, RackLift(design)
 
     @cached_property
     def bed_links(self) -> LoopGains:
@@ -62,13 +63,8 @@ class PressGains:
 
     @cached_property
     def cam_slope(self) -> Reals:
-        """s' = (p' - q')/cam' [mm/rad]: what the cam takes back per turn of CD."""
-        gap, cam = (
-            difference(self.motion.bed, self.motion.cylinder, self.phi, 1),
-            self.motion.bed.cam_angle(self.phi, 1),
-        )
-        slope: Reals = gap.first / cam.first
-        return slope
+        """s' [mm/rad]: what the cam takes back per turn of CD."""
+        return self.lift.slope(self.phi)
 
     @cached_property
     def cylinder_rate(self) -> Reals:
@@ -151,6 +147,7 @@ class PressRegister(RegisterDesign):
     def contributions(self, input_angle: Reals, torque_sign: int) -> list[Contribution]:
         """Every source of the file, the cam's own error, and the meshes whose backlash is given."""
         gains = PressGains(self.design, input_angle)
+        known = gains.lift.known(input_angle)
         found = [contribution(source, self._gain(source, gains)) for source in self.sources]
         if self.section.cam_error is not None:
             lean = self._cam_lean(gains)
@@ -160,7 +157,20 @@ class PressRegister(RegisterDesign):
             half = 0.5 * play
             gain = self._mesh_gain(mesh, gains, torque_sign)
             found.append(Contribution(f"backlash of {mesh}", gain, half, 0.0, mean=half))
-        return found
+        return found if known.all() else [replace(one, gain=np.where(known, one.gain, math.nan)) for one in found]
+
+    @cached_property
+    def input_angles(self) -> Reals:
+        """As of any machine; an input angle at which nothing says where the lower rack stands is refused."""
+        angles = super().input_angles
+        if not RackLift(self.design).known(angles).all():
+            start, end = (math.degrees(angle) for angle in self.stretch("zone"))
+            raise MissingSection(
+                f"{self._where} nothing says where the lower rack stands: outside the synchronous "
+                f"zone, {start:.6g} to {end:.6g} deg, a register needs the section cam",
+                key="cam",
+            )
+        return angles
 
     # Backlash
 
@@ -181,13 +191,14 @@ class PressRegister(RegisterDesign):
 
         Notes
             The torque's sign is that in the input mesh, +1 where the gear of the bed drives that of the cylinder. Bed
-            and cylinder are pushed by their inertia: by the sign of q''.
+            and cylinder are pushed by their inertia: by the sign of q'', outside the zone the bed by that of its own.
         """
         if mesh == "mesh_12":
             rate: Reals = torque_sign * gains.cylinder_rate / self._input_radius
             return rate
-        pushed = np.where(gains.motion.cylinder.travel(gains.phi, 2).second >= 0.0, 1.0, -1.0)
-        return pushed if mesh == "mesh_34" else -pushed
+        if mesh == "mesh_34":
+            return np.where(gains.motion.cylinder.travel(gains.phi, 2).second >= 0.0, 1.0, -1.0)
+        return np.where(gains.lift.bed_acceleration(gains.phi) >= 0.0, -1.0, 1.0)
 
     @cached_property
     def _jumps(self) -> dict[str, float]:
@@ -227,8 +238,7 @@ class PressRegister(RegisterDesign):
         for source in self.sources:
             name, scale = self._chain_name(source)
             values[name] = values.get(name, 0.0) + scale * parts[source.key]
-        motion = self.design.motion
-        return register_error(motion.bed, motion.cylinder, input_angle[:, None], PressErrors(values))
+        return register_error(RackLift(self.design), input_angle[:, None], PressErrors(values))
 
     def _chain_name(self, source: Scatter) -> tuple[str, float]:
         """What a source is called in the chain, and the chain's error per one of the source."""

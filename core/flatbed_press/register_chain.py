@@ -8,15 +8,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gearlink.core.flatbed_press.chains import BedChain, CylinderChain, difference
+from gearlink.core.flatbed_press.chains import BedChain
 from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
 from gearlink.core.linkages.fourbar.loop_gains import closed_pin
 from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.numerics.arrays import Points, Reals
+
+if TYPE_CHECKING:
+    from gearlink.core.flatbed_press.register_lift import RackLift
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,13 +37,13 @@ class PressErrors:
         return self.values.get(name, 0.0)
 
 
-def register_error(bed: BedChain, cylinder: CylinderChain, input_angle: Reals, errors: PressErrors) -> Reals:
+def register_error(lift: RackLift, input_angle: Reals, errors: PressErrors) -> Reals:
     """Error of bed against cylinder at the print, exactly.
 
     Delta = dp - dq - ds,   s(c) the lift that the cam has at the angle c
 
     Parameters
-        bed, cylinder : chains without errors
+        lift : RackLift - of the press without errors, with its chains
         input_angle : array [rad]
         errors : PressErrors - of shapes that broadcast with `input_angle`
     Returns
@@ -50,8 +53,9 @@ def register_error(bed: BedChain, cylinder: CylinderChain, input_angle: Reals, e
     Source
         own derivation; agrees with `gearlink.core.flatbed_press.register` to first order
     """
+    bed, cylinder = lift.motion.bed, lift.motion.cylinder
     turned = _turn(bed.linkage, bed.initial_crank_angle + input_angle, "bed", "ABC", "D", errors)
-    lifted = _lift(bed, cylinder, input_angle, turned)
+    lifted = lift.gained(input_angle, turned)
     moved = _bed_travel(bed, input_angle, turned, errors)
     driven = _turn(cylinder.linkage, cylinder.initial_angle - input_angle, "cylinder", "GHM", "N", errors)
     travel = cylinder.travel(input_angle).value
@@ -70,13 +74,6 @@ def _turn(linkage: FourBar, crank_angle: Reals, chain: str, near: str, far: str,
     coupler, rocker = linkage.coupler + errors[f"{chain}.coupler"], linkage.rocker + errors[f"{chain}.rocker"]
     knee: Points = closed_pin(start, end, coupler, rocker, linkage.assembly)
     return np.angle((knee - end) * np.exp(-1j * state.rocker_angle))
-
-
-def _lift(bed: BedChain, cylinder: CylinderChain, input_angle: Reals, turned: Any) -> Any:
-    """By how much the lower rack is too far on, its cam turned too far."""
-    cam = bed.cam_angle(input_angle).value
-    there = bed.input_angle(cam + turned)
-    return difference(bed, cylinder, there).value - difference(bed, cylinder, input_angle).value
 
 
 def _bed_travel(bed: BedChain, input_angle: Reals, turned: Any, errors: PressErrors) -> Any:
