@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from gearlink.core.cams.disc_cams import DiscCams
 from gearlink.core.errors import MissingSection, NoSolution, at_key
 from gearlink.core.flatbed_press.compensation import Compensation
+from gearlink.core.flatbed_press.refusals import turns_back
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
@@ -60,6 +61,7 @@ class PressCams(DiscCams):
             self.transition_end,
             math.radians(cam.return_angle),
             return_law,
+            self.spec.sync.end is not None,
         )
 
     @property
@@ -220,6 +222,11 @@ class PressCams(DiscCams):
     @cached_property
     def _last(self) -> dict[int, tuple[bytes, Travel]]:
         return {}
+
+    def explained(self, refusal: NoSolution) -> NoSolution:
+        """Where the bed turns back within the zone no size of the cams helps."""
+        turned = turns_back(self.follower) if not refusal.key and self.follows else None
+        return turned or refusal
 
     def require_motion(self) -> None:
         """Compute chains and zone."""

@@ -13,10 +13,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gearlink.core.cams.laws import Law
-from gearlink.core.errors import NoSolution
+from gearlink.core.flatbed_press import refusals
 from gearlink.core.flatbed_press.chains import BedChain, CylinderChain, Travel, difference
 from gearlink.core.numerics.roots import bracketed_root, maximum
-from gearlink.core.report import safely_below
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
@@ -60,6 +59,7 @@ class Compensation:
         transition_end : float [rad] - cam angle at which the rack stands
         return_angle : float [rad] - cam angle of the return
         return_law : Law - rest-to-rest law of the return
+        end_given : bool - whether the file gives the end of the zone itself, not its length
     Raises
         NoSolution - when the stretches do not follow each other within one turn
     Source
@@ -75,6 +75,7 @@ class Compensation:
     transition_end: float
     return_angle: float
     return_law: Law
+    end_given: bool = False
 
     @cached_property
     def cam_sync_start(self) -> float:
@@ -216,16 +217,9 @@ class Compensation:
         """
         begin, start, end = self.cam_sync_start - self.lead_in, self.cam_sync_start, self.cam_sync_end
         if not self.transition_end > end:
-            least = math.degrees(end)
-            remedy = "put cam.transition_end behind it, the farther the flatter the cam"
-            remedy = remedy if end < _TURN else "shorten the zone"
-            raise NoSolution(
-                f"the transition ends at cam angle {math.degrees(self.transition_end):.6g} deg, but the synchronous "
-                f"zone only at {least:.6g} deg: {remedy}",
-                key="cam.transition_end",
-            )
+            raise refusals.transition_too_early(self)
         if self.return_end > begin + _TURN:
-            raise self._return_too_late(begin + _TURN)
+            raise refusals.return_too_late(self)
         stretches = [
             Segment("sync", start, end, self._sync),
             Segment("transition", end, self.transition_end, self._transition),
@@ -235,21 +229,6 @@ class Compensation:
         if self.lead_in > 0.0:
             stretches.insert(0, Segment("lead-in", begin, start, self._lead_in))
         return tuple(stretches)
-
-    def _return_too_late(self, next_sheet: float) -> NoSolution:
-        """The return runs into the next sheet: shorten it, or the lead-in where that leaves no room at all."""
-        text = (
-            f"the return ends at cam angle {math.degrees(self.return_end):.6g} deg, after the next sheet begins at "
-            f"{math.degrees(next_sheet):.6g} deg"
-        )
-        most = math.degrees(next_sheet - self.transition_end)
-        if most > 0.0:
-            return NoSolution(
-                f"{text}: it leaves cam.return_angle {safely_below(most)} deg, the shorter the steeper the cam",
-                key="cam.return_angle",
-            )
-        room = safely_below(math.degrees(self.cam_sync_start + _TURN - self.transition_end))
-        return NoSolution(f"{text}: cam.lead_in and cam.return_angle have {room} deg together", key="cam.lead_in")
 
     def evaluate(self, theta: Any, order: int = 2) -> tuple[Travel, list[str]]:
         """Lift at an array of cam angles, with `order` derivatives, and the phase of each.

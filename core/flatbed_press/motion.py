@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.errors import NoSolution, at_key
 from gearlink.core.flatbed_press.chains import BedChain, CylinderChain, difference
-from gearlink.core.flatbed_press.zone import equal_speed_angle, forward_stroke_end, zone_end
+from gearlink.core.flatbed_press.zone import equal_speed_angle, turning_within, zone_end
 from gearlink.core.linkages.dyad import acute
 from gearlink.core.linkages.fourbar.position import FourBar
 from gearlink.core.linkages.slider_crank.position import SliderCrank
@@ -118,9 +118,7 @@ class PressMotion:
     @cached_property
     def bed_turns_back(self) -> float | None:
         """First input angle within the zone at which the bed turns back [rad]; None where it never does."""
-        end = forward_stroke_end(self.bed)
-        places = (place + turn * _TURN for turn in (0, 1) for place in (0.0, end))
-        return min((place for place in places if self.sync_start < place < self.sync_end), default=None)
+        return turning_within(self.bed, self.sync_start, self.sync_end)
 
     @cached_property
     def zone_length(self) -> float:

@@ -99,9 +99,7 @@ def _length(design: FlatbedPress) -> Iterator[Remedy]:
     """A zone as long as the print, by its length or its end; last a print that fits into zone and circumference."""
     sync, motion = design.spec.sync, design.motion
     if motion.bed_turns_back is not None:
-        most = motion.cylinder.travel(motion.bed_turns_back).value - motion.cylinder.travel(motion.sync_start).value
-        shorter = ("sync.length", at_most(float(most)))
-        yield (shorter,) if sync.end is None else (shorter, ("sync.end", None))
+        yield _before_turning(design, motion.bed_turns_back)
     if sync.end is None:
         yield (("sync.length", sync.print_length),)
     else:
@@ -111,11 +109,21 @@ def _length(design: FlatbedPress) -> Iterator[Remedy]:
     yield (("sync.print_length", at_most(min(motion.zone_length, math.tau * design.spec.cylinder.radius))),)
 
 
+def _before_turning(design: FlatbedPress, turning: float) -> Remedy:
+    """The zone that ends where the bed turns back [rad]."""
+    motion = design.motion
+    most = motion.cylinder.travel(turning).value - motion.cylinder.travel(motion.sync_start).value
+    shorter = ("sync.length", at_most(float(most)))
+    return (shorter,) if design.spec.sync.end is None else (shorter, ("sync.end", None))
+
+
 def _pressure(design: FlatbedPress) -> Iterator[Remedy]:
     """The base radius that keeps the limit with room for roller and shaft, or the angle that it is chosen for."""
     cams, limit = design.cams, design.spec.limits.pressure_angle
     if cams.refusal is not None and cams.refusal.key == "cam.transition_end":
         yield from _later_transition(design)
+    elif cams.refusal is not None and cams.refusal.key in ("sync.length", "sync.end"):
+        yield from _without_turning(design)
     elif design.spec.size is not None and design.cams.section.base_radius is None:
         yield (("size.pressure_angle", at_most(limit, 0.5)),)
     elif cams.follows:
@@ -124,6 +132,18 @@ def _pressure(design: FlatbedPress) -> Iterator[Remedy]:
         except NoSolution:
             radius = cams.base_radius_for_pressure(math.radians(limit))
         yield (("cam.base_radius", at_least(radius)),)
+
+
+def _without_turning(design: FlatbedPress) -> Iterator[Remedy]:
+    """A zone that ends before the bed turns back, alone or with a transition that ends behind it."""
+    turning = design.motion.bed_turns_back
+    if turning is None:
+        return
+    shorter = _before_turning(design, turning)
+    yield shorter
+    spec = changed(design.spec, shorter)
+    if spec is not None:
+        yield from ((*shorter, *later) for later in _later_transition(type(design)(spec)))
 
 
 def _later_transition(design: FlatbedPress) -> Iterator[Remedy]:

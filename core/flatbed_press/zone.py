@@ -26,6 +26,12 @@ def forward_stroke_end(bed: BedChain) -> float:
     return float(bed.input_angle(math.pi + dead_center_extended(*lengths) - dead_center_folded(*lengths)))
 
 
+def turning_within(bed: BedChain, start: float, end: float) -> float | None:
+    """First input angle between two at which the bed turns back [rad]; None where it never does."""
+    places = (place + turn * _TURN for turn in (0, 1) for place in (0.0, forward_stroke_end(bed)))
+    return min((place for place in places if start < place < end), default=None)
+
+
 def equal_speed_angle(bed: BedChain, cylinder: CylinderChain, *, advise: bool = True) -> float:
     """First input angle after the start at which bed and cylinder have the same speed [rad].
 
