@@ -18,15 +18,17 @@ CONSTANT_SUM = Rule(
 SYNC_SPEED = Rule(
     "GL501",
     "bed and cylinder differ in speed at the start of the zone",
-    "At the start of the synchronous zone bed and cylinder do not run equally fast.",
-    "The compensation cam makes good a difference of travel, but a difference of speed is a blow at its start.",
+    "At the start of the synchronous zone bed and cylinder do not run equally fast; or the file has no cam, and the "
+    "travels differ over the zone.",
+    "The compensation cam makes good a difference of travel, but a difference of speed is a blow at its start. Without "
+    "a cam the difference of travel smears the print.",
     "Leave sync.start out: then the zone starts where the speeds are equal; or take the difference up before the zone "
-    "by cam.lead_in.",
+    "by cam.lead_in. Give the section cam, whose follower takes the difference of travel back.",
     "|p'(phi_s) - q'(phi_s)| <= 1e-3 |q'(phi_s)|, p travel of the bed, q of the cylinder; with a lead-in the jump of "
-    "the rack's own speed there in place of p' - q'",
+    "the rack's own speed there in place of p' - q'; without a cam p - q at the end of the zone as at its start",
     "TY-460 report 3.2",
     ("sync-speed",),
-    ("sync.start", "cam.lead_in", "sync", "cylinder"),
+    ("sync.start", "cam.lead_in", "cam", "sync", "cylinder"),
 )
 SYNC_LENGTH = Rule(
     "GL502",

@@ -16,7 +16,7 @@ from gearlink.core.gears.checks import GEAR_CHECKS, GEAR_QUANTITIES, GearQuantit
 from gearlink.core.gears.drawing_names import DERIVED, DRAWING_CHECKS, DRAWING_QUANTITIES, lacking
 from gearlink.core.linkages.slider_crank.design import SLIDER_QUANTITIES, SliderCrankQuantities
 from gearlink.core.motion_extremes import WithExtremes, names
-from gearlink.core.report import Check, Table
+from gearlink.core.report import Check, Report, Table
 from gearlink.core.results import cached_property
 
 if TYPE_CHECKING:
@@ -51,10 +51,9 @@ _CAM = (
     "return_min_radius",
 )
 _PRESS_CHECKS = ("transmission-angle", "sync-speed", "sync-length", "register", "crank-clearance")
-_BEARING = ("pressure-angle", "cam-undercut")
+_BEARING = ("pressure-angle", "cam-undercut", "shaft-clearance")
 _CAM_CHECKS = (
     *_BEARING,
-    "shaft-clearance",
     "velocity-step",
     "acceleration-step",
     "constant-sum",
@@ -246,6 +245,20 @@ class FlatbedPress(WithExtremes, SliderCrankQuantities, GearQuantities, Design):
 
         with at_key("input_gears"):
             return pair_check(name, self.gear_data, self.spec.limits, shifts=self._shifts_given)
+
+    def require(self, command: str) -> None:
+        """Compute every quantity of a command; where a cam cannot be since the bed turns back, the refusal says so."""
+        try:
+            super().require(command)
+        except NoSolution as error:
+            raise self.cams.explained(error) from error
+
+    def report(self, command: str, **asked: Any) -> Report:
+        """The report of a command, with the same refusal."""
+        try:
+            return super().report(command, **asked)
+        except NoSolution as error:
+            raise self.cams.explained(error) from error
 
     @classmethod
     def judged(cls, command: str, spec: Any, /) -> tuple[str, ...]:

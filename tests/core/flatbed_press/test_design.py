@@ -305,12 +305,27 @@ def test_register(ratio, status, repaired):
 
 @pytest.mark.parametrize(("start", "status"), [(None, "pass"), (34.0, "pass"), (40.0, "fail")])
 def test_speeds_at_the_start_of_the_zone(start, status):
-    (check,) = press(sync={"start": start, "end": 150.0}).check("sync-speed")
+    check, gathered = press(sync={"start": start, "end": 150.0}).check("sync-speed")
     assert (check.code, check.status) == ("GL501", status)
+    assert (gathered.code, gathered.status, gathered.unit) == ("GL501", "warn", "mm")
     phi = mp.radians(start) if start else TY460.equal_speed
     share = abs(mp.diff(TY460.gap, phi) / mp.diff(TY460.q, phi))
     assert check.value == pytest.approx(float(share), abs=1e-13)
     assert ("leave sync.start out" in check.message) == (status == "fail")
+
+
+@pytest.mark.quick(2)
+@pytest.mark.parametrize("name", PRESSES)
+def test_without_a_cam_what_the_travels_gather_over_the_zone_is_warned_of(name):
+    oracle, length = PRESSES[name], 0.3 * PRESSES[name].stroke
+    found = press(oracle, sync={"length": length}).check("sync-speed")
+    ahead = oracle.gap(oracle.end_of(oracle.equal_speed, length)) - oracle.gap(oracle.equal_speed)
+    assert [check.status for check in found] == ["pass", "warn"]
+    assert found[1].value == pytest.approx(float(abs(ahead)), abs=1e-11)
+    side = "ahead of" if ahead > 0 else "behind"
+    assert f"runs {side} the cylinder by {float(abs(ahead)):.6g} mm, and no cam makes that good" in found[1].message
+    (alone,) = press(oracle, sync={"length": length}, cam=CAM).check("sync-speed")
+    assert alone == found[0]
 
 
 @pytest.mark.parametrize(("print_length", "status"), [(0.0, "pass"), (320.0, "pass"), (420.0, "pass"), (420.1, "fail")])
@@ -476,6 +491,54 @@ def test_a_zone_that_cannot_be_is_refused_with_its_own_key(command):
     with pytest.raises(NoSolution) as refused:
         press(cam=CAM, sync={"end": 20.0}).report(command)
     assert refused.value.key == "sync.end"
+
+
+@pytest.mark.parametrize("command", ["press", "check"])
+def test_a_shaft_that_the_cams_do_not_clear_fails_in_press_too(command):
+    design = press(cam=CAM | {"shaft_radius": 359.999})
+    judged = FlatbedPress.judged("press", design.spec) if command == "check" else design.outline("press").checks
+    assert judged.count("shaft-clearance") == 1
+    found = [check for check in design.report("press").checks if check.name == "shaft-clearance"]
+    assert [(check.code, check.status) for check in found] == [("GL302", "fail")] * 2
+    assert [check.value for check in found] == pytest.approx([design.min_radius - 359.999] * 2, rel=1e-12)
+    impossible = press(cam=CAM | {"shaft_radius": 359.999, "transition_end": 100.0}).report("press")
+    assert "shaft-clearance" not in {check.name for check in impossible.checks}
+
+
+TURNS_BACK = "the bed turns back at input angle 223.955 deg, within the synchronous zone"
+
+
+@pytest.mark.quick(2)
+@pytest.mark.parametrize(
+    ("keys", "key", "words"),
+    [
+        (
+            {},
+            "sync.length",
+            "at most 283.52 mm, and cam.transition_end behind .* the 125 deg that it has do for 164.47",
+        ),
+        ({"cam__return_angle": 300.0}, "sync.length", "at most 283.52 mm"),
+        ({"cam__transition_end": 315.0}, "sync.length", "at most 283.52 mm$"),
+        ({"cam__transition_end": 350.0}, "sync.length", "at most 283.52 mm$"),
+        ({"sync__end": 300.0}, "sync.end", "at most 223.95 deg, and .* the 125 deg that it has do for 168.81 deg"),
+    ],
+)
+def test_a_bed_that_turns_back_within_the_zone_is_named_before_the_cam(keys, key, words):
+    """The length to there by the table of positions; both numbers, applied as printed, give cams."""
+    design = factory.design("ty460", bed__offset=-90.0, **keys)
+    with pytest.raises(
+        NoSolution, match=TURNS_BACK + ".*" + words.replace("behind .* the", r"behind .*\(the")
+    ) as refused:
+        design.report("cam")
+    assert refused.value.key == key
+    (failed,) = [check for check in design.report("press").checks if check.name == "pressure-angle"]
+    assert TURNS_BACK in failed.message
+    for repaired in ({"sync__length": 283.52, "cam__transition_end": 200.0}, {"sync__length": 164.47}):
+        followed = factory.design("ty460", bed__offset=-90.0, **repaired)
+        assert followed.max_pressure_angle > 0.0
+        assert followed.motion.bed_turns_back is None
+    longer = factory.design("ty460", bed__offset=-90.0, sync__length=283.53)
+    assert longer.motion.bed_turns_back is not None
 
 
 def test_speeds_where_a_lead_in_takes_the_difference_up():
