@@ -43,6 +43,29 @@ class BedMotion:
         bend = s.second * cam.first * cam.first + s.first * cam.second
         return Travel(p.value - s.value, p.first - s.first * cam.first, p.second - bend)
 
+    def jerk(self, input_angle: Reals) -> Reals:
+        """Third derivative of the bed's travel by the input angle [mm/rad^3].
+
+        b''' = q''' in the zone, elsewhere b''' = p''' - s''' c'^3 - 3 s'' c' c'' - s' c'''
+
+        Source
+            own derivation: the chain rule once more
+        """
+        import numpy as np
+
+        from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
+
+        bed = self.motion.bed
+        found: Reals = bed.jerk(input_angle)
+        if self.follower is None:
+            return found
+        state = fourbar_sweep.solve(bed.linkage, bed.initial_crank_angle + input_angle, 3)
+        cam = bed.cam_angle(input_angle, 2)
+        s, third = self.follower.lift_at(input_angle, cam), self.follower.jerk(cam.value)
+        bend = third * cam.first**3 + 3.0 * s.second * cam.first * cam.second + s.first * state.rocker_jerk
+        jerk: Reals = np.where(np.isnan(third), self.motion.cylinder.jerk(input_angle), found - bend)
+        return jerk
+
     @cached_property
     def joints(self) -> tuple[float, ...]:
         """Input angles in [0, 2 pi) at which the law of the lift changes [rad]."""

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from gearlink.core.cams.laws import Law
 from gearlink.core.flatbed_press import refusals
 from gearlink.core.flatbed_press.chains import BedChain, CylinderChain, Travel, difference
+from gearlink.core.flatbed_press.powers import Terms, powers, third
 from gearlink.core.numerics.roots import bracketed_root, maximum
 from gearlink.core.results import cached_property
 
@@ -167,39 +168,47 @@ class Compensation:
         lift = self._zone_lift(phi, order, cam)
         return Travel(lift.value + self.lead_in_lift, lift.first, lift.second)
 
-    def _lead_in(self, theta: Any, order: int) -> Travel:
+    @cached_property
+    def _lead_in_terms(self) -> Terms:
         """Acceleration a linear-quadratic ramp from 0, so that slope and acceleration meet the zone's."""
         length, k, a = self.lead_in, self._zone_start.first, self._zone_start.second
-        u = theta - (self.cam_sync_start - length)
-        c3 = (k / length - a / 3.0) / length
-        c4 = (a / 4.0 - k / (2.0 * length)) / (length * length)
-        return _powers(u, order, ((3, c3), (4, c4)))
+        return (3, (k / length - a / 3.0) / length), (4, (a / 4.0 - k / (2.0 * length)) / (length * length))
 
-    def _transition(self, theta: Any, order: int) -> Travel:
-        start, span = self.cam_sync_end, self.transition_end - self.cam_sync_end
-        if self.transition == "arc":
-            return self._arc(theta)
-        k, a = self.end_slope, float(self._zone_end.second)
+    def _lead_in(self, theta: Any, order: int) -> Travel:
+        return powers(theta - (self.cam_sync_start - self.lead_in), order, self._lead_in_terms)
+
+    @cached_property
+    def _transition_terms(self) -> Terms:
+        """Of the parabola and of the quartic."""
+        span, k, a = self.transition_end - self.cam_sync_end, self.end_slope, float(self._zone_end.second)
         base = self.lead_in_lift + self.compensation
-        u = theta - start
         if self.transition == "parabola":
-            return _powers(u, order, ((0, base), (1, k), (2, -k / (2.0 * span))))
+            return (0, base), (1, k), (2, -k / (2.0 * span))
         c3 = -(k + 2.0 * a * span / 3.0) / span**2
         c4 = (k + a * span / 2.0) / (2.0 * span**3)
-        return _powers(u, order, ((0, base), (1, k), (2, a / 2.0), (3, c3), (4, c4)))
+        return (0, base), (1, k), (2, a / 2.0), (3, c3), (4, c4)
 
-    def _arc(self, theta: Any) -> Travel:
-        """Arc in the plot of lift [mm] over cam angle [deg], tangent to the zone's end slope and to the level."""
+    def _transition(self, theta: Any, order: int) -> Travel:
+        if self.transition == "arc":
+            return self._arc(theta)[0]
+        return powers(theta - self.cam_sync_end, order, self._transition_terms)
+
+    def _arc(self, theta: Any) -> tuple[Travel, Any]:
+        """Arc in the plot of lift [mm] over cam angle [deg], tangent to the zone's end slope and to the level.
+
+        Lift with two derivatives, and the third.
+        """
         per_degree = math.radians(self.end_slope)
         if per_degree == 0.0:
-            return Travel(self.top + 0.0 * theta, 0.0 * theta, 0.0 * theta)
+            return Travel(self.top + 0.0 * theta, 0.0 * theta, 0.0 * theta), 0.0 * theta
         span = math.degrees(self.transition_end - self.cam_sync_end)
         radius = span / math.sin(math.atan(per_degree))
         scale = 180.0 / math.pi
         x = (self.transition_end - theta) * scale / radius
         root = (1.0 - x * x) ** 0.5
         drop = radius * x * x / (1.0 + root)
-        return Travel(self.top - drop, scale * x / root, -scale * scale / (radius * root**3))
+        arc = Travel(self.top - drop, scale * x / root, -scale * scale / (radius * root**3))
+        return arc, 3.0 * scale**3 * x / (radius**2 * root**5)
 
     def _return(self, theta: Any, order: int) -> Travel:
         """The rest-to-rest law, run downwards."""
@@ -256,13 +265,45 @@ class Compensation:
         """
         return self._placed(cam.value, 2, (phi, cam))[0]
 
-    def _placed(self, theta: Any, order: int, known: tuple[Reals, Travel] | None = None) -> tuple[Travel, Any]:
-        """Lift at an array of cam angles and the number of the stretch of each; `known`: as of `lift_at`."""
+    def jerk(self, theta: Any) -> Any:
+        """Third derivative of the lift by the cam angle at an array of cam angles [mm/rad^3]; NaN in the zone.
+
+        Source
+            own derivation
+        """
+        import numpy as np
+
+        turned, index = self._stretches(theta)
+        found = np.zeros_like(turned)
+        for number, segment in enumerate(self.segments[:-1]):
+            here = index == number
+            found[here] = self._jerk_of(segment.phase, turned[here])
+        return found
+
+    def _jerk_of(self, phase: str, theta: Any) -> Any:
+        if phase == "return":
+            x = (theta - self.transition_end) / self.return_angle
+            return -self.top * self.return_law.evaluate(x, 3)[3] / self.return_angle**3
+        if phase == "lead-in":
+            return third(theta - (self.cam_sync_start - self.lead_in), self._lead_in_terms)
+        if phase == "transition":
+            by_powers = self.transition != "arc"
+            return third(theta - self.cam_sync_end, self._transition_terms) if by_powers else self._arc(theta)[1]
+        return math.nan
+
+    def _stretches(self, theta: Any) -> tuple[Any, Any]:
+        """Cam angles within the turn of the stretches, and the number of the stretch of each."""
         import numpy as np
 
         begin = self.segments[0].start
         turned = begin + np.mod(np.asarray(theta, dtype=float) - begin, _TURN)
-        index = np.searchsorted([segment.start for segment in self.segments], turned, side="right") - 1
+        return turned, np.searchsorted([segment.start for segment in self.segments], turned, side="right") - 1
+
+    def _placed(self, theta: Any, order: int, known: tuple[Reals, Travel] | None = None) -> tuple[Travel, Any]:
+        """Lift at an array of cam angles and the number of the stretch of each; `known`: as of `lift_at`."""
+        import numpy as np
+
+        turned, index = self._stretches(theta)
         lift = Travel(*(np.zeros_like(turned) for _ in range(order + 1)))
         for number, segment in enumerate(self.segments[:-1]):  # the last one stands
             inside = np.flatnonzero(index == number)
@@ -341,17 +382,6 @@ def _peak(segment: Segment, sign: float, grid: list[float], values: list[float])
     if slope_at(low) * slope_at(high) < 0.0:
         return max(values[i], sign * float(segment.lift(bracketed_root(slope_at, low, high), 0).value))
     return max(values[i], maximum(lambda theta: sign * float(segment.lift(theta, 0).value), low, high)[1])
-
-
-def _powers(u: Any, order: int, terms: tuple[tuple[int, float], ...]) -> Travel:
-    """Sum of c u^n and its derivatives."""
-    value = sum(c * u**n for n, c in terms)
-    if order == 0:
-        return Travel(value)
-    first = sum(n * c * u ** (n - 1) for n, c in terms if n)
-    if order == 1:
-        return Travel(value, first)
-    return Travel(value, first, sum(n * (n - 1) * c * u ** (n - 2) for n, c in terms if n > 1))
 
 
 def _at_rest(theta: Any, _order: int) -> Travel:

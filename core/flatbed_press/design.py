@@ -63,10 +63,12 @@ _CAM_TABLES = ("follower", "main_cam", "return_cam")
 _PRESS_QUANTITIES = ("crank_length", "initial_crank_angle", *_SYNC, *_CHAINS)
 
 
+_BED_EXTREMES = names("bed_velocity", "bed_acceleration")
 _EXTREMES = (
     "min_transmission_angle_bed_at",
     "min_transmission_angle_cylinder_at",
-    *names("bed_velocity", "bed_acceleration", "cylinder_velocity", "cylinder_acceleration"),
+    *_BED_EXTREMES,
+    *names("cylinder_velocity", "cylinder_acceleration"),
 )
 
 
@@ -120,6 +122,11 @@ class FlatbedPress(WithExtremes, SliderCrankQuantities, GearQuantities, Design):
     def bed_motion(self) -> BedMotion:
         """The bed, the lift of its cam taken off where the file has one."""
         return BedMotion(self.motion, None if self.spec.cam is None else self.cams.follower)
+
+    @property
+    def bed_moves(self) -> bool:
+        """Whether the motion of the bed exists, for which a cam that the file has must have its lift."""
+        return self.spec.cam is None or self.cams.follows
 
     @cached_property
     def gear_pair(self) -> GearPair:
@@ -196,7 +203,9 @@ class FlatbedPress(WithExtremes, SliderCrankQuantities, GearQuantities, Design):
     return_min_radius: float = placed("cams.min_radius")
 
     def raw(self, name: str) -> Any:
-        """Quantities of the gear pair are its own."""
+        """Quantities of the gear pair are its own, and so are extremes of the bed."""
+        if name in _BED_EXTREMES:
+            return self.bed_motion.extremes[name]
         if name in GEAR_QUANTITIES:
             return gear_quantity(self.gear_pair, name)
         if name not in DRAWING_QUANTITIES:
@@ -272,8 +281,12 @@ class FlatbedPress(WithExtremes, SliderCrankQuantities, GearQuantities, Design):
         if command not in ("press", "analyze") or self.spec.cam is None:
             return outline
         bearing = _BEARING if self.cams.is_sized else ()
-        if command == "press" or (bearing and self.cams.is_refused):
+        if command == "press":
             return Outline(outline.quantities, (*outline.checks, *bearing), outline.tables)
+        if bearing and self.cams.is_refused:
+            left_out = () if self.bed_moves else _BED_EXTREMES
+            quantities = tuple(name for name in outline.quantities if name not in left_out)
+            return Outline(quantities, (*outline.checks, *bearing), outline.tables)
         return Outline(
             (*outline.quantities, *_CAM),
             tuple(dict.fromkeys([*outline.checks, *_CAM_CHECKS])),

@@ -70,13 +70,12 @@ class PressMotion:
 
     @cached_property
     def extremes(self) -> dict[str, float]:
-        """Extremes of velocity and acceleration of bed and cylinder [mm/s, mm/s^2], and all their places [rad]."""
+        """Extremes of velocity and acceleration of the cylinder [mm/s, mm/s^2], and their places and those of the least
+        transmission angles [rad]."""
         from gearlink.core.motion_extremes import extremes
 
-        speed, bed, cylinder = self.input_speed, self.bed, self.cylinder
+        speed, cylinder = self.input_speed, self.cylinder
         curves = {
-            "bed_velocity": lambda phi: bed.travel(phi, 1).first * speed,
-            "bed_acceleration": lambda phi: bed.travel(phi, 2).second * speed**2,
             "cylinder_velocity": lambda phi: cylinder.travel(phi, 1).first * speed,
             "cylinder_acceleration": lambda phi: cylinder.travel(phi, 2).second * speed**2,
         }

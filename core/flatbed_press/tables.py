@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 def positions(design: FlatbedPress, samples: int | None = None) -> Table:
-    """Both chains at equal steps of the input angle (TY-460 report 1.2, 2.2)."""
+    """Both chains at equal steps of the input angle (TY-460 report 1.2, 2.2), and the bed with the lift of its cam."""
     import numpy as np
 
     from gearlink.core.numerics.arrays import turn_degrees
@@ -34,11 +34,18 @@ def positions(design: FlatbedPress, samples: int | None = None) -> Table:
             "deg",
         ),
     }
+    if design.spec.cam is not None and design.bed_moves:
+        bed = design.bed_motion.travel(phi)
+        columns["compensated_displacement"] = (bed.value, "mm")
+        columns["compensated_velocity"] = (bed.first * speed, "mm/s")
     return Table.of("positions", columns)
 
 
 def chains(design: FlatbedPress, samples: int | None = None) -> Table:
-    """Accelerations of bed and cylinder and the directions of all links over the input angle, with the time."""
+    """Accelerations of bed and cylinder and the directions of all links over the input angle, with the time.
+
+    Of a bed whose cam cannot be nothing is said.
+    """
     import numpy as np
 
     from gearlink.core.linkages.fourbar import sweep as fourbar_sweep
@@ -47,8 +54,7 @@ def chains(design: FlatbedPress, samples: int | None = None) -> Table:
 
     motion, degrees = design.motion, turn_degrees(samples)
     phi, speed, bed, cylinder = np.radians(degrees), motion.input_speed, motion.bed, motion.cylinder
-    cam = bed.cam_angle(phi, 2)
-    p, q = bed.travel(phi, 2, cam), cylinder.travel(phi, 2)
+    q = cylinder.travel(phi, 2)
     one = fourbar_sweep.solve(bed.linkage, bed.initial_crank_angle + phi, 0)
     other = fourbar_sweep.solve(cylinder.linkage, cylinder.initial_angle - phi, 0)
     slider = one.rocker_angle - bed.crank_offset_angle
@@ -57,8 +63,7 @@ def chains(design: FlatbedPress, samples: int | None = None) -> Table:
     columns = {
         "input_angle": (degrees, "deg"),
         "time": (degrees / 360.0 * 3.6e6 / design.spec.speed, "ms"),
-        "bed_velocity": (p.first * speed, "mm/s"),
-        "bed_acceleration": (p.second * speed**2, "mm/s^2"),
+        **_bed_rates(design, phi),
         "cylinder_velocity": (q.first * speed, "mm/s"),
         "cylinder_acceleration": (q.second * speed**2, "mm/s^2"),
         "BC_angle": (np.degrees(one.coupler_angle), "deg"),
@@ -69,6 +74,13 @@ def chains(design: FlatbedPress, samples: int | None = None) -> Table:
         "MN_angle": (np.degrees(other.rocker_angle), "deg"),
     }
     return Table.of("chains", columns)
+
+
+def _bed_rates(design: FlatbedPress, phi: Any) -> dict[str, Any]:
+    if not design.bed_moves:
+        return {}
+    bed, speed = design.bed_motion.travel(phi), design.motion.input_speed
+    return {"bed_velocity": (bed.first * speed, "mm/s"), "bed_acceleration": (bed.second * speed**2, "mm/s^2")}
 
 
 def _transmission(linkage: FourBar, crank_angle: Any) -> Any:

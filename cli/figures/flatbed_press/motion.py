@@ -187,6 +187,9 @@ def _curves(axes: list[Axes], design: FlatbedPress) -> None:
             index = dense.columns.index(f"{part}_{what}")
             each.plot(dense.data[0], dense.data[index], color=color, linewidth=1.6, linestyle=line, label=part)
             each.plot(twelve.data[0], twelve.data[index], "o", color=color, markersize=3.0)
+        if f"compensated_{what}" in dense.columns:
+            with_cam: Any = {"color": BED, "linewidth": 1.1, "linestyle": style.DOTTED, "label": "bed with its cam"}
+            each.plot(dense.data[0], dense[f"compensated_{what}"], **with_cam)
         each.axhline(0.0, color=style.GREY, linewidth=0.6)
     panels.heading(axes[0], "Travel of bed and cylinder")
     panels.heading(axes[1], "Speed")

@@ -63,7 +63,7 @@ class Course:
         sign = 1.0 if greatest else -1.0
         values = sign * self.rates[order]
         top, height = float(values.max()), float(np.ptp(values))
-        joints = tuple(phase.end for phase in self.bands)
+        joints = tuple({place for phase in self.bands for place in (phase.end, phase.end % 360.0)})
         best = -math.inf, 0.0
         for i in np.flatnonzero(_humps(values) & (values >= top - _NEAR * height)).tolist():
             low, high = self._beside(i)
@@ -207,19 +207,24 @@ def _slider_crank(design: Any) -> list[Course]:
 
 
 def _press(design: Any) -> list[Course]:
-    zone = (panels.Phase("sync", math.degrees(design.sync_start), math.degrees(design.sync_end)),)
+    over, speed, bed = "input angle [deg]", design.input_speed, design.bed
+    zone = panels.Phase("sync", math.degrees(design.sync_start), math.degrees(design.sync_end))
 
-    def of(chain: Any) -> Callable[[Reals], tuple[Reals, ...]]:
-        def rates(x: Reals) -> tuple[Reals, ...]:
-            phi = np.radians(x)
-            travel = chain.travel(phi, 2)
-            return travel.value, travel.first, travel.second, chain.jerk(phi)
+    def of(travel: Callable[[Reals], Any], jerk: Callable[[Reals], Reals]) -> Callable[[Reals], tuple[Reals, ...]]:
+        return lambda x: (*travel(np.radians(x)), jerk(np.radians(x)))
 
-        return rates
-
-    over, speed = "input angle [deg]", design.input_speed
-    chains = (("Bed", design.bed), ("Cylinder surface", design.cylinder))
-    return [Course(name, over, _angles(), of(chain), "mm", speed, zone) for name, chain in chains]
+    surface = of(lambda phi: design.cylinder.travel(phi, 2), design.cylinder.jerk)
+    cylinder = Course("Cylinder surface", over, _angles(), surface, "mm", speed, (zone,))
+    if not design.bed_moves:
+        chain = of(lambda phi: bed.travel(phi, 2), bed.jerk)
+        return [Course("Bed, without its cam", over, _angles(), chain, "mm", speed, (zone,)), cylinder]
+    moving = design.bed_motion
+    lift = () if moving.follower is None else moving.follower.segments
+    ends = [(each, [math.degrees(bed.input_angle(angle)) for angle in (each.start, each.end)]) for each in lift]
+    phases = tuple(panels.Phase(each.phase, *angles) for each, angles in ends)
+    joints = np.degrees(moving.joints)
+    x = np.unique(np.concatenate([_angles(), joints, np.nextafter(joints, 0.0)])) if lift else _angles()
+    return [Course("Bed", over, x, of(moving.travel, moving.jerk), "mm", speed, phases or (zone,)), cylinder]
 
 
 def _gripper(design: Any) -> list[Course]:

@@ -37,11 +37,40 @@ def _turned(values: Any) -> Any:
 @pytest.mark.parametrize(("name", "command"), SMOOTH)
 def test_each_curve_is_the_derivative_of_the_one_above(name: str, command: str) -> None:
     """Fourier's derivative is exact to rounding, which it multiplies by the number of waves, 360."""
-    for course in motion_sheet.courses(design(worked(name), command=command)):
+    # a cam's law has joints, for which see below
+    for course in motion_sheet.courses(design(worked(name), command=command, cam=None)):
         assert len(course.rates) >= 3
         for lower, upper in zip(course.rates, course.rates[1:], strict=False):
             scale = float(np.abs(upper).max()) + float(np.abs(lower).max())
             assert np.abs(_turned(lower) - upper).max() < 360 * 1e-13 * scale
+
+
+def test_each_curve_of_a_bed_with_its_cam_is_the_derivative_of_the_one_above() -> None:
+    """Stretch by stretch, by Gauss's rule on 12 points: exact to rounding on stretches of some 6 deg."""
+    made = design(worked("ty460"))
+    bed, cylinder = motion_sheet.courses(made)
+    assert [phase.name for phase in bed.bands] == [segment.phase for segment in made.follower.segments]
+    assert [phase.end for phase in bed.bands[:-1]] == [phase.start for phase in bed.bands[1:]]
+    assert [phase.name for phase in cylinder.bands] == ["sync"]
+    nodes, weights = np.polynomial.legendre.leggauss(12)
+    for phase in bed.bands:
+        edges = np.linspace(phase.start + 1e-9, phase.end - 1e-9, 24)
+        half = 0.5 * (edges[1:] - edges[:-1])
+        inside = bed.at((0.5 * (edges[1:] + edges[:-1])[:, None] + half[:, None] * nodes).ravel())
+        at_edges = bed.at(edges)
+        for lower, upper in zip(at_edges, inside[1:], strict=False):
+            grown = np.radians(half) * (upper.reshape(-1, 12) @ weights)
+            scale = float(np.abs(upper).max()) + float(np.abs(lower).max())
+            np.testing.assert_allclose(np.diff(lower), grown, rtol=0.0, atol=1e-10 * scale)
+    for place in made.bed_motion.joints:
+        assert {math.degrees(place), float(np.nextafter(math.degrees(place), 0.0))} <= set(bed.x.tolist())
+
+
+def test_a_bed_whose_cam_cannot_be_is_shown_without_it() -> None:
+    made = design(worked("ty460"), cam__transition_end=100.0)
+    bed, bare = motion_sheet.courses(made)[0], motion_sheet.courses(design(worked("ty460"), cam=None))[0]
+    assert (bed.name, bare.name) == ("Bed, without its cam", "Bed")
+    assert all(np.array_equal(one, other) for one, other in zip(bed.rates, bare.rates, strict=True))
 
 
 def test_jerk_of_the_gripper_joins_its_acceleration() -> None:

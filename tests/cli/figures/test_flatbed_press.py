@@ -46,6 +46,13 @@ def test_curves_are_the_table_of_positions(press: Sheet, what: str, part: str) -
     np.testing.assert_array_equal(dots.get_ydata(), column)
 
 
+@pytest.mark.parametrize("what", ["displacement", "velocity"])
+def test_the_bed_with_its_cam_is_drawn_besides(press: Sheet, what: str) -> None:
+    line = lines(panel(press.figure, "Travel" if what == "displacement" else "Speed"))["bed with its cam"]
+    np.testing.assert_array_equal(line.get_ydata()[::60], press.design.table("positions")[f"compensated_{what}"])
+    assert "bed with its cam" not in lines(panel(sheet("ty460", "press", cam=None).figure, "Speed"))
+
+
 def test_equal_speeds_stand_on_both_curves(press: Sheet) -> None:
     axes = panel(press.figure, "Speed")
     dots = next(line for line in axes.get_lines() if line.get_marker() == "D")

@@ -9,14 +9,14 @@ Samples: by the exact chain, which knows a difference of some 1e-3 mm of travels
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import cache
 from typing import Any
 
 import factory
 import mpmath as mp
 import numpy as np
 import pytest
-from oracles.press import TY460, at, polynomial
+from oracles.press import TY460
+from oracles.press_follower import lift
 
 from gearlink.core.errors import MissingSection, NoSolution
 
@@ -24,7 +24,6 @@ pytestmark = pytest.mark.usefixtures("forty_digits")
 
 ANGLES = {"lead-in": (25.0, 30.0), "sync": (34.0, 60.0, 120.0, 153.5), "transition": (155.0, 162.0)}
 ANGLES |= {"return": (170.0, 200.0, 230.0), "dwell": (10.0, 270.0, 290.0, 330.0)}
-LEAD_IN, TRANSITION_END, RETURN_ANGLE = mp.radians(12), mp.radians(125), mp.radians(100)
 STEP = mp.mpf("1e-9")
 LINKS = ("crank", "coupler", "rocker", "frame")
 
@@ -56,44 +55,6 @@ def turn_too_far(links: Any, crank_angle: Any, errors: dict[str, Any], chain: st
     turn = mp.radians(errors.get(f"{chain}.initial_crank_angle", 0))
     moved = knee(*lengths[:3], sum(before) - lengths[3], d + last, turn, d + plain)
     return mp.arg(moved / plain)
-
-
-@cache
-def stretches() -> dict[str, Any]:
-    """Ends of the zone [rad of input, rad of cam], and the polynomials beside it."""
-    start = TY460.equal_speed
-    end = TY460.end_of(start, 420)
-    first, last = TY460.cam(start), TY460.cam(end)
-
-    def rates(phi: Any) -> tuple[Any, Any]:
-        (p1, p2), (c1, c2) = ([mp.diff(f, phi, order) for order in (1, 2)] for f in (TY460.gap, TY460.cam))
-        return p1 / c1, (p2 - p1 / c1 * c2) / c1**2
-
-    slope, bend = rates(start)
-    lead = polynomial([(0, 0, 0), (0, 1, 0), (0, 2, 0), (LEAD_IN, 1, slope), (LEAD_IN, 2, bend)])
-    height = at(lead, LEAD_IN) + TY460.gap(end) - TY460.gap(start)
-    slope, bend = rates(end)
-    span = TRANSITION_END - last
-    over = polynomial([(0, 0, height), (0, 1, slope), (0, 2, bend), (span, 1, 0), (span, 2, 0)])
-    return {"start": start, "end": end, "first": first, "last": last, "lead": lead, "over": over}
-
-
-def lift(cam: Any, guess: Any) -> Any:
-    """Lift of the follower at a cam angle."""
-    made = stretches()
-    begin = made["first"] - LEAD_IN
-    cam = begin + (cam - begin) % (2 * mp.pi)
-    if cam <= made["first"]:
-        return at(made["lead"], cam - begin)
-    if cam <= made["last"]:
-        return at(made["lead"], LEAD_IN) + TY460.gap(TY460.input_at(cam, guess)) - TY460.gap(made["start"])
-    if cam <= TRANSITION_END:
-        return at(made["over"], cam - made["last"])
-    x = (cam - TRANSITION_END) / RETURN_ANGLE
-    if x >= 1:
-        return mp.mpf(0)
-    top = at(made["over"], TRANSITION_END - made["last"])
-    return top * (1 - x + mp.sin(2 * mp.pi * x) / (2 * mp.pi))
 
 
 def height(psi: Any, crank: Any, errors: dict[str, Any]) -> Any:
