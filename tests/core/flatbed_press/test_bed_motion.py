@@ -26,7 +26,7 @@ CAMS: dict[str, dict[str, Any]] = {
     "worked": {},
     "no lead-in": {"cam__lead_in": 0.0},
     "arc": {"cam__transition": "arc", "cam__lead_in": 0.0},
-    "parabola": {"cam__transition": "parabola", "cam__return_law": "modified-sine"},
+    "parabola": {"cam__transition": "parabola", "cam__return_law": "polynomial-345"},
     "speed step": {"sync__start": 50.0, "cam__transition_end": 145.0, "cam__lead_in": 0.0},
 }
 OMEGA = 4500.0 / 3600.0 * 2.0 * math.pi
