@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 # By so much of its limits a chosen radius keeps to the safe side: its cams are checked in other roundings.
 _HAIR = 1e-9
 _KEPT = 8192
+_OF_SIZE = ("cam.base_radius", "cam")
+"""Keys that say how large the cams are: the radius, or the section where `size` chooses it."""
 
 
 class PressCams(DiscCams):
@@ -207,7 +209,7 @@ class PressCams(DiscCams):
             return translating(at_zero_lift + lift.value, lift.first, lift.second if order > 1 else 0.0)
 
         joints = tuple(segment.start for segment in self.follower.segments)
-        key = "cam" if self.section.base_radius is None else "cam.base_radius"
+        key = _OF_SIZE[self.section.base_radius is None]
         return DiscCam(name, path, 1, self.section.roller_radius, joints, key)
 
     def _lift(self, theta: Reals, order: int) -> Travel:
@@ -225,7 +227,7 @@ class PressCams(DiscCams):
 
     def explained(self, refusal: NoSolution) -> NoSolution:
         """Where the bed turns back within the zone no size of the cams helps."""
-        turned = turns_back(self.follower) if not refusal.key and self.follows else None
+        turned = turns_back(self.follower) if refusal.key in ("", *_OF_SIZE) and self.follows else None
         return turned or refusal
 
     def require_motion(self) -> None:
