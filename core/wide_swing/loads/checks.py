@@ -30,7 +30,8 @@ def contact_pressure(design: WideSwingLoads) -> Iterator[Check]:
     if found is None:
         yield pressed_where_undercut("the roller presses where its cam", allowed)
         return
-    text = f"the roller presses with {found:.5g} N/mm^2"
+    rest = design.pressing.hardest_rest
+    text = f"the roller presses with {found:.5g} N/mm^2" + (f" in the {rest.words}" if rest is not None else "")
     if found > allowed:
         message = f"{text}, above {allowed:g}: take a wider roller"
         yield codes.CONTACT_PRESSURE.check("fail", message, found, allowed, "N/mm^2")

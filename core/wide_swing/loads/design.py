@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from gearlink.core.numerics.arrays import Points, Reals
     from gearlink.core.report import Remedy
     from gearlink.core.wide_swing.cams.outline import AnyCam
+    from gearlink.core.wide_swing.loads.pressing import Pressing
     from gearlink.core.wide_swing.loads.spec import SwingLoads as Section
     from gearlink.core.wide_swing.loads.stroke import SwingStroke
     from gearlink.core.wide_swing.spec import WideSwingSpec
@@ -314,38 +315,17 @@ class WideSwingLoads(LoadsDesign):
         )
 
     @cached_property
-    def contact_force_max(self) -> float:
-        """Greatest force of the roller on any of the cams over the strokes [N]."""
-        return self._pressed("force") if self.own_forces else self.design.contact_force
+    def pressing(self) -> Pressing:
+        """How hard the rollers press."""
+        from gearlink.core.wide_swing.loads.pressing import Pressing
 
-    def _pressed(self, name: str) -> float:
-        return max(stroke.pressed[name].value for stroke in self.strokes)
+        return Pressing(self)
 
-    @cached_property
-    def least_contact_force(self) -> float:
-        """Least force of the roller where it touches the cam of a stroke [N]."""
-        return min(stroke.pressed["least_force"].value for stroke in self.strokes)
-
+    contact_force_max: float = placed("pressing.force")
+    least_contact_force: float = placed("pressing.least_force")
     lift_off_speed: float = placed("design.unloading.lift_off_speed")
-
-    @cached_property
-    def hertz_pressure_max(self) -> float | None:
-        """Greatest pressure of roller and cam [N/mm^2]; None without a width, and where the cam is undercut."""
-        return self._pressed("pressure") if self.has_pressure else None
-
-    @cached_property
-    def has_pressure(self) -> bool:
-        """Whether the roller has a width and bears on its cams wherever it touches them."""
-        return self.section.roller is not None and not any(stroke.is_undercut for stroke in self.strokes)
-
-    @cached_property
-    def shear_depth(self) -> float | None:
-        """Greatest depth of the greatest shear stress [mm]; with a drive, that where the pressure is greatest."""
-        if not self.has_pressure:
-            return None
-        if self.spec.drive is not None:
-            return max(self.strokes, key=lambda each: each.pressed["pressure"].value).shear_depth_at_greatest_pressure
-        return self._pressed("shear_depth")
+    hertz_pressure_max: float | None = placed("pressing.pressure")
+    shear_depth: float | None = placed("pressing.shear_depth")
 
     @property
     def roller_speed_max(self) -> float:

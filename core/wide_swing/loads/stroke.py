@@ -143,6 +143,10 @@ class SwingStroke:
 
     def contact(self, k: Reals) -> LineContact | None:
         """The Hertzian contact; None without a width."""
+        return self.contact_of(self.force(k), self.relative_radius(k)) if self.loads.section.roller else None
+
+    def contact_of(self, force: Reals, radius: Reals) -> LineContact | None:
+        """The same under a force [N] with a relative radius [mm]."""
         section = self.loads.section
         if section.roller is None:
             return None
@@ -150,7 +154,7 @@ class SwingStroke:
 
         material = section.material or Material()
         modulus = plane_modulus(material.modulus, material.poisson)
-        return LineContact(self.force(k), self.relative_radius(k), section.roller.width, modulus)
+        return LineContact(force, radius, section.roller.width, modulus)
 
     @cached_property
     def parts(self) -> Parts:
