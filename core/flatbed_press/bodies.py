@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 _TURN = 2.0 * math.pi
 _ROWS = 721
-_CRANKS = SHAFT_CLEARANCE.checks[2]
+_NAME = SHAFT_CLEARANCE.checks[2]
 
 
 def crank_axes(design: FlatbedPress) -> Iterator[Check]:
@@ -39,11 +39,11 @@ def crank_axes(design: FlatbedPress) -> Iterator[Check]:
         gap = apart - reach - least
         text = f"the crank {name} ({reach:g} mm) keeps {gap:.6g} mm from the thinnest shaft at {other}"
         if gap >= 0.0:
-            yield SHAFT_CLEARANCE.check("pass", text, gap, 0.0, "mm", name=_CRANKS)
+            yield SHAFT_CLEARANCE.check("pass", text, gap, 0.0, "mm", name=_NAME)
             continue
         text = f"the crank {name} ({reach:g} mm about {own}) passes the axis {other}, {apart:.6g} mm away: that shaft"
         text += " must end before the plane of the crank (be overhung), or raise input_gears.horizontal_distance"
-        yield SHAFT_CLEARANCE.check("warn", text, gap, 0.0, "mm", name=_CRANKS)
+        yield SHAFT_CLEARANCE.check("warn", text, gap, 0.0, "mm", name=_NAME)
 
 
 def return_overlap(design: FlatbedPress) -> Iterator[Check]:

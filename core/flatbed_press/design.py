@@ -50,7 +50,7 @@ _CAM = (
     "return_max_radius",
     "return_min_radius",
 )
-_PRESS_CHECKS = ("transmission-angle", "sync-speed", "sync-length", "register", "crank-clearance")
+_PRESS_CHECKS = ("transmission-angle", "sync-speed", "sync-length", "register", "body-clearance")
 _BEARING = ("pressure-angle", "cam-undercut", "shaft-clearance")
 _CAM_CHECKS = (
     *_BEARING,
@@ -240,7 +240,7 @@ class FlatbedPress(WithExtremes, SliderCrankQuantities, GearQuantities, Design):
     table_main_cam, table_return_cam = tables.main_cam, tables.return_cam
 
     check_transmission_angle, check_register = checks.transmission_angle, checks.register
-    check_crank_clearance = bodies.crank_axes
+    check_body_clearance = bodies.crank_axes
     check_sync_speed, check_sync_length = checks.sync_speed, checks.sync_length
     check_pressure_angle, check_cam_undercut = checks.pressure_angle, checks.cam_undercut
     check_shaft_clearance, check_constant_sum = checks.shaft_clearance, checks.constant_sum

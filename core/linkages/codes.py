@@ -29,16 +29,18 @@ SHAFT_CLEARANCE = Rule(
     "takes the sheet beside the axes of cam and cam rocker, and its links and rollers, over the whole turn, beside "
     "every axis that they do not turn about (links are lines, which may come as near to the middle of a shaft as the "
     "radius cam.shaft_radius or, elsewhere, that of the roller), and a spring beside the rockers' axis; a gripper's "
-    "limits.least_shaft stands in place of its roller's radius. So is a gear whose own shaft leaves less rim below its "
+    "limits.least_shaft stands in place of its roller's radius. So are the links of a wide swing (device, slider's rod "
+    "and arm, drive, the arm of an internal profile's roller) and a gear whose own shaft leaves less rim below its "
     "teeth than half their height.",
     "The shaft cannot pass through the plane of the gears there: it must end before it (be overhung).",
     "Overhang the shaft, make it thinner, or enlarge the distance; name the radius (shafts, cam.shaft_radius) so "
     "that it is checked.",
     "least distance of the axes over the cycle - tip radius - shaft radius >= 0; joint C from A: max(l2 - l1, l4 - "
     "l3); a ring gear: its tip radius - distance - shaft radius within, distance - rim - shaft radius without, the "
-    "greater of the two; rim = m (z/2 + 3.25) or gears.rim; root radius - radius of the own shaft >= h/2",
+    "greater of the two; links as lines of no width; rim = m (z/2 + 3.25) or gears.rim; root radius - radius of the "
+    "own shaft >= h/2",
     "own derivation; the least rim: ISO 6336-3",
-    ("shaft-clearance", "shaft-seat", "crank-clearance"),
+    ("shaft-clearance", "shaft-seat", "body-clearance"),
     ("shafts", "cam.shaft_radius", "cam", "links", "gears"),
 )
 TRANSMISSION_ANGLE = Rule(

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from gearlink.core.design import Design, Outline
 from gearlink.core.errors import MissingSection, NoSolution, at_key
 from gearlink.core.results import cached_property
-from gearlink.core.wide_swing import checks, cycle_checks, names, places, remedies, tables
+from gearlink.core.wide_swing import bodies, checks, cycle_checks, names, places, remedies, tables
 from gearlink.core.wide_swing.motion import Motion
 from gearlink.core.wide_swing.unloading import Unloading
 
@@ -29,7 +29,14 @@ if TYPE_CHECKING:
 _CAM = ("max_pressure_angle", "min_curvature_radius", "max_radius", "min_radius")
 _LAW_CHECKS = ("unloader-turnability", "force-closure", "cycle-angles", "balancing", "transmission-angle")
 _CYCLE_CHECKS = ("acceleration-step", "closed-contour", "profile-planes")
-_CAM_CHECKS = ("profile-exists", "pressure-angle", "cam-undercut", "transition-zone", "shaft-clearance")
+_CAM_CHECKS = (
+    "profile-exists",
+    "pressure-angle",
+    "cam-undercut",
+    "transition-zone",
+    "shaft-clearance",
+    "body-clearance",
+)
 
 
 class WideSwingDesign(Design):
@@ -283,7 +290,7 @@ class WideSwingDesign(Design):
     check_shaft_clearance, check_force_reserve = checks.shaft_clearance, checks.force_reserve
     check_side_change, check_transmission_angle = checks.side_change, checks.transmission_angle
     check_acceleration_step, check_closed_contour = cycle_checks.acceleration_step, cycle_checks.closed_contour
-    check_profile_planes = cycle_checks.profile_planes
+    check_profile_planes, check_body_clearance = cycle_checks.profile_planes, bodies.body_clearance
 
     ways = remedies.WAYS
     guided = True

@@ -18,6 +18,7 @@ from gearlink.core.loads.cams.checks import CAM_CHECKS
 from gearlink.core.loads.design import LoadsDesign, loads_outline
 from gearlink.core.report import Quantity
 from gearlink.core.results import cached_property
+from gearlink.core.wide_swing import bodies
 from gearlink.core.wide_swing.design import WideSwingDesign
 from gearlink.core.wide_swing.loads import checks as loads_checks
 from gearlink.core.wide_swing.loads import tables as loads_tables
@@ -71,7 +72,7 @@ class WideSwingLoads(LoadsDesign):
     output = "rocker"
     pins, meshes = _PINS, ()
     stands = True
-    outlines = loads_outline(_PINS, (), _CONTACT, CAM_CHECKS[:2], ("torque", "contact_stroke"))
+    outlines = loads_outline(_PINS, (), _CONTACT, (*CAM_CHECKS[:2], "body-clearance"), ("torque", "contact_stroke"))
     extra_tables = (*LoadsDesign.extra_tables, "contact_stroke")
 
     @cached_property
@@ -369,7 +370,7 @@ class WideSwingLoads(LoadsDesign):
     rows = loads_tables.rows
     table_contact_stroke, table_harmonics = loads_tables.contact_stroke, loads_tables.harmonics
     check_contact_pressure, check_contact_loss = loads_checks.contact_pressure, loads_checks.contact_loss
-    check_resonance = loads_checks.resonance
+    check_resonance, check_body_clearance = loads_checks.resonance, bodies.placed_clearance
 
 
 def _or(given: float | None, otherwise: float) -> float:

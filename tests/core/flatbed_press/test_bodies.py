@@ -17,13 +17,13 @@ def press(**changes: Any) -> Any:
 @pytest.mark.parametrize(("distance", "status"), [(290.0, "pass"), (130.0, "pass"), (115.0, "warn")])
 def test_a_crank_that_passes_the_axis_of_the_other_gear_is_told(distance: float, status: str) -> None:
     """AB is 116 mm and a shaft as thin as 2 modules takes 6 mm."""
-    found = press(input_gears__horizontal_distance=distance, input_gears__module=3).check("crank-clearance")
+    found = press(input_gears__horizontal_distance=distance, input_gears__module=3).check("body-clearance")
     assert [(check.code, check.status) for check in found] == [("GL302", status), ("GL302", "pass")]
     assert found[0].value == pytest.approx(math.hypot(distance, 13.0) - 116.0 - 6.0, rel=1e-12)
 
 
 def test_without_input_gears_nothing_is_known_of_their_axes() -> None:
-    assert press(input_gears=None).check("crank-clearance") == []
+    assert press(input_gears=None).check("body-clearance") == []
 
 
 @pytest.mark.parametrize(
