@@ -255,7 +255,7 @@ def coupler_room(bar: FourBar) -> float:
     Example
         >>> from gearlink.core.linkages.fourbar.position import FourBar
         >>> round(coupler_room(FourBar(crank=40.0, coupler=400.0, rocker=96.0, frame=409.0)), 6)
-        86.65341
+        86.653107
     """
     near = bar.frame - bar.crank
     cosine = (bar.coupler**2 + bar.rocker**2 - near**2) / (2.0 * bar.coupler * bar.rocker)

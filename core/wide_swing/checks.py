@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from gearlink.core.wide_swing.design import WideSwingDesign
 
 _ROUNDING = 1e-9
+_UNGUIDED = 0.1
+"""Half-width of the contact change, as a share of the stroke, that no limit allows without a word: twice the usual."""
 
 # Device and stroke
 
@@ -29,23 +31,27 @@ def unloader_turnability(design: WideSwingDesign) -> Iterator[Check]:
     """GL504: the device can follow the whole swing."""
     least, ratio = design.motion.min_pivot_ratio, design.spec.unloader.pivot_ratio
     if least is None:
-        yield from _room_for_steel(design)
+        yield from _room_for_steel(design, "give unloader.closed_length or stretch_capacity of the spring that fits")
         return
     status: Status = "fail" if ratio < least else "pass"
     text = f"pivot ratio {ratio:g}, at least {least:.6g} is needed over a swing of {design.spec.swing:g} deg"
     if status == "fail":
         text += f": increase unloader.pivot_ratio to at least {safely_above(least)}, or reduce the swing"
     yield codes.TURNABILITY.check(status, text, ratio, least)
+    capacity = getattr(design.spec.unloader, "stretch_capacity", None) or 0.0
+    if status == "pass" and capacity > MOST_STRETCH:
+        yield from _room_for_steel(design, f"take another device: unloader.stretch_capacity is {capacity:g}")
 
 
-def _room_for_steel(design: WideSwingDesign) -> Iterator[Check]:
-    """GL504 of a spring of which the file gives no length: whether any spring of steel finds room between the pins."""
+def _room_for_steel(design: WideSwingDesign, otherwise: str) -> Iterator[Check]:
+    """GL504 of a spring of which the file gives no length, or a stretch that no steel bears: whether any spring of
+    steel finds room between the pins."""
     ratio, least = design.spec.unloader.pivot_ratio, design.motion.least_ratio_of_steel
     if ratio < least:
         text = (
             f"pivot ratio {ratio:g}: a spring of steel, which bears a stretch of {MOST_STRETCH:g} times its closed "
             f"length, needs {least:.6g} over a swing of {design.spec.swing:g} deg; increase unloader.pivot_ratio to at "
-            f"least {safely_above(least)}, or give unloader.closed_length or stretch_capacity of the spring that fits"
+            f"least {safely_above(least)}, or {otherwise}"
         )
         yield codes.TURNABILITY.check("warn", text, ratio, least)
 
@@ -262,7 +268,11 @@ def transition_zone(design: WideSwingDesign) -> Iterator[Check]:
             smaller = f"take a roller of at most {safely_below(roller)} mm or a larger cam.center_distance"
             advice = smaller if math.isfinite(roller) else "leave cam.rocker_radius out"
             text += f", above the limit {limit:g}: {advice}"
-        yield codes.TRANSITION_ZONE.check("fail" if zone > limit else "pass", text, zone, limit)
+        status: Status = "fail" if zone > limit else "pass"
+        if status == "pass" and zone > _UNGUIDED:
+            text += f", as limits.transition_zone allows: over {2.0 * zone:.3g} of the stroke the device guides alone"
+            status = "warn"
+        yield codes.TRANSITION_ZONE.check(status, text, zone, limit)
 
 
 def shaft_clearance(design: WideSwingDesign) -> Iterator[Check]:
@@ -287,10 +297,16 @@ def shaft_clearance(design: WideSwingDesign) -> Iterator[Check]:
             text += f": take a shaft_radius of at most {safely_below(bottom / HUB)} mm (hub of {HUB:g} times the shaft)"
             status = "warn"
         if status != "pass":
-            least = safely_above(remedies.center_distance(design))
-            text += f"{':' if status == 'fail' else ', or'} make cam.center_distance at least {least} mm"
-            text += ", or the roller smaller"
+            text += f"{':' if status == 'fail' else ', or'} {_shaft_remedy(design)}"
         yield linkages.SHAFT_CLEARANCE.check(status, text, room, 0.0, "mm")
+
+
+def _shaft_remedy(design: WideSwingDesign) -> str:
+    """A smaller roller where its profile does not bear it either, else a larger distance first."""
+    roller, least = remedies.roller_of_profile(design), safely_above(remedies.center_distance(design))
+    if roller is not None:
+        return f"take a roller of at most {safely_below(roller)} mm, as the profile needs as well"
+    return f"make cam.center_distance at least {least} mm, or the roller smaller"
 
 
 def _over_rocker_axis(design: WideSwingDesign) -> Iterator[Check]:

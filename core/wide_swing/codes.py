@@ -11,7 +11,8 @@ TURNABILITY = Rule(
     "The device would reach its end stop, or its coils, before mid-swing.",
     "Increase unloader.pivot_ratio to the value of the message, or reduce the swing.",
     "cylinder: lambda_min = p + sqrt(p^2 - 1), p = (q^2 - cos(gamma/2))/(q^2 - 1); spring: lambda_min = 1 + "
-    "(l_0 + l_k + S_0)/r_d; of a spring without a length warns below the ratio of steel, stretched by 2 l_0",
+    "(l_0 + l_k + S_0)/r_d; of a spring without a length, or with a stretch_capacity above 2, "
+    "warns below the ratio of steel, stretched by 2 l_0",
     "wide-swing dissertation (3), (4)",
     ("unloader-turnability",),
     ("unloader.pivot_ratio", "unloader"),
@@ -22,16 +23,17 @@ PROFILE_EXISTS = Rule(
     "The pitch curve makes a loop, or the run-up takes no cam angle, or a twin-rocker turns no faster than its cam (no "
     "value is given then).",
     "A cam with a loop cannot be made.",
-    "Enlarge cycle_angle or reduce the swing; a twin-rocker needs a swing above 100 deg.",
+    "Change cycle_angle, cycle.working or the swing as the message says; a twin-rocker needs a swing above 100 deg.",
     "Phi = phi_ud/2 - xi > 0, and (dTheta/dtheta) rho^2/(1 - cos phi) > 0 over the stroke",
     "wide-swing dissertation (21), (22), (25); the loop: own derivation",
     ("profile-exists",),
-    ("cycle_angle", "swing"),
+    ("cycle_angle", "cycle", "swing"),
 )
 TRANSITION_ZONE = Rule(
     "GL507",
     "contact changes sides over too much of the stroke",
-    "About mid-swing the roller leaves the profile and crosses its slot over more than limits.transition_zone.",
+    "About mid-swing the roller leaves the profile and crosses its slot over more than limits.transition_zone; "
+    "whatever that allows, more than 0.1 each side is a warning.",
     "Within this zone the device alone guides the rocker; play and wear grow with it.",
     "Take a smaller roller, or a larger cam.center_distance.",
     "|z(1/2 - Dk) + r_p n - z(1/2)| = r_p; for small rollers Dk = (4/3) t_c/phi_ud, t_c = 3 q r_p/(4 p^2), p and q of "

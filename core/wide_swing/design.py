@@ -89,7 +89,7 @@ class WideSwingDesign(Design):
             raise NoSolution("this is a result of a cam that turns evenly: leave out drive", key="drive")
         if self.spec.slider is not None:
             raise NoSolution("this is a result of a cam of a rocker alone: leave out slider", key="slider")
-        return self._even(self.spec.layout, self.motion.cycle_angle, self.section.rocker_radius)
+        return self._even(self.spec.layout, self.motion.cycle_angle, self.section.rocker_radius, "working")
 
     @cached_property
     def return_cam(self) -> WideSwingCam | None:
@@ -98,14 +98,18 @@ class WideSwingDesign(Design):
             return None
         if self.spec.layout == "twin-cam" and self.motion.return_angle == self.motion.cycle_angle:
             return None
-        return self._even("twin-cam", self.motion.return_angle, None)
+        return self._even("twin-cam", self.motion.return_angle, None, "return")
 
-    def _even(self, layout: Layout, angle: float, rocker_radius: float | None) -> WideSwingCam:
+    def _even(self, layout: Layout, angle: float, rocker_radius: float | None, phase: str) -> WideSwingCam:
         from gearlink.core.wide_swing.cams.cam import WideSwingCam
 
         section, law = self.section, self.motion.plain_law
-        with at_key("cycle_angle" if self.spec.cycle is None else "cycle"):
-            return WideSwingCam(layout, law, angle, section.center_distance, section.roller_radius, rocker_radius)
+        lengths = section.center_distance, section.roller_radius, rocker_radius
+        if self.spec.cycle is None:
+            with at_key("cycle_angle"):
+                return WideSwingCam(layout, law, angle, *lengths)
+        with at_key("cycle"):
+            return WideSwingCam(layout, law, angle, *lengths, angle_words=f"cycle.{phase}")
 
     @cached_property
     def cycle(self) -> WholeCycle:

@@ -82,6 +82,23 @@ def roller_for_curvature(design: WideSwingDesign) -> float:
     return 0.8 * min(judged) / _STRICTLY if judged else roller_for_zone(design)
 
 
+def roller_of_profile(design: WideSwingDesign) -> float | None:
+    """Roller radius that the profiles can bear [mm], where they cannot bear the one given; None where they can."""
+    judged = [cam for cam in design.cams.values() if cam is not design.cam or design.has_profile]
+    if all(cam.transition_zone <= design.spec.limits.transition_zone for cam in judged):
+        return None
+    most = min(roller_for_zone(design), roller_for_curvature(design))
+    return most if most < design.section.roller_radius else None
+
+
+def _shaft(design: WideSwingDesign) -> Iterator[Change]:
+    """The roller first where its profile asks for a smaller one as well."""
+    roller = roller_of_profile(design)
+    if roller is not None:
+        yield "cam.roller_radius", at_most(roller)
+    yield "cam.center_distance", at_least(center_distance(design))
+
+
 # Angles
 
 
@@ -314,7 +331,7 @@ _CLOSED: dict[str, Callable[[WideSwingDesign], Iterator[Change]]] = {
     "pressure-angle": _pressure,
     "cam-undercut": lambda d: _one("cam.roller_radius", at_most(roller_for_curvature(d))),
     "transition-zone": lambda d: _one("cam.roller_radius", at_most(roller_for_zone(d))),
-    "shaft-clearance": lambda d: _one("cam.center_distance", at_least(center_distance(d))),
+    "shaft-clearance": _shaft,
     "force-reserve": lambda d: _one(
         "unloader.reserve", at_least(reserve(d.spec.unloader.residual, 0.1 + 1e-9, d.unloading.need), _RATIO)
     ),

@@ -54,8 +54,8 @@ class Pneumatic(Spec):
     type: Literal["pneumatic"] = Field(description="kind of device")
     pivot_ratio: Ratio = Field(description="pivot distance over arm, above 1")
     arm: Length = Field(description="arm r_d on the rocker")
-    extension_ratio: Annotated[float, Field(gt=1, json_schema_extra={"unit": "1"})] = Field(
-        13 / 9, description="extended over retracted length, q"
+    extension_ratio: Annotated[float, Field(gt=1, lt=2, json_schema_extra={"unit": "1"})] = Field(
+        13 / 9, description="extended over retracted length, q; below 2, since a cylinder holds its rod"
     )
     residual: Residual = 0.0
     reserve: Reserve = 0.0

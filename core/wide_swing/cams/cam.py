@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
@@ -56,6 +56,7 @@ class WideSwingCam:
         cycle_angle : float [rad] - phi_ud, cam angle of one stroke
         center_distance, roller_radius : float [mm] - a, r_p
         given_rocker_radius : float or None [mm] - in place of the r of (18) or (24)
+        angle_words : str - what a refusal calls the cam angle of the stroke
     Raises
         NoSolution - for lengths that are not positive, a cycle angle outside (0, 360 deg], and a twin-rocker with
             B alpha <= 1
@@ -79,13 +80,13 @@ class WideSwingCam:
     center_distance: float
     roller_radius: float
     given_rocker_radius: float | None = None
+    angle_words: str = field(default="the cycle angle", compare=False)
 
     def __post_init__(self) -> None:
         _require_lengths(self.center_distance, self.roller_radius, self.given_rocker_radius)
         if not 0.0 < self.cycle_angle <= 2.0 * math.pi:
             raise NoSolution(
-                f"cycle angle {math.degrees(self.cycle_angle):.6g} deg: one stroke needs more than 0 and "
-                "at most 360 deg of the cam"
+                f"cycle angle {math.degrees(self.cycle_angle):.6g} deg: a stroke needs more than 0, at most 360 deg"
             )
         if self.speed_ratio_peak < LEAST_SPEED_RATIO:
             raise too_small_swing(self.law.swing, self.speed_ratio_peak)
@@ -93,7 +94,7 @@ class WideSwingCam:
             limit = math.degrees(self.law.velocity_peak * self.law.swing)
             raise NoSolution(
                 f"the rocker's peak speed is {self.speed_ratio_peak:.6g} of the cam's; a twin-rocker needs more "
-                f"than 1: reduce the cycle angle below {safely_below(limit)} deg, best to "
+                f"than 1: reduce {self.angle_words} below {safely_below(limit)} deg, best to "
                 f"{safely_below(0.5 * limit)} deg or less, or increase the swing"
             )
 
@@ -257,9 +258,9 @@ class WideSwingCam:
     def _loop_message(self, value: float) -> str:
         safe = math.degrees(0.5 * self.law.velocity_peak * self.law.swing)
         return (
-            f"the pitch curve has a loop at mid-swing (measure {value:.4g}, must be above 0): reduce the cycle angle "
-            f"to {safely_below(safe)} deg or less, where the arm is no longer than the centre distance, or increase "
-            "the swing or the spring's mounting stretch"
+            f"the pitch curve has a loop at mid-swing (measure {value:.4g}, must be above 0): reduce "
+            f"{self.angle_words} to {safely_below(safe)} deg or less, where the arm is no longer than the centre "
+            "distance, or increase the swing or the spring's mounting stretch"
         )
 
     def require_profile(self) -> None:
@@ -281,7 +282,7 @@ class WideSwingCam:
         if self.phase_angle <= 0.0:
             raise NoSolution(
                 f"phase angle {math.degrees(self.phase_angle):.4g} deg of the run-up is not above 0: "
-                f"increase the cycle angle above {safely_above(math.degrees(2.0 * self.profile_correction))} deg"
+                f"increase {self.angle_words} above {safely_above(math.degrees(2.0 * self.profile_correction))} deg"
             )
 
     @cached_property
