@@ -34,6 +34,7 @@ WAYS = {
     "cam-undercut": _ROLLER,
     "transition-zone": _ROLLER,
     "shaft-clearance": (up("cam.center_distance"), down("cam.roller_radius"), down("cam.shaft_radius")),
+    "body-clearance": (up("unloader.arm"), *either("slider.middle_angle", step=1.0)),
     "force-reserve": (up("unloader.reserve", step=_RATIO),),
     "transmission-angle": (down("drive.crank"), *either("drive.coupler", "drive.frame")),
 }
@@ -97,6 +98,16 @@ def _shaft(design: WideSwingDesign) -> Iterator[Change]:
     if roller is not None:
         yield "cam.roller_radius", at_most(roller)
     yield "cam.center_distance", at_least(center_distance(design))
+
+
+def _longer_arm(design: WideSwingDesign) -> Iterator[Change]:
+    """The arm that takes the device away from the rocker's axis."""
+    from gearlink.core.wide_swing.bodies import device_room
+
+    room = device_room(design.spec.unloader.pivot_ratio, design.motion.swing)
+    least = design.section.roller_radius / room
+    if design.spec.unloader.arm < least:
+        yield "unloader.arm", at_least(least)
 
 
 # Angles
@@ -332,6 +343,7 @@ _CLOSED: dict[str, Callable[[WideSwingDesign], Iterator[Change]]] = {
     "cam-undercut": lambda d: _one("cam.roller_radius", at_most(roller_for_curvature(d))),
     "transition-zone": lambda d: _one("cam.roller_radius", at_most(roller_for_zone(d))),
     "shaft-clearance": _shaft,
+    "body-clearance": _longer_arm,
     "force-reserve": lambda d: _one(
         "unloader.reserve", at_least(reserve(d.spec.unloader.residual, 0.1 + 1e-9, d.unloading.need), _RATIO)
     ),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
@@ -9,6 +10,8 @@ from gearlink.core.loads import codes, vibration_checks
 from gearlink.core.loads.cams.checks import no_width, pressed_where_undercut
 from gearlink.core.remedies.ways import at_least
 from gearlink.core.report import Check
+from gearlink.core.spec_paths import changed
+from gearlink.core.wide_swing import bodies
 from gearlink.core.wide_swing.remedies import side_changes, side_words
 
 if TYPE_CHECKING:
@@ -16,6 +19,8 @@ if TYPE_CHECKING:
     from gearlink.core.wide_swing.loads.design import WideSwingLoads
 
 _NEAR = 0.9
+_TURN_BY = 15
+"""Steps in which a direction is turned [deg]."""
 
 
 def contact_pressure(design: WideSwingLoads) -> Iterator[Check]:
@@ -75,10 +80,32 @@ def changes_apart(design: WideSwingLoads) -> bool:
 
 
 def candidates(design: WideSwingLoads, check: str) -> Iterator[Remedy]:
-    """What lets the device hold the roller all the way, alone and with more reserve."""
+    """What lets the device hold the roller all the way, alone and with more reserve, and directions that are clear."""
+    if check == "body-clearance":
+        yield from _clear_directions(design)
     section, reserve = design.spec.slider, design.spec.unloader.reserve
     if check != "contact-loss" or section is None or not changes_apart(design):
         return
     for changes in side_changes(section):
         yield changes
         yield from ((*changes, ("unloader.reserve", at_least(reserve + more, 0.01))) for more in (0.25, 1.0))
+
+
+def _clear_directions(design: WideSwingLoads) -> Iterator[Remedy]:
+    """The nearest direction each way in which every body keeps clear, by geometry alone."""
+    for name in design.own_directions:
+        given = getattr(design.section, name)
+        for sense in (1.0, -1.0) if given is not None else ():
+            turned = (_in_turn(given + sense * step) for step in range(_TURN_BY, 180, _TURN_BY))
+            found = next((each for each in turned if _is_clear(design, f"loads.{name}", each)), None)
+            if found is not None:
+                yield ((f"loads.{name}", found),)
+
+
+def _in_turn(angle: float) -> float:
+    return math.remainder(angle, 360.0)
+
+
+def _is_clear(design: WideSwingLoads, path: str, value: float) -> bool:
+    spec = changed(design.spec, ((path, value),))
+    return spec is not None and not any(True for _ in bodies.placed_clearance(type(design)(spec)))

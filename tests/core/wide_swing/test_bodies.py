@@ -101,6 +101,19 @@ def test_worked_loads_keep_clear(name: str) -> None:
     assert not told(factory.design(f"loaded_{name}", command="loads"))
 
 
+# What clears them
+
+
+def test_remedies_of_links_that_meet_shafts_are_clear() -> None:
+    arm = factory.design("wide_swing_twin_cam", unloader__arm=3)
+    assert list(arm.candidates("body-clearance")) == [(("unloader.arm", 8.0),)]
+    placed = factory.design("loaded_swing_slider", command="loads", loads__slider_direction=-24)
+    remedies = [change for change in placed.candidates("body-clearance") if change[0][0] == "loads.slider_direction"]
+    assert len(remedies) == 2
+    for ((_, direction),) in remedies:
+        assert not told(factory.design("loaded_swing_slider", command="loads", loads__slider_direction=direction))
+
+
 # Distances against dense rows
 
 
@@ -110,6 +123,7 @@ def rows_to_line(point: complex, start: np.ndarray, end: np.ndarray, steps: int 
     return float(np.abs(start + share * (end - start) - point).min())
 
 
+@pytest.mark.slow
 def test_device_and_rod_against_dense_rows() -> None:
     rng = random.Random(7)
     for _ in range(60):
@@ -133,6 +147,7 @@ def bodies_drive(crank: float, rod: float, middle: float, offset: float) -> Any:
     return SliderDrive(crank, rod, middle, offset)
 
 
+@pytest.mark.slow
 def test_lever_against_dense_rows() -> None:
     rng = random.Random(8)
     for _ in range(100):
@@ -143,6 +158,7 @@ def test_lever_against_dense_rows() -> None:
         assert rows - 1.0 <= bodies.swept_room(length, aside, swing, reach) <= rows + 1e-9
 
 
+@pytest.mark.slow
 def test_coupler_against_dense_rows() -> None:
     rng, seen = random.Random(9), 0
     theta = np.linspace(0.0, 2.0 * math.pi, 721)
@@ -170,6 +186,7 @@ PLACED = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "key"),
     [
