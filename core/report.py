@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 Value = float | int | str | bool | list[float] | list[int] | list[str] | list[float | None] | list[list[float] | None]
 """What a quantity may be: of some gears or meshes a list, with None where one has none, and a pair of limits each."""
 Status = Literal["pass", "warn", "fail"]
+Side = Literal[">=", "<=", ""]
+"""How a value that passes stands to its limit; no word where the limit is what was asked for, or decides not alone."""
 Remedy: TypeAlias = tuple[tuple[str, float | str | None], ...]
 """Keys of the design file with the values that repair a finding, to be put in together; None leaves a key out."""
 _BLOCK = 4096
@@ -43,6 +45,7 @@ class Check:
     limit: float | None = None
     unit: str = "1"
     remedy: Remedy = ()
+    side: Side = ">="
 
 
 class Rule(NamedTuple):
@@ -56,6 +59,7 @@ class Rule(NamedTuple):
         formula, source : str - the quantity that was compared, and where it comes from; empty for file errors
         checks : names of the checks that report with the code; empty for file errors
         keys : dotted paths of the design file's keys that a finding belongs to, the most telling first
+        side : how a value that passes stands to its limit
     """
 
     code: str
@@ -67,6 +71,7 @@ class Rule(NamedTuple):
     source: str = ""
     checks: tuple[str, ...] = ()
     keys: tuple[str, ...] = ()
+    side: Side = ">="
 
     @property
     def name(self) -> str:
@@ -82,15 +87,18 @@ class Rule(NamedTuple):
         unit: str = "1",
         *,
         name: str = "",
+        side: Side | None = None,
     ) -> Check:
-        """A finding of the rule; `name` where it has several checks.
+        """A finding of the rule; `name` where it has several checks, `side` where it passes on another than the rule's.
 
         Raises
             ArithmeticError - where what passes is not a number: that no comparison holds is no reason to pass
         """
         if status == "pass" and value is not None and math.isnan(value):
             raise ArithmeticError(f"{self.code} {name or self.name} judges what is not a number")
-        return Check(self.code, name or self.name, status, message, value, limit, unit)
+        return Check(
+            self.code, name or self.name, status, message, value, limit, unit, side=self.side if side is None else side
+        )
 
     def below(self, value: float, limit: float, warn: float, unit: str, subject: str, remedy: str) -> Check:
         """A finding that fails where `value` < `limit` and warns where it is below `warn`.

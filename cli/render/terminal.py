@@ -25,7 +25,6 @@ _MOST_ROWS = 24
 _STYLE = {"pass": "green", "warn": "yellow", "fail": "bold red"}
 _WIDE = 110
 _NOTHING = 1e-8  # of the limit: rounding, beside what the limit lets pass
-_COMPARED = ("GL304", "GL306")  # whose limit is what was asked for, or what the kind of motion turns on
 _NOMINAL = ", nominal: "
 """What follows it in the message of a passed check is said beside the table of passes, which has no messages."""
 _WIDTH_UNKNOWN = 80  # where COLUMNS says 0
@@ -235,9 +234,7 @@ def _passes(checks: Sequence[Check], scale: Mapping[str, float], console: Consol
 def _bound(check: Check) -> str:
     """The limit of a check that holds, with the side on which it holds; plain where it is what was asked for."""
     limit = number(check.limit, 5)
-    if check.value is None or check.limit is None or check.code in _COMPARED:
-        return limit
-    return f"{'>=' if check.value >= check.limit else '<='} {limit}"
+    return limit if check.value is None or check.limit is None else f"{check.side} {limit}".lstrip()
 
 
 def _room(check: Check) -> float:

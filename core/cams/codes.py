@@ -19,6 +19,7 @@ PRESSURE_ANGLE = Rule(
     "VDI 2142; wide-swing dissertation, chapter 3",
     ("pressure-angle",),
     ("limits.pressure_angle", "cam"),
+    side="<=",
 )
 CAM_UNDERCUT = Rule(
     "GL402",
@@ -32,6 +33,7 @@ CAM_UNDERCUT = Rule(
     "VDI 2142; own derivation of the cut elsewhere",
     ("cam-undercut",),
     ("cam.roller_radius", "cam.roller", "cam"),
+    side="<=",
 )
 VELOCITY_STEP = Rule(
     "GL403",
@@ -43,6 +45,7 @@ VELOCITY_STEP = Rule(
     "VDI 2143",
     ("velocity-step",),
     ("sync.start", "laws", "cam"),
+    side="<=",
 )
 ACCELERATION_STEP = Rule(
     "GL404",
@@ -54,6 +57,7 @@ ACCELERATION_STEP = Rule(
     "VDI 2143",
     ("acceleration-step",),
     ("cam.lead_in", "laws", "cam"),
+    side="<=",
 )
 JERK_STEP = Rule(
     "GL407",
@@ -66,4 +70,5 @@ JERK_STEP = Rule(
     "VDI 2143",
     ("jerk-step",),
     ("limits.jerk_step", "laws"),
+    side="<=",
 )

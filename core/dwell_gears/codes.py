@@ -15,6 +15,7 @@ START_SHOCK = Rule(
     "own derivation; thesis figure 2-6 gives no formula",
     ("start-shock",),
     ("start_angle", "reduction", "gears"),
+    side="<=",
 )
 GAP = Rule(
     "GL316",

@@ -14,6 +14,7 @@ CONSTANT_SUM = Rule(
     "TY-460 report 3.6",
     ("constant-sum",),
     ("cam.base_radius", "cam"),
+    side="<=",
 )
 SYNC_SPEED = Rule(
     "GL501",
@@ -29,6 +30,7 @@ SYNC_SPEED = Rule(
     "TY-460 report 3.2",
     ("sync-speed",),
     ("sync.start", "cam.lead_in", "cam", "sync", "cylinder"),
+    side="<=",
 )
 SYNC_LENGTH = Rule(
     "GL502",
@@ -54,6 +56,7 @@ REGISTER = Rule(
     "TY-460 report 1",
     ("register",),
     ("cylinder.gear_ratio", "cylinder"),
+    side="<=",
 )
 PLACE = Rule(
     "GL516",

@@ -87,6 +87,7 @@ SLIDING = Rule(
     "ISO 21771; the limit is usual practice",
     ("sliding",),
     ("limits.sliding", *_TEETH),
+    side="<=",
 )
 TOOTH_FORM = Rule(
     "GL212",

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from gearlink.core.errors import NoSolution
 from gearlink.core.linkages.codes import DWELL_EDGE, DWELL_WINDOW, TARGET, TRANSMISSION_ANGLE
-from gearlink.core.report import Check, safely_above, without_noise
+from gearlink.core.report import Check, Side, safely_above, without_noise
 
 if TYPE_CHECKING:
     from gearlink.core.linkages.fourbar.position import FourBar
@@ -70,7 +70,8 @@ def dwell_edge_check(share: float, interval: list[float] | None) -> Check:
     elif width is not None and width < _NARROW:
         text += f", less than {_NARROW} mm: ask for a shorter window or a greater tolerance"
         return DWELL_EDGE.check("warn", text, width, _NARROW, "mm")
-    return DWELL_EDGE.check("warn" if near else "pass", text, share, EDGE)
+    beyond: Side | None = ">=" if share > EDGE else None
+    return DWELL_EDGE.check("warn" if near else "pass", text, share, EDGE, side=beyond)
 
 
 def check_linkage(linkage: FourBar) -> str:

@@ -70,6 +70,7 @@ TARGET = Rule(
     "own derivation",
     ("target",),
     ("target", "target.swing", "back_step.angle", "links"),
+    side="<=",
 )
 TRAIN_FIT = Rule(
     "GL308",
@@ -94,6 +95,7 @@ MOBILITY = Rule(
     "thesis 2.1",
     ("mobility",),
     ("mobility", "trains"),
+    side="",
 )
 DWELL_WINDOW = Rule(
     "GL313",
@@ -118,4 +120,5 @@ DWELL_EDGE = Rule(
     "own derivation: the longest window has D = 2 tolerance",
     ("dwell-edge",),
     ("dwell.margin", "dwell.tolerance", "dwell"),
+    side="<=",
 )

@@ -14,6 +14,7 @@ POWER_IDENTITY = Rule(
     "virtual power against Newton and Euler",
     checks=("power-identity",),
     keys=("loads",),
+    side="<=",
 )
 LOAD_REVERSAL = Rule(
     "GL602",
@@ -26,6 +27,7 @@ LOAD_REVERSAL = Rule(
     "own derivation: the flank that touches follows from the sign of F_t",
     checks=("load-reversal",),
     keys=("loads.backlash", "loads"),
+    side="<=",
 )
 MOTOR_TORQUE = Rule(
     "GL603",
@@ -41,6 +43,7 @@ MOTOR_TORQUE = Rule(
     "thermal and pull-out limit of an electric motor",
     checks=("motor-torque", "motor-speed"),
     keys=("loads.motor",),
+    side="<=",
 )
 SPEED_FLUCTUATION = Rule(
     "GL604",
@@ -53,6 +56,7 @@ SPEED_FLUCTUATION = Rule(
     "own derivation: energy with variable inertia",
     checks=("speed-fluctuation",),
     keys=("loads.flywheel",),
+    side="<=",
 )
 BEARING_LIFE = Rule(
     "GL606",
@@ -76,6 +80,7 @@ FORCE_AMPLIFICATION = Rule(
     "VDI 2142",
     checks=("force-amplification",),
     keys=("links", "loads"),
+    side="<=",
 )
 IMPACT = Rule(
     "GL614",
@@ -87,6 +92,7 @@ IMPACT = Rule(
     "impulse and energy of a plastic impact",
     checks=("impact",),
     keys=("gears", "loads"),
+    side="<=",
 )
 SELF_LOCKING = Rule(
     "GL615",
@@ -98,6 +104,7 @@ SELF_LOCKING = Rule(
     "own derivation: fixed point of the friction",
     checks=("self-locking",),
     keys=("loads.friction",),
+    side="<=",
 )
 TOOTH_LOAD = Rule(
     "GL616",
@@ -110,6 +117,7 @@ TOOTH_LOAD = Rule(
     "ISO 6336-6 for a load that varies, ISO 6336-3 annex B for one that turns back; own derivation",
     checks=("tooth-load",),
     keys=("gears.load", "load", "loads"),
+    side="<=",
 )
 CONTACT_PRESSURE = Rule(
     "GL607",
@@ -121,6 +129,7 @@ CONTACT_PRESSURE = Rule(
     "Hertz, line contact",
     checks=("contact-pressure",),
     keys=("loads.material.allowed_pressure", "loads.roller"),
+    side="<=",
 )
 CONTACT_LOSS = Rule(
     "GL608",
@@ -143,6 +152,7 @@ ROLLER_SKID = Rule(
     "own derivation: friction at the contact",
     checks=("roller-skid",),
     keys=("loads.roller",),
+    side="<=",
 )
 PRELOAD = Rule(
     "GL613",
@@ -178,6 +188,7 @@ RESIDUAL_VIBRATION = Rule(
     "VDI 2149",
     checks=("residual-vibration",),
     keys=("loads.vibration.allowed_residual", "loads.vibration"),
+    side="<=",
 )
 RESONANCE = Rule(
     "GL611",

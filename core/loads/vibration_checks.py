@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from gearlink.core.loads import codes
-from gearlink.core.report import Check, safely_below
+from gearlink.core.report import Check, Side, safely_below
 
 if TYPE_CHECKING:
     from gearlink.core.loads.design import LoadsDesign
@@ -91,7 +91,9 @@ def resonance(design: LoadsDesign) -> Iterator[Check]:
     strong = [n for n in near if math.isfinite(shares[n]) and shares[n] > _ONE_PERCENT]
     if not strong:
         off = abs(ratio / order - 1.0)
-        yield codes.RESONANCE.check("pass", _nearness("nearest harmonic", order, turns, off), off, _NEAR_RESONANCE)
+        side: Side = ">=" if off >= _NEAR_RESONANCE else ""  # else one too weak to matter
+        text = _nearness("nearest harmonic", order, turns, off)
+        yield codes.RESONANCE.check("pass", text, off, _NEAR_RESONANCE, side=side)
         return
     found = min(strong, key=lambda n: abs(ratio / n - 1.0))
     off = abs(ratio / found - 1.0)

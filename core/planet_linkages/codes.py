@@ -15,4 +15,5 @@ DWELL_CONDITION = Rule(
     "thesis 2.2.1; the limit for a crank-rocker is an own derivation",
     ("dwell-condition",),
     ("target.motion", "gears", "links"),
+    side="",
 )

@@ -26,4 +26,5 @@ RANGE_END = Rule(
     "own choice",
     ("range-end",),
     ("variables",),
+    side="",
 )

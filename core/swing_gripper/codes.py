@@ -17,6 +17,7 @@ CONDITIONING = Rule(
     "swing-gripper paper (7)",
     ("conditioning",),
     ("limits.condition_number", "links", "pivots"),
+    side="<=",
 )
 LIFT_OFF = Rule(
     "GL406",
@@ -48,4 +49,5 @@ HANDOVER = Rule(
     "swing-gripper paper 2",
     ("handover",),
     ("handover", "cam.sense"),
+    side="<=",
 )

@@ -15,6 +15,7 @@ ACHIEVED = Rule(
     "thesis (4-19)",
     ("back-step-target", "rounded-ratio"),
     ("gears.i3", "back_step.angle", "back_step", "gears"),
+    side="",
 )
 
 BACK_STEP = Rule(
@@ -27,6 +28,7 @@ BACK_STEP = Rule(
     "thesis (4-16), (4-19)",
     ("back-step",),
     ("dwell.angle", "dwell"),
+    side="<=",
 )
 DWELL_TOLERANCE = Rule(
     "GL317",
@@ -38,4 +40,5 @@ DWELL_TOLERANCE = Rule(
     "own derivation",
     ("dwell-tolerance",),
     ("dwell_tolerance", "dwell.tolerance", "dwell_backlash"),
+    side="<=",
 )

@@ -48,6 +48,7 @@ REGISTER_BUDGET = Rule(
     "ISO/IEC Guide 98-3, 5.1.2; own derivation of the gains",
     ("register-budget",),
     ("register.tolerance", "register"),
+    side="<=",
 )
 BACKLASH_IN_DWELL = Rule(
     "GL521",
@@ -60,4 +61,5 @@ BACKLASH_IN_DWELL = Rule(
     "own derivation",
     ("backlash-in-dwell",),
     ("register.friction", "register"),
+    side="<=",
 )

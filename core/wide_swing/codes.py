@@ -41,6 +41,7 @@ TRANSITION_ZONE = Rule(
     "own derivation",
     ("transition-zone",),
     ("cam.roller_radius", "cam"),
+    side="<=",
 )
 BALANCING = Rule(
     "GL508",
@@ -76,6 +77,7 @@ CYCLE_ANGLES = Rule(
     "own derivation",
     ("cycle-angles",),
     ("cycle_angle", "cycle"),
+    side="<=",
 )
 FORCE_RESERVE = Rule(
     "GL511",
@@ -130,4 +132,5 @@ SIDE_CHANGE = Rule(
     "own derivation",
     ("side-change",),
     ("slider.middle_angle", "slider"),
+    side="<=",
 )
