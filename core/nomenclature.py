@@ -97,7 +97,13 @@ _SWING = {
         "", "deg", "internal profile: driven, arc, free, arc from its stroke on", "own derivation"
     ),
     "sectors_return": Term("", "deg", "return cam: driven, arc, free, arc from its stroke on", "own derivation"),
-    "longer_stroke_reserve": Term("", "1", "force of the device to spare in the longer stroke", "own derivation"),
+    "longer_stroke_reserve": Term(
+        "",
+        "1",
+        "force of the device to spare in the longer stroke, as a share of what balances it there: "
+        "(1 + rho)(longer/shorter)^2 - 1",
+        "own derivation",
+    ),
     "structural_error": Term("", "deg", "greatest error of the function over its interval", "own derivation"),
     "structural_error_at": Term("", "deg", "input angles at which the error of the function is greatest"),
     "error_extremes": Term("", "1", "alternating extremes of that size; the best five-bars have eight"),

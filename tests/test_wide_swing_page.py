@@ -6,11 +6,14 @@ Tolerance: orders of magnitude in the table; the last of them, near rounding, ar
 from __future__ import annotations
 
 import math
+import re
 from pathlib import Path
 
 import pytest
+from factory import DESIGNS, design
 
 from gearlink.core.errors import NoSolution
+from gearlink.core.nomenclature import TERMS
 from gearlink.core.wide_swing.law.elastic_law import ElasticLaw, Pneumatic
 from gearlink.core.wide_swing.law.iteration import legacy_law
 
@@ -37,12 +40,34 @@ def test_convergence_table() -> None:
 
 def test_numbers_of_the_iteration() -> None:
     law, device = ElasticLaw(Pneumatic(2.5), math.radians(120.0)), Pneumatic(2.5)
-    for steps, error in ((10, 2.7e-3), (20, 6.6e-4)):
+    for steps, error in ((10, 2.7e-3), (20, 6.6e-4), (100, 2.65e-5)):
         found = legacy_law(device, law.swing, steps=steps).energy_parameter / law.energy_parameter - 1.0
         assert found == pytest.approx(error, rel=0.03, abs=0.0)
     assert legacy_law(device, law.swing, steps=20).passes <= 16
     with pytest.raises(NoSolution, match="exponent 1"):
         legacy_law(Pneumatic(4.0), math.radians(300.0), steps=20, exponent=2)
+
+
+def test_passes_of_the_worked_designs() -> None:
+    found = [
+        design(path.stem, command="swing", method="iteration").quantity("iteration_passes").value
+        for path in sorted(DESIGNS.glob("wide_swing_*.yaml"))
+    ]
+    words = re.search(r"(\d+) to (\d+) passes in the\s+worked designs", PAGE.read_text())
+    assert words, "the page says how many"
+    assert [int(word) for word in words.groups()] == [min(found), max(found)]
+
+
+def test_what_the_longer_stroke_has_to_spare() -> None:
+    """Page, nomenclature and GL510 have the quantity's formula; the comment of the design rounds it."""
+    made = design("wide_swing_cycle", command="swing")
+    found = made.quantity("longer_stroke_reserve").value
+    working, _, back, _ = made.spec.cycle.lengths()
+    assert found == pytest.approx((1.0 + made.spec.unloader.reserve) * (back / working) ** 2 - 1.0, rel=1e-12, abs=0.0)
+    for words in (PAGE.read_text(), TERMS["longer_stroke_reserve"].words):
+        assert "(1 + rho)(longer/shorter)^2 - 1" in words
+    assert f"{found:.4g} of the force that balances it to spare" in next(iter(made.check("cycle-angles"))).message
+    assert f"has {found:.2f} of the force" in (DESIGNS / "wide_swing_cycle.yaml").read_text()
 
 
 def test_constants_of_formula_3() -> None:

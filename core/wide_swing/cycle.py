@@ -68,7 +68,8 @@ class WholeCycle:
 
     @property
     def longer_stroke_reserve(self) -> float | None:
-        """Force to spare in the longer stroke, (1 + rho)(longer/shorter)^2 - 1; None where both are as long."""
+        """Force to spare in the longer stroke over what balances it, (1 + rho)(longer/shorter)^2 - 1; None where both
+        are as long."""
         working, _, back, _ = self.angles
         if working == back:
             return None

@@ -32,8 +32,8 @@ def cycle_angles(design: WideSwingDesign) -> Iterator[Check]:
     if working != back:
         longer = "working" if working > back else "return"
         text += (
-            f"; the device is sized by the shorter stroke, whose free swing it sets: in the {longer} stroke "
-            f"{(max(working, back) / min(working, back)) ** 2 - 1.0:.4g} of its force is left over"
+            f"; the device is sized by the shorter stroke, whose free swing it sets: in the {longer} stroke it has "
+            f"{design.cycle.longer_stroke_reserve:.4g} of the force that balances it to spare, the reserve counted"
         )
     if far > 0.0 and near > 0.0:
         yield codes.CYCLE_ANGLES.check("pass", text, working + far + back + near, 360.0, "deg")
