@@ -34,7 +34,7 @@ _HELP = """Design calculator for the mechanisms of printing machines.
 A design is a YAML file; `gearlink analyze FILE` gives its full analysis.
 
 Exit status: 0 all checks pass, 1 a check fails, 2 the input is wrong or the
-mechanism does not exist, 3 a fault of the program.
+mechanism does not exist, 3 a fault of the program, 130 interrupted.
 """
 
 app = typer.Typer(

@@ -63,7 +63,7 @@ FILES: tuple[Rule, ...] = (
         "A number lies outside its range or is not finite, or a word is none of the choices.",
         "The ranges keep out what no machine has: lengths below zero, angles beyond a turn, pressure angles of 45 deg, "
         "and any number above 1e12 or, but for 0, below 1e-30 in size.",
-        "Take a value from the allowed range or list of the message. Units are mm, deg, rev/min, sheets/h, N, kg, "
+        "Take a value from the allowed range or list of the message. Units are mm, deg, 1/min, sheets/h, N, kg, "
         "kg m^2 and N m.",
     ),
     Rule(

@@ -12,6 +12,8 @@ from typing import Any
 
 import pytest
 
+from gearlink.cli.exit_codes import ExitCode
+
 
 @pytest.mark.slow
 @pytest.mark.usefixtures("small_pictures")
@@ -114,3 +116,9 @@ def test_a_name_beside_the_right_one_is_recognised(
     wrong = gearlink("gear", "press_pair.yaml").err
     assert wrong.startswith("press_pair.yaml:1:1: error GL106: the key 'kind' is missing")
     assert "write kind in place of 'Kind'" in wrong
+
+
+def test_help_names_every_exit_status(gearlink: Any) -> None:
+    words = " ".join(gearlink("--help").out.split())
+    listed = words[words.index("Exit status:") : words.index("Options:")]
+    assert [int(number) for number in re.findall(r"[:,] (\d+) ", listed)] == [int(code) for code in ExitCode]
