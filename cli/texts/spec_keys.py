@@ -13,7 +13,11 @@ if TYPE_CHECKING:
     from gearlink.core.kinds import Kind
 
 Node = dict[str, Any]
-_BOUNDS = (("exclusiveMinimum", "above"), ("minimum", "from"), ("exclusiveMaximum", "below"), ("maximum", "to"))
+_LOWER, _UPPER = (
+    (("exclusiveMinimum", "above"), ("minimum", "from")),
+    (("exclusiveMaximum", "below"), ("maximum", "to")),
+)
+"""Of two bounds that are one number the exclusive one is narrower, and comes first."""
 
 
 _MOST_CHOICES = 8
@@ -85,11 +89,17 @@ def _range(node: Node) -> str:
     if choices:
         words = [str(choice).lower() if isinstance(choice, bool) else str(choice) for choice in choices]
         return "" if len(words) > _MOST_CHOICES else " or ".join(words)
-    bounds = [f"{word} {node[bound]:.15g}" for bound, word in _BOUNDS if bound in node]
+    bounds = [*_narrowest(node, _LOWER, 1.0), *_narrowest(node, _UPPER, -1.0)]
     if bounds:
         return ", ".join(bounds)
     inner = [*node.get("anyOf", ()), *([node["items"]] if isinstance(node.get("items"), dict) else [])]
-    return " or ".join(words for words in map(_range, inner) if words)
+    return " or ".join(dict.fromkeys(words for words in map(_range, inner) if words))
+
+
+def _narrowest(node: Node, bounds: tuple[tuple[str, str], ...], sign: float) -> list[str]:
+    """The bound of one side in words, the narrower where a node has two."""
+    found = [(sign * node[bound], word) for bound, word in bounds if bound in node]
+    return [f"{word} {sign * value:.15g}" for value, word in found if value == max(found)[0]][:1]
 
 
 @cache

@@ -174,3 +174,23 @@ def test_the_first_gear_pair_has_two_gears() -> None:
 
 def test_the_first_slider_crank_asks_for_its_crank() -> None:
     assert "stroke" in yaml.safe_load(worked_design(KINDS["slider-crank"]))
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_range_names_one_bound_on_a_side_and_no_alternative_twice(kind: str) -> None:
+    for key in spec_keys(KINDS[kind]):
+        alternatives = [part.split(", ") for part in key.range.split(" or ")]
+        assert len(set(map(tuple, alternatives))) == len(alternatives), key
+        for bounds in alternatives:
+            sides = ["lower" if each.startswith(("above ", "from ")) else each for each in bounds]
+            assert sides.count("lower") <= 1, key
+
+
+def test_the_narrower_bound_of_a_side_is_named() -> None:
+    ranges = {key.path: key.range for kind in KINDS.values() for key in spec_keys(kind)}
+    assert (ranges["cycle.working"], ranges["dwell_backlash"]) == ("above 0, below 360", "from 1e-09")
+
+
+def test_the_units_of_the_head_line_are_those_of_the_keys(gearlink: Any) -> None:
+    head, *rest = gearlink("new", "wide-swing-cam").out.partition("\n\n")
+    assert "1/min" in head and "rev/min" not in "".join((head, *rest))
