@@ -40,7 +40,7 @@ def _chart(
     curves: Annotated[str, typer.Option("--curves", metavar="A,B,...", help="a curve for each parameter")] = "",
     samples: Annotated[int, option("samples", help="rows of the table", most=1_000_000)] = 91,
 ) -> None:
-    """Design charts: motion of the three-gear four-bar with equal teeth (I = 1) over frame and gears; the unloading law.
+    """Design charts of the three-gear four-bar with I = 1 over frame and gears, and of the unloading law over swing.
 
     Example: gearlink chart back-step --curves 60,90,120 --range -6:-1 --plot --format csv
     """

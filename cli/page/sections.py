@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from html import escape
 from importlib import resources
 from typing import TYPE_CHECKING, Any
@@ -131,15 +131,15 @@ def _results(report: Report) -> Iterator[str]:
         findings = ((c.status, f"{c.code} {c.name}", c.message) for c in found)
         yield "<h3>Checks</h3>" + table(("status", "check", "finding"), findings, numeric=(), marked=True)
     for each in report.tables:
-        yield _data(each)
+        yield _data(each, scales(report))
 
 
-def _data(given: Table) -> str:
+def _data(given: Table, scale: Mapping[str, float]) -> str:
     count = len(given.data[0])
     in_words = count > 0 and isinstance(given.data[0][0], str)  # every row of such a table says something else
     step = 1 if in_words else max(1, math.ceil(count / _MOST_ROWS))
     step = next((s for s in (1, 2, 5, 10, 20, 30) if s >= step), step)
-    cells = readable_rows(given, step)
+    cells = readable_rows(given, step, scale)
     if step == 1:
         given, cells = with_intervals(given, cells)
     heads = [

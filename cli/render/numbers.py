@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
+from types import MappingProxyType
 from typing import Any
 
 from gearlink.core.report import Report, Table, without_noise
 
 _NOISE = 1e-12  # of the scale: what a root is left with, in a table of seven digits
+_ROUNDING = 1e-13  # of the largest of a column
 _HALF_WIDTH = "_pm"
 _MOST_DIGITS = 7  # behind the point: an interval that is narrower is not shown
 
@@ -75,11 +77,18 @@ def thinning(step: int, table: Table) -> str:
     return f"every {step}{ending} of {table.length} rows"
 
 
-def readable_rows(table: Table, step: int = 1) -> list[list[str]]:
-    """Every `step`-th row as text; values that are rounding beside their column's largest are shown as 0."""
-    noise = [1e-13 * _largest(column) for column in table.data]
+def readable_rows(table: Table, step: int = 1, scale: Mapping[str, float] = MappingProxyType({})) -> list[list[str]]:
+    """Every `step`-th row as text; values that are rounding beside their column's largest are shown as 0, and a column
+    that is rounding as a whole beside what its unit has elsewhere, `scale`."""
+    noise = [
+        _noise(_largest(column), scale.get(unit, 0.0)) for unit, column in zip(table.units, table.data, strict=True)
+    ]
     rows = table.thinned(step).each_row()
     return [[number(_quiet(x, level), 6) for x, level in zip(row, noise, strict=True)] for row in rows]
+
+
+def _noise(largest: float, scale: float) -> float:
+    return _ROUNDING * (scale if largest < _ROUNDING * scale else largest)
 
 
 def _largest(column: Any) -> float:

@@ -7,6 +7,7 @@ import os
 import re
 import sys
 from collections.abc import Iterator, Mapping, Sequence
+from types import MappingProxyType
 from typing import Any
 
 from rich import box
@@ -25,6 +26,7 @@ _MOST_ROWS = 24
 _STYLE = {"pass": "green", "warn": "yellow", "fail": "bold red"}
 _WIDE = 110
 _NOTHING = 1e-8  # of the limit: rounding, beside what the limit lets pass
+_ALONE: Mapping[str, float] = MappingProxyType({})
 _NOMINAL = ", nominal: "
 """What follows it in the message of a passed check is said beside the table of passes, which has no messages."""
 _WIDTH_UNKNOWN = 80  # where COLUMNS says 0
@@ -46,7 +48,7 @@ def show(report: Report, options: Options) -> None:
         if console.width < _WIDE and console.is_terminal and not options.quiet:
             print(f"(terminals of {_WIDE} columns show what each quantity means; so does `gearlink explain NAME`)")
     for table in report.tables:
-        show_table(table, console)
+        show_table(table, console, scale=scales(report))
     show_findings(report, console)
 
 
@@ -243,11 +245,14 @@ def _room(check: Check) -> float:
     return abs(check.value - check.limit)
 
 
-def show_table(table: Table, console: Console, most: int = _MOST_ROWS) -> None:
-    """Print a table, thinned to so many rows and folded to the width; one of several meshes in parts."""
+def show_table(table: Table, console: Console, most: int = _MOST_ROWS, *, scale: Mapping[str, float] = _ALONE) -> None:
+    """Print a table, thinned to so many rows and folded to the width; one of several meshes in parts.
+
+    `scale` has the largest number of each unit in the report around it.
+    """
     if table.columns[:1] == ("mesh",):
         for part in _by_mesh(table):
-            show_table(part, console, most)
+            show_table(part, console, most, scale=scale)
         return
     # Every row of a table that begins with a word says something else; a list that holds one is read whole.
     words = [isinstance(column[0], str) for column in table.data] if table.length else [False]
@@ -255,7 +260,7 @@ def show_table(table: Table, console: Console, most: int = _MOST_ROWS) -> None:
     step = 1 if in_words else max(1, math.ceil(table.length / most))
     if step > 1:
         step = next((s for s in (2, 5, 10, 15, 30) if s >= step), step)
-    cells = readable_rows(table, step)
+    cells = readable_rows(table, step, scale)
     thinned = f", {thinning(step, table)} (all with --table {table.name} --format csv)" if step > 1 else ""
     console.print(Text(f"\n{table.name}{thinned}", style="bold"))
     if step == 1:

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from gearlink.cli.render.numbers import quiet, scales
+from gearlink.cli.render.numbers import quiet, readable_rows, scales
 from gearlink.core.report import Check, Quantity, Report, Table, without_noise
 
 NOISE = re.compile(r"\d[\d.]*e-1[2-9]")
@@ -25,6 +25,12 @@ def test_eight_ulp_of_the_scale(scale: float) -> None:
 def test_nothing_is_noise_beside_nothing() -> None:
     assert without_noise(1e-300, 0.0) == 1e-300
     assert quiet([None, "a", 3, 1e-17], 0.0) == [None, "a", 3, 1e-17]
+
+
+def test_a_column_that_is_noise_as_a_whole_is_judged_beside_its_unit() -> None:
+    table = Table("t", ("noise", "small", "mixed"), ("deg",) * 3, ([2.4e-14, 0.0], [1e-10, 2e-10], [2.4e-14, 1e-9]))
+    assert readable_rows(table) == [["2.4e-14", "1e-10", "2.4e-14"], ["0", "2e-10", "1e-09"]]
+    assert readable_rows(table, scale={"deg": 360.0}) == [["0", "1e-10", "2.4e-14"], ["0", "2e-10", "1e-09"]]
 
 
 def test_each_unit_has_its_own_scale() -> None:
@@ -52,6 +58,7 @@ def test_each_unit_has_its_own_scale() -> None:
         ("cam", "ty460"),
         ("gripper", "swing_gripper"),
         ("analyze", "five_bar_positions"),
+        ("cam", "wide_swing_cycle"),
     ],
 )
 def test_no_noise_among_the_results(gearlink: Any, designs: Any, command: str, design: str) -> None:
