@@ -23,9 +23,9 @@ def positions(design: FlatbedPress, samples: int | None = None) -> Table:
     p, q = motion.bed.travel(phi, 1, cam), motion.cylinder.travel(phi, 1)
     columns = {
         "input_angle": (degrees, "deg"),
-        "cam_angle": (np.degrees(cam.value), "deg"),
+        "cam_angle": (_from_start(phi, np.degrees(cam.value)), "deg"),
         "bed_displacement": (p.value, "mm"),
-        "bed_velocity": (p.first * speed, "mm/s"),
+        "bed_velocity": (_from_start(phi, p.first * speed), "mm/s"),
         "cylinder_displacement": (q.value, "mm"),
         "cylinder_velocity": (q.first * speed, "mm/s"),
         "transmission_angle_bed": (_transmission(motion.bed.linkage, motion.bed.initial_crank_angle + phi), "deg"),
@@ -81,6 +81,14 @@ def _bed_rates(design: FlatbedPress, phi: Any) -> dict[str, Any]:
         return {}
     bed, speed = design.bed_motion.travel(phi), design.motion.input_speed
     return {"bed_velocity": (bed.first * speed, "mm/s"), "bed_acceleration": (bed.second * speed**2, "mm/s^2")}
+
+
+def _from_start(input_angle: Any, values: Any) -> Any:
+    """Values that are 0 at the start by its definition: there the cam's turn begins and the bed stands at its dead
+    centre, which the directions of the links give to rounding."""
+    import numpy as np
+
+    return np.where(input_angle == 0.0, 0.0, values)
 
 
 def _transmission(linkage: FourBar, crank_angle: Any) -> Any:

@@ -117,6 +117,23 @@ def extremes_over(
     ]
 
 
+def share_of(place: Reals, width: float | Reals) -> Reals:
+    """Fractions of an interval that begins at 0 and has a width; those beside an end, as the searches keep within it,
+    and beyond it by rounding are the end.
+
+    For what is known at the ends themselves: a search would give 1e-14 where it is 0 there.
+
+    Example
+        >>> share_of(np.array([7e-15, 1.0, 2.0 - 7e-15, 2.0 + 7e-15]), 2.0).tolist()
+        [0.0, 0.5, 1.0, 1.0]
+    """
+    share = np.clip(place / width, 0.0, 1.0)
+    inside = _INSIDE_ULPS * math.ulp(1.0)
+    share[share <= inside] = 0.0
+    share[share >= 1.0 - inside] = 1.0
+    return share
+
+
 def _negative(f: Function) -> Function:
     return lambda x: -f(x)
 

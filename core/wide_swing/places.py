@@ -18,21 +18,15 @@ Places: TypeAlias = SimpleNamespace
 def of_motion(design: WideSwingDesign) -> Places:
     """Extremes of the rocker's speed [rad/s] and acceleration [rad/s^2] over the working stroke, cam angles [rad]."""
     from gearlink.core.motion_extremes import extremes
+    from gearlink.core.numerics.extremes import share_of
 
     motion = design.motion
     law, swing, angle, time = motion.law, motion.swing, motion.cycle_angle, motion.working_time
     curves = {
-        "rocker_speed": lambda phi: swing / time * law.invariants(_share(phi, angle), 1)[1],
-        "rocker_acceleration": lambda phi: swing / time**2 * law.invariants(_share(phi, angle), 2)[2],
+        "rocker_speed": lambda phi: swing / time * law.invariants(share_of(phi, angle), 1)[1],
+        "rocker_acceleration": lambda phi: swing / time**2 * law.invariants(share_of(phi, angle), 2)[2],
     }
     return Places(**extremes(curves, 0.0, angle, samples=256))
-
-
-def _share(phi: Reals, angle: float) -> Reals:
-    """Fractions of the stroke; a step of rounding beyond its end is the end."""
-    import numpy as np
-
-    return np.minimum(phi / angle, 1.0)
 
 
 def of_pressure(design: WideSwingDesign) -> float:

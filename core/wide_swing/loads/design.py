@@ -225,13 +225,15 @@ class WideSwingLoads(LoadsDesign):
         """Number of the phase in which input angles lie (0 to 3), and the fraction of the phase that has passed."""
         import numpy as np
 
+        from gearlink.core.numerics.extremes import share_of
+
         edges = np.concatenate(([0.0], np.cumsum(self._phases)))
         turned = np.mod(phi, 2.0 * math.pi) if self.whole else phi
         sector = np.searchsorted(edges[1:-1], turned, side="right")
         width = np.where(np.diff(edges) > 0.0, np.diff(edges), 1.0)
         # The phases add up to the turn but for rounding, and what asks on which side of its end a stroke changes sign
         # looks a millionth of a radian beyond it, where the rocker rests.
-        return sector, np.clip((turned - edges[sector]) / width[sector], 0.0, 1.0)
+        return sector, share_of(turned - edges[sector], width[sector])
 
     def _rocker(self, sector: Any, share: Reals) -> tuple[Turn, Points, Points]:
         """The rocker's angle, the centre of the guided roller [m], and the direction in which its cam pushes it."""
