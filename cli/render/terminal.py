@@ -184,17 +184,26 @@ def _pairs(report: Report, console: Console) -> Iterator[Grid]:
     scale = scales(report)
     for mesh, quantities in meshes.items():
         gears = mesh.split("_") if mesh.count("_") == 1 else ["gear 1", "gear 2"]
-        grid = grid_for(console)
-        for head in (f"{mesh}." if mesh else "per gear", "symbol"):
-            grid.add_column(head, overflow="fold", no_wrap=head == "symbol")
-        for head in gears:
-            grid.add_column(head, justify="right", overflow="fold", no_wrap=True)
-        grid.add_column("unit", overflow="fold", no_wrap=True)
+        heads = (f"{mesh}." if mesh else "per gear", "symbol", *gears, "unit")
+        rows = []
         for q in quantities:
             assert isinstance(q.value, list), "as _per_gear says"
             one, other = (_below_each_other(quiet(value, scale.get(q.unit, 0.0))) for value in q.value)
-            grid.add_row(q.name.rpartition(".")[2], q.symbol, one, other, "" if q.unit == "1" else q.unit)
-        yield grid
+            rows.append((q.name.rpartition(".")[2], q.symbol, one, other, "" if q.unit == "1" else q.unit))
+        room = max(_LEAST_TEXT, room_for_names(_pair_grid(heads, rows, console), console))
+        yield _pair_grid(heads, rows, console, room)
+
+
+def _pair_grid(
+    heads: Sequence[str], rows: Sequence[tuple[str, str, Text, Text, str]], console: Console, room: int | None = None
+) -> Grid:
+    """Quantities of two gears, the names folded to some columns."""
+    grid = grid_for(console)
+    for i, head in enumerate(heads):
+        grid.add_column(head, justify="right" if i in (2, 3) else "left", overflow="fold", no_wrap=True)
+    for row in rows:
+        grid.add_row(Text(row[0] if room is None else folded(row[0], room)), *row[1:])
+    return grid
 
 
 def _below_each_other(value: Any) -> Text:

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from io import StringIO
+from typing import Any
 
+import pytest
+from factory import DESIGNS
 from rich.console import Console
 
 from gearlink.cli.render.terminal import show_table
@@ -46,3 +49,16 @@ def test_an_estimate_has_the_digits_that_its_interval_leaves_it() -> None:
         ["154.211591", "+-0.000004"],
         ["20.5"],
     ]
+
+
+@pytest.mark.parametrize("width", [80, 60])
+def test_names_of_a_pair_break_at_an_underscore_or_not_at_all(
+    gearlink: Any, monkeypatch: pytest.MonkeyPatch, width: int
+) -> None:
+    monkeypatch.setenv("COLUMNS", str(width))
+    lines = [line.split()[0] for line in gearlink("gear", DESIGNS / "gear_pair.yaml").out.splitlines() if line.strip()]
+    whole = "tip_stress_correction_factor"
+    at = next(i for i, word in enumerate(lines) if word.startswith("tip_stress"))
+    broken = lines[at : at + 2] if width < 80 else lines[at : at + 1]
+    assert "".join(broken) == whole
+    assert all(word.endswith("_") for word in broken[:-1])
