@@ -28,7 +28,7 @@ GEAR_LINKAGE: dict[str, Term] = {
     "nonuniformity": Term("delta", "1", "(max - min)/mean of the speed ratio", "thesis (4-20)"),
     "tolerance_dwell_angle": Term("phi_tol", "deg", "longest crank angle with the output within +- the tolerance"),
     "dwell_tolerance": Term("tau", "deg", "half of what the output covers in the dwell, +- about its middle"),
-    "window_limit": Term("phi_max", "deg", "longest dwell that these gears reach within the tolerance"),
+    "window_limit": Term("phi_lim", "deg", "longest dwell that these gears reach within the tolerance"),
     "frame_ratio_interval": Term("d_min, d_max", "1", "frame over crank between which window and tolerance are met"),
     "frame_length_interval": Term("AD_min, AD_max", "mm", "frame between which this crank meets window and tolerance"),
     "input_speed": Term("n1", "1/min", "speed of the input"),

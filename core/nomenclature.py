@@ -297,7 +297,7 @@ _LOADS = {
     "preload_needed": Term("P_min", "N", "least preload that keeps both rollers of a positive drive on their cams"),
     "natural_frequency": Term("f_n", "Hz", "natural frequency of the output on its drive"),
     "frequency_ratio": Term("f_n/f", "1", "natural frequency of the output over the frequency of the input"),
-    "rise_periods": Term("r", "1", "natural periods in the shortest motion between two dwells", "T_1 f_n"),
+    "rise_periods": Term("n_T", "1", "natural periods in the shortest motion between two dwells", "T_1 f_n"),
     "residual_amplitude": Term("A", "deg", "vibration that a motion leaves in the dwell after it"),
     "residual_speed_limit": Term("n_A", "1/min", "least speed at which that passes what is allowed"),
     "dwell_twist": Term("z_max", "deg", "greatest deflection of the output in its dwells, steady state"),

@@ -173,7 +173,7 @@ RIGID_MODEL = Rule(
     "natural period.",
     "All forces are those of rigid links; the nearer the frequencies, the more the output differs from its law.",
     "Stiffen the drive of the output, lighten it, or lower the speed.",
-    "f_n >= limits.frequency_ratio f,  r = T_1 f_n",
+    "f_n >= limits.frequency_ratio f,  n_T = T_1 f_n",
     "VDI 2149",
     checks=("rigid-model",),
     keys=("loads.vibration",),

@@ -105,6 +105,45 @@ def test_no_symbol_stands_for_two_quantities_of_one_result(outline):
     assert shared == []
 
 
+# Letters of two standards or sources, of quantities that no command gives side by side.
+TWO_SOURCES = {
+    frozenset(pair.split())
+    for pair in (
+        "nonuniformity speed_fluctuation",
+        "phase speed_fluctuation",
+        "tangential_force tooth_force_max",
+        "cam_sync_end dead_center_extended",
+        "base_radius cam_base_radius",
+        "energy_parameter samples",
+        "equivalent force",
+        "five_bar_ratio span_teeth",
+        "input_length reference_center_distance",
+        "follower_length tip_clearance",
+        "point_radius reference_radius",
+    )
+}
+
+
+@pytest.mark.parametrize("kind", KINDS.values(), ids=lambda kind: kind.name)
+def test_a_symbol_stands_for_one_quantity_of_a_kind(kind):
+    of_symbol = {}
+    for command in kind.commands:
+        for name in kind.design_class(command).quantity_names():
+            last = name.rpartition(".")[2]
+            of_symbol.setdefault(term(last).symbol, set()).add(last)
+    shared = {symbol: names for symbol, names in of_symbol.items() if symbol and len(names) > 1}
+    assert {symbol: names for symbol, names in shared.items() if names not in TWO_SOURCES} == {}
+
+
+@pytest.mark.parametrize("outline", OUTLINES)
+def test_a_symbol_stands_for_one_quantity_of_a_command_those_of_its_meshes_too(outline):
+    of_symbol = {}
+    for name in outline.quantities:
+        last = name.rpartition(".")[2]
+        of_symbol.setdefault(term(last).symbol, set()).add(last)
+    assert [names for symbol, names in of_symbol.items() if symbol and len(names) > 1] == []
+
+
 def test_units_are_spelled_as_in_the_contract():
     assert {name: entry.unit for name, entry in TERMS.items() if entry.unit not in UNITS} == {}
 
