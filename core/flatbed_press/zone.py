@@ -10,10 +10,11 @@ from gearlink.core.errors import NoSolution
 from gearlink.core.flatbed_press.chains import BedChain, CylinderChain
 from gearlink.core.linkages.slider_crank.position import dead_center_extended, dead_center_folded
 from gearlink.core.numerics.roots import bracketed_root, maximum, newton_root
-from gearlink.core.report import safely_below
+from gearlink.core.report import safely_above, safely_below
 
 _TURN = 2.0 * math.pi
 _STEP = math.radians(3.0)
+_SHORT = 1.0 - 1e-6  # of the longest crank that the rod can follow
 _CREST = 1e-9  # the speeds at a crest known to so much are known to 1e-18 of their second derivative
 
 
@@ -50,8 +51,11 @@ def equal_speed_angle(bed: BedChain, cylinder: CylinderChain, *, advise: bool = 
     root = _first_root(bed, cylinder, end)
     if root is None:
         text = "bed and cylinder never have the same speed on the forward stroke, so there is no synchronous zone "
-        help_ = f": {_shift_that_helps(bed, cylinder, end)}" if advise else ""
-        raise NoSolution(f"{text}without a jolt{help_}", key="cylinder.initial_crank_angle")
+        text += "without a jolt"
+        shift = _shift_that_helps(bed, cylinder, end) if advise else ""
+        if shift or not advise:
+            raise NoSolution(f"{text}: {shift}" if shift else text, key="cylinder.initial_crank_angle")
+        raise NoSolution(f"{text}: {_sizes_that_help(bed, cylinder, end)}", key="bed.stroke")
     return root
 
 
@@ -139,11 +143,51 @@ def _pair_at_crest(
 
 
 def _shift_that_helps(bed: BedChain, cylinder: CylinderChain, end: float) -> str:
-    """The smallest whole-degree shift of the cylinder's crank for which the speeds meet."""
+    """The smallest whole-degree shift of the cylinder's crank for which the speeds meet; nothing where none does."""
     for degrees in range(1, 181):
         for sign in (1, -1):
             shifted = replace(cylinder, initial_angle=cylinder.initial_angle + math.radians(sign * degrees))
             if _first_root(bed, shifted, end) is not None:
                 value = math.degrees(math.remainder(shifted.initial_angle, _TURN))
                 return f"they meet with initial_crank_angle {value:.9g} deg ({sign * degrees:+d} deg)"
-    return "no initial crank angle of the cylinder helps; change the cylinder's radius or the bed's stroke"
+    return ""
+
+
+def _sizes_that_help(bed: BedChain, cylinder: CylinderChain, end: float) -> str:
+    """The greatest radius of the cylinder and the least stroke of the bed for which the speeds meet."""
+    fastest = _greatest(bed.speed, end)
+    least = -_greatest(lambda phi: -cylinder.speed(phi), _TURN)
+    text = (
+        f"the bed makes {fastest:.5g} mm per radian of the input at most, the cylinder {least:.5g} at least, whatever "
+        "its initial crank angle: "
+    )
+    stroke = _least_stroke(bed, cylinder)
+    radius = f"cylinder.radius to at most {safely_below(cylinder.radius * _share(bed, cylinder))} mm"
+    return text + (f"with the angle given set bed.stroke to at least {safely_above(stroke)} mm, or {radius}" if stroke else f"set {radius}")
+
+
+def _least_stroke(bed: BedChain, cylinder: CylinderChain) -> float | None:
+    """Least stroke of the bed with which it is as fast as the cylinder [mm]; None where the rod allows none."""
+
+    def lacks(crank: float) -> float:
+        return _share(replace(bed, slider_crank_length=crank), cylinder) - 1.0
+
+    low, most = bed.slider_crank_length, (bed.rod - abs(bed.offset)) * _SHORT
+    if not (low < most and lacks(most) > 0.0):
+        return None
+    crank = bracketed_root(lacks, low, most, tolerance=1e-9 * most)
+    far, near = (math.sqrt((bed.rod + side * crank) ** 2 - bed.offset**2) for side in (1.0, -1.0))
+    return 2.0 * (far - near)
+
+
+def _share(bed: BedChain, cylinder: CylinderChain) -> float:
+    """Greatest speed of the bed over that of the cylinder on the forward stroke."""
+    return _greatest(lambda phi: bed.speed(phi) / cylinder.speed(phi), forward_stroke_end(bed))
+
+
+def _greatest(f: Callable[[float], float], end: float) -> float:
+    """Greatest value of a smooth function over (0, end), of which one hump is the highest by far."""
+    count = max(8, math.ceil(end / _STEP))
+    grid = [end * i / count for i in range(count + 1)]
+    at = max(range(count + 1), key=lambda i: f(grid[i]))
+    return maximum(f, grid[max(at - 1, 0)], grid[min(at + 1, count)])[1]

@@ -254,6 +254,19 @@ def test_no_equal_speed_and_the_shift_that_helps():
     assert press(replace(large, initial_crank_angle=angle)).report("press").checks
 
 
+def test_no_equal_speed_at_any_angle_and_the_sizes_that_help():
+    short = replace(TY460, stroke=62.0)
+    with pytest.raises(NoSolution, match="at most, the cylinder 80.084 at least") as refusal:
+        press(short).report("press")
+    assert refusal.value.key == "bed.stroke"
+    stroke = float(re.search(r"bed.stroke to at least ([\d.]+) mm", refusal.value.message)[1])
+    radius = float(re.search(r"cylinder.radius to at most ([\d.]+) mm", refusal.value.message)[1])
+    for size, value, beyond in (("stroke", stroke, -1e-3), ("radius", radius, 1e-3)):
+        assert press(replace(short, **{size: value})).sync_start > 0.0
+        with pytest.raises(NoSolution, match="never have the same speed"):
+            _ = press(replace(short, **{size: value * (1.0 + beyond)})).sync_start
+
+
 @pytest.mark.parametrize("end", [20.0, 34.0])
 def test_zone_that_ends_before_it_starts(end):
     design = press(sync={"start": 34.0, "end": end})
